@@ -78,6 +78,14 @@ Seen = Annotated[
         help="In space: isometric (default), front, side, top, or azimuth and elevation of the eye in degrees: 30,20.",
     ),
 ]
+Drawing = Annotated[Path | None, with_help("Draw it to this file: .svg, .pdf, .png or .dxf.")]
+Report = Annotated[
+    Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
+]
+PrintedUnits = Annotated[
+    Literal["si", "file"] | None,
+    with_help("Units of what is printed (default: those of the file) and written (default: si)."),
+]
 Theme = Annotated[
     Literal["light", "dark", "print"],
     with_help("Colours for light paper, for a dark screen, or black and white for print."),

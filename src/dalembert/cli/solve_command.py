@@ -17,6 +17,7 @@ from dalembert.cli.options import (
     Force,
     ModelFile,
     Positions,
+    PrintedUnits,
     ReactionAxes,
     Static,
     flag,
@@ -71,10 +72,7 @@ class Wanted:
             "How the forces are found; fixed-point shows the taught iteration of friction at the first position."
         ),
     ] = "matrix"
-    units: Annotated[
-        Literal["si", "file"] | None,
-        with_help("Units of what is printed (default: those of the file) and written (default: si)."),
-    ] = None
+    units: PrintedUnits = None
     axes: Annotated[
         ReactionAxes,
         with_help("Axes of the reactions: ground, the link they act on, in space the joint's own."),
@@ -124,10 +122,11 @@ def solve(
         from dalembert.cli.method_text import other_solutions_text
 
         more = "\n\n".join(filter(None, (more, other_solutions_text(result, wanted.printed_units))))
-    _print_answer(shown, wanted, more)
-    for kind, path in wanted.files.items():
+    for kind, path in wanted.files.items():  # first: a pipe that closes early ends the printing alone
         with progress(f"Writing {path}"):
             _write(shown, kind, path, wanted)
+    _print_answer(shown, wanted, more)
+    for path in wanted.files.values():
         print(f"Written: {path}", file=sys.stderr)
     return 0 if result.ok.all() else 1
 

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
-from dalembert.cli.options import Figures, Force, Theme, target, with_help
+from dalembert.cli.options import Drawing, Figures, Force, Report, Theme, target, with_help
 
 EXAMPLES = """Examples:
   dalembert wrench plate.yaml
@@ -30,10 +30,8 @@ def wrench(
             'Point to take moments about: a name of the file\'s points, or "[x, y]" (default: the origin).'
         ),
     ] = None,
-    drawing: Annotated[Path | None, with_help("Draw it to this file: .svg, .pdf, .png or .dxf.")] = None,
-    report: Annotated[
-        Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
-    ] = None,
+    drawing: Drawing = None,
+    report: Report = None,
     view: Annotated[
         Literal["isometric", "front", "side", "top"], with_help("Side from which a system in space is drawn.")
     ] = "isometric",

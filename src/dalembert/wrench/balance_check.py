@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dalembert.arrays import Array
+from dalembert.printing import number, round_components
 from dalembert.units import Units
 from dalembert.wrench.forces import Couple, Force
 from dalembert.wrench.reading import read_only
@@ -83,12 +84,16 @@ def _describe(part: Force | Couple, units: Units) -> str:
 
 
 def list_components(values: Array, kind: str, units: Units) -> str:
-    """Components with their unit, five figures: `[3, 4] N`.
+    """Components with their unit, five figures: `[3, 4] N`; large ones in the unit that tables have them in.
 
     >>> list_components(np.array([3.0, 4.0]), "force", Units(force="kN"))
     '[0.003, 0.004] kN'
+    >>> list_components(np.array([-8e6, 3e6]), "force", Units())
+    '[-8, 3] MN'
     """
-    floor = 1e-12 * float(np.abs(values).max(initial=0.0))
-    shown = [f"{units.unit(kind).of_si(0.0 if abs(v) < floor else float(v)):.5g}" for v in values]
-    numbers = shown[0] if len(shown) == 1 else f"[{', '.join(shown)}]"
-    return f"{numbers} {units.text(kind)}"
+    from dalembert.analysis.output.summary.printed_units import scale_for
+
+    to = scale_for(units, {kind: float(np.abs(values).max(initial=0.0))})
+    shown = [number(float(to(kind, v)), 5) for v in round_components(values)]
+    numbers, unit = shown[0] if len(shown) == 1 else f"[{', '.join(shown)}]", to.text(kind)
+    return f"{numbers}{'*' if unit.startswith('10^') else ' '}{unit}"

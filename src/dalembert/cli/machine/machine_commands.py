@@ -13,9 +13,12 @@ from cyclopts import Parameter
 from dalembert.cli.options import (
     AS_IN_FILE,
     Changes,
+    Drawing,
     Force,
     ModelFile,
     Positions,
+    PrintedUnits,
+    Report,
     Static,
     Theme,
     several,
@@ -43,14 +46,9 @@ class Outputs:
         Path | None, target("Write a table, one row a position; - prints it, and nothing else.")
     ] = None
     xlsx: Annotated[Path | None, target("Write a workbook: the table, and what is printed.")] = None
-    drawing: Annotated[Path | None, with_help("Draw it to this file: .svg, .pdf, .png or .dxf.")] = None
-    report: Annotated[
-        Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
-    ] = None
-    units: Annotated[
-        Literal["si", "file"] | None,
-        with_help("Units of what is printed (default: those of the file) and written (default: si)."),
-    ] = None
+    drawing: Drawing = None
+    report: Report = None
+    units: PrintedUnits = None
     theme: Theme = "light"
     force: Force = False
 

@@ -56,7 +56,7 @@ class Problem:
 
     def sizes(self, least: str) -> dict[str, float]:
         """Rms or greatest value of each quantity without counterweights."""
-        return {name: rms(y) if least == "rms" else greatest(y)[0] for name, y in self.base.items()}
+        return {name: _size(least, y) for name, y in self.base.items()}
 
     def predict(self, name: str, numbers: Array) -> Array:
         """Values (P, d) of a quantity with these mass numbers."""
@@ -85,11 +85,8 @@ class Problem:
                 body = _buildable(numbers_of(p[k]), w, self.axes[link])
                 p[k] = body.vector(self.dimension)
             p[k] *= p[k][0] > NOTHING * (w.mass or 0.0)
-        before = self.sizes(least)
         left = {n: self.predict(n, p.ravel()) for n in self.base}
-        parts = {
-            n: (rms(v) if least == "rms" else greatest(v)[0]) / (before[n] or 1.0) for n, v in left.items()
-        }
+        parts = {n: _size(least, v) / (_size(least, self.base[n]) or 1.0) for n, v in left.items()}
         some = [w * parts[n] for n, w in of.items()]
         return Solved(p.ravel(), math.hypot(*some) if least == "rms" else sum(some), bound, parts)
 
@@ -150,12 +147,14 @@ class Problem:
             size = float(np.linalg.norm(rest))
             off = float(np.abs(left.T @ rest).max(initial=0.0)) * float(np.abs(x).sum())
             return x, max(0.0, size - off / size) if size else 0.0
-        q, r_ = np.linalg.qr(np.column_stack([left, right]))
-        del q
-        n = len(x)
+        n, r_ = len(x), np.asarray(np.linalg.qr(np.column_stack([left, right]), mode="r"))
         g = np.zeros((len(r_) + 1, n + 1))
         g[0, n], g[1:, :n] = -1.0, -r_[:, :n]
         return _programme(n, [(g, np.concatenate([[0.0], r_[:, n]]))], cones, 1)
+
+
+def _size(least: str, values: Array) -> float:
+    return rms(values) if least == "rms" else greatest(values)[0]
 
 
 def _least_peak(

@@ -61,24 +61,22 @@ def cylinders(m: Mechanism) -> tuple[Cylinder, ...]:
     pins = {name: joint.links for name, joint in m.joints.items() if joint.hinge}
     sliders = {n: j.links for n, j in m.joints.items() if j.freedoms == ("slide",) and GROUND in j.links}
     on_ground = {_other(links, GROUND): name for name, links in pins.items() if GROUND in links}
-    for joint in m.joints.values():  # throws welded to the shaft turn with it
-        if not joint.freedoms:
-            i, j = joint.links
-            for a, b in ((i, j), (j, i)):
-                if a in on_ground:
-                    on_ground.setdefault(b, on_ground[a])
-    out = []
-    for guide, links in sliders.items():
-        piston = _other(links, GROUND)
-        for gudgeon, ends in pins.items():
-            if piston not in ends or GROUND in ends:
-                continue
-            rod = _other(ends, piston)
-            for pin, others in pins.items():
-                crank = _other(others, rod) if rod in others and pin != gudgeon else ""
-                if crank in on_ground:
-                    out.append(Cylinder(piston, rod, crank, pin, gudgeon, guide, on_ground[crank]))
-    return tuple(out)
+    for i, j in (joint.links for joint in m.joints.values() if not joint.freedoms):
+        for a, b in ((i, j), (j, i)):  # throws welded to the shaft turn with it
+            if a in on_ground:
+                on_ground.setdefault(b, on_ground[a])
+
+    def joined(link: str) -> list[tuple[str, str]]:
+        """Pins of a link with other links that move, and these."""
+        return [(n, _other(ends, link)) for n, ends in pins.items() if link in ends and GROUND not in ends]
+
+    return tuple(
+        Cylinder(piston, rod, crank, pin, gudgeon, guide, on_ground[crank])
+        for guide, piston in ((guide, _other(links, GROUND)) for guide, links in sliders.items())
+        for gudgeon, rod in joined(piston)
+        for pin, crank in joined(rod)
+        if pin != gudgeon and crank in on_ground
+    )
 
 
 def engine_series(r: Result) -> EngineSeries:
@@ -108,39 +106,31 @@ def engine_series(r: Result) -> EngineSeries:
 
 def _parts(r: Result, c: Cylinder) -> list[tuple[str, Array]]:
     """Inertia forces (P, 2) of the rod's end that turns, of the one that goes to and fro, and of the piston."""
-    m, guide = r.mechanism, r.mechanism.joints[c.guide]
-    described: Any = guide
-    line = float(described.direction or 0.0)
+    m = r.mechanism
+    guide: Any = m.joints[c.guide]
+    line = float(guide.direction or 0.0)
     along, center = np.array([np.cos(line), np.sin(line)]), _point(m, c.axis, GROUND)
     pin, gudgeon = (link_place(r, c.rod, _point(m, joint, c.rod)) for joint in (c.pin, c.gudgeon))
-    arm, rod = pin - center, gudgeon - pin
-    crank, length = (float(np.hypot(*v[0])) for v in (arm, rod))
-    off = gudgeon - center
+    arm, off = pin - center, gudgeon - center
+    crank, length = (float(np.hypot(*v[0])) for v in (arm, gudgeon - pin))
     aside = np.abs(off[:, 0] * along[1] - off[:, 1] * along[0]).max()
     if aside > 1e-9 * length:
         raise ModelError(
             f"the line of {c.piston} passes the crank by {aside:.4g} m", "the book's series has no offset"
         )
-    side = np.sign(float(off[0] @ along)) * along
+    side, ratio = np.sign(float(off[0] @ along)) * along, crank / length
     q = np.arctan2(side[0] * arm[:, 1] - side[1] * arm[:, 0], arm @ side)
     w, alpha = r.speed(c.crank), r.acceleration(c.crank)
-    share = _share(m, c, length)
-    ratio = crank / length
     going = w**2 * (np.cos(q) + ratio * np.cos(2 * q)) + alpha * (np.sin(q) + ratio / 2 * np.sin(2 * q))
-    mass = m.mass(c.rod)
-    turning = w[:, None] ** 2 * arm - alpha[:, None] * across(arm)
-    to_and_fro = crank * going[:, None] * side
+    turning, to_and_fro = w[:, None] ** 2 * arm - alpha[:, None] * across(arm), crank * going[:, None] * side
+    a, b = (_point(m, joint, c.rod) for joint in (c.pin, c.gudgeon))
+    share = float((np.array(m.center(c.rod)) - a) @ (b - a)) / length**2  # of the rod's mass, to the piston
+    at_pin, at_piston = m.mass(c.rod) * (1 - share), m.mass(c.rod) * share
     return [
-        (c.rod, mass * (1 - share) * turning),
-        (c.rod, mass * share * to_and_fro),
+        (c.rod, at_pin * turning),
+        (c.rod, at_piston * to_and_fro),
         (c.piston, m.mass(c.piston) * to_and_fro),
     ]
-
-
-def _share(m: Mechanism, c: Cylinder, length: float) -> float:
-    """Part of the rod's mass that the book moves to the piston: its centre's way along the rod."""
-    a, b = (_point(m, joint, c.rod) for joint in (c.pin, c.gudgeon))
-    return float((np.array(m.center(c.rod)) - a) @ (b - a)) / length**2
 
 
 def _other(links: tuple[str, str], link: str) -> str:

@@ -99,25 +99,24 @@ class MotorChoice(Answer):
 
     def least_rms(self) -> float | None:
         """The ratio of least rms torque: n^2 = rms(T) / rms(J_m alpha); None where there is none."""
-        going, load = (
-            self.motor_inertia * self.rms(self.acceleration),
-            self.rms(self.torque(1.0) - self.motor_inertia * self.acceleration),
-        )
+        own = self.motor_inertia * self.acceleration
+        going, load = self.rms(own), self.rms(self.torque(1.0) - own)
         return math.sqrt(load / going) if going * load > 0 else None
 
     def least_peak(self) -> float | None:
         """The ratio of least greatest torque."""
         from scipy.optimize import minimize_scalar
 
-        near = self.least_rms()
+        near, reach = self.least_rms(), math.log(RANGE)
         if near is None:
             return None
-        reach = math.log(RANGE)
-        found = minimize_scalar(
-            lambda x: self.need(near * math.exp(x)).torque, bounds=(-reach, reach), method="bounded",
-            options={"xatol": 1e-10},
-        )  # fmt: skip
-        return float(near * math.exp(found.x))
+
+        def peak(x: float) -> float:
+            return self.need(near * math.exp(x)).torque
+
+        return float(
+            near * math.exp(minimize_scalar(peak, bounds=(-reach, reach), options={"xatol": 1e-10}).x)
+        )
 
     def columns(self) -> Iterator[Column]:
         """The drives' positions; what the drive needs, and the motor behind each ratio."""
