@@ -306,12 +306,7 @@ SIMULATE = """Examples:
   dalembert simulate crane.yaml --until 1s --event "O2.position = 90 deg" --json -"""
 
 
-COMMANDS: dict[Callable[..., int], str] = {
-    shake: SHAKE,
-    balance: BALANCE,
-    flywheel: FLYWHEEL,
-    simulate: SIMULATE,
-}
+COMMANDS = {shake: SHAKE, balance: BALANCE, flywheel: FLYWHEEL, simulate: SIMULATE}
 """Each with its examples."""
 
 

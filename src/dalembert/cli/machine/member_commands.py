@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -84,5 +83,5 @@ MOTOR = """Examples:
   dalembert motor press.yaml --inertia 0.002kg*m^2 --ratio 8 --efficiency 0.95
   dalembert motor press.yaml --inertia 0.002kg*m^2 --curve motor.csv --rated 3N*m --report motor.pdf"""
 
-COMMANDS: dict[Callable[..., int], str] = {members: MEMBERS, bearings: BEARINGS, motor: MOTOR}
+COMMANDS = {members: MEMBERS, bearings: BEARINGS, motor: MOTOR}
 """Each with its examples."""

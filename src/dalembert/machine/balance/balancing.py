@@ -126,16 +126,11 @@ class Balance(Comparison):
 
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""
-        weights = {
-            link: {
-                "mass": to("mass", p.mass),
-                "center": to("length", p.center),
-                "inertia": to("inertia", p.inertia),
-                "moment": to("mass", to("length", p.moment)),
-                "angle": None if p.angle is None else to("angle", p.angle),
-            }
-            for link, p in self.placed.items()
-        }
+        kinds, weights = {"mass": "mass", "center": "length", "inertia": "inertia"}, dict[str, Tree]()
+        for link, p in self.placed.items():
+            weights[link] = {name: to(kind, getattr(p, name)) for name, kind in kinds.items()}
+            weights[link]["moment"] = to("mass", to("length", p.moment))
+            weights[link]["angle"] = None if p.angle is None else to("angle", p.angle)
         out: Tree = {
             "least": self.least,
             "of": self.of,
@@ -200,9 +195,7 @@ def _wanted(of: Of, r: Result) -> dict[str, float]:
         if not weight >= 0:
             raise ModelError(f"the weight of {name} is {weight:g}", "give a number that is not negative")
         if name == "torque" and not r.drives:
-            raise ModelError(
-                "there is no drive whose torque could be balanced", "balance the force or the moment"
-            )
+            raise ModelError("no drive has a torque that could be balanced", "balance force or moment")
     if not any(wanted.values()):
         raise ModelError("nothing is asked to be least", 'write of="force"')
     return wanted

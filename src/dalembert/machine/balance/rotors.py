@@ -106,6 +106,7 @@ def balance_rotor(m: Mechanism, planes: tuple[float, float], radii: Sequence[flo
     at_b = -(t - a * s) / (b - a)
     found = np.array([-s - at_b, at_b])
     angle, size = np.angle(found), np.abs(found)
+    angle = np.where(angle < 1e-12 - np.pi, angle + 2 * np.pi, angle)  # half a turn back is half a turn on
     spots = np.stack([radius * np.cos(angle), radius * np.sin(angle), [a, b]], axis=-1)
     centers = (origin + spots @ frame - r.position(shaft)[0]) @ r.rotation(shaft)[0]
     masses = size / radius
