@@ -81,6 +81,10 @@ from tests.cli.conftest import Run
             "dalembert: there is no command 'slove'; did you mean 'solve'?; see `dalembert --help`",
         ),
         (
+            ["Shaking", "four_bar.yaml"],
+            "dalembert: there is no command 'Shaking'; did you mean 'shake'?; see `dalembert --help`",
+        ),
+        (
             ["draw", "four_bar.yaml"],
             "dalembert: draw needs --output; see `dalembert draw --help`",
         ),

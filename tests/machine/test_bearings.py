@@ -55,6 +55,31 @@ def test_pressure_and_life_against_sums_of_ones_own(seed: int) -> None:
     assert b.mean_pv == pytest.approx(float((b.pressure * 0.01 * np.abs(b.rate)).mean()), rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("units", "of_pressure", "of_pv"),
+    [
+        ("{length: mm, angle: rad}", ("N/mm^2", 1e6), ("MPa*m/s", 1e6)),
+        ("{angle: rad}", ("MPa", 1e6), ("MPa*m/s", 1e6)),
+        (
+            "{length: in, force: lbf, angle: rad}",
+            ("lbf/in^2", 6894.757293168361),
+            ("lbf/in^2*ft/min", 35.02536704929527),
+        ),
+    ],
+)
+def test_pressure_and_pv_are_printed_in_usual_units(
+    units: str, of_pressure: tuple[str, float], of_pv: tuple[str, float]
+) -> None:
+    text = SHAFT.format(load="9000 N", bearing="{diameter: 20 mm, length: 15 mm}", turn=2 * math.pi)
+    t = da.bearings(da.dynamics(da.loads(text.replace("{length: mm, angle: rad}", units))))
+    said, b = str(t), t.loads["O"]
+    assert f" {of_pressure[0]} " in said
+    assert f" {of_pv[0]}" in said
+    row = next(line.split() for line in said.splitlines() if line.startswith("O ") and len(line.split()) == 4)
+    sizes = b.pressure.max() / of_pressure[1], b.pv.max() / of_pv[1], b.mean_pv / of_pv[1]
+    assert [float(cell) for cell in row[1:]] == pytest.approx(sizes, rel=1e-5)
+
+
 def test_a_couple_across_the_axis_is_printed() -> None:
     """That of a crank whose pin is in the plane of its bearing is what bends it there, out of that plane."""
     r = da.dynamics(da.load(examples()["rssr"]))

@@ -154,6 +154,13 @@ def test_an_even_effort_needs_none() -> None:
         assert "no flywheel is needed" in str(f)
 
 
+def test_links_that_turn_steadily_by_themselves_need_none() -> None:
+    said = " ".join(str(da.flywheel(da.dynamics(da.v_engine()), Cs=0.02)).split())
+    assert "has the mean 0 N*m" in said
+    assert "For the Cs asked for no flywheel is needed: that of the links alone is smaller." in said
+    assert "no flywheel, exact 0 0.008894" in said
+
+
 def test_what_has_no_flywheel_is_refused() -> None:
     m = da.load(examples()["engine"])
     with pytest.raises(ModelError, match=r"give one of them: Cs=0\.02"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 from pathlib import Path
 from typing import Any
@@ -220,6 +221,23 @@ def test_the_command_prints_and_writes(tmp_path: Path, capsys: pytest.CaptureFix
     assert read["shaking"]["point"] == [0, 100]
     assert main(["shake", file, "--csv", str(table)]) == 2
     assert "exists" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", ["shake", "solve"])
+def test_files_are_written_though_nobody_reads_what_is_printed(
+    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As in `dalembert shake FILE --csv x.csv | head -1`."""
+
+    class Closed(io.StringIO):
+        def write(self, text: str) -> int:
+            raise BrokenPipeError
+
+    monkeypatch.setattr("sys.stdout", Closed())
+    monkeypatch.setattr("dalembert.cli._let_go", lambda: None)
+    path = tmp_path / "x.csv"
+    assert main([command, str(examples()["four_bar"]), "--csv", str(path)]) == 0
+    assert path.read_text().startswith("position")
 
 
 def test_its_drawing_has_the_numbers_and_its_report_the_sums() -> None:
