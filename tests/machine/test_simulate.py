@@ -207,7 +207,7 @@ def test_a_hammer_bounces_rests_on_its_stop_and_is_lifted() -> None:
     other = m.with_values({"drives.ram.stops": {"from": "0 m", "restitution": 0.5}})
     assert da.mechanism(other.model_dump(mode="json")).drives["ram"].stops == Stops(0.0, math.inf, 0.5)
     with pytest.raises(
-        ModelError, match=r"drop-hammer.yaml:\d+: ram starts beyond its stops; start between them"
+        ModelError, match=r"drop-hammer.yaml:\d+: ram starts beyond its stops, at -0.001 m; start between"
     ):
         da.simulate(m, "2 s", start={"ram": {"position": "-1 mm"}})
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dalembert as da
@@ -72,4 +74,164 @@ def test_sentences_have_the_units_of_the_tables() -> None:
     assert text.count("strikes") == 1
     assert s.record(da.analysis.output.columns.scale(s.result, "file"))["events"][0]["sentence"].startswith(
         "O strikes its stop at 0 deg with "
+    )
+
+
+@pytest.mark.parametrize("e", [0.4, 0.9])
+def test_infinitely_many_bounces_end_at_their_limit(e: float) -> None:
+    """t0 (1 + 2 e + 2 e^2 + ...) = t0 (1 + e) / (1 - e)."""
+    m = da.load(HAMMER).with_values({"drives.ram.stops.restitution": e, "drives.ram.effort": 0.0})
+    s = da.simulate(m, "10 s", count=11)
+    first = math.sqrt(2 * 0.5 / 9.80665)
+    assert s.event("ram stays on its stop")[0].time == pytest.approx(first * (1 + e) / (1 - e), rel=1e-12)
+    assert sum(x.lost for x in s.event("impact")) == pytest.approx(80 * 9.80665 * 0.5, rel=1e-11)
+
+
+CRANK = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [100 mm, 0]}, mass: 1 kg, inertia: 0.2}
+  rod: {points: {A: [0, 0], B: [300 mm, 0]}}
+  piston: {points: {B: [0, 0]}, mass: 4 kg}
+joints:
+  O: {type: pin, links: [ground, crank]%s}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  S: {type: slider, links: [ground, piston], at: [O, B], direction: 0 deg, stops: {from: 250 mm, restitution: 0.5}}
+drives: {O: {effort: 6 N*m}}
+assembly: {rod: -10 deg}
+start: {O: {position: 60 deg, speed: 0}}
+"""
+
+
+def crank_numbers(x: float) -> tuple[float, float, float]:
+    """Angle of the crank where the piston is at x, how far it goes with it, and the inertia seen from it."""
+    r, rod = 0.1, 0.3
+    q = math.acos((x * x + r * r - rod * rod) / (2 * x * r))
+    ratio = -r * math.sin(q) * (1 + r * math.cos(q) / (x - r * math.cos(q)))
+    return q, ratio, 0.2 + 4 * ratio**2
+
+
+def test_a_piston_strikes_a_stop_and_rests_on_it() -> None:
+    """No drive is at the stop: u+ = -e u- of the piston, J u^2 / 2 = T q before; at rest the stop holds T / (dx/dq)."""
+    s = da.simulate(da.loads(CRANK % ""), "3 s")
+    q, ratio, inertia = crank_numbers(0.25)
+    given = 6 * (q - math.pi / 3)
+    hit = s.event("impact")[0]
+    assert hit.sentence.startswith("S strikes its stop at 0.25 m with ")
+    assert hit.speed == pytest.approx(-ratio * math.sqrt(2 * given / inertia), rel=1e-10)
+    assert hit.lost == pytest.approx(given * 0.75, rel=1e-10)
+    at = int(np.flatnonzero(s.time == hit.time)[0])
+    assert s.speed("O")[at] == pytest.approx(-0.5 * math.sqrt(2 * given / inertia), rel=1e-10)
+    assert s.position("O")[-1] == pytest.approx(q, rel=1e-10)
+    assert s.joint_stop_force["S"][-1] == pytest.approx(-6 / ratio, rel=1e-10)
+    assert s.applied[-1, 0] == s.result.effort("O")[-1] == pytest.approx(6, rel=1e-10)
+    assert -s.result.reaction("B")[-1, 0] == pytest.approx(-6 / ratio, rel=1e-10)
+    assert "stop S" in [c.name for c in s.columns()]
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
+def test_beside_friction_the_stop_gives_what_friction_does_not_hold() -> None:
+    """Of the couple T, mu p R are held by the pin in O, R the force there: rod's and weight; the stop has the rest."""
+    s = da.simulate(da.loads(CRANK % ", friction: {coefficient: 0.2, radius: 20 mm}"), "3 s")
+    q, ratio, _ = crank_numbers(0.25)
+    force = s.joint_stop_force["S"][-1]
+    bearing = math.hypot(force, 9.80665 + force * 0.1 * math.sin(q) / (0.25 - 0.1 * math.cos(q)))
+    assert 6 + ratio * force == pytest.approx(0.02 * math.sin(math.atan(0.2)) * bearing, rel=1e-9)
+    text = s.event("impact")[0].sentence
+    assert "left out" not in text  # of one freedom the restitution alone settles the speeds
+    assert s.energy_residual < 1e-9
+
+
+FIVE_BAR = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0], E: [0.5, 0]}}
+  a: {points: {O: [0, 0], A: [0.3, 0]}, mass: 2 kg, center: 0.15 @ 0, inertia: 0.02}
+  b: {points: {A: [0, 0], C: [0.5, 0]}, mass: 1 kg, center: 0.2 @ 10, inertia: 0.03}
+  c: {points: {D: [0, 0], C: [0.45, 0]}, mass: 1.5 kg, center: 0.2 @ 0, inertia: 0.02}
+  d: {points: {E: [0, 0], D: [0.3, 0]}, mass: 2 kg, center: 0.1 @ 0, inertia: 0.02}
+joints:
+  O: {type: pin, links: [ground, a]%s}
+  A: {type: pin, links: [a, b]}
+  C: {type: pin, links: [b, c], stops: {to: 130 deg, restitution: %s}}
+  D: {type: pin, links: [d, c]}
+  E: {type: pin, links: [ground, d]}
+drives: {O: {effort: -1 N*m}, E: {effort: 2 N*m}}
+assembly: {b: 50, c: 120}
+start: {O: {position: 110 deg, speed: 0}, E: {position: 70 deg, speed: 0}}
+"""
+
+
+def five_bar(q: Any) -> tuple[Any, Any]:
+    """Mass centres and angles of the four links, and the angle at C, by two circles."""
+    o, e = q
+    at_a, at_d = 0.3 * np.exp(1j * o), 0.5 + 0.3 * np.exp(1j * e)
+    span = at_d - at_a
+    along = (abs(span) ** 2 + 0.5**2 - 0.45**2) / (2 * abs(span))
+    at_c = at_a + (along + 1j * math.sqrt(0.25 - along**2)) * span / abs(span)
+    b, c = np.angle(at_c - at_a), np.angle(at_c - at_d)
+    first, second = 0.15 * np.exp(1j * o), at_a + 0.2 * np.exp(1j * (b + math.radians(10)))
+    centers = (first, second, at_d + 0.2 * np.exp(1j * c), 0.5 + 0.1 * np.exp(1j * e))
+    return np.array([*np.real(centers), *np.imag(centers), o, b, c, e]), c - b
+
+
+def test_two_freedoms_change_both_speeds_at_a_joint_without_a_drive() -> None:
+    """M (u+ - u-) = n I with the momentum of all links, M and n by differences of the author's own positions."""
+    m = da.loads(FIVE_BAR % ("", 0.4))
+    s = da.simulate(m, "0.25 s", count=26)
+    hit = s.event("impact")[0]
+    free = m.with_values({"joints.C.stops": {"to": "350 deg"}})
+    before = da.simulate(free, hit.time, count=2)
+    at = int(np.flatnonzero(s.time == hit.time)[0])
+    q, less = ([x.position(n)[k] for n in ("O", "E")] for x, k in ((s, at), (before, -1)))
+    old, new = (np.array([x.speed(n)[k] for n in ("O", "E")]) for x, k in ((before, -1), (s, at)))
+    assert q == pytest.approx(less, rel=1e-9)
+    assert five_bar(q)[1] == pytest.approx(math.radians(130), rel=1e-9)
+    steps = [(five_bar(q + h), five_bar(q - h)) for h in 1e-5 * np.eye(2)]
+    rates = np.array([(up[0] - low[0]) / 2e-5 for up, low in steps]).T
+    n = np.array([(up[1] - low[1]) / 2e-5 for up, low in steps])
+    mass = rates.T @ (np.array([2, 1, 1.5, 2] * 2 + [0.02, 0.03, 0.02, 0.02])[:, None] * rates)
+    assert n @ new == pytest.approx(-0.4 * (n @ old), rel=1e-7)
+    impulse = mass @ (new - old)
+    assert impulse / n == pytest.approx(np.full(2, impulse[0] / n[0]), rel=1e-7)
+    assert hit.lost == pytest.approx((old @ mass @ old - new @ mass @ new) / 2, rel=1e-6)
+    assert s.energy_residual < 1e-9
+
+
+def test_while_it_rests_on_the_stop_it_moves_as_if_welded() -> None:
+    s = da.simulate(da.loads(FIVE_BAR % ("", 0)), "0.5 s")
+    hit, free = s.event("C stays on its stop")[0], s.event("C leaves its stop")[0]
+    at, last = (int(np.flatnonzero(s.time == e.time)[0]) for e in (hit, free))
+    rigid = da.loads(
+        (FIVE_BAR % ("", 0))
+        .replace(
+            "pin, links: [b, c], stops: {to: 130 deg, restitution: 0}", "weld, links: [b, c], angle: 130 deg"
+        )
+        .replace(", E: {effort: 2 N*m}}", "}\nloads: {T: {type: couple, on: d, by: ground, value: 2 N*m}}")
+        .replace(", E: {position: 70 deg, speed: 0}", "")
+    )
+    start = {"O": {"position": s.position("O")[at], "speed": s.speed("O")[at]}}
+    w = da.simulate(rigid, free.time - hit.time, start=start, count=2)
+    assert w.position("O")[-1] == pytest.approx(s.position("O")[last], rel=1e-9)
+    assert w.speed("O")[-1] == pytest.approx(s.speed("O")[last], rel=1e-9)
+    assert -s.joint_stop_force["C"][at] == pytest.approx(-w.result.reaction_moment("C", on="c")[0], rel=1e-8)
+    assert w.result.reaction_moment("C")[-1] == pytest.approx(0, abs=1e-8)
+    assert np.linalg.norm(s.result.reaction("A")[at]) == pytest.approx(
+        np.linalg.norm(w.result.reaction("A")[0]), rel=1e-8
+    )
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
+def test_with_friction_and_several_freedoms_what_is_left_out_is_said() -> None:
+    s = da.simulate(
+        da.loads(FIVE_BAR % (", friction: {coefficient: 0.1, radius: 10 mm}", 0.4)), "0.3 s", count=11
+    )
+    assert s.event("impact")[0].sentence.endswith("(friction during the impact is left out)")
+    stuck = da.simulate(
+        da.loads(FIVE_BAR % (", friction: {coefficient: 0.1, radius: 10 mm}", 0)), "0.3 s", count=11
+    )
+    assert stuck.ended.endswith(
+        "C rests on its stop while others go on, with friction: what the stop gives is not found"
     )

@@ -11,8 +11,16 @@ from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import Drive, Range
+from dalembert.model.drives.end_stops import Stops
 from dalembert.model.drives.motors import Switch
 from dalembert.model.drives.starting import Start
+from dalembert.model.joints.plane_joints import Joint
+
+
+def joint_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
+    """Stops of joints by joint and freedom."""
+    found = {n: s for n, j in m.joints.items() if (s := getattr(j, "stops", None)) is not None}
+    return {(n, "slide" if s.kind == "length" else "turn"): s for n, s in found.items()}
 
 
 @dataclass
@@ -94,17 +102,32 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
             "give it a value",
             ("loads", unknown[0], "value"),
         )
-    prescribed = m.model_copy(update={"drives": drives, "start": {}, "answers": ()})
+    m, joints = _with_stops_of_drives(m, free)
+    prescribed = m.model_copy(update={"drives": drives, "joints": joints, "start": {}, "answers": ()})
     return prescribed, Actuation(m, np.array([n in free for n in m.drives]), q, u, a)
+
+
+def _with_stops_of_drives(m: Mechanism, free: list[str]) -> tuple[Mechanism, dict[str, Joint]]:
+    """The mechanism with stops of joints that are driven given to their drives; and its joints without these."""
+    drives, joints, own = dict(m.drives), dict(m.joints), joint_stops(m)
+    for name, drive in m.drives.items():
+        joint = m.drive_joint(name)
+        ends = own.get((joint, str(drive.freedom)))
+        path = ("joints", joint, "stops") if ends else ("drives", name, "stops")
+        if ends and drive.stops:
+            raise ModelError(f"joint {joint!r} and its drive have stops", "leave one of them out", path)
+        if (ends or drive.stops) and name not in free:
+            what = f"drive {name!r} is prescribed, and its stops would be gone through"
+            raise ModelError(what, f"let it go: start: {{{name}: {{position: ..., speed: 0}}}}", path)
+        if ends:
+            drives[name] = drive.model_copy(update={"stops": ends})
+            joints[joint] = joints[joint].model_copy(update={"stops": None})
+    return m.model_copy(update={"drives": drives}), joints
 
 
 def _at_start(name: str, d: Drive, start: Start | None, free: bool) -> tuple[float, float, float]:
     """Position, speed and acceleration at time 0."""
     if start is not None:
-        if d.stops is not None and not d.stops.least <= start.position <= d.stops.greatest:
-            raise ModelError(
-                f"{name} starts beyond its stops", "start between them", ("start", name, "position")
-            )
         return start.position, start.speed, 0.0
     if d.law is not None:
         raise ModelError(

@@ -19,7 +19,7 @@ from dalembert.analysis.batch.tracing.symbolic_model import Number
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.kernel.memory import available
-from dalembert.machine.motion.actuation import Actuation, actuation
+from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
 from dalembert.machine.motion.equation import Equation
 from dalembert.machine.motion.equation_trace import trace_equation
 from dalembert.machine.motion.motion_block import MotionBlock, Motions
@@ -135,6 +135,8 @@ def _compile(
 
 def _refuse(moves: Actuation) -> None:
     """What the steps cannot do: efforts that are no straight line of the drive's speed."""
+    for joint, _ in joint_stops(moves.m):
+        raise ModelError(f"joint {joint!r} has stops, which change speeds at once", REMEDY)
     for k, (name, drive) in enumerate(moves.m.drives.items()):
         motor = moves.motors.get(k)
         if hasattr(drive.effort, "at"):

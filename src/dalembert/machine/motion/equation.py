@@ -51,13 +51,16 @@ class StoppedError(AnalysisError):
 
 class Terms(NamedTuple):
     """At a state: efforts (D,) at no acceleration, M_r (D, D), powers of loads and dampers (2,), rates of the contacts
-    (E,), what is below zero within 0.2 deg of a dead centre or change point, and what friction changes."""
+    (E,), what is below zero within 0.2 deg of a dead centre or change point; of each joint with stops (J, 3 + D) value,
+    rate and, at no acceleration, second rate of its freedom, and how far it goes with each drive; and what friction
+    changes."""
 
     effort: Array
     mass: Array
     power: Array
     rates: Array
     closure: Array
+    stops: Array
     linear: Linear | None
 
 
@@ -144,13 +147,13 @@ class Equation:
             out = self.run(along)
             if not self.known or self.known.follow(out[self.ends[-1] :]) <= NEAR or not self.by_newton:
                 break
-        effort, mass, power, rates, closure, *more = np.split(out[: self.ends[-1]], self.ends[:-1])
+        effort, mass, power, rates, closure, stops, *more = np.split(out[: self.ends[-1]], self.ends[:-1])
         linear = None
         if self.dry:
             e = self.dry.contacts.count
             shapes = (d, e), (3, e), (3, e, d), (3, e, e), (e,)
             linear = Linear(*(x.reshape(shape) for x, shape in zip(more, shapes, strict=True)))
-        return Terms(effort, mass.reshape(d, d), power, rates, closure, linear)
+        return Terms(effort, mass.reshape(d, d), power, rates, closure, stops.reshape(-1, 3 + d), linear)
 
     def steps(self, free: Flags, lanes: int = 1, works: bool = True) -> Integrator | None:
         """Steps of motions side by side in machine code, where drives go by forces (``free``, (D,)) that are straight

@@ -21,13 +21,14 @@ from dalembert.analysis.engine.kept_program import KeptProgram
 from dalembert.analysis.engine.structures import ready
 from dalembert.arrays import Array, Ints
 from dalembert.core import forcing as fc
-from dalembert.core.constraints import drift, rates
+from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
 from dalembert.kernel.program import Program
 from dalembert.kernel.trace import Traced
+from dalembert.machine.motion.actuation import joint_stops
 from dalembert.machine.motion.dry_friction import DryFriction
 from dalembert.machine.motion.equation import LOCK, Equation, LastPose
 from dalembert.model import Mechanism, Schedule
@@ -79,12 +80,9 @@ def trace_equation(
     numbers = kernel.number_nodes[-2 * count :]
     effort = [n for name in names for n in trace.catalogue.nodes(f"effort.{name}")]
     mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
-    parts = [
-        effort,
-        mass,
-        _powers(graph, trace.catalogue.compiled, traced),
-        *_contacts(trace, numbers[count:]),
-    ]
+    rubbing, *linear = _contacts(trace, numbers[count:])
+    moved = [rubbing, traced.closure, _stop_motion(trace, numbers[count:])]
+    parts = [effort, mass, _powers(graph, trace.catalogue.compiled, traced), *moved, *linear]
     slip, none = traced.friction.slip, dict[int, Node]()
     if slip is not None:
         none = dict.fromkeys((n.index for n in (*trace_array(graph, slip.cz), *numbers[count:])), graph.zero)
@@ -139,7 +137,7 @@ def _channel(trace: Trace, names: tuple[str, ...], node: Node) -> Any:
 def _of_structure(m: Mechanism) -> Equation | None:
     """The equation of a mechanism of the plane whose program is kept by structure, with its numbers; None where there
     is none: with friction, or loads that go by positions or time."""
-    if any(getattr(load, "varying", ()) for load in m.loads.values()):
+    if any(getattr(load, "varying", ()) for load in m.loads.values()) or joint_stops(m):
         return None
     names = tuple(m.drives)
     at, one = np.array([[d.position for d in m.drives.values()]], float), np.ones((1, len(names)))
@@ -159,7 +157,7 @@ def _shared(k: KeptProgram, names: tuple[str, ...]) -> Equation:
     graph, (q, u, a) = k.graph, k.symbols.drives
     effort = list(k.traced.effort)
     mass = [n for row in gradients(graph, effort, list(a)) for n in row]
-    parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure]
+    parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure, []]
     own = [
         n if n.op == "number" else graph.input("number", f"value {j}", 1.0) for j, n in enumerate(k.inputs)
     ]
@@ -181,11 +179,11 @@ def _own(contacts: Contacts, sense: Array) -> Ints:
 
 
 def _contacts(trace: Trace, accelerations: Sequence[Node]) -> list[list[Node]]:
-    """Rates of the contacts, what vanishes at dead centres, and the nodes of ``Linear``."""
+    """Rates of the contacts, and the nodes of ``Linear``."""
     c, traced, graph = trace.catalogue.compiled, trace.catalogue.traced, trace.catalogue.graph
     slip, contacts = traced.friction.slip, c.contacts
     if slip is None or contacts is None:
-        return [[], traced.closure]
+        return [[]]
     first = c.layout.constraints.count
     second = rates(slip.along, traced.acceleration) + drift(
         c.layout.algebra, contacts.rows, traced.pose, traced.twist
@@ -194,7 +192,6 @@ def _contacts(trace: Trace, accelerations: Sequence[Node]) -> list[list[Node]]:
     ahead = gradients(graph, list(slip.r.y.ravel()), accelerations)
     arrays = (
         slip.state.rate,
-        np.array(traced.closure, object),
         push,
         slip.r.y,
         np.array(ahead),
@@ -202,6 +199,19 @@ def _contacts(trace: Trace, accelerations: Sequence[Node]) -> list[list[Node]]:
         second,
     )
     return [list(trace_array(graph, a).ravel()) for a in arrays]
+
+
+def _stop_motion(trace: Trace, accelerations: Sequence[Node]) -> list[Node]:
+    """Of each joint with stops: value, rate and second rate of its freedom, and the slopes by the accelerations."""
+    c, traced, out = trace.catalogue.compiled, trace.catalogue.traced, list[Node]()
+    g, freedoms, graph = c.layout.algebra, c.layout.freedoms, trace.catalogue.graph
+    for joint, freedom in joint_stops(c.mechanism):
+        row, rows = c.freedoms.index((joint, freedom)), system(g, freedoms, traced.pose)
+        second = rates(rows, traced.acceleration) + drift(g, freedoms, traced.pose, traced.twist)
+        motion = (measure(g, freedoms, traced.pose), rates(rows, traced.twist), second)
+        out.extend(trace_array(graph, np.array([x[..., row][()] for x in motion], object)))
+        out.extend(gradients(graph, out[-1:], list(accelerations))[0])
+    return out
 
 
 def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:

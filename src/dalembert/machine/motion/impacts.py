@@ -5,92 +5,326 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, nnls
 
+from dalembert.analysis.output.columns import Scale
 from dalembert.arrays import Array
-from dalembert.machine.motion.actuation import Actuation
-from dalembert.machine.motion.occurrences import Event, Guard, Words
+from dalembert.errors import ModelError
+from dalembert.machine.motion.actuation import Actuation, joint_stops
+from dalembert.machine.motion.dry_friction import Contacted
+from dalembert.machine.motion.equation import OPEN, StoppedError, Terms
+from dalembert.machine.motion.occurrences import Event, Guard, Words, say
 from dalembert.machine.motion.standstill import STILL, ContactState
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import kind_of
+from dalembert.model.drives.end_stops import Stops
 
-SLOW = 1e-8
-"""What goes back from a stop with less than this part of the greatest speed there has been stays on it."""
+SLOW = 1e-6
+"""What goes back from a stop with less than this part of the greatest speed there has been comes to rest there: after
+all bounces that are left, which go less far than positions are known."""
 LOOKS = 9
 """Instants of a step at which it is asked whether a stop has been met."""
+UNMOVED = 1e-12
+"""Part of a joint's motion with the drives that is rounding."""
+
+Look = tuple[float, float, float]
+"""A time, and position and speed of a freedom then."""
+
+
+@dataclass
+class Stop:
+    """Stops of a drive, by its number, or of a joint, by its place among ``Terms.stops``.
+
+    ``resting``: -1 on the least, 1 on the greatest; ``looks``: positions over the last step, whole turns counted.
+    """
+
+    name: str
+    freedom: str
+    ends: Stops
+    drive: int = -1
+    joint: int = -1
+    resting: float = 0.0
+    looks: list[Look] = field(default_factory=lambda: [(0.0, 0.0, 0.0)])
+
+    def end(self, side: float) -> float:
+        """Where it is on one side."""
+        return self.ends.least if side < 0 else self.ends.greatest
+
+    def near(self, x: float, guess: float) -> float:
+        """The position that is x but for whole turns, next to a guess; a drive counts its own."""
+        counts = self.joint >= 0 and self.freedom == "turn"
+        return x + 2 * np.pi * round((guess - x) / (2 * np.pi)) if counts and np.isfinite(x) else x
 
 
 class StopState(ContactState):
-    """A motion whose drives may strike stops; ``losses``: when, and the energy lost, J."""
+    """A motion whose drives and joints may strike stops; ``losses``: when, and the energy lost, J."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         super().__init__(m, actuation)
         self.fastest = np.abs(actuation.speed)
         self.losses: list[tuple[float, float]] = []
+        self.pressed: list[Stop] = []
+        self.pushing = np.zeros(0)
         drives = enumerate(actuation.drives)
-        self.stops = {k: drive.stops for k, drive in drives if drive.stops and actuation.free[k]}
+        free = [(k, drive) for k, drive in drives if actuation.free[k] and drive.stops]
+        self.stops = [Stop(actuation.names[k], str(d.freedom), d.stops, drive=k) for k, d in free if d.stops]
+        joints = enumerate(joint_stops(m).items())
+        self.stops += [Stop(name, freedom, ends, joint=j) for j, ((name, freedom), ends) in joints]
+        y = np.concatenate([actuation.position, actuation.speed])
+        for stop in self.stops:
+            self._place_at_start(stop, *self.motion_of(stop, 0.0, y))
+
+    def _place_at_start(self, stop: Stop, x: float, rate: float) -> None:
+        """Count whole turns so that a joint starts between its stops."""
+        least, greatest, small = stop.ends.least, stop.ends.greatest, 1e-9
+        ends = [stop.near(x, end) for end in (0.0, least, greatest) if np.isfinite(end)]
+        at = [x + n for x in ends for n in (0.0, 2 * np.pi, -2 * np.pi) if n == 0 or x != stop.near(x, x + n)]
+        within = [x for x in at if least - small <= x <= greatest + small]
+        if not within and np.isfinite(x):
+            kind = kind_of(stop.freedom, "")
+            path = ("joints", stop.name, "stops") if stop.joint >= 0 else ("start", stop.name, "position")
+            raise ModelError(
+                f"{stop.name} starts beyond its stops, at {say(((kind, x),), Scale(self.m.units))}",
+                "start between them",
+                path,
+            )
+        stop.looks = [(0.0, within[0] if within else x, rate)]
+
+    def motion_of(self, stop: Stop, t: float, y: Array) -> tuple[float, float]:
+        """Position, of a joint's turn but for whole turns, and speed."""
+        d = self.d
+        if stop.joint < 0:
+            return float(y[stop.drive]), float(y[d + stop.drive])
+        x, rate = self.equation(t, y[:d], y[d : 2 * d]).stops[stop.joint][:2]
+        return float(x), float(rate)
 
     def stop_guards(self) -> list[Guard]:
-        """Distances from the stops that are not rested on; the side is that of the way in."""
-        return [
-            Guard("stop", k, lambda t, y, k=k, x=x: float(y[k] - x), -side)  # type: ignore[misc]
-            for k, stops in self.stops.items()
-            for side, x in ((-1.0, stops.least), (1.0, stops.greatest))
-            if np.isfinite(x) and self.on_stop[k] != side
+        """Stops that are not rested on, the side that of the way in; and forces of those that are."""
+
+        def beyond(stop: Stop, x: float) -> Callable[[float, Array], float]:
+            return lambda t, y: stop.near(self.motion_of(stop, t, y)[0], x) - x
+
+        self._note_leaving()
+        sides = [(k, stop, side) for k, stop in enumerate(self.stops) for side in (-1.0, 1.0)]
+        met = [
+            Guard("stop", k, beyond(stop, stop.end(side)), -side)
+            for k, stop, side in sides
+            if np.isfinite(stop.end(side)) and stop.resting != side
         ]
+        held = [k for k, stop in enumerate(self.stops) if stop in self.pressed]
+
+        def pressure(stop: Stop) -> Callable[[float, Array], float]:
+            return lambda t, y: -stop.resting * float(self._pushing(t, y)[self.pressed.index(stop)])
+
+        return met + [Guard("hold", k, pressure(self.stops[k]), 1.0) for k in held]
+
+    def _pushing(self, t: float, y: Array) -> Array:
+        self.at(t, y)
+        return self.pushing
 
     def strikes(self, g: Guard, state: Callable[[float], Array], before: float, after: float) -> float | None:
         """When a stop is met within a step; one that begins on it leaves it first."""
+        stop, x = self.stops[g.which], self.stops[g.which].end(-g.side)
 
-        def room(t: float) -> float:
-            return g.value(t, state(t)) * g.side
+        def look(t: float, last: Look) -> Look:
+            place, rate = self.motion_of(stop, t, state(t))
+            return t, stop.near(place, last[1] + (t - last[0]) * (rate + last[2]) / 2), rate
 
-        def speed(t: float) -> float:
-            return float(state(t)[self.d + g.which]) * g.side
-
-        for low, high in pairwise(np.linspace(before, after, LOOKS).tolist()):
-            if room(high) < 0:
-                if room(low) <= 0 and speed(low) > 0 > speed(high):
-                    low = float(brentq(speed, low, high))
-                return float(brentq(room, low, high, xtol=1e-300, rtol=1e-15)) if room(low) > 0 else low
+        if (stop.looks[0][0], stop.looks[-1][0]) != (before, after) or len(stop.looks) < LOOKS:
+            looks = [look(before, stop.looks[-1])]
+            for t in np.linspace(before, after, LOOKS)[1:].tolist():
+                looks.append(look(t, looks[-1]))
+            stop.looks = looks
+        for low, high in pairwise(stop.looks):
+            start, first = low[0], (low[1] - x) * g.side
+            if not (high[1] - x) * g.side < min(first, 0.0):
+                continue
+            if first <= 0 and low[2] * g.side > 0 > high[2] * g.side:
+                start = float(brentq(lambda t, low=low: look(t, low)[2], low[0], high[0]))
+            within = (look(start, low)[1] - x) * g.side > 0
+            ends = (start, high[0])
+            return (
+                float(brentq(lambda t, low=low: look(t, low)[1] - x, *ends, xtol=1e-300, rtol=1e-15))
+                if within
+                else start
+            )
         return None
 
-    def strike(self, k: int, side: float, t: float, y: Array) -> None:
-        """u+ = u- - (1 + e) M^-1 n (n u-) / (n M^-1 n) at a stop of drive k; what friction holds is let go."""
-        d, free, stops = self.d, np.flatnonzero(self.acting.free), self.stops[k]
+    def strike(self, hit: Sequence[tuple[int, float]], t: float, y: Array) -> None:
+        """u+ = u- - M^-1 n I at stops that are met, each on its side: I >= 0, and where it is more what goes back
+        has the speed of its restitution (Moreau); those rested on push too. What friction holds is let go."""
+        d, free = self.d, np.flatnonzero(self.acting.free)
         u = y[d : 2 * d]
-        y[k] = stops.least if side < 0 else stops.greatest
-        before = max(float(u[k]) * side, 0.0)
-        e = stops.restitution
-        e = e if e * before > SLOW * max(float(self.fastest.max()), 1e-300) else 0.0
-        mass = self.equation(t, y[:d], u).mass[np.ix_(free, free)]
-        ease = np.linalg.solve(mass, (free == k).astype(float))
-        own = float(ease[free == k][0])
-        u[free] -= (1 + e) * before * side * ease / own
-        u[k] = -e * before * side
-        lost = (1 - e * e) * before**2 / (2 * own)
-        self.losses.append((t, lost))
+        for k, side in hit:
+            if self.stops[k].drive >= 0:
+                y[self.stops[k].drive] = self.stops[k].end(side)
+        rested = [(k, s.resting) for k, s in enumerate(self.stops) if s.resting and k not in dict(hit)]
+        all_ = [*hit, *rested]
+        terms = self.equation(t, y[:d], u)
+        rows = np.array([self._row(self.stops[k], terms) * side for k, side in all_])
+        closing, size = rows @ u, np.abs(rows).max(axis=1) * max(float(self.fastest.max()), 1e-300)
+        e = np.array([self.stops[k].ends.restitution for k, _ in all_])
+        back = e * np.maximum(closing, 0.0)
+        left, back = (
+            np.where(back > SLOW * size, 0.0, back / np.maximum(1 - e, SLOW)),
+            back * (back > SLOW * size),
+        )
+        ease = np.linalg.solve(terms.mass[np.ix_(free, free)], rows[:, free].T)
+        own = rows[:, free] @ ease
+        for (k, _), row, speed in zip(hit, rows, closing, strict=False):
+            if np.abs(row[free]).max() <= UNMOVED * np.abs(row).max() and speed > 0:
+                raise StoppedError(f"{self.stops[k].name} is driven against its stop by what is prescribed")
+        impulse = _impulses(own, closing + back)
+        u[free] -= ease @ impulse
+        after = closing - own @ impulse
+        after = np.where(impulse > 0, -back, np.where(np.abs(after) <= UNMOVED * size, 0.0, after))
+        for n, (k, side) in enumerate(all_):
+            stop = self.stops[k]
+            if stop.drive >= 0:
+                u[stop.drive] = after[n] * side
+            stop.resting = side if after[n] == 0 else 0.0
+            if n < len(hit):
+                lost = impulse[n] * (closing[n] + after[n]) / 2
+                self._note_impact(stop, side, t, (float(closing[n]), float(-after[n]), float(lost)))
         self.locked &= u == 0
         if len(self.sense):
             rates = self.own(self.equation(t, y[:d], u).rates)
             clear = np.abs(rates) > STILL * np.abs(rates).max(initial=0.0)
             self.sense = np.where(clear, np.where(rates < 0, -1.0, 1.0), self.sense)
         self.toward = np.where(u != 0, np.where(u < 0, -1.0, 1.0), self.toward)
-        self._note_impact(k, t, (float(y[k]), before, e * before, lost))
-        self.on_stop[k] = 0.0 if e else side
-        for j in np.flatnonzero((u == 0) & (self.rubs | (self.on_stop != 0))):
-            self._settle(int(j), t, y)
+        if (
+            left.any() and not self.equation.dry
+        ):  # speeds v, e v, e^2 v, ...: each takes 2 v over the acceleration
+            drift = [s * terms.stops[j][2] if (j := self.stops[k].joint) >= 0 else 0.0 for k, s in all_]
+            pushed = rows @ self.at(t, y)[0] + drift
+            t += float(np.max(2 * left / np.where(pushed > 0, pushed, np.inf)))
+        self._note_rests(t, y)
+        for k in np.flatnonzero((u == 0) & (self.rubs | (self.on_stop != 0))).tolist():
+            self._settle(k, t, y)
 
-    def _note_impact(self, k: int, t: float, of: tuple[float, float, float, float]) -> None:
-        place, before, after, lost = of
-        drive, name = self.acting.drives[k], self.acting.names[k]
-        kind, rate = kind_of(drive.freedom, ""), kind_of(drive.freedom, "speed")
-        back: Words = ("goes back with ", (rate, after)) if after else ("does not go back",)
-        said: Words = (f"{name} strikes its stop at ", (kind, place), " with ", (rate, before), " and ")
-        self.events.append(
-            Event(t, "impact", (*said, *back, "; ", ("energy", lost), " are lost"), name, before, lost)
+    def _row(self, stop: Stop, terms: Terms) -> Array:
+        """What it moves with each drive (D,)."""
+        return np.asarray(
+            terms.stops[stop.joint][3:] if stop.joint >= 0 else np.arange(self.d) == stop.drive, float
         )
+
+    def _drive_of(self, stop: Stop) -> int:
+        """The drive that stands where the stop is rested on; -1 where others go on."""
+        free = np.flatnonzero(self.acting.free)
+        alone = stop.joint >= 0 and len(free) == 1 and not self._others_move()
+        return int(free[0]) if alone else stop.drive
+
+    def _note_rests(self, t: float, y: Array) -> None:
+        """What stands on its stop, and stops of joints that push while others go on."""
+        d, none = self.d, np.zeros(self.d)
+        self.on_stop[:], self.pressed, self.resting = 0.0, [], {}
+        for stop in self.stops:
+            k = self._drive_of(stop)
+            if stop.resting and k >= 0:
+                way = self._row(stop, self.equation(t, y[:d], none))[k]
+                self.on_stop[k], self.resting[k], y[d + k] = stop.resting * np.sign(way), stop.name, 0.0
+            elif stop.resting and self.equation.dry:
+                raise StoppedError(
+                    f"{stop.name} rests on its stop while others go on, with friction: what the stop gives is not found"
+                )
+            elif stop.resting:
+                self.pressed.append(stop)
+        pulling = list(self.pressed)
+        while self.pressed and pulling:
+            pushing = zip(self.pressed, self._pushing(t, y), strict=True)
+            pulling = [s for s, force in pushing if force * s.resting > 0]
+            for stop in pulling:
+                self.pressed.remove(stop)
+                stop.resting = 0.0
+        for stop in self.pressed:
+            self.note(t, "rest", f"{stop.name} stays on its stop", of=stop.name)
+
+    def _note_leaving(self) -> None:
+        """Stops that a drive does not rest on any more."""
+        for stop in self.stops:
+            k = self._drive_of(stop)
+            if k >= 0 and not self.on_stop[k]:
+                stop.resting = 0.0
+
+    def leave(self, k: int, t: float) -> None:
+        """Let a joint go that its stop would have to pull."""
+        stop = self.stops[k]
+        self.pressed.remove(stop)
+        stop.resting = 0.0
+        self.note(t, "start", f"{stop.name} leaves its stop", of=stop.name)
+
+    def solved(self, t: float, y: Array) -> tuple[Contacted, Array, Terms]:
+        """Those of ``ContactState``, with the forces of joints' stops that are rested on while others go on."""
+        if not self.pressed:
+            return super().solved(t, y)
+        q, u, acting = y[: self.d], y[self.d : 2 * self.d], self.acting
+        self.evaluations += 1
+        f = np.flatnonzero(acting.free & ~self.locked)
+        tau = acting.effort(t, q, u) - acting.brake * self.toward
+        a = np.where(acting.free, 0.0, acting.acceleration)
+        e = self.equation(t, q, u)
+        rows = e.stops[[s.joint for s in self.pressed]]
+        n, none = rows[:, 3:], np.zeros((len(rows), len(rows)))
+        whole = np.block([[e.mass[np.ix_(f, f)], -n[:, f].T], [n[:, f], none]])
+        if not (np.isfinite(whole).all() and np.isfinite(e.effort).all()):
+            raise StoppedError(OPEN)
+        gap = np.append((tau - e.effort - e.mass @ a)[f], -rows[:, 2] - n @ a)
+        found = np.linalg.lstsq(whole, gap)[0]
+        a[f], self.pushing = found[: len(f)], found[len(f) :]
+        effort, no = e.effort + e.mass @ a - n.T @ self.pushing, np.zeros(0)
+        return Contacted(a, effort, no, no, no), np.where(acting.free & ~self.locked, tau, effort), e
+
+    def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
+        if not self.pressed:
+            return super()._range(k, t, y)
+        held = self.locked.copy()
+        self.locked[k] = True
+        low = high = float(self.at(t, y)[1][k])
+        self.locked = held
+        low, high = low - self.acting.brake[k], high + self.acting.brake[k]
+        tau = float(self.acting.effort(t, y[: self.d], y[self.d : 2 * self.d])[k])
+        return tau, -np.inf if self.on_stop[k] < 0 else low, np.inf if self.on_stop[k] > 0 else high
+
+    def joint_forces(self, t: float, y: Array) -> Array:
+        """Of stops of joints (J, 2): what they give, once ``at`` was asked, and where it is not known yet, as one drive
+        stands with them, what each moves with it."""
+        out = np.zeros((len(self.stops), 2))
+        for k, stop in enumerate(self.stops):
+            if stop.joint >= 0 and stop.resting and stop not in self.pressed:
+                terms = self.equation(t, y[: self.d], np.zeros(self.d))
+                out[k, 1] = self._row(stop, terms)[self._drive_of(stop)]
+        for stop, force in zip(self.pressed, self.pushing, strict=False):
+            out[self.stops.index(stop), 0] = force
+        return out[[k for k, stop in enumerate(self.stops) if stop.joint >= 0]]
+
+    def _note_impact(self, stop: Stop, side: float, t: float, of: Sequence[float]) -> None:
+        before, after, lost = of
+        self.losses.append((t, lost))
+        kind, rate = kind_of(stop.freedom, ""), kind_of(stop.freedom, "speed")
+        back: Words = ("goes back with ", (rate, after)) if after else ("does not go back",)
+        said: Words = (
+            f"{stop.name} strikes its stop at ",
+            (kind, stop.end(side)),
+            " with ",
+            (rate, before),
+            " and ",
+        )
+        rough = self.equation.dry and self.acting.free.sum() > 1
+        left: Words = (" (friction during the impact is left out)",) if rough else ()
+        words: Words = (*said, *back, "; ", ("energy", lost), " are lost", *left)
+        self.events.append(Event(t, "impact", words, stop.name, before, lost))
+
+
+def _impulses(own: Array, gap: Array) -> Array:
+    """I >= 0 with own I >= gap, and I = 0 where that is more: own is symmetric and not negative."""
+    if len(gap) == 1:
+        return np.asarray(np.maximum(gap / own[0], 0.0))
+    size, way = np.linalg.eigh(own)
+    some = size > UNMOVED * size.max()
+    root = np.sqrt(size[some])
+    return np.asarray(nnls(root[:, None] * way[:, some].T, way[:, some].T @ gap / root)[0])

@@ -57,7 +57,7 @@ class Integration(StopState):
         self.end, self.conditions, self.tolerance = end, conditions, tolerance
         self.waiting = None if times is None else list(times)
         self.ended: Words = ()
-        self.rows: list[tuple[float, Array, Array, Array, Array, Array, Array]] = []
+        self.rows: list[tuple[float, Array, Array, Array, Array, Array, Array, Array]] = []
         self.samples: list[tuple[float, Array]] = []
 
     def keep(self, t: float, y: Array) -> None:
@@ -69,7 +69,7 @@ class Integration(StopState):
         a, effort, _ = self.at(t, y)
         q, u = y[:d].copy(), y[d : 2 * d].copy()
         on_stop = np.where(self.on_stop != 0, self.acting.effort(t, q, u), np.nan)
-        self.rows.append((t, q, u, a, effort, y[2 * d :].copy(), on_stop))
+        self.rows.append((t, q, u, a, effort, y[2 * d :].copy(), on_stop, self.joint_forces(t, y)))
 
     def _keep_samples(self) -> None:
         """Keep the instants of the segment that wait, all at once, before anything else happens."""
@@ -87,7 +87,10 @@ class Integration(StopState):
         applied = np.where(self.acting.free & ~self.locked, first + slope * y[:, d : 2 * d] + brake, np.nan)
         on_stop = np.where(self.on_stop != 0, first + slope * y[:, d : 2 * d], np.nan)
         works = y[:, 2 * d :].copy()
-        self.rows += zip(t.tolist(), y[:, :d], y[:, d : 2 * d], a, applied, works, on_stop, strict=True)
+        stops = np.repeat(self.joint_forces(t[0], y[0])[None], len(t), axis=0)
+        self.rows += zip(
+            t.tolist(), y[:, :d], y[:, d : 2 * d], a, applied, works, on_stop, stops, strict=True
+        )
 
     def run(self) -> None:
         """Integrate from the start until the end, a condition that stops, or a state from which nothing goes on."""
@@ -115,9 +118,7 @@ class Integration(StopState):
 
     def _all_rest(self) -> bool:
         """Whether what forces move is held, and what is prescribed stands."""
-        others = ~self.acting.free
-        moves = (self.acting.speed[others] != 0).any() or (self.acting.acceleration[others] != 0).any()
-        return bool((self.locked | others).all() and not moves)
+        return bool((self.locked | ~self.acting.free).all() and not self._others_move())
 
     def _watch_chatter(self) -> None:
         if len(self.events) > MANY:
@@ -158,7 +159,12 @@ class Integration(StopState):
                 dense = solver.dense_output()
                 roots = [self._root(g, dense, before, solver.t) for g in crossed]
                 earliest = min(roots)
-                first = [g for g, root in zip(crossed, roots, strict=True) if root <= earliest]
+                once = earliest + 1e-13 * solver.t
+                first = [
+                    g
+                    for g, x in zip(crossed, roots, strict=True)
+                    if x <= (once if g.kind == "stop" else earliest)
+                ]
             if crossed and earliest <= solver.t:
                 when, y = self._meet(first[0], earliest, before, from_)
                 self._keep_until(dense, before, when)
@@ -226,7 +232,7 @@ class Integration(StopState):
         """Machine code and its values, where the efforts are straight lines of the speeds until the next event."""
         free = self.acting.free & ~self.locked
         code = self.equation.steps(free)
-        if code is None:
+        if code is None or self.pressed:
             return None
         ahead = self.at(t, y)[0] if self.acting.motors else np.zeros(self.d)
         lines = self.acting.lines(y[self.d : 2 * self.d], ahead)
@@ -318,6 +324,9 @@ class Integration(StopState):
         self._keep_samples()
         d = self.d
         rests = [g.which for g in crossed if g.kind == "rest"]
+        hit = [(g.which, -g.side) for g in crossed if g.kind == "stop"]
+        if hit:
+            self.strike(hit, t, y)
         for g in crossed:
             small = STILL * max(float(self.fastest.max()), 1e-300)
             stands = [int(k) for k in np.flatnonzero(self.rubs & ~self.locked) if abs(y[d + k]) <= small]
@@ -327,8 +336,8 @@ class Integration(StopState):
                 self.note(t, "reversal", f"{joint} reverses: its friction turns round", of=joint)
             elif g.kind == "contact":
                 rests += [k for k in stands if k not in rests]
-            elif g.kind == "stop":
-                self.strike(g.which, -g.side, t, y)
+            elif g.kind == "hold":
+                self.leave(g.which, t)
             elif g.kind in ("on", "off"):
                 self._switch(t, g.which, g.kind)
             elif g.kind == "condition":

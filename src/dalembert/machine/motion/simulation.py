@@ -19,13 +19,14 @@ from dalembert.analysis.result.closure_residual import closure_gap
 from dalembert.analysis.result.link_motion import place_of
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
-from dalembert.machine.motion.actuation import Actuation, actuation
+from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
 from dalembert.machine.motion.energies import energies
 from dalembert.machine.motion.integration import Integration
 from dalembert.machine.motion.occurrences import Condition, Event, Words, say
+from dalembert.machine.motion.stop_loads import stop_effort, with_stop_loads
 from dalembert.machine.output.answer import Answer
 from dalembert.model import Mechanism, Schedule
-from dalembert.model.drives.drives import SLIDE, TURN
+from dalembert.model.drives.drives import SLIDE, TURN, kind_of
 from dalembert.model.drives.starting import Start, StartValue
 from dalembert.units import quantity
 from dalembert.wording import closest
@@ -61,12 +62,23 @@ class Simulation(Answer):
     moves: Actuation = field(repr=False)
     given: Array = field(repr=False)  # applied, where that is no joint force: else NaN
     pushed: Array = field(repr=False)  # efforts on what rests on a stop, else NaN
+    on_joints: Array = field(repr=False)  # stops of joints, (T, J, 2)
     evaluations: int = field(repr=False, default=0)
 
     @cached_property
+    def _loaded(self) -> tuple[Result, dict[str, Array]]:
+        found = at_schedule(self.prescribed, self.schedule, inertia=True)
+        return with_stop_loads(found, self.on_joints, self.pushed, self.moves)
+
+    @property
     def result(self) -> Result:  # type: ignore[override]
         """The analysis along the motion that was found."""
-        return at_schedule(self.prescribed, self.schedule, inertia=True)
+        return self._loaded[0]
+
+    @property
+    def joint_stop_force(self) -> Mapping[str, Array]:
+        """What stops of joints give (T,), N or N m, by joint: positive as the joint's freedom; loads in ``result``."""
+        return self._loaded[1]
 
     @property
     def time(self) -> Array:
@@ -83,13 +95,7 @@ class Simulation(Answer):
     @cached_property
     def stop_force(self) -> Array:
         """What stops give (T, D) to drives that rest on them: what friction and brakes do not hold."""
-        out, r, brake = np.zeros_like(self.pushed), self.result, self.moves.brake
-        for k in np.flatnonzero(np.isfinite(self.pushed).any(axis=0)):
-            ends = r.interval(r.drives[k]) if r.friction is not None else r.effort_array[:, [k, k]]
-            low, high = np.where(np.isnan(ends), r.effort_array[:, [k, k]], ends).T
-            held = np.clip(self.pushed[:, k], low - brake[k], high + brake[k])
-            out[:, k] = np.where(np.isfinite(self.pushed[:, k]), held - self.pushed[:, k], 0.0)
-        return out
+        return stop_effort(self.result, self.pushed, self.moves)
 
     @cached_property
     def _energies(self) -> tuple[Array, Array]:
@@ -183,6 +189,11 @@ class Simulation(Answer):
                 yield Column(
                     f"stop {drive}", drive_kinds(self.result, drive)["effort"], self.stop_force[:, k]
                 )
+        for joint, (_, freedom) in zip(
+            self.joint_stop_force, joint_stops(self.result.mechanism), strict=True
+        ):
+            if self.joint_stop_force[joint].any():
+                yield Column(f"stop {joint}", kind_of(freedom, "effort"), self.joint_stop_force[joint])
         for name, values in self.works.items():
             yield Column(f"work of {name}", "energy", values)
         yield Column("kinetic energy", "energy", self.kinetic)
@@ -295,14 +306,23 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
         raise ModelError(
             f"the motion cannot begin: {say(run.ended)}", "start elsewhere, or with another speed", ("start",)
         )
-    t, q, u, a, applied, works, on_stop = (np.array(column) for column in zip(*run.rows, strict=True))
-    kept = np.append(np.diff(t) > 0, True)  # of an event the state behind it
-    t, q, u, a, applied, works, on_stop = (x[kept] for x in (t, q, u, a, applied, works, on_stop))
+    rows = [np.array(column) for column in zip(*run.rows, strict=True)]
+    kept = np.append(np.diff(rows[0]) > 0, True)  # of an event the state behind it
+    t, q, u, a, applied, works, on_stop, stops = (x[kept] for x in rows)
     names = [*m.drives, "brakes", "loads", "dampers", "friction"]
     named = {name: w for name, w in zip(names, works.T, strict=True) if name in m.drives or w.any()}
     if run.losses:
         named["impacts"] = -np.array([sum(lost for when, lost in run.losses if when <= x) for x in t])
     ending, schedule = run.ended or ("at ", ("time", t[-1])), Schedule(tuple(m.drives), q, u, a, time=t)
     return Simulation(
-        schedule, named, tuple(run.events), ending, prescribed, moves, applied, on_stop, run.evaluations
+        schedule,
+        named,
+        tuple(run.events),
+        ending,
+        prescribed,
+        moves,
+        applied,
+        on_stop,
+        stops,
+        run.evaluations,
     )

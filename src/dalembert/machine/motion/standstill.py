@@ -48,13 +48,13 @@ def holding_efforts(r: Result, k: int) -> tuple[float, float]:
 
 class ContactState:
     """A motion's contacts and brakes at the moment: senses, and which drives they hold at rest; ``on_stop`` (D,): -1
-    where a drive rests on its least stop, 1 on its greatest."""
+    where a drive rests on its least stop, 1 on its greatest, or on a joint's on that side, named in ``resting``."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         self.m, self.acting, self.equation = m, actuation, equation_of(m)
         self.d = len(actuation.names)
         self.locked: Flags = np.zeros(self.d, bool)
-        self.on_stop = np.zeros(self.d)
+        self.on_stop, self.resting = np.zeros(self.d), dict[int, str]()
         dry = self.equation.dry
         self.sense, self.toward = np.ones(len(dry.own) if dry else 0), np.ones(self.d)
         self.stuck: Flags = np.zeros(dry.contacts.count if dry else 0, bool)
@@ -106,6 +106,11 @@ class ContactState:
 
     def note(self, t: float, name: str, *words: str | tuple[str, float], of: str = "") -> None:
         self.events.append(Event(t, name, words, of))
+
+    def _others_move(self) -> bool:
+        """Whether something prescribed moves."""
+        others = ~self.acting.free
+        return bool((self.acting.speed[others] != 0).any() or (self.acting.acceleration[others] != 0).any())
 
     def _settle_start(self, t: float, y: Array) -> None:
         """Senses at the start; what stands there is held, or goes the way it is pushed."""
@@ -159,7 +164,7 @@ class ContactState:
         if wide and low <= tau <= high:
             self.locked[k] = True
             if self.on_stop[k]:
-                self.note(t, "rest", f"{name} stays on its stop", of=name)
+                self.note(t, "rest", f"{self.resting[k]} stays on its stop", of=self.resting[k])
                 return
             kind = kind_of(self.acting.drives[k].freedom, "effort")
             why = "its motor stalls" if k in self.acting.motors and self.acting.on[k] else "friction holds it"
@@ -174,6 +179,7 @@ class ContactState:
         still = np.abs(there) <= STILL * np.abs(pushed)
         self.sense = np.where(still & (pushed != 0), np.where(pushed < 0, -1.0, 1.0), self.sense)
         if t > 0 or was:
+            name = self.resting[k] if left else name
             what = "leaves its stop" if left else "starts again" if was else "turns back"
             self.note(t, "start" if was else "reversal", f"{name} {what}", of=name)
 

@@ -1,14 +1,25 @@
-"""End stops: where a freedom that forces move strikes something fixed, and how much of its speed comes back."""
+"""End stops: where a drive's or a joint's freedom strikes something, and how much of its speed comes back."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, isfinite
 
-from dalembert.errors import ModelError
-from dalembert.model.part import Reading, mapping
-from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, at_item, object_schema, value_text
+from pydantic import ValidationInfo
 
+from dalembert.errors import ModelError
+from dalembert.model.joints.pairs import PAIRS
+from dalembert.model.part import Reading, mapping, reading
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    Value,
+    at_item,
+    object_schema,
+    value_text,
+)
+
+STOPS = "least and greatest position, where forces move the machine: used by simulate"
 EXAMPLE = "stops: {from: 0 mm, to: 80 mm, restitution: 0.4}"
 
 
@@ -19,6 +30,8 @@ class Stops:
     least: float = -inf
     greatest: float = inf
     restitution: float = 0.0
+    kind: str = ""
+    """Of the freedom of a joint: angle or length."""
 
     def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
@@ -62,3 +75,27 @@ def stops_schema() -> JsonSchema:
             },
         }
     )
+
+
+class JointStops(Value):
+    """Stops of a joint with one freedom; of a slot, of its slide."""
+
+    def __init__(self, kind: str = "") -> None:
+        self.kind = kind
+
+    def read(self, value: object, info: ValidationInfo) -> Stops:
+        pair = PAIRS.get(str(info.data.get("type")))
+        freedoms = pair.freedoms if pair else ()
+        if not self.kind and len(freedoms) != 1:
+            raise ModelError(
+                f"stops are of a joint with one freedom, and this one has {', '.join(freedoms) or 'none'}",
+                "let a drive of that freedom go, and give the stops to the drive",
+            )
+        kind = self.kind or ("length" if freedoms[0] == "slide" else "angle")
+        return replace(end_stops(value, kind, reading(info)), kind=kind)
+
+    def write(self, value: Stops) -> object:
+        return value.tree(value.kind)
+
+    def json_schema(self) -> JsonSchema:
+        return stops_schema()

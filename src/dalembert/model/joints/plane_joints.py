@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, StrictBool, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.drives.end_stops import STOPS, JointStops, Stops
 from dalembert.model.joints.bearing_keys import Bearing
 from dalembert.model.joints.friction_keys import GearFriction, GuideFriction, PinFriction, SlotFriction
 from dalembert.model.joints.joint_part import JointPart
@@ -98,6 +99,7 @@ class Pin(JointPart):
     friction: PinFriction | None = Field(None, description="dry friction of the pin")
     bearing: Bearing | None = Field(None, description="its bearing: pressure and life over the cycle")
     damping: TurnDamping = Field(0.0, description="viscous couple per angular speed")
+    stops: Annotated[Stops, JointStops("angle")] | None = Field(None, description=STOPS)
 
 
 class Slider(JointPart):
@@ -109,6 +111,7 @@ class Slider(JointPart):
     angle: Angle = Field(0.0, description="of j's axes to the direction, default 0")
     friction: GuideFriction | None = Field(None, description="dry friction of the guide")
     damping: SlideDamping = Field(0.0, description="viscous force per speed")
+    stops: Annotated[Stops, JointStops("length")] | None = Field(None, description=STOPS)
 
 
 class Slot(JointPart):
@@ -121,6 +124,7 @@ class Slot(JointPart):
     damping: Annotated[tuple[float, float], SlotDamping()] = Field(
         (0.0, 0.0), description="viscous force per speed along the slot, or {slide:, turn:}"
     )
+    stops: Annotated[Stops, JointStops("length")] | None = Field(None, description=f"of the slide: {STOPS}")
 
 
 class CircularSlot(JointPart):

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.drives.end_stops import STOPS, JointStops, Stops
 from dalembert.model.joints.bearing_keys import Bearing
 from dalembert.model.joints.friction_keys import SpaceFriction
 from dalembert.model.joints.joint_part import JointPart
@@ -135,6 +136,7 @@ class SpaceJoint(JointPart):
     damping: Annotated[dict[str, float], Dampings()] = Field(
         default_factory=dict, description="viscous: of the only freedom, or {freedom: coefficient}"
     )
+    stops: Annotated[Stops, JointStops()] | None = Field(None, description=f"of the only freedom: {STOPS}")
 
     @property
     def freedoms(self) -> tuple[str, ...]:

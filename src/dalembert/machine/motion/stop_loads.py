@@ -1,0 +1,96 @@
+"""What stops give: to drives as an effort, of joints as loads of the analysis, so that all joint forces have them in.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.arrays import Array
+from dalembert.core.constraints import system
+from dalembert.machine.motion.actuation import Actuation, joint_stops
+from dalembert.model import GROUND
+from dalembert.model.load_types import Couple, ForceLoad, Load
+from dalembert.model.quantities.tables import Table
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+ROUNDS, SAME = 40, 1e-13
+"""Times that forces of stops are sought beside friction, which goes by them; and a change that is rounding."""
+
+
+def stop_effort(r: Result, pushed: Array, moves: Actuation) -> Array:
+    """What drives that rest on stops are given (T, D), ``pushed`` by these efforts: what friction does not hold."""
+    out = np.zeros_like(pushed)
+    for k in np.flatnonzero(np.isfinite(pushed).any(axis=0)):
+        held = np.clip(pushed[:, k], *_holding(r, int(k), moves))
+        out[:, k] = np.where(np.isfinite(pushed[:, k]), held - pushed[:, k], 0.0)
+    return out
+
+
+def _holding(r: Result, k: int, moves: Actuation) -> tuple[Array, Array]:
+    """Least and greatest effort (T,) with which a drive stays, its brake included."""
+    ends = r.interval(r.drives[k]) if r.friction is not None else r.effort_array[:, [k, k]]
+    low, high = np.where(np.isnan(ends), r.effort_array[:, [k, k]], ends).T
+    return low - moves.brake[k], high + moves.brake[k]
+
+
+def with_stop_loads(
+    r: Result, found: Array, pushed: Array, moves: Actuation
+) -> tuple[Result, dict[str, Array]]:
+    """The analysis with the forces of joints' stops, and these (T,) by joint: ``found`` (T, J, 2) as
+    ``StopState.joint_forces`` has them. Where one drive stands it is the least force: friction holds what it can."""
+    m, names = r.mechanism, list(joint_stops(r.mechanism))
+    force, ratio, loaded = found[..., 0], found[..., 1], r
+    k, held = (
+        int(np.argmax(moves.free)),
+        np.cumsum(ratio != 0, axis=1) * (ratio != 0) == 1,
+    )  # by the first of two
+    way = np.sign(-stop_effort(r, pushed, moves)[:, k])
+    for _ in range(ROUNDS if found.any() else 0):
+        low, high = _holding(loaded, k, moves)
+        missing = np.where(way > 0, high, low) - pushed[:, k]
+        more = np.where(held & (way != 0)[:, None], missing[:, None] / np.where(held, ratio, 1.0), 0.0)
+        force = force + np.nan_to_num(more)
+        loads = {**m.loads, **_loads(r, names, force)}
+        loaded = at_schedule(m.model_copy(update={"loads": loads}), r.schedule, inertia=True)
+        if not np.nanmax(np.abs(more)) > SAME * np.abs(force).max():
+            break
+    return loaded, {joint: force[:, n] for n, (joint, _) in enumerate(names)}
+
+
+def _loads(r: Result, names: list[tuple[str, str]], force: Array) -> dict[str, Load]:
+    """Forces along slides and couples about turns, on both links of each joint whose stop gives some, over time."""
+    c, m, time = r.compiled, r.mechanism, tuple(np.asarray(r.schedule.time).tolist())
+    rows, d, out = (
+        system(c.layout.algebra, c.layout.freedoms, whole_pose(r)),
+        c.layout.algebra.d,
+        dict[str, Load](),
+    )
+    for k, (joint, freedom) in enumerate(names):
+        if not force[:, k].any():
+            continue
+        row, part = c.freedoms.index((joint, freedom)), m.joints[joint]
+        for link, other, point, wrench in zip(
+            part.links, part.links[::-1], part.point_names(joint), (rows.on_i, rows.on_j), strict=True
+        ):
+            along = wrench[:, row, :d] if freedom == "slide" else wrench[:, row, d:]
+            values = np.nan_to_num(along * force[:, k, None]).T.tolist()
+            tables = tuple(Table("time", time, tuple(value)) for value in values)
+            by = GROUND if other == GROUND else None
+            name = f"stop of {joint} on {link}"
+            while name in m.loads:
+                name += "'"
+            if link == GROUND:
+                continue
+            if freedom == "slide":
+                out[name] = ForceLoad(on=link, at=point, value=tables, by=by)
+            else:
+                out[name] = Couple(on=link, value=tables if d == 3 else tables[0], by=by)
+    return out
