@@ -24,6 +24,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import dalembert as da
+from dalembert.bundled import examples
 
 SECONDS, G, TORQUE, BEGIN, SPEED, REPEAT, TURN = 1.0, 9.80665, 0.4, pi / 3, 30.0, 5, 0.03
 A, B, C, D = 0.05, 0.15, 0.12, 0.2
@@ -315,6 +316,26 @@ def main() -> None:
             print(f"{name:36} {time * 1e3:10.2f} ms {error:10.1e} rad")
         compare(found)
         many(four_bar)
+    flywheels()
+
+
+def flywheels() -> None:
+    """The flywheel of the bundled engine in the plane, and lifted into space, where its reactions are redundant."""
+    plane = da.load(examples()["engine"])
+    results = {
+        name: da.dynamics(m, positions=72) for name, m in (("plane", plane), ("space", da.lifted(plane)))
+    }
+    size = da.flywheel(results["plane"], Cs=0.02).exact_size
+    print()
+    for name, r in results.items():
+
+        def way(r: Any = r) -> float:
+            return float(da.flywheel(r, Cs=0.02).exact_size.inertia)
+
+        ((time, error),) = measured({"": way}, size.inertia).values()
+        print(
+            f"da.flywheel, engine, {name:23} {time * 1e3:10.2f} ms, {error / size.inertia:.1e} off the plane's"
+        )
 
 
 def many(four_bar: bool) -> None:

@@ -136,7 +136,7 @@ def flywheel(
     (441.64, 0.22374, 0.21434)
     """
     t = TurningMoment(r, drive)
-    panels, torque = resolve(lambda q: t.effort(q, t.speed, inertia=r.inertia), t.edges, t.floor)
+    panels, torque = resolve(t.steady, t.edges, t.floor)
     mean = panels.mean(torque)
     even = bool(np.abs(torque - mean).max() <= 100 * t.floor)
     zeros, energies = panels.zeros(np.zeros_like(torque) if even else torque - mean)

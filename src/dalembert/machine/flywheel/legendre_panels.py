@@ -88,9 +88,11 @@ class Panels:
     def extremes(self, values: Array) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with where they are, on the curve itself."""
         c, slopes = self.coefficients(values), np.sign(self.derivative(values))
-        found = [*zip(values.ravel().tolist(), self.points.ravel().tolist(), strict=True)]
-        for k, turns in enumerate((slopes != slopes[:, :1]).any(axis=1)):
-            x = np.array([*ENDS, *(_roots(legendre.legder(c[:, k])) if turns else ())])
+        ends = np.stack([self.low, self.low + self.width], axis=1)
+        pairs = ((values, self.points), (legendre.legval(ENDS, c), ends))
+        found = [z for y, x in pairs for z in zip(y.ravel().tolist(), x.ravel().tolist(), strict=True)]
+        for k in np.flatnonzero((slopes != slopes[:, :1]).any(axis=1)):
+            x = _roots(legendre.legder(c[:, k]))
             found += zip(legendre.legval(x, c[:, k]).tolist(), self._at(k, x).tolist(), strict=True)
         return min(found), max(found)
 

@@ -5,14 +5,17 @@ Mechanics: docs/theory.md 10.3.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import state
-from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.one_pass import at_poses, at_schedule
+from dalembert.analysis.result.joint_freedoms import whole_pose
 from dalembert.arrays import Array
-from dalembert.core.forcing import center_motion
+from dalembert.core.equilibrium import Motion, known_sources, with_ground
+from dalembert.core.forcing import Source, inertia_wrench, total_wrench
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import whole_turns
 from dalembert.machine.whole_cycle import refuse_unknown
@@ -21,11 +24,18 @@ from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Mechanism
+
+
+SURE = 1e-9
+"""Gap at the positions of a result, over the largest effort, up to which the powers there give it."""
 
 
 class TurningMoment:
-    """Effort and reduced inertia of a machine with one turning drive, at any angle and speed."""
+    """Effort and reduced inertia of a machine with one turning drive, at any angle and speed.
+
+    Where the analysis has been at steady speed, the powers of inertia and dampers say what another speed changes,
+    J a + J' w^2 / 2 + S(w). Where these are not all, as with dry friction, the analysis is asked again, in its poses.
+    """
 
     def __init__(self, r: Result, drive: str | None = None) -> None:
         self.result, self.drive = r, _only_drive(r, drive)
@@ -33,20 +43,16 @@ class TurningMoment:
         self.speed = _steady_speed(r, self.drive)
         refuse_unknown(r, "a flywheel needs every position of the cycle", r.effort(self.drive))
         self.first = float(r.drive_position(self.drive)[0])
-        m = r.mechanism
-        self.smooth = m.with_values({"friction.enabled": False}) if r.friction is not None else None
+        self.known, self.last = np.zeros((5, 0)), r
+        self.smooth = r.friction is None and _gap(r) <= SURE * max(
+            float(np.abs(r.effort_array).max()), self.floor
+        )
 
     @property
     def edges(self) -> Array:
         """The positions of the result, and the end of the period, rising."""
         q = np.sort(self.result.drive_position(self.drive))
         return np.append(q, q[0] + 2 * np.pi * self.turns)
-
-    def effort(
-        self, q: Array, speed: Array | float, acceleration: Array | float = 0.0, inertia: bool = True
-    ) -> Array:
-        """Effort at angles (n,), with these speeds and accelerations."""
-        return self._asked(self.result.mechanism, q, speed, acceleration, inertia).effort(self.drive)[1:]
 
     @property
     def floor(self) -> float:
@@ -56,44 +62,98 @@ class TurningMoment:
         moment = np.nanmax(np.abs(r.moment_array), initial=0.0)
         return 1e-13 * float(max(force, moment, np.abs(r.effort_array).max(initial=0.0)))
 
+    def steady(self, q: Array) -> Array:
+        """Effort at angles (n,) at the steady speed."""
+        found = self._asked(q, self.speed, 0.0, self.result.inertia)
+        effort, (own, change, damped) = found.effort(self.drive)[1:], powers(found)[:, 1:]
+        still = effort - self.speed * (self.result.inertia * change * self.speed + damped)
+        self.known = np.concatenate([self.known, [q, own, change, still, damped]], axis=1)
+        return effort
+
+    def effort(self, q: Array, speed: Array, acceleration: Array) -> Array:
+        """Effort at angles (n,), with these speeds and accelerations."""
+        own, change = self._parts(q)[:2]
+        if self.smooth:
+            inertial = own * acceleration + change * speed**2
+            return np.asarray(inertial + self.resistance(q, speed, acceleration))
+        return self._asked(q, speed, acceleration, True).effort(self.drive)[1:]
+
     def resistance(self, q: Array, speed: Array, acceleration: Array) -> Array:
         """The effort (n,) that does not go into kinetic energy: loads, weights, springs, dampers and friction."""
-        if self.smooth is None:
-            return self.effort(q, speed, acceleration, inertia=False)
-        kinetic = [
-            self._asked(self.smooth, q, speed, acceleration, on).effort(self.drive)[1:]
-            for on in (True, False)
-        ]
-        return np.asarray(self.effort(q, speed, acceleration) - (kinetic[0] - kinetic[1]))
+        own, change, still, damped = self._parts(q)
+        if self.smooth:
+            return np.asarray(still + damped * speed)
+        return np.asarray(self.effort(q, speed, acceleration) - own * acceleration - change * speed**2)
 
     def inertia(self, q: Array) -> Array:
         """Reduced inertia J (n,), kg m2."""
-        return reduced_inertia(
-            self._asked(self.smooth or self.result.mechanism, q, 1.0, 0.0, True), self.drive
-        )[1:]
+        return np.asarray(self._parts(q)[0])
 
-    def _asked(
-        self, m: Mechanism, q: Array, speed: Array | float, acceleration: Array | float, inertia: bool
-    ) -> Result:
+    def _parts(self, q: Array) -> Array:
+        """J, J' / 2, and what loads ask for, and dampers at a unit speed (4, n), at angles met."""
+        order = np.argsort(self.known[0], kind="stable")
+        place = order[np.searchsorted(self.known[0], q, sorter=order)]
+        assert (self.known[0, place] == q).all()
+        return self.known[1:, place]
+
+    def _asked(self, q: Array, speed: Array | float, acceleration: Array | float, inertia: bool) -> Result:
         """The analysis at other angles; the result's own first position leads, so that the assembly mode is its own."""
-        angle = np.concatenate([[self.first], q])
-        rates = [np.broadcast_to(x, q.shape) for x in (speed, acceleration)]
-        u, a = (np.concatenate([x[:1], x])[:, None] for x in rates)
-        found = at_schedule(m, Schedule((self.drive,), angle[:, None], u, a), inertia)
+        angle = np.append(self.first, q)[:, None]
+        rates = (np.broadcast_to(x, q.shape) for x in (speed, acceleration))
+        u, a = (np.append(x[:1], x)[:, None] for x in rates)
+        schedule = Schedule((self.drive,), angle, u, a)
+        if np.array_equal(self.last.schedule.position, angle):
+            c = replace(self.last.compiled, schedule=schedule)
+            found = at_poses(c, self.last, slice(None), inertia)
+        else:
+            self.last = found = at_schedule(self.result.mechanism, schedule, inertia)
         refuse_unknown(
             found, "a flywheel needs what is between the positions of the cycle", found.effort(self.drive)
         )
         return found
 
 
+def powers(r: Result) -> Array:
+    """What the effort of the lone drive of a result without accelerations has in it (3, P): for a unit acceleration,
+    the reduced inertia J; for the square of a unit speed, J' / 2; and for dampers at a unit speed."""
+    f, pose, speed = r.compiled.forcing, whole_pose(r), r.schedule.speed[..., None]
+    unit, second = with_ground(r.twist_array) / speed, r.acceleration_array / speed**2
+
+    def inertia(twist: Array, acceleration: Array) -> Array:
+        return _asked_by(r, unit, inertia_wrench(r.compiled.layout, f.inertia, pose, twist, acceleration))
+
+    damped = np.zeros(len(speed))
+    if f.springs.damping.any() or f.resistances.damping.any():
+        damped = _loads(r, unit, unit) - _loads(r, unit, 0 * unit)
+    return np.array([inertia(0 * unit, unit[:, :-1]), inertia(unit, second), damped])
+
+
+def _loads(r: Result, unit: Array, twist: Array) -> Array:
+    """What loads, weights, springs and dampers ask of the drive (P,) at twists of the links."""
+    c, moving = r.compiled, Motion(twist, twist, twist, np.ones(len(twist)))
+    return _asked_by(
+        r, unit, *known_sources(c.layout, c.forcing, whole_pose(r), moving, inertia=False).values()
+    )
+
+
+def _asked_by(r: Result, unit: Array, *sources: Source) -> Array:
+    """What wrenches ask of the drive (P,), by their power at its unit speed."""
+    return np.asarray(-(unit[:, :-1] * total_wrench(r.compiled.layout, *sources)).sum(axis=(1, 2)))
+
+
+def _gap(r: Result) -> float:
+    """By how much the effort of a result at steady speed is not what the powers say."""
+    speed = r.schedule.speed[:, 0]
+    change, unit = r.inertia * powers(r)[1], with_ground(r.twist_array) / speed[:, None, None]
+    found = change * speed**2 + _loads(r, unit, with_ground(r.twist_array))
+    return float(np.nan_to_num(np.abs(found - r.effort_array[:, 0]), nan=np.inf).max())
+
+
 def reduced_inertia(r: Result, drive: str) -> Array:
     """What all links are as seen from a drive (P,), kg m2 or kg: twice the kinetic energy at its unit speed alone."""
     at, layout, masses = state(r), r.compiled.layout, r.compiled.forcing.inertia
-    g, unit = layout.algebra, at.moving.virtual[..., r.drives.index(drive), :, :]
-    v = center_motion(layout, masses, at.pose, unit, np.zeros_like(unit[..., :-1, :]))[1]
-    w = unit[..., :-1, g.d :]
-    turning = g.angular_momentum_rate(at.pose.rotation[..., :-1, :], w, masses.inertia) * w
-    return np.asarray((masses.mass * (v * v).sum(axis=-1)).sum(axis=-1) + turning.sum(axis=(-2, -1)))
+    unit = at.moving.virtual[..., r.drives.index(drive), :, :]
+    return _asked_by(r, unit, inertia_wrench(layout, masses, at.pose, 0 * unit, unit[..., :-1, :]))
 
 
 def _only_drive(r: Result, drive: str | None) -> str:
