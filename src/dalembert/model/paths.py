@@ -49,6 +49,8 @@ class Written(dict[str, object]):
 def _by_keys(part: Part, key: str, name: str) -> Any:
     """A field; as a file writes it where it is a value with keys of its own: stops, a motor, a start, a range."""
     value = getattr(part, name)
+    if name == "start":  # read anew last, when it is known which parameters are used
+        return {k: Written(start.keys) for k, start in value.items()}
     inner = value.values() if isinstance(value, Mapping) else (value,)
     if any(isinstance(x, (Part, Table, Expression)) or not dataclasses.is_dataclass(x) for x in inner):
         return value
@@ -278,6 +280,10 @@ def value_at(part: object, keys: Sequence[str], walked: tuple[str, ...] = ()) ->
         return value_at(part[int(keys[0])], keys[1:], here)
     if isinstance(part, Table) and list(keys) == ["times"]:
         return part.times
+    own = getattr(part, "keys", None)  # of a motor, of a start
+    if isinstance(own, dict) and len(keys) == 1:
+        _require_known(keys[0], list(own), here)
+        return own[keys[0]]
     raise ModelError(
         f"the path {'.'.join([*here, *keys[1:]])!r} goes into a single value", "leave out its end", walked
     )
@@ -296,6 +302,8 @@ def set_value(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...
         return {**part, keys[0]: set_value(part[keys[0]], keys[1:], value, here)}
     if isinstance(part, Table):
         return dataclasses.replace(part, times=value)
+    if hasattr(part, "with_key"):
+        return part.with_key(keys[0], value)
     index = int(keys[0])
     changed = (*part[:index], set_value(part[index], keys[1:], value, here), *part[index + 1 :])
     return _mirror(changed, keys) if walked[-1:] == ("inertia",) else changed

@@ -111,13 +111,14 @@ class AnalysisEngine:
     count: int | None
     why: str
 
-    @cached_property
-    def nominal(self) -> Result:
-        return solve(self.mechanism, self.static, self.count)
-
     @property
     def positions(self) -> int:
-        return len(self.nominal.status)
+        return len(solve(self.mechanism, self.static, self.count).status)
+
+    @property
+    def marks(self) -> tuple[int, ...]:
+        """Axes of the marks of a design."""
+        return () if self.reduce else (self.positions,)
 
     @property
     def most_at_once(self) -> int:
@@ -140,23 +141,25 @@ class AnalysisEngine:
 
     @cached_property
     def shapes(self) -> dict[str, tuple[int, ...]]:
-        return {name: np.shape(value) for name, value in self._reduced(self.nominal).items()}
+        return {name: np.shape(value) for name, value in self.one(self.mechanism)[0].items()}
+
+    def one(self, m: Mechanism) -> tuple[Block, Array]:
+        """Outputs and marks of one design."""
+        result = solve(m, self.static, self.count)
+        codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
+        found = np.array(codes, np.uint8)
+        return self._reduced(result), first_mark(found) if self.reduce else found
 
     def block(self, values: Array) -> Block:
-        count = () if self.reduce else (self.positions,)
         parts = {name: np.full((len(values), *shape), np.nan) for name, shape in self.shapes.items()}
-        marks = np.full((len(values), *count), CODES.index("failed"), np.uint8)
+        marks = np.full((len(values), *self.marks), CODES.index("failed"), np.uint8)
         with ONE_AT_A_TIME:
             for d, design in enumerate(values):
                 try:
                     given = dict(zip(self.numbers, design.tolist(), strict=True))
-                    result = solve(self.mechanism.with_values(given), self.static, self.count)
-                    own = self._reduced(result)
+                    own, marks[d] = self.one(self.mechanism.with_values(given))
                 except DalembertError:
                     continue
-                codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
-                found = np.array(codes, np.uint8)
-                marks[d] = first_mark(found) if self.reduce else found
                 good = among(np.asarray(marks[d]), NUMBERED)
                 for name, value in own.items():
                     parts[name][d] = np.where(
@@ -175,8 +178,6 @@ def make_engine(
     lanes: int | None = None,
 ) -> Engine:
     """The kernel where it reaches, else the analyses, with the sentence why; raises ModelError where neither does."""
-    if reduce == "squares":
-        raise ModelError("a study has no target for squares", 'reduce an expression by "rms"', ("reduce",))
     try:
         at = None if positions is None else m.schedule(positions).position
         kernel = compile_kernel(m, paths, outputs, reduce, static=static, lanes=lanes)

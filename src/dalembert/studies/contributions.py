@@ -15,7 +15,6 @@ from dalembert.analysis.batch.batch_result import NUMBERED, among
 from dalembert.analysis.batch.over_positions import PLACES
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.studies.block_engines import make_engine
 from dalembert.studies.sampling import Plan
 from dalembert.wording import closest
 
@@ -128,7 +127,7 @@ def _trust(study: Study, output: str, linear: float) -> str:
     found = _answers(study, output, values)
     sampled = float(np.nanstd(found))
     said = f"the linear standard deviation is {linear:.4g}, of {SAMPLE} designs {sampled:.4g} (SI)"
-    if study.reduce == "peak" and (jump := _jump(study, output, values)):
+    if study.reduce == "peak" and output not in study.end_kinds and (jump := _jump(study, output, values)):
         return f'{jump}: {said}; trust by="sobol"'
     if np.isfinite(sampled) and abs(sampled - linear) > 0.25 * max(sampled, linear):
         return f'it is not linear: {said}; trust by="sobol"'
@@ -146,13 +145,13 @@ def _jump(study: Study, output: str, values: Array) -> str:
         return ""
     other = int(often[away][times[away].argmax()]) + 1
     share = times[away].sum() / len(values)
-    return f"the peak jumps between positions {int(first) + 1} and {other} (in {share:.0%} of {len(values)} designs)"
+    along = "positions" if study.motion is None else "instants"
+    return f"the peak jumps between {along} {int(first) + 1} and {other} (in {share:.0%} of {len(values)} designs)"
 
 
 def _places(study: Study, output: str, values: Array) -> Array:
     """Position of the peak of each design, from 0."""
-    options = ("argpeak", study.static, study.positions, study.lanes)
-    return make_engine(study.mechanism, study.paths, (output,), *options).block(values)[output]
+    return study.engine_for((output,), "argpeak").block(values)[output]
 
 
 def _sobol(study: Study, output: str, designs: int) -> Contributions:

@@ -16,22 +16,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.batch import over_positions
-from dalembert.analysis.batch.tracing.symbolic_model import number_kinds
+from dalembert.analysis.batch.tracing.symbolic_model import number_kinds, of_motion
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.studies.block_engines import Block, Engine, KernelEngine, make_engine, program_print
 from dalembert.studies.limits import Limit, output_kinds, read_limit
-from dalembert.studies.sampling import Plan
-from dalembert.studies.spreads import Spread, read_spread
-from dalembert.studies.varied_numbers import check_twofold, reader, varied_numbers
-from dalembert.wording import quote_value
+from dalembert.studies.motion_engines import Motion, end_kinds, make_motion_engine, read_motion
+from dalembert.studies.sampling import Plan, triangle_of
+from dalembert.studies.spreads import Spread
+from dalembert.studies.varied_numbers import check_twofold, columns_of, spreads_of, varied_numbers
 
 if TYPE_CHECKING:
     import os
 
-    from dalembert.analysis.batch.tracing.symbolic_model import Number
     from dalembert.analysis.result.result import Result
     from dalembert.studies.study_result import StudyResult
 
@@ -56,6 +55,7 @@ def study(
     positions: int | None = None,
     keep: bool = False,
     lanes: int | None = None,
+    simulate: Mapping[str, object] | None = None,
 ) -> Study:
     """Many designs of a mechanism, each drawn by its number from how the numbers of the model file spread.
 
@@ -64,7 +64,10 @@ def study(
     one. A vector's path means each component. ``outputs``, ``reduce``, ``static``: as in `da.compile`. ``draw``:
     ``random``, ``sobol``, ``latin``, ``factorial`` (all combinations of levels), or the designs themselves, path ->
     values, with ``vary`` a list of paths or empty. ``limits``: output -> ``"< 45 N*m"``. ``correlation``: of two paths,
-    between -1 and 1, of their normal scores. ``keep``: store the drawn numbers too. Raises ModelError.
+    between -1 and 1, of their normal scores. ``keep``: store the drawn numbers too. ``simulate``: motions under forces,
+    ``{"until": ["2 s", "O2.speed = 20 rad/s"], "start": ..., "count": 201, "tolerance": 1e-9}`` as in
+    `da.compile_motion`, whose numbers vary too; outputs are also ``time``, ``O2.position`` and ``O2.speed``, those at
+    the end, and ``reduce`` is over the instants, or ``final``. Raises ModelError.
 
     >>> import dalembert as da
     >>> s = da.study(da.four_bar(), {"links.coupler.mass": "± 5 %"}, ["effort.O2"], designs=1000, seed=7)
@@ -72,7 +75,12 @@ def study(
     >>> r["effort.O2"].shape, int(r.ok.sum())
     ((1000,), 1000)
     """
-    over_positions.check(reduce)
+    motion = None
+    if simulate is not None:
+        _refuse_beside_motion(static=static, positions=positions, lanes=lanes)
+        mechanism, motion = read_motion(mechanism, simulate)
+    if motion is None or reduce != "final":
+        over_positions.check(reduce)
     _check_counts(lanes=lanes, positions=positions)
     given = dict.fromkeys(vary, "") if not isinstance(vary, Mapping) else dict(vary)
     table = dict(draw) if isinstance(draw, Mapping) else None
@@ -83,103 +91,33 @@ def study(
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
         raise ModelError(f"the seed {seed!r} is no whole number of 0 or more", "give one, as 7", ("seed",))
     numbers, spreads, rows = (
-        _spreads(mechanism, given) if table is None else (*_columns(mechanism, given, table),)
+        spreads_of(mechanism, given) if table is None else columns_of(mechanism, given, table)
     )
     check_twofold(mechanism, numbers)
+    if motion is None and (of := next((n.path for n in numbers if of_motion(n.path)), "")):
+        raise ModelError(f"{of!r} is of a motion under forces", "write simulate: {until: 2 s}", ("vary", of))
     paths = tuple(n.path for n in numbers)
     how = "table" if table is not None else str(draw)
-    mixing = _mixing(paths, correlation or {}, how)
+    mixing = triangle_of(paths, correlation or {}, how)
     plan = Plan(paths, spreads, how, int(designs), int(seed), rows, mixing)
     names = (outputs,) if isinstance(outputs, str) else tuple(outputs) if outputs else None
     if names and len(set(names)) < len(names):
         raise ModelError("an output is asked for twice", "leave one of them out", ("outputs",))
-    found = Study(mechanism, plan, names, reduce, static, positions, keep, lanes)
+    found = Study(mechanism, plan, names, reduce, static, positions, keep, lanes, motion=motion)
     _ = found.engine  # what cannot be computed is refused here
     return found.with_limits(limits or {})
+
+
+def _refuse_beside_motion(**given: object) -> None:
+    for name, value in given.items():
+        if value:
+            raise ModelError(f"{name} is given, and the study simulates", f"leave {name} out", (name,))
 
 
 def _check_counts(**given: int | None) -> None:
     for name, count in given.items():
         if count is not None and (isinstance(count, bool) or not isinstance(count, int) or count < 1):
             raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
-
-
-def _at(path: str, error: ModelError) -> ModelError:
-    what = error.what if path in error.what else f"{path}: {error.what}"
-    return ModelError(what, error.remedy, ("vary", path))
-
-
-Found = tuple[list["Number"], tuple[Spread, ...], Array | None]
-
-
-def _spreads(m: Mechanism, given: Mapping[str, object]) -> Found:
-    numbers, spreads = [], []
-    for path, said in given.items():
-        try:
-            for number in varied_numbers(m, str(path)):
-                limits = m.parameters[number.path].range if number.parameter else None
-                spreads.append(read_spread(said, number.value, reader(m, number), limits))
-                numbers.append(number)
-        except ModelError as error:
-            raise _at(str(path), error) from None
-    return numbers, tuple(spreads), None
-
-
-def _columns(m: Mechanism, given: Mapping[str, object], table: Mapping[str, Sequence[object]]) -> Found:
-    """The designs of a table: path -> values."""
-    if extra := [path for path in given if path not in table]:
-        raise ModelError(f"the table has no column {extra[0]!r}", f"it has: {', '.join(table)}", ("vary",))
-    numbers, columns = [], list[list[float]]()
-    for path, values in table.items():
-        try:
-            own = varied_numbers(m, path)
-            if len(own) != 1:
-                raise ModelError(f"{path!r} is a vector", f"give a column of {own[0].path!r}, and so on")
-            si = reader(m, own[0])
-            columns.append([si(v.item() if isinstance(v, np.generic) else v) for v in values])
-        except ModelError as error:
-            raise _at(path, error) from None
-        numbers += own
-    if not columns or len({len(c) for c in columns}) > 1 or not columns[0]:
-        raise ModelError(
-            "a table of designs needs columns of one length", "give a value of each path for each"
-        )
-    return numbers, (), np.ascontiguousarray(np.array(columns).T)
-
-
-def _mixing(paths: Sequence[str], given: Mapping[tuple[str, str], float], draw: str) -> Array | None:
-    """The triangle that makes correlated normal scores."""
-    if not given:
-        return None
-    if draw in ("table", "factorial"):
-        raise ModelError(f"a {draw} has no correlation", "leave it out, or draw at random", ("correlation",))
-    matrix = np.eye(len(paths))
-    for pair, r in given.items():
-        for path in pair:
-            if path not in paths:
-                raise ModelError(
-                    f"correlation names {path!r}, which does not vary",
-                    f"there are: {', '.join(paths)}",
-                    ("correlation",),
-                )
-        i, j = (paths.index(path) for path in pair)
-        if i == j:
-            raise ModelError(
-                f"correlation names {paths[i]!r} with itself", "name two paths", ("correlation",)
-            )
-        if isinstance(r, bool) or not isinstance(r, (int, float)) or not -1 < r < 1:
-            raise ModelError(
-                f"{quote_value(r)} is no correlation of two numbers",
-                "give one between -1 and 1",
-                ("correlation",),
-            )
-        matrix[i, j] = matrix[j, i] = r
-    try:
-        return np.asarray(np.linalg.cholesky(matrix))
-    except np.linalg.LinAlgError:
-        raise ModelError(
-            "the correlations contradict each other", "make some of them smaller", ("correlation",)
-        ) from None
 
 
 @dataclass(frozen=True)
@@ -196,6 +134,7 @@ class Study:
     lanes: int | None = None
     limits: tuple[Limit, ...] = ()
     cache: dict[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    motion: Motion | None = None
 
     def __getstate__(self) -> Tree:
         return {**self.__dict__, "cache": {}}
@@ -208,11 +147,20 @@ class Study:
     def engine(self) -> Engine:
         """What computes a block."""
         if "engine" not in self.cache:
-            self.cache["engine"] = make_engine(
-                self.mechanism, self.paths, self.asked, self.reduce, self.static, self.positions, self.lanes
-            )
+            self.cache["engine"] = self.engine_for(self.asked, self.reduce)
         found: Engine = self.cache["engine"]
         return found
+
+    def engine_for(self, outputs: Sequence[str] | None, reduce: str | None) -> Engine:
+        """What computes blocks of any outputs of the same designs."""
+        if reduce == "squares":
+            raise ModelError(
+                "a study has no target for squares", 'reduce an expression by "rms"', ("reduce",)
+            )
+        if self.motion is not None:
+            return make_motion_engine(self.mechanism, self.paths, outputs, reduce, self.motion)
+        options = (self.static, self.positions, self.lanes)
+        return make_engine(self.mechanism, self.paths, outputs, reduce, *options)
 
     @property
     def paths(self) -> tuple[str, ...]:
@@ -228,9 +176,17 @@ class Study:
     def kinds(self) -> dict[str, str]:
         """What each output is, of `units.KINDS`."""
         if "kinds" not in self.cache:
-            self.cache["kinds"] = output_kinds(self.answer(self.mechanism), self.outputs, self.reduce)
+            known = self.end_kinds
+            rest = [name for name in self.outputs if name not in known]
+            kinds = known | (output_kinds(self.answer(self.mechanism), rest, self.reduce) if rest else {})
+            self.cache["kinds"] = {name: kinds[name] for name in self.outputs}
         found: dict[str, str] = self.cache["kinds"]
         return found
+
+    @property
+    def end_kinds(self) -> dict[str, str]:
+        """Names of what a motion ends with, which no reduction changes, and what each is."""
+        return {} if self.motion is None else end_kinds(self.mechanism)
 
     @property
     def number_kinds(self) -> dict[str, str]:
@@ -239,7 +195,9 @@ class Study:
         return dict(zip(self.paths, number_kinds(self.mechanism, numbers), strict=True))
 
     def answer(self, m: Mechanism) -> Result:
-        """The analysis of one design, as of all of them: `mechanism_of` makes it."""
+        """The analysis of one design, as of all of them: `mechanism_of` makes it; of a motion along it."""
+        if self.motion is not None:
+            return self.motion.of(m).result
         return solve(m, self.static, self.positions)
 
     def with_limits(self, limits: Mapping[str, str]) -> Study:
@@ -338,6 +296,7 @@ class Study:
             "keep": self.keep,
             "lanes": self.engine.kernel.lanes if isinstance(self.engine, KernelEngine) else None,
             "limits": {limit.output: limit.text for limit in self.limits},
+            **({} if self.motion is None else {"simulate": self.motion.tree()}),
         }
 
     def run(
@@ -392,7 +351,8 @@ def study_of_tree(m: Mechanism, tree: Tree, table: Array | None = None) -> Study
     mixing = None if tree["mixing"] is None else np.array(tree["mixing"])
     plan = Plan(tuple(tree["vary"]), spreads, tree["draw"], tree["designs"], tree["seed"], table, mixing)
     options = (tree["reduce"], tree["static"], tree["positions"], tree["keep"], tree["lanes"])
-    found = Study(m, plan, tuple(tree["outputs"]), *options)
+    motion = read_motion(m, tree["simulate"])[1] if "simulate" in tree else None
+    found = Study(m, plan, tuple(tree["outputs"]), *options, motion=motion)
     return found.with_limits(tree["limits"])
 
 

@@ -117,12 +117,12 @@ def attributes(study: Study) -> Tree:
 def layout(study: Study) -> dict[str, Layout]:
     """The arrays of a store, from a block of one design."""
     probe, _ = study.block(0, 1)
-    kinds, out = study.kinds, {}
+    kinds, out, along = study.kinds, {}, "position" if study.motion is None else "instant"
     for name in study.outputs:
         shape = probe[name].shape[1:]
-        names = [] if study.reduce else ["position"]
+        names = [] if study.reduce or not shape else [along]
         rest = shape[len(names) :]
-        if study.reduce == "envelope":
+        if study.reduce == "envelope" and shape:
             rest, last = rest[:-1], ["side"]
         else:
             last = []
@@ -130,7 +130,7 @@ def layout(study: Study) -> dict[str, Layout]:
         about = {"units": KINDS[kinds[name]].si, "reduce": study.reduce or "none"}
         out[name] = Layout(shape, "f8", (*names, *last), about)
     flags = {"flag_values": list(range(len(CODES))), "flag_meanings": " ".join(CODES)}
-    out["status"] = Layout(probe["status"].shape[1:], "u1", () if study.reduce else ("position",), flags)
+    out["status"] = Layout(probe["status"].shape[1:], "u1", (along,) * (probe["status"].ndim - 1), flags)
     for path in study.paths if study.keep else ():
         out[path] = Layout((), "f8", (), {"units": "SI"})
     return out

@@ -9,7 +9,7 @@ Mechanics: docs/theory.md 11.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
@@ -22,7 +22,7 @@ from dalembert.errors import ModelError
 from dalembert.kernel.emit.random_numbers import FIELDS, draw, quantiles
 from dalembert.saving import check_installed
 from dalembert.studies.spreads import Spread
-from dalembert.wording import closest
+from dalembert.wording import closest, quote_value
 
 DRAWS = ("random", "sobol", "latin", "factorial", "table")
 MOST = 10**12
@@ -33,6 +33,41 @@ LOW = 16
 """Bits of a Sobol point's number that are looked up in one table."""
 SHARE, SCORE = Spread("uniform", 0, 1), Spread("normal", 0, 1)
 """Of which a share is the value, and the normal score."""
+
+
+def triangle_of(paths: Sequence[str], given: Mapping[tuple[str, str], float], draw: str) -> Array | None:
+    """The triangle that makes correlated normal scores."""
+    if not given:
+        return None
+    if draw in ("table", "factorial"):
+        raise ModelError(f"a {draw} has no correlation", "leave it out, or draw at random", ("correlation",))
+    matrix = np.eye(len(paths))
+    for pair, r in given.items():
+        for path in pair:
+            if path not in paths:
+                raise ModelError(
+                    f"correlation names {path!r}, which does not vary",
+                    f"there are: {', '.join(paths)}",
+                    ("correlation",),
+                )
+        i, j = (paths.index(path) for path in pair)
+        if i == j:
+            raise ModelError(
+                f"correlation names {paths[i]!r} with itself", "name two paths", ("correlation",)
+            )
+        if isinstance(r, bool) or not isinstance(r, (int, float)) or not -1 < r < 1:
+            raise ModelError(
+                f"{quote_value(r)} is no correlation of two numbers",
+                "give one between -1 and 1",
+                ("correlation",),
+            )
+        matrix[i, j] = matrix[j, i] = r
+    try:
+        return np.asarray(np.linalg.cholesky(matrix))
+    except np.linalg.LinAlgError:
+        raise ModelError(
+            "the correlations contradict each other", "make some of them smaller", ("correlation",)
+        ) from None
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from dalembert.arrays import Tree
-from dalembert.errors import ModelError
+from dalembert.errors import ModelError, errors_at
 from dalembert.model import Mechanism
 from dalembert.model.files.task_files import load_task, plain_options
 from dalembert.studies.design_study import Study, study
@@ -24,13 +24,15 @@ KEYS = {
     "title": "what the study is",
     "vary": "path or parameter -> its spread",
     "outputs": "names of quantities, as effort.O2",
-    "reduce": "over the positions: peak, mean, rms, envelope, argpeak, norm8, refined_peak, refined_place, or none",
+    "reduce": "over the positions: peak, mean, rms, envelope, argpeak, norm8, refined_peak, refined_place, or none; "
+    "of a motion final too",
     "designs": "how many",
     "draw": "random, sobol, latin or factorial",
     "table": "a .csv file of designs in place of designs and draw: a column a path, its head `path [unit]`",
     "seed": "a whole number that draws the same designs again",
     "limits": "output -> what it has to keep, as < 45 N*m",
     "correlation": "'path, path' -> correlation of two numbers",
+    "simulate": "motions under forces, {until: [2 s, 'O2.speed = 20 rad/s'], start: ..., count: 201, tolerance: 1e-9}",
     "static": "true leaves inertia out",
     "positions": "number of positions in place of the file's",
     "keep": "true stores the drawn numbers too",
@@ -119,6 +121,10 @@ def _options(tree: Mapping[str, object]) -> Tree:
         out["draw"] = draw
     if "limits" in tree:
         out["limits"] = _mapping(tree, "limits", "effort.O2: < 45 N*m")
+    if "simulate" in tree:
+        said = _mapping(tree, "simulate", "until: 2 s")
+        given = {key: _texts(said[key]) for key in said if key in ("until", "start")}
+        out["simulate"] = {**said, **given, **_counted(said)}
     if "correlation" in tree:
         out["correlation"] = dict(map(_pair, _mapping(tree, "correlation", "'stroke, bore': 0.5").items()))
     return out
@@ -143,13 +149,19 @@ def _mapping(tree: Mapping[str, object], key: str, example: str) -> dict[str, ob
     return dict(value)
 
 
-def _texts(vary: Mapping[str, object]) -> dict[str, object]:
-    """Spreads with the bare numbers of lists as texts, which the file's units count for."""
+def _counted(said: Mapping[str, object]) -> dict[str, object]:
+    with errors_at("simulate"):
+        return plain_options(said, {"count": 2}, ())
 
-    def text(value: object) -> object:
-        return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
-    return {p: [text(x) for x in said] if isinstance(said, list) else text(said) for p, said in vary.items()}
+def _texts(given: Any) -> Any:
+    """Bare numbers, in lists and mappings too, as texts, for which the file's units count."""
+    if isinstance(given, Mapping):
+        return {key: _texts(value) for key, value in given.items()}
+    if isinstance(given, list):
+        return [_texts(value) for value in given]
+    number = isinstance(given, (int, float)) and not isinstance(given, bool) and given != 0
+    return repr(given) if number else given
 
 
 def _table(path: Path) -> dict[str, list[str]]:

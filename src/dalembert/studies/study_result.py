@@ -13,6 +13,7 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.errors import STATUSES, ModelError
 from dalembert.studies.design_study import Study, study_of_tree
 from dalembert.studies.limits import Limit, read_limit
+from dalembert.studies.motion_engines import SENTENCES
 from dalembert.studies.store import Store
 from dalembert.wording import closest
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from dalembert.reports import Report
 
 PERCENTILES = (0.1, 5.0, 50.0, 95.0, 99.9)
+ROUNDING = 1e-12
+"""Spread of values over their mean that is none."""
 
 
 class Failure(NamedTuple):
@@ -108,10 +111,12 @@ class StudyResult:
     def failed(self, some: int = 5) -> list[Failure]:
         """Designs that are not solved, by status, with the numbers of the first few."""
         marks, out = self._marks, []
+        known = {} if self.study.motion is None else SENTENCES
         for mark in np.unique(marks[~among(marks, (*SOLVED, 255))]):
             where = np.flatnonzero(marks == mark)
             code = CODES[mark]
             sentence = STATUSES[code].sentence if code in STATUSES else "Its values are refused."
+            sentence = known.get(code, sentence)
             out.append(Failure(code, len(where), tuple(where[:some].tolist()), sentence))
         return out
 
@@ -151,7 +156,10 @@ class StudyResult:
 
     def histogram(self, name: str, bins: int = 40) -> tuple[Ints, Array]:
         """Designs in each of some equal intervals, and the intervals' ends."""
-        counts, ends = np.histogram(self.values(name), bins)
+        values = self.values(name)
+        middle = float(np.mean(values)) if len(values) else 0.0
+        alike = bool((np.abs(values - middle) <= ROUNDING * np.abs(middle)).all())  # then 1 wide
+        counts, ends = np.histogram(values, bins, (middle - 0.5, middle + 0.5) if alike else None)
         return counts, ends
 
     def share(self, output: str, limit: str) -> float:

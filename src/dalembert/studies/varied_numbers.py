@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+import numpy as np
 
 from dalembert.analysis.batch.tracing.symbolic_model import (
     DRIVEN,
@@ -11,20 +13,23 @@ from dalembert.analysis.batch.tracing.symbolic_model import (
     numbers,
     refuse_twofold,
 )
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.model.paths import parameter_name, value_at
+from dalembert.studies.spreads import Spread, read_spread
 from dalembert.units import quantity
 from dalembert.wording import quote_value
 
 
 def varied_numbers(m: Mechanism, path: str) -> list[Number]:
-    """The numbers behind a path: of a vector its components; a drive's position too, which no kernel varies."""
+    """The numbers behind a path: of a vector its components; a drive's position too, which no kernel varies,
+    and where a motion starts."""
     keys = path.split(".")
     if name := parameter_name(path, m.parameters, m.keys()):
         return [Number(name, float(m.parameters[name].value), parameter=True)]
     value = value_at(m, keys)
-    if keys[0] == "drives" and isinstance(value, (int, float)) and not isinstance(value, bool):
+    if keys[0] in ("drives", "start") and isinstance(value, (int, float)) and not isinstance(value, bool):
         return [Number(path, float(value))]
     if keys[0] == "drives" and keys[2:3] and keys[2] in DRIVEN:
         raise ModelError(f"{path!r} is no single number", "leave it out: a single position may vary", keys)
@@ -55,3 +60,48 @@ def reader(m: Mechanism, number: Number) -> Callable[[object], float]:
         return quantity(value, kind, m.units)
 
     return si
+
+
+def _at(path: str, error: ModelError) -> ModelError:
+    what = error.what if path in error.what else f"{path}: {error.what}"
+    return ModelError(what, error.remedy, ("vary", path))
+
+
+Found = tuple[list[Number], tuple[Spread, ...], Array | None]
+"""Numbers, how each spreads, and the designs of a table."""
+
+
+def spreads_of(m: Mechanism, given: Mapping[str, object]) -> Found:
+    """Numbers and spreads of what varies."""
+    numbers, spreads = [], []
+    for path, said in given.items():
+        try:
+            for number in varied_numbers(m, str(path)):
+                limits = m.parameters[number.path].range if number.parameter else None
+                spreads.append(read_spread(said, number.value, reader(m, number), limits))
+                numbers.append(number)
+        except ModelError as error:
+            raise _at(str(path), error) from None
+    return numbers, tuple(spreads), None
+
+
+def columns_of(m: Mechanism, given: Mapping[str, object], table: Mapping[str, Sequence[object]]) -> Found:
+    """The designs of a table: path -> values."""
+    if extra := [path for path in given if path not in table]:
+        raise ModelError(f"the table has no column {extra[0]!r}", f"it has: {', '.join(table)}", ("vary",))
+    numbers, columns = [], list[list[float]]()
+    for path, values in table.items():
+        try:
+            own = varied_numbers(m, path)
+            if len(own) != 1:
+                raise ModelError(f"{path!r} is a vector", f"give a column of {own[0].path!r}, and so on")
+            si = reader(m, own[0])
+            columns.append([si(v.item() if isinstance(v, np.generic) else v) for v in values])
+        except ModelError as error:
+            raise _at(path, error) from None
+        numbers += own
+    if not columns or len({len(c) for c in columns}) > 1 or not columns[0]:
+        raise ModelError(
+            "a table of designs needs columns of one length", "give a value of each path for each"
+        )
+    return numbers, (), np.ascontiguousarray(np.array(columns).T)

@@ -15,9 +15,11 @@ from numpy.typing import ArrayLike
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.checked_input import numbers
 from dalembert.analysis.batch.compiled_kernel import lanes_here
-from dalembert.analysis.batch.tracing.symbolic_model import Number
+from dalembert.analysis.batch.tracing.symbolic_model import Number, with_numbers
+from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
+from dalembert.kernel.graph import Node
 from dalembert.kernel.memory import available
 from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
 from dalembert.machine.motion.equation import Equation
@@ -25,7 +27,7 @@ from dalembert.machine.motion.equation_trace import trace_equation
 from dalembert.machine.motion.motion_block import MotionBlock, Motions
 from dalembert.machine.motion.simulation import check_choices, read_end, read_start
 from dalembert.model import Mechanism
-from dalembert.model.paths import reached
+from dalembert.model.drives.starting import Start
 
 AT_ONCE = 16_384
 """Instants of the designs computed at once."""
@@ -106,7 +108,9 @@ def _compile(
     count: int,
     tolerance: float,
 ) -> MotionKernel:
-    prescribed, moves = actuation(m, read_start(m, start))
+    m = m.model_copy(update={"start": {**m.start, **read_start(m, start)}})
+    fixed = {n: Start(float(s.position), float(s.speed), s.turns) for n, s in m.start.items()}
+    prescribed, moves = actuation(m, fixed)
     end, conditions = read_end(m, until, ())
     check_choices(count, tolerance)
     if not np.isfinite(end):
@@ -116,21 +120,32 @@ def _compile(
     placed = next((path for path in vary if path.startswith("drives.") and path.endswith(".position")), "")
     if placed:
         raise ModelError(f"{placed!r} moves along the motion", f"vary 'start{placed[6:]}'")
-    hidden = [p for path in vary if path not in own for p in reached(m, path) if _of_drive(p)]
-    if hidden:
-        raise ModelError(f"a number that varies sets {hidden[0]!r}", f"vary {hidden[0]!r} itself")
     lanes = lanes_here()
-    equation = trace_equation(prescribed, [path for path in vary if path not in own], outputs)
+    rubs = [name for name, joint in m.joints.items() if getattr(joint, "friction", None) is not None]
+    why = f"joint {rubs[0]!r} has dry friction" if rubs else "the motion has loads that no formula gives"
+    try:
+        equation = trace_equation(prescribed, [path for path in vary if path not in own], outputs)
+    except ModelError as error:
+        raise ModelError(f"{why}: {error.what}", REMEDY, error.path) if rubs else error from None
     code = equation.steps(moves.free, lanes, works=False)
     if code is None:
-        raise ModelError("the motion is not smooth: friction, or loads that no formula gives", REMEDY)
-    lines = _lines(moves)
-    traced = equation.kernel.trace.numbers[: -2 * len(moves.names)]
+        raise ModelError(f"{why}, so that it is not smooth", REMEDY)
+    lines, traced = _lines(m, moves).astype(float), equation.kernel.trace.numbers[: -2 * len(moves.names)]
     where = (*traced, *(_number(moves, lines, path) for path in own))
     places = [k for path in vary for k, n in enumerate(where) if f"{n.path}.".startswith(f"{path}.")]
     instants = 1 if reduce == "final" or not outputs else count
     block = MotionBlock(equation, code, tuple(conditions), end, tolerance, instants)
-    return MotionKernel(m, block, lines, where, tuple(places), reduce)
+    return MotionKernel(m, block, lines, _formulas(m, moves, equation, traced), where, tuple(places), reduce)
+
+
+def _formulas(
+    m: Mechanism, moves: Actuation, equation: Equation, traced: Sequence[Number]
+) -> dict[tuple[int, int], Node]:
+    """Nodes of the numbers in ``ROWS`` that follow from parameters that vary."""
+    graph, nodes = equation.graph, equation.kernel.number_nodes[: len(traced)]
+    varied = {n: node for n, node in zip(traced, nodes, strict=True) if n.parameter}
+    found = _lines(with_numbers(m, varied, varied.values(), symbol_functions(graph)), moves)
+    return {(row, k): x for row, of in enumerate(found) for k, x in enumerate(of) if isinstance(x, Node)}
 
 
 def _refuse(moves: Actuation) -> None:
@@ -149,16 +164,16 @@ def _refuse(moves: Actuation) -> None:
             raise ModelError(f"the motor of drive {name!r} has corners or switches", REMEDY)
 
 
-def _lines(moves: Actuation) -> Array:
-    """``ROWS`` (5, D) of the drives."""
-    lines = np.zeros((5, len(moves.names)))
-    lines[1] = np.inf
-    for k, drive in enumerate(moves.drives):
-        motor = moves.motors.get(k)
-        lines[0, k] = float(drive.effort or 0.0)  # type: ignore[arg-type]  # no expression
-        if motor is not None and drive.effort is None:
-            lines[:2, k] = motor.effort[0], motor.speed[1]
-    lines[2:] = np.where(moves.free, 0.0, moves.acceleration), moves.position, moves.speed
+def _lines(m: Mechanism, moves: Actuation) -> Array:
+    """``ROWS`` (5, D) of the drives: numbers, or symbols."""
+    lines = np.zeros((5, len(moves.names)), object)
+    for k, (name, drive) in enumerate(m.drives.items()):
+        start, line = m.start.get(name), (0.0 if drive.effort is None else drive.effort, np.inf)
+        if drive.motor is not None and drive.effort is None:
+            line = drive.motor.effort[0], drive.motor.speed[1]
+        rate, speed = (np.ravel(np.array(x, object))[0] for x in (drive.acceleration, drive.speed))
+        begin = (moves.position[k], speed) if start is None else (start.position, start.speed)
+        lines[:, k] = *line, 0.0 if moves.free[k] else rate, *begin
     return lines
 
 
@@ -170,15 +185,22 @@ def _of_drive(path: str) -> bool:
     )
 
 
+def _varying(moves: Actuation, k: int) -> list[tuple[str, str]]:
+    """What of a drive may vary beside the equation."""
+    if k < 0 or not moves.free[k]:
+        return []
+    motor = moves.motors.get(k) if moves.drives[k].effort is None else None
+    own = ["effort"] if motor is None else [f"motor.{key}" for key in ("stall", "no_load") if motor.straight]
+    return [("start", "position"), ("start", "speed"), *(("drives", each) for each in own)]
+
+
 def _number(moves: Actuation, lines: Array, path: str) -> Number:
     kind, name, *last = path.split(".")
     what, k = ".".join(last), moves.names.index(name) if name in moves.names else -1
-    there = (
-        [n for n in ROWS if n.startswith("motor") == (k in moves.motors)] if k >= 0 and moves.free[k] else []
-    )
-    if what not in there or (kind == "start") != (ROWS[what] > 2):
+    if (kind, what) not in (there := _varying(moves, k)):
+        known = ", ".join(f"{of}.{name}.{each}" for of, each in there)
         raise ModelError(
-            f"{path!r} is no number of a drive that forces move", "there are: " + ", ".join(there)
+            f"{path!r} is no number of a drive that forces move", f"there are: {known or 'none'}"
         )
     return Number(path, float(lines[ROWS[what], k]))
 
@@ -190,6 +212,7 @@ class MotionKernel:
     mechanism: Mechanism = field(repr=False)
     block: MotionBlock = field(repr=False)
     lines: Array = field(repr=False)
+    formulas: dict[tuple[int, int], Node] = field(repr=False)
     where: tuple[Number, ...] = field(repr=False)
     places: tuple[int, ...] = field(repr=False)
     reduce: str | None
@@ -265,6 +288,12 @@ class MotionKernel:
         own = len(self.equation.values) - 1 - 2 * len(names)
         base, parts = np.tile(self.equation.values, many), np.tile(self.lines, (len(values), 1, 1))
         base[:, :own] = values[:, :own]
+        kernel, nodes = self.equation.kernel, list(self.formulas.values())
+        along = {n.index: column for n, column in zip(kernel.number_nodes, values.T, strict=False)}
+        for place, column in zip(
+            self.formulas, kernel.trace.catalogue.graph.evaluate(nodes, along), strict=True
+        ):
+            parts[:, *place] = column
         for column, n in enumerate(self.where[own:], own):
             _, name, what = n.path.split(".", 2)
             parts[:, ROWS[what], names.index(name)] = values[:, column]

@@ -17,8 +17,9 @@ from dalembert.machine.motion.equation import Equation
 from dalembert.machine.motion.occurrences import Condition
 from dalembert.machine.motion.steps import Integrator, between, first_step
 
-ATTEMPTS, MOST, ROOTS = 24, 100_000, 60
-"""Attempts of steps at once, and those after which a motion is given up; halvings that find a condition's time."""
+ATTEMPTS, MOST, SMALL, ROOTS = 24, 100_000, 0.01, 60
+"""Attempts of steps at once, and those after which a motion is given up; part of the mean step below which it is asked
+whether the state is in doubt; halvings that find a condition's time."""
 
 
 class Motions(NamedTuple):
@@ -86,7 +87,7 @@ class MotionBlock:
             return code.part(there, m, "rates")
 
         code.put(motions, "step", first_step(y, f, ahead, self.end, self.tolerance))
-        rows, of, attempts, stop = [], [], 0, np.full(m, self.end)
+        rows, of, attempts, stop, lost = [], [], 0, np.full(m, self.end), np.zeros(m, bool)
         while attempts < MOST:
             records = code.advance(values, motions, ATTEMPTS, True).transpose(0, 3, 1, 2)
             records = records.reshape(-1, *records.shape[2:])[:m]
@@ -97,12 +98,16 @@ class MotionBlock:
             attempts += ATTEMPTS
             for c in self.conditions:
                 stop[of[-1][self._meets(c, rows[-1])]] = -1.0  # it goes no further
+            small = np.flatnonzero((step * attempts < SMALL * time) & (time < stop))
+            if len(small):
+                fine = self._at(given[small], code.part(motions, m, "state")[small], time[small])[1]
+                lost[small[~fine]], stop[small[~fine]] = True, -1.0
             code.put(motions, "end", np.minimum(stop, self.end))
             if not ((time < stop) & (step > 0)).any():
                 break
         design = np.concatenate(of)
         order = np.argsort(design, kind="stable")
-        return np.concatenate(rows)[order], design[order], time < stop
+        return np.concatenate(rows)[order], design[order], lost | (time < stop)
 
     def _meets(self, c: Condition, records: Array) -> Flags:
         """In which steps a condition is met."""

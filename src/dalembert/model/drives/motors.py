@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from dalembert.arrays import Array
@@ -37,6 +37,15 @@ class MotorCurve:
     straight: bool = False
     on: Switch | None = None
     off: Switch | None = None
+
+    @property
+    def keys(self) -> dict[str, float]:
+        """Its numbers by their keys in a file: of a curve none."""
+        return {"stall": self.effort[0], "no_load": self.speed[1]} if self.straight else {}
+
+    def with_key(self, key: str, value: float) -> MotorCurve:
+        """Another motor, its effort at rest or its free speed replaced."""
+        return replace(self, effort=(value, 0.0)) if key == "stall" else replace(self, speed=(0.0, value))
 
     @property
     def kinks(self) -> tuple[float, ...]:

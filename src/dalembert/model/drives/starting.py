@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pydantic import ValidationInfo
 
@@ -29,6 +29,15 @@ class Start:
     position: float
     speed: float = 0.0
     turns: bool = True
+
+    @property
+    def keys(self) -> dict[str, float]:
+        """Its numbers by their keys in a file."""
+        return {"position": self.position, "speed": self.speed}
+
+    def with_key(self, key: str, value: float) -> Start:
+        """Another start, one of its numbers replaced."""
+        return replace(self, position=value) if key == "position" else replace(self, speed=value)
 
 
 def drives_at_start(drives: Mapping[str, Drive], start: Mapping[str, Start]) -> Mapping[str, Drive]:

@@ -12,7 +12,14 @@ from dalembert.errors import ModelError
 from dalembert.printing import number
 from dalembert.reports.sheet import Sheet
 from dalembert.studies.contributions import Contributions
-from dalembert.studies.output.study_text import extreme_rows, heading, limit_rows, output_rows, status_rows
+from dalembert.studies.output.study_text import (
+    extreme_rows,
+    heading,
+    limit_rows,
+    output_rows,
+    reduction,
+    status_rows,
+)
 from dalembert.studies.output.study_views import histogram_scene, response_scene, scatter_scene
 from dalembert.studies.spreads import CUT
 from dalembert.studies.study_result import StudyResult
@@ -39,8 +46,8 @@ def study_sheet(r: StudyResult) -> Sheet:
     heads, rows = output_rows(r)
     if rows:
         sheet.heading("Outputs")
-        over = f"Over the positions: {r.study.reduce}. " if r.study.reduce else ""
-        sheet.table(heads, rows, f"{over}Designs that are not solved are left out, and keep no limit")
+        left = "Designs that are not solved are left out, and keep no limit"
+        sheet.table(heads, rows, f"{reduction(r)} {left}".strip())
         sheet.table(["limit", "designs that keep it", "Cpk"], limit_rows(r))
     for name in (row[0] for row in rows):
         sheet.heading(name)
@@ -130,12 +137,21 @@ class _Output:
         n, k = self.r.best(self.name), self.r.worst(self.name)
         heads = ["number", "unit", "model file", f"least: design {n}", f"greatest: design {k}"]
         self.sheet.table(heads, extreme_rows(self.r, self.name), f"The least and the greatest {self.name}")
-        words = f"Design {n}, then design {k}, where {self.name} is largest in magnitude."
-        self.sheet.figure(self._drawing(n), self._drawing(k), caption=words)
+        where = "at the end" if self.at_end else f"where {self.name} is largest in magnitude"
+        self.sheet.figure(
+            self._drawing(n), self._drawing(k), caption=f"Design {n}, then design {k}, {where}."
+        )
+
+    @property
+    def at_end(self) -> bool:
+        """Whether it is what a motion ends with."""
+        return self.r.study.reduce == "final" or self.name in self.r.study.end_kinds
 
     def _drawing(self, design: int) -> Scene:
-        """A design where its output has the largest magnitude."""
+        """A design where its output has the largest magnitude, or at the end of its motion."""
         found = self.r.study.answer(self.r.study.mechanism_of(design))
-        size = np.abs(quantity(found, self.name).values)
-        at = int(np.nanargmax(size)) if np.isfinite(size).any() else 0
+        at = len(found.status) - 1
+        if not self.at_end:
+            size = np.abs(quantity(found, self.name).values)
+            at = int(np.nanargmax(size)) if np.isfinite(size).any() else 0
         return draw.mechanism(found, at + 1)

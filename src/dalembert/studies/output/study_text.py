@@ -26,7 +26,14 @@ def heading(r: StudyResult) -> str:
     done, plan = int(r.done.sum()), r.study.plan
     seconds = r.ledger[:, 1].sum() / 1e3
     seed = "" if plan.draw in ("table", "factorial") else f", seed {plan.seed}"
-    return f"{done:,} of {r.study.count:,} designs ({plan.draw}{seed}), {seconds:.3g} s of one core"
+    motion = "" if r.study.motion is None else f"; {r.study.motion}"
+    return f"{done:,} of {r.study.count:,} designs ({plan.draw}{seed}), {seconds:.3g} s of one core{motion}"
+
+
+def reduction(r: StudyResult) -> str:
+    """What the outputs are over, as a sentence."""
+    over = "positions" if r.study.motion is None else "instants"
+    return f"Over the {over}: {r.study.reduce}." if r.study.reduce else ""
 
 
 def status_rows(r: StudyResult) -> list[list[str]]:
@@ -62,10 +69,9 @@ def _outputs(r: StudyResult) -> list[str]:
     heads, rows = output_rows(r)
     if not rows:
         return said
-    reduce = f"Over the positions: {r.study.reduce}." if r.study.reduce else ""
     pictures = [_histogram(r, row[0]) for row in rows]
     return [
-        f"{reduce}\n{table(heads, rows, 2)}".strip(),
+        f"{reduction(r)}\n{table(heads, rows, 2)}".strip(),
         table(["", "from", "", "to", ""], pictures, 1),
         *said,
     ]

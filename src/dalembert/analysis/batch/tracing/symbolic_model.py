@@ -102,6 +102,12 @@ def _refuse_law(m: Mechanism, path: str) -> None:
         raise ModelError(f"{path!r} follows from the drive's law of motion", "leave it out, or the law", keys)
 
 
+def of_motion(path: str) -> bool:
+    """Whether a path names what a motion under forces begins with, or a number of a motor."""
+    keys = path.split(".")
+    return keys[0] == "start" or keys[2:3] == ["motor"]
+
+
 def _numbers(path: str, value: object) -> list[Number]:
     keys = path.split(".")
     if keys[0] == "drives" and len(keys) > 2 and keys[2] in DRIVEN:
@@ -110,6 +116,8 @@ def _numbers(path: str, value: object) -> list[Number]:
             "give the positions when you call the kernel",
             keys,
         )
+    if of_motion(path):
+        raise ModelError(f"{path!r} is of a motion under forces", "compile one: da.compile_motion", keys)
     if keys[0] == "drives" and isinstance(value, tuple):
         raise ModelError(
             f"{path!r} is a list along the motion",

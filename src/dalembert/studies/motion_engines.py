@@ -1,0 +1,188 @@
+"""What computes a block of motions under forces: compiled ones, or where these do not reach simulations, one by one.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from dalembert.analysis.batch.batch_result import CODES
+from dalembert.analysis.batch.over_positions import reduce_positions
+from dalembert.analysis.result.named_quantities import quantity
+from dalembert.arrays import Array, Tree
+from dalembert.errors import ModelError, errors_at
+from dalembert.machine.motion.compiled_motion import MotionKernel, compile_motion
+from dalembert.machine.motion.simulation import Simulation, check_choices, read_end, read_start, simulate
+from dalembert.model import Mechanism
+from dalembert.model.drives.drives import SLIDE, TURN
+from dalembert.model.part import check_keys
+from dalembert.studies.block_engines import AnalysisEngine, Block, Engine
+from dalembert.units import quantity as read_quantity
+from dalembert.wording import closest
+
+KEYS = ("until", "start", "count", "tolerance")
+AT_ONCE = 512
+"""Motions of a block that takes about a tenth of a second."""
+WHY = "; write it by `dalembert study design STORE N -o design.yaml`, and `dalembert simulate` says why."
+SENTENCES = {
+    "undecided": f"The steps of the motion became too small, or it comes near a dead centre{WHY}",
+    "failed": f"The motion cannot begin, or stops where it cannot go on{WHY}",
+}
+"""Of designs without numbers, by status."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What is simulated of each design: until when, at how many instants, with which tolerance."""
+
+    until: tuple[str | float, ...]
+    count: int = 201
+    tolerance: float = 1e-9
+
+    def of(self, m: Mechanism) -> Simulation:
+        """The motion of one design, with all that happens on its way."""
+        return simulate(m, self.until, count=self.count, tolerance=self.tolerance)
+
+    def tree(self) -> Tree:
+        """In plain values."""
+        return {"until": list(self.until), "count": self.count, "tolerance": self.tolerance}
+
+    def __str__(self) -> str:
+        ends = " or ".join(u if isinstance(u, str) else f"{u:g} s" for u in self.until)
+        return f"each simulated until {ends}, {self.count} instants"
+
+
+def read_motion(m: Mechanism, given: object) -> tuple[Mechanism, Motion]:
+    """What ``simulate:`` of a study says; the mechanism starts as it says."""
+    with errors_at("simulate"):
+        if not isinstance(given, Mapping) or "until" not in given:
+            raise ModelError("the motion does not say until when", "write simulate: {until: 2 s}")
+        check_keys(given, list(KEYS))
+        until, count, tolerance = given["until"], given.get("count", 201), given.get("tolerance", 1e-9)
+        several = (until,) if isinstance(until, (str, int, float)) else tuple(until)
+        with errors_at("until"):
+            end, _ = read_end(m, several, ())
+            if not np.isfinite(end):
+                raise ModelError("a motion whose condition is never met has no end", "add a time: [5 s, ...]")
+        with errors_at("start"):
+            if starts := read_start(m, given.get("start")):
+                m = m.with_values({"start": {**m.start, **starts}})
+        with errors_at("count"):
+            check_choices(count, 1e-9)
+        with errors_at("tolerance"):
+            check_choices(2, found := read_quantity(tolerance, "number"))
+    return m, Motion(several, count, found)
+
+
+def end_kinds(m: Mechanism) -> dict[str, str]:
+    """Names of what a motion ends with, and of which kind it is, of `units.KINDS`."""
+    found = {"time": "time"}
+    for name, drive in m.drives.items():
+        kinds = TURN if drive.turns else SLIDE
+        found |= {f"{name}.position": kinds[""], f"{name}.speed": kinds["speed"]}
+    return found
+
+
+def ends(m: Mechanism, time: Array, position: Array, speed: Array) -> Block:
+    """The values of these, from the time (design,), positions and speeds (design, drive)."""
+    return dict(
+        zip(
+            end_kinds(m), [time, *np.stack([position.T, speed.T], axis=1).reshape(-1, len(time))], strict=True
+        )
+    )
+
+
+@dataclass(frozen=True)
+class MotionEngine:
+    """Compiled motions, on one thread."""
+
+    kernel: MotionKernel
+    outputs: tuple[str, ...]
+    why: str = ""
+
+    @property
+    def positions(self) -> int:
+        return self.kernel.block.instants
+
+    @property
+    def most_at_once(self) -> int:
+        return AT_ONCE
+
+    @property
+    def text(self) -> str:
+        block = self.kernel.block
+        return f"{block.code.machine.text}{block.machine.text}{block.conditions}{block.end}{block.tolerance}"
+
+    def block(self, values: Array) -> Block:
+        found = self.kernel(values, threads=1)
+        parts = ends(self.kernel.mechanism, found.time, found.position, found.speed) | found.arrays
+        marks = np.where(found.ok, 0, CODES.index("undecided")).astype(np.uint8)
+        return {name: np.ascontiguousarray(parts[name]) for name in self.outputs} | {"status": marks}
+
+
+@dataclass(frozen=True)
+class SimulationEngine(AnalysisEngine):
+    """`da.simulate` of one design after the other: friction, brakes, stops, whatever it does."""
+
+    motion: Motion
+
+    @property
+    def positions(self) -> int:
+        return self.motion.count
+
+    @property
+    def marks(self) -> tuple[int, ...]:
+        return ()
+
+    @property
+    def text(self) -> str:
+        return f"simulations of {self.outputs}, {self.reduce}, {self.motion}"
+
+    def one(self, m: Mechanism) -> tuple[Block, Array]:
+        s = self.motion.of(m)
+        last = (x[-1:] for x in (s.time, s.result.schedule.position, s.result.schedule.speed))
+        parts = {name: x[0] for name, x in ends(m, *last).items()}
+        parts |= {name: self._over_time(s, name) for name in self.outputs if name not in parts}
+        found = {name: np.asarray(parts[name]) for name in self.outputs}
+        known = all(np.isfinite(x).all() for x in found.values())
+        mark = "failed" if s.ended.startswith("stopped") else "ok" if known else "at_rest"
+        return found, np.array(CODES.index(mark), np.uint8)
+
+    def _over_time(self, s: Simulation, name: str) -> Array:
+        """An output reduced over the instants: greatest values with those of events, else evenly from start to end;
+        but for those at rest, where dry friction leaves it open."""
+        values = quantity(s.result, name).values
+        known = np.isfinite(values).reshape(len(values), -1).all(axis=1)
+        if self.reduce == "final" or not known.any():
+            return np.asarray(values[-1])
+        values, time = values[known], s.time[known]
+        if self.reduce not in ("peak", "envelope"):
+            at, shape = np.linspace(0.0, s.time[-1], self.motion.count), values.shape[1:]
+            columns = [np.interp(at, time, x) for x in values.reshape(len(values), -1).T]
+            values = np.stack(columns, axis=-1).reshape(-1, *shape)
+        return values if self.reduce is None else reduce_positions(self.reduce, values)
+
+
+def make_motion_engine(
+    m: Mechanism, paths: Sequence[str], asked: Sequence[str] | None, reduce: str | None, motion: Motion
+) -> Engine:
+    """Compiled motions where they reach, else simulations, with the sentence why; raises ModelError where neither."""
+    names = tuple(end_kinds(m) if asked is None else asked)
+    outputs = tuple(name for name in names if name not in end_kinds(m))
+    if wrong := next((name for name in outputs if name.split(".")[0] in m.drives), ""):
+        raise ModelError(f"there is no output {wrong!r}", closest(wrong, list(end_kinds(m))))
+    try:
+        kernel = compile_motion(m, motion.until, paths, outputs, reduce, None, motion.count, motion.tolerance)
+    except ModelError as error:
+        try:
+            engine = SimulationEngine(m, tuple(paths), names, reduce, False, None, error.what, motion)
+            _ = engine.shapes
+        except ModelError:  # at its line of the model file, or else of what asks for it
+            known = ModelError(error.what, error.remedy, error.path)
+            raise known.at_source(m.source if error.path else None) from None
+        return engine
+    return MotionEngine(kernel, names)
