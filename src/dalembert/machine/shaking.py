@@ -115,8 +115,7 @@ def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) 
     >>> s.force.round(2), float(s.moment[0].round(4)), bool(s.residual.max() < 1e-12)
     (array([[613.33, 134.04]]), -194.2917, True)
     """
-    chosen = _chosen(r, links)
-    name, point = fixed_point(r, about)
+    chosen, (name, point) = _chosen(r, links), fixed_point(r, about)
     loads, carried = _actions(r, chosen)
     causes = {p: _sum(r, [a for a in loads if CAUSES[a.kind] == p], point) for p in CAUSES.values()}
     force, moment = (np.sum([w[k] for w in causes.values()], axis=0) for k in (0, 1))

@@ -71,7 +71,7 @@ def mass_columns(r: Result, weights: dict[str, Counterweight], about: Array, dri
     """Columns of the numbers (N) of every counterweight (W); axes (3,) in link axes, None of a link with several."""
     parts, axes = [], {}
     for link, w in weights.items():
-        own, spin = LinkAxes(r, link), np.zeros((0, 3))
+        own = LinkAxes(r, link)
         part, spin = _columns(r, own, base_point(r.mechanism, link, w.at), in_space(about), drive)
         parts.append(part)
         plane = r.mechanism.dimension == 2
@@ -92,17 +92,13 @@ def _columns(
     d, link = r.mechanism.dimension, own.link
     m, h, s = units(d)
     a, rate = own.own(r._acceleration(link, base)), own.rate
-    if (
-        not r.inertia
-        or max(np.abs(a).max(), np.abs(rate).max()) <= NOISE * np.abs(r.acceleration_array).max()
-    ):
+    largest = max(np.abs(a).max(), np.abs(rate).max())
+    if not r.inertia or largest <= NOISE * np.abs(r.acceleration_array).max():
         a, rate = 0 * a, 0 * rate  # a link that stands still
     force = -(m[:, None] * a[:, None] + np.einsum("pij,nj->pni", rate, h))
     product = np.einsum("pij,njk->pnik", rate, s)
-    axial = [
-        product[..., (i + 2) % 3, (i + 1) % 3] - product[..., (i + 1) % 3, (i + 2) % 3] for i in range(3)
-    ]
-    couple = -(np.cross(h, a[:, None]) + np.stack(axial, axis=-1))
+    axial = (product - np.swapaxes(product, -1, -2))[..., (2, 0, 1), (1, 2, 0)]
+    couple = -(np.cross(h, a[:, None]) + axial)
     force, couple = (np.einsum("pij,pnj->pin", own.rotation, v) for v in (force, couple))
     moment = couple + _cross(in_space(r._place(link, base)) - about, force)
     columns = {"force": force[:, :d], "moment": moment[:, 2:] if d == 2 else moment}
