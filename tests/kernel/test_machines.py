@@ -229,25 +229,43 @@ def test_what_is_always_zero_has_slope_zero(reduce: str) -> None:
     assert (k().gradient("moment.A") == 0).all()
 
 
-def test_redundancy_is_refused_with_its_joints() -> None:
+def test_what_redundant_constraints_leave_open_is_refused_with_its_reason() -> None:
+    """A second coupler at the same pins: the effort, the frame's forces and the motion are those of the first alone."""
     tree = four_bar_tree()
+    one = da.dynamics(da.mechanism(tree))
     tree["links"]["bar"] = {"points": {"A": [0, 0], "B": [0.32, 0]}}
     tree["joints"]["A2"] = {"type": "pin", "links": ["crank", "bar"], "at": ["A", "A"]}
     tree["joints"]["B2"] = {"type": "pin", "links": ["bar", "rocker"], "at": ["B", "B"]}
-    with pytest.raises(da.ModelError, match="redundant"):
-        da.compile(da.mechanism(tree))
+    m = da.mechanism(tree)
+    k = da.compile(m, ["links.bar.points.B.0"], derivatives=True)
+    assert k.outputs == ("effort.O2", "reaction.O2", "reaction.O4")
+    r = k([[0.32], [0.33]])
+    assert r.ok[0].all()
+    assert not r.ok[1].any()
+    assert r.effort("O2")[0] == pytest.approx(one.effort("O2"), rel=1e-10)
+    assert r.reaction("O4")[0] == pytest.approx(one.reaction("O4"), rel=1e-10)
+    with pytest.raises(da.ModelError, match=r"magnitude\.A2 cannot be compiled: constraints are redundant"):
+        da.compile(m, outputs=["magnitude.A2", "speed.rocker"])
 
 
-def test_a_lifted_linkage_is_refused_and_compiled_as_the_sentence_offers() -> None:
+def test_a_lifted_linkage_is_compiled_as_far_as_it_is_determined() -> None:
     """Each loop in planes is redundant three times; with a constraint freed the kernel has the analyses' reactions."""
     heights, plane = {"coupler": "20 mm"}, da.four_bar(positions=4)
     sentence = (
-        "3 redundant constraint(s) among joints O2, A, B, O4: not all reactions follow from equilibrium, so it cannot "
-        "be compiled; free a constraint, or use the analyses, which mark what is unique"
+        "reaction.A and moment.A cannot be compiled: constraints are redundant, and statics alone does not determine "
+        "it; leave it out, free a constraint, or use da.dynamics, which marks what is unique"
     )
     with pytest.raises(da.ModelError) as refused:
-        da.compile(da.lifted(plane, heights))
+        da.compile(da.lifted(plane, heights), outputs=["reaction.A", "moment.A", "effort.O2"])
     assert str(refused.value) == sentence
+    other = da.lifted(plane, heights)
+    lifted = da.compile(other, ["links.crank.points.A.0"])
+    assert lifted.outputs == ("effort.O2",)
+    many = lifted([lifted.nominal, 1.1 * lifted.nominal])
+    assert many.ok.all()
+    assert many.effort("O2")[0] == pytest.approx(da.dynamics(plane).effort("O2"), rel=1e-9)
+    longer = da.dynamics(other.with_values({"links.crank.points.A.0": 1.1 * lifted.nominal[0]}))
+    assert many.effort("O2")[1] == pytest.approx(longer.effort("O2"), rel=1e-9)
     marked = da.dynamics(da.lifted(plane, heights))
     assert set(marked.status) == {"redundant"}
     assert not marked.unique("A").all()

@@ -1,8 +1,10 @@
-"""Elimination of traced square systems by structure: A and its transpose from one set of factors.
+"""Elimination of traced systems by structure: A and its transpose from one set of factors.
 
 Pivots are the entries that are exactly 1 or -1 first (the force balances: no growth, no division), least fill first.
 What remains falls into blocks, each two-link group one block of 2 x 2 whose determinant is the sine of its
-transmission angle; larger blocks are eliminated entry by entry, with pivots chosen on sampled values.
+transmission angle; larger blocks are eliminated entry by entry, with pivots chosen on sampled values. Where rows repeat
+each other, the part with more rows than columns is a block of least squares: none of its rows is left out, so it is
+singular only where the mechanism is.
 
 Mechanics: docs/theory.md 8.
 """
@@ -29,9 +31,54 @@ class Step:
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
-    inverse: Matrix
+    inverse: Matrix | LeastSquares
     right: list[Row]
     below: list[tuple[int, list[Scalar]]]
+
+    def motion(self, right: list[Scalar]) -> list[Scalar]:
+        """The inverse times a column of its rows."""
+        return _times(self.inverse, right) if isinstance(self.inverse, list) else self.inverse.motion(right)
+
+    def forces(self, right: list[Scalar]) -> list[Scalar]:
+        """The transposed inverse times a column of its columns."""
+        if isinstance(self.inverse, list):
+            return _times(_transpose(self.inverse), right)
+        return self.inverse.forces(right)
+
+
+@dataclass
+class LeastSquares:
+    """A block S of more rows than columns, by its normal equations S^T W S, with weights W of the rows.
+
+    Motions agree with all rows; forces are those of least norm, one of many.
+    """
+
+    rows: list[Row]
+    weights: list[float]
+    factors: Structural
+
+    def motion(self, right: list[Scalar]) -> list[Scalar]:
+        """Solve S v = right, and once more for what is left."""
+        first = self._fit(right)
+        left = [
+            b - _dot(row.values(), [first[c] for c in row]) for row, b in zip(self.rows, right, strict=True)
+        ]
+        return [x + y for x, y in zip(first, self._fit(left), strict=True)]
+
+    def _fit(self, right: list[Scalar]) -> list[Scalar]:
+        sums: list[Scalar] = [0.0] * self.factors.size
+        for row, weight, b in zip(self.rows, self.weights, right, strict=True):
+            for c, x in row.items():
+                sums[c] = sums[c] + weight * x * b
+        return list(self.factors.motion(np.array(sums, object)))
+
+    def forces(self, right: list[Scalar]) -> list[Scalar]:
+        """Solve S^T x = right."""
+        y = self.factors.forces(np.array(right, object))
+        return [
+            weight * _dot(row.values(), [y[c] for c in row])
+            for row, weight in zip(self.rows, self.weights, strict=True)
+        ]
 
 
 @dataclass
@@ -42,6 +89,7 @@ class Structural:
     """
 
     size: int
+    count: int
     steps: list[Step]
     pivots: list[Scalar] = field(default_factory=list)
 
@@ -54,24 +102,24 @@ class Structural:
         b, v = list(rates), np.full(self.size, 0.0, object)
         kept = []
         for step in self.steps:
-            t = _times(step.inverse, [b[r] for r in step.rows])
+            t = step.motion([b[r] for r in step.rows])
             kept.append(t)
             for i, factors in step.below:
                 b[i] = _minus(b[i], factors, t)
         for step, t in zip(reversed(self.steps), reversed(kept), strict=True):
             if any(step.right):
                 sums = [_dot(row.values(), [v[c] for c in row]) for row in step.right]
-                t = [x - y for x, y in zip(t, _times(step.inverse, sums), strict=True)]
+                t = [x - y for x, y in zip(t, step.motion(sums), strict=True)]
             for c, x in zip(step.columns, t, strict=True):
                 v[c] = x
         return v
 
     def forces(self, wrench: Array) -> Array:
         """Solve J^T x = wrench."""
-        c, x = list(wrench), np.full(self.size, 0.0, object)
+        c, x = list(wrench), np.full(self.count, 0.0, object)
         kept = []
         for step in self.steps:
-            y = _times(_transpose(step.inverse), [c[k] for k in step.columns])
+            y = step.forces([c[k] for k in step.columns])
             kept.append(y)
             for row, factor in zip(step.right, y, strict=True):
                 for k, u in row.items():
@@ -82,7 +130,7 @@ class Structural:
                     _dot([factors[k] for _, factors in step.below], [x[i] for i, _ in step.below])
                     for k in range(len(step.columns))
                 ]
-                y = [p - q for p, q in zip(y, _times(_transpose(step.inverse), sums), strict=True)]
+                y = [p - q for p, q in zip(y, step.forces(sums), strict=True)]
             for r, value in zip(step.rows, y, strict=True):
                 x[r] = value
         return x
@@ -111,14 +159,19 @@ def _transpose(matrix: Matrix) -> Matrix:
     return [list(column) for column in zip(*matrix, strict=True)]
 
 
-def structural(graph: Graph, rows: list[Row], size: int) -> Structural:
-    """Factor a square system given by its rows {column: entry}; raises ValueError where its structure is singular."""
-    if len(rows) != size:
+def structural(graph: Graph, rows: list[Row], size: int, scale: Array | None = None) -> Structural:
+    """Factor a system given by its rows {column: entry}, some of which may repeat others if ``scale`` (K,) makes them
+    comparable; raises ValueError where its structure is singular."""
+    if len(rows) != size and (scale is None or len(rows) < size):
         raise ValueError(f"{len(rows)} equations for {size} unknowns")
     work = _Work(graph, [{c: x for c, x in row.items() if not is_zero(x)} for row in rows])
     work.unit_pivots()
+    if scale is not None and len(rows) > size:
+        work.repeated_rows(scale)
     work.block_pivots()
-    return Structural(size, work.steps, work.pivots)
+    if sum(len(step.columns) for step in work.steps) != size:
+        raise ValueError("structurally singular")
+    return Structural(size, len(rows), work.steps, work.pivots)
 
 
 class _Work:
@@ -161,7 +214,40 @@ class _Work:
                     best = (fill, c, sign)
         return best
 
-    def eliminate(self, rows: tuple[int, ...], columns: tuple[int, ...], inverse: Matrix) -> None:
+    def repeated_rows(self, scale: Array) -> None:
+        """Take out the part that has more rows than columns (Dulmage and Mendelsohn, 1958), and empty rows."""
+        self.rows = {r: row for r, row in self.rows.items() if row}
+        match = maximum_matching({r: set(row) for r, row in self.rows.items()})
+        owner = {c: r for r, c in match.items()}
+        found = [r for r in self.rows if r not in match]
+        for r in found:
+            found += [owner[c] for c in self.rows[r] if owner[c] not in found]
+        if not found:
+            return
+        columns = sorted({c for r in found for c in self.rows[r]})
+        place = {c: k for k, c in enumerate(columns)}
+        block = [{place[c]: x for c, x in self.rows[r].items()} for r in found]
+        weights = [float(scale[r]) ** 2 for r in found]
+        normal: list[Row] = [{} for _ in columns]
+        for row, weight in zip(block, weights, strict=True):
+            for a, x in row.items():
+                for b, y in row.items():
+                    normal[a][b] = normal[a].get(b, 0.0) + weight * (x * y)
+        inner = _Work(self.graph, normal)
+        inner.diagonal_pivots()
+        self.pivots += inner.pivots
+        factors = Structural(len(columns), len(columns), inner.steps)
+        self.eliminate(tuple(found), tuple(columns), LeastSquares(block, weights, factors))
+
+    def diagonal_pivots(self) -> None:
+        """Those of a positive system, least fill first."""
+        while self.rows:
+            r = min(self.rows, key=lambda row: len(self.rows[row]))
+            self.block([r], [r])
+
+    def eliminate(
+        self, rows: tuple[int, ...], columns: tuple[int, ...], inverse: Matrix | LeastSquares
+    ) -> None:
         """Take a pivot block out: Schur complement of the rest."""
         taken = [self.rows.pop(r) for r in rows]
         right = [{c: x for c, x in row.items() if c not in columns} for row in taken]
@@ -169,16 +255,15 @@ class _Work:
             for c in row:
                 self.columns[c].discard(r)
         touched = sorted(set().union(*(self.columns.pop(c) for c in columns)))
-        below = []
+        step = Step(rows, columns, inverse, right, [])
         for i in touched:
             row = self.rows[i]
             factors = [row.pop(c, 0.0) for c in columns]
-            below.append((i, factors))
-            scaled = _times(_transpose(inverse), factors)
-            for u, factor in zip(right, scaled, strict=True):
+            step.below.append((i, factors))
+            for u, factor in zip(right, step.forces(factors), strict=True) if any(right) else ():
                 if not is_zero(factor):
                     self.subtract(i, row, u, factor)
-        self.steps.append(Step(rows, columns, inverse, right, below))
+        self.steps.append(step)
 
     def subtract(self, i: int, row: Row, u: Row, factor: Scalar) -> None:
         for c, x in u.items():

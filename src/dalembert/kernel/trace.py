@@ -33,6 +33,7 @@ from dalembert.core.geometry import span
 from dalembert.core.layout import Angle, Layout, Pose, System
 from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_wheels, phase_rows, with_rows
+from dalembert.core.position.newton import CLOSED, gap
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
 from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, is_zero, trace_array
@@ -87,13 +88,16 @@ class Problem:
     at_pose: Callable[[Forcing, Pose], Forcing] | None = None  # of loads that go by the pose
     moves: bool = False
     side: Node | None = None  # -1 just before reversals, 1 just after
+    redundant: bool = False  # some rows repeat others
+    whole: bool = False  # and where closed forms need a choice of these, Newton's steps take all
 
 
 @dataclass(frozen=True)
 class Traced:
     """Everything that can be asked for, as nodes: arrays as in a ``Result`` without the position axis.
 
-    closure: those doubts that are squares of what vanishes at a dead centre. unbalanced and loads (L, n): what is left
+    closure: those doubts that are squares of what vanishes at a dead centre, or its fourth powers where constraints
+    repeat each other. unbalanced and loads (L, n): what is left
     of all wrenches on a link, and those that are no reactions; virtual (D, L+1, n) twists at unit speed of each drive,
     power (D,) of loads and efforts there. sources: wrenches of loads by kind, one by one, `asked` the unknown ones.
     """
@@ -129,7 +133,10 @@ def trace(p: Problem) -> Traced:
     """Positions, motion and equilibrium of one position of one design."""
     layout = replace(p.layout, solver=solver(p.graph))
     target, apart = _with_phase(p, layout)
-    return _trace_at(p, layout, _trace_pose(p, layout, target, p.drives, p.path), apart)
+    placed = _trace_pose(p, layout, target, p.drives, p.path)
+    if p.redundant:
+        placed.open.append(_closed(p, layout, placed.pose, target))
+    return _trace_at(p, layout, placed, apart)
 
 
 def trace_at(p: Problem, pose: Pose) -> Traced:
@@ -153,7 +160,7 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
     pushed = fc.separation(layout, pose, p.forcing.separation, x)
     found = Balance(x[:count], effort, x[count + asked :], *(np.zeros(0),) * 3, None, pushed)
     force, couple = reactions(layout, pose, rows, found)
-    g = p.graph
+    g, singular = p.graph, _singular(p, factors, s.forces)
     reacted = total_wrench(layout, pair(s.unknown, x))
     if p.known.link.size:
         unit = load_rows(layout, p.known, pose)
@@ -171,11 +178,11 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
         virtual=trace_array(g, moving.virtual),
         power=trace_array(g, virtual_power(layout, moving.virtual, s.unknown, x, friction.total)),
         open=placed.open,
-        closure=placed.doubt,
+        closure=[*placed.doubt, *singular] if p.redundant else placed.doubt,
         doubt=[
             *apart,
             *placed.doubt,
-            *_singular(p, factors, s.forces),
+            *singular,
             *_short(p, layout, pose),
             *_turn_count_doubt(p, layout, pose),
             *_unheld(p.graph, layout, spins, friction.total),
@@ -230,7 +237,19 @@ def _trace_pose(
     whole = trace_array(p.graph, np.concatenate([target, drives.position]))
     ways = (positions, newton_correction) if layout.algebra.d == 2 else (space_positions, space_correction)
     place = ways[p.slips is not None]
-    return place(Motion(p.graph, layout, whole, turns, path, p.signs, moves=p.moves))
+    own = Motion(p.graph, layout, whole, turns, path, p.signs, moves=p.moves, redundant=p.redundant)
+    found = place(own)
+    if p.whole and layout.algebra.d == 2 and found.doubt:  # of a choice of rows, not of all
+        return place(replace(own, placed=set(), whole=True))
+    return found
+
+
+def _closed(p: Problem, layout: Layout, pose: Pose, target: Array) -> Node:
+    """Below zero where some constraint is not met: those that repeat others may have been left out."""
+    rest = replace(layout, driven=np.zeros(0, np.intp))
+    off = np.delete(gap(rest, pose, trace_array(p.graph, target)), layout.constraints.idle)
+    margin: Node = (CLOSED * layout.length) ** 2 - (off * off).sum()
+    return margin
 
 
 def _cos(angle: Scalar) -> Scalar:

@@ -47,6 +47,8 @@ def redone(
     """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
     code = found.code
     marks, result = analyse_design(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
+    if k.trace.redundant:  # the outputs there are unique
+        marks = np.where(marks == CODES.index("redundant"), np.uint8(0), marks)
     here = np.ones(len(marks), bool) if k.reduce else undecided
     for rates in (found.rates, found.after_rates):
         for rate in rates.values():

@@ -48,11 +48,12 @@ def compile(  # noqa: A001
 ) -> Kernel:
     """An analysis as machine code: for one structure in the plane or in space, whatever the numbers at ``vary``.
 
-    outputs: names such as ``effort.O2``, ``reaction.A``, ``angle.coupler``; default all efforts and reactions.
-    reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope`` or others (docs/kernel.md); default none.
-    derivatives: exact ones of every output with respect to every number. static: leave inertia out.
+    outputs: names such as ``effort.O2``, ``reaction.A``, ``angle.coupler``; default all efforts and reactions
+    that are unique. reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope`` or others (docs/kernel.md);
+    default none. derivatives: exact ones of every output with respect to every number. static: leave inertia out.
     lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
-    Raises ModelError for what only the analyses can do (redundancy, unknown positions).
+    Raises ModelError for what only the analyses can do (unknown positions, what redundant
+    constraints leave undetermined).
 
     >>> import dalembert as da
     >>> k = da.compile(da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"])
@@ -64,10 +65,11 @@ def compile(  # noqa: A001
     over_positions.check(reduce)
     _check_count("lanes", lanes)
     try:
-        trace = trace_analysis(mechanism, _several(vary), mechanism.has_speeds and not static)
+        inertia = mechanism.has_speeds and not static
+        trace = trace_analysis(mechanism, _several(vary), inertia, redundant=True)
+        names = trace.unique(None if outputs is None else _several(outputs))
     except ModelError as error:
         raise error.at_source(mechanism.source) from None
-    names = _several(outputs) if outputs is not None else tuple(trace.catalogue.defaults())
     if derivatives and reduce == "argpeak":
         raise ModelError(
             "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
@@ -197,7 +199,7 @@ class Kernel:
         """The same outputs and their derivatives from solutions of the general executor; compiled when first used."""
         course = self.trace.course
         solved = at_schedule(self.mechanism, course.schedule, self.trace.inertia)
-        trace = trace_analysis(self.mechanism, self.numbers, self.trace.inertia, solved)
+        trace = trace_analysis(self.mechanism, self.numbers, self.trace.inertia, solved, redundant=True)
         return replace(self, trace=trace, reduce=None, derivatives=True)
 
     def warm(self) -> None:

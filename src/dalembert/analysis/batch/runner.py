@@ -109,7 +109,7 @@ class Runner:
     def sided(self) -> Any:
         """The kernel with the side of reversals as an input."""
         k = self.k
-        trace = trace_analysis(k.mechanism, k.numbers, k.trace.inertia, sided=True)
+        trace = trace_analysis(k.mechanism, k.numbers, k.trace.inertia, sided=True, redundant=True)
         return replace(k, trace=trace, reduce=None)
 
     @cached_property

@@ -54,7 +54,9 @@ def groups(layout: Layout, pose: Pose) -> list[Group]:
     j = _scaled_jacobian(layout, pose)
     filled = np.abs(j).max(axis=0) > NOTHING
     every = np.arange(layout.stack.count)
-    choices = [every] if layout.square else [_independent(j[0], every), _independent(j[0], every[::-1])]
+    choices = (
+        [every] if layout.square else [independent_rows(j[0], every), independent_rows(j[0], every[::-1])]
+    )
     found: list[Group] = []
     for kept in choices:
         blocks = block_triangular([np.flatnonzero(filled[row]).tolist() for row in kept], layout.unknowns)
@@ -88,7 +90,7 @@ def on_independent_rows(layout: Layout, pose: Pose) -> Layout:
     """
     if layout.square:
         return layout
-    kept = _independent(_scaled_jacobian(layout, pose.at(None))[0], np.arange(layout.stack.count))
+    kept = independent_rows(_scaled_jacobian(layout, pose.at(None))[0], np.arange(layout.stack.count))
 
     def solver(at: Layout, rows: System) -> Chosen:
         some = rows.rows(kept)
@@ -97,7 +99,7 @@ def on_independent_rows(layout: Layout, pose: Pose) -> Layout:
     return replace(layout, solver=solver)
 
 
-def _independent(j: Array, order: Ints) -> Ints:
+def independent_rows(j: Array, order: Ints) -> Ints:
     """Rows of J (K, n L), taken in an order, that do not depend on those before."""
     kept, basis = [], np.zeros((0, j.shape[1]))
     for row in order:

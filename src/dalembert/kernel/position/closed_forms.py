@@ -10,8 +10,10 @@ Mechanics: docs/theory.md 8.
 from __future__ import annotations
 
 from itertools import combinations
+from typing import Any
 
-from dalembert.kernel.elimination import components, maximum_matching
+import numpy as np
+
 from dalembert.kernel.graph import Scalar
 from dalembert.kernel.position import plane_vectors as v
 from dalembert.kernel.position.plane_vectors import Pair
@@ -26,7 +28,7 @@ class Groups(Parts):
     def grow(self) -> Placed:
         """Join parts until one is left."""
         while len(self.part) > 1:
-            if not (self.pairs() or self.triples()):
+            if not (self.pairs() or self.triples() or self.pinned_twice()):
                 self.general()
         self.out.pose = self.pose()
         return self.out
@@ -193,6 +195,26 @@ class Groups(Parts):
         second = rotations[1], v.minus(at, v.rotate(rotations[1], zc))
         self.join(x, (y, first), (z, second))
 
+    def pinned_twice(self) -> bool:
+        """A part with two pins on the ground's, of which others repeat a condition."""
+        ground = self.owner[self.ground]
+        for y in self.part.keys() - {ground} if self.m.dependent else ():
+            pins = [
+                r for r in self.todo if r.kind == "meet" and {self.owner[r.i], self.owner[r.j]} == {ground, y}
+            ]
+            if len(pins) < 2 or self.tied & self.part[y].keys():
+                continue
+            (a, ya), (b, yb) = ([self.point(*end) for end in self.ends(r, y)] for r in pins[:2])
+            line, way = v.minus(yb, ya), v.minus(b, a)
+            length2 = v.dot(line, line)
+            if self.longer(length2, 0.0):
+                # whether both are of one length is still to be seen
+                size: Any = np.sqrt(length2 * v.dot(way, way))  # type: ignore[arg-type]  # of nodes too
+                rotation = v.rotate_back(v.times(1.0 / size, line), way)
+                self.merge(ground, y, (rotation, v.minus(a, v.rotate(rotation, ya))))
+                return True
+        return False
+
     def general(self) -> None:
         """Newton for the fewest links that can be placed together."""
         links = self.smallest()
@@ -211,21 +233,7 @@ class Groups(Parts):
 
     def smallest(self) -> list[int]:
         """Links of the first block of parts that depends on nothing unplaced."""
-        ground = self.owner[self.ground]
-        wants: dict[int, set[int]] = {}
-        for r in self.todo:
-            parts = {self.owner[r.i], self.owner[r.j]} - {ground}
-            if self.owner[r.i] != self.owner[r.j]:
-                for row in r.rows:
-                    wants[row] = {3 * p + k for p in parts for k in range(3)}
-        match = maximum_matching(wants)
-        if len(match) < 3 * (len(self.part) - 1):
-            raise ValueError("the positions are not determined by the drives")
-        needs: dict[int, set[int]] = {p: set() for p in self.part if p != ground}
-        for row, column in match.items():
-            needs[column // 3] |= {c // 3 for c in wants[row]} - {column // 3}
-        first = components(needs)[0]
-        return sorted(link for p in first for link in self.part[p])
+        return sorted(link for p in self.blocks()[0] for link in self.part[p])
 
 
 def _kind(found: list[Relation]) -> str | None:

@@ -30,7 +30,9 @@ def held_rows(m: Motion, link: int) -> Held:
         (f, k)
         for f in m.layout.stack.families
         for k, ends in enumerate(zip(f.i.tolist(), f.j.tolist(), strict=True))
-        if link in ends and set(ends) <= m.placed | {link}
+        if link in ends
+        and set(ends) <= m.placed | {link}
+        and not m.dependent & set(np.ravel(f.row[k]).tolist())
     ]
 
 

@@ -11,6 +11,7 @@ from dalembert.arrays import Array
 from dalembert.core.layout import Layout, Pose
 from dalembert.kernel.graph import CONSTANT, POSITION, Graph, Node, Scalar
 from dalembert.kernel.position import plane_vectors as v
+from dalembert.kernel.position.placing_order import UNDETERMINED, blocks, dependent_rows
 from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.position.relations import Relation, relations
 
@@ -56,7 +57,9 @@ class Motion:
 
     ``path`` gives one quantity of the known motion, that of the mechanism with the file's numbers, as an input;
     ``signs`` says which of two relative rotations of two links it has; in space which of two rotations, or points, of
-    the second, in ground axes. ``moves``: the drives' positions differ from the known motion's.
+    the second, in ground axes. ``moves``: the drives' positions differ from the known motion's. ``redundant``: some
+    rows, the ``dependent``, repeat others; in the plane links that these hold are placed by all rows at once if
+    ``whole``.
     """
 
     graph: Graph
@@ -67,6 +70,9 @@ class Motion:
     signs: Callable[[tuple[Scalar, ...], tuple[Scalar, ...], int, int], Scalar]
     placed: set[int] = field(default_factory=set)
     moves: bool = False
+    redundant: bool = False
+    whole: bool = False
+    dependent: frozenset[int] = frozenset()
 
 
 class Parts:
@@ -80,15 +86,33 @@ class Parts:
         self.turn: dict[int, Node] = {self.ground: self.graph.zero}
         self.todo = relations(motion.layout, motion.target, motion.turns)
         self.order = {id(r): k for k, r in enumerate(self.todo)}
+        self.tied: set[int] = set()
+        if motion.redundant:
+            motion.dependent = dependent_rows(motion.graph, motion.layout, self.pose(partial=True))
+        if motion.whole:
+            repeated = {k for r in self.todo if motion.dependent & set(r.rows) for k in (r.i, r.j)}
+            self.tied = {k for block in self.blocks() if repeated & set(block) for k in block}
         self.find_between()
         self.out = Placed(Pose(np.zeros(0), np.zeros(0), np.zeros(0)))
 
+    def blocks(self) -> list[list[int]]:
+        """Parts that can only be placed together, those that need nothing unplaced first."""
+        name = {part: -1 if part == self.owner[self.ground] else part for part in self.part}
+        ends = {row: {name[self.owner[r.i]], name[self.owner[r.j]]} for r in self.todo for row in r.rows}
+        found = {row: parts for row, parts in ends.items() if len(parts) > 1}
+        if set(name.values()) - {-1} - set().union(*found.values()):
+            raise ValueError(UNDETERMINED)
+        return blocks(found, 3, self.m.dependent)
+
     def find_between(self) -> None:
-        """Conditions ``between`` each two parts, in their order, and the parts ``near`` each."""
+        """Conditions ``between`` each two parts, in their order, and the parts ``near`` each; none that others repeat,
+        nor those of links to be placed as a whole."""
+        later = {k for k in self.tied if self.owner[k] != self.owner[self.ground]}
         self.between: dict[tuple[int, int], list[Relation]] = {}
         self.near: dict[int, set[int]] = {part: set() for part in self.part}
         for r in self.todo:
-            if self.owner[r.i] != self.owner[r.j]:
+            apart = not later & {r.i, r.j} and not self.m.dependent & set(r.rows)
+            if apart and self.owner[r.i] != self.owner[r.j]:
                 self.add_between(self.owner[r.i], self.owner[r.j], [r])
 
     def add_between(self, a: int, b: int, more: list[Relation]) -> None:

@@ -16,9 +16,9 @@ from dalembert.algebra import space
 from dalembert.arrays import Array
 from dalembert.core.branchless import any_traced
 from dalembert.core.layout import Layout, Pose
-from dalembert.kernel.elimination import components, maximum_matching
 from dalembert.kernel.graph import trace_array
 from dalembert.kernel.position.held_links import closed_form, direct, held_rows
+from dalembert.kernel.position.placing_order import blocks, dependent_rows
 from dalembert.kernel.position.rigid_parts import Motion, Placed
 from dalembert.kernel.position.rods import place_rod, without_rods
 from dalembert.kernel.position.unrolled_newton import newton
@@ -49,10 +49,19 @@ def varies(layout: Layout, target: Array) -> bool:
 def space_positions(m: Motion, steps: int = STEPS) -> Placed:
     """Poses of all links from the drives' positions."""
     known, moves = known_pose(m), m.moves or varies(m.layout, m.target)
+    if m.redundant and m.moves:
+        steps = 1
     out = Placed(Pose(*(a.copy() for a in known)))
     m.placed = {m.layout.links}
     rods, m = without_rods(m)
-    for links in blocks(m.layout):
+    if m.redundant:
+        m.dependent = dependent_rows(m.graph, m.layout, known)
+    ground = {m.layout.links}
+    ends = {
+        row: {-1 if k in ground else int(k) for k in of}
+        for row, of in enumerate(zip(*m.layout.stack.ends, strict=True))
+    }
+    for links in blocks(ends, 6, m.dependent):
         rows = held_rows(m, links[0]) if len(links) == 1 else []
         found = direct(m, out.pose, links[0], rows)
         if found is None and steps:
@@ -73,19 +82,3 @@ def space_positions(m: Motion, steps: int = STEPS) -> Placed:
 def space_correction(m: Motion) -> Placed:
     """Poses of all links where the known motion is the solution: a last step of Newton carries the derivatives."""
     return space_positions(m, steps=0)
-
-
-def blocks(layout: Layout) -> list[list[int]]:
-    """Links that can only be placed together, those that need nothing unplaced first."""
-    wants = {
-        row: {6 * link + c for link in ends if link != layout.links for c in range(6)}
-        for row, ends in enumerate(zip(*(end.tolist() for end in layout.stack.ends), strict=True))
-    }
-    match = maximum_matching(wants)
-    if len(match) < len(wants):
-        raise ValueError("the positions are not determined by the drives")
-    needs: dict[int, set[int]] = {}
-    for row, column in match.items():
-        link = column // 6
-        needs[link] = needs.get(link, set()) | {c // 6 for c in wants[row]} - {link}
-    return [sorted(block) for block in components(needs)]

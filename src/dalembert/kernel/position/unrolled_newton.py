@@ -14,6 +14,7 @@ import numpy as np
 from dalembert.algebra import space
 from dalembert.arrays import Ints
 from dalembert.core.constraints import stack_rows
+from dalembert.core.factor import row_scale
 from dalembert.core.layout import Layout, Pose, Rows, System, select_rows
 from dalembert.core.position.newton import displace, gap
 from dalembert.kernel.elimination import Row, Structural, structural
@@ -92,7 +93,7 @@ def factor_rows(graph: Graph, layout: Layout, rows: System, links: list[int]) ->
             if link in place:
                 row |= {place[link] + c: x for c, x in enumerate(wrench) if not is_zero(x)}
         out.append(row)
-    return structural(graph, out, n * len(links))
+    return structural(graph, out, n * len(links), row_scale(layout, rows.angular))
 
 
 def solver(graph: Graph) -> Callable[[Layout, System], Structural]:

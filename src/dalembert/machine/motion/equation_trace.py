@@ -74,12 +74,16 @@ def trace_equation(
     then what is below zero where it is in doubt."""
     names = tuple(m.drives)
     moving = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
-    trace = trace_analysis(m, [*vary, *moving], inertia=True, moves=True)
+    whole, varied = outputs is None, [*vary, *moving]
+    trace = trace_analysis(m, varied, inertia=True, moves=True, redundant=True, whole=whole)
+    trace.unique(outputs or ())
     graph, traced, count = trace.catalogue.graph, trace.catalogue.traced, len(names)
     kernel = Kernel(m, trace, outputs or (), None, False, 1)
     numbers = kernel.number_nodes[-2 * count :]
     effort = [n for name in names for n in trace.catalogue.nodes(f"effort.{name}")]
     mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
+    if trace.redundant:  # no number where constraints that repeat others are not met
+        effort = [n + 1e-300 * traced.open[-1].sqrt() for n in effort]
     rubbing, *linear = _contacts(trace, numbers[count:])
     moved = [rubbing, traced.closure, _stop_motion(trace, numbers[count:])]
     parts = [effort, mass, _powers(graph, trace.catalogue.compiled, traced), *moved, *linear]

@@ -123,7 +123,9 @@ class Simulation(Answer):
     def law_gap(self) -> Array:
         """The found motion, prescribed, asks for the efforts that made it: where they are numbers, nothing reverses."""
         r, free = self.result, self.moves.free
-        sure = np.array([s in ("ok", "self_locking") for s in r.status])
+        sure = np.array([s in ("ok", "self_locking", "redundant") for s in r.status])
+        if r.friction is not None:
+            sure &= ~r.friction.reversing.any(axis=1)
         asked, given = r.effort_array[:, free], self.applied[:, free]
         inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
         largest = max(float(np.abs(x[sure]).max(initial=0.0)) for x in (asked, given, inner))

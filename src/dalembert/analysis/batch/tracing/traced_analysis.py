@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,12 +13,18 @@ from dalembert.analysis.batch.tracing.symbolic_model import Number, functions, g
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME, coordinates
 from dalembert.analysis.degree_of_freedom import check_knowns
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.arrays import Array
+from dalembert.core.constraints import stack_rows
+from dalembert.core.equilibrium import UNIQUE
+from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing
 from dalembert.core.gear_rows import gearings
 from dalembert.core.layout import Gearing, Idle, Layout, Pose
+from dalembert.core.linear import PseudoInverse
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.kernel.trace import Problem, Traced, trace
@@ -34,6 +40,26 @@ class Trace:
     numbers: tuple[Number, ...]
     catalogue: Catalogue
     inertia: bool
+    redundant: bool = False
+
+    def unique(self, outputs: Sequence[str] | None) -> tuple[str, ...]:
+        """The outputs, default all that are unique; raises ModelError where constraints are redundant and statics alone
+        does not determine one that is asked for."""
+        m, names = self.course.mechanism, self.catalogue.defaults() if outputs is None else outputs
+        if not (self.redundant and names):
+            return tuple(names)
+        rigid = {name: joint.model_copy(update={"stiffness": None}) for name, joint in m.joints.items()}
+        r = at_schedule(m.model_copy(update={"joints": rigid}), self.course.schedule, self.inertia)
+        here = np.array(r.status) == "redundant"
+        open_ = [name for name in names if np.isnan(quantity(r, name).values[here]).any()]
+        if open_ and outputs is not None:
+            raise ModelError(
+                f"{' and '.join(open_)} cannot be compiled: constraints are redundant, and statics alone does not "
+                "determine it",
+                "leave it out, free a constraint, or use da.dynamics, which marks what is unique",
+                ("joints",),
+            )
+        return tuple(name for name in names if name not in open_)
 
 
 def trace_analysis(
@@ -43,19 +69,22 @@ def trace_analysis(
     solved: Result | None = None,
     moves: bool = False,
     sided: bool = False,
+    redundant: bool = False,
+    whole: bool = False,
 ) -> Trace:
     """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses.
 
     With the general executor's answer for the file's own numbers, ``solved``: from a known solution, not from nothing.
     ``moves``: the drives go on from the known motion, which is that of the state before.
-    ``sided``: with the side of reversals as an input.
+    ``sided``: with the side of reversals as an input. ``redundant``: constraints may repeat each other; reactions that
+    are not unique are then one choice of many; ``whole``: links that these place stand by all constraints at once.
     """
     schedule = m.schedule()
     if schedule.unknown is not None:
         raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
     course = Course(m, schedule, solved)
     check_knowns(course.compiled)
-    _check(course)
+    repeated = _check(course, redundant)
     where = numbers(m, vary)
     moved = [n for n in where if geometric(m, n.path)]
     if m.dimension == 3:
@@ -88,8 +117,11 @@ def trace_analysis(
         at_pose=_pose_loads(inputs, c, moved),
         moves=moves,
         side=inputs.side() if sided else None,
+        redundant=repeated,
+        whole=whole and repeated,
     )
-    return Trace(course, inputs, where, Catalogue(graph, c, _run(problem), drives.speed), inertia)
+    catalogue = Catalogue(graph, c, _run(problem), drives.speed)
+    return Trace(course, inputs, where, catalogue, inertia, repeated)
 
 
 def _pose_loads(
@@ -130,19 +162,44 @@ def _substituted(graph: Graph, array: Array, places: dict[int, Node]) -> Array:
     return np.array(list(found), object).reshape(array.shape)
 
 
-def _check(course: Course) -> None:
+def _check(course: Course, redundant: bool) -> bool:
+    """Whether constraints repeat each other."""
     followed = course.followed
     if followed.path is None:
         raise ModelError(
             open_sentence(course.compiled, None, np.arange(len(course.schedule.position))).rstrip(".")
         )
-    if followed.mobility is not None and followed.mobility.redundant:
-        joints = ", ".join(followed.mobility.redundant_joints)
+    mobility = followed.mobility
+    repeated = mobility is not None and mobility.redundant > 0
+    if mobility is not None and repeated and not redundant:
+        joints = ", ".join(mobility.redundant_joints)
         raise ModelError(
-            f"{followed.mobility.redundant} redundant constraint(s) among joints {joints}: not all reactions follow "
+            f"{mobility.redundant} redundant constraint(s) among joints {joints}: not all reactions follow "
             "from equilibrium, so it cannot be compiled",
             "free a constraint, or use the analyses, which mark what is unique",
             ("joints",),
+        )
+    if repeated and course.followed.compiled.contacts is not None:
+        _refuse_friction(course)
+    return repeated
+
+
+def _refuse_friction(course: Course) -> None:
+    """Raise ModelError where friction follows a reaction that is not unique."""
+    c = course.followed.compiled
+    assert c.contacts is not None
+    forces = factor(c.layout, stack_rows(c.layout, course.pose))
+    assert isinstance(forces, PseudoInverse)
+    free = np.nan_to_num(np.abs(forces.null)).max(axis=(0, 2))
+    loose = free[: c.layout.constraints.count] > UNIQUE
+    rubbing = (c.contacts.read[..., loose] != 0).any(axis=(0, 2))
+    if rubbing.any():
+        names = list(dict.fromkeys(c.joints[k] for k in c.contacts.joint[rubbing]))
+        raise ModelError(
+            f"friction in {', '.join(names)} follows reactions that are not unique, as constraints are redundant: so "
+            "neither the accelerations nor the efforts are",
+            "free a constraint, or leave that friction out",
+            ("joints", names[0]),
         )
 
 
