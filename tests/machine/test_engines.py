@@ -67,6 +67,13 @@ def test_the_text_has_both_series() -> None:
     assert "4 cylinders, by the book's two harmonics: its force is off by 4.61 %" in said.replace("\n", " ")
 
 
+def test_a_couple_needs_a_place() -> None:
+    with pytest.raises(
+        ModelError, match="there is no shaking couple; ask for force, moment, or couple, for which"
+    ):
+        da.shaking(da.dynamics(da.v_engine(), positions=12)).harmonics(1, "couple")
+
+
 def test_a_place_belongs_to_the_plane() -> None:
     with pytest.raises(ModelError, match="a place along the normal is for mechanisms of the plane"):
         da.loads("space: space\nlinks: {ground: {}, a: {place: 1}}")

@@ -38,6 +38,18 @@ def shaft(value: str, rpm: float, period: float = 360.0, inertia: float = 0.0) -
     return da.dynamics(da.loads(SHAFT % (inertia, period, rpm * math.pi / 30, value)))
 
 
+def test_three_cylinders_with_triangular_diagrams() -> None:
+    """Khurmi, example 16.11: the sum goes between 45 and 90 N m, three times a turn, with kinks on its mean."""
+    one = "{against: O, periodic: 360 deg, x: [0, 60, 180, 360], y: [0, 90, 0, 0], shift: %d deg}"
+    loads = "".join(f"\n  gas_{k}: {{type: couple, on: shaft, value: {one % k}}}" for k in (120, 240))
+    f = da.flywheel(
+        da.dynamics(da.loads(SHAFT % (0, 360, 20 * math.pi, one % 0) + loads)), inertia=12 * 0.08**2
+    )
+    assert f.mean == pytest.approx(-67.5, rel=1e-9)
+    assert sorted(f.size.pulses) == pytest.approx([-3.75 * math.pi] * 3 + [3.75 * math.pi] * 3, rel=1e-8)
+    assert f.size.fluctuation == pytest.approx(3.75 * math.pi / (0.0768 * 400 * math.pi**2), rel=1e-8)
+
+
 def test_discs_and_rims_have_the_inertia() -> None:
     f = da.flywheel_size(5000.0, 20.0, Cs=0.02)
     radius, thickness = f.disc(7200.0, thickness=0.08)

@@ -81,8 +81,17 @@ class Shaking(Answer):
         return np.asarray(getattr(self, name) - self.parts["weight"][("force", "moment").index(name)])
 
     def harmonics(self, orders: int | Sequence[float] = 4, of: str = "force") -> Harmonics:
-        """Harmonics of the `force`, the `moment` or the `couple` over whole turns of the first drive."""
-        return harmonics(getattr(self, of), turning_angle(self.result), orders)
+        """Harmonics of the `force`, the `moment` or the `couple` over whole turns of the first drive.
+
+        Raises ModelError for a couple where no link has a place.
+        """
+        values = {"force": self.force, "moment": self.moment, "couple": self.couple}.get(of)
+        if values is None:
+            raise ModelError(
+                f"there is no shaking {of}",
+                "ask for force, moment, or couple, for which links need a place: 90 mm along the normal",
+            )
+        return harmonics(values, turning_angle(self.result), orders)
 
     def columns(self) -> Iterator[Column]:
         """Every number: the first drives' positions, force and moment, and their parts."""

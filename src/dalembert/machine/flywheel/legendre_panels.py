@@ -22,6 +22,8 @@ POINTS = 12
 RESOLVED = 1e-13
 """Error of the integral over a panel that is let be, of that of the curve's size over the period."""
 MOST_HALVINGS, MOST_PANELS = 45, 10_000
+ONE = 1e-9
+"""Of the period: zeros as near as this are one place."""
 
 ENDS = np.array([-1.0, 1.0])
 NODES, _ = legendre.leggauss(POINTS)
@@ -83,7 +85,11 @@ class Panels:
             at += [*self._at(k, real)]
             area += [*(starts[k] + legendre.legval(real, whole) * self.width[k] / 2)]
         order = np.argsort(at, kind="stable")
-        return np.array(at)[order], np.array(area)[order]
+        place, area = np.array(at)[order], np.array(area)[order]
+        # a zero at a kink is found on both sides of it and between: one change of sign; two are none
+        group = np.cumsum(np.diff(place, prepend=-np.inf) > ONE * self.period)
+        first = np.flatnonzero(np.diff(group, prepend=0))[np.bincount(group)[1:] % 2 == 1]
+        return place[first], area[first]
 
     def extremes(self, values: Array) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with where they are, on the curve itself."""
