@@ -29,6 +29,8 @@ SLOW = 1e-6
 all bounces that are left, which go less far than positions are known."""
 LOOKS = 9
 """Instants of a step at which it is asked whether a stop has been met."""
+TOUCHING = 1e-12
+"""Distance from a stop, m or rad, that is rounding: it takes part in an impact at another."""
 UNMOVED = 1e-12
 """Part of a joint's motion with the drives that is rounding."""
 
@@ -163,8 +165,11 @@ class StopState(ContactState):
         for k, side in hit:
             if self.stops[k].drive >= 0:
                 y[self.stops[k].drive] = self.stops[k].end(side)
-        rested = [(k, s.resting) for k, s in enumerate(self.stops) if s.resting and k not in dict(hit)]
-        all_ = [*hit, *rested]
+        others = [(k, stop) for k, stop in enumerate(self.stops) if k not in dict(hit)]
+        all_ = [
+            *hit,
+            *((k, side) for k, stop in others for side in (-1.0, 1.0) if self._touches(stop, side, t, y)),
+        ]
         terms = self.equation(t, y[:d], u)
         rows = np.array([self._row(self.stops[k], terms) * side for k, side in all_])
         closing, size = rows @ u, np.abs(rows).max(axis=1) * max(float(self.fastest.max()), 1e-300)
@@ -188,7 +193,7 @@ class StopState(ContactState):
             if stop.drive >= 0:
                 u[stop.drive] = after[n] * side
             stop.resting = side if after[n] == 0 else 0.0
-            if n < len(hit):
+            if n < len(hit) and closing[n] > UNMOVED * size[n]:
                 lost = impulse[n] * (closing[n] + after[n]) / 2
                 self._note_impact(stop, side, t, (float(closing[n]), float(-after[n]), float(lost)))
         self.locked &= u == 0
@@ -206,6 +211,13 @@ class StopState(ContactState):
         self._note_rests(t, y)
         for k in np.flatnonzero((u == 0) & (self.rubs | (self.on_stop != 0))).tolist():
             self._settle(k, t, y)
+
+    def _touches(self, stop: Stop, side: float, t: float, y: Array) -> bool:
+        end = stop.end(side)
+        near = np.isfinite(end) and abs(stop.near(self.motion_of(stop, t, y)[0], end) - end) <= TOUCHING * (
+            1 + abs(end)
+        )
+        return bool(stop.resting == side or near)
 
     def _row(self, stop: Stop, terms: Terms) -> Array:
         """What it moves with each drive (D,)."""

@@ -90,12 +90,13 @@ class Simulation(Answer):
     def applied(self) -> Array:
         """What acts in each drive's freedom (T, D), N m or N."""
         asked = np.where(np.isnan(self.given), self.result.effort_array, self.given)
-        return np.where(np.isnan(self.pushed), asked, self.pushed + self.stop_force)
+        held = stop_effort(self.result, self.pushed, 0 * self.moves.brake)  # with what a brake takes of it
+        return np.where(np.isnan(self.pushed), asked, self.pushed + held)
 
     @cached_property
     def stop_force(self) -> Array:
         """What stops give (T, D) to drives that rest on them: what friction and brakes do not hold."""
-        return stop_effort(self.result, self.pushed, self.moves)
+        return stop_effort(self.result, self.pushed, self.moves.brake)
 
     @cached_property
     def _energies(self) -> tuple[Array, Array]:
@@ -114,7 +115,7 @@ class Simulation(Answer):
     @cached_property
     def energy_residual(self) -> float:
         """Gap of the energy balance over the largest energy."""
-        gained, works = [x - x[0] for x in self._energies], self.works.values()
+        gained, works = [x - x[0] for x in self._energies], [x - x[0] for x in self.works.values()]
         exchanged = [self.kinetic, gained[1], *works]
         largest = max(float(np.nanmax(np.abs(x), initial=0.0)) for x in exchanged)
         return float(np.nanmax(np.abs(sum(gained) - sum(works)), initial=0.0)) / (largest or 1.0)

@@ -164,7 +164,8 @@ class ContactState:
         if wide and low <= tau <= high:
             self.locked[k] = True
             if self.on_stop[k]:
-                self.note(t, "rest", f"{self.resting[k]} stays on its stop", of=self.resting[k])
+                if not was:
+                    self.note(t, "rest", f"{self.resting[k]} stays on its stop", of=self.resting[k])
                 return
             kind = kind_of(self.acting.drives[k].freedom, "effort")
             why = "its motor stalls" if k in self.acting.motors and self.acting.on[k] else "friction holds it"

@@ -25,20 +25,21 @@ ROUNDS, SAME = 40, 1e-13
 """Times that forces of stops are sought beside friction, which goes by them; and a change that is rounding."""
 
 
-def stop_effort(r: Result, pushed: Array, moves: Actuation) -> Array:
-    """What drives that rest on stops are given (T, D), ``pushed`` by these efforts: what friction does not hold."""
+def stop_effort(r: Result, pushed: Array, brake: Array) -> Array:
+    """What drives that rest on stops are given (T, D), ``pushed`` by these efforts: what friction and a ``brake`` (D,)
+    do not hold."""
     out = np.zeros_like(pushed)
     for k in np.flatnonzero(np.isfinite(pushed).any(axis=0)):
-        held = np.clip(pushed[:, k], *_holding(r, int(k), moves))
+        held = np.clip(pushed[:, k], *_holding(r, int(k), brake))
         out[:, k] = np.where(np.isfinite(pushed[:, k]), held - pushed[:, k], 0.0)
     return out
 
 
-def _holding(r: Result, k: int, moves: Actuation) -> tuple[Array, Array]:
+def _holding(r: Result, k: int, brake: Array) -> tuple[Array, Array]:
     """Least and greatest effort (T,) with which a drive stays, its brake included."""
     ends = r.interval(r.drives[k]) if r.friction is not None else r.effort_array[:, [k, k]]
     low, high = np.where(np.isnan(ends), r.effort_array[:, [k, k]], ends).T
-    return low - moves.brake[k], high + moves.brake[k]
+    return low - brake[k], high + brake[k]
 
 
 def with_stop_loads(
@@ -52,9 +53,9 @@ def with_stop_loads(
         int(np.argmax(moves.free)),
         np.cumsum(ratio != 0, axis=1) * (ratio != 0) == 1,
     )  # by the first of two
-    way = np.sign(-stop_effort(r, pushed, moves)[:, k])
+    way = np.sign(-stop_effort(r, pushed, moves.brake)[:, k])
     for _ in range(ROUNDS if found.any() else 0):
-        low, high = _holding(loaded, k, moves)
+        low, high = _holding(loaded, k, moves.brake)
         missing = np.where(way > 0, high, low) - pushed[:, k]
         more = np.where(held & (way != 0)[:, None], missing[:, None] / np.where(held, ratio, 1.0), 0.0)
         force = force + np.nan_to_num(more)
