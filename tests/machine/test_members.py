@@ -15,8 +15,8 @@ import dalembert as da
 from dalembert.analysis.methods.applied_forces import on_link, whole_actions
 from dalembert.bundled import examples
 from dalembert.cli import main
-from dalembert.machine.members.free_reactions import acting as acting_on
 from dalembert.machine.members.link_balance import LinkBalance
+from dalembert.machine.members.link_balance import acting as acting_on
 from dalembert.machine.members.member_table import member_table
 from dalembert.printing import number
 from dalembert.views.machine.member_views import member_scenes

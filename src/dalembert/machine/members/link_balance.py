@@ -5,19 +5,24 @@ Mechanics: docs/theory.md 10.4.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import Action, on_link
+from dalembert.analysis.methods.applied_forces import Action, on_link, state, whole_actions
 from dalembert.arrays import Array, Ints
+from dalembert.core.equilibrium import shifts, statement
+from dalembert.core.linear import PseudoInverse
 from dalembert.machine.link_axes import LinkAxes, in_space
-from dalembert.machine.members.free_reactions import Acting
 from dalembert.machine.members.straight_members import Straight
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+
+
+COMBINATIONS = 3
+"""Of what is free: in all of them the change of what is not unique is never zero by chance."""
 
 
 @dataclass(frozen=True)
@@ -43,14 +48,40 @@ class Loads(NamedTuple):
     free: list[list[Wrench]]
 
 
+def acting(r: Result) -> list[tuple[Action, ...]]:
+    """All actions on the links, of least norm where not unique; then some that balance by themselves, if there are any.
+
+    These are ``COMBINATIONS``, at random, of all reactions and efforts that equilibrium leaves open: what these change
+    is not unique.
+    """
+    c, least = r.compiled, replace(r, unique_array=None, unique_unknowns=None, unique_in=None)
+    out = [whole_actions(least)]
+    if r.unique_array is None:
+        return out
+    s, zero = state(r), np.zeros((len(r.status), c.layout.links, c.layout.algebra.n))
+    forces = statement(c.layout, c.known, s.pose, s.rows, s.solver, zero).forces
+    assert isinstance(forces, PseudoInverse)
+    free = forces.null @ np.random.default_rng(0).normal(size=(forces.null.shape[-1], COMBINATIONS))
+    shift, _ = shifts(c.layout, s.pose, s.rows, free)
+    force, moment = np.split(shift, [c.layout.algebra.d], axis=-2)
+    first, last = c.layout.constraints.count, free.shape[1] - len(r.unknown_loads)
+    for k in range(COMBINATIONS):
+        effort = np.zeros_like(r.effort_array)
+        effort[:, c.known.asked] = free[:, first:last, k]
+        couple = moment[..., k].reshape(r.moment_array.shape)
+        way = replace(least, force_array=force[..., k], moment_array=couple, effort_array=effort)
+        some = whole_actions(replace(way, load_array=free[:, last:, k]))
+        out.append(tuple(a for a in some if a.kind in ("joint", "effort") or a.of in r.unknown_loads))
+    return out
+
+
 class LinkBalance(LinkAxes):
     """A link's motion and what acts on it, in its own axes, with three components."""
 
-    def __init__(self, r: Result, link: str, found: Acting) -> None:
+    def __init__(self, r: Result, link: str, found: list[tuple[Action, ...]]) -> None:
         super().__init__(r, link)
         count, d = len(r.status), r.mechanism.dimension
-        self.actions = on_link(found.known, link)
-        self.free = [on_link(some, link) for some in found.free]
+        self.actions, *self.free = (on_link(some, link) for some in found)
         self.center = in_space(r.mechanism.center(link))
         gravity = np.array(r.mechanism.gravity_vector, float)
         self.gravity = self.own(np.broadcast_to(gravity, (count, d)))

@@ -19,12 +19,12 @@ from dalembert.analysis.output.columns import Column, Scale
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.core.equilibrium import UNIQUE
 from dalembert.errors import ModelError
-from dalembert.machine.members.free_reactions import Acting, acting
-from dalembert.machine.members.link_balance import LinkBalance, Loads, Wrench
+from dalembert.machine.members.link_balance import LinkBalance, Loads, Wrench, acting
 from dalembert.machine.members.straight_members import Straight, beyond, members_of
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
+    from dalembert.analysis.methods.applied_forces import Action
     from dalembert.analysis.result.result import Result
     from dalembert.machine.members.stresses import Buckling, Stresses
     from dalembert.model.links.sections import Section
@@ -51,6 +51,12 @@ class MemberCurve:
     def name(self) -> str:
         """Its ends."""
         return "-".join(self.member.ends)
+
+    @property
+    def jumps(self) -> Array:
+        """Ends of the pieces (J,) that keep their places."""
+        known = self.edges[np.isfinite(self.edges).all(axis=1)]
+        return known[0, np.ptp(known, axis=0) <= 1e-9 * self.member.length] if len(known) else known.ravel()
 
     def at(self, s: float | Array, side: Literal["before", "behind"] | None = None) -> Array:
         """All six (P, S, 6) at distances s (S,) from the start, m; at a force or couple on the side asked for.
@@ -80,11 +86,9 @@ class MemberCurve:
         hidden = (np.isnan(c).any(axis=-1) & (high > low)).any(axis=1)
         values[hidden], s[hidden] = np.nan, np.nan
         flat, places = values.reshape(len(values), -1), s.reshape(len(values), -1)
-        out = []
-        for sign in (-1.0, 1.0):
-            k = np.argmax(np.where(np.isnan(flat), -np.inf, sign * flat), axis=1)[:, None]
-            out += [np.take_along_axis(x, k, axis=1)[:, 0] for x in (flat, places)]
-        return out[0], out[1], out[2], out[3]
+        every, none = np.arange(len(flat)), np.isnan(flat)
+        down, up = np.where(none, np.inf, flat).argmin(axis=1), np.where(none, -np.inf, flat).argmax(axis=1)
+        return flat[every, down], places[every, down], flat[every, up], places[every, up]
 
     def greatest(self, of: str) -> tuple[Array, Array]:
         """The value largest in size (P,) of one of ``ORDER`` and its place (P,), m."""
@@ -205,7 +209,7 @@ def member_forces(r: Result, link: str) -> MemberForces:
     return forces_inside(r, link, acting(r))
 
 
-def forces_inside(r: Result, link: str, found: Acting) -> MemberForces:
+def forces_inside(r: Result, link: str, found: list[tuple[Action, ...]]) -> MemberForces:
     """The same with what acts on all links."""
     if link not in r.links:
         raise ModelError(f"there is no moving link {link!r}", closest(link, list(r.links)))

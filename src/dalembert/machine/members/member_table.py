@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from dalembert.analysis.output.columns import Column, Scale
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
-from dalembert.machine.members.free_reactions import acting
+from dalembert.machine.members.link_balance import acting
 from dalembert.machine.members.member_forces import MemberForces, forces_inside
 from dalembert.machine.members.stresses import Buckling, Stresses
 from dalembert.machine.output.answer import Answer

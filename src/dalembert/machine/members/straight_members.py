@@ -90,20 +90,15 @@ def _line(m: Mechanism, link: str, joints: Array) -> Straight:
     spread = joints if len(joints) and _size(joints) > 0 else np.concatenate([joints, named])
     listed = ", ".join(points) or "none"
     if not len(spread) or not _size(spread) > 0:
-        raise ModelError(
-            f"link {link!r} has no length: its points are {listed}",
-            "name two points of it: members: [[A, B]]",
-            ("links", link),
-        )
+        what = f"link {link!r} has no length: its points are {listed}"
+        raise ModelError(what, "name two points of it: members: [[A, B]]", ("links", link))
     middle = spread.mean(axis=0)
     t = np.linalg.svd(spread - middle, full_matrices=False)[2][0]
     size = _size(spread)
     if (_off(spread, middle, t) > FLAT * size).any():
-        raise ModelError(
-            f"the joints of link {link!r} are on no line; its points are {listed}",
-            "say which straight members it has: members: [[A, B], [B, C]]",
-            ("links", link),
-        )
+        what = f"the joints of link {link!r} are on no line; its points are {listed}"
+        remedy = "say which straight members it has: members: [[A, B], [B, C]]"
+        raise ModelError(what, remedy, ("links", link))
     on = {n: float((p - middle) @ t) for n, p in points.items() if _off(p, middle, t) <= FLAT * size}
     s = np.concatenate([(spread - middle) @ t, [*on.values()]])
     order = [*on.values()] if len(on) > 1 else list((spread - middle) @ t)
@@ -160,11 +155,10 @@ def beyond(members: Sequence[Straight]) -> Flags:
     """(E, E): whether member f is on the far side of member e, behind its second end."""
     out = np.zeros((len(members), len(members)), bool)
     for k, e in enumerate(members):
-        met, found = {e.ends[1]}, True
-        while found:
-            found = False
+        met = {e.ends[1]}
+        for _ in members:
             for j, f in enumerate(members):
-                if j != k and not out[k, j] and met & {*f.ends}:
-                    out[k, j] = found = True
+                if j != k and met & {*f.ends}:
+                    out[k, j] = True
                     met |= {*f.ends}
     return out

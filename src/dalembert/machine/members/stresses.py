@@ -23,8 +23,8 @@ from dalembert.model.links.sections import Section
 if TYPE_CHECKING:
     from dalembert.machine.members.member_forces import MemberForces
 
-SAMPLES, STEPS = 33, 40
-"""Places on each piece where a stress is looked at first, and steps, to two thirds, about the greatest of them."""
+SAMPLES, ROUNDS = 33, 8
+"""Places on each piece of a member where a stress is looked at, and how often, closer each time about the greatest."""
 STATIONS = 129
 """Places along a member where fatigue is looked at, three times, closer each time about the worst."""
 FIBRES = 72
@@ -157,48 +157,35 @@ def stresses(forces: MemberForces, given: Section | Tree | None = None) -> Stres
     """The greatest stress of a link at every position."""
     s, plane = section_of(forces, given), forces.result.mechanism.dimension == 2
     found = [_greatest(curve, lambda comps: equivalent_stress(s, comps, plane)) for curve in forces.curves]
-    values = np.array([f[0] for f in found])
-    k = np.argmax(values, axis=0)  # one that is not known before all others
-    place = np.take_along_axis(np.array([f[1] for f in found]), k[None], axis=0)[0]
-    comps = np.take_along_axis(np.array([f[2] for f in found]), k[None, :, None], axis=0)[0]
-    sigma = fibre_stress(s, comps, plane)
-    normal = np.take_along_axis(sigma, np.argmax(np.abs(np.nan_to_num(sigma)), axis=-1)[:, None], axis=-1)
+    values, places, comps = (np.array(some) for some in zip(*found, strict=True))
+    k, every = (
+        np.argmax(values, axis=0),
+        np.arange(values.shape[1]),
+    )  # one that is not known before all others
+    sigma = fibre_stress(s, comps[k, every], plane)
+    normal = sigma[every, np.argmax(np.abs(sigma), axis=1)]
     names = tuple(forces.curves[j].name for j in k)
-    values = np.take_along_axis(values, k[None], axis=0)[0]
-    return Stresses(forces, s, values, names, np.where(np.isnan(values), np.nan, place), normal[:, 0])
+    return Stresses(forces, s, values[k, every], names, places[k, every], normal)
 
 
 def _greatest(curve: MemberCurve, f: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
     """Greatest value (P,) of f of the inner forces along a member, its place (P,), and the forces there (P, 6)."""
-    low, high = curve.edges[:, :-1], curve.edges[:, 1:]
-    best = [np.where(np.isnan(low[:, 0]), np.nan, -np.inf), low[:, 0], np.zeros((len(low), 6))]
+    low, high, every = curve.edges[:, :-1], curve.edges[:, 1:], np.arange(len(curve.edges))
+    first = np.where(np.isnan(low[:, 0]), np.nan, -np.inf)
+    best = (first, np.full(len(low), np.nan), np.full((len(low), 6), np.nan))
     for j in range(low.shape[1]):
-        a, b = low[:, j], high[:, j]
-
-        def value(s: Array, cubics: Array = curve.cubics[:, j]) -> tuple[Array, Array]:
-            powers = s[..., None, None] ** np.arange(4)
-            comps = (cubics[(slice(None), *[None] * (s.ndim - 1))] * powers).sum(axis=-1)
-            return f(comps), comps
-
-        grid = a[:, None] + (b - a)[:, None] * np.linspace(0, 1, SAMPLES)
-        k = np.argmax(np.nan_to_num(value(grid)[0]), axis=1)
-        left, right = (
-            np.take_along_axis(grid, np.clip(k + d, 0, SAMPLES - 1)[:, None], 1)[:, 0] for d in (-1, 1)
-        )
-        for _ in range(STEPS):
-            third = (right - left) / 3
-            two, _ = value(np.stack([left + third, right - third], axis=1))
-            up = two[:, 0] < two[:, 1]
-            left, right = np.where(up, left + third, left), np.where(up, right, right - third)
-        for s in (a, b, (left + right) / 2):
-            found, comps = value(s)
-            better = ((found > best[0]) | np.isnan(found)) & (b > a)
-            best = [
-                np.where(better, found, best[0]),
-                np.where(better, s, best[1]),
-                np.where(better[:, None], comps, best[2]),
-            ]
-    return best[0], best[1], best[2]
+        a, b, there = low[:, j], high[:, j], high[:, j] > low[:, j]
+        for _ in range(ROUNDS):
+            s = a[:, None] + (b - a)[:, None] * np.linspace(0, 1, SAMPLES)
+            comps = (curve.cubics[:, j, None] * s[..., None, None] ** np.arange(4)).sum(axis=-1)
+            values = f(comps)
+            k = np.argmax(values, axis=1)
+            better = there & ((values[every, k] > best[0]) | np.isnan(values[every, k]))
+            place = np.where(np.isnan(values[every, k]), np.nan, s[every, k])
+            for into, new in zip(best, (values[every, k], place, comps[every, k]), strict=True):
+                into[better] = new[better]
+            a, b = s[every, np.maximum(k - 1, 0)], s[every, np.minimum(k + 1, SAMPLES - 1)]
+    return best
 
 
 def _utilisation(s: Section, mean: Array | float, amplitude: Array | float) -> Array:
@@ -210,12 +197,11 @@ def _utilisation(s: Section, mean: Array | float, amplitude: Array | float) -> A
 
 def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
     """The worst fibre of a member: at even stations and on both sides of every force, then closer about the worst."""
-    plane, length = forces.result.mechanism.dimension == 2, curve.member.length
-    known = curve.edges[np.isfinite(curve.edges).all(axis=1)][:1]
+    plane, length, jumps = forces.result.mechanism.dimension == 2, curve.member.length, curve.jumps
     low, high, round_it = 0.0, length, (0.0, math.pi)
     best = (-math.inf, 0.0, math.nan, math.nan)
     for _ in range(3):
-        places = np.union1d(np.linspace(low, high, STATIONS), known[(known >= low) & (known <= high)])
+        places = np.union1d(np.linspace(low, high, STATIONS), jumps[(jumps >= low) & (jumps <= high)])
         at = outer_fibres(s, plane, *round_it)
         for side in ("before", "behind"):
             inner = places[(places > 0) if side == "before" else (places < length)]
@@ -223,7 +209,7 @@ def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
             mean, swing = (sigma.max(axis=0) + sigma.min(axis=0)) / 2, np.ptp(sigma, axis=0) / 2
             use = _utilisation(s, mean, swing)
             if np.isnan(use).any():
-                return Fatigue(curve.name, 0.0, math.nan, math.nan, None)
+                return Fatigue(curve.name, math.nan, math.nan, math.nan, None)
             k = np.unravel_index(np.argmax(use), use.shape)
             if use[k] > best[0]:
                 best = (float(use[k]), float(inner[k[0]]), float(mean[k]), float(swing[k]))
@@ -259,9 +245,8 @@ def buckling(forces: MemberForces, given: Section | Tree | None = None, ends: fl
         critical = area * s.yield_stress * (1 - s.yield_stress * slender**2 / (4 * math.pi**2 * s.elasticity))
         formula = "Johnson"
     least = curve.extremes("axial")[0]
-    known = np.isfinite(least).any()
-    k = int(np.nanargmin(least)) if known else 0
-    compression = max(0.0, -float(least[k])) if known else math.nan
+    k = int(np.nanargmin(least)) if np.isfinite(least).any() else 0
+    compression = float(np.maximum(0.0, -least[k]))
     safety = critical / compression if compression else math.inf
     kind = members(forces.result)[forces.link].kind
     return Buckling(critical, formula, slender, compression, k, safety, kind in ("two-force", "zero-force"))

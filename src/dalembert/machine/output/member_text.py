@@ -72,30 +72,32 @@ def _largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
     return rows
 
 
-def known_stresses(t: MemberTable) -> Iterator[tuple[str, Stresses]]:
+def known_stresses(t: MemberTable) -> dict[str, Stresses]:
     """Stresses of the links where they are known."""
-    return ((link, s) for link, s in t.stress.items() if not math.isnan(s.largest))
+    return {link: s for link, s in t.stress.items() if not math.isnan(s.largest)}
 
 
 def _stress_table(t: MemberTable, to: Printed) -> Table:
     rows = []
-    for link, s in known_stresses(t):
+    for link, s in known_stresses(t).items():
         k = s.position
         numbers = [number(float(to("pressure", x)), 5) for x in (s.largest, *s.parts())]
         place = number(float(to("length", float(s.place[k]))), 4)
-        rows.append([link, *numbers, place, where(t.result, to, k), _safety(s.safety)])
-    heads = ["stress\nof link", f"largest\n{to.text('pressure')}", "by N\n", "by M\n"]
+        rows.append([link, *numbers, s.member[k], place, where(t.result, to, k), _safety(s.safety)])
+    heads = ["stress\nof link", f"largest\n{to.text('pressure')}", "by N\n", "by M\n", "member\n"]
     return Table([*heads, f"at\n{to.text('length')}", "where\n", "safety,\nyield"], rows)
 
 
 def _fatigue_table(t: MemberTable, to: Printed) -> Table:
+    found = {link: s.fatigue() for link, s in known_stresses(t).items() if len(t.result.status) > 1}
     rows = []
-    for link, s in known_stresses(t):
-        f = s.fatigue()
+    for link, f in found.items():
         numbers = [number(float(to("pressure", x)), 5) for x in (f.mean, f.amplitude)]
         rows.append([link, *numbers, f.member, to.number("length", f.place), _safety(f.safety)])
     heads = ["fatigue\nof link", f"mean\n{to.text('pressure')}", "amplitude\n", "member\n"]
-    return Table([*heads, f"at\n{to.text('length')}", "safety,\nGoodman"], rows)
+    lost = ", ".join(link for link, f in found.items() if math.isnan(f.mean))
+    note = f"{lost}: not known, as the stress is not at every position." if lost else ""
+    return Table([*heads, f"at\n{to.text('length')}", "safety,\nGoodman"], rows, note=note)
 
 
 def _safety(n: float | None) -> str:

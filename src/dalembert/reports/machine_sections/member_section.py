@@ -30,7 +30,7 @@ def member_section(sheet: Sheet, t: MemberTable, shown: Shown) -> None:
         f"{ACROSS[space]}. The load along it is weight and inertia of its own mass."
     )
     sheet.equations([Working(line) for line in ("q = mu (g - a)", *LAWS[space])])
-    for link, s in known_stresses(t):
+    for link, s in known_stresses(t).items():
         direct, bent = s.parts()
         sigma, most = (
             f'{shown.number("pressure", x)} "{shown.unit("pressure")}"' for x in (direct + bent, s.largest)

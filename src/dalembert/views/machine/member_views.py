@@ -137,10 +137,7 @@ def _diagram(forces: MemberForces, curve: MemberCurve, of: str, shown: Shown) ->
 def sampled(curve: MemberCurve) -> tuple[Array, Array]:
     """Distances (S,) and inner forces (P, S, 6) there, on both sides of every force that keeps its place."""
     length = curve.member.length
-    known = curve.edges[np.isfinite(curve.edges).all(axis=1)]
-    steady = np.ptp(known, axis=0) <= 1e-9 * length if len(known) else np.zeros(0, bool)
-    jumps = known[0][steady] if len(known) else np.zeros(0)
-    even = np.linspace(0.0, length, PLACES)
+    even, jumps = np.linspace(0.0, length, PLACES), curve.jumps
     before, behind = np.union1d(jumps[jumps > 0], even[1:]), np.union1d(jumps[jumps < length], even[:-1])
     places = np.concatenate([before, behind])
     values = np.concatenate([curve.at(before, "before"), curve.at(behind, "behind")], axis=1)
