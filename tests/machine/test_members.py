@@ -359,9 +359,9 @@ def test_in_space_they_stand_along_the_axes_of_the_members() -> None:
     table = member_table(da.dynamics(da.load(examples()["rssr"])))
     scenes = member_scenes(table, Notation())
     titles = [s.title for s in scenes if "of crank" not in s.title and "O = " in s.title]
-    assert [x.split(",")[0] for x in titles] == ["N", "V", "V_z", "M_y", "M"]
+    assert [x.split(",")[0] for x in titles] == ["N", "V", "V_{z}", "M_{y}", "M"]
     notes = " ".join(text.text for text in scenes[3].texts())
-    assert "M_y: 1 mm = 50 N·mm, + along z of its member" in notes
+    assert "M_{y}: 1 mm = 50 N·mm, + along z of its member" in notes
     tip, n = max((abs(f.largest("bending y")[0]), name) for name, f in table.links.items())
     assert any(number(1e3 * tip, 4) in text.text for text in scenes[3].texts()), n
     lifted = member_table(da.dynamics(da.lifted(da.load(examples()["four_bar"]))))

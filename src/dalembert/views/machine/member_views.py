@@ -27,6 +27,7 @@ from dalembert.views.space.space_view import triad
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
+LETTERS = {of: f"{sign[0]}_{{{sign[2:]}}}" if sign[1:] else sign for of, sign in SIGNS.items()}
 ORDINATE = 18.0
 """Millimetres that the largest inner force is drawn, at most."""
 SEEN = 0.2
@@ -101,9 +102,9 @@ def _on_links(some: dict[str, MemberForces], of: str, size: float, paper: Paper)
         n = int(np.argmax(np.abs(mm)))
         canvas.label(shown.text(kind, float(values[k, n, row])), tips[n], size=2.8)
     sense = "to the left of" if plane else f"along {' yz'[_across(of)]} of"
-    scale = f"{SIGNS[of]}: 1 mm = {shown.plain(kind, per_mm)}, + {sense} its member"
+    scale = f"{LETTERS[of]}: 1 mm = {shown.plain(kind, per_mm)}, + {sense} its member"
     notes = [f"{paper.notes[0].removesuffix('.')}; {scale}{'' if plane else '.'}", *paper.notes[1:]]
-    title = place_title(r, k, f"{SIGNS[of]}, {of}", shown)
+    title = place_title(r, k, f"{LETTERS[of]}, {of}", shown)
     return canvas.scene(title, notes=notes, scales=paper.scales | {kind: per_mm})
 
 
@@ -123,14 +124,14 @@ def _diagram(forces: MemberForces, curve: MemberCurve, of: str, shown: Shown) ->
     places, values = sampled(curve)
     values = values[:, :, row] / shown.size(kind)
     k = int(np.nanargmax(np.abs(curve.greatest(of)[0])))
-    series = {SIGNS[of]: values[k]}
+    series = {LETTERS[of]: values[k]}
     if len(values) > 1:
         with np.errstate(all="ignore"):
             known = values[np.isfinite(values).all(axis=1)]
         series = {"least": known.min(axis=0), "greatest": known.max(axis=0), f"position {k + 1}": values[k]}
-    title = f"{SIGNS[of]}, {of} of {forces.link}"
+    title = f"{LETTERS[of]}, {of} of {forces.link}"
     x = f"From {curve.member.ends[0]} to {curve.member.ends[1]} in {shown.unit('length')}"
-    y = f"{SIGNS[of]} in {shown.unit(kind)}"
+    y = f"{LETTERS[of]} in {shown.unit(kind)}"
     return curves_scene(places / shown.size("length"), series, x, y, title)
 
 
