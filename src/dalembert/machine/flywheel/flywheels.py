@@ -79,9 +79,8 @@ class Flywheel(Answer):
         yield Column("effort", "moment", self.torque)
         yield Column("energy", "energy", self.energy)
         if self.exact is not None:
-            speed = np.interp(np.sort(r.drive_position(self.drive)), self.exact.angle, self.exact.speed)
-            order = np.argsort(np.argsort(r.drive_position(self.drive)))
-            yield Column("speed", "angular_speed", speed[order])
+            speed = np.interp(r.drive_position(self.drive), self.exact.angle, self.exact.speed)
+            yield Column("speed", "angular_speed", speed)
 
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""

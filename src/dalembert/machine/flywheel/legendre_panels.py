@@ -119,24 +119,23 @@ def resolve(curve: Callable[[Array], Array], edges: Array, floor: float = 0.0) -
     What is below the ``floor`` is rounding. Raises AnalysisError for a curve too rough to be followed.
     """
     low, width = edges[:-1], np.diff(edges)
-    period, kept = float(width.sum()), list[tuple[float, float, Array]]()
-    size = 0.0
+    period, kept, size, count = float(width.sum()), list[tuple[Array, Array, Array]](), 0.0, 0
     for depth in range(MOST_HALVINGS + 1):
         panels = Panels(low, width)
         values = curve(panels.points.ravel()).reshape(panels.points.shape)
         size = max(size, float(np.abs(values).max(initial=0.0)))
         tail = np.abs(panels.coefficients(values)[-3:]).max(axis=0)
         true = (tail * width / period <= RESOLVED * size) | (tail <= floor) | (depth == MOST_HALVINGS)
-        kept += [
-            (float(a), float(w), v) for a, w, v in zip(low[true], width[true], values[true], strict=True)
-        ]
+        kept.append((low[true], width[true], values[true]))
+        count += int(true.sum())
         half = width[~true] / 2
         low, width = np.concatenate([low[~true], low[~true] + half]), np.concatenate([half, half])
         if not len(low):
             break
-        if len(kept) + len(low) > MOST_PANELS:
+        if count + len(low) > MOST_PANELS:
             raise AnalysisError(
                 f"the effort is too rough over the cycle: over {MOST_PANELS} pieces do not resolve it"
             )
-    kept.sort(key=lambda panel: panel[0])
-    return Panels(*(np.array([p[k] for p in kept]) for k in (0, 1))), np.array([v for *_, v in kept])
+    low, width, values = (np.concatenate(x) for x in zip(*kept, strict=True))
+    order = np.argsort(low)
+    return Panels(low[order], width[order]), values[order]

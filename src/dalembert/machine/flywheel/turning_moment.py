@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-SURE = 1e-9
-"""Gap at the positions of a result, over the largest effort, up to which the powers there give it."""
+SURE = 1e4
+"""Gap at the positions of a result, over rounding, up to which the powers there give its effort."""
 
 
 class TurningMoment:
@@ -42,11 +42,8 @@ class TurningMoment:
         self.turns = whole_turns(r.drive_position(self.drive))
         self.speed = _steady_speed(r, self.drive)
         refuse_unknown(r, "a flywheel needs every position of the cycle", r.effort(self.drive))
-        self.first = float(r.drive_position(self.drive)[0])
         self.known, self.last = np.zeros((5, 0)), r
-        self.smooth = r.friction is None and _gap(r) <= SURE * max(
-            float(np.abs(r.effort_array).max()), self.floor
-        )
+        self.smooth = r.friction is None and _gap(r) <= SURE * self.floor
 
     @property
     def edges(self) -> Array:
@@ -98,7 +95,7 @@ class TurningMoment:
 
     def _asked(self, q: Array, speed: Array | float, acceleration: Array | float, inertia: bool) -> Result:
         """The analysis at other angles; the result's own first position leads, so that the assembly mode is its own."""
-        angle = np.append(self.first, q)[:, None]
+        angle = np.append(self.result.drive_position(self.drive)[:1], q)[:, None]
         rates = (np.broadcast_to(x, q.shape) for x in (speed, acceleration))
         u, a = (np.append(x[:1], x)[:, None] for x in rates)
         schedule = Schedule((self.drive,), angle, u, a)

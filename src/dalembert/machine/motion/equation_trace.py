@@ -36,27 +36,20 @@ from dalembert.model import Mechanism, Schedule
 OUTSIDE = frozenset({"min", "exp", "log", "asin", "acos", "tan"})
 """Operations of expressions without machine code."""
 
-LATEST: deque[tuple[Mechanism, Equation]] = deque(maxlen=8)
-"""Equations of single mechanisms, those met last."""
-SAME: deque[tuple[object, Mechanism, Equation]] = deque(maxlen=2)
-"""Equations with the numbers of mechanisms met last, by what these are made of, which they keep alive."""
+LATEST: deque[tuple[object, Mechanism, Equation]] = deque(maxlen=8)
+"""Equations of the mechanisms met last, by what these are made of, which they keep alive."""
 
 
 def equation_of(m: Mechanism) -> Equation:
     """The equation of a mechanism whose drives are all prescribed: its structure's, or its own."""
     key = _made_of(m)
     with LOCK:
-        found = next((e.again() for same, _, e in SAME if same == key), None)
+        found = next((e for same, _, e in LATEST if same == key), None)
         if found is None:
-            found = _of_structure(m)
-            if found is not None:
-                SAME.append((key, m, found.again()))
-                return found
-            found = next((e.again() for same, e in LATEST if same == m), None)
-        if found is None:
-            LATEST.append((m, trace_equation(m)))
-            found = LATEST[-1][1].again()
-    return found
+            equal = (e for _, same, e in LATEST if same == m)
+            found = _of_structure(m) or next(equal, None) or trace_equation(m)
+            LATEST.append((key, m, found))
+        return found.again()
 
 
 def _made_of(m: Mechanism) -> object:
@@ -64,7 +57,7 @@ def _made_of(m: Mechanism) -> object:
     tables = (m.links, m.joints, m.loads, m.assembly)
     parts = [list(map(id, (*t, *t.values()))) for t in tables]
     drives = [(n, d.position, d.joint, d.freedom, d.axis) for n, d in m.drives.items()]
-    return parts, drives, m.dimension, m.gravity, m.g_override, id(m.friction)
+    return parts, drives, m.dimension, m.gravity, m.g_override, id(m.friction), id(m.parameters)
 
 
 def trace_equation(

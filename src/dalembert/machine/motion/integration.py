@@ -19,15 +19,7 @@ from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.impacts import StopState
 from dalembert.machine.motion.occurrences import Condition, Guard, Value, Words
 from dalembert.machine.motion.standstill import STILL
-from dalembert.machine.motion.steps import (
-    LEAST,
-    Between,
-    Integrator,
-    MachineSteps,
-    Steps,
-    between,
-    standing_step,
-)
+from dalembert.machine.motion.steps import LEAST, Between, Integrator, MachineSteps, Steps, between
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
 
@@ -63,7 +55,7 @@ class Integration(StopState):
     def keep(self, t: float, y: Array) -> None:
         """Keep an instant; in machine code together with those of its segment."""
         if self.samples or self._machine(t, y) is not None:
-            self.samples.append((t, standing_step(t, y)))
+            self.samples.append((t, Between.standing(t, y).record))
             return
         d = self.d
         a, effort, _ = self.at(t, y)

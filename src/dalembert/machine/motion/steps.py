@@ -118,18 +118,18 @@ def between(records: Array, t: Array) -> Array:
     return np.asarray(out + y)
 
 
-def standing_step(t: float, y: Array) -> Array:
-    """The record of a step that stays at a state (n,)."""
-    record = np.zeros(record_size(len(y)))
-    record[:2], record[2 : 2 + len(y)], record[2 + len(y) : 2 + 2 * len(y)] = (t, 1.0), y, y
-    return record
-
-
 @dataclass
 class Between:
     """States within a step of a record."""
 
     record: Array
+
+    @classmethod
+    def standing(cls, t: float, y: Array) -> Between:
+        """A step that stays at a state (n,)."""
+        record, n = np.zeros(record_size(len(y))), len(y)
+        record[:2], record[2 : 2 + n], record[2 + n : 2 + 2 * n] = (t, 1.0), y, y
+        return cls(record)
 
     def __call__(self, t: float) -> Array:
         return np.asarray(between(self.record[None], np.array([t]))[0])
