@@ -62,10 +62,10 @@ def at_poses(c: Compiled, like: Result, which: Index, inertia: bool) -> Result:
 def some_positions(c: Compiled, which: Index) -> Compiled:
     """The mechanism at some positions of its schedule."""
     s = c.schedule
-    time = None if s.time is None else s.time[which]
+    time, parts = (None if x is None else x[which] for x in (s.time, s.parts))
     rates = {name: getattr(s, name)[which] for name in ("position", "speed", "acceleration")}
     loads, known = slice_forcing(c, which)
-    return replace(c, schedule=replace(s, time=time, **rates), forcing=loads, known=known)
+    return replace(c, schedule=replace(s, time=time, parts=parts, **rates), forcing=loads, known=known)
 
 
 def _along(followed: Positions, path: Path, inertia: bool, forces: bool, method: Method = "auto") -> Result:

@@ -151,9 +151,14 @@ class FrictionProblem:
         """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
         layout, contacts, pose = self.c.layout, self.contacts, self.pose.at(where)
         along, twist = self.along.at(where), self.moving.twist[where]
+        given = self.c.schedule.parts
 
         def state(twist: Array) -> SlipState:
             found = senses(layout, contacts, along, twist)
+            if given is not None:
+                known = found.open & np.isfinite(given[self.part][where])
+                sense = np.where(known, given[self.part][where], found.sense)
+                found = found._replace(sense=sense, open=found.open & ~known)
             if side is None:
                 return found
             sense = np.where(side.open, found.sense, side.sense)

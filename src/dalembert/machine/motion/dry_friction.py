@@ -31,9 +31,6 @@ from dalembert.core.friction.contact_equations import (
 )
 from dalembert.core.friction.friction_solver import newton, solve_friction
 
-DEPENDENT = 1e-9
-"""A contact whose rate changes by less than this part with its own friction, where others stick, sticks with them."""
-
 
 class Linear(NamedTuple):
     """Inverse dynamics in accelerations and friction: G (D, E), y0 (3, E), Ya (3, E, D), H (3, E, E), d (E,)."""
@@ -46,14 +43,17 @@ class Linear(NamedTuple):
 
 
 class Contacted(NamedTuple):
-    """Accelerations and efforts (D,), the rates of the contacts' rates (E,), their friction c z (E,), and how much more
-    those that stick could take (E,)."""
+    """Accelerations and efforts (D,), and of the contacts (E,): the rates of their rates, friction c z, how much more
+    those that stick could take, friction as a part of its limit in motion against the sense, and what their limits at
+    rest would make of the rates' rates."""
 
     a: Array
     effort: Array
     second: Array
     cz: Array
     room: Array
+    part: Array
+    size: Array
 
 
 @dataclass
@@ -93,8 +93,11 @@ class DryFriction:
         x, y = multiplier(part, cz), argument(part, cz)
         if len(held):
             cz[held] = np.linalg.solve(r.change[2 * d + held][:, held], (x - multiplier(r, cz))[2 * d + held])
-        limit = strength(self.contacts, 1.0, True) * np.abs(bearing(self.contacts, y))
-        return Contacted(x[:d], x[d : 2 * d], x[2 * d :], cz, np.where(stuck, limit - np.abs(cz), 0.0))
+        size = np.abs(bearing(self.contacts, y))
+        limit, least = strength(self.contacts, 1.0, True) * size, np.maximum(c * size, np.finfo(float).tiny)
+        room, pushed = np.where(stuck, limit - np.abs(cz), 0.0), limit * r.change[2 * d :].diagonal()
+        parts = np.where(stuck, -cz / least, sense)
+        return Contacted(x[:d], x[d : 2 * d], x[2 * d :], cz, room, parts, pushed)
 
     def _slip(self, r: Response, sense: Array, c: Array) -> Array | None:
         """z of those that slip: near the last one, else by the way from no friction."""
@@ -103,11 +106,10 @@ class DryFriction:
             found = newton(self.contacts, whole, sense[None], c[None], self.last[None])
             if found.arrived[0] and found.determinant[0] > 0:
                 self.last = found.z[0]
-                return self.last
+                return found.z[0]
         state = SlipState(sense[None], np.zeros((1, len(sense)), bool), sense[None])
-        self.last = solve_friction(self.contacts, whole, state).z[0]
-        if not np.isfinite(self.last).all():
-            self.last = None
+        z = solve_friction(self.contacts, whole, state).z[0]
+        self.last = z if np.isfinite(z).all() else None
         return self.last
 
 

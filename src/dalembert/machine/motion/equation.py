@@ -215,7 +215,7 @@ class Equation:
         effort, change = e.effort + e.mass @ a, np.vstack([change, push + e.mass @ change])
         none = np.zeros(push.shape[1])
         if not self.dry or not e.linear:
-            return Contacted(a, effort, none, none, none), e
+            return Contacted(a, effort, *(none,) * 5), e
         found = self.dry.solve(e.linear, a, effort, change, self.dry.senses(e.rates, sense), stuck)
         if found is None:
             raise StoppedError("there it jams: no acceleration satisfies the law of friction")

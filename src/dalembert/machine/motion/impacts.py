@@ -19,7 +19,8 @@ from dalembert.machine.motion.actuation import Actuation, joint_stops
 from dalembert.machine.motion.dry_friction import Contacted
 from dalembert.machine.motion.equation import OPEN, StoppedError, Terms
 from dalembert.machine.motion.occurrences import Event, Guard, Words, say
-from dalembert.machine.motion.standstill import STILL, ContactState
+from dalembert.machine.motion.standstill import STILL
+from dalembert.machine.motion.sticking import StickState
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.end_stops import Stops
@@ -63,12 +64,11 @@ class Stop:
         return x + 2 * np.pi * round((guess - x) / (2 * np.pi)) if counts and np.isfinite(x) else x
 
 
-class StopState(ContactState):
+class StopState(StickState):
     """A motion whose drives and joints may strike stops; ``losses``: when, and the energy lost, J."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         super().__init__(m, actuation)
-        self.fastest = np.abs(actuation.speed)
         self.losses: list[tuple[float, float]] = []
         self.pressed: list[Stop] = []
         self.pushing = np.zeros(0)
@@ -209,8 +209,8 @@ class StopState(ContactState):
             pushed = rows @ self.at(t, y)[0] + drift
             t += float(np.max(2 * left / np.where(pushed > 0, pushed, np.inf)))
         self._note_rests(t, y)
-        for k in np.flatnonzero((u == 0) & (self.rubs | (self.on_stop != 0))).tolist():
-            self._settle(k, t, y)
+        self.stuck[:], self.tied[:], self.bound[:] = False, False, False
+        self.settle(np.flatnonzero((u == 0) & (self.rubs | (self.on_stop != 0))).tolist(), t, y)
 
     def _touches(self, stop: Stop, side: float, t: float, y: Array) -> bool:
         end = stop.end(side)
@@ -289,7 +289,7 @@ class StopState(ContactState):
         found = np.linalg.lstsq(whole, gap)[0]
         a[f], self.pushing = found[: len(f)], found[len(f) :]
         effort, no = e.effort + e.mass @ a - n.T @ self.pushing, np.zeros(0)
-        return Contacted(a, effort, no, no, no), np.where(acting.free & ~self.locked, tau, effort), e
+        return Contacted(a, effort, *(no,) * 5), np.where(acting.free & ~self.locked, tau, effort), e
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
         if not self.pressed:

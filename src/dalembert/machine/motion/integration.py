@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.impacts import StopState
@@ -51,6 +51,8 @@ class Integration(StopState):
         self.ended: Words = ()
         self.rows: list[tuple[float, Array, Array, Array, Array, Array, Array, Array]] = []
         self.samples: list[tuple[float, Array]] = []
+        self.parts: list[Array] = []
+        self.ends: list[float] = []
 
     def keep(self, t: float, y: Array) -> None:
         """Keep an instant; in machine code together with those of its segment."""
@@ -58,10 +60,19 @@ class Integration(StopState):
             self.samples.append((t, Between.standing(t, y).record))
             return
         d = self.d
-        a, effort, _ = self.at(t, y)
+        found, effort, _ = self.solved(t, y)
+        self.parts.append(np.where(self._told, found.part, np.nan))
         q, u = y[:d].copy(), y[d : 2 * d].copy()
         on_stop = np.where(self.on_stop != 0, self.acting.effort(t, q, u), np.nan)
-        self.rows.append((t, q, u, a, effort, y[2 * d :].copy(), on_stop, self.joint_forces(t, y)))
+        self.rows.append((t, q, u, found.a, effort, y[2 * d :].copy(), on_stop, self.joint_forces(t, y)))
+
+    @property
+    def _told(self) -> Flags:
+        """Contacts (E,) whose friction the motion tells where they have no rate: not those that rest by a range."""
+        told = self.stuck.copy()
+        if self.equation.dry and not self.locked.any():
+            told[self.equation.dry.own] = True
+        return told
 
     def _keep_samples(self) -> None:
         """Keep the instants of the segment that wait, all at once, before anything else happens."""
@@ -96,7 +107,7 @@ class Integration(StopState):
                     t = self._rest(t, y)
                 else:
                     t, y = self._segment(t, y)
-                self._watch_chatter()
+                self._watch_chatter(t)
             self._keep_samples()
         except StoppedError as error:
             self._keep_samples()
@@ -110,16 +121,14 @@ class Integration(StopState):
 
     def _all_rest(self) -> bool:
         """Whether what forces move is held, and what is prescribed stands."""
-        return bool((self.locked | ~self.acting.free).all() and not self._others_move())
+        return bool((self.locked | ~self.acting.free | self.bound).all() and not self._others_move())
 
-    def _watch_chatter(self) -> None:
-        if len(self.events) > MANY:
-            first, last = self.events[-MANY].time, self.events[-1].time
-            if last - first <= CHATTER * max(last, 1e-300):
-                raise StoppedError(
-                    f"{MANY} events within {last - first:.1e} s: a contact that is no drive's sticks and slips; "
-                    "drive its joint, so that rest there is a state of its own"
-                )
+    def _watch_chatter(self, t: float) -> None:
+        self.ends = [*self.ends[-MANY:], t]
+        if len(self.ends) > MANY and t - self.ends[0] <= CHATTER * max(t, 1e-300):
+            raise StoppedError(
+                f"{MANY} events within {t - self.ends[0]:.1e} s: what comes to rest there starts again without end"
+            )
 
     def _segment(self, t: float, y: Array) -> tuple[float, Array]:
         """To the first event, or the end."""
@@ -275,12 +284,16 @@ class Integration(StopState):
         def rate(c: int) -> Value:
             return lambda t, y: float(self.rubbing_rates(t, y)[c])
 
+        def room(c: int) -> Value:
+            return lambda t, y: float(self.own(self.solved(t, y)[0].room)[c])
+
         def switch(k: int, of: Switch) -> Value:
             return lambda t, y: acting.switched(of, k, t, y[:d], y[d:])
 
-        rubbing = np.flatnonzero(self.rubs & ~self.locked).tolist()
+        rubbing = np.flatnonzero(self.rubs & ~self.locked & ~self.bound).tolist()
         out = [Guard("rest", k, speed(k), float(self.toward[k])) for k in rubbing]
-        out += [Guard("contact", c, rate(c), float(s)) for c, s in enumerate(self.sense)]
+        out += [Guard("contact", c, rate(c), float(s)) for c, s in enumerate(self.sense) if not self.tied[c]]
+        out += [Guard("slip", c, room(c), 1.0) for c in np.flatnonzero(self.own(self.stuck)).tolist()]
         for k, motor in acting.motors.items():
             out += [Guard(key, k, switch(k, of)) for key, of in self._switches(k)]
             out += [Guard("kink", k, speed(k, w)) for w in motor.kinks]
@@ -319,16 +332,13 @@ class Integration(StopState):
         hit = [(g.which, -g.side) for g in crossed if g.kind == "stop"]
         if hit:
             self.strike(hit, t, y)
-        for g in crossed:
+        touched = [g.which for g in crossed if g.kind in ("contact", "slip")]
+        if touched:
             small = STILL * max(float(self.fastest.max()), 1e-300)
-            stands = [int(k) for k in np.flatnonzero(self.rubs & ~self.locked) if abs(y[d + k]) <= small]
-            if g.kind == "contact" and not stands:
-                self.sense[g.which] *= -1
-                joint = self.equation.joints[g.which]
-                self.note(t, "reversal", f"{joint} reverses: its friction turns round", of=joint)
-            elif g.kind == "contact":
-                rests += [k for k in stands if k not in rests]
-            elif g.kind == "hold":
+            stands = np.flatnonzero(self.rubs & ~self.locked & ~self.bound & (np.abs(y[d : 2 * d]) <= small))
+            rests = list(dict.fromkeys([*rests, *stands.tolist()]))
+        for g in crossed:
+            if g.kind == "hold":
                 self.leave(g.which, t)
             elif g.kind in ("on", "off"):
                 self._switch(t, g.which, g.kind)
@@ -336,15 +346,19 @@ class Integration(StopState):
                 c = self.conditions[g.which]
                 self.note(t, "condition", c.text)
                 self.ended = (f"{c.text} at ", ("time", t)) if c.stops else self.ended
-        for k in dict.fromkeys(rests):
-            y[d + k] = 0.0
-            self._settle(k, t, y)
+        y[[d + k for k in rests]] = 0.0
+        if rests or touched:
+            leaving = [g.which for g in crossed if g.kind == "slip"]
+            decided = self.settle(rests, t, y, leaving)
+            for e in set(touched) - {*decided}:
+                self.sense[e] *= -1
+                joint = self.equation.joints[e]
+                self.note(t, "reversal", f"{joint} reverses: its friction turns round", of=joint)
 
     def _resume(self, t: float, y: Array) -> None:
         """Let go what is no longer held."""
         self._keep_samples()
-        for k in self._loose(t, y):
-            self._settle(k, t, y)
+        self.settle(self._loose(t, y), t, y, self.leaving(t, y))
         self.keep(t, y)
 
     def _rest(self, t: float, y: Array) -> float:

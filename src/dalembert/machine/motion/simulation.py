@@ -312,11 +312,15 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
     rows = [np.array(column) for column in zip(*run.rows, strict=True)]
     kept = np.append(np.diff(rows[0]) > 0, True)  # of an event the state behind it
     t, q, u, a, applied, works, on_stop, stops = (x[kept] for x in rows)
+    parts = np.array(run.parts)[kept] if run.equation.dry else None
     names = [*m.drives, "brakes", "loads", "dampers", "friction"]
     named = {name: w for name, w in zip(names, works.T, strict=True) if name in m.drives or w.any()}
     if run.losses:
         named["impacts"] = -np.array([sum(lost for when, lost in run.losses if when <= x) for x in t])
-    ending, schedule = run.ended or ("at ", ("time", t[-1])), Schedule(tuple(m.drives), q, u, a, time=t)
+    ending, schedule = (
+        run.ended or ("at ", ("time", t[-1])),
+        Schedule(tuple(m.drives), q, u, a, t, parts=parts),
+    )
     return Simulation(
         schedule,
         named,

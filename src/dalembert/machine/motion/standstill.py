@@ -59,6 +59,7 @@ class ContactState:
         self.sense, self.toward = np.ones(len(dry.own) if dry else 0), np.ones(self.d)
         self.stuck: Flags = np.zeros(dry.contacts.count if dry else 0, bool)
         self.rubs: Flags = actuation.free & ((dry is not None) | (actuation.brake > 0))
+        self.fastest = np.abs(actuation.speed)
         self.events: list[Event] = []
         self.switched: set[tuple[int, str]] = set()
         self.evaluations, self.refusal = 0, ""
@@ -111,16 +112,6 @@ class ContactState:
         """Whether something prescribed moves."""
         others = ~self.acting.free
         return bool((self.acting.speed[others] != 0).any() or (self.acting.acceleration[others] != 0).any())
-
-    def _settle_start(self, t: float, y: Array) -> None:
-        """Senses at the start; what stands there is held, or goes the way it is pushed."""
-        u = y[self.d : 2 * self.d]
-        if self.equation.dry:
-            self._check_inertia(t, y)
-            self.sense = np.where(self.rubbing_rates(t, y) < 0, -1.0, 1.0)
-        self.toward = np.where(u < 0, -1.0, 1.0)
-        for k in np.flatnonzero(self.rubs & (u == 0)):
-            self._settle(int(k), t, y)
 
     def _check_inertia(self, t: float, y: Array) -> None:
         """Refuse drives that move nothing with inertia; friction is left out, which could seem to be some."""
@@ -189,6 +180,14 @@ class ContactState:
         ranges = {int(k): self._range(int(k), t, y) for k in np.flatnonzero(self.locked)}
         return [k for k, (tau, low, high) in ranges.items() if not low <= tau <= high]
 
+    def leaving(self, t: float, y: Array) -> list[int]:
+        """Contacts that slip by themselves, and stick, and are no longer held."""
+        return np.flatnonzero(self.own(self.solved(t, y)[0].room) < 0).tolist() if self.stuck.any() else []
+
+    def _yields(self, t: float, y: Array) -> bool:
+        """Whether something at rest is no longer held."""
+        return bool(self._loose(t, y) or self.leaving(t, y))
+
     def _switches(self, k: int) -> list[tuple[str, Switch]]:
         """Switches of a motor that wait."""
         pairs = (("on", self.acting.motors[k].on), ("off", self.acting.motors[k].off))
@@ -211,13 +210,13 @@ class ContactState:
         if self.acting.by_time or self._loads_by_time():
             steps = np.linspace(t, stop, INSTANTS)[1:]
             for before, after in zip([t, *steps[:-1]], steps, strict=True):
-                if self._loose(after, y):
+                if self._yields(after, y):
                     return self._loosening(before, after, lambda _: y)
         if stop < end:
             for when, k, key in switches:
                 if when == stop:
                     self._switch(when, k, key)
-            return stop if self._loose(stop, y) else self._let_go(stop, end, y)
+            return stop if self._yields(stop, y) else self._let_go(stop, end, y)
         return end
 
     def _loads_by_time(self) -> bool:
@@ -230,5 +229,5 @@ class ContactState:
             middle = (low + high) / 2
             if middle in (low, high):
                 break
-            low, high = (low, middle) if self._loose(middle, state(middle)) else (middle, high)
+            low, high = (low, middle) if self._yields(middle, state(middle)) else (middle, high)
         return float(high)

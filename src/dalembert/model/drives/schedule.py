@@ -22,6 +22,7 @@ class Schedule:
 
     position, speed, acceleration: (positions, drives), SI and radians; an unknown position is NaN
     time:    (positions,) of a law of motion, else None
+    parts:   (positions, contacts) of friction's limit at contacts without a rate, where it is known; else NaN, None
     unknown: the drive whose position is asked for, and the `range` it is sought in
     """
 
@@ -32,6 +33,7 @@ class Schedule:
     time: Array | None = None
     unknown: str | None = None
     range: tuple[float, float] | None = None
+    parts: Array | None = None
 
     @property
     def count(self) -> int:

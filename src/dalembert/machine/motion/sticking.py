@@ -1,0 +1,156 @@
+"""Contacts at rest in machines of several freedoms: which of them stick, and which way the others go.
+
+A contact sticks while what keeps its rate at 0 is no more than its coefficient at rest allows. All sets of contacts at
+rest that stick, and senses of the others, are tried, most sticking ones first, until one satisfies friction's law.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from itertools import product
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.machine.motion.actuation import Actuation
+from dalembert.machine.motion.equation import StoppedError
+from dalembert.machine.motion.standstill import STILL, ContactState
+from dalembert.model import Mechanism
+
+AT_ONCE = 7
+"""Contacts at rest at once whose sets are tried: 3^7 there are."""
+PARALLEL = 1e-9
+"""A column is a sum of others where less than this part of it is left over."""
+EVEN = 1e-9
+"""Part of a limit, or of what it accelerates, that is rounding."""
+
+
+class StickState(ContactState):
+    """A motion's contacts and drives at rest; ``tied`` (own contacts,) and ``bound`` (D,): those that rest because
+    contacts stick."""
+
+    def __init__(self, m: Mechanism, actuation: Actuation) -> None:
+        super().__init__(m, actuation)
+        self.tied: Flags = np.zeros(len(self.sense), bool)
+        self.bound: Flags = np.zeros(self.d, bool)
+
+    def _settle_start(self, t: float, y: Array) -> None:
+        """Senses at the start; what stands there is held, or goes the way it is pushed."""
+        u = y[self.d : 2 * self.d]
+        if self.equation.dry:
+            self._check_inertia(t, y)
+            self.sense = np.where(self.rubbing_rates(t, y) < 0, -1.0, 1.0)
+        self.toward = np.where(u < 0, -1.0, 1.0)
+        self.settle(np.flatnonzero(self.rubs & (u == 0)).tolist(), t, y)
+
+    def settle(self, drives: Sequence[int], t: float, y: Array, leaving: Sequence[int] = ()) -> list[int]:
+        """Decide what drives and contacts at rest do, contacts that are ``leaving`` having slipped; of which own ones.
+
+        One drive and the contacts that rest with it: by the range of its effort, and so where there is a brake or a
+        stop. Several: by the contacts alone.
+        """
+        resting, rates, push = self._resting(t, y)
+        others = np.delete(np.arange(self.d), drives)
+        alone = not (self.stuck.any() or self.locked[others].any() or push[others][:, resting].any())
+        alone = (alone and len(drives) == 1) or (len(resting) > AT_ONCE and len(drives) > 0)
+        for k in drives:
+            if alone or self._kept[k] or not push[k, resting].any():
+                self._settle(k, t, y)
+        if not alone:
+            self.locked &= self._kept
+            resting, rates, push = self._resting(t, y)
+            self._stop(push[:, resting], rates[resting], y)
+            self._choose(resting, push, t, y, leaving)
+            begins = ~(self.locked | self.bound | self._kept) & (
+                np.abs(y[self.d : 2 * self.d]) <= STILL * self.fastest
+            )
+            if begins.any():
+                self.toward[begins] = np.where(self.at(t, y)[0][begins] < 0, -1.0, 1.0)
+        return [int(e) for e in resting]
+
+    @property
+    def _kept(self) -> Flags:
+        """Drives (D,) that rest by more than contacts: a brake or a stop."""
+        return np.asarray((self.acting.brake > 0) | (self.on_stop != 0))
+
+    def _resting(self, t: float, y: Array) -> tuple[Ints, Array, Array]:
+        """Own contacts whose rates are 0 and change with what is free; rates (own,), the push (D, own) on that."""
+        if not self.equation.dry:
+            return np.zeros(0, np.intp), np.zeros(0), np.zeros((self.d, 0))
+        terms = self.equation(t, y[: self.d], y[self.d : 2 * self.d])
+        assert terms.linear is not None
+        rates, push = self.own(terms.rates), terms.linear.push[:, self.equation.dry.own]
+        slow = self.tied | (np.abs(rates) <= STILL * (self.fastest @ np.abs(push)))
+        push = push * (self.acting.free & ~(self.locked & self._kept))[:, None]
+        return np.flatnonzero(slow & push.any(axis=0)), rates, push
+
+    def _stop(self, push: Array, rates: Array, y: Array) -> None:
+        """Take from the speeds what is left of the rates of contacts at rest."""
+        u = y[self.d : 2 * self.d]
+        u += np.linalg.lstsq(push.T, rates, rcond=PARALLEL)[0]
+        u[_within(np.eye(self.d), push) & (np.abs(u) <= STILL * self.fastest)] = 0.0
+
+    def _choose(self, resting: Ints, push: Array, t: float, y: Array, leaving: Sequence[int]) -> None:
+        """Take the first set of sticking contacts, and senses of the others, that satisfies friction's law."""
+        dry = self.equation.dry
+        if not dry or not len(resting):
+            self.stuck[:], self.tied[:], self.bound[:] = False, False, False
+            return
+        if len(resting) > AT_ONCE:
+            what = f"{len(resting)} contacts come to rest at once"
+            raise StoppedError(f"{what}, and of {AT_ONCE} at most it is found which of them stick")
+        stuck, sense = self.stuck.copy(), self.sense.copy()
+        forced = {e: float(-np.sign(self.solved(t, y)[0].cz[dry.own[e]])) for e in leaving}
+        for way in _ways([(forced[e],) if e in forced else (0.0, sense[e], -sense[e]) for e in resting]):
+            held = resting[way == 0]
+            if np.linalg.matrix_rank(push[:, held], tol=PARALLEL * np.abs(push).max()) < len(held):
+                continue
+            self.stuck[:] = False
+            self.stuck[dry.own[held]] = True
+            self.sense[resting[way != 0]] = way[way != 0]
+            dry.last = None
+            with suppress(StoppedError, np.linalg.LinAlgError):
+                if self._lawful(resting, way, t, y):
+                    break
+        else:
+            self.stuck, self.sense = stuck, sense
+            names = ", ".join(self.equation.joints[e] for e in resting)
+            why = "neither sticking nor slipping satisfies the law of friction"
+            raise StoppedError(f"there it jams: of {names}, at rest, {why}")
+        self.tied = _within(push, push[:, held]) & np.isin(np.arange(len(sense)), resting)
+        self.bound = _within(np.eye(self.d), push[:, held]) & (y[self.d : 2 * self.d] == 0)
+        self._note_change(stuck[dry.own], sense, t)
+
+    def _lawful(self, resting: Ints, way: Array, t: float, y: Array) -> bool:
+        """Whether those that stick can, and the others go the way of their senses."""
+        assert self.equation.dry is not None
+        found, own = self.solved(t, y)[0], self.equation.dry.own[resting]
+        ahead, size = found.second[own] * way, found.size[own]
+        room, held = found.room[own], np.abs(found.cz[own])
+        return bool(((way == 0) | (ahead >= -EVEN * size)).all() and (room >= -EVEN * held).all())
+
+    def _note_change(self, stuck: Flags, sense: Array, t: float) -> None:
+        """Note which contacts stick now, slip again or have turned."""
+        assert self.equation.dry is not None
+        now = self.stuck[self.equation.dry.own]
+        for e, joint in enumerate(self.equation.joints):
+            if now[e] and not stuck[e]:
+                self.note(t, "rest", f"{joint} sticks: its friction holds it", of=joint)
+            elif stuck[e] and not now[e] and not self.tied[e]:
+                self.note(t, "start", f"{joint} slips again", of=joint)
+            elif sense[e] != self.sense[e] and not self.tied[e]:
+                self.note(t, "reversal", f"{joint} reverses: its friction turns round", of=joint)
+
+
+def _ways(options: Sequence[Sequence[float]]) -> Iterator[Array]:
+    """Choices of one option each, those of most zeros first."""
+    return iter(sorted(map(np.array, product(*options)), key=np.count_nonzero))
+
+
+def _within(columns: Array, of: Array) -> Flags:
+    """Columns (D, K) that are sums of others (D, N)."""
+    size, left = np.abs(columns).max(axis=0), columns - of @ np.linalg.lstsq(of, columns, rcond=PARALLEL)[0]
+    return np.asarray((np.abs(left).max(axis=0) <= PARALLEL * size) & (size > 0))
