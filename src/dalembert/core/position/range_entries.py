@@ -139,7 +139,7 @@ def _turn_wheels(layout: Layout, way: Plan, held: Pose, targets: Array) -> tuple
     missing = gap(layout, held, targets)
     with np.errstate(all="ignore"):  # at once, however far: a phase is linear in its wheel's angle
         dq = displacement(layout, stack_rows(layout, held), missing)
-    found = displace(layout, held, dq.reshape(len(targets), layout.links, -1))
+    found = displace(layout, held, dq.reshape(len(targets), layout.links, layout.algebra.n))
     found, open_ = close_loops(layout, found, targets)
     nothing = np.full((len(targets), targets.shape[1]), np.nan)
     with np.errstate(all="ignore"):

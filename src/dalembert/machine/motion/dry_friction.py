@@ -108,7 +108,7 @@ class DryFriction:
                 self.last = found.z[0]
                 return found.z[0]
         state = SlipState(sense[None], np.zeros((1, len(sense)), bool), sense[None])
-        z = solve_friction(self.contacts, whole, state).z[0]
+        z: Array = solve_friction(self.contacts, whole, state).z[0]
         self.last = z if np.isfinite(z).all() else None
         return self.last
 

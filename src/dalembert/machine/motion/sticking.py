@@ -49,27 +49,32 @@ class StickState(ContactState):
     def settle(self, drives: Sequence[int], t: float, y: Array, leaving: Sequence[int] = ()) -> list[int]:
         """Decide what drives and contacts at rest do, contacts that are ``leaving`` having slipped; of which own ones.
 
-        One drive and the contacts that rest with it: by the range of its effort, and so where there is a brake or a
-        stop. Several: by the contacts alone.
+        In a machine of one freedom by the range of its effort, and so where there is a brake or a stop, or too many
+        contacts; else by the contacts alone.
         """
         resting, rates, push = self._resting(t, y)
-        others = np.delete(np.arange(self.d), drives)
-        alone = not (self.stuck.any() or self.locked[others].any() or push[others][:, resting].any())
-        alone = (alone and len(drives) == 1) or (len(resting) > AT_ONCE and len(drives) > 0)
+        single = self.acting.free.sum() == 1 and not self.stuck.any()
+        alone = bool(drives) and (single or len(resting) > AT_ONCE)
         for k in drives:
-            if alone or self._kept[k] or not push[k, resting].any():
+            if alone or self._kept[k]:
                 self._settle(k, t, y)
+            elif t > 0 and not push[k, resting].any():
+                name = self.acting.names[k]
+                self.note(t, "reversal", f"{name} turns back", of=name)
         if not alone:
             self.locked &= self._kept
             resting, rates, push = self._resting(t, y)
             self._stop(push[:, resting], rates[resting], y)
             self._choose(resting, push, t, y, leaving)
-            begins = ~(self.locked | self.bound | self._kept) & (
-                np.abs(y[self.d : 2 * self.d]) <= STILL * self.fastest
-            )
-            if begins.any():
-                self.toward[begins] = np.where(self.at(t, y)[0][begins] < 0, -1.0, 1.0)
+            self._begin(t, y)
         return [int(e) for e in resting]
+
+    def _begin(self, t: float, y: Array) -> None:
+        """Which way drives go that stand and are not held."""
+        slow = np.abs(y[self.d : 2 * self.d]) <= STILL * self.fastest
+        begins = slow & self.acting.free & ~(self.locked | self.bound | self._kept)
+        if begins.any():
+            self.toward[begins] = np.where(self.at(t, y)[0][begins] < 0, -1.0, 1.0)
 
     @property
     def _kept(self) -> Flags:
