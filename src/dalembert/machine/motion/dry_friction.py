@@ -105,10 +105,10 @@ class DryFriction:
         if self.last is not None:
             found = newton(self.contacts, whole, sense[None], c[None], self.last[None])
             if found.arrived[0] and found.determinant[0] > 0:
-                self.last = found.z[0]
-                return found.z[0]
+                self.last = np.asarray(found.z[0])
+                return self.last
         state = SlipState(sense[None], np.zeros((1, len(sense)), bool), sense[None])
-        z: Array = solve_friction(self.contacts, whole, state).z[0]
+        z = np.asarray(solve_friction(self.contacts, whole, state).z[0])
         self.last = z if np.isfinite(z).all() else None
         return self.last
 
