@@ -85,11 +85,11 @@ class Panels:
             at += [*self._at(k, real)]
             area += [*(starts[k] + legendre.legval(real, whole) * self.width[k] / 2)]
         order = np.argsort(at, kind="stable")
-        place, area = np.array(at)[order], np.array(area)[order]
+        place, reached = np.array(at)[order], np.array(area)[order]
         # a zero at a kink is found on both sides of it and between: one change of sign; two are none
         group = np.cumsum(np.diff(place, prepend=-np.inf) > ONE * self.period)
         first = np.flatnonzero(np.diff(group, prepend=0))[np.bincount(group)[1:] % 2 == 1]
-        return place[first], area[first]
+        return place[first], reached[first]
 
     def extremes(self, values: Array) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with where they are, on the curve itself."""
