@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +23,7 @@ from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
 from dalembert.kernel.memory import available
 from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
-from dalembert.machine.motion.equation import Equation
+from dalembert.machine.motion.equation import Corners, Equation
 from dalembert.machine.motion.equation_trace import trace_equation
 from dalembert.machine.motion.motion_block import MotionBlock, Motions
 from dalembert.machine.motion.simulation import check_choices, read_end, read_start
@@ -31,6 +32,8 @@ from dalembert.model.drives.starting import Start
 
 AT_ONCE = 16_384
 """Instants of the designs computed at once."""
+CORNERED = 0.01
+"""Part of the tolerance for motors with corners: a step that goes over one errs by more than it says."""
 REMEDY = "use da.simulate for such a machine"
 UNDECIDED = "undecided: its steps became too small, or it comes near a dead centre; da.simulate says why"
 ROWS = {"effort": 0, "motor.stall": 0, "motor.no_load": 1, "position": 3, "speed": 4}
@@ -81,7 +84,7 @@ def compile_motion(
     in `da.compile`, and ``drives.NAME.effort``, ``drives.NAME.motor.stall`` and ``.no_load``, ``start.NAME.position``
     and ``.speed``. outputs: names as in `da.compile`, at ``count`` instants evenly from a design's start to its end;
     reduce: over these, as there, or ``final``. tolerance: of the steps, relative. Raises ModelError for what is not
-    smooth: dry friction, brakes, stops, motors with corners or switches, efforts that go by positions or time.
+    smooth: dry friction, brakes, stops, motors with switches, efforts that go by positions or time.
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2)
@@ -127,29 +130,42 @@ def _compile(
         equation = trace_equation(prescribed, [path for path in vary if path not in own], outputs)
     except ModelError as error:
         raise ModelError(f"{why}: {error.what}", REMEDY, error.path) if rubs else error from None
-    code = equation.steps(moves.free, lanes, works=False)
+    traced = equation.kernel.trace.numbers[: -2 * len(moves.names)]
+    symbols = _symbols(m, equation, traced)
+    corners = _corners(symbols)
+    code = equation.steps(moves.free, lanes, works=False, corners=corners)
     if code is None:
         raise ModelError(f"{why}, so that it is not smooth", REMEDY)
-    lines, traced = _lines(m, moves).astype(float), equation.kernel.trace.numbers[: -2 * len(moves.names)]
+    lines = _lines(m, moves).astype(float)
+    formulas = {at: x for at, x in np.ndenumerate(_lines(symbols, moves)) if isinstance(x, Node)}
     where = (*traced, *(_number(moves, lines, path) for path in own))
     places = [k for path in vary for k, n in enumerate(where) if f"{n.path}.".startswith(f"{path}.")]
     instants = 1 if reduce == "final" or not outputs else count
-    block = MotionBlock(equation, code, tuple(conditions), end, tolerance, instants)
-    return MotionKernel(m, block, lines, _formulas(m, moves, equation, traced), where, tuple(places), reduce)
+    small = max(tolerance * CORNERED, 1e-14) if corners else tolerance
+    block = MotionBlock(equation, code, tuple(conditions), end, small, instants)
+    return MotionKernel(m, block, lines, formulas, where, tuple(places), reduce)
 
 
-def _formulas(
-    m: Mechanism, moves: Actuation, equation: Equation, traced: Sequence[Number]
-) -> dict[tuple[int, int], Node]:
-    """Nodes of the numbers in ``ROWS`` that follow from parameters that vary."""
-    graph, nodes = equation.graph, equation.kernel.number_nodes[: len(traced)]
+def _symbols(m: Mechanism, equation: Equation, traced: Sequence[Number]) -> Mechanism:
+    """The description with symbols for what follows from parameters that vary."""
+    nodes = equation.kernel.number_nodes[: len(traced)]
     varied = {n: node for n, node in zip(traced, nodes, strict=True) if n.parameter}
-    found = _lines(with_numbers(m, varied, varied.values(), symbol_functions(graph)), moves)
-    return {(row, k): x for row, of in enumerate(found) for k, x in enumerate(of) if isinstance(x, Node)}
+    return with_numbers(m, varied, varied.values(), symbol_functions(equation.graph)) if varied else m
+
+
+def _corners(m: Mechanism) -> dict[int, Corners]:
+    """Of motors with a curve the speeds of its points, and how much its slope changes there: it is level beyond."""
+    out = dict[int, Corners]()
+    for k, drive in enumerate(m.drives.values()):
+        if drive.motor is not None and drive.effort is None and not drive.motor.straight:
+            points = list(zip(drive.motor.speed, drive.motor.effort, strict=True))
+            slopes = [0.0, *((e - e0) / (u - u0) for (u0, e0), (u, e) in pairwise(points)), 0.0]
+            out[k] = [(u, new - old) for (u, _), (old, new) in zip(points, pairwise(slopes), strict=True)]
+    return out
 
 
 def _refuse(moves: Actuation) -> None:
-    """What the steps cannot do: efforts that are no straight line of the drive's speed."""
+    """What the steps cannot do: efforts that are no function of the drive's speed."""
     for joint, _ in joint_stops(moves.m):
         raise ModelError(f"joint {joint!r} has stops, which change speeds at once", REMEDY)
     for k, (name, drive) in enumerate(moves.m.drives.items()):
@@ -160,8 +176,8 @@ def _refuse(moves: Actuation) -> None:
             raise ModelError(f"drive {name!r} has a brake, which holds at rest", REMEDY)
         if drive.stops:
             raise ModelError(f"drive {name!r} has stops, which change its speed at once", REMEDY)
-        if motor is not None and (not motor.straight or motor.on or motor.off):
-            raise ModelError(f"the motor of drive {name!r} has corners or switches", REMEDY)
+        if motor is not None and (motor.on or motor.off):
+            raise ModelError(f"the motor of drive {name!r} has switches", REMEDY)
 
 
 def _lines(m: Mechanism, moves: Actuation) -> Array:
@@ -170,7 +186,7 @@ def _lines(m: Mechanism, moves: Actuation) -> Array:
     for k, (name, drive) in enumerate(m.drives.items()):
         start, line = m.start.get(name), (0.0 if drive.effort is None else drive.effort, np.inf)
         if drive.motor is not None and drive.effort is None:
-            line = drive.motor.effort[0], drive.motor.speed[1]
+            line = drive.motor.effort[0], drive.motor.speed[1] if drive.motor.straight else np.inf
         rate, speed = (np.ravel(np.array(x, object))[0] for x in (drive.acceleration, drive.speed))
         begin = (moves.position[k], speed) if start is None else (start.position, start.speed)
         lines[:, k] = *line, 0.0 if moves.free[k] else rate, *begin

@@ -8,7 +8,7 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, replace
@@ -40,6 +40,10 @@ NEAR = 1e-7
 NO_INERTIA = "nothing there has inertia"
 OPEN = "there the mechanism does not close, or its drives do not place its links"
 
+
+Corners = Sequence[tuple[Any, Any]]
+"""Of a drive's effort over its speed: speeds at which its slope changes, and by how much; numbers or nodes."""
+NO_CORNERS: dict[int, Corners] = {}
 
 LOCK = RLock()
 """Held while nodes are added to a graph that others may have too."""
@@ -155,23 +159,26 @@ class Equation:
             linear = Linear(*(x.reshape(shape) for x, shape in zip(more, shapes, strict=True)))
         return Terms(effort, mass.reshape(d, d), power, rates, closure, stops.reshape(-1, 3 + d), linear)
 
-    def steps(self, free: Flags, lanes: int = 1, works: bool = True) -> Integrator | None:
+    def steps(
+        self, free: Flags, lanes: int = 1, works: bool = True, corners: Mapping[int, Corners] = NO_CORNERS
+    ) -> Integrator | None:
         """Steps of motions side by side in machine code, where drives go by forces (``free``, (D,)) that are straight
         lines of their own speed; None where it is not smooth, or needs more than the drives' positions and the time.
 
         The state: positions, speeds; ``works`` of drives, of brakes, loads, dampers and friction. Behind ``values``
         there stand, each (D,): effort at speed 0, its slope, that of the brake, acceleration of what is prescribed.
+        ``corners`` of drives: what bends these lines.
         """
         uneven = self.dry or self.known or any(callable(f) for f in self.channels)
         if uneven or find_spec("llvmlite") is None:
             return None
-        key = (lanes, works, *free.tolist())
+        key = (lanes, works, *free.tolist(), *corners)
         with LOCK:
             if key not in self.kept:
-                self.kept[key] = self._steps(free, lanes, works)
+                self.kept[key] = self._steps(free, lanes, works, corners)
         return self.kept[key]  # type: ignore[no-any-return]
 
-    def _steps(self, free: Flags, lanes: int, works: bool) -> Integrator:
+    def _steps(self, free: Flags, lanes: int, works: bool, corners: Mapping[int, Corners]) -> Integrator:
         d, graph, outputs = len(self.names), self.graph, self.program.outputs
         n = 3 * d + 4 if works else 2 * d
         slots = [graph.input("channel", f"state {k}", 1.0) for k in range(n + 1)]
@@ -185,6 +192,8 @@ class Equation:
             return np.array(graph.substitute(outputs[:count], places), object)
 
         a, applied = np.where(free, 0.0, given[3]), given[0] + given[1] * u
+        for k, bends in corners.items():
+            applied[k] = sum(((u[k] - speed).larger(0.0) * bend for speed, bend in bends), applied[k])
         effort, mass = np.split(found(self.ends[1], a), [d])
         a[free] = solve_nodes(mass.reshape(d, d)[np.ix_(free, free)], (applied + given[2] - effort)[free])
         rate = [*u, *a]
