@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.studies import Study, StudyResult
+from dalembert.studies import Study, StudyResult, motion_engines
 from dalembert.studies.motion_engines import SimulationEngine
 from dalembert.studies.output.study_text import summary
 from dalembert.studies.store import Store
@@ -107,8 +107,11 @@ def test_what_a_motion_ends_with_is_not_reduced() -> None:
 
 
 @pytest.mark.parametrize("reduce", ["peak", None])
-def test_a_store_goes_on_with_the_same_bits(tmp_path: Path, reduce: str | None) -> None:
-    s = run_up(designs=1100, reduce=reduce)
+def test_a_store_goes_on_with_the_same_bits(
+    tmp_path: Path, reduce: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(motion_engines, "AT_ONCE", 1 << 16)
+    s = run_up(designs=600, reduce=reduce)
     whole, stored = s.run(threads=1), s.run(tmp_path / "s.zarr", threads=2)
     assert len(stored.ledger) > 2
     store = Store(tmp_path / "s.zarr")
@@ -118,7 +121,7 @@ def test_a_store_goes_on_with_the_same_bits(tmp_path: Path, reduce: str | None) 
     assert again.prints == s.prints
     for found in (stored, again.run(tmp_path / "s.zarr"), pickle.loads(pickle.dumps(s)).run()):
         assert all((found[name] == whole[name]).all() for name in [*OUTPUTS, "status"])
-    assert (run_up(designs=700, reduce=reduce).extended(1100).run()["time"] == whole["time"]).all()
+    assert (run_up(designs=300, reduce=reduce).extended(600).run()["time"] == whole["time"]).all()
 
 
 def test_undecided_motions_are_no_numbers() -> None:

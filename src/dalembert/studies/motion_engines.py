@@ -25,8 +25,8 @@ from dalembert.units import quantity as read_quantity
 from dalembert.wording import closest
 
 KEYS = ("until", "start", "count", "tolerance")
-AT_ONCE = 512
-"""Motions of a block that takes about a tenth of a second."""
+AT_ONCE, MOST = 1 << 19, 4096
+"""Instants of a block, and designs, that take some tenths of a second, beside which it takes little to store it."""
 WHY = "; write it by `dalembert study design STORE N -o design.yaml`, and `dalembert simulate` says why."
 SENTENCES = {
     "undecided": f"The steps of the motion became too small, or it comes near a dead centre{WHY}",
@@ -110,7 +110,7 @@ class MotionEngine:
 
     @property
     def most_at_once(self) -> int:
-        return AT_ONCE
+        return max(1, min(MOST, AT_ONCE // self.positions))
 
     @property
     def text(self) -> str:
