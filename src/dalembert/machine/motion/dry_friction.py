@@ -94,7 +94,10 @@ class DryFriction:
         if len(held):
             cz[held] = np.linalg.solve(r.change[2 * d + held][:, held], (x - multiplier(r, cz))[2 * d + held])
         size = np.abs(bearing(self.contacts, y))
-        limit, least = strength(self.contacts, 1.0, True) * size, np.maximum(c * size, np.finfo(float).tiny)
+        limit, least = (
+            strength(self.contacts, 1.0, True) * size,
+            np.where(stuck & (c * size > 0), c * size, 1.0),
+        )
         room, pushed = np.where(stuck, limit - np.abs(cz), 0.0), limit * r.change[2 * d :].diagonal()
         parts = np.where(stuck, -cz / least, sense)
         return Contacted(x[:d], x[d : 2 * d], x[2 * d :], cz, room, parts, pushed)
