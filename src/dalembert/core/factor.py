@@ -92,7 +92,11 @@ def damped_step(layout: Layout, rows: System, weight: Array, scaled_gap: Array, 
     right = scaled_gap * weight
     if layout.unknowns <= SPARSE:
         j = dense(layout, rows)[0] * scale[:, None] * column
-        return np.linalg.solve(j.T @ j + damping * np.eye(j.shape[1]), j.T @ right) * column
+        square, right = j.T @ j + damping * np.eye(j.shape[1]), j.T @ right
+        try:
+            return np.linalg.solve(square, right) * column
+        except np.linalg.LinAlgError:  # the damping is below what rounding leaves of it
+            return np.asarray(np.linalg.lstsq(square, right)[0] * column)
     bands = bands_of(rows, layout.links, layout.algebra.n)
     if bands is not None:
         return bands.least_squares(rows, scale, column, right, damping)

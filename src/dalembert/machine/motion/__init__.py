@@ -7,7 +7,8 @@ equation     M_r u' + h = tau, from the compiled inverse dynamics (equation_trac
 actuation    what moves each drive: given efforts, motors with their switches, brakes
 steps        the method's steps, in machine code where the motion is smooth
 integration  segments between events: contacts that come to rest, switches, the user's (occurrences)
-impacts      end stops: speeds behind an impact, what it loses, rest on a stop
+stops        end stops: impacts, rest, their forces
+coordinates  where a drive comes near its dead centre, other freedoms lead on, piece by piece
 standstill   whether friction holds a drive at rest, by the analysis of the machine at rest there
 simulation   `da.simulate`; energies: of a result, in closed form
 """

@@ -65,6 +65,10 @@ class Actuation:
                 out[k] = self.motors[k].at(u[k])
         return out
 
+    def powers(self, t: float, q: Array, u: Array, effort: Array) -> Array:
+        """Powers (D,) of the drives, that have these efforts."""
+        return effort * u
+
     def lines(self, u: Array, ahead: Array) -> tuple[Array, Array] | None:
         """Efforts (D,) at speed 0 and their slopes (D,), until a motor's next corner or switch; None where an effort
         goes by positions or the time. ``ahead``: accelerations, which way a motor leaves a corner."""

@@ -38,6 +38,10 @@ STEPS = 40
 NEAR = 1e-7
 """How far the pose of a state may be from the one that Newton's steps began at, so that they have ended."""
 NO_INERTIA = "nothing there has inertia"
+DEAD_CENTRE = (
+    "there is a dead centre or a change point, from which the mechanism can go on in two ways, and its drives do not "
+    "tell which; let a drive go that places the links there too"
+)
 OPEN = "there the mechanism does not close, or its drives do not place its links"
 
 
@@ -55,16 +59,16 @@ class StoppedError(AnalysisError):
 
 class Terms(NamedTuple):
     """At a state: efforts (D,) at no acceleration, M_r (D, D), powers of loads and dampers (2,), rates of the contacts
-    (E,), what is below zero within 0.2 deg of a dead centre or change point; of each joint with stops (J, 3 + D) value,
-    rate and, at no acceleration, second rate of its freedom, and how far it goes with each drive; and what friction
-    changes."""
+    (E,), what is below zero within 0.2 deg of a dead centre or change point; of the freedoms that are
+    watched (J, 3 + D) value, but for whole turns, rate and, at no acceleration, second rate, and how far it goes with
+    each drive; and what friction changes."""
 
     effort: Array
     mass: Array
     power: Array
     rates: Array
     closure: Array
-    stops: Array
+    freedoms: Array
     linear: Linear | None
 
 
@@ -151,13 +155,13 @@ class Equation:
             out = self.run(along)
             if not self.known or self.known.follow(out[self.ends[-1] :]) <= NEAR or not self.by_newton:
                 break
-        effort, mass, power, rates, closure, stops, *more = np.split(out[: self.ends[-1]], self.ends[:-1])
+        effort, mass, power, rates, closure, freedoms, *more = np.split(out[: self.ends[-1]], self.ends[:-1])
         linear = None
         if self.dry:
             e = self.dry.contacts.count
             shapes = (d, e), (3, e), (3, e, d), (3, e, e), (e,)
             linear = Linear(*(x.reshape(shape) for x, shape in zip(more, shapes, strict=True)))
-        return Terms(effort, mass.reshape(d, d), power, rates, closure, stops.reshape(-1, 3 + d), linear)
+        return Terms(effort, mass.reshape(d, d), power, rates, closure, freedoms.reshape(-1, 3 + d), linear)
 
     def steps(
         self, free: Flags, lanes: int = 1, works: bool = True, corners: Mapping[int, Corners] = NO_CORNERS

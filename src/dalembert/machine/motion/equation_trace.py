@@ -5,6 +5,7 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
+import re
 from collections import deque
 from collections.abc import Sequence
 from functools import lru_cache
@@ -36,18 +37,24 @@ from dalembert.model import Mechanism, Schedule
 OUTSIDE = frozenset({"min", "exp", "log", "asin", "acos", "tan"})
 """Operations of expressions without machine code."""
 
-LATEST: deque[tuple[object, Mechanism, Equation]] = deque(maxlen=8)
-"""Equations of the mechanisms met last, by what these are made of, which they keep alive."""
+WHOLE_TURN = re.compile(r"known turn \d+")
+"""Inputs that angles are counted from."""
+
+Freedoms = tuple[tuple[str, str], ...]
+"""Joints and their freedoms."""
+LATEST: deque[tuple[tuple[object, Freedoms], Mechanism, Equation]] = deque(maxlen=8)
+"""Equations of the mechanisms met last, by what these are made of, which they keep alive, and the freedoms watched."""
 
 
-def equation_of(m: Mechanism) -> Equation:
-    """The equation of a mechanism whose drives are all prescribed: its structure's, or its own."""
-    key = _made_of(m)
+def equation_of(m: Mechanism, freedoms: Freedoms = ()) -> Equation:
+    """The equation of a mechanism whose drives are all prescribed: its structure's, or its own; ``freedoms`` of joints
+    are watched besides those with stops."""
+    key = (_made_of(m), freedoms)
     with LOCK:
         found = next((e for same, _, e in LATEST if same == key), None)
         if found is None:
-            equal = (e for _, same, e in LATEST if same == m)
-            found = _of_structure(m) or next(equal, None) or trace_equation(m)
+            equal = (e for (_, watched), same, e in LATEST if same == m and watched == freedoms)
+            found = _of_structure(m, freedoms) or next(equal, None) or trace_equation(m, freedoms=freedoms)
             LATEST.append((key, m, found))
         return found.again()
 
@@ -61,10 +68,13 @@ def _made_of(m: Mechanism) -> object:
 
 
 def trace_equation(
-    m: Mechanism, vary: Sequence[str] = (), outputs: tuple[str, ...] | None = None
+    m: Mechanism,
+    vary: Sequence[str] = (),
+    outputs: tuple[str, ...] | None = None,
+    freedoms: Freedoms = (),
 ) -> Equation:
     """The equation of one mechanism, for any numbers at the paths ``vary``; with what is ``asked`` of a state: outputs,
-    then what is below zero where it is in doubt."""
+    then what is below zero where it is in doubt; and with the ``freedoms`` of joints that are watched."""
     names = tuple(m.drives)
     moving = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
     whole, varied = outputs is None, [*vary, *moving]
@@ -78,8 +88,9 @@ def trace_equation(
     if trace.redundant:  # no number where constraints that repeat others are not met
         effort = [n + 1e-300 * traced.open[-1].sqrt() for n in effort]
     rubbing, *linear = _contacts(trace, numbers[count:])
-    moved = [rubbing, traced.closure, _stop_motion(trace, numbers[count:])]
-    parts = [effort, mass, _powers(graph, trace.catalogue.compiled, traced), *moved, *linear]
+    c, watched = trace.catalogue.compiled, (*joint_stops(m), *freedoms)
+    moved = [rubbing, traced.closure, _motion(graph, c, traced, watched, numbers[count:])]
+    parts = [effort, mass, _powers(graph, c, traced), *moved, *linear]
     slip, none = traced.friction.slip, dict[int, Node]()
     if slip is not None:
         none = dict.fromkeys((n.index for n in (*trace_array(graph, slip.cz), *numbers[count:])), graph.zero)
@@ -131,7 +142,7 @@ def _channel(trace: Trace, names: tuple[str, ...], node: Node) -> Any:
     )
 
 
-def _of_structure(m: Mechanism) -> Equation | None:
+def _of_structure(m: Mechanism, freedoms: Freedoms) -> Equation | None:
     """The equation of a mechanism of the plane whose program is kept by structure, with its numbers; None where there
     is none: with friction, or loads that go by positions or time."""
     if any(getattr(load, "varying", ()) for load in m.loads.values()) or joint_stops(m):
@@ -145,16 +156,17 @@ def _of_structure(m: Mechanism) -> Equation | None:
     if found is None or not found.program.whole:
         return None
     values = [*found.single, *found.columns[:, 0], *found.first.ways, 0.0]
-    return _shared(found.program, names).again(np.array(values))
+    return _shared(found.program, names, freedoms).again(np.array(values))
 
 
 @lru_cache(16)
-def _shared(k: KeptProgram, names: tuple[str, ...]) -> Equation:
+def _shared(k: KeptProgram, names: tuple[str, ...], freedoms: Freedoms) -> Equation:
     """The equation of a structure, whose values are the inputs of its program."""
     graph, (q, u, a) = k.graph, k.symbols.drives
     effort = list(k.traced.effort)
     mass = [n for row in gradients(graph, effort, list(a)) for n in row]
-    parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure, []]
+    moved = _motion(graph, k.symbols.compiled, k.traced, freedoms, list(a))
+    parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure, moved]
     own = [
         n if n.op == "number" else graph.input("number", f"value {j}", 1.0) for j, n in enumerate(k.inputs)
     ]
@@ -198,17 +210,22 @@ def _contacts(trace: Trace, accelerations: Sequence[Node]) -> list[list[Node]]:
     return [list(trace_array(graph, a).ravel()) for a in arrays]
 
 
-def _stop_motion(trace: Trace, accelerations: Sequence[Node]) -> list[Node]:
-    """Of each joint with stops: value, rate and second rate of its freedom, and the slopes by the accelerations."""
-    c, traced, out = trace.catalogue.compiled, trace.catalogue.traced, list[Node]()
-    g, freedoms, graph = c.layout.algebra, c.layout.freedoms, trace.catalogue.graph
-    for joint, freedom in joint_stops(c.mechanism):
-        row, rows = c.freedoms.index((joint, freedom)), system(g, freedoms, traced.pose)
-        second = rates(rows, traced.acceleration) + drift(g, freedoms, traced.pose, traced.twist)
-        motion = (measure(g, freedoms, traced.pose), rates(rows, traced.twist), second)
+def _motion(
+    graph: Graph, c: Compiled, traced: Traced, names: Freedoms, accelerations: Sequence[Node]
+) -> list[Node]:
+    """Of freedoms of joints: value, without whole turns, rate and second rate, and the slopes by the accelerations."""
+    g, freedoms, out, pose = c.layout.algebra, c.layout.freedoms, list[Node](), traced.pose
+    if g.d == 2:
+        cos, sin = np.moveaxis(trace_array(graph, pose.rotation), -1, 0)
+        pose = pose._replace(turn=np.arctan2(sin, cos))
+    for name in names:
+        row, rows = c.freedoms.index(name), system(g, freedoms, pose)
+        second = rates(rows, traced.acceleration) + drift(g, freedoms, pose, traced.twist)
+        motion = (measure(g, freedoms, pose), rates(rows, traced.twist), second)
         out.extend(trace_array(graph, np.array([x[..., row][()] for x in motion], object)))
         out.extend(gradients(graph, out[-1:], list(accelerations))[0])
-    return out
+    turns = [n.index for n in graph.order(out) if WHOLE_TURN.fullmatch(graph.names.get(n.index, ""))]
+    return graph.substitute(out, dict.fromkeys(turns, graph.zero))
 
 
 def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:

@@ -15,8 +15,8 @@ from scipy.optimize import brentq
 
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
-from dalembert.machine.motion.equation import StoppedError
-from dalembert.machine.motion.impacts import StopState
+from dalembert.machine.motion.coordinates.dead_centres import WATCHED, LeadState
+from dalembert.machine.motion.equation import DEAD_CENTRE, StoppedError
 from dalembert.machine.motion.occurrences import Condition, Guard, Value, Words
 from dalembert.machine.motion.standstill import STILL
 from dalembert.machine.motion.steps import LEAST, Between, Integrator, MachineSteps, Steps, between
@@ -33,7 +33,7 @@ CHATTER, MANY = 1e-9, 40
 """So many events within this part of the time that has gone by are chatter."""
 
 
-class Integration(StopState):
+class Integration(LeadState):
     """One run from a start to an end."""
 
     def __init__(
@@ -49,7 +49,6 @@ class Integration(StopState):
         self.end, self.conditions, self.tolerance = end, conditions, tolerance
         self.waiting = None if times is None else list(times)
         self.ended: Words = ()
-        self.rows: list[tuple[float, Array, Array, Array, Array, Array, Array, Array]] = []
         self.samples: list[tuple[float, Array]] = []
         self.parts: list[Array] = []
         self.ends: list[float] = []
@@ -74,7 +73,7 @@ class Integration(StopState):
             told[self.equation.dry.own] = True
         return told
 
-    def _keep_samples(self) -> None:
+    def keep_samples(self) -> None:
         """Keep the instants of the segment that wait, all at once, before anything else happens."""
         if self.samples:
             t, records = (np.array(x) for x in zip(*self.samples, strict=True))
@@ -95,29 +94,34 @@ class Integration(StopState):
             t.tolist(), y[:, :d], y[:, d : 2 * d], a, applied, works, on_stop, stops, strict=True
         )
 
-    def run(self) -> None:
-        """Integrate from the start until the end, a condition that stops, or a state from which nothing goes on."""
-        start = self.acting
-        self.reached = t, y = 0.0, np.concatenate([start.position, start.speed, np.zeros(self.d + 4)])
+    def run(self, t: float = 0.0, works: Array | None = None) -> None:
+        """Integrate from the start until the end, a condition that stops, a state from which nothing goes on, or one
+        where other freedoms should lead."""
+        start, done = self.acting, np.zeros(self.d + 4) if works is None else works
+        self.reached = t, y = t, np.concatenate([start.position, start.speed, done])
         try:
             self._settle_start(t, y)
             self.keep(t, y)
-            while t < self.end and not self.ended:
+            while t < self.end and not self.ended and not self.turned_over:
                 if self._all_rest():
                     t = self._rest(t, y)
                 else:
                     t, y = self._segment(t, y)
                 self._watch_chatter(t)
-            self._keep_samples()
+            self.keep_samples()
         except StoppedError as error:
-            self._keep_samples()
-            if self.rows and self.reached[0] > self.rows[-1][0]:
-                with suppress(StoppedError):
-                    self.keep(*self.reached)
-                    self._keep_samples()
-            t = self.rows[-1][0] if self.rows else 0.0
-            self.ended = ("stopped at ", ("time", t), f": {error}")
-            self.note(t, "stopped", *self.ended)
+            self.stop(error)
+
+    def stop(self, error: StoppedError) -> None:
+        """End where nothing goes on."""
+        self.keep_samples()
+        if self.rows and self.reached[0] > self.rows[-1][0]:
+            with suppress(StoppedError):
+                self.keep(*self.reached)
+                self.keep_samples()
+        t = self.rows[-1][0] if self.rows else 0.0
+        self.ended = ("stopped at ", ("time", t), f": {error}")
+        self.note(t, "stopped", *self.ended)
 
     def _all_rest(self) -> bool:
         """Whether what forces move is held, and what is prescribed stands."""
@@ -132,7 +136,8 @@ class Integration(StopState):
 
     def _segment(self, t: float, y: Array) -> tuple[float, Array]:
         """To the first event, or the end."""
-        guards = self._guards(t, y)
+        guards, self.watch = self._guards(t, y), WATCHED
+        self.is_heavy(t, y)
         solver, tiny, longest, steps = self._solver(t, y, self.end), 0, 0.0, 0
         if isinstance(solver, MachineSteps) and not guards and self.waiting is not None:
             longest = self._unwatched(solver, t)
@@ -147,6 +152,8 @@ class Integration(StopState):
                     return before, from_
                 raise StoppedError(self.refusal or "there the steps of the integration become too small")
             self.refusal, longest = "", max(longest, solver.h_previous or 0.0)
+            if self.nears_dead_centre(solver.t, solver.y, (solver.h_previous or 0.0) / (longest or 1.0)):
+                return self._turn_over(solver, before)
             if solver.status == "running" and solver.h_abs < SHORT * longest:
                 self._near_singular(solver.t, solver.y)
                 tiny += 1
@@ -186,6 +193,15 @@ class Integration(StopState):
                 self._keep_until(solver.dense_output(), before, solver.t)
         return solver.t, solver.y
 
+    def _turn_over(self, solver: Steps | MachineSteps, before: float) -> tuple[float, Array]:
+        """End where other freedoms should lead."""
+        self._keep_until(solver.dense_output(), before, solver.t)
+        self.keep_samples()
+        self.turned_over, self.reached = True, (solver.t, solver.y.copy())
+        if self.rows[-1][0] < solver.t:
+            self.keep(*self.reached)
+        return self.reached
+
     def _unwatched(self, solver: MachineSteps, t: float) -> float:
         """Take many steps at a time where nothing may happen, until one is short; the longest."""
         longest, d, n = 0.0, self.d, solver.n
@@ -196,9 +212,13 @@ class Integration(StopState):
             if not lengths.size or lengths.min() <= max(SHORT * most, NEVER * (self.end - t)):
                 break
             longest = most
-            solver.take_all()
             speeds = np.abs(records[:, 2 + n + d : 2 + n + 2 * d])
             self.fastest = np.maximum(self.fastest, speeds.max(axis=0))
+            slow = (speeds[:, self.acting.free] < WATCHED * self.fastest[self.acting.free]).any(axis=1)
+            watched = records[slow | (lengths < WATCHED * most)] if self.may_turn_over else records[:0]
+            if any(self.is_heavy(r[0], r[2 : 2 + n]) for r in watched):
+                break
+            solver.take_all()
             self._keep_within(records, solver)
         return longest
 
@@ -215,10 +235,7 @@ class Integration(StopState):
     def _near_singular(self, t: float, y: Array) -> bool:
         """Raise StoppedError at a dead centre or change point, where two ways go on; otherwise False."""
         if (self.at(t, y)[2].closure < 0).any():
-            raise StoppedError(
-                "there is a dead centre or a change point, from which the mechanism can go on in two ways, and its "
-                "drives do not tell which; let a drive go that places the links there too"
-            )
+            raise StoppedError(DEAD_CENTRE)
         return False
 
     def _solver(self, t: float, y: Array, end: float) -> Steps | MachineSteps:
@@ -232,12 +249,12 @@ class Integration(StopState):
     def _machine(self, t: float, y: Array) -> tuple[Integrator, Array] | None:
         """Machine code and its values, where the efforts are straight lines of the speeds until the next event."""
         free = self.acting.free & ~self.locked
-        code = self.equation.steps(free)
-        if code is None or self.pressed:
+        if self.pressed:
             return None
         ahead = self.at(t, y)[0] if self.acting.motors else np.zeros(self.d)
         lines = self.acting.lines(y[self.d : 2 * self.d], ahead)
-        if lines is None:
+        code = None if lines is None else self.equation.steps(free)
+        if code is None or lines is None:
             return None
         brake = -self.acting.brake * self.toward * free
         given = np.where(self.acting.free, 0.0, self.acting.acceleration)
@@ -326,7 +343,7 @@ class Integration(StopState):
 
     def _happen(self, t: float, y: Array, crossed: list[Guard]) -> None:
         """What follows from events at one instant; the state may be changed."""
-        self._keep_samples()
+        self.keep_samples()
         d = self.d
         rests = [g.which for g in crossed if g.kind == "rest"]
         hit = [(g.which, -g.side) for g in crossed if g.kind == "stop"]
@@ -357,13 +374,13 @@ class Integration(StopState):
 
     def _resume(self, t: float, y: Array) -> None:
         """Let go what is no longer held."""
-        self._keep_samples()
+        self.keep_samples()
         self.settle(self._loose(t, y), t, y, self.leaving(t, y))
         self.keep(t, y)
 
     def _rest(self, t: float, y: Array) -> float:
         """All that forces move stands: until it is no longer held, or to the end."""
-        self._keep_samples()
+        self.keep_samples()
         end = self.end if np.isfinite(self.end) else t
         when = self._let_go(t, end, y)
         self._keep_until(lambda _: y, t, when)
@@ -371,7 +388,7 @@ class Integration(StopState):
             self._resume(when, y)
             return when
         self.ended = ("at rest from ", ("time", t), " on")
-        self._keep_samples()
+        self.keep_samples()
         if self.rows[-1][0] < end:
             self.keep(end, y)
         return self.end

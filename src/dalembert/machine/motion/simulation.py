@@ -20,10 +20,11 @@ from dalembert.analysis.result.link_motion import place_of
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
+from dalembert.machine.motion.coordinates.pieces import analysis_along, instants, integrate
 from dalembert.machine.motion.energies import energies
 from dalembert.machine.motion.integration import Integration
 from dalembert.machine.motion.occurrences import Condition, Event, Words, say
-from dalembert.machine.motion.stop_loads import stop_effort, with_stop_loads
+from dalembert.machine.motion.stops.stop_loads import stop_effort, with_stop_loads
 from dalembert.machine.output.answer import Answer
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import SLIDE, TURN, kind_of
@@ -63,11 +64,17 @@ class Simulation(Answer):
     given: Array = field(repr=False)  # applied, where that is no joint force: else NaN
     pushed: Array = field(repr=False)  # efforts on what rests on a stop, else NaN
     on_joints: Array = field(repr=False)  # stops of joints, (T, J, 2)
+    motion: Result | None = field(
+        repr=False, default=None
+    )  # where other freedoms have led: its poses and rates
     evaluations: int = field(repr=False, default=0)
 
     @cached_property
     def _loaded(self) -> tuple[Result, dict[str, Array]]:
-        found = at_schedule(self.prescribed, self.schedule, inertia=True)
+        if self.motion is None:
+            found = at_schedule(self.prescribed, self.schedule, inertia=True)
+        else:
+            found = analysis_along(self.prescribed, self.schedule, self.motion)
         return with_stop_loads(found, self.on_joints, self.pushed, self.moves)
 
     @property
@@ -249,8 +256,7 @@ def simulate(
         run = Integration(prescribed, moves, end, times, conditions, tolerance)
     except ModelError as error:
         raise error.at_source(m.source) from None
-    run.run()
-    return _answer(m, prescribed, moves, run)
+    return _answer(m, prescribed, moves, integrate(run))
 
 
 def check_choices(count: int, tolerance: float) -> None:
@@ -303,23 +309,21 @@ def _condition(m: Mechanism, text: str, stops: bool) -> Condition:
     return Condition(text.strip(), list(m.drives).index(drive), what, value, stops)
 
 
-def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integration) -> Simulation:
+def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, pieces: list[Integration]) -> Simulation:
     """The motion that was found."""
+    run = pieces[-1]
     if not run.rows:
         raise ModelError(
             f"the motion cannot begin: {say(run.ended)}", "start elsewhere, or with another speed", ("start",)
         )
-    rows = [np.array(column) for column in zip(*run.rows, strict=True)]
-    kept = np.append(np.diff(rows[0]) > 0, True)  # of an event the state behind it
-    t, q, u, a, applied, works, on_stop, stops = (x[kept] for x in rows)
-    parts = np.array(run.parts)[kept] if run.equation.dry else None
+    (t, q, u, a, applied, works, on_stop, stops, parts), motion = instants(pieces)
     names = [*m.drives, "brakes", "loads", "dampers", "friction"]
     named = {name: w for name, w in zip(names, works.T, strict=True) if name in m.drives or w.any()}
     if run.losses:
         named["impacts"] = -np.array([sum(lost for when, lost in run.losses if when <= x) for x in t])
     ending, schedule = (
         run.ended or ("at ", ("time", t[-1])),
-        Schedule(tuple(m.drives), q, u, a, t, parts=parts),
+        Schedule(tuple(m.drives), q, u, a, t, parts=parts if run.equation.dry else None),
     )
     return Simulation(
         schedule,
@@ -331,5 +335,6 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
         applied,
         on_stop,
         stops,
-        run.evaluations,
+        motion,
+        sum(piece.evaluations for piece in pieces),
     )

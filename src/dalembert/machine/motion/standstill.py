@@ -14,7 +14,7 @@ from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.dry_friction import Contacted
-from dalembert.machine.motion.equation import NO_INERTIA, StoppedError, Terms
+from dalembert.machine.motion.equation import NO_INERTIA, Equation, StoppedError, Terms
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event, Words
 from dalembert.model import Mechanism, Schedule
@@ -51,7 +51,8 @@ class ContactState:
     where a drive rests on its least stop, 1 on its greatest, or on a joint's on that side, named in ``resting``."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
-        self.m, self.acting, self.equation = m, actuation, equation_of(m)
+        self.m, self.acting = m, actuation
+        self.equation: Equation = getattr(actuation, "equation", None) or equation_of(m)
         self.d = len(actuation.names)
         self.locked: Flags = np.zeros(self.d, bool)
         self.on_stop, self.resting = np.zeros(self.d), dict[int, str]()
@@ -92,7 +93,8 @@ class ContactState:
         u = y[self.d : 2 * self.d]
         braking = -self.acting.brake * self.toward * u * ~self.locked
         rubbing = found.cz @ np.where(self.stuck, 0.0, terms.rates)
-        return np.concatenate([u, found.a, (effort * u) - braking, [braking.sum()], terms.power, [rubbing]])
+        power = self.acting.powers(t, y[: self.d], u, effort)
+        return np.concatenate([u, found.a, power - braking, [braking.sum()], terms.power, [rubbing]])
 
     def rubbing_rates(self, t: float, y: Array) -> Array:
         """Rates of the contacts (E,) that slip by themselves, those of the last state kept."""

@@ -41,7 +41,7 @@ Look = tuple[float, float, float]
 
 @dataclass
 class Stop:
-    """Stops of a drive, by its number, or of a joint, by its place among ``Terms.stops``.
+    """Stops of a drive, by its number, or of a joint, by its place among ``Terms.freedoms``.
 
     ``resting``: -1 on the least, 1 on the greatest; ``looks``: positions over the last step, whole turns counted.
     """
@@ -102,7 +102,7 @@ class StopState(StickState):
         d = self.d
         if stop.joint < 0:
             return float(y[stop.drive]), float(y[d + stop.drive])
-        x, rate = self.equation(t, y[:d], y[d : 2 * d]).stops[stop.joint][:2]
+        x, rate = self.equation(t, y[:d], y[d : 2 * d]).freedoms[stop.joint][:2]
         return float(x), float(rate)
 
     def stop_guards(self) -> list[Guard]:
@@ -205,7 +205,7 @@ class StopState(StickState):
         if (
             left.any() and not self.equation.dry
         ):  # speeds v, e v, e^2 v, ...: each takes 2 v over the acceleration
-            drift = [s * terms.stops[j][2] if (j := self.stops[k].joint) >= 0 else 0.0 for k, s in all_]
+            drift = [s * terms.freedoms[j][2] if (j := self.stops[k].joint) >= 0 else 0.0 for k, s in all_]
             pushed = rows @ self.at(t, y)[0] + drift
             t += float(np.max(2 * left / np.where(pushed > 0, pushed, np.inf)))
         self._note_rests(t, y)
@@ -222,7 +222,7 @@ class StopState(StickState):
     def _row(self, stop: Stop, terms: Terms) -> Array:
         """What it moves with each drive (D,)."""
         return np.asarray(
-            terms.stops[stop.joint][3:] if stop.joint >= 0 else np.arange(self.d) == stop.drive, float
+            terms.freedoms[stop.joint][3:] if stop.joint >= 0 else np.arange(self.d) == stop.drive, float
         )
 
     def _drive_of(self, stop: Stop) -> int:
@@ -280,7 +280,7 @@ class StopState(StickState):
         tau = acting.effort(t, q, u) - acting.brake * self.toward
         a = np.where(acting.free, 0.0, acting.acceleration)
         e = self.equation(t, q, u)
-        rows = e.stops[[s.joint for s in self.pressed]]
+        rows = e.freedoms[[s.joint for s in self.pressed]]
         n, none = rows[:, 3:], np.zeros((len(rows), len(rows)))
         whole = np.block([[e.mass[np.ix_(f, f)], -n[:, f].T], [n[:, f], none]])
         if not (np.isfinite(whole).all() and np.isfinite(e.effort).all()):
