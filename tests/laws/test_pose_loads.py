@@ -191,7 +191,7 @@ REFUSED = {
     "links.ground.angle": "load 'F' uses 'links.ground.angle', which does not turn; write joints.NAME.turn",
     "joints.guid.slide": "load 'F' uses the joint 'guid', which is not there; did you mean 'guide'?",
     "joints.guide.turn": "load 'F' uses 'joints.guide.turn', and the freedoms of that joint are slide; name one",
-    "O.speed": "value of load 'F': '3*O.speed' ends with '.speed', which has no place there",
+    "O.speed": "load 'F' uses 'O.speed', and only efforts of drives go by speed; write it as the effort of drive 'O'",
     "links.rod.speed": "load 'F' uses 'links.rod.speed', which is no drive",
 }
 
@@ -205,5 +205,5 @@ def test_what_a_load_cannot_go_by_is_refused(name: str) -> None:
 
 def test_an_effort_goes_by_drives_only() -> None:
     drives = {"O": {**SLIDER["drives"]["O"], "effort": "joints.guide.slide"}}
-    with pytest.raises(da.ModelError, match="an effort goes by drives and time"):
+    with pytest.raises(da.ModelError, match="an effort goes by drives, their speeds and time"):
         machine({"F": {**PUSH, "value": "unknown"}}, drives=drives)

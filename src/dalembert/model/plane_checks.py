@@ -9,7 +9,7 @@ from dalembert.errors import ModelError
 from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.links.link import CENTER, GROUND, Link, Offset
 from dalembert.model.load_types import Couple, ForceLoad, SpanLoad, TurnLoad
-from dalembert.model.quantities.coordinates import TIME, along_of, parts
+from dalembert.model.quantities.coordinates import SPEED, TIME, along_of, parts
 from dalembert.model.quantities.expressions import ARGUMENTS, CONSTANTS, Expression
 from dalembert.model.quantities.tables import Table
 from dalembert.model.quantities.varying import Varying
@@ -236,15 +236,21 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
 
 def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...]) -> Iterator[ModelError]:
     """Whether a name that is no drive is time, or a coordinate that there is."""
-    found = parts(name)
-    if found is None and name != TIME:
+    found, of = parts(name), name.removesuffix(SPEED)
+    if of in m.drives and path[0] == "drives":
+        return
+    if of in m.drives:
+        remedy = f"write it as the effort of drive {of!r}, which may stand beside its motor"
+        yield ModelError(f"{what} uses {name!r}, and only efforts of drives go by speed", remedy, path)
+    elif found is None and name != TIME:
         remedy = _drive_remedy(name, list(m.drives))
         yield ModelError(f"{what} uses {name!r}, which is no drive", remedy, path)
     elif path[0] == "drives" and found:
-        remedy = "an effort goes by drives and time: write it as a load, or against a drive"
+        remedy = "an effort goes by drives, their speeds and time: write it as a load, or against a drive"
         yield ModelError(f"{what} uses {name!r}", remedy, path)
     elif found is None:
-        if not m.start and not any(drive.law is not None for drive in m.drives.values()):
+        moved = (x is not None for d in m.drives.values() for x in (d.law, d.motor, d.effort))
+        if not m.start and not any(moved):
             remedy = "give a drive a law, which says when it is where, or go by the drive"
             yield ModelError(f"{what} goes by time, and no drive has a law of motion", remedy, path)
     elif found[0] == "links":

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.batch.tracing.symbolic_model import functions
+from dalembert.analysis.compile.pose_loads import TIME
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import c_text
@@ -33,6 +34,7 @@ def plain(
     places: dict[int, Node] = {}
     names = k.trace.course.schedule.names
     raw = {n: inputs.named["channel", f"position {n}"] for n in names}
+    raw |= {TIME: inputs.time()} if without else {}  # of a motion under forces
     for (kind, name), node in inputs.named.items():
         what, _, of = name.partition(" ")
         if kind == "channel" and what in ("cos", "sin") and of in raw:

@@ -24,7 +24,7 @@ from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
 from dalembert.model.load_types import Directed
-from dalembert.model.quantities.coordinates import TIME
+from dalembert.model.quantities.coordinates import SPEED, TIME
 from dalembert.model.quantities.values import Vector
 
 
@@ -269,9 +269,12 @@ def _setting(m: Mechanism, schedule: Schedule, found: Tree) -> Setting:
 
 
 def _drives(schedule: Schedule) -> dict[str, Array]:
-    """What changing quantities may go by: time, where a law says it, and the drives' positions."""
-    time = {} if schedule.time is None else {TIME: schedule.time}
-    return time | {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
+    """What changing quantities may go by: time, where a law says it, of one position 0; the drives' positions and
+    speeds."""
+    time = np.zeros(1) if schedule.time is None and schedule.count == 1 else schedule.time
+    found = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
+    found |= {f"{name}{SPEED}": schedule.speed[:, k] for k, name in enumerate(schedule.names)}
+    return found if time is None else {TIME: time} | found
 
 
 def _without_pose_loads(m: Mechanism) -> tuple[tuple[str, ...], Mechanism]:

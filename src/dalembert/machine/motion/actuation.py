@@ -15,6 +15,7 @@ from dalembert.model.drives.end_stops import Stops
 from dalembert.model.drives.motors import Switch
 from dalembert.model.drives.starting import Start
 from dalembert.model.joints.plane_joints import Joint
+from dalembert.model.quantities.coordinates import SPEED
 
 
 def joint_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
@@ -37,10 +38,10 @@ class Actuation:
 
     def __post_init__(self) -> None:
         self.names = tuple(self.m.drives)
+        self.speeds = [name + SPEED for name in self.names]
         self.drives = tuple(self.m.drives.values())
         self.motors = {k: d.motor for k, d in enumerate(self.drives) if d.motor is not None}
         self.brake = np.array([d.brake for d in self.drives])
-        self.by_time = any(TIME in getattr(d.effort, "names", ()) for d in self.drives)
         self.on = np.array([self._begins(k) for k in range(len(self.names))])
 
     def _begins(self, k: int) -> bool:
@@ -55,14 +56,16 @@ class Actuation:
         return float({"time": t, "position": q[k], "speed": u[k]}[by] - value)
 
     def effort(self, t: float, q: Array, u: Array) -> Array:
-        """Efforts (D,) of motors and those that are given, without brakes."""
-        out = np.zeros(len(q))
+        """Efforts (D,) of motors with those that are given, without brakes."""
+        out, known = (
+            np.zeros(len(q)),
+            {TIME: t, **dict(zip((*self.names, *self.speeds), (*q, *u), strict=True))},
+        )
         for k, drive in enumerate(self.drives):
             if drive.effort is not None:
-                names = {**dict(zip(self.names, q, strict=True)), TIME: t}
-                out[k] = drive.effort.at(names) if hasattr(drive.effort, "at") else drive.effort
-            elif k in self.motors and self.on[k]:
-                out[k] = self.motors[k].at(u[k])
+                out[k] = drive.effort.at(known) if hasattr(drive.effort, "at") else drive.effort
+            if k in self.motors and self.on[k]:
+                out[k] += self.motors[k].at(u[k])
         return out
 
     def powers(self, t: float, q: Array, u: Array, effort: Array) -> Array:
@@ -71,7 +74,7 @@ class Actuation:
 
     def lines(self, u: Array, ahead: Array) -> tuple[Array, Array] | None:
         """Efforts (D,) at speed 0 and their slopes (D,), until a motor's next corner or switch; None where an effort
-        goes by positions or the time. ``ahead``: accelerations, which way a motor leaves a corner."""
+        goes by positions, speeds or the time. ``ahead``: accelerations, which way a motor leaves a corner."""
         first, slope = np.zeros((2, len(u)))
         for k, drive in enumerate(self.drives):
             if hasattr(drive.effort, "at"):

@@ -138,7 +138,7 @@ class Integration(LeadState):
         """To the first event, or the end."""
         guards, self.watch = self._guards(t, y), WATCHED
         self.is_heavy(t, y)
-        solver, tiny, longest, steps = self._solver(t, y, self.end), 0, 0.0, 0
+        solver, tiny, longest, steps = self._solver(t, y, min(self.end, self.next_bend(t))), 0, 0.0, 0
         if isinstance(solver, MachineSteps) and not guards and self.waiting is not None:
             longest = self._unwatched(solver, t)
         while solver.status == "running":

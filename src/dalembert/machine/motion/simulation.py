@@ -136,7 +136,10 @@ class Simulation(Answer):
             sure &= ~r.friction.reversing.any(axis=1)
         asked, given = r.effort_array[:, free], self.applied[:, free]
         inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
-        largest = max(float(np.abs(x[sure]).max(initial=0.0)) for x in (asked, given, inner))
+        forces, couples = r.compiled.forcing.forces.value, r.compiled.forcing.couples.value
+        loads = np.append(np.ravel(forces) * r.compiled.layout.length, couples)  # of numbers that cancel
+        sizes = (asked[sure], given[sure], inner[sure], np.asarray(loads, float))
+        largest = max(float(np.abs(x).max(initial=0.0)) for x in sizes)
         return np.where(sure, np.abs(asked - given).max(axis=1, initial=0.0), 0.0) / (largest or 1.0)
 
     @property
@@ -254,9 +257,10 @@ def simulate(
         check_choices(count, tolerance)
         times = np.linspace(0.0, end, count)[1:] if np.isfinite(end) else None
         run = Integration(prescribed, moves, end, times, conditions, tolerance)
+        pieces = integrate(run)
     except ModelError as error:
         raise error.at_source(m.source) from None
-    return _answer(m, prescribed, moves, integrate(run))
+    return _answer(m, prescribed, moves, pieces)
 
 
 def check_choices(count: int, tolerance: float) -> None:

@@ -6,6 +6,7 @@ Mechanics: docs/theory.md 10.6.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from dalembert.machine.motion.occurrences import Event, Words
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.motors import Switch
+from dalembert.model.quantities.coordinates import TIME
+from dalembert.model.quantities.tables import Table
 
 STILL = 1e-9
 """A speed below this part of the greatest there has been is rest, at an event where it passes zero."""
@@ -64,6 +67,8 @@ class ContactState:
         self.events: list[Event] = []
         self.switched: set[tuple[int, str]] = set()
         self.evaluations, self.refusal = 0, ""
+        self.by_time = self._by_time()
+        self.tables = [v for v in self.by_time if isinstance(v, Table)]
         self.slipping: tuple[tuple[float, bytes], Array] = (np.nan, b""), np.zeros(0)
 
     def at(self, t: float, y: Array) -> tuple[Array, Array, Terms]:
@@ -209,8 +214,8 @@ class ContactState:
         ]
         switches = [s for s in switches if s[0] > t]
         stop = min([end, *(s[0] for s in switches)])
-        if self.acting.by_time or self._loads_by_time():
-            steps = np.linspace(t, stop, INSTANTS)[1:]
+        if self.by_time:
+            steps = np.union1d(np.linspace(t, stop, INSTANTS), self._bends(t, stop))[1:]
             for before, after in zip([t, *steps[:-1]], steps, strict=True):
                 if self._yields(after, y):
                     return self._loosening(before, after, lambda _: y)
@@ -221,9 +226,22 @@ class ContactState:
             return stop if self._yields(stop, y) else self._let_go(stop, end, y)
         return end
 
-    def _loads_by_time(self) -> bool:
-        loads = self.m.loads.values()
-        return any("time" in getattr(v, "names", ()) for load in loads for v in getattr(load, "varying", ()))
+    def _by_time(self) -> list[Any]:
+        """Loads and efforts that go by time."""
+        own = getattr(self.acting, "own", self.acting)
+        loads = (v for load in self.m.loads.values() for v in getattr(load, "varying", ()))
+        return [v for v in (*loads, *(d.effort for d in own.drives)) if TIME in getattr(v, "names", ())]
+
+    def next_bend(self, t: float) -> float:
+        """The next instant at which a table over time has a point."""
+        return min((table.next_point(t) for table in self.tables), default=np.inf)
+
+    def _bends(self, t: float, end: float) -> list[float]:
+        """Instants before the end at which tables over time have points."""
+        out = [t]
+        while (after := self.next_bend(out[-1])) < end:
+            out.append(after)
+        return out
 
     def _loosening(self, low: float, high: float, state: Callable[[float], Array]) -> float:
         """The instant at which what is locked is let go, by halving."""

@@ -197,7 +197,9 @@ class Drive(Part):
         None, description="a law of motion in place of position, speed and acceleration"
     )
     effort: Annotated[Varying, DriveValue(_effort, varying_schema, "effort")] | None = Field(
-        None, description="known effort: a moment on a turn, a force on a slide; then a load must be unknown"
+        None,
+        description="known effort: a moment on a turn, a force on a slide; then a load must be unknown. Beside a "
+        "motor it is what else acts on its shaft, as -0.02*O2.speed^2 of a fan: used by simulate",
     )
     motor: Annotated[MotorCurve, DriveValue(motor_curve, motor_schema)] | None = Field(
         None, description="effort as a function of speed, of a drive that `start` lets go: used by simulate"
@@ -252,7 +254,12 @@ class Drive(Part):
             what = "its position is not said"
             raise ModelError(what, "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law")
         if self.motor is not None:
-            self._refuse("a motor", "effort", "law", "range")
+            self._refuse("a motor", "law", "range")
+            if isinstance(self.effort, (int, float)):
+                said = "a motor and a constant effort are given"
+                raise ModelError(
+                    said, "write that effort as a load; one that changes may stand here", ("effort",)
+                )
         if self.unknown:
             self._refuse("an unknown position", "speed", "acceleration")
             self._check_unknown()

@@ -13,6 +13,10 @@ TIME = "time"
 EXAMPLES = "a drive, time, links.NAME.angle, joints.NAME.slide or joints.NAME.turn"
 
 
+SPEED = ".speed"
+"""Behind a drive's name: its speed, by which efforts of drives may go."""
+
+
 def coordinate_name(value: object) -> str:
     """A drive's name, `time`, or the path of a coordinate."""
     if not isinstance(value, str) or "." not in value:

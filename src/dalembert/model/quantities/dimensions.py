@@ -20,7 +20,8 @@ Powers = tuple[float, float, float, float | None]
 EITHER: Powers = (0, 0, 0, None)
 """A number of radians: an angle, or no unit."""
 OF_TURN = {"turn": EITHER, "slide": (1, 0, 0, 0), "time": (0, 0, 1, 0)}
-"""Freedom of a drive -> dimension of its position."""
+OF_TURN |= {"turn speed": (0, 0, -1, None), "slide speed": (1, 0, -1, 0)}
+"""Freedom of a drive -> dimension of its position and speed."""
 
 
 def dimension(tree: Tree, names: Mapping[str, Powers | None]) -> Powers | None:

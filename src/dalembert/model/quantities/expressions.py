@@ -6,7 +6,7 @@ sign    = {"+" | "-"} power
 power   = atom [("^" | "**") sign]          the exponent: a number from -16 to 16, without drives
 atom    = NUMBER | "pi" | NAME | FUNCTION "(" sum {"," sum} ")" | "(" sum ")"
 
-NAME is a drive, a coordinate (`time`, `links.rod.angle`) or a parameter of the file;
+NAME is a drive, its speed (`O2.speed`), a coordinate (`time`, `links.rod.angle`) or a parameter of the file;
 in an expression of parameters a NUMBER may have a unit: `r + 5 mm`.
 """
 
@@ -149,11 +149,20 @@ def evaluate(tree: Tree, drives: Mapping[str, Numeric], functions: Functions) ->
         return tree.value
     if isinstance(tree, Name):
         if tree.name not in drives:
-            what = f"an expression uses {tree.name!r}, which is no drive"
-            raise ModelError(what, closest(tree.name, list(drives)))
+            raise unknown_name("an expression uses", tree.name, list(drives))
         return drives[tree.name]
     values = [evaluate(argument, drives, functions) for argument in tree.arguments]
     return apply_function(tree.function, values, functions)
+
+
+def unknown_name(what: str, name: str, known: list[str]) -> ModelError:
+    """The error that ``what`` goes by a name that has no value."""
+    if name == "time":
+        remedy = "give a drive a law of motion, or let forces move the machine: simulate"
+        return ModelError(
+            "a quantity goes by time, and several positions without a law have no times", remedy
+        )
+    return ModelError(f"{what} {name!r}, which is no drive", closest(name, known))
 
 
 def apply_function(name: str, values: Sequence[Numeric], functions: Functions) -> Numeric:
@@ -210,7 +219,7 @@ def expression_text(tree: Tree, rank: int = 0) -> str:
 
 
 _TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[^\W\d]\w*(?:\.\w+\.\w+)?)|(?P<sign>\*\*|[-+*/^(),]))"
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[^\W\d]\w*(?:\.\w+\.\w+|\.speed\b)?)|(?P<sign>\*\*|[-+*/^(),]))"
 )
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
-from dalembert.model.quantities.expressions import Functions
+from dalembert.model.quantities.expressions import Functions, unknown_name
 
 UNITS = {"angle": "deg", "length": "m", "time": "s"}
 """Kind of a table's x -> the unit in which messages say it."""
@@ -78,10 +78,24 @@ class Table:
         spline = CubicSpline(x, y, bc_type="not-a-knot" if self.period is None else "periodic")
         return x, spline.c
 
+    def next_point(self, position: float) -> float:
+        """The next of its points beyond a position, where it bends; infinite behind the last.
+
+        >>> Table("time", (0.0, 1.0, 2.0), (0.0, 10.0, 0.0), period=2.0, along="time").next_point(3.0)
+        4.0
+        """
+        import numpy as np
+
+        x = np.asarray(self.closed()[0]) + self.shift
+        if self.period is not None:
+            x = np.append(x, x + self.period) + self.period * np.floor((position - x[0]) / self.period)
+        later = x[x > position + 4 * np.spacing(max(abs(position), float(np.abs(x).max())))]
+        return float(later.min(initial=np.inf))
+
     def at(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
         """The SI value at the drives' positions; `functions["table"](table, position)` replaces numpy's."""
         if self.against not in drives:
-            raise ModelError(f"a table is against {self.against!r}, which is no drive")
+            raise unknown_name("a table is against", self.against, list(drives))
         if functions is not None:
             return functions["table"](self, drives[self.against])
         value = self._of_numbers(drives[self.against])
@@ -110,9 +124,10 @@ class Table:
                 self._describe(x + self.shift) for x in (low, high, position[outside].ravel()[0])
             )
             what = "" if "." in self.against or self.along == "time" else "the drive "
+            shorter = "end before" if self.along == "time" else "give the drive a smaller range"
             raise ModelError(
                 f"a table goes from {first} to {last} of {what}{self.against!r}, which is at {here}",
-                "give the table more points, make it periodic, or give the drive a smaller range",
+                f"give the table more points, make it periodic, or {shorter}",
             )
         return np.clip(position, low, high)
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
-from dalembert.model.quantities.coordinates import going_by
+from dalembert.model.quantities.coordinates import SPEED, going_by
 from dalembert.model.quantities.dependent_numbers import expression_with_unit
 from dalembert.model.quantities.expressions import Expression, Functions, parse_expression
 from dalembert.model.quantities.figures import FILE_UNITS
@@ -30,7 +30,7 @@ Varying = float | Expression | Table
 
 
 def varying_schema() -> JsonSchema:
-    words = "in the drives' names, time, links.NAME.angle, joints.NAME.slide: SI and radians"
+    words = "in the drives' names, time, links.NAME.angle, joints.NAME.slide, of an effort NAME.speed: SI and radians"
     keys = {
         "expression": {"type": "string", "description": words},
         "unit": {"type": "string", "description": "of its result; default the file's"},
@@ -52,6 +52,7 @@ def varying(value: object, kind: str, rules: Reading) -> Varying:
         return _map_values(value, kind, rules)
     if uses(value, rules.parameters):
         going = going_by(str(value)) | dict(rules.freedoms)
+        going |= {f"{name}{SPEED}": f"{freedom} speed" for name, freedom in rules.freedoms.items()}
         return of_parameters(str(value), kind, rules.units, rules.parameters, going)
     if isinstance(value, str) and _is_expression(value):
         return expression(value, kind, rules)

@@ -82,6 +82,8 @@ def trace_analysis(
     schedule = m.schedule()
     if schedule.unknown is not None:
         raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
+    if moves:  # time is an input of every state
+        schedule = replace(schedule, time=np.zeros(schedule.count))
     course = Course(m, schedule, solved)
     check_knowns(course.compiled)
     repeated = _check(course, redundant)

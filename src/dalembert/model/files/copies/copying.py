@@ -11,6 +11,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.copies.images import Image
 from dalembert.model.links.link import GROUND
+from dalembert.model.quantities.coordinates import SPEED
 from dalembert.units import quantity
 
 Path = tuple[str | int, ...]
@@ -141,6 +142,8 @@ class Copying:
     def drive(self, name: str, drive: Tree) -> Tree:
         joint = str(drive.get("joint", name))
         new = {**drive, **({"joint": f"{joint}{self.image.ending}"} if "joint" in drive else {})}
+        if "effort" in drive:
+            new["effort"] = self.going_by(drive["effort"])
         if self.slides(joint, drive):
             return new
         offset = self.between(joint)
@@ -150,7 +153,7 @@ class Copying:
             new["law"] = self.positions(drive["law"], offset)
         for key in ("speed", "acceleration", "effort"):
             if key in drive:
-                new[key] = self.image.opposite(drive[key])
+                new[key] = self.image.opposite(new[key])
         return new
 
     def slides(self, joint: str, drive: Tree) -> bool:
@@ -222,7 +225,7 @@ class Copying:
             return value
         names = {**dict.fromkeys(self.staying(), self.shift_text), **dict(self.copy_names())}
         return re.sub(
-            r"(?<![\w.])[^\W\d]\w*(?:\.\w+\.\w+)?(?![\w.(])",
+            r"(?<![\w.])[^\W\d]\w*(?:\.\w+\.\w+|\.speed)?(?![\w.(])",
             lambda m: names[m[0]](m[0]) if m[0] in names else m[0],
             value,
         )
@@ -254,6 +257,8 @@ class Copying:
                 if not self.slides(joint, drive)
                 else turn_free(f"{name}{end}"),
             )
+            rate = f"{name}{end}{SPEED}"
+            yield f"{name}{SPEED}", turn_free(rate) if self.slides(joint, drive) else turn(rate, 0.0)
         for name in self.joints:
             yield f"joints.{name}.turn", turn(f"joints.{name}{end}.turn", self.between(name))
             yield f"joints.{name}.slide", turn_free(f"joints.{name}{end}.slide")
