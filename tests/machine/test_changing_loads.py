@@ -159,3 +159,14 @@ def test_a_parameter_of_an_effort_by_speed_has_its_dimension(sign: str) -> None:
     assert da.simulate(m, "1 s").speed("O")[-1] == pytest.approx(
         2 / (1 - (-1 if sign else 1) * 0.04 / J), rel=1e-9
     )
+
+
+def test_the_drive_of_a_copy_has_an_effort_by_its_own_speed() -> None:
+    drives = "drives: {O: {effort: -0.02*O.speed^2 N*m}}\ncopies: [{of: [rotor], count: 2}]\n"
+    start = "start: {O: {position: 0, speed: 50 rad/s}, O_2: {position: 0, speed: 10 rad/s}}"
+    s = da.simulate(
+        da.loads(ROTOR.replace("ground: {points: {", "ground: {points: {O_2: [1, 0], ") + drives + start),
+        "1 s",
+    )
+    for name, first in (("O", 50.0), ("O_2", 10.0)):
+        assert s.speed(name)[-1] == pytest.approx(first / (1 + 0.02 * first / J), rel=1e-10)
