@@ -21,6 +21,7 @@ from dalembert.machine.members.member_table import member_table
 from dalembert.printing import number
 from dalembert.views.machine.member_views import member_scenes
 from dalembert.views.notation import Notation
+from dalembert.views.paper.scene import Line
 from tests.random_mechanisms import random_case
 from tests.random_space import random_case as random_in_space
 from tests.random_space import tree as tree_in_space
@@ -372,6 +373,93 @@ def test_in_space_they_stand_along_the_axes_of_the_members() -> None:
     )
 
 
+PISTON = """
+links:
+  ground: {points: {O: [0, 0]}}
+  piston: {points: {A: [0, 0], P: [-0.05, 0], Q: [0.05, 0]}, members: [[P, Q]]}
+joints:
+  O: {type: slider, links: [ground, piston], at: [O, A], direction: 0,
+      friction: {coefficient: 0.1, guide: [30 mm, 40 mm], half_height: 10 mm}}
+drives: {O: {position: {from: 0, to: 1, count: 3}, speed: 1}}
+loads: {F: {type: force, on: piston, at: Q, value: [0, 70 N]}}
+"""
+
+
+def test_a_piston_bears_at_the_two_ends_of_its_guide() -> None:
+    """70 N at its end, S = 92 N: 81 N ahead, 11 N behind, and a couple of mu S h of the friction on the faces."""
+    f = da.member_forces(da.statics(da.loads(PISTON)), "piston")
+    places = [0.01, 0.02, 0.05, 0.05, 0.09, 0.095]
+    shear = [f.at(s)["shear"][1] for s in places]
+    assert shear == pytest.approx([0, 11, 11, 11, -70, -70], abs=1e-9)
+    before, behind = f.at(0.05, side="before"), f.at(0.05, side="behind")
+    bending = [x["bending"][1] for x in (before, behind, f.at(0.09))]
+    assert bending == pytest.approx([0.33, 0.26, 0.7], rel=1e-9)
+    assert f.residual.max() < 1e-12
+
+
+def guided(tree: Any) -> tuple[Any, list[str]]:
+    """The description with a length of the guide of each joint that can have one, which does not rub."""
+    tree, some = deepcopy(tree), []
+    for name, joint in tree["joints"].items():
+        if joint["type"] in ("slider", "prismatic", "revolute"):
+            friction = {"coefficient": 0.0, "guide": [0.03, 0.05]}
+            joint["friction"] = friction | ({"radius": 0.01} if joint["type"] == "revolute" else {})
+            some.append(name)
+    return tree, some
+
+
+def check_guides(tree: Any) -> None:
+    """Beyond the ends of a guide it is as if all acted at its point; on both links its forces are opposite."""
+    with_ends, names = guided(tree)
+    plain, r = (da.dynamics(da.mechanism(t)) for t in (tree, with_ends))
+    on = acting_on(r)[0]
+    sums: dict[tuple[str, str], Any] = {}
+    for a in (a for a in on if a.kind == "joint" and a.of in names):
+        assert not np.nan_to_num(a.moment(a.at)).any() or not a.part
+        sums[a.of, a.part] = sums.get((a.of, a.part), 0.0) + a.force
+    size = max(float(np.nanmax(np.abs(a.force), initial=1e-9)) for a in on)
+    assert all(np.nanmax(np.abs(total), initial=0.0) < 1e-9 * size for total in sums.values())
+    for link in r.links:
+        with suppress(da.ModelError):
+            (old,), (new,) = (da.member_forces(x, link).curves for x in (plain, r))
+            own = LinkBalance(r, link, [on])
+            feet = [
+                new.member.foot(own.place(x))[0] for x in own.actions if x.of in names and x.kind == "joint"
+            ]
+            carried = max(float(np.nanmax(np.abs(x.force), initial=0.0)) for x in own.actions)
+            if not feet or carried < 1e-9 * size:  # what is left over of nothing is rounding
+                continue
+            assert np.nanmax(da.member_forces(r, link).residual, initial=0.0) < 1e-9
+            places = np.linspace(0.001, 0.999, 41) * new.member.length
+            ends = np.array(feet)
+            beyond = (places > ends.max(axis=0)[:, None]) | (places < ends.min(axis=0)[:, None])
+            gap = np.abs(old.at(places) - new.at(places)) / [
+                *[size] * 3,
+                *[size * r.compiled.layout.length] * 3,
+            ]
+            assert np.nanmax(gap[beyond], initial=0.0) < 1e-8
+
+
+def has_guide(seed: int) -> bool:
+    """Whether a random machine of the plane has a slider."""
+    return bool(guided(random_case(seed).tree)[1])
+
+
+def has_bearing(seed: int) -> bool:
+    """Whether one in space has a joint with two ends."""
+    return bool(guided(tree_in_space(random_in_space(seed)))[1])
+
+
+@over(1, 100, block=10)
+def test_ends_of_guides_of_random_machines_carry_what_their_point_did(seed: int) -> None:
+    check_guides(random_case(nth(seed, has_guide)).tree)
+
+
+@over(1, 100, block=10)
+def test_so_do_ends_of_bearings_in_space(seed: int) -> None:
+    check_guides(tree_in_space(random_in_space(nth(seed, has_bearing))))
+
+
 def has_free_reactions(seed: int) -> bool:
     """Whether a machine of the plane can be lifted into space, and there has a member and free reactions."""
     with suppress(da.ModelError):
@@ -380,6 +468,16 @@ def has_free_reactions(seed: int) -> bool:
             tree
         )
     return False
+
+
+def test_the_hint_names_the_points_of_the_link() -> None:
+    text = ARM.replace("A: [0.6, 0]}", "A: [0.6, 0], B: [0, 0.2]}")
+    text = text.replace("joints:", "  bob: {points: {B: [0, 0]}}\n  end: {points: {A: [0, 0]}}\njoints:")
+    text = text.replace(
+        "drives:", "  A: {type: weld, links: [arm, end]}\n  B: {type: weld, links: [arm, bob]}\ndrives:"
+    )
+    with pytest.raises(da.ModelError, match=r"members: \[\[O, A\], \[A, B\]\]"):
+        da.member_forces(da.dynamics(da.loads(text)), "arm")
 
 
 def test_what_is_unique_inside_links_does_not_go_by_the_stiffness_of_joints() -> None:
@@ -439,3 +537,20 @@ def test_diagrams_stand_on_the_links_to_scale() -> None:
     words = {text.text for text in scene.texts()}
     assert {"6000 N", "120.0 N·m"} <= {w.replace("−", "") for w in words}
     assert any("N: 1 mm = 500 N, + to the left of its member" in w for w in words)
+
+
+@pytest.mark.parametrize("name", ["four_bar", "toggle_press", "rssr"])
+def test_numbers_stand_beside_the_diagrams(name: str) -> None:
+    """No middle of a number is inside the outline of a diagram, by the angle that the outline goes round it."""
+    scenes = member_scenes(member_table(da.dynamics(da.load(examples()[name]), positions=6)), Notation())
+    outlines = 0
+    for scene in (s for s in scenes if "1 mm" in " ".join(t.text for t in s.texts())):
+        for line in (
+            i for i in scene.items if isinstance(i, Line) and i.role == "curve-1" and len(i.points) > 2
+        ):
+            ring = np.array([*line.points, line.points[0]]) @ [1, 1j]
+            for text in scene.texts():
+                away = ring - complex(*text.at)
+                assert abs(np.angle(away[1:] / away[:-1]).sum()) < 1, text.text
+            outlines += 1
+    assert outlines > 1

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import Action, on_link, state, whole_actions
+from dalembert.analysis.friction.bearing_ends import bearing_axis
+from dalembert.analysis.methods.applied_forces import Action, on_link, slide_direction, state, whole_actions
 from dalembert.arrays import Array, Ints
 from dalembert.core.equilibrium import shifts, statement
 from dalembert.core.linear import PseudoInverse
-from dalembert.machine.link_axes import LinkAxes, in_space
+from dalembert.machine.link_axes import LinkAxes, couple_in_space, in_space
 from dalembert.machine.members.straight_members import Straight
 
 if TYPE_CHECKING:
@@ -50,12 +51,13 @@ class Loads(NamedTuple):
 
 def acting(r: Result) -> list[tuple[Action, ...]]:
     """All actions on the links, of least norm where not unique; then some that balance by themselves, if there are any.
+    A guide whose length is given bears at its two ends.
 
     These are ``COMBINATIONS``, at random, of all reactions and efforts that equilibrium leaves open: what these change
     is not unique.
     """
     c, least = r.compiled, replace(r, unique_array=None, unique_unknowns=None, unique_in=None)
-    out = [whole_actions(least)]
+    out = [_at_ends(least)]
     if r.unique_array is None:
         return out
     s, zero = state(r), np.zeros((len(r.status), c.layout.links, c.layout.algebra.n))
@@ -69,10 +71,40 @@ def acting(r: Result) -> list[tuple[Action, ...]]:
         effort = np.zeros_like(r.effort_array)
         effort[:, c.known.asked] = free[:, first:last, k]
         couple = moment[..., k].reshape(r.moment_array.shape)
-        way = replace(least, force_array=force[..., k], moment_array=couple, effort_array=effort)
-        some = whole_actions(replace(way, load_array=free[:, last:, k]))
+        way = replace(
+            least, force_array=force[..., k], moment_array=couple, effort_array=effort, friction=None
+        )
+        some = _at_ends(replace(way, load_array=free[:, last:, k]))
         out.append(tuple(a for a in some if a.kind in ("joint", "effort") or a.of in r.unknown_loads))
     return out
+
+
+def _at_ends(r: Result) -> tuple[Action, ...]:
+    return tuple(part for a in whole_actions(r) for part in _guided(r, a))
+
+
+def _guided(r: Result, a: Action) -> tuple[Action, ...]:
+    """A reaction of a joint with `guide: [l1, l2]` as forces across its axis e, l2 ahead and l1 behind of its point.
+
+    F_ahead + F_behind = F across e, and e x (l2 F_ahead - l1 F_behind) = M across e without friction's; the rest, along
+    and about e and of friction on the faces, stays at j's point.
+    """
+    described = r.mechanism.joints[a.of] if a.kind == "joint" else None
+    guide = getattr(getattr(described, "friction", None), "guide", None)
+    if guide is None:
+        return (a,)
+    behind, ahead = guide
+    axis = slide_direction(r, a.of) if r.mechanism.dimension == 2 else bearing_axis(r, a.of)
+    across = a.force - (a.force * axis).sum(axis=1, keepdims=True) * axis
+    couple = couple_in_space(a.couple - r.friction_moment(a.of, a.link))
+    tilting = np.cross(couple, in_space(axis))[:, : axis.shape[1]]
+    first = (behind * across + tilting) / (behind + ahead)
+    ends = [
+        replace(a, at=a.at + s * axis, force=force, couple=0 * a.couple, part=part)
+        for part, s, force in (("ahead", ahead, first), ("behind", -behind, across - first))
+    ]
+    left = a.couple - sum(end.moment(a.at) for end in ends)
+    return (*ends, replace(a, force=a.force - across, couple=left))
 
 
 class LinkBalance(LinkAxes):
@@ -93,7 +125,7 @@ class LinkBalance(LinkAxes):
 
     def joints(self) -> Array:
         """Places (N, 3) of its joints over all positions."""
-        some = [self.place(a) for a in self.actions if a.kind == "joint"]
+        some = [self.place(a) for a in self.actions if a.kind == "joint" and not a.part]
         places: Array = np.concatenate(some) if some else np.zeros((0, 3))
         return np.asarray(places[np.isfinite(places).all(axis=1)])
 

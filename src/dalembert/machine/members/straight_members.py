@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -89,15 +90,16 @@ def _line(m: Mechanism, link: str, joints: Array) -> Straight:
     named = np.array([*points.values()]).reshape(-1, 3)
     spread = joints if len(joints) and _size(joints) > 0 else np.concatenate([joints, named])
     listed = ", ".join(points) or "none"
+    chain = ", ".join(f"[{a}, {b}]" for a, b in pairwise(points))
     if not len(spread) or not _size(spread) > 0:
         what = f"link {link!r} has no length: its points are {listed}"
-        raise ModelError(what, "name two points of it: members: [[A, B]]", ("links", link))
+        raise ModelError(what, "give it two points that are apart", ("links", link))
     middle = spread.mean(axis=0)
     t = np.linalg.svd(spread - middle, full_matrices=False)[2][0]
     size = _size(spread)
     if (_off(spread, middle, t) > FLAT * size).any():
         what = f"the joints of link {link!r} are on no line; its points are {listed}"
-        remedy = "say which straight members it has: members: [[A, B], [B, C]]"
+        remedy = f"say which straight members it has: members: [{chain or '[A, B], [B, C]'}]"
         raise ModelError(what, remedy, ("links", link))
     on = {n: float((p - middle) @ t) for n, p in points.items() if _off(p, middle, t) <= FLAT * size}
     s = np.concatenate([(spread - middle) @ t, [*on.values()]])

@@ -98,9 +98,13 @@ def _on_links(some: dict[str, MemberForces], of: str, size: float, paper: Paper)
         x, y = map(float, paper.vector(axes[_across(of)]))
         tips = [(a + h * x, b + h * y) for (a, b), h in zip(feet, mm, strict=True)]
         canvas.add(Line((feet[0], *tips, feet[-1]), "curve-1"))
-        canvas.add(*(Line((a, b), "curve-1") for a, b in zip(feet[::6], tips[::6], strict=True)))
-        n = int(np.argmax(np.abs(mm)))
-        canvas.label(shown.text(kind, float(values[k, n, row])), tips[n], size=2.8)
+        ordinates = [Line((a, b), "curve-1") for a, b in zip(feet, tips, strict=True)]
+        canvas.add(*ordinates[::6])
+        canvas.keep_clear(*ordinates)
+        first, last = np.flatnonzero(np.abs(mm) > 0.999999 * np.abs(mm).max())[[0, -1]]
+        outward = math.atan2(y * mm[first], x * mm[first])
+        text = shown.text(kind, float(values[k, first, row]))
+        canvas.label(text, tips[first], tips[last], prefer=outward, size=2.8)
     sense = "to the left of" if plane else f"along {' yz'[_across(of)]} of"
     scale = f"{LETTERS[of]}: 1 mm = {shown.plain(kind, per_mm)}, + {sense} its member"
     notes = [f"{paper.notes[0].removesuffix('.')}; {scale}{'' if plane else '.'}", *paper.notes[1:]]

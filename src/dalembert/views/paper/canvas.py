@@ -57,12 +57,17 @@ class Canvas:
 
     def __init__(self) -> None:
         self.items: list[Item] = []
+        self._clear: list[Item] = []
         self._labels: list[Label] = []
         self._below: list[str] = []
 
     def add(self, *items: Item) -> None:
         """Primitives."""
         self.items += items
+
+    def keep_clear(self, *items: Item) -> None:
+        """Lines that are not drawn, on which no label stands."""
+        self._clear += items
 
     def label(
         self,
@@ -90,7 +95,7 @@ class Canvas:
         **given: Any,
     ) -> Scene:
         """The finished drawing, with its title above and notes below, at least so wide (mm)."""
-        placer = _Placer(self.items)
+        placer = _Placer([*self.items, *self._clear])
         left_over = []
         for label in self._labels:
             items = placer.place_text(label)
