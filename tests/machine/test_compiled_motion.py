@@ -15,6 +15,20 @@ pytest.importorskip("llvmlite")
 VARY = ["links.coupler.mass", "links.crank.points.A", "drives.O2.effort", "start.O2.speed"]
 
 
+SPRINGS = """
+links: {ground: {points: {O: [0, 0]}}, mid: {points: {M: [0, 0]}}, block: {points: {B: [0, 0]}, mass: 2}}
+joints:
+  M: {type: slider, links: [ground, mid], at: [O, M], direction: 0}
+  B: {type: slider, links: [ground, block], at: [O, B], direction: 0}
+drives: {M: {effort: 0}, B: {effort: 0}}
+start: {M: {position: 0.5 m}, B: {position: 1.1 m}}
+loads:
+  k1: {type: spring, between: [ground.O, mid.M], stiffness: 100, free_length: 0.5}
+  k2: {type: spring, between: [mid.M, block.B], stiffness: 300, free_length: 0.5}
+"""
+"""Springs in series: nothing between them has mass."""
+
+
 def designs(k: Any, count: int) -> Any:
     """Numbers about those of the description."""
     return (k.nominal + 0.01 * (k.nominal == 0)) * np.random.default_rng(3).uniform(
@@ -130,8 +144,26 @@ def test_a_motion_that_cannot_go_on_is_undecided() -> None:
         (("effort: 0", "effort: 2*cos(O2)"), [], "goes by positions or time"),
         (("", ""), ["start.O4.speed"], "is no number of a drive that forces move"),
         (("", ""), ["drives.O2.position"], "vary 'start.O2.position'"),
+        ((FOUR_BAR, SPRINGS), [], "forces that move M move no mass; give its links masses"),
     ],
 )
 def test_what_it_cannot_do_it_says(change: tuple[str, str], vary: list[str], sentence: str) -> None:
     with pytest.raises(ModelError, match=sentence):
         da.compile_motion(da.loads(FOUR_BAR.replace(*change)), "1 s", vary)
+    with pytest.raises(ModelError, match=r"'angle\.coupler' counts whole turns"):
+        da.compile_motion(da.loads(FOUR_BAR), "1 s", outputs=["angle.coupler"])
+
+
+def test_springs_in_series_say_what_has_no_mass() -> None:
+    with pytest.raises(ModelError, match="forces that move M move no mass; give its links masses"):
+        da.simulate(da.loads(SPRINGS), "1 s")
+
+
+def test_nothing_need_vary() -> None:
+    k = da.compile_motion(da.loads(FOUR_BAR), "0.1 s", outputs=["effort.O2"], count=3)
+    r, other = k(), k(np.zeros((2, 0)))
+    s = da.simulate(da.loads(FOUR_BAR), "0.1 s", count=3)
+    assert r.position == pytest.approx(s.position("O2")[-1:, None], rel=1e-7)
+    assert (other.position == r.position).all()
+    with pytest.raises(ModelError, match="do not fit 2 numbers"):
+        da.compile_motion(da.loads(FOUR_BAR), "0.1 s", VARY[:1] + VARY[2:3])([1.0, 2.0, 3.0])

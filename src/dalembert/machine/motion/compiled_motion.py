@@ -23,7 +23,7 @@ from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
 from dalembert.kernel.memory import available
 from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
-from dalembert.machine.motion.equation import Corners, Equation
+from dalembert.machine.motion.equation import Corners, Equation, StoppedError
 from dalembert.machine.motion.equation_trace import trace_equation
 from dalembert.machine.motion.motion_block import MotionBlock, Motions
 from dalembert.machine.motion.simulation import check_choices, read_end, read_start
@@ -97,6 +97,10 @@ def compile_motion(
         over_positions.check(reduce)
     try:
         return _compile(mechanism, until, tuple(vary), tuple(outputs), reduce, start, count, tolerance)
+    except StoppedError as error:
+        raise ModelError(f"the motion cannot begin: {error}", path=("links",)).at_source(
+            mechanism.source
+        ) from None
     except ModelError as error:
         raise error.at_source(mechanism.source) from None
 
@@ -131,6 +135,7 @@ def _compile(
     except ModelError as error:
         raise ModelError(f"{why}: {error.what}", REMEDY, error.path) if rubs else error from None
     traced = equation.kernel.trace.numbers[: -2 * len(moves.names)]
+    _refuse_counts(equation)
     symbols = _symbols(m, equation, traced)
     corners = _corners(symbols)
     code = equation.steps(moves.free, lanes, works=False, corners=corners)
@@ -144,6 +149,14 @@ def _compile(
     small = max(tolerance * CORNERED, 1e-14) if corners else tolerance
     block = MotionBlock(equation, code, tuple(conditions), end, small, instants)
     return MotionKernel(m, block, lines, formulas, where, tuple(places), reduce)
+
+
+def _refuse_counts(equation: Equation) -> None:
+    """An output that is followed from state to state, as an angle with its whole turns: designs are not."""
+    graph = equation.graph
+    for name, nodes in equation.kernel.nodes.items():
+        if any(graph.names.get(n.index, "").startswith("known ") for n in graph.order(nodes)):
+            raise ModelError(f"the output {name!r} counts whole turns along the motion", REMEDY)
 
 
 def _symbols(m: Mechanism, equation: Equation, traced: Sequence[Number]) -> Mechanism:
@@ -270,8 +283,9 @@ class MotionKernel:
     def _values(self, values: ArrayLike | None) -> Array:
         count = len(self.where)
         given = numbers("values", self.nominal if values is None else values)
-        given = given.reshape(-1, max(count, 1))[:, :count] if given.ndim < 2 else given
-        if given.ndim != 2 or given.shape[1] != count or not np.isfinite(given).all():
+        if given.ndim < 2 and not given.size % max(count, 1):
+            given = given.reshape(-1, count) if count else np.zeros((1, 0))
+        if given.ndim != 2 or given.shape[1] != count or not len(given) or not np.isfinite(given).all():
             raise ModelError(
                 f"values of shape {given.shape} do not fit {count} numbers, or are not all finite",
                 "give (design, number) in the order of .numbers",

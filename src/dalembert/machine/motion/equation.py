@@ -24,7 +24,7 @@ from dalembert.core.layout import Layout, Pose
 from dalembert.core.rotation_rows import recount_turns
 from dalembert.errors import AnalysisError
 from dalembert.kernel.emit import llvm_text
-from dalembert.kernel.graph import Node, trace_array
+from dalembert.kernel.graph import CONSTANT, Node, trace_array
 from dalembert.kernel.memory import address
 from dalembert.kernel.program import Program
 from dalembert.machine.motion.dry_friction import Contacted, DryFriction, Linear
@@ -199,7 +199,9 @@ class Equation:
         for k, bends in corners.items():
             applied[k] = sum(((u[k] - speed).larger(0.0) * bend for speed, bend in bends), applied[k])
         effort, mass = np.split(found(self.ends[1], a), [d])
-        a[free] = solve_nodes(mass.reshape(d, d)[np.ix_(free, free)], (applied + given[2] - effort)[free])
+        movable = [name for name, moves in zip(self.names, free, strict=True) if moves]
+        m = mass.reshape(d, d)[np.ix_(free, free)]
+        a[free] = solve_nodes(m, (applied + given[2] - effort)[free], movable)
         rate = [*u, *a]
         if works:
             asked, _, power = np.split(found(self.ends[2], a), self.ends[:2])
@@ -222,7 +224,8 @@ class Equation:
         if not all(np.isfinite(x).all() for x in (e.effort, e.mass, *(e.linear or ()))):
             raise StoppedError(OPEN)
         push = e.linear.push if e.linear else np.zeros((len(a), 0))
-        ease = _solve(e.mass[np.ix_(free, free)], np.column_stack([tau - e.effort - e.mass @ a, -push])[free])
+        m, right = e.mass[np.ix_(free, free)], np.column_stack([tau - e.effort - e.mass @ a, -push])
+        ease = _solve(m, right[free], [name for name, moves in zip(self.names, free, strict=True) if moves])
         a[free], change = ease[:, 0], np.zeros_like(push)
         change[free] = ease[:, 1:]
         effort, change = e.effort + e.mass @ a, np.vstack([change, push + e.mass @ change])
@@ -235,21 +238,29 @@ class Equation:
         return found, e
 
 
-def solve_nodes(mass: Array, right: Array) -> Array:
-    """Solution of a positive system of nodes, which needs no pivoting."""
+def solve_nodes(mass: Array, right: Array, names: Sequence[str]) -> Array:
+    """Solution of a positive system of nodes, which needs no pivoting; StoppedError where a drive moves no mass."""
     mass, right = mass.copy(), right.copy()
-    for k in range(len(right)):
+    for k, name in enumerate(names):
+        if mass[k, k].level == CONSTANT and not mass[k, k].value:
+            raise StoppedError(no_inertia(name))
         factor = mass[:, k] / mass[k, k]
         factor[k] = (mass[k, k] - 1.0) / mass[k, k]
         mass, right = mass - np.outer(factor, mass[k]), right - factor * right[k]
     return right
 
 
-def _solve(mass: Array, right: Array) -> Array:
+def no_inertia(name: str) -> str:
+    """That a drive moves no mass."""
+    return f"{NO_INERTIA}: forces that move {name} move no mass; give its links masses"
+
+
+def _solve(mass: Array, right: Array, names: Sequence[str]) -> Array:
     with suppress(np.linalg.LinAlgError):
         if len(mass) != 1 or mass[0, 0] > 0:
             return np.asarray(np.linalg.solve(mass, right))
-    raise StoppedError(f"{NO_INERTIA}: no acceleration is determined")
+    light = [name for name, own in zip(names, mass.diagonal(), strict=True) if not own > 0]
+    raise StoppedError(no_inertia(light[0]) if light else f"{NO_INERTIA}: no acceleration is determined")
 
 
 def _machine_program(
