@@ -108,3 +108,26 @@ def test_work_along_a_slide(places: list[float]) -> None:
     e = da.efficiency(da.statics(da.mechanism(tree)))
     assert e.lost == pytest.approx(0.2 * 50 * 0.3, rel=1e-12)
     assert e.put_in == pytest.approx(0.2 * 50 * 0.3, rel=1e-12)
+
+
+def test_the_drive_moves_the_load_whichever_of_them_is_asked_for() -> None:
+    """A block that a drive pushes against a load; its normal force rubs: 1/1.2 and 1 - 0.2."""
+    tree = {
+        "links": {"ground": {"points": {"O": [0, 0]}}, "block": {"points": {"O": [0, 0]}}},
+        "joints": {"O": {"type": "slider", "links": ["ground", "block"], "friction": {"coefficient": 0.2}}},
+        "drives": {"O": {"position": 0, "speed": 1}},
+        "loads": {
+            "N": {"type": "force", "on": "block", "at": "O", "value": [0, -100]},
+            "F": {"type": "force", "on": "block", "at": "O", "value": [-100, 0]},
+        },
+    }
+    asked = da.efficiency(da.statics(da.mechanism(tree)))
+    assert (asked.forward[0], asked.reverse[0]) == pytest.approx((1 / 1.2, 0.8), rel=1e-12)
+    tree["loads"]["F"] = {"type": "force", "on": "block", "at": "O", "direction": 180, "value": "unknown"}
+    tree["drives"]["O"]["effort"] = 100
+    known = da.efficiency(da.statics(da.mechanism(tree)))
+    assert (known.forward[0], known.reverse[0]) == pytest.approx((0.8, 1 / 1.2), rel=1e-12)
+    tree["drives"]["O"]["effort"] = 0
+    idle = da.efficiency(da.statics(da.mechanism(tree)))
+    assert np.isnan(idle.reverse[0])
+    assert idle.forward[0] == 0.0  # the load puts it all into friction

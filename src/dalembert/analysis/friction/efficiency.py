@@ -16,6 +16,9 @@ from dalembert.errors import ModelError
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
+NOTHING = 1e-9
+"""A power, or an efficiency, below this part of the whole is rounding."""
+
 
 @dataclass(frozen=True)
 class Efficiency:
@@ -27,6 +30,7 @@ class Efficiency:
         must help the load against damping at this speed (``damped``)
     cycle: work that arrives over work put in, all positions together; put_in and lost are those works, J
     share: part of the work put in that each joint's friction takes, dry and viscous
+    by_load: the drives act with known efforts, and what is asked for is the load
     """
 
     forward: Array
@@ -36,10 +40,15 @@ class Efficiency:
     lost: float
     share: dict[str, float]
     damped: Flags
+    by_load: bool = False
+
+    def driven(self, k: int) -> str:
+        """What it means at a position that the drive moves the load with an efficiency below 0."""
+        return " (below 0: the load must help)" if self.forward[k] < 0 else ""
 
     def held(self, k: int) -> str:
         """What it means at a position that the load moves the drive with an efficiency of 0 or less."""
-        if not self.reverse[k] <= 0:
+        if self.by_load or not self.reverse[k] <= 0:
             return ""
         return (
             " (0 or less: the damping takes more at this speed)"
@@ -53,8 +62,10 @@ def efficiency(r: Result) -> Efficiency:
 
     Forward is the sense of motion in which the drives (and the loads asked for) put power in: eta = P0 / P; reverse the
     other one, in which they take it out: eta = P / P0, with P0 the power in the same sense with the same loads but
-    without the joints' friction, dry and viscous, inertia left out. Over the cycle: (W - L) / W, with W the work of the
-    drives, or of the loads where those drive, and L what the joints lose. NaN where nothing moves.
+    without the joints' friction, dry and viscous, inertia left out. Where drives act with known efforts, P is of the
+    loads asked for alone: they put power in in reverse, so that the two change places.
+    Over the cycle: (W - L) / W, with W the work of the drives, or of the loads where those drive, and L what the joints
+    lose. NaN where nothing moves.
 
     >>> import dalembert as da
     >>> r = da.statics(da.mechanism({
@@ -69,16 +80,19 @@ def efficiency(r: Result) -> Efficiency:
     if r.friction is None:
         raise ModelError("this result has no friction", "give a joint `friction`, and do not switch it off")
     one, other = (_static(r, sign) for sign in (1.0, -1.0))
-    drives = one.bare > 0
+    drives = one.bare >= 0
     ahead, back = (
         _Sense(*(np.where(drives, *pair) for pair in zip(*two, strict=True)))
         for two in ((one, other), (other, one))
     )
     with np.errstate(all="ignore"):
-        forward = np.where(ahead.bare > 0, ahead.bare / ahead.rubbed, np.nan)
-        reverse = np.where(back.bare < 0, back.rubbed / back.bare, np.nan)
-    forward = np.where(ahead.jammed & (ahead.bare > 0), 0.0, forward)
-    return Efficiency(forward, reverse, *_cycle(r), back.damped)
+        put = np.where((ahead.bare >= 0) & (ahead.rubbed > 0), ahead.bare / ahead.rubbed, np.nan)
+        taken = np.where(back.bare < 0, back.rubbed / back.bare, np.nan)
+    put = np.where(ahead.jammed & (ahead.bare > 0), 0.0, put)
+    known = r.compiled.known
+    by_load = bool(not known.asked.any() and (known.effort * r.schedule.speed).any())
+    forward, reverse = (taken, put) if by_load else (put, taken)
+    return Efficiency(forward, reverse, *_cycle(r), back.damped, by_load)
 
 
 class _Sense(NamedTuple):
@@ -98,9 +112,11 @@ def _static(r: Result, sign: float) -> _Sense:
     assert turned.friction is not None
     f = turned.friction
     damping = f.viscous_loss.sum(axis=-1)
+    bare = unknown_power(turned, f.bare_effort, f.bare_load) - damping
+    rubbed = unknown_power(turned, turned.effort_array, turned.load_array)
     return _Sense(
-        unknown_power(turned, f.bare_effort, f.bare_load) - damping,
-        unknown_power(turned, turned.effort_array, turned.load_array),
+        np.where(np.abs(bare) < NOTHING * np.abs(rubbed), 0.0, bare),
+        rubbed,
         np.array([s == "jammed" for s in turned.status]),
         damping > 0,
     )

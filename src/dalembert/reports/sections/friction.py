@@ -196,7 +196,7 @@ def cost(sheet: Sheet, c: ReportContext) -> None:
     sheet.table(heads, rows, "What friction takes at this position", total=True)
     found = efficiency(r)
     senses = (
-        (float(found.forward[k]), "where the drive moves the load"),
+        (float(found.forward[k]), f"where the drive moves the load{found.driven(k)}"),
         (float(found.reverse[k]), f"where the load moves the drive{found.held(k)}"),
         (found.cycle if len(r.status) > 1 else math.nan, "over all positions, inertia and all"),
     )

@@ -62,10 +62,6 @@ def branch_note(result: Result) -> str:
     )
 
 
-NOTHING = 1e-9
-"""An efficiency below this is rounding."""
-
-
 def efficiency_note(result: Result) -> str:
     """Efficiency at a single position in both senses; without speed there is none."""
     from dalembert.analysis.friction.efficiency import efficiency
@@ -74,7 +70,7 @@ def efficiency_note(result: Result) -> str:
         return ""
     found = efficiency(result)
     senses = (
-        (found.forward[0], "drive moves the load"),
+        (found.forward[0], f"drive moves the load{found.driven(0)}"),
         (found.reverse[0], f"load moves the drive{found.held(0)}"),
     )
     parts = [
@@ -87,7 +83,7 @@ def efficiency_note(result: Result) -> str:
 
 def cycle_table(result: Result, to: Printed) -> Part:
     """What each joint's friction takes over all positions, and the efficiency."""
-    from dalembert.analysis.friction.efficiency import efficiency
+    from dalembert.analysis.friction.efficiency import NOTHING, efficiency
 
     if result.friction is None or not (result.schedule.speed != 0).any():
         return ""
