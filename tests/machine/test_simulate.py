@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from copy import copy, deepcopy
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -313,3 +314,16 @@ def test_a_motion_that_cannot_begin_says_why() -> None:
         da.ModelError, match="the motion cannot begin: stopped at 0 s: nothing there has inertia"
     ):
         simulated(rubbing(random_case(0).tree), 1e-3)
+
+
+HOOKE = Path(__file__).parents[2] / "cases" / "sp-06a-hooke-joint-with-flywheel.yaml"
+
+
+@pytest.mark.long
+def test_efforts_that_are_rounding_beside_the_machine_are_no_doubt() -> None:
+    """A Hooke joint let go: it coasts, with 773 N m of its flywheel and no effort; one of 0.1 N m is no rounding."""
+    m = da.load(HOOKE).with_values({"loads.T.value": [0, 0, 0]})
+    s = da.simulate(m, "0.01 s", start={"O": {"position": "45 deg", "speed": "240 rpm"}}, count=3)
+    assert s.doubt == ""
+    other = replace(s, given=np.full_like(s.given, 0.1))
+    assert "prescribed, that motion asks for other efforts" in other.doubt

@@ -15,6 +15,7 @@ import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.output.columns import Column, Scale, columns, drive_kinds
+from dalembert.analysis.output.rounding import sizes
 from dalembert.analysis.result.closure_residual import closure_gap
 from dalembert.analysis.result.link_motion import place_of
 from dalembert.arrays import Array, Tree
@@ -39,6 +40,10 @@ TOLERANCE, MOST = 1e-12, 100_000
 """Of the integration, relative; and the most instants that are kept."""
 DOUBT = 1e-5
 """Gap of a check above which the answer says so: results are read to five digits at most."""
+
+NOTHING = 1e-6
+"""Efforts are compared as if the largest had this part, at least, of the moments of inertia, weights and loads: below
+these they may be nothing but rounding."""
 
 
 @dataclass(frozen=True)
@@ -138,8 +143,9 @@ class Simulation(Answer):
         inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
         forces, couples = r.compiled.forcing.forces.value, r.compiled.forcing.couples.value
         loads = np.append(np.ravel(forces) * r.compiled.layout.length, couples)  # of numbers that cancel
-        sizes = (asked[sure], given[sure], inner[sure], np.asarray(loads, float))
-        largest = max(float(np.abs(x).max(initial=0.0)) for x in sizes)
+        moments = NOTHING * sizes(r)["moment"][sure]
+        compared = (asked[sure], given[sure], inner[sure], np.asarray(loads, float), moments)
+        largest = max(float(np.abs(x).max(initial=0.0)) for x in compared)
         return np.where(sure, np.abs(asked - given).max(axis=1, initial=0.0), 0.0) / (largest or 1.0)
 
     @property
