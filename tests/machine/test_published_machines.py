@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
+import dalembert as da
 from dalembert.grading.file_answers import check_file
 from tests.cases.test_coverage import waiting
-from tests.machine.published_calls import CALLS, MODELS
+from tests.machine.published_calls import CALLS, CAR, MODELS
 
 PROBLEMS = {p["id"]: p for p in json.loads(Path(__file__).with_name("machine_cases.json").read_text("utf-8"))}
 
@@ -56,3 +57,10 @@ def test_answers_of_the_files_here(path: Path) -> None:
     rows = check_file(path)
     assert rows
     assert [(row.quantity, row.computed, row.published) for row in rows if not row.ok] == []
+
+
+def test_a_car_that_slides_to_rest_says_nothing_of_self_locking() -> None:
+    """No load has to drive it: its four wheels are locked."""
+    s = da.simulate(da.loads(CAR % (0.6, 0.6)), "rear.speed = 0 ft/s", count=3)
+    assert "self_locking" in s.result.status
+    assert "Self-locking" not in str(s)

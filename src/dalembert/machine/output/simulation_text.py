@@ -41,7 +41,9 @@ def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
     )
     if s.doubt:
         yield f"Doubtful: {s.doubt}."
-    problems = [row for row in s.result.problems() if row[1] != "at_rest"]
+    # where forces move every drive, no load has to drive it
+    natural = {"at_rest", "self_locking"} if s.moves.free.all() else {"at_rest"}
+    problems = [row for row in s.result.problems() if row[1] not in natural]
     if problems:
         yield "\n".join(f"instants {which}: {sentence}" for which, _, sentence in problems)
 
