@@ -50,13 +50,14 @@ def _said(reader: Reader, words: str) -> None:
     for sign, rate in re.findall(r"([ωα]_c) = (−?[\d.]+)", words):
         reader.known[sign] = reader.number(rate)
     conversion = (
-        r"As 1 [^,]+? is ([\d.]+[⁰¹²³⁴-⁹]*) [^,]+, (masses|moments) [^.]* are (divided|multiplied) by"
+        r"As 1 [^,]+? is ([\d.]+[⁰¹²³⁴-⁹]*) [^,]+, ((?:masses|moments) [^.]*) are (divided|multiplied) by"
     )
     for figure, of, how in re.findall(conversion, words):
         base, power = re.fullmatch(r"([\d.]+)(.*)", figure).groups()  # type: ignore[union-attr]
         whole = float(base) ** int(power.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")) or 1)
         factor = whole ** (-1 if how == "divided" else 1)
-        reader.factors |= dict.fromkeys("mIJ" if of == "masses" else "IJ", factor)
+        signs = "m" * ("masses" in of) + "IJ" * ("moments" in of)
+        reader.factors |= dict.fromkeys(signs, factor)
 
 
 def number(reader: Reader, cell: str) -> Read | None:

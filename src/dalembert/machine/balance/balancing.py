@@ -163,7 +163,7 @@ def balance(
 
     >>> import dalembert as da
     >>> m = da.four_bar(ground=0.4, crank=0.1, coupler=0.35, rocker=0.3)
-    >>> found = da.balance(m.withvalues_of({"links.crank.mass": 1.0}), ["crank", "rocker"])
+    >>> found = da.balance(m.with_values({"links.crank.mass": 1.0}), ["crank", "rocker"])
     >>> found.complete, bool(found.gap < 1e-9)
     (True, True)
     """

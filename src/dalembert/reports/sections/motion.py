@@ -101,7 +101,10 @@ def units_of_inertia(sheet: Sheet, c: ReportContext) -> None:
             said.append(f"As 1 {product} is {size} {shown.unit(kind)}, {words} are multiplied by {size}.")
     turning = shown.factor("moment", "inertia", "angular_acceleration")
     same = math.isclose(shown.factor("force", "mass", "acceleration"), turning)
-    sheet.text(" ".join(said[:1] if same else said))
+    if same and said:
+        both = "masses times accelerations and moments of inertia times angular accelerations"
+        said = [said[0].replace("masses times accelerations", both)]
+    sheet.text(" ".join(said))
 
 
 def shares(sheet: Sheet, c: ReportContext) -> None:
