@@ -86,10 +86,7 @@ def study(
     table = dict(draw) if isinstance(draw, Mapping) else None
     if table is None and not given:
         raise ModelError("nothing varies", "give path: spread, as stroke: ± 0.1 mm", ("vary",))
-    if isinstance(designs, bool) or designs != int(designs):
-        raise ModelError(f"{designs!r} is no number of designs", "give a whole number", ("designs",))
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
-        raise ModelError(f"the seed {seed!r} is no whole number of 0 or more", "give one, as 7", ("seed",))
+    _check_draw(designs, seed)
     numbers, spreads, rows = (
         spreads_of(mechanism, given) if table is None else columns_of(mechanism, given, table)
     )
@@ -106,6 +103,14 @@ def study(
     found = Study(mechanism, plan, names, reduce, static, positions, keep, lanes, motion=motion)
     _ = found.engine  # what cannot be computed is refused here
     return found.with_limits(limits or {})
+
+
+def _check_draw(designs: int, seed: int) -> None:
+    """Raise ModelError for what is no number of designs, or no seed."""
+    if isinstance(designs, bool) or designs != int(designs):
+        raise ModelError(f"{designs!r} is no number of designs", "give a whole number", ("designs",))
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
+        raise ModelError(f"the seed {seed!r} is no whole number of 0 or more", "give one, as 7", ("seed",))
 
 
 def _refuse_beside_motion(**given: object) -> None:

@@ -15,7 +15,7 @@ from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.dry_friction import Contacted
-from dalembert.machine.motion.equation import NO_INERTIA, Equation, StoppedError, Terms
+from dalembert.machine.motion.equation import Equation, StoppedError, Terms, no_inertia
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event, Words
 from dalembert.model import Mechanism, Schedule
@@ -132,9 +132,7 @@ class ContactState:
         least, way = np.linalg.eigh((mass + mass.T) / (2 * size * size[:, None]))
         if light.any() or least[0] < WEIGHTLESS:
             k = np.flatnonzero(light)[0] if light.any() else np.argmax(np.abs(way[:, 0]))
-            raise StoppedError(
-                f"{NO_INERTIA}: forces that move {self.acting.names[free[k]]} move no mass; give its links masses"
-            )
+            raise StoppedError(no_inertia(self.acting.names[free[k]]))
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
         """Effort that acts on a drive at rest, and the least and greatest with which it stays there."""
