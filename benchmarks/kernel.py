@@ -124,7 +124,7 @@ def four_bars() -> None:
         print(f"    {mine:6.2f} ns a position; by hand in C {other:.2f}; ratio {mine / other:.2f}")
     torque = da.compile(m, vary=list(FOUR_BAR), outputs=["effort.O2"])
     slopes = da.compile(m, vary=list(FOUR_BAR), outputs=["effort.O2"], derivatives=True)
-    peak = da.compile(m, vary=list(FOUR_BAR), outputs=["effort.O2", "magnitude.A"], reduce="peak")
+    peak = da.compile(m, vary=list(FOUR_BAR), outputs=["effort.O2", "reaction.A.magnitude"], reduce="peak")
     one, all_ = nanoseconds(torque), nanoseconds(slopes)
     print(f"    torque alone {one:.2f} ns, with its 24 derivatives {all_:.2f} ns: {all_ / one:.2f} times")
     print(f"    peaks of torque and of one reaction {nanoseconds(peak, 'reduce'):.2f} ns a position")
@@ -191,7 +191,7 @@ def study(designs: int) -> None:
     """Peaks of many four-bars over 360 positions."""
     m = four_bar(360)
     vary = ["links.coupler.mass", "links.coupler.points.B.0", "links.rocker.points.B.0"]
-    k = da.compile(m, vary=vary, outputs=["magnitude.A", "effort.O2"], reduce="peak")
+    k = da.compile(m, vary=vary, outputs=["reaction.A.magnitude", "effort.O2"], reduce="peak")
     rng = np.random.default_rng(1)
     values = k.nominal * (1 + 0.02 * rng.uniform(-1, 1, (designs, 3)))
     k(values[:1000])

@@ -18,7 +18,10 @@ PACKAGES = {
     "units": "units.py printing.py unit_names.py wording.py",
     **{
         p: f"{p}/"
-        for p in ("algebra", "core", "analysis", "kernel", "model", "wrench", "views", "reports", "cli")
+        for p in (
+            *("algebra", "core", "kernel", "model", "analysis", "wrench", "machine", "optimization"),
+            *("views", "reports", "pages", "notebook", "exams", "studies", "cli"),
+        )
     },
 }
 """Where each package's files are; a file belongs to the first package that names it."""

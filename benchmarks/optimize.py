@@ -265,12 +265,12 @@ def best_torque(starts: int) -> da.Optimum:
 
 def best_shaking(starts: int) -> da.Optimum:
     m = da.loads(SLIDER)
-    before = float(np.linalg.norm(da.dynamics(m)["shaking"], axis=1).max())
+    before = float(np.linalg.norm(da.dynamics(m)["shaking_force"], axis=1).max())
     check("shaking", float(shaking_numpy([0, 0, 0, 0, 0, 0])[0]), before)
     for words, some in (("crank", list(SHAKING)[:2]), ("crank and rod", list(SHAKING))):
         begun = time.perf_counter()
         vary = {path: SHAKING[path] for path in some}
-        best = da.optimize(m, vary, "peak shaking.magnitude", starts=starts)
+        best = da.optimize(m, vary, "peak shaking_force.magnitude", starts=starts)
         said = f"da.optimize, {words} (before: {before:.1f})"
         row("shaking, N", said, time.perf_counter() - begun, best.started, best.value)
     evolution("shaking, N", shaking_numpy, SHAKING_BOX, 15, 300)

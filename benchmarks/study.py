@@ -28,6 +28,7 @@ from typing import Any
 import numpy as np
 
 import dalembert as da
+from dalembert.kernel.parallel_runs import cores
 
 VARY = {
     "links.coupler.mass": "± 5 %",
@@ -96,7 +97,7 @@ def killed(power: int, folder: Path, kills: int, client: Any) -> None:
     """One store, killed again and again, and the same bits at the end."""
     s = study(10**power // POSITIONS)
     size = s.block_size()
-    expected = s.block(0, size)[1] / 1e3 * s.count / size / len(os.sched_getaffinity(0))
+    expected = s.block(0, size)[1] / 1e3 * s.count / size / cores()
     chance, done = random.Random(1), 0
     for _ in range(kills):
         child = os.fork()
@@ -133,7 +134,7 @@ def main() -> None:
 
         own = {"n_workers": given.workers, "threads_per_worker": 1, "dashboard_address": None}
         client = Client(given.scheduler) if given.scheduler else Client(**own)
-    print(f"{len(os.sched_getaffinity(0))} cores, dalembert {da.__version__}")
+    print(f"{cores()} cores, dalembert {da.__version__}")
     last = given.only or given.largest
     try:
         if given.kills:

@@ -74,7 +74,7 @@ def gallery() -> None:
 
 JOINTS = """# Joints in space
 
-What each joint leaves free of link j in link i, and the reactions it carries along its own axes. `dalembert joints`
+What each joint leaves free of link j in link i, and the reactions it carries along its local axes. `dalembert joints`
 prints this table, `dalembert joints -o pictures` draws it. What belongs to i is blue, to j
 yellow; forces have one head, moments two.
 [Space](space.md) says how the axes are given and which freedoms can be driven.
@@ -138,8 +138,29 @@ def machine_figures() -> None:
         "balance": scenes_of(da.balance(bar, ["crank", "rocker"])),
         "crane": [da.draw.mechanism(crane, at=1), *scenes_of(member_table(crane, ["boom"]))[4:6]],
     }
-    for name, scenes in drawn.items():
+    for name, scenes in (drawn | part_figures()).items():
         da.draw.beside(scenes).save(FIGURES / f"machine_{name}.svg", overwrite=True)
+
+
+def part_figures() -> dict[str, list[da.draw.Scene]]:
+    """A picture for each part of the page on the machine, of its own example."""
+    engine = da.load(examples()["engine"])
+    linkage = da.four_bar(ground=0.4, crank=0.1, coupler=0.35, rocker=0.3)
+    bounds = {"crank": {"radius": 0.06, "mass": 0.5}, "rocker": {"mass": 1.0}}
+    bar = da.load(examples()["four_bar"]).with_values({"links.coupler.section": {"circle": "30 mm"}})
+    pin = {"rating": "60 kN", "diameter": "40 mm", "length": "25 mm"}
+    journal = engine.with_values({"joints.A.bearing": pin})
+    slider = da.slider_crank(crank=0.05, rod=0.2).with_values({"drives.O2.acceleration": 50.0})
+    parts: dict[str, tuple[list[da.draw.Scene], tuple[int, ...]]] = {
+        "shaking": (scenes_of(da.shaking(da.dynamics(engine), about="O2")), (2, 3)),
+        "counterweights": (scenes_of(da.balance(linkage, bounds, least="max", of="force")), (0, 3)),
+        "flywheel": (scenes_of(da.flywheel(da.dynamics(engine, positions=144), Cs=0.02)), (0, 1)),
+        "hammer": (scenes_of(da.simulate(da.load(FIGURES.parent / "drop-hammer.yaml"), "2 s")), (0,)),
+        "members": (scenes_of(member_table(da.dynamics(bar), ["coupler"])), (2, 5)),
+        "bearings": (scenes_of(da.bearings(da.dynamics(journal), hours=2000)), (2, 8)),
+        "motor": (scenes_of(da.motor(da.dynamics(slider), inertia=1e-4)), (0, 4)),
+    }
+    return {name: [scenes[k] for k in chosen] for name, (scenes, chosen) in parts.items()}
 
 
 def force_systems() -> None:

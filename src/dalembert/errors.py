@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from errno import ENOENT
 from typing import NamedTuple, Protocol
 
 
@@ -35,7 +36,7 @@ class ModelError(DalembertError, ValueError):
         super().__init__(what, remedy)
 
     def __str__(self) -> str:
-        where = f"{self.file}:{self.line}: " if self.file else ""
+        where = f"{self.file}:{self.line}: " if self.line else f"{self.file}: " if self.file else ""
         return where + (f"{self.what}; {self.remedy}" if self.remedy else self.what)
 
     def at_source(self, source: Locator | None) -> ModelError:
@@ -47,6 +48,28 @@ class ModelError(DalembertError, ValueError):
     def at_line(self, file: str, line: int) -> ModelError:
         """The same error at a line of a file."""
         return ModelError(self.what, self.remedy, self.path, file, line)
+
+
+class ArgumentError(ModelError):
+    """A number given to a function or an option that is out of its bounds: no line of a model file is wrong."""
+
+    def at_source(self, source: Locator | None) -> ModelError:
+        """The same error; only one with keys belongs to a file."""
+        return super().at_source(source) if self.path else self
+
+
+class MissingFileError(ModelError, FileNotFoundError):
+    """A file, or a folder, that does not exist.
+
+    >>> print(MissingFileError("engin.yaml", "did you mean 'engine.yaml'?"))
+    engin.yaml: file not found; did you mean 'engine.yaml'?
+    """
+
+    __new__ = FileNotFoundError.__new__  # type: ignore[assignment]  # ValueError's, which comes first, cannot
+
+    def __init__(self, name: str, remedy: str = "") -> None:
+        super().__init__("file not found", remedy, file=name)
+        self.errno, self.filename = ENOENT, name
 
 
 @contextmanager
@@ -94,7 +117,7 @@ STATUSES: dict[str, Status] = {
         "Step over this position, move an end of the spring, or give a preloaded one no free length.",
     ),
     "overflow": Status(
-        "A number is too large for the arithmetic: beyond 1.8e308 in SI.",
+        "A number is too large for the arithmetic: beyond 1.8e308 in SI, or joints of a link more than 1e150 m apart.",
         "Correct the speed, mass, length or load, or its unit, that is wrong by many powers of ten.",
     ),
     "no_balance": Status(

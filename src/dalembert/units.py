@@ -12,7 +12,20 @@ from dataclasses import dataclass, fields
 from functools import lru_cache
 
 from dalembert.errors import ModelError
-from dalembert.unit_names import ANGLE, FORCE, LENGTH, MASS, MOMENT, NONE, ONE, TIME, Dimension, Unit, unit
+from dalembert.unit_names import (
+    ANGLE,
+    FORCE,
+    LENGTH,
+    MASS,
+    MOMENT,
+    NONE,
+    ONE,
+    SYMBOLS,
+    TIME,
+    Dimension,
+    Unit,
+    unit,
+)
 from dalembert.wording import closest, quote_value
 
 
@@ -62,6 +75,9 @@ KINDS: dict[str, Kind] = {
     "power": _kind("a power", "W", (2, 1, -3, 0), "force length time^-1", "2 kW"),
     "energy": _kind("an energy", "J", MOMENT, "force length", "20 J"),
     "pressure": _kind("a pressure", "N/m^2", (-1, 1, -2, 0), "force length^-2", "6 N/mm^2"),
+    "pressure_speed": _kind(
+        "a pressure times a speed", "W/m^2", (0, 1, -3, 0), "force length^-1 time^-1", "1 MPa*m/s"
+    ),
 }
 """Every kind of number in a file or an answer. A bare torsional stiffness or damping is one per radian."""
 
@@ -204,7 +220,7 @@ def quantity(value: object, kind: str, units: Units | None = None) -> float:
     number, unit_text = _split(value, kind)
     if not unit_text:
         return _finite(_bare(number, kind, units, value), value)
-    named = unit(unit_text)
+    named = _unit_of(unit_text, kind)
     _check_dimension(unit_text, named, value, kind)
     return _finite(named.si(number), value)
 
@@ -270,9 +286,24 @@ def _write(kind: str) -> str:
 
 def check_unit(text: str, kind: str) -> Unit:
     """The unit that a text names, if it is one of this kind; else raises ModelError."""
-    named = unit(text)
+    named = _unit_of(text, kind)
     _check_dimension(text, named, text, kind)
     return named
+
+
+def _unit_of(text: str, kind: str) -> Unit:
+    """The unit that a text names; for an unknown one the error lists units of the kind that is needed."""
+    try:
+        return unit(text)
+    except ModelError as error:
+        if not error.remedy.startswith("choose among"):
+            raise
+        if kind not in BASES:
+            raise ModelError(error.what, _write(kind)) from None
+        same = [name for name, known in SYMBOLS.items() if known.dimension == KINDS[kind].dimension]
+        phrase = KINDS[kind].phrase.removeprefix("an ").removeprefix("a ")
+        listed = ", ".join(same[:8]) + (", ..." if len(same) > 8 else "")
+        raise ModelError(error.what, f"units of {phrase}: {listed}") from None
 
 
 def _check_dimension(unit_text: str, named: Unit, value: object, kind: str) -> None:

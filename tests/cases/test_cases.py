@@ -31,12 +31,10 @@ def test_answers(path: Path) -> None:
     assert not missed, "\n".join([f"{path.name}: {len(missed)} of {len(rows)} answers are missed", *missed])
 
 
-@every_case
-def test_every_answer_has_its_reason_and_every_case_its_source(path: Path) -> None:
-    mechanism = load(path)
-    assert mechanism.title
-    assert mechanism.source_text
-    assert [answer.quantity for answer in mechanism.answers if not answer.why] == []
+def test_every_answer_has_its_reason_and_every_case_its_source() -> None:
+    every = {path.name: load(path) for path in FILES}
+    assert [name for name, m in every.items() if not (m.title and m.source_text)] == []
+    assert [(name, a.quantity) for name, m in every.items() for a in m.answers if not a.why] == []
 
 
 @every_case

@@ -144,6 +144,24 @@ def test_files_without_answers(run: Run) -> None:
     assert run("check", "four_bar.yaml") == (0, "No answers to compare.\n", "")
 
 
+@pytest.mark.parametrize("size", ["9.81", "1.01 m/s^2", "29.9 m/s^2", "0.99 m/s^2", "30.1 m/s^2", "0"])
+def test_a_gravity_in_another_unit_is_doubted_in_every_answer(run: Run, folder: Path, size: str) -> None:
+    """-9.81 in a file in millimetres is 9.81 mm/s2."""
+    doubted = {"9.81": "0.00981", "0.99 m/s^2": "0.99", "30.1 m/s^2": "30.1"}.get(size)
+    text = (folder / "four_bar.yaml").read_text(encoding="utf-8").replace("length: in", "length: mm")
+    (folder / "g.yaml").write_text(text.replace("gravity: none", f"gravity: [0, -{size}]"), encoding="utf-8")
+    m = da.load(folder / "g.yaml")
+    said = f"{doubted} m/s2 is not between 1 and 30 m/s2: write gravity: standard, or [0, -9.81 m/s^2]"
+    told = [
+        da.statics(m).assumptions["gravity"],
+        da.statics(m).to_dict()["assumptions"]["gravity"],
+        " ".join(run("solve", "g.yaml").out.split()),
+        run("check", "g.yaml").err,
+    ]
+    assert [said in text for text in told] == [doubted is not None] * 4
+    assert told[-1] == (f"g.yaml: note: the acceleration of gravity of {said}\n" if doubted else "")
+
+
 @pytest.mark.parametrize(
     ("keys", "says"),
     [

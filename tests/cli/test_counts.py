@@ -56,7 +56,9 @@ def test_a_printed_result_is_what_solve_prints(run: Run, folder: Path) -> None:
     for positions in (None, 36):
         options = () if positions is None else ("--positions", str(positions))
         assert f"{da.dynamics(m, positions=positions)}\n" == run("solve", "four_bar.yaml", *options).out
-    assert repr(da.dynamics(m, positions=36)) == "<Result of 'Four-bar linkage, dynamic': positions 36 ok>"
+    assert (
+        repr(da.dynamics(m, positions=36)) == "<Result of 'Four-bar linkage, dynamic': 36 positions, 36 ok>"
+    )
 
 
 def test_a_printed_motion_has_no_columns_of_forces() -> None:

@@ -29,7 +29,7 @@ def test_status_and_streams() -> None:
     assert "\x1b" not in done.stdout
     done = subprocess.run([*COMMAND, "solve", "none.yaml"], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "none.yaml:1: there is no file none.yaml; check the name and the folder\n"
+    assert done.stderr == "none.yaml: file not found\n"
 
 
 def test_a_reader_that_goes_away_is_no_error() -> None:
@@ -172,3 +172,21 @@ def test_long_work_shows_itself_on_a_terminal_only(tmp_path: Path, case: tuple[f
         assert "\x1b" not in printed
         assert len((tmp_path / "out.csv").read_text().splitlines()) == 2
     assert {p.name for p in tmp_path.iterdir()} <= {"out.csv", "printed"}
+
+
+@pytest.mark.parametrize(
+    ("environment", "title"),
+    [
+        ({"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}, "Антрия ×"),
+        ({"PYTHONIOENCODING": "cp1252"}, r"\u0410\u043d\u0442\u0440\u0438\u044f ×"),
+    ],
+)
+def test_what_a_pipe_is_written_in(environment: dict[str, str], title: str, tmp_path: Path) -> None:
+    """UTF-8, whatever the system's encoding; one that was asked for writes what it lacks by numbers."""
+    text = Path(FOUR_BAR).read_text(encoding="utf-8").replace("Four-bar linkage, dynamic", "Антрия ×")
+    (tmp_path / "m.yaml").write_text(text, encoding="utf-8")
+    done = subprocess.run(
+        [*COMMAND, "solve", str(tmp_path / "m.yaml")], capture_output=True, env={**os.environ, **environment}
+    )
+    assert done.returncode == 0
+    assert done.stdout.decode(environment.get("PYTHONIOENCODING", "utf-8")).startswith(title)

@@ -21,7 +21,7 @@ def _pump(folder: Path) -> None:
 
 def test_solve_with_other_values(run: Run) -> None:
     ran = run("solve", "pump.yaml", "--set", "stroke=80mm", "--set", "links.rod.mass = 2 kg", "--json", "-")
-    efforts = [p["efforts"]["O"] for p in json.loads(ran.out)["positions"]]
+    efforts = [p["effort"]["O"] for p in json.loads(ran.out)["positions"]]
     m = da.load("pump.yaml").with_values({"stroke": 0.08, "links.rod.mass": 2.0})
     assert efforts == pytest.approx(da.dynamics(m).effort("O").tolist(), abs=1e-9)
     assert math.dist(*m.links["crank"].points.values()) == pytest.approx(0.04)

@@ -102,7 +102,7 @@ def test_a_file_on_the_screen(run: Run, output: str) -> None:
 def test_what_is_no_text_does_not_go_to_the_screen(run: Run, folder: Path, option: list[str]) -> None:
     ran = run("solve", "four_bar.yaml", *option)
     assert (ran.status, ran.out) == (2, "")
-    assert "on the screen, which is no text; name a file" in ran.err
+    assert "on the screen, which is not text; name a file" in ran.err
 
 
 def test_standard_output_that_takes_no_more_is_named(folder: Path) -> None:

@@ -44,8 +44,9 @@ def test_the_way_that_the_careful_path_takes(assembly: dict[str, float], by_prog
     assert (first[1] == "all") == by_program
 
 
-def test_whole_turns_are_counted_through_what_lies_between() -> None:
+def test_whole_turns_are_counted_through_what_lies_between(monkeypatch: pytest.MonkeyPatch) -> None:
     """A drag link, all of whose links turn: three positions over five turns, in no order."""
+    monkeypatch.setattr(structures, "STRUCTURES", structures.Structures())
     m = four_bar(
         (0.2, 31.0, -9.0), {"coupler": 1.0, "rocker": 1.2}, ground=0.05, crank=0.2, coupler=0.18, rocker=0.22
     )

@@ -141,7 +141,8 @@ def test_too_few_values() -> None:
 
 def test_what_is_asked() -> None:
     some = four_bar(
-        count=1, ask=["effort.O2", "reaction.A.crank", "reaction.B.x", "speed.rocker", "point.coupler.P"]
+        count=1,
+        ask=["effort.O2", "reaction.A.crank", "reaction.B.x", "angle.rocker.speed", "point.coupler.P"],
     )
     rows = [(k["quantity"], k["of"], k.get("on"), k.get("component"), k["unit"]) for k in some[0].key]
     assert rows == [

@@ -98,10 +98,9 @@ def test_a_rod_at_45_degrees_jams_above_1(mu: float) -> None:
     assert np.isnan(r.unknown_load("rod")[0])
     assert np.isnan(r.reaction("guide")[0]).all()
     (position,) = r.to_dict()["positions"]
-    nothing = {"force": [None, None], "moment": None}
-    guide = position["reactions"]["guide"]
-    assert guide["friction"] == {**nothing, "power_lost": None}
-    assert guide["contact"] == {"mode": None, "lower": None, "upper": None}
+    assert position["friction_force"]["guide"] == [None, None]
+    assert (position["friction_moment"]["guide"], position["power_lost"]["guide"]) == (None, None)
+    assert position["contact"]["guide"] == {"mode": None, "lower": None, "upper": None}
     assert r.friction.critical[0] == pytest.approx(1 / mu, rel=1e-9)
     assert da.efficiency(r).forward[0] == 0
     assert r.reasons[0] == (

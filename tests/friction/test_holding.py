@@ -133,7 +133,7 @@ def test_what_holds_beyond_impending_motion_is_said() -> None:
     assert str(r.reasons[0]).endswith(said)
     assert said in " ".join(str(r).split())
     (position,) = r.to_dict()["positions"]
-    assert position["efforts"]["floor"] == pytest.approx(r.interval("floor")[0])
+    assert position["effort"]["floor"] == pytest.approx(r.interval("floor")[0])
     assert position["holding"]["floor"] == pytest.approx(r.holding("floor")[0])
     assert "with the right history friction can hold −70.92 to 26.43 N" in str(da.report(r))
     locked = da.statics(wedge(1.5, 1.3, 40.0))

@@ -150,11 +150,10 @@ def test_json_with_friction(capsys: pytest.CaptureFixture[str]) -> None:
     assert answer["friction"] is True
     assert answer["assumptions"]["friction"] == "on, friction circles of mu R"
     (position,) = answer["positions"]
-    guide = position["reactions"]["guide"]
-    assert guide["friction"]["force"][0] == pytest.approx(guide["force"][0])
-    assert guide["contact"]["lower"] == pytest.approx(guide["force"][1])
-    a = position["reactions"]["A"]
-    assert a["moment"] == pytest.approx(0.024 * np.hypot(*a["force"]))
+    guide, a = position["reaction"]["guide"], position["reaction"]["A"]
+    assert position["friction_force"]["guide"][0] == pytest.approx(guide[0])
+    assert position["contact"]["guide"]["lower"] == pytest.approx(guide[1])
+    assert position["reaction_moment"]["A"] == pytest.approx(0.024 * np.hypot(*a))
     assert position["friction"]["only_solution"] is True
     assert position["friction"]["determinant_ratio"] == pytest.approx(DRIVEN.determinant, rel=1e-9)
     assert position["friction"]["critical_scale"] is None
@@ -164,11 +163,11 @@ def test_json_at_rest(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["solve", str(CASES / "seed-002-7d-engine-at-rest.yaml"), "--json", "-"]) == 1
     (position,) = json.loads(capsys.readouterr().out)["positions"]
     assert position["status"] == "at_rest"
-    assert position["efforts"]["O"] == pytest.approx([DRIVING.effort, DRIVEN.effort], rel=1e-9)
-    assert position["reactions"]["A"]["force"] == [None, None]
+    assert position["effort"]["O"] == pytest.approx([DRIVING.effort, DRIVEN.effort], rel=1e-9)
+    assert position["reaction"]["A"] == [None, None]
     low = position["ends"]["O"]["low"]
     assert low["at_limit"] == ["O", "A", "B", "guide"]
-    assert np.hypot(*low["reactions"]["A"]["force"]) == pytest.approx(DRIVING.rod, rel=1e-9)
+    assert np.hypot(*low["reaction"]["A"]) == pytest.approx(DRIVING.rod, rel=1e-9)
 
 
 def test_no_friction_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
@@ -177,8 +176,8 @@ def test_no_friction_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> 
     answer = json.loads(capsys.readouterr().out)
     assert answer["friction"] is False
     assert answer["assumptions"]["friction"] == "off (switched off)"
-    assert answer["positions"][0]["efforts"]["O"] == pytest.approx(BARE, rel=1e-9)
-    assert answer["positions"][0]["reactions"]["A"]["moment"] == 0
+    assert answer["positions"][0]["effort"]["O"] == pytest.approx(BARE, rel=1e-9)
+    assert answer["positions"][0]["reaction_moment"]["A"] == 0
 
 
 def test_printed(capsys: pytest.CaptureFixture[str]) -> None:
@@ -196,7 +195,7 @@ def test_the_taught_table_printed(capsys: pytest.CaptureFixture[str]) -> None:
     main(["solve", str(CASES / "seed-002-7a-engine-friction-circles.yaml"), "--method", "fixed-point"])
     out = capsys.readouterr().out
     assert "1     -4486.6005" in out
-    assert "The taught iteration arrives after 11 steps; each step leaves 0.0588 of the" in out
+    assert "The textbook iteration converges after 11 steps; each step leaves 0.0588 of the" in out
 
 
 def test_arrays_with_friction() -> None:
@@ -206,9 +205,9 @@ def test_arrays_with_friction() -> None:
     assert data.friction_force.attrs["units"] == "N"
     assert data.component.values.tolist() == ["x", "y"]
     assert "link_axis" not in data.coords
-    assert any(name.startswith("friction A on rod") for name in r.to_dataframe().columns)
+    assert any(name.startswith("friction_force.A") for name in r.to_dataframe().columns)
     rest = da.statics(engine(speed=0.0)).to_xarray()
-    assert float(rest.O_low_end[0]) == pytest.approx(DRIVING.effort, rel=1e-9)
+    assert float(rest.effort_low[0, 0]) == pytest.approx(DRIVING.effort, rel=1e-9)
 
 
 def test_gears_with_friction() -> None:
@@ -295,7 +294,7 @@ def test_printed_efficiency_and_virtual_work(capsys: pytest.CaptureFixture[str])
         "Efficiency, without inertia: 80.41 % where the drive moves the load; 76.99 % where the load" in out
     )
     assert "friction in A 0 0 530.68 0 0 -1.1569 -613.96" in out
-    assert "with friction virtual work checks that answer, it is no independent solution." in out
+    assert "with friction virtual work checks that answer; it is not an independent solution." in out
     main(["solve", str(CASES / "seed-002-7d-engine-at-rest.yaml"), "--method", "virtual-work"])
     out = capsys.readouterr().out
     assert "At the low end of O:" in out
@@ -309,15 +308,15 @@ def test_other_solutions_on_the_command_line(capsys: pytest.CaptureFixture[str])
     jammed, moved = (p["friction"] for p in json.loads(capsys.readouterr().out)["positions"])
     assert jammed["other_solutions"] == []
     (other,) = moved["other_solutions"]
-    assert other["unknown_loads"]["rod"] == pytest.approx(100 / (np.cos(np.pi / 4) * (1 - 1.2)), rel=1e-9)
+    assert other["load"]["rod"] == pytest.approx(100 / (np.cos(np.pi / 4) * (1 - 1.2)), rel=1e-9)
     assert other["determinant_ratio"] == pytest.approx(-0.2, rel=1e-9)
     main(["solve", case, "--json", "-"])
     assert "other_solutions" not in capsys.readouterr().out
     main(["solve", case, "--other-solutions"])
     assert "\n2                -707.107         -0.2\n" in capsys.readouterr().out
     for name, said in (
-        ("seed-002-7a-engine-friction-circles", "it is proved that there are none"),
-        ("seed-002-7d-engine-at-rest", "at no position here"),
+        ("seed-002-7a-engine-friction-circles", "Other solutions of friction: proved not to exist"),
+        ("seed-002-7d-engine-at-rest", "at no position of this result"),
     ):
         main(["solve", str(CASES / f"{name}.yaml"), "--other-solutions"])
         assert said in capsys.readouterr().out.replace("\n", " ")

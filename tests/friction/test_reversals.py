@@ -192,17 +192,17 @@ def test_json_has_both_sides_and_their_low_and_high() -> None:
     assert first["status"] == "reversal"
     assert "guide reverses at O = 90 deg" in first["reason"]
     for key, found in ((first, before), (first["after"], after)):
-        assert key["efforts"]["O"] == pytest.approx(found.torque, rel=1e-9)
-        assert key["reactions"]["guide"]["force"] == pytest.approx(found.force["guide"], rel=1e-7)
+        assert key["effort"]["O"] == pytest.approx(found.torque, rel=1e-9)
+        assert key["reaction"]["guide"] == pytest.approx(found.force["guide"], rel=1e-7)
         assert key["residual"] < 1e-12
         assert key["friction"]["determinant_ratio"] > 0
     ends = sorted([before.torque, after.torque])
-    assert [first[key]["efforts"]["O"] for key in ("low", "high")] == pytest.approx(ends, rel=1e-9)
+    assert [first[key]["effort"]["O"] for key in ("low", "high")] == pytest.approx(ends, rel=1e-9)
     for axis in range(2):
         ends = sorted([before.force["guide"][axis], after.force["guide"][axis]])
-        found = [first[key]["reactions"]["guide"]["force"][axis] for key in ("low", "high")]
+        found = [first[key]["reaction"]["guide"][axis] for key in ("low", "high")]
         assert found == pytest.approx(ends, rel=1e-7)
-    lost = [first[key]["reactions"]["B"]["friction"]["power_lost"] for key in ("low", "high")]
+    lost = [first[key]["power_lost"]["B"] for key in ("low", "high")]
     assert lost == sorted(float(side.power_lost("B")[0]) for side in r.sides)
 
 
@@ -213,22 +213,21 @@ def test_tables_have_low_and_high_of_every_quantity_that_friction_changes() -> N
     heads, *rows = list(csv.reader(io.StringIO(text.getvalue())))
     assert len(rows) == 144
     assert all(rows[0])
-    named = [h for h in heads if h.split(" [")[0].endswith((" low", " high"))]
+    named = [h for h in heads if h.split(" [")[0].split(".")[2:3] in (["low"], ["high"])]
     assert len(named) == 2 * (1 + 4 * 3 + 4 * 4)
     before, after = by_hand(np.pi / 2)
 
     def cell(name: str, k: int) -> float:
         return float(rows[k][heads.index(name)])
 
-    name = "reaction B on piston y"
-    values = [cell(f"{name}{word} [N]", 0) for word in ("", " low", " high")]
+    values = [cell(f"reaction.B.{word}y [N]", 0) for word in ("", "low.", "high.")]
     y = [found.force["B"][1] for found in (before, after)]
     assert values == pytest.approx([y[0], min(y), max(y)], rel=1e-9)
     assert min(y) < max(y)
-    assert "effort O low [N*m]" in heads
+    assert "effort.O.low [N*m]" in heads
     for head in heads:
-        if " low [" in head:
-            places = [heads.index(head.replace(" low", word)) for word in ("", " low", " high")]
+        if ".low" in head:
+            places = [heads.index(head.replace(".low", word)) for word in ("", ".low", ".high")]
             one = [len({row[n] for n in places}) == 1 for row in rows]
             assert all(np.array(one)[~r.reverses]), head
 

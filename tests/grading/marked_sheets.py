@@ -57,7 +57,7 @@ def asked(problem: Problem, place: int) -> list[tuple[str, str, str]]:
 
 
 def unit(problem: Problem, quantity: str, name: str) -> str:
-    from dalembert.analysis.output.columns import drive_kinds, load_kind
+    from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 
     r = problem.result
     kinds = {"effort": lambda: drive_kinds(r, name)["effort"], "unknown_load": lambda: load_kind(r, name)}

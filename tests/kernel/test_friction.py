@@ -49,7 +49,10 @@ def test_whole_cycles(name: str) -> None:
 def test_the_engine(circle: str) -> None:
     """One program for all coefficients, compiled without friction in the pins."""
     k = da.compile(
-        engine(0.0, circle), vary=["friction.coefficient"], outputs=["effort.O", "magnitude.A"], static=True
+        engine(0.0, circle),
+        vary=["friction.coefficient"],
+        outputs=["effort.O", "reaction.A.magnitude"],
+        static=True,
     )
     r, hand = k([[0.4], [0.05]]), [engine_by_hand(1, mu, circle) for mu in (0.4, 0.05)]
     assert r.effort("O")[:, 0] == pytest.approx([h.effort for h in hand], rel=1e-10)
@@ -199,7 +202,7 @@ def test_derivatives(name: str) -> None:
 @pytest.mark.parametrize("reduce", ["peak", "mean", "rms", "envelope", "norm8"])
 def test_derivatives_of_reductions(reduce: str) -> None:
     m = ROUGH["slider_crank"]()
-    checked(m, ["effort.O2", "magnitude.A"], reduce, tolerance=1e-6)
+    checked(m, ["effort.O2", "reaction.A.magnitude"], reduce, tolerance=1e-6)
 
 
 @pytest.mark.parametrize("seed", tiers((), range(6), range(6, 40)))

@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.careful_path import _schedule
 from dalembert.analysis.batch.tracing.kernel_inputs import _carry_sign_forward
+from dalembert.studies.block_engines import AnalysisEngine, make_engine
 from tests.kernel.comparing import changed, difference, every_number, general
 from tests.kernel.machines import KINDS, four_bar, four_bar_tree
 
@@ -42,12 +44,12 @@ def test_statics_and_motion() -> None:
     m = four_bar()
     outputs = [
         "angle.rocker",
-        "speed.coupler",
-        "acceleration.rocker",
+        "angle.coupler.speed",
+        "angle.rocker.acceleration",
         "point.coupler.P",
-        "point_velocity.coupler.P",
+        "point.coupler.P.velocity",
     ]
-    outputs += ["center_acceleration.coupler", "position.rocker", "effort.O2", "residual"]
+    outputs += ["point.coupler.center.acceleration", "point.rocker.origin", "effort.O2", "residual"]
     r, g = da.compile(m, outputs=outputs, static=True)(), da.statics(m)
     assert np.abs(r.angle("rocker")[0] - g.angle("rocker")).max() < 1e-12
     assert np.abs(r.speed("coupler")[0] - g.speed("coupler")).max() < 1e-10
@@ -96,7 +98,7 @@ def test_reactions_on_either_link() -> None:
     """As the general executor has them, in both kinds of axes; the mean changes its sign, a size does not."""
     m = da.bucket(positions=4)
     joint, (i, j) = "cylinder", m.joints["cylinder"].links
-    outputs = [f"reaction.{joint}", f"moment.{joint}"]
+    outputs = [f"reaction.{joint}", f"reaction_moment.{joint}"]
     r, g = da.compile(m, outputs=[*outputs, f"angle.{i}", f"angle.{j}"])(), da.dynamics(m)
     mean, peak, both = (da.compile(m, outputs=outputs, reduce=how)() for how in ("mean", "peak", "envelope"))
     for on in (None, i, j):
@@ -224,9 +226,13 @@ def test_no_designs_and_designs_without_a_number(reduce: str | None) -> None:
 @pytest.mark.parametrize("reduce", ["rms", "norm8"])
 def test_what_is_always_zero_has_slope_zero(reduce: str) -> None:
     k = da.compile(
-        da.four_bar(), vary=["links.coupler.mass"], outputs=["moment.A"], reduce=reduce, derivatives=True
+        da.four_bar(),
+        vary=["links.coupler.mass"],
+        outputs=["reaction_moment.A"],
+        reduce=reduce,
+        derivatives=True,
     )
-    assert (k().gradient("moment.A") == 0).all()
+    assert (k().gradient("reaction_moment.A") == 0).all()
 
 
 def test_what_redundant_constraints_leave_open_is_refused_with_its_reason() -> None:
@@ -244,19 +250,44 @@ def test_what_redundant_constraints_leave_open_is_refused_with_its_reason() -> N
     assert not r.ok[1].any()
     assert r.effort("O2")[0] == pytest.approx(one.effort("O2"), rel=1e-10)
     assert r.reaction("O4")[0] == pytest.approx(one.reaction("O4"), rel=1e-10)
-    with pytest.raises(da.ModelError, match=r"magnitude\.A2 cannot be compiled: constraints are redundant"):
-        da.compile(m, outputs=["magnitude.A2", "speed.rocker"])
+    with pytest.raises(
+        da.ModelError, match=r"reaction.A2.magnitude cannot be compiled: constraints are redundant"
+    ):
+        da.compile(m, outputs=["reaction.A2.magnitude", "angle.rocker.speed"])
+    _same_where_redundant(m)
+
+
+def _same_where_redundant(m: da.Mechanism) -> None:
+    """A kernel and both engines of a study give the status of their outputs, analyses and sweeps of all joints."""
+    path, outputs = "links.coupler.mass", ("effort.O2", "reaction.O4")
+    mass = float(da.compile(m, [path]).nominal[0])
+    assert set(da.solve(m).status) == {"redundant"}
+    s = da.sweep(m, {path: [mass]}, outputs=list(outputs))
+    assert set(s.status.ravel()) == {"redundant"}
+    compiled = make_engine(m, [path], outputs, None, False, None)
+    general = AnalysisEngine(m, (path,), outputs, None, False, None, "")
+    blocks = [engine.block(np.array([[mass]])) for engine in (compiled, general)]
+    for block in blocks:
+        assert (block["status"] == 0).all()
+    for name in outputs:
+        assert blocks[1][name] == pytest.approx(blocks[0][name], rel=1e-9)
+        assert s[name] == pytest.approx(blocks[0][name], rel=1e-9)
+    open_ = AnalysisEngine(m, (path,), ("effort.O2", "reaction.A"), None, False, None, "").block(
+        np.array([[mass]])
+    )
+    assert (open_["status"] == CODES.index("redundant")).all()
+    assert np.isnan(open_["reaction.A"]).all()
 
 
 def test_a_lifted_linkage_is_compiled_as_far_as_it_is_determined() -> None:
     """Each loop in planes is redundant three times; with a constraint freed the kernel has the analyses' reactions."""
     heights, plane = {"coupler": "20 mm"}, da.four_bar(positions=4)
     sentence = (
-        "reaction.A and moment.A cannot be compiled: constraints are redundant, and statics alone does not determine "
-        "it; leave it out, free a constraint, or use da.dynamics, which marks what is unique"
+        "reaction.A and reaction_moment.A cannot be compiled: constraints are redundant, and statics alone does not "
+        "determine it; leave it out, free a constraint, or use da.dynamics, which marks what is unique"
     )
     with pytest.raises(da.ModelError) as refused:
-        da.compile(da.lifted(plane, heights), outputs=["reaction.A", "moment.A", "effort.O2"])
+        da.compile(da.lifted(plane, heights), outputs=["reaction.A", "reaction_moment.A", "effort.O2"])
     assert str(refused.value) == sentence
     other = da.lifted(plane, heights)
     lifted = da.compile(other, ["links.crank.points.A.0"])
@@ -270,7 +301,7 @@ def test_a_lifted_linkage_is_compiled_as_far_as_it_is_determined() -> None:
     assert set(marked.status) == {"redundant"}
     assert not marked.unique("A").all()
     freed = da.lifted(plane, heights, {"B": "spherical", "O4": "cylindrical"})
-    k = da.compile(freed, outputs=["reaction.A", "moment.A", "effort.O2"])
+    k = da.compile(freed, outputs=["reaction.A", "reaction_moment.A", "effort.O2"])
     r, wanted = k([k.nominal]), da.dynamics(freed, method="careful")
     assert r.ok.all()
     assert r.reaction("A")[0] == pytest.approx(wanted.reaction("A"), rel=1e-10, abs=1e-9)

@@ -10,6 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.batch.over_positions import reduce_sides
+from dalembert.analysis.result.named_quantities import quantity
 from dalembert.bundled import examples
 from tests.kernel.machines import four_bar
 from tests.kernel.test_derivatives import checked
@@ -19,12 +20,12 @@ PLANE = [
     "max(abs(effort.O2), 3)",
     "transmission.B",
     "-min(transmission.B, 50 deg)",
-    "shaking",
+    "shaking_force",
     "shaking_moment",
     "shaking_moment.O4",
-    "atan2(shaking.y, shaking.x)",
+    "atan2(shaking_force.y, shaking_force.x)",
     "power.O2",
-    "reaction.A.magnitude^2 - 2*magnitude.B",
+    "reaction.A.magnitude^2 - 2*reaction.B.magnitude",
 ]
 
 
@@ -37,15 +38,41 @@ def agree(m: Any, outputs: list[str]) -> None:
 
 def test_expressions_are_those_of_a_result() -> None:
     agree(da.four_bar(), PLANE)
-    agree(da.load(examples()["engine"]), ["shaking", "shaking_moment", "power.O2"])  # a load by: ground
-    agree(da.rssr(), ["shaking", "shaking_moment.z"])
+    agree(da.load(examples()["engine"]), ["shaking_force", "shaking_moment", "power.O2"])  # a load by: ground
+    agree(da.rssr(), ["shaking_force", "shaking_moment.z"])
+
+
+def test_expressions_of_parameters_and_comparisons() -> None:
+    m = da.load(examples()["pump"])
+    outputs = [
+        "effort.O/stroke",
+        "reaction.O.x - 2*pressure*area",
+        "reaction.O.x*(effort.O > 1 N*m)",
+        "max(1 N, reaction.O.x, reaction.O.y)",
+        "reaction.O.direction",
+    ]
+    agree(m, outputs)
+    value = 1.1 * m.parameters["stroke"].value
+    longer = da.dynamics(m.with_values({"stroke": value}))
+    r = da.compile(m, ["stroke"], outputs)(np.array([[value]]))
+    for name in outputs:
+        np.testing.assert_allclose(r.value(name)[0], longer[name], rtol=1e-9, atol=1e-7, err_msg=name)
+    assert [quantity(longer, name).kind for name in outputs] == ["number", "force", "force", "force", "angle"]
+    assert quantity(longer, "3 N*slide.cylinder").kind == "number"
+    assert np.array_equal(longer["reaction.O.x*(effort.O > 1 N*m)"] != 0, longer["effort.O"] > 1)
+    for text, what in (
+        ("effort.O + stroke", "effort.O is a moment, and stroke is a length"),
+        ("3*(effort.O > 3 kg)", "effort.O is a moment, and 3 kg is a mass"),
+    ):
+        with pytest.raises(da.ModelError, match=what):
+            longer[text]
 
 
 def test_derivatives_of_expressions() -> None:
     outputs = [
         "max(abs(effort.O2), 6)/transmission.B",
         "shaking_moment.O4",
-        "shaking.magnitude",
+        "shaking_force.magnitude",
         "power.O2",
     ]
     checked(four_bar(6), outputs, tolerance=1e-6)
@@ -66,7 +93,7 @@ def test_asked_loads_shake() -> None:
     text = text.replace("value: 80 @ 330", "direction: 330, value: unknown").replace(
         "60 deg,", "60 deg, effort: 3,"
     )
-    agree(da.loads(text), ["shaking", "shaking_moment"])
+    agree(da.loads(text), ["shaking_force", "shaking_moment"])
 
 
 def test_transmission_angle_by_hand() -> None:
@@ -128,8 +155,8 @@ def test_peaks_between_positions() -> None:
 
 def test_share_of_the_cycle_above_a_limit() -> None:
     m = da.four_bar()
-    share = da.compile(m, outputs=["(1 + sign(magnitude.B - 30 N))/2"], reduce="mean")
-    wanted = (da.dynamics(m)["magnitude.B"] > 30).mean()
+    share = da.compile(m, outputs=["(1 + sign(reaction.B.magnitude - 30 N))/2"], reduce="mean")
+    wanted = (da.dynamics(m)["reaction.B.magnitude"] > 30).mean()
     assert share().value(share.outputs[0])[0] == pytest.approx(wanted)
 
 

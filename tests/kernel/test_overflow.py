@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert import bundled
 from dalembert.analysis.batch.batch_result import CODES, first_mark
 from tests.tiers import tiers
 
@@ -63,6 +64,82 @@ def test_the_general_executor_says_so_too(analysis: Any) -> None:
     )
 
 
+TOO_LONG = (
+    "The joints of crank are more than 1e+150 m apart: the squares of such lengths exceed the range of numbers. A "
+    "coordinate, or its unit, is probably wrong by many powers of ten: correct it."
+)
+CRANK = "links.crank.points.A.0"
+
+
+@pytest.mark.parametrize("length", [1.01e150, 1e155, -1e155, 1e308])
+def test_lengths_whose_squares_overflow(length: float) -> None:
+    m = da.four_bar().with_values({CRANK: length})
+    for analysis in (da.kinematics, da.statics, da.dynamics, da.solve):
+        r = analysis(m)
+        assert (set(r.status), set(r.reasons)) == ({"overflow"}, {TOO_LONG})
+        assert np.isnan(r.effort("O2")).all()
+        assert TOO_LONG[:40] in " ".join(str(r).split())  # it can be printed
+    for ask in (lambda: da.mobility(m), lambda: da.compile(m, ["links.coupler.mass"]), lambda: da.page(m)):
+        with pytest.raises(da.ModelError, match=r"joints of crank are more than 1e\+150 m apart"):
+            ask()
+
+
+def test_lengths_below_that_are_what_they_are() -> None:
+    assert set(da.solve(da.four_bar().with_values({CRANK: 9.9e149})).status) == {"not_assembled"}
+
+
+def test_lengths_whose_squares_vanish() -> None:
+    numbers = {CRANK: 0.1, "links.coupler.points.B.0": 0.3, "links.rocker.points.B.0": 0.25}
+    numbers["links.ground.points.O4.0"] = 0.35
+
+    def scaled(by: float) -> da.Mechanism:
+        return da.four_bar().with_values({path: by * value for path, value in numbers.items()})
+
+    tiny = da.kinematics(scaled(1e-152))
+    assert set(tiny.status) == {"overflow"}
+    assert "are less than 1e-150 m apart" in str(tiny.reasons[0])
+    for by in (1e-140, 1.0, 1e140):
+        assert set(da.kinematics(scaled(by)).status) == {"ok"}
+
+
+@pytest.mark.parametrize(("length", "status"), [(1e100, "not_assembled"), (1e160, "overflow")])
+def test_answers_without_poses_in_space_are_printed(length: float, status: str) -> None:
+    m = da.load(bundled.cases()["sp-05-hooke-joint-greatest-acceleration"])
+    r = da.solve(m.with_values({"links.output.points.U.1": length}))
+    assert (set(r.status), status in str(r)) == ({status}, True)
+
+
+def test_a_first_pose_in_space_that_is_too_far_from_the_drawing_is_refused() -> None:
+    m = da.load(bundled.cases()["sp-05-hooke-joint-greatest-acceleration"])
+    with pytest.raises(
+        da.ModelError, match=r"drive 'O' begins at .* deg, and is at 0 as drawn; check the position"
+    ):
+        da.solve(m.with_values({"drives.O.position": 1e155}))
+
+
+@pytest.mark.parametrize("reduce", [None, "peak"])
+def test_one_design_that_overflows_is_lost_alone(reduce: str | None) -> None:
+    k = da.compile(da.four_bar(), vary=[CRANK], outputs=["effort.O2"], reduce=reduce)
+    lengths = [0.1, 1e155, np.inf, np.nan, 1e308, 0.11]
+    found = k([[v] for v in lengths])
+    status = ["ok", "overflow", "failed", "failed", "overflow", "ok"]
+    assert [set(np.ravel(of)) for of in found.status] == [{of} for of in status]
+    solved = np.isfinite(found.effort("O2")).reshape(len(lengths), -1).all(axis=1)
+    assert solved.tolist() == [of == "ok" for of in status]
+
+
+def test_a_sweep_over_a_length_that_overflows() -> None:
+    s = da.sweep(da.four_bar(), {CRANK: [0.1, 1e155]})
+    assert set(s.status[0]) == {"ok"}
+    assert set(s.status[1]) == {"overflow"}
+
+
+@pytest.mark.parametrize("value", [np.inf, -np.inf, np.nan])
+def test_a_description_has_no_infinite_numbers(value: float) -> None:
+    with pytest.raises(da.ModelError, match=r"links\.crank: item 1 of point 'A': .* is no finite number"):
+        da.four_bar().with_values({CRANK: value})
+
+
 def test_one_rate_that_overflows_is_enough() -> None:
     block = {
         "links": {"ground": {"points": {"O": [0, 0]}}, "block": {"points": {"P": [0, 0]}, "mass": 1}},
@@ -87,16 +164,16 @@ def test_a_derivative_without_a_value_has_a_status() -> None:
     k = da.compile(
         m.with_values(nothing).model_copy(update={"loads": {}}),
         vary=["links.coupler.mass"],
-        outputs=["magnitude.A"],
+        outputs=["reaction.A.magnitude"],
         derivatives=True,
         lanes=1,
     )
     r = k([[0.0], [1.0]])
     assert set(r.status[0]) == {"no_derivative"}
     assert (r.magnitude("A")[0] == 0).all()
-    assert np.isnan(r.gradient("magnitude.A")[0]).all()
+    assert np.isnan(r.gradient("reaction.A.magnitude")[0]).all()
     assert set(r.status[1]) == {"ok"}
-    assert np.isfinite(r.gradient("magnitude.A")[1]).all()
+    assert np.isfinite(r.gradient("reaction.A.magnitude")[1]).all()
     assert r.problems()[0][:2] == (0, "no_derivative")
 
 

@@ -26,7 +26,7 @@ def both(
     m: Any, monkeypatch: pytest.MonkeyPatch, reduce: str | None = None, vary: Sequence[str] = ()
 ) -> None:
     """The program's own derivatives, exact by the complex step, and those from the general executor's solutions."""
-    outputs = [f"effort.{next(iter(m.drives))}", f"magnitude.{next(iter(m.joints))}"]
+    outputs = [f"effort.{next(iter(m.drives))}", f"reaction.{next(iter(m.joints))}.magnitude"]
     k = da.compile(m, vary=vary or every_number(m), outputs=outputs, derivatives=True, reduce=reduce)
     own = k(redo=False)
     monkeypatch.setattr(Kernel, "may_change_branch", lambda self, values: np.ones(len(values), bool))

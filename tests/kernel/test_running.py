@@ -29,7 +29,7 @@ from tests.kernel.comparing import changed, every_number
 from tests.kernel.machines import KINDS, ROUGH, four_bar
 
 VARY = ["links.crank.points.A", "links.rocker.points.B", "links.coupler.mass", "drives.O2.speed"]
-OUTPUTS = ["effort.O2", "reaction.A", "magnitude.B"]
+OUTPUTS = ["effort.O2", "reaction.A", "reaction.B.magnitude"]
 
 
 def designs(k: Any, count: int) -> np.ndarray:
@@ -255,23 +255,27 @@ def test_results_go_to_a_file(tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def two() -> Any:
-    return da.compile(four_bar(24), vary=VARY, outputs=["effort.O2", "magnitude.A"], lanes=1)
+    return da.compile(four_bar(24), vary=VARY, outputs=["effort.O2", "reaction.A.magnitude"], lanes=1)
 
 
 ONE = np.zeros((1, 24))
 WRONG_OUT: list[tuple[Any, str]] = [
     (
         ONE,
-        "out= is for effort.O2, and there are results of effort.O2, magnitude.A; give an array of each by its name",
+        "out= is for effort.O2, and there are results of effort.O2, reaction.A.magnitude; give an array of each by its "
+        "name",
     ),
-    ({"effort.O2": ONE, "magnitude.A": ONE}, "out= has one array for several results; give each its own"),
     (
-        {"effort.O2": ONE[0], "magnitude.A": ONE},
+        {"effort.O2": ONE, "reaction.A.magnitude": ONE},
+        "out= has one array for several results; give each its own",
+    ),
+    (
+        {"effort.O2": ONE[0], "reaction.A.magnitude": ONE},
         "out= of effort.O2 has shape (24,); give one of shape (1, 24)",
     ),
     (
-        {"effort.O2": ONE, "magnitude.A": ONE.astype(np.float32)},
-        "out= of magnitude.A is no array of floats that can be written; give np.empty((1, 24))",
+        {"effort.O2": ONE, "reaction.A.magnitude": ONE.astype(np.float32)},
+        "out= of reaction.A.magnitude is no array of floats that can be written; give np.empty((1, 24))",
     ),
 ]
 

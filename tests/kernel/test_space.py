@@ -11,9 +11,9 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.batch.careful_path import quantity
-from dalembert.analysis.batch.tracing.outputs import KINDS
 from dalembert.analysis.batch.tracing.symbolic_model import geometric
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
+from dalembert.analysis.result.named_quantities import names_of
 from dalembert.core.layout import Gearing, Idle
 from dalembert.model import library
 from tests.kernel.comparing import changed, difference, every_number, general
@@ -111,23 +111,24 @@ def test_spins_that_friction_decides_are_refused() -> None:
 
 def test_every_output() -> None:
     m = MACHINES["rssr"]()
-    of = {
-        "effort": "O",
-        "load": "",
-        "residual": "",
-        "point": "rod.B",
-        "power": "O",
-        "shaking": "",
-    } | dict.fromkeys(("reaction", "magnitude", "moment"), "A")
-    names = [".".join(filter(None, (kind, of.get(kind.partition("_")[0], "rod")))) for kind in KINDS]
-    left_out = ("load", "angle", "transmission", "closure", "pressure", "shaking_moment")
-    names = [n for n in names if n.partition(".")[0] not in left_out]
+    things = (
+        "effort.O",
+        "reaction.A",
+        "reaction_moment.A",
+        "point.rod.B",
+        "point.rod.origin",
+        "angle.rod",
+        "power.O",
+    )
+    words = (*things, "rotation.rod", "drive.O", "turn", "slide", "shaking_force", "residual")
+    every = names_of(da.dynamics(m), compiled=True)
+    names = [n for n in every if n.startswith(words) and not n.startswith("shaking_moment")]
     k = da.compile(m, vary=["links.rocker.points.B"], outputs=names, lanes=1)
     r = k(k.nominal + 0.001)
     g = general(m, k, r.values[0])
     for name in names:
         value = quantity(g, name).reshape(r.value(name)[0].shape)
-        size = np.abs(g.force_array).max() if name == "moment.A" else max(np.abs(value).max(), 1e-3)
+        size = np.abs(g.force_array).max() if name == "reaction_moment.A" else max(np.abs(value).max(), 1e-3)
         assert np.abs(r.value(name)[0] - value).max() < 1e-11 * size, name
     assert r.reaction("A", axes="link")[0] == pytest.approx(
         g.reaction("A", axes="link"), rel=1e-10, abs=1e-10

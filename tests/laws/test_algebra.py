@@ -31,8 +31,13 @@ def test_rotations_about_any_axis(angle: float) -> None:
 def test_no_rotation_and_none_that_is_known() -> None:
     angle, axis = space.angle_and_axis(np.eye(3))
     assert (angle, *axis) == (0, 0, 0, 0)
-    angle, axis = space.angle_and_axis(np.full((3, 3), np.nan))
-    assert np.isnan([angle, *axis]).all()
+    for known in (
+        np.full((3, 3), np.nan),
+        np.where(np.eye(3) > 0, np.inf, 0.0),
+        np.where(np.eye(3) > 0, 1, np.nan),
+    ):
+        angle, axis = space.angle_and_axis(known)
+        assert np.isnan([angle, *axis]).all()
 
 
 def test_poses_are_apart_whichever_comes_first() -> None:

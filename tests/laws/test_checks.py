@@ -69,14 +69,17 @@ def test_a_wrong_reaction_or_effort_of_a_lever_shows_in_residual_and_power(space
     assert r.effort("O") == pytest.approx([FORCE * LENGTH, 0.0])
     rechecked = multipliers(r)[1]
     assert rechecked(0, 0.0).residual == pytest.approx(r.residual, abs=1e-15)
-    largest = np.array([FORCE * LENGTH, FORCE])  # level: the moment, over 1 m as only one joint is there
+    largest = np.array([FORCE, FORCE])  # level: the moment over the length between the bar's points
+    over = r.compiled.layout.length
+    assert over == LENGTH
     force = rechecked(0, sign * 0.1)
     assert force.residual == pytest.approx(0.1 / largest)
     assert force.power_balance == pytest.approx([0, 0], abs=1e-15)  # reactions have no part in it
     couple = rechecked(effort, sign * 0.3)
-    largest[0] += max(0.0, sign * 0.3)  # of it the effort itself is a part
-    assert couple.residual == pytest.approx(0.3 / largest)
-    assert couple.power_balance == pytest.approx(0.3 / largest)
+    largest[0] += max(0.0, sign * 0.3) / over  # of it the effort itself is a part
+    assert couple.residual == pytest.approx(0.3 / over / largest)
+    power = np.array([FORCE * LENGTH + max(0.0, sign * 0.3), FORCE * over])
+    assert couple.power_balance == pytest.approx(0.3 / power)
 
 
 def plane_tree(seed: int) -> dict[str, Any]:
@@ -179,4 +182,4 @@ def test_a_wrong_multiplier_shows_in_the_residual_of_the_kernel(
     asked: Any = {"outputs": ["residual", "effort.O"], "static": True}
     assert da.compile(lever(False), **asked)([]).value("residual")[0] == pytest.approx(0, abs=1e-15)
     monkeypatch.setattr(trace, "_trace_equilibrium", wrong)
-    assert da.compile(lever(False), **asked)([]).value("residual")[0] == pytest.approx([0.3 / 20, 0.3 / 10])
+    assert da.compile(lever(False), **asked)([]).value("residual")[0] == pytest.approx([0.3 / 20, 0.3 / 20])

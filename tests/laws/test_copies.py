@@ -2,50 +2,123 @@
 
 from __future__ import annotations
 
+import math
 import random
 from copy import deepcopy
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
 import dalembert as da
 from dalembert.model import read_text
-from tests.random_mechanisms import random_case
+from tests.random_mechanisms import Drawing, Rigid, mirrored, random_case, tree
 from tests.tiers import tiers
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-def whole_copied(tree: Any, **how: Any) -> tuple[Any, Any]:
-    """The answers of a mechanism, and of it with a copy of all that moves beside it."""
-    tree = {**tree, "gravity": "none"}
-    moving = [name for name in tree["links"] if name != "ground"]
-    copied = da.mechanism({**tree, "copies": [{"of": moving, "names": ["b"], **how}]})
-    return da.dynamics(da.mechanism(tree), method="careful"), da.dynamics(copied, method="careful")
+class Like(NamedTuple):
+    """How an image differs: angles of links are side times those of the original plus an angle."""
+
+    side: int = 1
+    turn: float = 0.0
+
+    def back(self, name: str, more: float) -> str:
+        """A coordinate of the image as that of the original."""
+        return f"({self.side}*({name} - ({more!r})))"
+
+    def between(self, i: str, j: str) -> float:
+        return self.turn * ((i == "ground") - (j == "ground"))
+
+
+def changing_loads(d: Drawing, like: Like) -> dict[str, Any]:
+    """Loads of a drawing that depend on its angles, slides and drives, written out by hand for its image."""
+    rng = np.random.default_rng(d.seed)
+    links = [name for name in d.poses if name != "ground"]
+    k, n = (links[int(rng.integers(len(links)))] for _ in range(2))
+    a, b, c, e = rng.uniform(-9, 9, 4).tolist()
+    angle = like.back(f"links.{k}.angle", like.turn)
+    force = [f"({a!r}*{angle})", f"({b!r}*cos({angle}) + {c!r})"]
+    cos, sin = math.cos(like.turn), math.sin(like.turn)
+    both = [
+        f"{cos!r}*{force[0]} - {like.side * sin!r}*{force[1]}",
+        f"{sin!r}*{force[0]} + {like.side * cos!r}*{force[1]}",
+    ]
+    x = d.poses[n][2] + np.array([-0.9, -0.3, 0.2, 1.0])
+    y, shift = rng.uniform(-5, 5, 4), 0.1
+    at = like.side * (x + shift) + like.turn - shift
+    order = np.argsort(at)
+    table = {
+        "against": f"links.{n}.angle",
+        "x": [f"{v!r} rad" for v in at[order].tolist()],
+        "y": (like.side * y)[order].tolist(),
+        "shift": f"{shift} rad",
+        "interpolate": ("linear", "cubic")[d.seed % 2],
+    }
+    found = {
+        "E": {"type": "couple", "on": n, "value": f"{like.side * e!r}*{angle}"},
+        "V": {"type": "force", "on": k, "at": "center", "value": both if like.turn else force},
+        "T": {"type": "couple", "on": k, "value": table},
+    }
+    for name, j in d.joints.items():
+        kind = {"pin": "turn", "slider": "slide", "slot": "slide"}.get(j.type)
+        if kind:
+            own = f"joints.{name}.{kind}"
+            used = like.back(own, like.between(j.i, j.j)) if kind == "turn" else own
+            found[f"Q{name}"] = {"type": "couple", "on": k, "value": f"{like.side}*({a!r}*{used})"}
+    for name, q in d.drives.items():
+        j = d.joints[q.joint]
+        used = like.back(name, like.between(j.i, j.j)) if q.freedom == "turn" else name
+        value = {"expression": f"{like.side}*({b!r}*sin(3*{used}))", "unit": "N*m"}
+        found[f"D{name}"] = {"type": "couple", "on": n, "value": value}
+    return found
+
+
+def with_changing_loads(d: Drawing, like: Like | None = None) -> Any:
+    """The tree of a drawing, or of its image, with changing loads and without gravity."""
+    like = like or Like()
+    made = tree(mirrored(d) if like.side < 0 else d, motion=Rigid(like.turn))
+    return {**made, "gravity": "none", "loads": made["loads"] | changing_loads(d, like)}
+
+
+def solved(made: Any) -> da.Result:
+    return da.dynamics(da.mechanism(made), method="careful")
+
+
+def last_alone(made: Any) -> Any:
+    drives = {n: {**q, "position": q["position"][-1:]} for n, q in made["drives"].items()}
+    return {**made, "drives": drives}
 
 
 @pytest.mark.parametrize("seed", tiers([*range(5), 66], range(5, 66), range(67, 600)))
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_a_copy_of_all_has_the_answers_turned_or_mirrored(mirrored: bool, seed: int) -> None:
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_copy_of_all_has_the_answers_of_the_image_and_of_what_is_written_out_by_hand(
+    side: int, seed: int
+) -> None:
     angle = np.random.default_rng(seed).uniform(-3, 3)
-    how = {"mirror" if mirrored else "phase": {"ground": f"{angle!r} rad"}}
-    one, both = whole_copied(random_case(seed).tree, count=2, **how)
-    turn, side = angle * (2 if mirrored else 1), -1 if mirrored else 1
+    d, turn = random_case(seed).drawing, angle * (2 if side < 0 else 1)
+    one = with_changing_loads(d)
+    how = {"mirror" if side < 0 else "phase": {"ground": f"{angle!r} rad"}, "count": 2}
+    copied = {**one, "copies": [{"of": [n for n in d.poses if n != "ground"], "names": ["b"], **how}]}
+    original, both, hand = map(solved, (one, copied, with_changing_loads(d, Like(side, turn))))
+    phased = any(j.type in ("gear", "rolling") for j in d.joints.values())  # of the list's first position
+    late = both if phased else solved(last_alone(copied))
     image = np.array([[np.cos(turn), -side * np.sin(turn)], [np.sin(turn), side * np.cos(turn)]])
-    size = np.nanmax(np.abs(one.force_array), initial=1.0)
-    for drive in one.drives:
-        rows = one.compiled.layout.freedoms.angular[one.compiled.layout.driven]
-        sign = side if rows[one.drives.index(drive)] else 1
-        for result in (drive, f"{drive}_b"):
-            wanted = one.effort(drive) * (sign if result != drive else 1)
-            assert both.effort(result) == pytest.approx(wanted, rel=1e-7, abs=1e-7 * size)
-    for joint in one.joints:
-        on = one.mechanism.joints[joint].links[1]
+    size = max(np.nanmax(np.abs(original.force_array), initial=1.0), np.nanmax(np.abs(original.effort_array)))
+    for drive in original.drives:
+        sign = side if d.drives[drive].freedom == "turn" else 1
+        assert both.effort(drive) == pytest.approx(original.effort(drive), rel=1e-7, abs=1e-7 * size)
+        for found in (both.effort(f"{drive}_b"), hand.effort(drive)):
+            assert found == pytest.approx(sign * original.effort(drive), rel=1e-7, abs=1e-7 * size)
+        assert late.effort(f"{drive}_b")[-1] == pytest.approx(both.effort(f"{drive}_b")[-1], abs=1e-7 * size)
+    for joint in original.joints:
+        on = original.mechanism.joints[joint].links[1]
+        wanted = original.reaction(joint, on) @ image.T
         there = on if on == "ground" else f"{on}_b"
-        wanted = one.reaction(joint, on) @ image.T
-        assert both.reaction(f"{joint}_b", there) == pytest.approx(wanted, rel=1e-7, abs=1e-7 * size)
+        for force in (both.reaction(f"{joint}_b", there), hand.reaction(joint, on)):
+            assert force == pytest.approx(wanted, rel=1e-7, abs=1e-7 * size)
 
 
 ENGINE = (EXAMPLES / "engine.yaml").read_text(encoding="utf-8").partition("# The exact values")[0]
@@ -172,6 +245,116 @@ copies: [{of: [planet], count: 3, phase: {carrier: 120}, about: S}]
     assert [float(np.degrees(m.drives[d].position)) for d in ("P", "P_2", "P_3")] == pytest.approx(
         [10, 130, 250]
     )
+
+
+PARAMETERS = """
+units: {length: mm}
+parameters: {th: 33 deg, p: 20 N, r: 100 mm, k: 2}
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], A: r @ th, B: [r + 5 mm, 5 mm - r/4]}, mass: 1, center: [r/2, k]}
+joints: {O: {type: pin, links: [ground, arm], stops: {from: -th, to: 3*th}}}
+drives: {O: {position: [20, 25, 30*k]}}
+loads:
+  F: {type: force, on: arm, at: A, value: 10 @ th}
+  G: {type: force, on: arm, at: [r/2, 5 mm - r], value: [p, 2*p*sin(O)]}
+  H: {type: force, on: arm, at: B, value: [3*sin(O), 4]}
+  C: {type: couple, on: arm, value: 5 N*m + p*r*sin(O)}
+  T: {type: couple, on: arm, value: {x: [0, 90], y: [1, 5], times: k}}
+copies: [{of: [arm], HOW}]
+"""
+
+
+@pytest.mark.parametrize("turned", [0, 90, 180, 270, 37])
+@pytest.mark.parametrize("side", [1, -1])
+def test_what_follows_from_parameters_still_does_in_a_copy(side: int, turned: int) -> None:
+    how = f"mirror: {{ground: {turned}}}" if side < 0 else f"phase: {{ground: [0, {turned}]}}"
+    m = da.loads(PARAMETERS.replace("HOW", how))
+    for changed in (m, m.with_values({"th": "12 deg", "p": 7.0, "k": 1.5})):
+        r = da.statics(changed)
+        assert r.effort("O_2") == pytest.approx(side * r.effort("O"), rel=1e-12)
+        sizes = (np.hypot(*r.reaction(joint).T) for joint in ("O_2", "O"))
+        assert next(sizes) == pytest.approx(next(sizes), rel=1e-12)
+        stops = (changed.joints[name].stops for name in ("O", "O_2"))
+        assert [s.greatest - s.least for s in stops] == pytest.approx(
+            [4 * changed.parameters["th"].value] * 2
+        )
+
+
+ARM = """
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], A: [0.1, 0]}, mass: 1, center: [0.05, 0], inertia: 0.01}
+joints: {O: {type: pin, links: [ground, arm]STOPS}}
+drives: {O: {DRIVE}}
+start: {O: {position: 10 deg, speed: 0.5 rad/s}}
+copies: [{of: [arm], COPY: {ground: ANGLE}}]
+"""
+LET_GO = {
+    "motor: {stall: 2 N*m, no_load: 30 rad/s}": "",
+    "motor: {stall: 2 N*m, no_load: 30 rad/s, off: 100 deg}": "",
+    "motor: {stall: 2 N*m, no_load: 30 rad/s, on: 12 deg, off: 9 rad/s}": "",
+    "motor: {stall: 2 N*m, no_load: 30 rad/s, off: 0.1 s}": "",
+    "motor: {curve: {speed: [-5 rad/s, 3 rad/s, 300 rpm], torque: [3, 2, -1]}}, brake: 0.1 N*m": "",
+    "effort: 0.5*cos(O) - 0.01*O.speed, stops: {from: -10 deg, to: 40 deg, restitution: 0.3}": "",
+    "effort: 0.5 N*m": ", stops: {from: -10 deg, to: 40 deg}",
+    "effort: 0.5": ", stops: {to: 30 deg, restitution: 0.5}",
+}
+
+
+@pytest.mark.parametrize("copy", ["mirror: 0", "mirror: 35", "phase: [0, 90]"])
+@pytest.mark.parametrize("drive", LET_GO)
+def test_a_copy_moves_under_forces_as_its_image(drive: str, copy: str) -> None:
+    """Motors with their switches, brakes, stops of drives and joints, and the start."""
+    how, _, angle = copy.partition(": ")
+    text = ARM.replace("DRIVE", drive).replace("STOPS", LET_GO[drive])
+    s = da.simulate(da.loads(text.replace("COPY", how).replace("ANGLE", angle)), 0.5)
+    side, turn = (-1, math.radians(2 * float(angle))) if how == "mirror" else (1, math.radians(90))
+    value, rate, _ = s.result.freedom("O", "turn")
+    new, new_rate, _ = s.result.freedom("O_2", "turn")
+    assert new == pytest.approx(side * value + turn, abs=1e-8)
+    assert new_rate == pytest.approx(side * rate, abs=1e-7)
+    switched = [e.words[0] for e in s.events if e.name.startswith("motor")]
+    of_copy = [words.replace("O_2", "O") for words in switched if "O_2" in words]
+    assert of_copy == [words for words in switched if "O_2" not in words]
+
+
+ROD = """
+links:
+  ground: {points: {O: [0, 0], S: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}}
+  rod: {points: {A: [0, 0], B: [0.4, 0]}}
+  piston: {points: {B: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  S: {type: slider, links: [ground, piston], at: [S, B]}
+drives: {O: {position: POSITION, speed: 1 rad/s}}
+loads: {C: {type: couple, on: crank, value: 3*links.rod.angle}}
+assembly: {rod: 0, piston: 0OWN}
+copies: [{of: [crank, rod, piston], HOW}]
+"""
+
+
+@pytest.mark.parametrize(
+    "how", ["mirror: {ground: 90}", "phase: {ground: [0, 180]}", "phase: {ground: [0, 90]}"]
+)
+def test_whole_turns_of_a_copys_angle_are_the_images_in_every_list_of_positions(how: str) -> None:
+    """3 N m/rad times the rod's angle, asin(0.1/0.4 sin 60 deg), on a crank that nothing else loads."""
+    side = -1 if "mirror" in how else 1
+    wanted = {q: 3 * math.asin(0.25 * math.sin(math.radians(q))) for q in (60, 180, 300)}
+    assert wanted[60] == pytest.approx(0.65470354, abs=1e-8)
+    for positions in ([60], [300], [300, 60], [60, 180, 300]):
+        text = ROD.replace("HOW", how).replace("POSITION", str(positions))
+        for method in ("auto", "careful"):
+            r = da.statics(da.loads(text.replace("OWN", "")), method=method)
+            assert r.effort("O") == pytest.approx([wanted[q] for q in positions], abs=1e-12)
+            assert r.effort("O_2") == pytest.approx([side * wanted[q] for q in positions], abs=1e-12)
+        own = {"mirror": 180 + 360, "phase": 180 - 360}[how[: how.index(":")]] - 90 * ("90]" in how)
+        r = da.statics(da.loads(text.replace("OWN", f", rod_2: {own}")))
+        turned = side * 2 * math.pi  # its own assembly is one turn off
+        assert r.effort("O_2") == pytest.approx([side * wanted[q] + 3 * turned for q in positions], abs=1e-12)
 
 
 WRONG = {

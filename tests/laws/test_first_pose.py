@@ -9,7 +9,7 @@ from benchmarks.linkages import chain, pin
 import dalembert as da
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.arrays import Array
-from dalembert.bundled import examples
+from dalembert.bundled import cases, examples
 from dalembert.core.layout import Meet
 from dalembert.core.position import first_pose_plane
 from dalembert.core.position.assur_plan import plan
@@ -36,6 +36,43 @@ def test_a_slide_belongs_to_a_group_in_closed_form() -> None:
     way = plan(compile_mechanism(m, m.schedule()).layout)
     assert way is not None
     assert way.closed
+
+
+WHEEL = """
+units: {length: mm}
+links:
+  ground: {points: {P: [500, 50]}}
+  wheel: {points: {C: [0, 0], R: [100, 0]}, mass: 1}
+  body: {points: {C: [0, 0], S: [900, 0]}, mass: 3}
+  rear: {points: {C: [0, 0]}}
+joints:
+  W: {type: rolling, links: [ground, wheel], at: [P, C], radius: 200, direction: 30}
+  V: {type: rolling, links: [ground, rear], at: [P, C], radius: 200, direction: 30}
+  C: {type: pin, links: [wheel, body]}
+  S: {type: pin, links: [body, rear], at: [S, C]}
+drives: {W: {position: POSITION}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("position", "assembly", "along"),
+    [
+        (0, "", 0.0),
+        (140, "", 0.0),
+        (140, "assembly: {wheel: 0}", 0.0),
+        ("[50, 140]", "", 0.0),
+        (140, "assembly: {wheel: [573.205, 323.205, 140]}", 0.2),
+    ],
+)
+def test_a_wheel_that_nothing_else_holds_stands_over_its_point(
+    position: object, assembly: str, along: float
+) -> None:
+    """A cart on a slope: its first wheel 200 mm from the point of the line, across it, or where it is put."""
+    r = da.statics(da.loads(WHEEL.replace("POSITION", str(position)) + assembly))
+    e = np.array([np.cos(np.pi / 6), np.sin(np.pi / 6)])
+    wanted = [0.5, 0.05] + along * e + 0.2 * np.array([-e[1], e[0]])
+    assert r.center("wheel")[0] == pytest.approx(wanted, abs=1e-6 if along else 1e-12)
+    assert r.center("rear")[0] == pytest.approx(r.center("wheel")[0] + 0.9 * e, abs=1e-12)
 
 
 def test_wheels_turn_where_their_links_do_not_close_at_angle_0() -> None:
@@ -220,3 +257,24 @@ def test_starts_are_spread_evenly() -> None:
     assert unit.max() <= 1
     gaps = np.diff(np.sort(np.concatenate([unit, [[0.0] * 10, [1.0] * 10]]), axis=0), axis=0)
     assert gaps.max() < 0.2
+
+
+@pytest.mark.parametrize("position", [np.nan, np.inf])
+def test_angles_do_not_follow_from_a_position_that_is_no_number(position: float) -> None:
+    """They are left open; the search for them ends."""
+    m = da.four_bar()
+    c = compile_mechanism(m, m.schedule(1))
+    target = c.first_target.copy()
+    target[-1] = position
+    assert isinstance(c.guess, first_pose_plane.Guess)
+    turn = c.guess.angles(c.layout, target)
+    crank = c.links.index("crank")
+    assert np.isnan(turn[crank])
+    assert np.isfinite(np.delete(turn, crank)).all()
+    with np.errstate(all="ignore"):
+        assert c.guess.modes(c.layout, target) is None
+
+
+def test_links_whose_joints_coincide_have_a_status() -> None:
+    m = da.load(cases()["seed-002-4a-four-link-couple-on-rocker"])
+    assert da.solve(m.with_values({"links.coupler.points.C.0": 0.0})).status == ("not_assembled",)

@@ -192,7 +192,7 @@ REFUSED = {
     "joints.guid.slide": "load 'F' uses the joint 'guid', which is not there; did you mean 'guide'?",
     "joints.guide.turn": "load 'F' uses 'joints.guide.turn', and the freedoms of that joint are slide; name one",
     "O.speed": "load 'F' uses 'O.speed', and only efforts of drives go by speed; write it as the effort of drive 'O'",
-    "links.rod.speed": "load 'F' uses 'links.rod.speed', which is no drive",
+    "links.rod.speed": "uses 'links.rod.speed', and a load cannot depend on the speed of a link or a joint",
 }
 
 

@@ -12,6 +12,7 @@ import pytest
 from scipy.optimize import lsq_linear, minimize
 
 import dalembert as da
+from dalembert.analysis.output.columns import scale
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
@@ -87,7 +88,7 @@ def smallest_circle(points: Any) -> tuple[complex, float]:
 def test_the_least_peak_of_one_crank_is_a_smallest_circle() -> None:
     r = da.dynamics(crank_machine(5, count=18).with_values({"gravity": None}))
     s = da.shaking(r)
-    force = s.force[:, 0] + 1j * s.force[:, 1]
+    force = s.parts["inertia"][0] @ [1, 1j]
     turned = force * np.exp(-1j * r.angle("crank")) / r.speed("crank") ** 2
     centre, radius = smallest_circle(turned)
     b = da.balance(r, {"crank": {"radius": 0.2}}, least="max")
@@ -133,9 +134,80 @@ def test_no_other_counterweights_leave_less(seed: int) -> None:
         assert (inertia <= radius**2 * mass * (1 + 1e-7) + 1e-12).all()
         assert (mass <= np.array([2.0, 1.5]) * (1 + 1e-7)).all()
         others = b.problem.predict("force", b.numbers.ravel())
-        assert others == pytest.approx(
-            b.after.force - b.after.parts["weight"][0], abs=1e-8 * np.abs(b.before.force).max()
-        )
+        assert others == pytest.approx(b.after.parts["inertia"][0], abs=1e-8 * np.abs(b.before.force).max())
+
+
+@pytest.mark.parametrize(
+    ("least", "of"), [("rms", "force"), ("max", "force"), ("max", {"force": 1, "moment": 2})]
+)
+def test_external_loads_are_no_part_of_what_is_balanced(least: Any, of: Any) -> None:
+    """No counterweight balances a load: with one of 200 kN the counterweights are those without it."""
+    m = crank_machine(2, count=18).with_values({"loads": {}})
+    loaded = m.with_values(
+        {"loads": {"press": {"type": "force", "on": "rod", "at": "B", "value": [-2e5, "1e4*sin(O)"]}}}
+    )
+    bounds = {"crank": {"radius": 0.1, "mass": 50.0}, "last": {"radius": 0.2, "mass": 50.0}}
+    free, b = (da.balance(x, bounds, least, of) for x in (m, loaded))
+    assert b.numbers == pytest.approx(free.numbers, rel=1e-5, abs=1e-9)
+    assert (b.value, b.bound) == pytest.approx((free.value, free.bound), rel=1e-7)
+    assert b.sizes()["force"] == pytest.approx(free.sizes()["force"], rel=1e-5)
+    said = " ".join(str(b).split())
+    assert "No counterweight changes the external loads, press: at most 2002" in said
+    assert "external" not in str(free).replace("external loads.", "")
+
+
+def test_the_sentences_on_full_balance_are_those_of_the_inertia(four_bar: Any) -> None:
+    pull = {"type": "force", "on": "rocker", "at": "B", "value": [1000.0, 0.0]}
+    b = da.balance(four_bar.with_values({"loads": {"pull": pull}}), ["crank", "rocker"])
+    assert b.complete
+    assert b.missing() == []
+    assert "The force is balanced completely" in str(b)
+    record: Any = b.record(scale(b.result, "SI"))
+    assert record["balance"]["complete"] is True
+    heads = [c.name for c in b.columns()]
+    assert {"before.inertia_force.x", "after.inertia_force.x", "after.shaking_force.x"} <= {*heads}
+
+
+@pytest.mark.parametrize("least", ["rms", "max"])
+def test_a_sum_is_a_part_of_the_sum_before(least: Any) -> None:
+    """Without any counterweight all is left: the value of a weighted sum is then 1, and 95 % is less than before."""
+    of = {"force": 1.0, "torque": 0.5, "moment": 0.25}
+    b = da.balance(crank_machine(2, count=18), {"crank": {"radius": 0.01, "mass": 0.01}}, least, of)
+    k = ("rms", "max").index(least)
+    sides = [
+        {name: w * b.sizes(after)[name][k] / b.sizes(False)[name][k] for name, w in of.items()}
+        for after in (False, True)
+    ]
+    before, after = (np.hypot.reduce([*x.values()]) if least == "rms" else sum(x.values()) for x in sides)
+    assert b.value == pytest.approx(after / before, rel=1e-9)
+    assert 0.9 < b.bound <= b.value < 1
+    assert f"{100 * b.value:.3f}"[:5] in str(b)
+    main, other = zip(*b.trade_off("torque", 3), strict=True)
+    assert max(main) <= 1 + 1e-9
+    assert max(other) <= 1 + 1e-6
+
+
+def test_what_was_not_there_before_is_no_part_of_a_sum() -> None:
+    """A rotor without unbalance, and one whose force passes through the point of moments."""
+    still = da.balance(
+        crank_machine(2, count=18).with_values(
+            {f"links.{link}.{key}": 0 for link in ("crank", "rod", "last") for key in ("mass", "inertia")}
+        ),
+        ["crank"],
+    )
+    assert still.complete
+    assert still.missing() == []
+    assert "There was no force to balance: no counterweight is needed." in " ".join(str(still).split())
+    assert all(p.mass == 0 for p in still.placed.values())
+
+
+def test_a_link_without_mass_may_need_the_counterweight(four_bar: Any) -> None:
+    """Of a slider-crank with a rod without mass the rod's counterweight carries the piston's mass to the crank pin."""
+    m = da.slider_crank(crank=0.05, rod=0.2).with_values({"links.rod.mass": 0, "links.rod.inertia": 0})
+    b = da.balance(m, ["crank"])
+    assert b.missing() == ["rod"]
+    assert "a counterweight is missing on rod" in " ".join(str(b).split())
+    assert da.balance(m, {"crank": {}, "rod": {"at": "A", "mass": 50, "radius": 0.1}}).value < 1e-6
 
 
 def test_least_squares_leave_what_is_at_right_angles_to_all_columns(four_bar: Any) -> None:
@@ -257,7 +329,7 @@ def test_an_rssr_is_balanced_by_its_crank_and_rocker(
 WRONG = [
     ({"arm": {}}, {}, "a counterweight cannot be on 'arm'"),
     ({"crank": {"radios": 1}}, {}, "counterweight on crank: there is no bound 'radios'"),
-    ({"crank": {"radius": -1.0}}, {}, "counterweight on crank: a bound is -1"),
+    ({"crank": {"radius": -1.0}}, {}, "counterweight on crank: radius is -1; give a number above 0"),
     (
         {"crank": {}, "rocker": {}},
         {"of": "torque"},

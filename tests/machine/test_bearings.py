@@ -15,6 +15,7 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
+from dalembert.printing import number
 from tests.machine.cranks import crank_machine
 from tests.tiers import over
 
@@ -106,6 +107,151 @@ def test_a_bearing_in_space_has_axial_factors() -> None:
     assert np.allclose(b.result[f"pressure.{joint}"], b.radial / 6e-4)
 
 
+SPATIAL = {
+    "kind": "roller",
+    "rating": 5000.0,
+    "static_rating": 900.0,
+    "radial_factor": 0.56,
+    "axial_factor": 0.2,
+    "diameter": 0.02,
+    "length": 0.03,
+}
+
+
+def test_every_number_of_a_bearing_in_space_is_that_of_its_formula() -> None:
+    """From the reaction, the axis and the speeds of the links; the axis is no axis of the ground."""
+    m = da.rssr().with_values({"gravity": [3.0, 9.8, -4.0], "joints.C.bearing": SPATIAL})
+    rough = {"friction.coefficient": 0.3, "joints.C.friction": {"radius": 0.02}}
+    r = da.dynamics(m.with_values(rough))
+    t = da.bearings(r, ["C"], hours=5000.0, factor=1.3)
+    b, e = t.loads["C"], np.array([0.1, 1.0, 0.0]) / math.hypot(0.1, 1.0)
+    force, moment, rate = r.reaction("C"), r.reaction_moment("C"), r.speed("rocker") @ e
+    radial = np.linalg.norm(np.cross(e, force), axis=1)
+    axial = np.abs(force @ e)
+    assert (force @ e < 0).any()
+    assert np.abs(moment @ e).max() > 1e-3
+    across = np.linalg.norm(np.cross(e, moment), axis=1)
+    steady = np.maximum(radial, 0.56 * radial + 0.2 * axial)
+    assert 0 < (steady == radial).sum() < 72
+    turned = np.abs(rate)  # at even times
+    equivalent = ((steady ** (10 / 3) * turned).sum() / turned.sum()) ** 0.3
+    turns = 1e6 * (5000 / equivalent) ** (10 / 3)
+    speed, pv = turned.mean(), radial / 6e-4 * 0.01 * turned
+    for mine, own in (
+        *((b.radial, radial), (b.axial, axial), (b.couple, across), (b.rate, rate), (b.load, steady)),
+        *((b.time, np.full(72, 0.5 / 72)), (b.pressure, radial / 6e-4), (b.pv, pv), (b.mean_pv, pv.mean())),
+        *((b.tilting, across.max()), (b.exponent, 10 / 3), (b.equivalent, equivalent), (b.speed, speed)),
+        *((b.turns, turns), (b.hours, turns * 2 * np.pi / speed / 3600), (b.swings, True)),
+        (b.static_safety, 900 / steady.max()),
+    ):
+        np.testing.assert_allclose(mine, own, rtol=1e-9)
+    lives = 5000 * 3600 * speed / (2 * np.pi) / 1e6
+    needed = 1.3 * equivalent * lives**0.3
+    assert b.rating_for(5000, 1.3) == pytest.approx(needed)
+    record = t.record(lambda kind, value: {kind: value})
+    assert {name: record[name] for name in ("hours", "factor")} == {"hours": 5000.0, "factor": 1.3}
+    assert record["bearings"]["C"].pop("sampling").keys() >= {"radial force", "mean PV"}
+    assert record["bearings"]["C"] == {
+        "equivalent_load": {"force": pytest.approx(equivalent)},
+        "swings": True,
+        "couple_not_counted": {"moment": pytest.approx(across.max())},
+        "mean_turning": {"angular_speed": pytest.approx(speed)},
+        "pressure": {"pressure": pytest.approx(radial.max() / 6e-4)},
+        "mean_PV": pytest.approx(pv.mean()),
+        "PV": pytest.approx(pv.max()),
+        "turns": pytest.approx(turns),
+        "hours": pytest.approx(turns * 2 * np.pi / speed / 3600),
+        "static_safety": pytest.approx(900 / steady.max()),
+        "rating_needed": {"force": pytest.approx(needed)},
+        "chosen": None,
+    }
+    columns = {c.name: (c.kind, c.values) for c in t.columns()}
+    assert {k: kind for k, (kind, _) in columns.items() if k.endswith(("C", "m^2"))} == {
+        "radial_force.C": "force",
+        "axial_force.C": "force",
+        "couple_across.C": "moment",
+        "turning_speed.C": "angular_speed",
+        "pressure.C": "pressure",
+        "pv.C": "pressure_speed",
+    }
+    for name, own in (("axial_force", axial), ("couple_across", across), ("turning_speed", rate)):
+        np.testing.assert_allclose(columns[f"{name}.C"][1], own, rtol=1e-9)
+
+
+def test_a_shaft_turns_one_way_and_the_other_joint_exchanged_alike() -> None:
+    """Of two links that both turn, the rate is that of j against i."""
+    m = crank_machine(1, 48)
+    r, joint = da.dynamics(m), m.joints["A"]
+    i, j = joint.links
+    b = da.bearing(r, "A")
+    np.testing.assert_allclose(b.rate, r.speed(j) - r.speed(i), rtol=1e-12)
+    assert not da.bearing(shaft("1898"), "O").swings
+    assert da.bearing(shaft("1898"), "O").speed == pytest.approx(10 * np.pi)
+    assert da.bearing(shaft("1898"), "O").static_safety is None
+    assert da.bearing(shaft("0"), "O").hours == math.inf
+
+
+def test_each_position_counts_for_its_time_and_its_turn() -> None:
+    """Uneven positions, from the last to the first: means are over time, the equivalent load is over the turn."""
+    places = (2.0, 1.9, 1.1, 0.5, 0.4, 0.1)
+    rating = {"rating": 3000.0, "diameter": 0.02, "length": 0.03}
+    m = da.four_bar().with_values(
+        {"drives.O2.position": places, "drives.O2.speed": -7.0, "joints.A.bearing": rating}
+    )
+    r = da.dynamics(m)
+    b, time = da.bearing(r, "A"), np.array([0.05, 0.45, 0.7, 0.35, 0.2, 0.15]) / 7
+    force, rate = np.hypot(*r.reaction("A").T), np.abs(r.speed("coupler") - r.speed("crank"))
+    np.testing.assert_allclose(b.time, time)
+    assert b.mean_pv == pytest.approx((force / 6e-4 * 0.01 * rate * time).sum() / time.sum())
+    assert b.speed == pytest.approx((rate * time).sum() / time.sum())
+    assert b.equivalent == pytest.approx(((force**3 * rate * time).sum() / (rate * time).sum()) ** (1 / 3))
+
+
+def test_a_bearing_between_links_that_both_move_in_space() -> None:
+    r = da.dynamics(da.spherical_four_bar())
+    joint = next(n for n, j in r.mechanism.joints.items() if "ground" not in j.links and j.hinge)
+    rate = r.freedom(joint, "turn")[1]
+    assert np.ptp(rate) > 1
+    np.testing.assert_allclose(da.bearing(r, joint).rate, rate, rtol=1e-9, atol=1e-9)
+
+
+def test_the_rating_for_a_reliability_is_that_of_weibull() -> None:
+    """Budynas and Nisbett, example 11-3: 413 lbf, 300 rpm, 30 kh, factor 1.2, reliability 0.99."""
+    b = da.bearing(shaft("1898"), "O")
+    lives = 30e3 * 3600 * 5 / 1e6
+    own = 1.2 * 1898 * (lives / (0.02 + 4.439 * math.log(1 / 0.99) ** (1 / 1.483))) ** (1 / 3)
+    assert b.rating_for(30e3, 1.2, 0.99, (0.02, 4.439, 1.483)) == pytest.approx(own)
+    with pytest.raises(ModelError, match=r"life of a reliability of 0\.99; give the catalogue's weibull"):
+        b.rating_for(30e3, reliability=0.99)
+
+
+LIMITS = SHAFT.format(load="1000", bearing="{rating: 12 kN, diameter: 20 mm}", turn=2 * math.pi)
+NEEDED = 1.5 * 1000 * (4000 * 3600 * 5 / 1e6) ** (1 / 3)
+
+
+@pytest.mark.parametrize(
+    ("rows", "chosen"),
+    [
+        ([(1.000001, 1.000001, 20)], 0),
+        ([(0.999999, 9, 20)], None),  # its dynamic rating
+        ([(9, 0.999999, 20)], None),  # its static one
+        ([(9, 9, 19.99)], None),  # the pin does not go in
+        ([(9, 9, 30), (9, 9, 20), (3, 3, 20), (2, 2, 25)], 2),  # by bore, then by rating
+    ],
+)
+def test_a_row_is_enough_from_its_limits_on(
+    rows: list[tuple[float, float, float]], chosen: int | None, tmp_path: Path
+) -> None:
+    """C in parts of the rating needed, C0 in parts of 2 x 1.5 x the largest load."""
+    lines = [f"b{k},{c * NEEDED!r},{c0 * 3000!r},{d}" for k, (c, c0, d) in enumerate(rows)]
+    (tmp_path / "t.csv").write_text("\n".join(["name,C [N],C0 [N],d [mm]", *lines]))
+    r = da.dynamics(da.loads(LIMITS))
+    t = da.bearings(r, hours=4000, table=tmp_path / "t.csv", factor=1.5, safety=2.0)
+    row = t.chosen["O"]
+    assert (row.name if row else None) == (None if chosen is None else f"b{chosen}")
+    assert t.rows == len(rows)
+
+
 def test_pressure_is_an_output_of_compiled_analyses() -> None:
     """With the bearing's own size as a varied number; nothing need turn for it."""
     sized = da.slider_crank(crank=0.05, rod=0.2).with_values(
@@ -121,6 +267,42 @@ def test_pressure_is_an_output_of_compiled_analyses() -> None:
     assert np.allclose(wide.gradient("pressure.A")[0, :, 0], -force / 6e-4 / 0.04)
     with pytest.raises(ModelError, match=r"there is no output 'pressure.B'; did you mean 'pressure.A'"):
         da.compile(sized, outputs=["pressure.B"])
+
+
+SIZED = {f"joints.{j}.bearing": {"diameter": 0.02, "length": 0.015, "rating": 9e3} for j in ("O2", "A", "B")}
+
+
+@pytest.mark.parametrize("count", [12, 24, 72])
+def test_what_half_of_the_positions_would_change_is_printed_and_no_less_than_the_error(count: int) -> None:
+    """Against a cycle so fine that its error does not count; the rate of B, which swings, has kinks in PV."""
+    section = {"circle": 0.03, "endurance": 1e8, "ultimate": 4e8}
+    m = da.slider_crank(crank=0.05, rod=0.2).with_values(SIZED | {"links.rod.section": section})
+    r, fine = da.dynamics(m, positions=count), da.dynamics(m, positions=4800)
+    for joint in ("O2", "A", "B"):
+        b, true = da.bearing(r, joint), da.bearing(fine, joint)
+        changes = b.sampling()
+        for name, value in true._summary().items():
+            off = abs(b._summary()[name] / value - 1)
+            assert off <= 1.05 * changes[name] + 1e-12, (joint, name)
+        assert changes["mean PV"] < 0.5
+    f, true_f = (da.member_forces(x, "rod").stress().fatigue() for x in (r, fine))
+    assert abs(f.amplitude / true_f.amplitude - 1) <= f.sampling
+    c, true_c = (da.motor(x, inertia=1e-3) for x in (r, fine))
+    for name, value in true_c._summary().items():
+        assert abs(c._summary()[name] / value - 1) <= 1.05 * c.sampling()[name] + 1e-9, name
+    said = " ".join(str(da.bearings(r)).split())
+    worst = max(x for j in ("O2", "A", "B") for x in da.bearing(r, j).sampling().values())
+    start = f"Means and greatest values are those of the {count} positions, not of the motion between them: with half"
+    assert f"{start} of the positions they differ by {number(100 * worst, 2)} % at most (" in said
+    assert start in " ".join(str(c).split())
+
+
+def test_an_odd_number_or_a_single_position_has_no_halves() -> None:
+    m = da.slider_crank(crank=0.05, rod=0.2).with_values(SIZED)
+    odd, one = (da.bearings(da.dynamics(m, positions=n)) for n in (73, 1))
+    assert "those of the 73 positions, not of the motion between them." in " ".join(str(odd).split())
+    assert "Means and greatest values" not in str(one)
+    assert all(math.isnan(x) for x in odd.loads["A"].sampling().values())
 
 
 TABLE = "name, C [kN], C0 [kN], d [mm]\n6202, 7.8, 3.55, 15\n6205, 14, 7.8, 25\n6204, 12.7, 6.55, 20\n"
@@ -141,14 +323,86 @@ def test_the_smallest_that_is_enough_is_chosen(tmp_path: Path, capsys: pytest.Ca
     read = json.loads((tmp_path / "o.json").read_text())["bearings"]["O"]
     assert read["chosen"] == "6204"
     assert read["rating_needed"] == pytest.approx(1898 * 90 ** (1 / 3))
-    assert "radial force O [N]" in (tmp_path / "o.csv").read_text()
+    assert "radial_force.O [N]" in (tmp_path / "o.csv").read_text()
     book = openpyxl.load_workbook(tmp_path / "o.xlsx")
-    assert book["positions"]["C1"].value == "radial force O [N]"
+    assert book["positions"]["C1"].value == "radial_force.O [N]"
     assert book["positions"]["C2"].value == pytest.approx(1898)
     assert any("6204" in row for row in book["answer"].values)
     assert "L_10 = ((C)/(P))^e 10^6" in (tmp_path / "o.txt").read_text()
     assert main([*arguments, "--factor", "2"]) == 0
     assert "none is enough" in capsys.readouterr().out
+
+
+def test_two_links_that_turn_alike_have_no_life_to_count() -> None:
+    """The pins of a triangle of links turn about nothing: rounding is no rate, and gives no life of 10^20 hours."""
+    m = da.loads(
+        """
+links:
+  ground: {points: {O: [0, 0]}}
+  a: {points: {O: [0, 0], A: [0.3, 0], B: [0.1, 0.2]}, mass: 1}
+  b: {points: {A: [0, 0], C: [0.3, 0]}, mass: 2}
+  c: {points: {B: [0, 0], C: [0.4, 0]}, mass: 1}
+joints:
+  O: {type: pin, links: [ground, a]}
+  A: {type: pin, links: [a, b], bearing: {rating: 9 kN}}
+  B: {type: pin, links: [a, c]}
+  C: {type: pin, links: [b, c]}
+drives: {O: {position: {from: 0, to: 360, count: 12}, speed: 30 rad/s}}
+assembly: {b: 60, c: 20}
+"""
+    )
+    t = da.bearings(da.dynamics(m))
+    assert (t.loads["A"].rate == 0).all()
+    assert t.loads["A"].hours == math.inf
+    assert not t.loads["A"].swings
+    assert t.loads["O"].speed == pytest.approx(30)
+    row = next(line for line in str(t).splitlines() if line.startswith("A "))
+    assert row.split()[-1] == "-"
+
+
+def test_a_bearing_in_space_is_chosen_by_both_forces(tmp_path: Path) -> None:
+    """C = P (hours 3600 w / 2 pi / 10^6)^(1/3), C0 over the largest X F_r + Y F_a, and no bore below the pin's."""
+    values = {
+        "gravity": [0.0, -9.8, -3.0],
+        "joints.O.bearing": {
+            "kind": "ball",
+            "axial_factor": 1.5,
+            "diameter": 0.018,
+            "radial_factor": 0.56,
+            "length": 0.02,
+        },
+    }
+    r = da.dynamics(da.rssr().with_values(values), positions=36)
+    b = da.bearing(r, "O")
+    force, axis = r.reaction("O"), np.array(r.mechanism.joints["O"].axis, float)
+    axis /= np.linalg.norm(axis)
+    along = force @ axis
+    across = np.linalg.norm(force - along[:, None] * axis, axis=1)
+    load = np.maximum(across, 0.56 * across + 1.5 * np.abs(along))
+    assert b.load == pytest.approx(load, rel=1e-9)
+    spin = np.abs(r.speed("crank") @ axis)
+    mean = ((load**3 * spin).sum() / spin.sum()) ** (1 / 3)
+    needed = mean * (500 * 3600 * spin.mean() / (2 * math.pi) / 1e6) ** (1 / 3)
+    assert b.rating_for(500) == pytest.approx(needed, rel=1e-9)
+    rows = [
+        ("tight", needed * 2, 2 * load.max(), 0.017),
+        ("weak", needed * 0.999, 2 * load.max(), 0.018),
+        ("flat", needed * 2, load.max() * 0.999, 0.018),
+        ("fits", needed * 1.001, load.max() * 1.001, 0.020),
+        ("large", needed * 9, 9 * load.max(), 0.030),
+    ]
+    table = tmp_path / "b.csv"
+    table.write_text(
+        "name, C [N], C0 [N], d [m]\n"
+        + "".join(
+            f"{n}, {c!r}, {c0!r}, {d}\n"
+            for n, c, c0, d in [(n, float(c), float(c0), d) for n, c, c0, d in rows]
+        )
+    )
+    for safety, name in ((1.0, "fits"), (1.002, "large")):
+        found = da.bearings(r, ["O"], hours=500, table=table, safety=safety).chosen["O"]
+        assert found is not None
+        assert found.name == name
 
 
 @pytest.mark.parametrize(

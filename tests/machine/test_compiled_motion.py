@@ -46,7 +46,7 @@ def simulated(values: Any, until: Any, count: int = 201) -> Any:
 
 
 def test_each_design_is_that_of_simulate() -> None:
-    outputs = ["effort.O2", "reaction.B", "magnitude.A * 2"]
+    outputs = ["effort.O2", "reaction.B", "reaction.A.magnitude * 2"]
     k = da.compile_motion(da.loads(FOUR_BAR), "0.4 s", VARY, outputs, count=21, tolerance=1e-11)
     values = designs(k, 9)
     r = k(values)
@@ -56,7 +56,9 @@ def test_each_design_is_that_of_simulate() -> None:
         s = simulated(values[d], "0.4 s", 21)
         assert r.position[d] == pytest.approx(s.position("O2")[-1:], rel=1e-9)
         assert r.value("reaction.B")[d] == pytest.approx(s.result["reaction.B"], rel=1e-6, abs=1e-6)
-        assert r.value("magnitude.A * 2")[d] == pytest.approx(s.result["magnitude.A * 2"], rel=1e-6)
+        assert r.value("reaction.A.magnitude * 2")[d] == pytest.approx(
+            s.result["reaction.A.magnitude * 2"], rel=1e-6
+        )
     peak = da.compile_motion(da.loads(FOUR_BAR), "0.4 s", VARY, outputs, "peak", count=21, tolerance=1e-11)(
         values
     )
@@ -74,7 +76,7 @@ def test_energy_is_kept() -> None:
 
 
 def test_no_design_depends_on_what_stands_beside_it() -> None:
-    k = da.compile_motion(da.loads(FOUR_BAR), "0.3 s", VARY, ["magnitude.A", "effort.O2"], "rms")
+    k = da.compile_motion(da.loads(FOUR_BAR), "0.3 s", VARY, ["reaction.A.magnitude", "effort.O2"], "rms")
     values = designs(k, 37)
     whole, turned, one = k(values), k(values[::-1], threads=1), k(values[20])
     for name in k.outputs:
@@ -85,7 +87,7 @@ def test_no_design_depends_on_what_stands_beside_it() -> None:
 
 def test_a_condition_ends_each_design_at_its_own_time() -> None:
     until = ["1 s", "O2.position = 500 deg"]
-    k = da.compile_motion(da.loads(FOUR_BAR), until, VARY, ["magnitude.A"], "final", tolerance=1e-12)
+    k = da.compile_motion(da.loads(FOUR_BAR), until, VARY, ["reaction.A.magnitude"], "final", tolerance=1e-12)
     values = designs(k, 9)
     values[4, -1] = 2.0  # too slow to arrive
     r = k(values)
@@ -95,7 +97,9 @@ def test_a_condition_ends_each_design_at_its_own_time() -> None:
     for d in (0, 8):
         s = simulated(values[d], until)
         assert r.time[d] == pytest.approx(s.time[-1], rel=1e-9)
-        assert r.value("magnitude.A")[d] == pytest.approx(s.result["magnitude.A"][-1], rel=1e-7)
+        assert r.value("reaction.A.magnitude")[d] == pytest.approx(
+            s.result["reaction.A.magnitude"][-1], rel=1e-7
+        )
 
 
 def test_a_rotor_runs_up_by_its_motor() -> None:
@@ -124,11 +128,11 @@ def test_a_motor_with_corners_is_that_of_simulate() -> None:
 def test_a_motion_that_cannot_go_on_is_undecided() -> None:
     """With a short coupler the crank comes to a dead centre."""
     vary = ["links.coupler.points.B.0"]
-    k = da.compile_motion(da.loads(FOUR_BAR), "0.3 s", vary, ["magnitude.A"], "peak", tolerance=1e-8)
+    k = da.compile_motion(da.loads(FOUR_BAR), "0.3 s", vary, ["reaction.A.magnitude"], "peak", tolerance=1e-8)
     r = k([0.15, 0.1])
     assert r.ok.tolist() == [True, False]
     assert r.ended[1].startswith("undecided")
-    assert np.isnan(r.value("magnitude.A")).tolist() == [False, True]
+    assert np.isnan(r.value("reaction.A.magnitude")).tolist() == [False, True]
 
 
 @pytest.mark.parametrize(

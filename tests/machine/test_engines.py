@@ -147,3 +147,53 @@ def test_the_command_balances_four_masses_in_two_planes(
     assert "Rotor balanced in two planes" in (tmp_path / "r.txt").read_text()
     for wrong in (asked[:4], asked[:2], [*asked, "--on", "shaft"]):
         assert main(wrong) == 2
+
+
+@pytest.mark.parametrize("speed", [200.0, -200.0])
+def test_the_books_series_is_that_of_its_formula(speed: float) -> None:
+    """m r w^2 (cos q + l cos 2 q) of piston and the rod's end, the rest at the crank pin, at every position."""
+    crank, rod, piston, bar = 0.05, 0.2, 0.6, 0.4
+    m = da.slider_crank(crank=crank, rod=rod).with_values(
+        {
+            "drives.O2.speed": speed,
+            "links.piston.mass": piston,
+            "links.rod.mass": bar,
+            "links.crank.mass": 0.0,
+        }
+    )
+    r = da.dynamics(m, positions=36)
+    e, q = da.engine_series(r), r.drive_position("O2")
+    share = m.center("rod")[0] / rod
+    going, turning = piston + bar * share, bar * (1 - share)
+    x = crank * speed**2 * (going * (np.cos(q) + crank / rod * np.cos(2 * q)) + turning * np.cos(q))
+    y = crank * speed**2 * turning * np.sin(q)
+    assert e.force == pytest.approx(np.stack([x, y], axis=-1), abs=1e-9 * np.abs(x).max())
+    root = np.sqrt(rod**2 - (crank * np.sin(turn(720))) ** 2)
+    path = crank * np.cos(turn(720)) + root
+    wave = np.fft.rfft(path)
+    k = np.arange(len(wave))
+    second = np.fft.irfft(-(k**2) * wave, 720)[::20]
+    exact = -(speed**2) * going * second + crank * speed**2 * turning * np.cos(q)
+    assert e.exact.parts["inertia"][0][:, 0] == pytest.approx(exact, abs=1e-8 * np.abs(x).max())
+    off = np.abs(exact - x).max() / np.hypot(exact, y).max()
+    assert e.loss == pytest.approx(off, rel=1e-6)
+
+
+def test_a_balanced_rotor_and_a_pure_couple_have_true_sentences() -> None:
+    """The unbalance left is compared with the corrections: S of a pure couple is rounding, and no measure."""
+    m = da.rotating_shaft()
+    once = da.balance_rotor(m, (0.05, 0.45), (0.04, 0.04))
+    again = da.balance_rotor(once.mechanism, (0.05, 0.45), (0.04, 0.04))
+    assert again.moment.sum() < 1e-9 * once.moment.sum()
+    assert once.residual < 1e-12
+    couple = da.loads(shaft_with_masses((2, 50, 30, 200), (2, 50, 210, 700)))
+    b = da.balance_rotor(couple, (0.1, 0.8), (0.05, 0.05))
+    assert abs(b.unbalance[0]) < 1e-15
+    assert b.residual < 1e-12
+    said = " ".join(str(b).split())
+    assert "Recomputed with both corrections, the unbalance left is " in said
+    level = da.balance_rotor(
+        da.loads(shaft_with_masses((2, 50, 30, 200), (2, 50, 210, 200))), (0.1, 0.8), (0.05, 0.05)
+    )
+    assert not level.moment.any()
+    assert "The rotor was balanced already: no correction is needed." in " ".join(str(level).split())

@@ -15,7 +15,10 @@ from scipy.optimize import brentq
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
-from dalembert.errors import ModelError
+from dalembert.errors import AnalysisError, ModelError
+from dalembert.machine.flywheel.legendre_panels import Panels
+from dalembert.machine.flywheel.speed_fluctuation import speed_fluctuation
+from dalembert.machine.flywheel.turning_moment import TurningMoment
 from tests.machine.closed_forms import turn
 from tests.machine.cranks import crank_machine
 from tests.tiers import over
@@ -33,6 +36,9 @@ loads:
 """
 
 
+WAVE = "'8*(1 + 0.5*sin(2*O))'"
+
+
 def shaft(value: str, rpm: float, period: float = 360.0, inertia: float = 0.0) -> Any:
     """A shaft that a couple turns against a constant load."""
     return da.dynamics(da.loads(SHAFT % (inertia, period, rpm * math.pi / 30, value)))
@@ -48,6 +54,55 @@ def test_three_cylinders_with_triangular_diagrams() -> None:
     assert f.mean == pytest.approx(-67.5, rel=1e-9)
     assert sorted(f.size.pulses) == pytest.approx([-3.75 * math.pi] * 3 + [3.75 * math.pi] * 3, rel=1e-8)
     assert f.size.fluctuation == pytest.approx(3.75 * math.pi / (0.0768 * 400 * math.pi**2), rel=1e-8)
+
+
+def slides(load: str) -> Any:
+    """A slider-crank at 20 rad/s with one load: its effort often crosses its mean just at a position."""
+    m = da.slider_crank(crank=0.05, rod=0.2).with_values({"drives.O2.speed": 20.0})
+    piston = {"type": "force", "on": "piston", "at": "B", "value": [load, 0]}
+    return m.with_values({"loads": {"F": piston}})
+
+
+MACHINES = {
+    "two hundred": da.slider_crank(crank=0.05, rod=0.2),
+    "four bar": da.four_bar(ground=0.4, crank=0.1, coupler=0.35, rocker=0.3),
+    "engine": da.load(examples()["engine"]),
+    "slide": slides("2000*joints.guide.slide"),
+    "kinks": slides("400*abs(cos(2*O2)) - 300*max(links.rod.angle, 0)"),
+}
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_the_fluctuation_is_the_same_at_every_count(name: str) -> None:
+    """A zero of T - T_m at a position, on the edge of two panels, once counted once, twice or not at all."""
+    m = MACHINES[name]
+    r = da.dynamics(m, positions=14400)
+    torque = r.effort(next(iter(m.drives)))
+    step = r.drive_position(next(iter(m.drives)))[1] - r.drive_position(next(iter(m.drives)))[0]
+    above = torque - torque.mean()
+    wanted = np.ptp(np.cumsum((above + np.roll(above, -1)) / 2) * step)
+    for count in (5, 12, 36, 37, 72, 90, 200):
+        f = da.flywheel(da.dynamics(m, positions=count), Cs=0.02)
+        assert f.size.energy == pytest.approx(wanted, rel=1e-5), count
+        assert len(f.size.pulses) == len(f.zeros) > 0
+        assert len(f.zeros) % 2 == 0
+        assert str(f)
+
+
+def test_a_law_that_comes_to_one_speed_by_rounding_is_steady() -> None:
+    """A straight line through points of a table: its spline's accelerations are rounding, and no reason to refuse."""
+    whole, count = 2 * math.pi / 7, 36
+    t = [whole * (1 - 1 / count) * k / 5 for k in range(6)]
+    law = {"type": "table", "time": t, "position": [math.degrees(7 * x) for x in t], "count": count}
+    text = YOKE.replace("position: {from: 0, to: 360, count: 24}, speed: 10 rad/s", f"law: {json.dumps(law)}")
+    r = da.dynamics(da.loads(text))
+    assert np.abs(r.drive_acceleration("O")).max() > 0
+    steady = da.dynamics(da.loads(YOKE.replace("10 rad/s", "7 rad/s")), positions=count)
+    wanted = da.flywheel(steady, Cs=0.02).size.energy
+    assert da.flywheel(r, Cs=0.02).size.energy == pytest.approx(wanted, rel=1e-9)
+    faster = YOKE.replace("speed: 10 rad/s", "speed: 10 rad/s, acceleration: 1e-6 rad/s^2")
+    with pytest.raises(ModelError, match="does not turn at one speed"):
+        da.flywheel(da.dynamics(da.loads(faster)), Cs=0.02)
 
 
 def test_discs_and_rims_have_the_inertia() -> None:
@@ -171,6 +226,73 @@ def test_links_that_turn_steadily_by_themselves_need_none() -> None:
     assert "has the mean 0 N*m" in said
     assert "For the Cs asked for no flywheel is needed: that of the links alone is smaller." in said
     assert "no flywheel, exact 0 0.008894" in said
+
+
+def test_the_residual_says_by_how_much_a_motion_is_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The law that the motion asks for is shown off by 1 %."""
+    r = shaft(WAVE, 300.0, inertia=2.0)
+    f = da.flywheel(r, inertia=3.0)
+    assert f.exact.residual < 1e-9
+    effort = TurningMoment.effort
+    monkeypatch.setattr(TurningMoment, "effort", lambda t, *given: 1.01 * effort(t, *given))
+    assert da.flywheel(r, inertia=3.0).exact.residual == pytest.approx(0.01, rel=0.05)
+
+
+def test_a_machine_that_turns_backwards_has_the_same_flywheel() -> None:
+    there, back = (da.flywheel(shaft(WAVE, rpm, inertia=2.0), Cs=0.02) for rpm in (300.0, -300.0))
+    assert back.size.inertia == pytest.approx(there.size.inertia)
+    assert back.size.limits == pytest.approx(there.size.limits)
+    assert there.size.limits == pytest.approx((0.99 * 10 * math.pi, 1.01 * 10 * math.pi))
+    assert back.exact.greatest[0] == pytest.approx(there.exact.greatest[0], rel=1e-6)
+    own = da.flywheel_size(100.0, -20.0, inertia=5.0)
+    assert own.fluctuation == pytest.approx(0.05)
+    assert own.limits == pytest.approx((19.5, 20.5))
+    assert own.mass(0.5) == pytest.approx(20.0)
+
+
+def test_a_machine_without_inertia_somewhere_has_no_speed() -> None:
+    with pytest.raises(AnalysisError, match="nothing in this machine has inertia"):
+        speed_fluctuation(*_nothing(0.0))
+
+
+def _nothing(inertia: float) -> Any:
+    """A shaft whose own inertia is nothing at one place of its turn."""
+    r = shaft(WAVE, 300.0, inertia=2.0)
+    t = TurningMoment(r)
+    panels = Panels(t.edges[:-1], np.diff(t.edges))
+    own = np.full(panels.points.shape, 2.0)
+    own[3, 1] = -1e-9
+    return t, panels, own, inertia
+
+
+@pytest.mark.parametrize(("part", "round_"), [(1.9, True), (2.1, False)])
+def test_a_rim_is_no_higher_than_twice_its_radius(part: float, round_: bool) -> None:
+    """Of a mean radius R its section reaches the axis at a height of 2 R."""
+    radius, height = 0.3, part * 0.3
+    inertia = 7000.0 * 2 * math.pi * radius * 0.1 * height * (radius**2 + height**2 / 4)
+    size = da.flywheel_size(1.0, 1.0, inertia=inertia)
+    if round_:
+        assert size.rim(7000.0, radius, breadth=0.1) == pytest.approx(height)
+    else:
+        with pytest.raises(ModelError, match=r"the rim would be 0\.63 m high about a mean radius of 0\.3 m"):
+            size.rim(7000.0, radius, breadth=0.1)
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, math.inf, math.nan])
+def test_what_is_no_size_is_refused(value: float) -> None:
+    size = da.flywheel_size(100.0, 20.0, inertia=5.0)
+    for call in (
+        lambda: size.mass(value),
+        lambda: size.disc(value, radius=1.0),
+        lambda: size.disc(7000.0, radius=value),
+        lambda: size.disc(7000.0, thickness=value),
+        lambda: size.rim(7000.0, value, breadth=0.1),
+        lambda: size.rim(7000.0, 0.5, height=value),
+        lambda: da.flywheel_size(100.0, 20.0, inertia=value),
+        lambda: da.flywheel_size(100.0, 20.0, Cs=value),
+    ):
+        with pytest.raises(ModelError, match=r"; give a (finite )?number above 0"):
+            call()
 
 
 def test_what_has_no_flywheel_is_refused() -> None:

@@ -67,3 +67,19 @@ def test_what_has_no_gyroscopic_couple_is_refused() -> None:
     r = rotor("none", (0, 0), 1, 1, "[0, 0, 1]", 0.1, 0.0)
     with pytest.raises(ModelError, match="rotor does not spin in yoke"):
         da.gyroscopic(r, "rotor", "yoke")
+
+
+@pytest.mark.parametrize(("spin", "turn"), [(300.0, 2.0), (-300.0, 2.0), (300.0, -2.0)])
+def test_spin_precession_and_the_pair_of_bearing_forces(spin: float, turn: float) -> None:
+    """A rotor along x on a yoke about z: C = I w_s w_p (z x x) = I w_s w_p y on the rotor, whichever way both turn."""
+    r = rotor("none", (0.0, 0.4), 4, 0.05, "[0, 0, 1]", turn, spin)
+    g = da.gyroscopic(r, "rotor", "yoke")
+    assert abs(g.spin[0]) == pytest.approx(abs(spin), rel=1e-12)
+    assert g.spin[0] * g.axis[0] == pytest.approx([spin, 0, 0], abs=1e-9)
+    assert g.precession[0] == pytest.approx([0, 0, turn], abs=1e-12)
+    assert g.couple[0] == pytest.approx([0, 0.05 * spin * turn, 0], abs=1e-9)
+    assert g.exact[0] == pytest.approx(g.couple[0], abs=1e-9)
+    assert g.bearing_force(0.4)[0] == pytest.approx(0.05 * 600 / 0.4, rel=1e-12)
+    bearings = rotor("none", (0.0, 0.4), 4, 0.05, "[0, 0, 1]", turn, spin, BEARINGS)
+    pair = [bearings.reaction(j, on="rotor")[0, 2] for j in ("A", "B")]
+    assert pair == pytest.approx([0.05 * spin * turn / 0.4, -0.05 * spin * turn / 0.4], rel=1e-9)

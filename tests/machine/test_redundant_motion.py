@@ -76,12 +76,14 @@ def test_three_cranks_in_line_stop_where_they_can_go_on_in_two_ways() -> None:
 
 def test_many_motions_have_what_is_unique_of_redundant_machines() -> None:
     one = da.simulate(cranks(0.0), "0.03 s", count=3)
-    asked = ["speed.c3", "acceleration.coupler"]
+    asked = ["angle.c3.speed", "angle.coupler.acceleration"]
     found = da.compile_motion(cranks(0.0), "0.03 s", ["links.c3.mass"], asked, reduce="final")([[0.7], [0.9]])
-    assert found.value("speed.c3")[0] == pytest.approx(one.speed("O1")[-1], rel=1e-8)
-    assert found.value("speed.c3")[1] < one.speed("O1")[-1]
-    with pytest.raises(ModelError, match=r"magnitude.C cannot be compiled: constraints are redundant"):
-        da.compile_motion(cranks(0.0), "0.03 s", ["links.c3.mass"], ["magnitude.C"])
+    assert found.value("angle.c3.speed")[0] == pytest.approx(one.speed("O1")[-1], rel=1e-8)
+    assert found.value("angle.c3.speed")[1] < one.speed("O1")[-1]
+    with pytest.raises(
+        ModelError, match=r"reaction.C.magnitude cannot be compiled: constraints are redundant"
+    ):
+        da.compile_motion(cranks(0.0), "0.03 s", ["links.c3.mass"], ["reaction.C.magnitude"])
 
 
 def test_friction_that_follows_what_is_not_unique_is_refused() -> None:

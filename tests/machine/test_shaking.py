@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.output.columns import scale
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
@@ -131,12 +132,10 @@ def test_periods_of_two_turns_have_half_orders() -> None:
     q = 2 * turn(48)
     assert da.harmonics(np.cos(1.5 * q), q, orders=[1, 1.5]).amplitude == pytest.approx([0, 1])
     r = da.dynamics(da.load(examples()["engine"]))
-    by_name = r.harmonics("shaking", orders=2)
+    by_name = r.harmonics("shaking_force", orders=2)
     assert by_name.order.tolist() == [0, 0.5, 1, 1.5, 2]
     assert np.allclose(by_name.amplitude, da.shaking(r).harmonics(2).amplitude)
-    assert np.allclose(
-        r.harmonics("reaction A on rod", 1).amplitude[:, 0], r.harmonics("reaction A on rod x", 1).amplitude
-    )
+    assert np.allclose(r.harmonics("reaction.A", 1).amplitude[:, 0], r.harmonics("reaction.A.x", 1).amplitude)
 
 
 WRONG = [
@@ -159,8 +158,8 @@ def test_what_is_no_period_is_refused(angle: Any, orders: Any, sentence: str) ->
 def test_what_slides_has_no_harmonics() -> None:
     r = da.dynamics(da.load(examples()["scissor_lift"]))
     with pytest.raises(ModelError, match="and base_roller slides"):
-        r.harmonics("shaking")
-    with pytest.raises(ModelError, match="no output is named 'shaken'"):
+        r.harmonics("shaking_force")
+    with pytest.raises(ModelError, match="there is no quantity 'shaken'"):
         da.dynamics(da.load(examples()["engine"])).harmonics("shaken")
 
 
@@ -216,8 +215,8 @@ def test_the_command_prints_and_writes(tmp_path: Path, capsys: pytest.CaptureFix
     rows = list(csv.DictReader(table.read_text().splitlines()))
     read = json.loads(record.read_text())
     s = da.shaking(da.dynamics(da.load(file)), about=(0, 0.1))
-    assert [float(row["shaking moment [N*mm]"]) for row in rows[:3]] == pytest.approx(1e3 * s.moment[:3])
-    assert read["positions"][1]["shaking force x"] == pytest.approx(s.force[1, 0])
+    assert [float(row["shaking_moment [N*mm]"]) for row in rows[:3]] == pytest.approx(1e3 * s.moment[:3])
+    assert read["positions"][1]["shaking_force.x"] == pytest.approx(s.force[1, 0])
     assert read["shaking"]["point"] == [0, 100]
     assert main(["shake", file, "--csv", str(table)]) == 2
     assert "exists" in capsys.readouterr().err
@@ -249,3 +248,37 @@ def test_its_drawing_has_the_numbers_and_its_report_the_sums() -> None:
     said = str(da.report(s))
     assert "Moments are about O2. Worked out at position 1 of 720" in said
     assert "F_sx = −Σ m_i a_i = 5503 = 5503 N" in said
+
+
+def test_external_loads_are_named_and_those_by_the_ground_are_not() -> None:
+    """Of the bundled shaper the cutting force is most of the shaking force; gas on a head is none of it."""
+    r = da.dynamics(da.load(examples()["quick_return"]))
+    s = da.shaking(r)
+    assert s.outside == ("cutting",)
+    record: Any = s.record(scale(r, "SI"))
+    assert record["shaking"]["outside"] == ("cutting",)
+    assert {"external_force.x", "external_moment"} <= {c.name for c in s.columns()}
+    said = " ".join(str(s).split())
+    assert "External: cutting. A load is external unless `by: ground` says that" in said
+    assert "changes them by 1e+01 N at most" in said
+    gas = da.shaking(da.dynamics(da.in_line_engine(firing_order=(1, 2, 4, 3), gas=1e4), positions=24))
+    assert gas.outside == ()
+    assert "External:" not in str(gas)
+    still = r.mechanism.with_values({"loads.cutting.value": [0.0, 0.0], "loads.cutting.direction": None})
+    assert da.shaking(da.dynamics(still)).outside == ()  # a load of 0 is none
+
+
+def test_a_machine_at_rest_without_loads_exerts_nothing() -> None:
+    m = da.four_bar().with_values({"gravity": None, "loads": {}, "drives.O2.speed": 0.0})
+    assert "No force and no moment on the ground." in str(da.shaking(da.dynamics(m, positions=12)))
+    one = da.shaking(da.dynamics(m, positions=12), links=["crank"])
+    assert "No force and no moment on all else." in str(one)
+
+
+def test_its_drawing_in_space_has_three_components_of_force_and_moment() -> None:
+    s = da.shaking(da.dynamics(da.rssr()))
+    words = [text.text for text in da.draw.machine(s).texts()]
+    about = f"Shaking moment about {s.about}"
+    assert {"Shaking force on the ground", about, "Harmonics of the force"} <= set(words)
+    assert s.moment.shape == (72, 3)
+    assert sum(w in ("x", "y", "z") for w in words) >= 6

@@ -129,7 +129,7 @@ def test_a_piston_strikes_a_stop_and_rests_on_it() -> None:
     assert s.joint_stop_force["S"][-1] == pytest.approx(-6 / ratio, rel=1e-10)
     assert s.applied[-1, 0] == s.result.effort("O")[-1] == pytest.approx(6, rel=1e-10)
     assert -s.result.reaction("B")[-1, 0] == pytest.approx(-6 / ratio, rel=1e-10)
-    assert "stop S" in [c.name for c in s.columns()]
+    assert "stop_force.S" in [c.name for c in s.columns()]
     assert max(s.energy_residual, s.law_residual) < 1e-9
 
 

@@ -10,12 +10,16 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.bundled import cases
+from dalembert.analysis.methods.applied_forces import actions
+from dalembert.bundled import cases, examples
 from dalembert.machine.shaking import shaking_force
 from dalembert.views.charts import shaking_chart
+from dalembert.views.force_system import force_system_scene
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.paper.scene import Arc, Arrow, Line
+from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Polygon, Scene, Text
 from dalembert.views.plane.circle_details import pin_detail
+from dalembert.views.plane.guide_details import faces_of, guide_detail
+from dalembert.views.space.camera import Camera
 from tests.friction.engines import engine
 
 
@@ -137,3 +141,163 @@ def test_no_arrow_is_drawn_of_rounding() -> None:
     free = da.draw.mechanism(da.solve(da.load(cases()["sp-01-swinging-body-on-an-inclined-revolute"])))
     assert [a for a in free.arrows() if a.role == "effort"] == []
     assert not any("two heads" in t.text for t in free.texts())
+
+
+SYSTEM = da.wrench.System(
+    da.wrench.Force([30, 40], at=[0.5, 0.2]),
+    da.wrench.Couple(-7.0),
+    da.wrench.Force([15, -20]),
+    title="bracket",
+)
+
+
+def test_a_force_system_in_the_plane_arrow_by_arrow() -> None:
+    """Tails at their points, heads a force ahead, by the scales stated; the resultant on its line."""
+    scene = force_system_scene(SYSTEM)
+    axes = [a for a in scene.arrows() if a.role == "axis-arrow"]
+    origin = np.array(axes[0].tail)
+    assert [np.subtract(a.head, origin).round(9).tolist() for a in axes] == [[9.0, 0.0], [0.0, 9.0]]
+    drawn = {a.of: a for a in scene.arrows() if a.of}
+    force, moment = np.array([45.0, 20.0]), 0.5 * 40 - 0.2 * 30 - 7
+    foot = moment * np.array([-force[1], force[0]]) / (force @ force)
+    known = {"F1": ([0.5, 0.2], [30, 40]), "F2": ([0, 0], [15, -20]), "R": (foot, force)}
+    assert set(drawn) == set(known)
+    for name, (at, vector) in known.items():
+        a = drawn[name]
+        start = np.subtract(a.tail, origin) * scene.scales["length"]
+        if name == "R":  # somewhere on its line
+            assert np.cross([*start, 0.0], [*force, 0.0])[2] == pytest.approx(moment)
+        else:
+            assert start == pytest.approx(np.array(at), abs=1e-9)
+        assert np.subtract(a.head, a.tail) * scene.scales["force"] == pytest.approx(np.array(vector))
+        assert (a.value, a.kind) == (pytest.approx(float(np.hypot(*vector))), "force")
+    (turn,) = (i for i in scene.items if isinstance(i, Arc))
+    assert (turn.of, turn.value, turn.end < turn.start) == ("M1", -7.0, True)
+    texts = {t.text for t in scene.texts()}
+    labels = {"F_{1} = 50.00 N", "F_{2} = 25.00 N", "R = 49.24 N", "M_{1} = −7.000 N·m"}
+    assert labels - texts <= {"M_{1} = −7.000 N·m"}
+    assert "The system is a single force: R = (45.00, 20.00) N, 49.24 N ∠ 23.96°." in texts
+    other = force_system_scene(da.wrench.System(*SYSTEM.parts[:1], da.wrench.Couple(9.0)))
+    (turn,) = (i for i in other.items if isinstance(i, Arc))
+    assert turn.end > turn.start
+
+
+def test_a_force_system_in_space_arrow_by_arrow() -> None:
+    """Through its camera; the way to each head along x, y and z; a wrench's couple along its force."""
+    parts = {"F1": ([0.5, 0.2, 0.1], [30, 40, -5]), "F2": ([0, 0.4, 0.3], [10, 0, 25])}
+    s = da.wrench.System(
+        *(da.wrench.Force(v, at=at) for at, v in parts.values()), da.wrench.Couple([1, 2, 3.0]), title="s"
+    )
+    camera = Camera()
+    scene = force_system_scene(s, None, camera)
+    axes = [a for a in scene.arrows() if a.role == "axis-arrow"]
+    origin = np.array(axes[0].tail)
+    for axis, a in zip(np.eye(3), axes, strict=True):
+        assert np.subtract(a.head, origin) == pytest.approx(9 * camera(axis))
+    drawn = {a.of: a for a in scene.arrows() if a.of}
+    for name, (at, vector) in parts.items():
+        a = drawn[name]
+        tail, way = np.array(a.tail), np.array(vector, float) / scene.scales["force-seen"]
+        seen = (tail - origin) * scene.scales["length"]
+        assert seen == pytest.approx(camera(np.array(at)), abs=1e-9)
+        assert np.subtract(a.head, tail) == pytest.approx(camera(way))
+        assert (a.value, a.kind) == (pytest.approx(a.length * scene.scales["force-seen"]), "force-seen")
+        corners = [tail + camera(way * (np.arange(3) < k)) for k in range(4)]
+        corners = [p for k, p in enumerate(corners) if not k or math.dist(p, corners[k - 1]) > 0.05]
+        boxes = [i.points for i in scene.items if isinstance(i, Line) and i.role == "construction"]
+        assert any(np.shape(b) == np.shape(corners) and np.allclose(b, corners) for b in boxes)
+    total = np.sum([v for _, v in parts.values()], axis=0)
+    assert np.subtract(drawn["R"].head, drawn["R"].tail) * scene.scales["force-seen"] == pytest.approx(
+        camera(total)
+    )
+    couple = np.subtract(drawn["M1"].head, drawn["M1"].tail)
+    assert couple / np.hypot(*couple) == pytest.approx(
+        camera(np.array([1, 2, 3.0])) / np.hypot(*camera(np.array([1, 2, 3.0])))
+    )
+    assert drawn["M1"].kind == "moment-seen"
+
+
+@pytest.mark.parametrize("link", ["crank", "coupler", "rocker"])
+def test_a_free_body_in_the_plane_arrow_by_arrow(link: str) -> None:
+    """Every force from its place or up to it, as far as it is large, with its number."""
+    r = da.dynamics(da.load(examples()["four_bar"]))
+    scene = da.draw.free_body(r, link)
+    known = {(a.of, a.kind): a for a in actions(r) if a.link == link and np.hypot(*a.force[0]) > 0}
+    roles = {"joint": "joint-force"}
+    places: dict[Any, Any] = {}
+    for (of, kind), a in known.items():
+        (arrow,) = (
+            x for x in scene.arrows() if (x.of, x.role, x.kind) == (of, roles.get(kind, kind), "force")
+        )
+        assert np.subtract(arrow.head, arrow.tail) * scene.scales["force"] == pytest.approx(a.force[0])
+        assert arrow.value == pytest.approx(float(np.hypot(*a.force[0])))
+        places[of, kind] = [
+            np.array(end) * scene.scales["length"] - a.at[0] for end in (arrow.tail, arrow.head)
+        ]
+    assert len(places) >= 3
+    for start in next(
+        iter(places.values())
+    ):  # one of the first arrow's ends is its place, and so of all others
+        if all(min(np.abs(end - start).max() for end in ends) < 1e-9 for ends in places.values()):
+            break
+    else:
+        raise AssertionError(places)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        *((999999.0, "999999"), (9999400.0, "9999400"), (9999500.0, "1.000e+07"), (1.0e7, "1.000e+07")),
+        *((1e6, "1000000"), (-1e-4, "−0.0001000"), (9.9999e-5, "0.0001000"), (9.9e-5, "9.900e−05")),
+        *((0.0, "0"), (-0.0, "0"), (float("nan"), "-"), (1234.56, "1235"), (-12.3456, "−12.35")),
+    ],
+)
+def test_a_number_for_show_from_both_sides_of_its_limits(value: float, text: str) -> None:
+    assert Notation().number(value) == text
+
+
+def test_a_drawing_as_dxf_item_by_item(tmp_path: Any) -> None:
+    ezdxf = pytest.importorskip("ezdxf")
+    items = (
+        Line(((0.0, 0.0), (3.0, 4.0), (5.0, 4.0)), "link"),
+        Polygon(((0.0, 0.0), (1.0, 0.0), (0.0, 2.0)), "block"),
+        Circle((2.0, 1.0), 0.7, "mark"),
+        Arc((1.0, 1.0), 2.0, math.pi / 2, 0.25, "load"),
+        Text((4.0, 5.0), "F_{12} = 3 N", 2.8, "note", "end"),
+        Arrow((0.0, 0.0), (10.0, 0.0), "effort"),
+    )
+    Scene(items).save(tmp_path / "a.dxf")
+    space = list(ezdxf.readfile(tmp_path / "a.dxf").modelspace())
+    line, polygon, circle, arc, text, shaft, head = space
+    assert [e.dxf.layer for e in space] == ["link", "block", "mark", "load", "note", "effort", "effort"]
+    for e, item, closed in ((line, items[0], False), (polygon, items[1], True)):
+        assert ([p[:2] for p in e.get_points()], e.closed) == (list(item.points), closed)  # type: ignore[union-attr]
+    assert (tuple(circle.dxf.center)[:2], circle.dxf.radius) == ((2.0, 1.0), 0.7)
+    assert (arc.dxf.start_angle, arc.dxf.end_angle) == pytest.approx((math.degrees(0.25), 90.0))
+    assert (tuple(arc.dxf.center)[:2], arc.dxf.radius) == ((1.0, 1.0), 2.0)
+    assert (text.dxf.text, text.dxf.height) == ("F_12 = 3 N", pytest.approx(2.1))
+    assert tuple(text.get_placement()[1])[:2] == (4.0, 5.0)
+    assert text.get_placement()[0].name == "MIDDLE_RIGHT"
+    assert tuple(shaft.dxf.start)[:2] == (0.0, 0.0)
+    assert max(v[0] for v in head.vertices()) == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("on", ["piston", "ground"])
+def test_a_guide_in_the_plane_arrow_by_arrow(on: str) -> None:
+    """On the block faces push inwards: normal force, friction and reaction end where the face bears, to scale."""
+    r = da.statics(engine(mu=0.2))
+    joint = next(j for j in r.joints if not r.mechanism.joints[j].hinge)
+    scene = guide_detail(r, joint, 0, Shown(r, Notation(), 0), on)
+    sign = 1.0 if on == r.mechanism.joints[joint].links[1] else -1.0
+    per_mm = scene.scales[f"force at {joint}"]
+    faces = faces_of(r, joint, 0)
+    assert not any("turned into the paper" in t.text for t in scene.texts())
+    arrows = {role: [a for a in scene.arrows() if a.role == role] for role in ("effort", "friction")}
+    for face, normal, rub in zip(faces, arrows["effort"], arrows["friction"], strict=True):
+        for arrow, vector in ((normal, face.normal[0]), (rub, face.friction[0])):
+            assert np.subtract(arrow.head, arrow.tail) * per_mm == pytest.approx(sign * vector)
+            assert arrow.value == pytest.approx(float(np.hypot(*vector)))
+        assert rub.head == pytest.approx(normal.tail)
+        assert np.dot(normal.head, face.normal[0]) < 0, "the face that bears is behind the push on the block"
+    total = sum(sign * (f.normal[0] + f.friction[0]) for f in faces)
+    assert total == pytest.approx(r.reaction(joint, on=on)[0])

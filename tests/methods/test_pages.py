@@ -10,8 +10,8 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
-from dalembert.views.paper.pages import MARGIN, PAPERS, break_pages
-from dalembert.views.paper.scene import Scene, Text
+from dalembert.views.paper.pages import MARGIN, PAPERS, _panels, break_pages, room
+from dalembert.views.paper.scene import Group, Line, Scene, Text
 from tests.tiers import tiers
 
 AT_REST = "seed-002-7d-engine-at-rest"
@@ -64,3 +64,21 @@ def test_friction_alone() -> None:
     assert all(title in said for title in ("Pin O: friction circle", "Joint guide: angle of friction"))
     with pytest.raises(da.ModelError, match="this mechanism has no friction to draw"):
         da.draw.friction(da.solve(da.load(examples()["four_bar"])))
+
+
+@pytest.mark.parametrize(
+    ("size", "whole"),
+    [
+        *(((186.0, 253.0), True), ((186.1, 253.0), False), ((186.0, 253.1), False)),
+        *(((273.0, 166.0), True), ((273.1, 166.0), False), ((273.0, 166.1), False)),
+    ],
+)
+def test_a_stack_stays_whole_where_it_has_room_upright_or_along(
+    size: tuple[float, float], whole: bool
+) -> None:
+    """On A4 without its margins and a heading; else its drawings are taken one by one."""
+    width, height = size
+    inner = [Group((Line(((0.0, y), (width, y))),), f"{y}") for y in (0.0, height)]
+    scene = Scene((Group(tuple(inner), "stack"), Group((Line(((0.0, 0.0), (9.0, 9.0))),), "last")))
+    names = [p.title for p in _panels(scene, *room("a4"))]
+    assert names == (["stack", "last"] if whole else ["0.0", f"{height}", "last"])

@@ -16,7 +16,7 @@ from dalembert.reports.sections.given import knowns
 from dalembert.reports.sheet import Sheet
 from dalembert.reports.writers.plain_writer import plain_text
 from dalembert.views.notation import Shown
-from dalembert.views.stated import as_given
+from dalembert.views.stated import as_given, drive_text, given_lines
 from tests.tiers import tiers
 
 FRICTION = "seed-002-7a-engine-friction-circles"
@@ -87,3 +87,57 @@ def test_the_command_refuses_another_view(tmp_path: Path, capsys: pytest.Capture
     assert "80 lbf" in Path(out).read_text(encoding="utf-8")
     assert main(["draw", file, "--question", "--view", "motion", "-o", f"{tmp_path}/m.svg"]) == 2
     assert "--question draws the mechanism, and not motion" in capsys.readouterr().err
+
+
+ROUGH = """
+friction: {coefficient: 0.11}
+gravity: [0, -9.8]
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}, mass: 1.2, center: [0.05, 0], inertia: 0.01}
+  rod: {points: {A: [0, 0], B: [0.3, 0]}}
+  block: {points: {B: [0, 0]}, mass: 3}
+joints:
+  O: {type: pin, links: [ground, crank], friction: {radius: 0.012}}
+  A: {type: pin, links: [crank, rod], friction: {radius: 0.017, coefficient: 0.07, static: 0.09}}
+  B: {type: pin, links: [rod, block]}
+  F:
+    {type: slider, links: [ground, block], at: [O, B], direction: 11 deg,
+     friction: {coefficient: 0.13, guide: [0.41, 0.33], half_height: 0.026}}
+drives: {O: {position: 50 deg, speed: 3.1 rad/s, acceleration: -2 rad/s^2}}
+loads:
+  P: {type: force, on: block, at: B, value: [-30, -40]}
+  M: {type: couple, on: rod, value: -2.5}
+  s: {type: spring, between: [crank.A, block.B], stiffness: 410, free_length: 0.173}
+  t: {type: torsion_damper, joint: B, damping: 0.4}
+assembly: {rod: -30}
+"""
+
+
+def test_a_question_states_every_number_that_is_given() -> None:
+    """A line a part; friction as it was given, and only where it is on."""
+    m = da.loads(ROUGH)
+    joints = [
+        "Joint O: pin; μ = 0.11, R = 0.012 m.",
+        "Joint A: pin; μ = 0.07, at rest 0.09, R = 0.017 m.",
+        "Joint F: slider, along 11°; μ = 0.13, half height = 0.026 m, guide 0.41 m behind and 0.33 m ahead.",
+    ]
+    links = [
+        "2 crank, own axes, in m: O (0, 0); A (0.1, 0); mass 1.2 kg, centre (0.05, 0); inertia 0.01 kg·m².",
+        "3 rod, own axes, in m: A (0, 0); B (0.3, 0).",
+        "4 block, own axes, in m: B (0, 0); mass 3 kg, centre (0, 0).",
+        "1 ground, own axes, in m: O (0, 0).",
+    ]
+    loads = [
+        "P: 50 N ∠ −126.87° on 4 block at B.",
+        "M: −2.5 N·m on 3 rod.",
+        "s: stiffness 410 N/m, free length 0.173 m, between crank.A and block.B.",
+        "t: damping 0.4 N·m·s, in B.",
+        "Gravity 9.8 m/s² ∠ −90°.",
+    ]
+    rough, smooth = (
+        Shown(da.dynamics(m.with_values({"friction.enabled": on})), as_given(None)) for on in (True, False)
+    )
+    assert given_lines(rough, 0) == [*links, *joints, *loads]
+    assert given_lines(smooth, 0) == [*links, "Joint F: slider, along 11°.", *loads]
+    assert drive_text(rough, 0, "O") == "50°, 3.1 rad/s, −2 rad/s²"

@@ -234,7 +234,7 @@ def test_a_lone_quote_is_a_letter() -> None:
 
 def without_units(text: str) -> list[str]:
     """Words as with small units, without what rounding leaves."""
-    text = re.sub(r"gravity \[.*?\]", "gravity", " ".join(text.split()))
+    text = re.sub(r"gravity \[.*?\]( m/s2 \([^)]*\))?", "gravity", " ".join(text.split()))
     text = re.sub(r"balance: 0|\d(\.\d)?e-\d\d", "rest", text).replace("balance: rest", "rest")
     return text.replace("km", "mm").replace("kN", "mN").split()
 

@@ -11,21 +11,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from dalembert import dynamics
 from dalembert.errors import ModelError
 from dalembert.model import Expression, loads
 from dalembert.model.part import Reading
-from dalembert.model.quantities.expressions import (
+from dalembert.model.quantities.expression_trees import (
     ARGUMENTS,
-    CONSTANTS,
     Apply,
     Name,
     Number,
     Tree,
     evaluate,
     expression_text,
-    parse_expression,
 )
-from dalembert.model.quantities.varying import varying
+from dalembert.model.quantities.expressions import CONSTANTS, parse_expression
+from dalembert.model.quantities.parameters import read_parameters
+from dalembert.model.quantities.varying import value_at, varying, varying_tree
 from dalembert.units import Units
 
 VALUES = {
@@ -45,6 +46,9 @@ VALUES = {
     "pi*1e-3": math.pi / 1000,
     "\u22122*O2": -1.4,
     "θ + slide_2": 5.0,
+    "max(1, O2, 2.5, 2) - min(O2, 3, 0.5)": 2.0,
+    "3*(O2 > 0.7) + 5*(O2 >= 0.7) + 7*(O2 < 0.7) + 11*(O2 <= 0.7)": 16.0,
+    "(2*O2 > 1)*(1 < O2 + 1)": 1.0,
 }
 
 
@@ -78,6 +82,134 @@ def test_no_drive_has_a_name_that_expressions_know_but_links_joints_and_loads_ma
     assert loads(f"{named}O: {drive}}}}}").loads[name].moment({"O": 1.0}) == pytest.approx(2 * math.pi)  # type: ignore[union-attr]
     with pytest.raises(ModelError, match=f"drive '{name}' has the name of a"):
         loads(f"{named}{name}: {drive}}}}}")
+
+
+KILONEWTONS = Reading(Units(force="kN"), freedoms={"O": "turn", "S": "slide", "t": "turn"})
+AT = {"O": 0.5, "S": 0.1, "t": 2.0, "time": 0.01}
+LBF = 4.4482216152605
+
+WITH_UNITS = {
+    "800 lbf*sin(2*O)": 800 * LBF * math.sin(1.0),
+    "sin(O)*(40 N + 2 N)": 42 * math.sin(0.5),
+    "-20 N/mm^2*1963 mm^2": -39260.0,
+    "50 N*sin(20*time)": 50 * math.sin(0.2),
+    "50 N*sin(20*time + 1)": 50 * math.sin(1.2),
+    "50*sin(time/(0.05 s))": 50e3 * math.sin(0.2),
+    "40 N*min(O, 2, 3)": 20.0,
+    "max(1 N, 2 N, 60 N*O)": 30.0,
+    "40 N/m*S": 4.0,
+    "40 N*(S > 99 mm)": 40.0,
+    "40 N*(S > 101 mm)": 0.0,
+    "3 N*2*t": 12.0,
+    "2*sin(O) N": 2 * math.sin(0.5),  # as ever: one unit behind it all
+    "2*sin(O) + 3 N": 2 * math.sin(0.5) + 3,
+    "2*sin(O) + 3": 1e3 * (2 * math.sin(0.5) + 3),
+}
+
+
+@pytest.mark.parametrize("text", WITH_UNITS)
+def test_any_number_may_have_a_unit(text: str) -> None:
+    found = varying(text, "force", KILONEWTONS)
+    assert value_at(found, AT) == pytest.approx(WITH_UNITS[text], rel=1e-14)
+    if isinstance(found, Expression):
+        again = varying(varying_tree(found, "force"), "force", KILONEWTONS)
+        assert value_at(again, AT) == value_at(found, AT)
+
+
+PARTLY = {
+    "40 N*S": "'40 N*S' is a moment, and a force is needed; check it, and the units of its parameters",
+    "40 N*(S > 90)": "'(S > 90)' cannot be: S is a length, and 90 is a plain number; only quantities of one kind "
+    "are compared",
+    "40 N*sin(O) + 2": "'40 N*sin(O) + 2' cannot be: 40 N*sin(O) is a force, and 2 is a plain number; only quantities "
+    "of one kind are added",
+    "40 N*sin(2*O": "'40 N*sin(2*O': the bracket '(' at column 9 is never closed; write ')' where it ends",
+    "2*(O": "'2*(O': the bracket '(' at column 3 is never closed; write ')' where it ends",
+    "40 N*(3 sin(O))": "'40 N*(3 sin(O))' has a number beside 'sin'; write 3*sin(...)",
+    "1 1/2 kN": "'1 1/2 kN' is not one number; write a decimal: 1.5 in for 1 1/2 in",
+}
+
+
+@pytest.mark.parametrize("text", PARTLY)
+def test_why_an_expression_with_units_is_refused(text: str) -> None:
+    with pytest.raises(ModelError) as caught:
+        varying(text, "force", KILONEWTONS)
+    assert str(caught.value) == PARTLY[text]
+
+
+def test_an_expression_with_its_unit_as_a_key_sees_parameters_and_units() -> None:
+    inches = Units(length="in", force="lbf")
+    parameters = read_parameters({"cut": 50, "r": "3 in"}, inches, {})
+    rules = Reading(inches, freedoms={"O": "turn"}, parameters=parameters)
+    found = varying({"expression": "cut*(1+sign(r - 12 in*sin(O)))/2", "unit": "N"}, "force", rules)
+    assert [float(value_at(found, {"O": angle})) for angle in (0.25, 0.26)] == pytest.approx([50, 0])
+    with pytest.raises(ModelError, match="'in' is a length, and a force is needed"):
+        varying({"expression": "cut*sin(O)", "unit": "in"}, "force", rules)
+
+
+def test_a_copy_of_a_load_with_units_turns_as_that_of_one_without() -> None:
+    text = """
+dalembert: 1
+links: {ground: {points: {O: [0, 0], Q: [1, 0]}}, crank: {points: {O: [0, 0], A: [0.1, 0]}, mass: 1}}
+joints: {O: {type: pin, links: [ground, crank]}}
+drives: {O: {position: 20 deg}}
+loads: {F: {type: force, on: crank, at: A, value: [VALUE, 0]}}
+copies: [{of: [crank], phase: {ground: [0, 60]}}]
+"""
+    with_units, without = (
+        loads(text.replace("VALUE", value)) for value in ("40 N*sin(2*O) + 3 N", "40*sin(2*O) + 3")
+    )
+    drives = {"O": 0.3, "O_2": 0.4}
+    for name in without.loads:
+        forces = [m.loads[name].force(drives) for m in (with_units, without)]  # type: ignore[union-attr]
+        assert forces[0] == pytest.approx(forces[1], rel=1e-14)
+
+
+SHORT = {
+    "2*slide.B": "2*joints.B.slide",
+    "40 N*turn.A": "40 N*joints.A.turn",
+    "sin(angle.rod) - drive.O": "sin(links.rod.angle) - O",
+    "{against: slide.B, x: [0 m, 1 m], y: [0, 5]}": "{against: joints.B.slide, x: [0 m, 1 m], y: [0, 5]}",
+    "{against: angle.rod, x: [-90, 90], y: [0, 5]}": "{against: links.rod.angle, x: [-90, 90], y: [0, 5]}",
+}
+SLIDER_CRANK = """
+units: {length: m, angle: deg}
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.05, 0]}, mass: 2}
+  rod: {points: {A: [0, 0], B: [0.2, 0]}, mass: 0.5}
+  piston: {points: {B: [0, 0]}, mass: 0.8}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  C: {type: pin, links: [rod, piston], at: B}
+  B: {type: slider, links: [ground, piston], at: [O, B], direction: 0}
+drives: {O: {position: {from: 0, to: 360, count: 6}, speed: 9 rad/s}}
+loads: {F: {type: force, on: piston, at: B, direction: 180, value: VALUE}}
+COPIES
+"""
+
+
+@pytest.mark.parametrize(
+    "copies", ["", "copies: [{of: [rod, piston], phase: {crank: [0, 90], ground: [0, 90]}}]"]
+)
+@pytest.mark.parametrize("short", SHORT)
+def test_a_load_may_use_the_names_of_quantities(short: str, copies: str) -> None:
+    text = SLIDER_CRANK.replace("COPIES", copies)
+    brief, full = (dynamics(loads(text.replace("VALUE", value))) for value in (short, SHORT[short]))
+    assert np.isfinite(full.effort("O")).all()
+    assert brief.effort("O") == pytest.approx(full.effort("O"), rel=1e-12, abs=1e-12)
+    none = dynamics(loads(text.replace("VALUE", "0"))).effort("O")
+    assert np.abs(full.effort("O") - none).max() > 1e-3
+
+
+@pytest.mark.parametrize("name", ["slide.B.speed", "joints.B.slide.speed", "angle.rod.speed"])
+def test_a_load_by_the_speed_of_a_joint_or_link_is_refused_by_name(name: str) -> None:
+    with pytest.raises(ModelError) as caught:
+        loads(SLIDER_CRANK.replace("COPIES", "").replace("VALUE", f"50*sign({name})"))
+    assert str(caught.value).endswith(
+        f"'50*sign({name})' uses {name!r}, and a load cannot depend on the speed of a link or a joint; "
+        "use a damper, or the effort of a drive and its speed"
+    )
 
 
 def test_over_arrays_of_any_shape() -> None:
@@ -188,7 +320,8 @@ def test_the_grammar_is_named() -> None:
         Expression("O2.real")
     assert str(caught.value) == (
         "'O2.real' ends with '.real', which has no place there; an expression is made of numbers, names of drives "
-        "and parameters, pi, + - * / ^, brackets and sin cos tan asin acos atan atan2 sqrt exp log abs sign min max"
+        "and parameters, pi, + - * / ^, brackets, comparisons in brackets and sin cos tan asin acos atan atan2 sqrt "
+        "exp log abs sign min max"
     )
 
 

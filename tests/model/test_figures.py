@@ -10,7 +10,7 @@ import pytest
 import dalembert as da
 from dalembert.errors import ModelError
 from dalembert.model import loads
-from dalembert.model.quantities.expressions import Number, expression_text
+from dalembert.model.quantities.expression_trees import Number, expression_text
 from dalembert.model.quantities.figures import (
     own_polar,
     plain,

@@ -144,7 +144,7 @@ WRONG = {
     "q: 2 kg|mass: rho*r": "engine.yaml:5: nothing uses the parameter 'q'; use it in a quantity, or leave it out",
     "q: 2|mass: rh*r": "engine.yaml:16: mass of link 'crank': 'rh*r' uses 'rh', which is no parameter; did you mean "
     "'rho'?",
-    "q: 2|mass: 2 q": "engine.yaml:16: mass of link 'crank': '2 q' has a number beside the parameter 'q'; write 2*q",
+    "q: 2|mass: 2 q": "engine.yaml:16: mass of link 'crank': '2 q' has a number beside 'q'; write 2*q",
     "q: 1/0|mass: q": "engine.yaml:5: parameter 'q': the expression '1/0' has no finite value anywhere; change it, or "
     "what it follows from",
     "q: {value: 3 kg, ranges: 2}|mass: q": "engine.yaml:5: parameter 'q': there is no key 'ranges'; did you "

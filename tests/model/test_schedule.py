@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
+import dalembert as da
+from dalembert.bundled import examples
 from dalembert.errors import ModelError
 from dalembert.model import Drive, Mechanism, loads
 from dalembert.model.drives.schedule import schedule
@@ -197,3 +200,72 @@ def test_an_unknown_position() -> None:
 )  # fmt: skip
 def test_has_speeds(drive: str, moves: bool) -> None:
     assert two(drive, "position: 1").has_speeds is moves
+
+
+# positions of a call: a count, or values of the drives
+
+
+FIVE = da.five_bar()
+SHIFTED = np.array([[0.1, 2.0], [0.2, 2.1], [0.3, 2.2]]) + FIVE.schedule().position[0] - [0.1, 2.0]
+
+
+def test_values_of_the_drives_are_positions() -> None:
+    m = da.four_bar()
+    full, r = da.dynamics(m, 36), da.dynamics(m, positions=da.four_bar().schedule(36).position[:, 0])
+    assert r["drive.O2"] == pytest.approx(full["drive.O2"], abs=0)
+    assert r["effort.O2"] == pytest.approx(full["effort.O2"], rel=1e-12)
+    for given in (SHIFTED, SHIFTED.tolist(), SHIFTED.ravel()):
+        assert (da.statics(FIVE, given).schedule.position == SHIFTED).all()
+    assert len(da.statics(m, np.int64(5))) == 5
+    assert da.sweep(m, "links.coupler.mass", [1.0], positions=[0.1, 0.2])["effort.O2"].shape == (1, 2)
+    best = da.optimize(
+        m, {"links.coupler.mass": (0.5, 2)}, "peak effort.O2", positions=[0.1, 0.2, 0.3], starts=2
+    )
+    assert best.after["drive.O2"].tolist() == best.before["drive.O2"].tolist() == [0.1, 0.2, 0.3]
+    assert best.value == pytest.approx(best.after.peak("effort.O2").value)
+
+
+def test_values_do_not_replace_a_law_or_an_unknown() -> None:
+    with pytest.raises(
+        ModelError, match="drive 'cylinder' follows a law, which gives its positions; leave positions"
+    ):
+        da.dynamics(examples()["bucket"], positions=[0.8])
+    with pytest.raises(ModelError, match="drive 'A' has its position computed; leave positions out"):
+        two("position: unknown, effort: 3", "position: 1").schedule([[0.1, 0.2]])
+
+
+def test_a_number_of_positions_is_one_in_a_kernel_too() -> None:
+    m = da.four_bar()
+    k = da.compile(m, ["links.coupler.mass"], ["effort.O2"])
+    assert k(positions=12)["effort.O2"][0] == pytest.approx(da.dynamics(m, 12)["effort.O2"], rel=1e-9)
+    assert k(positions=[0.1, 0.2])["effort.O2"][0] == pytest.approx(da.dynamics(m, [0.1, 0.2])["effort.O2"])
+    with pytest.raises(da.ModelError, match=r"positions=72\.0 is not a whole number"):
+        k(positions=72.0)
+    with pytest.raises(da.ModelError, match=r"positions of shape \(\)"):
+        k(positions=np.array(72.0))
+
+
+@pytest.mark.parametrize(
+    ("model", "positions", "says"),
+    [
+        (FIVE, 72.0, "positions=72.0 is not a whole number; give a number of positions, or a list of values"),
+        (FIVE, True, "positions=True is not a whole number; give a number of positions, or a list of values"),
+        (FIVE, [0.1, 0.2, 0.3], "positions of shape (3,) do not fit 2 drive(s); give (position, drive)"),
+        (FIVE, [[0.1], [0.2]], "positions of shape (2, 1) do not fit 2 drive(s); give (position, drive)"),
+        (FIVE, [], "positions of shape (0,) do not fit 2 drive(s); give (position, drive)"),
+        (
+            FIVE,
+            [[0.1, np.nan]],
+            "positions are not finite; give a list of numbers, one for each position and drive",
+        ),
+        (
+            FIVE,
+            "ab",
+            "positions are 'ab', not numbers; give a list of numbers, one for each position and drive",
+        ),
+    ],
+)
+def test_positions_that_are_none(model: da.Mechanism, positions: Any, says: str) -> None:
+    with pytest.raises(da.ModelError) as caught:
+        da.statics(model, positions)
+    assert str(caught.value) == says

@@ -50,7 +50,7 @@ def test_the_keys_are_those_of_the_file() -> None:
     assert SCHEMA["$defs"]["Pin"]["required"] == ["type", "links"]
     assert set(SCHEMA["$defs"]["Link"]["properties"]) == {
         "points", "mass", "weight", "center", "inertia", "place", "shape",
-        "mass_along", "members", "section",
+        "mass_along", "members", "section", "effective_length",
     }  # fmt: skip
 
 

@@ -14,6 +14,7 @@ import dalembert as da
 from dalembert.algebra import space
 from dalembert.errors import DalembertError, ModelError
 from dalembert.model import Box, Cylinder, Link, SlenderBar, Sphere, StlMesh, Tube, load
+from dalembert.model.links.sections import Section
 from dalembert.model.links.shapes import ShapePart
 from dalembert.model.links.stl_solids import MeshFile
 
@@ -255,3 +256,71 @@ def test_without_the_package_the_message_says_how_to_install_it(
         DalembertError, match=r"a mesh needs the package trimesh, .* pip install 'dalembert\[cad\]'"
     ):
         StlMesh(file=MeshFile("box.stl", str(tmp_path)), density=1)
+
+
+def walls(*parts: tuple[float, float, float, float]) -> tuple[float, float, float]:
+    """Area and second moments about y and z of rectangles from (z, y) to (z, y), by quadrature in 400 strips each."""
+    area = second_y = second_z = 0.0
+    for z0, y0, z1, y1 in parts:
+        z, y = (a + (b - a) * (np.arange(400) + 0.5) / 400 for a, b in ((z0, z1), (y0, y1)))
+        each = (z1 - z0) * (y1 - y0) / 400
+        area, second_y, second_z = (
+            area + 400 * each,
+            second_y + each * (z**2).sum(),
+            second_z + each * (y**2).sum(),
+        )
+    return area, second_y, second_z
+
+
+def test_sections_are_integrals_over_their_area() -> None:
+    """Second moments about both axes, the farthest fibres, the largest shear stress; tubes between two circles."""
+    I = ("80 mm", "50 mm", "5 mm", "8 mm")  # noqa: E741
+    sections = {
+        Section(rectangle=("20 mm", "40 mm")): (walls((-0.01, -0.02, 0.01, 0.02)), (0.02, 0.01)),
+        Section(I=I): (
+            walls(
+                (-0.025, 0.032, 0.025, 0.04), (-0.025, -0.04, 0.025, -0.032), (-0.0025, -0.032, 0.0025, 0.032)
+            ),
+            (0.04, 0.025),
+        ),
+    }
+    for section, ((area, about_y, about_z), reach) in sections.items():
+        assert section.area_of == pytest.approx(area)
+        assert section.second_moments == pytest.approx((about_y, about_z), rel=1e-5)
+        assert section.reach == pytest.approx(reach)
+        assert not section.round
+    assert Section(rectangle=("20 mm", "40 mm")).shear == pytest.approx((1.5 / 8e-4,) * 2)
+    assert Section(I=I).shear == pytest.approx((1 / (0.005 * 0.064), 0.75 / (0.05 * 0.008)))
+    for long, exact in (
+        (1.0, 0.2082),
+        (2.0, 0.2459),
+        (10.0, 0.3123),
+    ):  # Timoshenko; Roark's polynomial is within 0.2 %
+        bar = Section(rectangle=(f"{10 * long} mm", "10 mm"))
+        assert bar.torsion == pytest.approx(exact * long * 1e-6, rel=2e-3)
+    r = np.linspace(0.012, 0.02, 4001)
+    middle = (r[1:] + r[:-1]) / 2
+    ring, full = Section(tube=("24 mm", "40 mm")), Section(circle="40 mm")
+    second = float((np.pi * middle**3 * np.diff(r)).sum())
+    assert ring.second_moments == pytest.approx((second, second), rel=1e-6)
+    assert (ring.reach, full.reach, ring.round, full.round) == ((0.02, 0.02), (0.02, 0.02), True, True)
+    assert ring.torsion == pytest.approx(2 * second / 0.02, rel=1e-6)
+    assert full.shear == pytest.approx((4 / 3 / (np.pi * 4e-4),) * 2)
+    moment = 2 / 3 * (0.02**3 - 0.012**3)  # of the half above the axis
+    assert ring.shear == pytest.approx((moment / (second * 2 * 0.008),) * 2, rel=1e-6)
+    given = Section(area="1 cm^2", modulus="2 cm^3", inertia="3 cm^4")
+    found = (given.area_of, *given.second_moments, *given.reach, *given.shear)
+    assert found == pytest.approx((1e-4, 3e-8, 3e-8, 0.015, 0.015, 15000.0, 15000.0))
+    given_twice = {"rectangle": ("1 m", "2 m"), "circle": "1 m"}
+    for keys, said in (
+        ({}, "the section has no size"),
+        (given_twice, "rectangle and circle give it twice"),
+        ({"area": "1 m^2", "inertia": "1 m^4"}, "the section has no modulus"),
+        ({"tube": ("2 m", "2 m")}, "the inner diameter is not smaller"),
+        ({"I": ("2 m", "1 m", "1 m", "0.1 m")}, "web and flanges do not fit"),
+        ({"I": ("2 m", "1 m", "0.1 m", "1 m")}, "web and flanges do not fit"),
+    ):
+        with pytest.raises(da.ModelError, match=said):
+            Section(**keys)
+    assert Section(tube=("1.99 m", "2 m")).area_of > 0
+    assert Section(I=("2 m", "1 m", "0.99 m", "0.99 m")).area_of > 0

@@ -90,3 +90,26 @@ def test_periodic_true_is_the_whole_turns_a_table_goes_over(x: str, turns: int) 
     table = with_table(f"x: [{x}], y: [1, 1], periodic: true").loads["F_P"].value  # type: ignore[union-attr]
     assert isinstance(table, Table)
     assert table.period == pytest.approx(2 * math.pi * turns)
+
+
+def test_a_periodic_table_ends_where_it_begins_by_its_largest_value() -> None:
+    """Rounding beside the largest value is none, also where another one is zero."""
+    text = FOUR_BAR.replace(
+        "value: 120}", "value: {against: O2, x: [0, 180, 360], y: [1000, 0, END], periodic: true}}"
+    )
+    for end, fits in (("1000.0000000001", True), ("1000.000002", False), ("999.999998", False)):
+        if fits:
+            loads(text.replace("END", end))
+            continue
+        with pytest.raises(ModelError, match="ends with another value than it begins with"):
+            loads(text.replace("END", end))
+
+
+def test_the_next_point_is_beyond_rounding_of_the_largest() -> None:
+    table = Table("time", (0.0, 1e6, 2e6), (0.0, 1.0, 0.0), along="time")
+    small = np.spacing(2e6)
+    for position, following in (
+        *((-5 * small, 0.0), (-3 * small, 1e6), (0.0, 1e6), (1e6 - 5 * small, 1e6), (1e6 - 3 * small, 2e6)),
+        *((2e6, math.inf), (-1.0, 0.0)),
+    ):
+        assert table.next_point(position) == following

@@ -154,8 +154,8 @@ def test_files_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     Path("engine.yaml").write_text("links: {}")
     (tmp_path / "folder.yaml").mkdir()
     for name, says in {
-        "engin.yaml": "engin.yaml:1: there is no file engin.yaml; did you mean 'engine.yaml'?",
-        "none/engine.yaml": "none/engine.yaml:1: there is no file none/engine.yaml; check the name and the folder",
+        "engin.yaml": "engin.yaml: file not found; did you mean 'engine.yaml'?",
+        "none/engine.yaml": "none/engine.yaml: file not found",
         "folder.yaml": "folder.yaml:1: folder.yaml is a directory; name a .yaml, .json or .toml file",
         "a\0b.yaml": "a\\x00b.yaml:1: the file 'a\\x00b.yaml' cannot be read: embedded null byte; "
         "check its name and permissions",

@@ -12,7 +12,8 @@ import pytest
 import dalembert as da
 from dalembert.analysis.output.summary.printed_units import scale_for
 from dalembert.bundled import cases, examples
-from dalembert.notebook.html_card import LARGEST_DRAWING, ROWS, card
+from dalembert.notebook import html_card, html_views
+from dalembert.notebook.html_card import COLUMNS, LARGEST_DRAWING, LETTERS, ROWS, card
 from dalembert.printing import Table
 from tests.tiers import tiers
 
@@ -125,6 +126,168 @@ def test_every_bundled_file_has_cards_and_all_its_names(name: str, tmp_path: Any
     r.to_xlsx(tmp_path / "r.xlsx")
 
 
+PRESS = """
+title: press
+source: own
+units: {length: mm, mass: g, force: kN}
+parameters: {r: {value: 40 mm, about: crank radius}, n: "2.5"}
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [r, 0]}, mass: 250 g, center: [10 mm, -2.5 mm], inertia: 1200 g*mm^2}
+  rod: {points: {A: [0, 0], B: [n*36 mm, 0]}}
+  ram: {points: {B: [0, 0]}, mass: 2 kg}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, ram]}
+  guide: {type: slider, links: [ground, ram], at: [O, B], direction: 0}
+drives: {stroke: {joint: guide, position: {from: 100, to: 120, count: 3}}}
+loads: {P: {type: force, on: ram, at: B, value: [-2, 0]}, brake: {type: couple, on: crank, value: unknown}}
+assembly: {rod: -20}
+"""
+
+
+def test_a_mechanisms_card_row_by_row() -> None:
+    shown = read(da.loads(PRESS))
+    assert shown.rows == [
+        ["parameter", "value", "what it is"],
+        ["r", "40 mm", "crank radius"],
+        ["n", "2.5", ""],
+        ["link", "massg", "centermm", "inertiag*mm^2", "points"],
+        ["ground", "0", "", "0", "O"],
+        ["crank", "250", "10, -2.5", "1200", "O, A"],
+        ["rod", "0", "", "0", "A, B"],
+        ["ram", "2000", "0, 0", "0", "B"],
+        ["joint", "type", "links"],
+        ["O", "pin", "ground, crank"],
+        ["A", "pin", "crank, rod"],
+        ["B", "pin", "rod, ram"],
+        ["guide", "slider", "ground, ram"],
+        ["drive", "of joint", "from", "to", "positions"],
+        ["stroke", "guide", "100 mm", "120 mm", "3"],
+        ["load", "type"],
+        ["P", "force"],
+        ["brake", "couple"],
+    ]
+    assert shown.text.startswith("press\nown\npress, stroke = 100.0 mm\n")
+    html = da.loads(PRESS)._repr_html_()
+    lefts = [row.count('class="da-left"') for row in re.findall("<tr>.*?</tr>", html, re.S)]
+    assert lefts == [3] * 3 + [1] * 5 + [3] * 5 + [2] * 5
+    space = read(da.load(examples()["rssr"])).rows
+    assert ["rod", "0.1106", "-20, 75, 45", "matrix", "A, B"] in space
+    assert ["ground", "0", "", "0", "O, C"] in space
+    plain = read(da.loads(re.sub("title.*\n|source.*\n|drives.*\n|loads.*\n", "", PRESS)))
+    assert plain.text.startswith("Mechanism\n")
+    assert [row[0] for row in plain.rows][-4:] == ["O", "A", "B", "guide"]
+
+
+def test_a_kernels_card_says_how_it_was_compiled() -> None:
+    weight, turn = "links.crank.weight", {"drives.O2.position": {"from": 0, "to": 90, "count": 4}}
+    static = {"static": True, "reduce": "peak"}
+    table: list[tuple[Any, dict[str, Any], str]] = [
+        (FOUR_BAR, {}, "positions: 1; with inertia; every position answered"),
+        (FOUR_BAR.with_values(turn), static, "positions: 4; static; reduced over them: peak"),
+        (
+            FOUR_BAR,
+            {"derivatives": True},
+            "positions: 1; with inertia; every position answered; exact derivatives",
+        ),
+    ]
+    for m, how, text in table:
+        shown = read(da.compile(m, vary=[weight], outputs=["effort.O2", "reaction.A"], lanes=2, **how))
+        said = f"{text}; 2 values side by side."
+        assert shown.text == f"Kernel of {FOUR_BAR.title}\n{said}\nOutputs: effort.O2, reaction.A.\n"
+        assert shown.rows == [["number", "as described, SI"], [weight, "6.67233"]]
+    assert read(da.compile(FOUR_BAR.with_values({"title": ""}))).text.startswith("Kernel of a mechanism\n")
+
+
+def test_a_force_systems_card_row_by_row() -> None:
+    force, couple = da.wrench.Force, da.wrench.Couple
+    parts = (force([30, 40], at=[0.5, 0.2]), couple(7.0), force([1.5, -2]))
+    plane = read(da.wrench.System(*parts, title="bracket", source="own"))
+    assert plane.rows == [
+        ["part", "F xN", "F yN", "at xm", "at ym", "MN*m"],
+        ["F1", "30", "40", "0.5", "0.2", ""],
+        ["M1", "", "", "", "", "7"],
+        ["F2", "1.5", "-2", "0", "0", ""],
+        ["sum at the origin", "31.5", "38", "0", "0", "21"],  # 0.5*40 - 0.2*30 + 7
+    ]
+    assert plane.text.startswith("bracket\nown\nIt reduces to: single force. Not in equilibrium: neither")
+    space = read(da.wrench.System(force([30, 40, -5], at=[0.5, 0.2, 0.1]), couple([1, 2, 3])))
+    assert space.rows == [
+        ["part", *(f"F {a}N" for a in "xyz"), *(f"at {a}m" for a in "xyz"), *(f"M {a}N*m" for a in "xyz")],
+        ["F1", "30", "40", "-5", "0.5", "0.2", "0.1", "", "", ""],
+        ["M1", *[""] * 6, "1", "2", "3"],
+        ["sum at the origin", "30", "40", "-5", "0", "0", "0", "-4", "7.5", "17"],
+    ]
+    assert space.text.startswith("Force system\nIt reduces to: wrench.")
+    sums = read(da.wrench.System(force([6e5, 0]), force([6e5, 0], at=[0, 1])))  # either alone in kN
+    assert (sums.rows[0][1], sums.rows[-1][1:]) == ("F xMN", ["1.2", "0", "0", "0", "-0.6"])
+    turning = read(da.wrench.System(couple(6e8), couple(6e8)))
+    assert (turning.rows[0][-1], turning.rows[-1][-1]) == ("MMN*m", "1200")
+
+
+def test_the_bounds_of_a_card_from_both_sides() -> None:
+    for rows, ends in ((ROWS, 0), (ROWS + 1, 4)):
+        shown = read(card("", Table(["n"], [[str(k)] for k in range(rows)], 0)))
+        found = [row[0] for row in shown.rows[1:]]
+        every = [str(k) for k in range(rows)]
+        assert found == (every if not ends else [*every[: ROWS - 5], "...", *every[-ends:]])
+    for columns, note in ((COLUMNS, ""), (COLUMNS + 3, "3 more columns. and\n")):
+        shown = read(card("", Table(["n"] * columns, [["1"] * columns], 0, "and" if note else "")))
+        assert ([len(row) for row in shown.rows], shown.text) == ([COLUMNS, COLUMNS], note)
+    for letters, cut in ((LETTERS, False), (LETTERS + 1, True)):
+        text = "x" * letters
+        kept = "x" * (LETTERS - 3) + "..." if cut else text
+        shown = read(card(text, text, Table(["n"], [[text]], 0)))
+        assert (shown.text, shown.rows[1]) == (f"{kept}\n{kept}\n", [kept])
+    assert read(card("a  b\n c", "")).text == "a b c\n"
+    html = card("", Table(["one\ntwo", "b"], [["x\ny", "2"]], 1))
+    assert '<th class="da-left">one<br>two</th><th>b</th>' in html
+    assert '<td class="da-left">x<br>y</td><td>2</td>' in html
+
+
+def test_what_is_too_large_is_not_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = lambda thing: "svg" in read(thing).names  # noqa: E731
+    few, links = da.dynamics(FOUR_BAR, positions=3), len(FOUR_BAR.links)
+    for most, limit in (("MOST_DRAWN", links), ("MOST_POSITIONS", 3)):
+        monkeypatch.setattr(html_views, most, limit)
+        assert drawn(few)
+        monkeypatch.setattr(html_views, most, limit - 1)
+        assert not drawn(few)
+        assert drawn(FOUR_BAR) == (most == "MOST_POSITIONS")
+        monkeypatch.undo()
+    scene = FOUR_BAR.draw()
+    monkeypatch.setattr(html_card, "LARGEST_DRAWING", len(scene.to_svg()))
+    assert "<svg" in card("", scene)
+    monkeypatch.setattr(html_card, "LARGEST_DRAWING", len(scene.to_svg()) - 1)
+    shown = read(card("", scene))
+    assert "svg" not in shown.names
+    assert shown.text == "The drawing is too large for this card: .draw() shows it.\n"
+
+
+def test_a_sweeps_card_row_by_row(monkeypatch: pytest.MonkeyPatch) -> None:
+    varied: dict[str, Any] = {"links.coupler.weight": ["5 lbf", "9 lbf"], "links.rocker.weight": [10.0, 20.0]}
+    s = da.sweep(FOUR_BAR, varied, positions=5, outputs=["effort.O2", "reaction.A", "rotation.rocker"])
+    shown = read(s)
+    assert shown.text == repr(s).strip("<>") + "\n"
+    assert shown.rows[0] == [*varied, "solved", "largest effort.O2lbf*in", "largest reaction.Albf"]
+    named = [(a, b) for a in varied["links.coupler.weight"] for b in ("10 N", "20 N")]
+    assert [row[:3] for row in shown.rows[1:]] == [[a, b, "5 of 5"] for a, b in named]
+    for row, (a, b) in zip(shown.rows[1:], named, strict=True):
+        r = da.dynamics(FOUR_BAR.with_values(dict(zip(varied, (a, b), strict=True))), positions=5)
+        peaks = np.abs(r.effort("O2")).max(), np.linalg.norm(r.reaction("A"), axis=1).max()
+        known = [peaks[0] / 0.1129848290276167, peaks[1] / 4.4482216152605]
+        assert [float(x) for x in row[3:]] == pytest.approx(known, rel=1e-5)
+    short = da.sweep(da.four_bar(), "links.coupler.points.B.0", [0.1, 0.11, 0.12], positions=8)
+    problems = [f"{status}: {which}: {sentence}" for which, status, sentence in short.problems()]
+    assert len(problems) == 3
+    for most in (3, 2):
+        monkeypatch.setattr(html_views, "MOST_SAID", most)
+        said = read(short).text.splitlines()[1:]
+        assert [line[:60] for line in said] == [line[:60] for line in problems[:most]]
+
+
 def test_large_numbers_have_the_prefix_of_the_printed_tables() -> None:
     """A force system and a sweep in MN, as a result of such forces is; a small force beside them asks for kN."""
     s = da.wrench.System(da.wrench.Force([8e6, 0], at=[0, 2]), da.wrench.Couple(2e5))
@@ -203,10 +366,10 @@ def test_curves_by_name_are_the_numbers_of_the_result() -> None:
     assert scene.numbers["effort.O2"] == pytest.approx(TURN.effort("O2") / 0.1129848290276167, rel=1e-9)
     labels = [t.text for t in scene.texts()]
     assert {"O2 in °", "Torque in lbf·in"} <= set(labels)
-    several = TURN.plot("effort.O2", "reaction.A", "magnitude.B")
+    several = TURN.plot("effort.O2", "reaction.A", "reaction.B.magnitude")
     assert [list(n) for n in several.numbers.values()] == [  # type: ignore[union-attr, call-overload]
         ["effort.O2"],
-        ["reaction.A.x", "reaction.A.y", "reaction.A.magnitude", "magnitude.B"],
+        ["reaction.A.x", "reaction.A.y", "reaction.A.magnitude", "reaction.B.magnitude"],
     ]
     assert TURN.plot().numbers == scene.numbers
     assert "angle.rocker in °" in [t.text for t in TURN.plot("effort.O2", against="angle.rocker").texts()]
@@ -221,11 +384,11 @@ def test_plots_on_axes_have_units_and_gaps() -> None:
     r = da.statics(gap, positions=60)
     assert 0 < r.ok.sum() < 60
     ax = Figure().subplots()
-    assert r.plot("magnitude.A", ax=ax) is ax
+    assert r.plot("reaction.A.magnitude", ax=ax) is ax
     (line,) = ax.lines
     drawn = np.asarray(line.get_ydata())
     assert (np.isnan(drawn) == ~r.ok).all()
-    assert drawn[r.ok] == pytest.approx(r["magnitude.A"][r.ok])
+    assert drawn[r.ok] == pytest.approx(r["reaction.A.magnitude"][r.ok])
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("O2 in °", "Force in N")
     flat, round_ = Figure().subplots(), Figure().subplots(subplot_kw={"projection": "polar"})
     assert r.polar("A", ax=flat) is flat
@@ -237,14 +400,62 @@ def test_plots_on_axes_have_units_and_gaps() -> None:
     with pytest.raises(
         da.ModelError, match="moment and force have no unit in common; give each axes of its own"
     ):
-        r.plot("effort.O2", "magnitude.A", ax=ax)
+        r.plot("effort.O2", "reaction.A.magnitude", ax=ax)
+
+
+def test_curves_have_their_values_labels_and_titles() -> None:
+    """On axes a curve is what the result answers, in the units of its labels; panels for each kind in a scene."""
+    from matplotlib.figure import Figure
+
+    lbf = 4.4482216152605
+    ax = Figure().subplots()
+    TURN.plot("reaction.A", "reaction.B.x", ax=ax)
+    assert [t.get_text() for t in ax.get_legend().texts] == [
+        *(f"reaction.A.{part}" for part in ("x", "y", "magnitude")),
+        "reaction.B.x",
+    ]
+    force = TURN.reaction("A") / lbf
+    known = [force[:, 0], force[:, 1], np.hypot(*force.T), TURN.reaction("B")[:, 0] / lbf]
+    for line, curve in zip(ax.lines, known, strict=True):
+        assert line.get_xdata() == pytest.approx(np.degrees(TURN.drive_position("O2")))
+        assert line.get_ydata() == pytest.approx(curve)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("O2 in °", "Force in lbf")
+    one = Figure().subplots()
+    TURN.plot("angle.rocker.speed", ax=one, against="angle.rocker")
+    assert one.get_legend() is None
+    assert one.lines[0].get_xdata() == pytest.approx(np.degrees(TURN["angle.rocker"]))
+    assert (one.get_xlabel(), one.get_ylabel()) == ("angle.rocker in °", "Angular speed in rad/s")
+    flat, round_ = Figure().subplots(), Figure().subplots(subplot_kw={"projection": "polar"})
+    for ax in (flat, round_):
+        assert [line.get_label() for line in TURN.polar(ax=ax).lines] == ["O2", "A", "B", "O4"]
+        assert [t.get_text() for t in ax.get_legend().texts] == ["O2", "A", "B", "O4"]
+    assert (flat.get_ylabel(), flat.get_aspect(), flat.get_title()) == ("Force y in lbf", 1.0, "")
+    assert (round_.get_title(), round_.get_xlabel()) == ("Force in lbf", "")
+    space = da.solve(da.load(examples()["rssr"]), positions=3)
+    ax = Figure().subplots()
+    space.plot("reaction.A", ax=ax)
+    assert [line.get_label() for line in ax.lines] == [
+        f"reaction.A.{p}" for p in ("x", "y", "z", "magnitude")
+    ]
+    assert ax.lines[-1].get_ydata() == pytest.approx(np.linalg.norm(space.reaction("A"), axis=1))
+    assert "reaction.A" in {t.text for t in space.plot("reaction.A").texts()}
+    wheel = Figure().subplots()
+    TURN.plot("effort.O2", ax=wheel, against="reaction.A.x")
+    assert wheel.lines[0].get_xdata() == pytest.approx(force[:, 0])
+    assert wheel.get_xlabel() == "reaction.A.x in lbf"
+    panels = TURN.plot("reaction.A", "reaction.B.x", "effort.O2")
+    assert panels.title == TURN.mechanism.title
+    assert {"reaction.A, reaction.B", "effort.O2", "Force in lbf"} <= {t.text for t in panels.texts()}
 
 
 @pytest.mark.parametrize(
     ("ask", "said"),
     [
         (lambda: TURN["efort.O2"], "there is no quantity 'efort.O2'; did you mean 'effort.O2'?"),
-        (lambda: TURN.plot("reaction.A.w"), "reaction.A has no component 'w'; choose among x, y, magnitude"),
+        (
+            lambda: TURN.plot("reaction.A.w"),
+            "reaction.A has no component 'w'; choose among x, y, magnitude, direction",
+        ),
         (lambda: TURN.plot("effort.O3"), "there is no quantity 'effort.O3'; did you mean 'effort.O2'?"),
         (lambda: TURN.polar("Aa"), "there is no joint 'Aa'; choose among O2, A, B, O4"),
         (

@@ -10,6 +10,8 @@ import pytest
 import dalembert as da
 from dalembert.analysis.batch import design_sweep
 from dalembert.bundled import cases, examples
+from dalembert.notebook import plots
+from dalembert.views.notation import Notation, Shown
 from tests.notebook.test_cards import read
 from tests.tiers import tiers
 
@@ -25,7 +27,7 @@ def test_each_design_is_its_own_analysis() -> None:
     for i, coupler in enumerate(grid[COUPLER]):
         for j, rocker in enumerate(grid[ROCKER]):
             r = da.dynamics(FOUR_BAR.with_values({COUPLER: coupler, ROCKER: rocker}), positions=5)
-            for name in ("effort.O2", "reaction.A", "magnitude.B"):
+            for name in ("effort.O2", "reaction.A", "reaction.B.magnitude"):
                 assert s[name][i, j] == pytest.approx(r[name], rel=1e-12, abs=1e-9)
             assert s.over("reaction.A")[i, j] == pytest.approx(r.worst("reaction", "A")[0], rel=1e-12)
             assert s.over("effort.O2", "mean")[i, j] == pytest.approx(r.effort("O2").mean())
@@ -78,7 +80,7 @@ def test_a_sweep_is_labelled_with_units() -> None:
     assert [d[COUPLER].attrs["units"] for d in (si, of_file)] == ["N", "lbf"]
     assert of_file["effort.O2"].attrs["units"] == "lbf*in"
     assert (of_file["effort.O2"] * LBF * INCH).values == pytest.approx(si["effort.O2"].values)
-    assert si["position_O2"].sel(position=2).values == pytest.approx(s.nominal.drive_position("O2")[1])
+    assert si["drive_O2"].sel(position=2).values == pytest.approx(s.nominal.drive_position("O2")[1])
     heavier = of_file["reaction.A"].sel({COUPLER: 4}, method="nearest").sel(component="x")
     assert heavier.values * LBF == pytest.approx(s["reaction.A"][1, :, 0])
 
@@ -92,7 +94,9 @@ def test_statuses_are_kept() -> None:
     ((which, status, sentence),) = s.problems()
     assert (which, status) == ("links.coupler.points.B.0 = 0.1 m: position 23-51", "not_assembled")
     assert sentence.startswith("The linkage does not close between 110 deg and 250 deg of O2")
-    assert repr(s) == "<Sweep of links.coupler.points.B.0: 2 designs, 115 of 144 positions solved>"
+    assert (
+        repr(s) == "<Sweep of links.coupler.points.B.0: 2 designs of 72 positions, 115 ok, 29 not_assembled>"
+    )
     shown = read(s)
     assert shown.rows[2][:3] == ["0.1 m", "43 of 72", "-"]
     assert "not_assembled: links.coupler.points.B.0 = 0.1 m: position 23-51: The linkage" in shown.text
@@ -132,6 +136,52 @@ assembly: {rod: 0}
 """
 
 
+def test_curves_of_a_sweep_on_axes() -> None:
+    """Their places, values and labels: over the cycle, over values in the reader's unit, over values that are texts."""
+    from matplotlib.figure import Figure
+
+    def lines(s: da.Sweep, *asked: Any) -> Any:
+        ax = Figure().subplots()
+        s.plot(*asked, ax=ax)
+        return ax, [np.array(line.get_data()) for line in ax.lines], [line.get_label() for line in ax.lines]
+
+    s = da.sweep(FOUR_BAR, COUPLER, [3 * LBF, 1 * LBF], positions=4, outputs=["effort.O2", "reaction.A"])
+    ax, drawn, names = lines(s, "reaction.A")
+    assert names == ["13.3447 N", "4.44822 N"]
+    for (x, y), force in zip(drawn, s["reaction.A"], strict=True):
+        assert x == pytest.approx(np.degrees(s.nominal.drive_position("O2")))
+        assert y == pytest.approx(np.hypot(*force.T) / LBF)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("O2 in °", "Force in lbf")
+    ax, ((x, y),), names = lines(s, "effort.O2", "peak")
+    assert (x.tolist(), ax.get_xlabel()) == (pytest.approx([1, 3]), f"{COUPLER} in lbf"), "by rising values"
+    assert y == pytest.approx(s.over("effort.O2")[::-1] / LBF / INCH)
+    one = da.sweep(FOUR_BAR, {COUPLER: [10.0, 20.0, 40.0], ROCKER: [5.0, 6.0]}, positions=1)
+    _, drawn, names = lines(one, "effort.O2")
+    assert names == ["5 N", "6 N"]
+    for k, (x, y) in enumerate(drawn):
+        assert x == pytest.approx(np.array([10, 20, 40]) / LBF)
+        assert y == pytest.approx(np.abs(one["effort.O2"][:, k, 0]) / LBF / INCH)
+    moved = da.sweep(FOUR_BAR, "drives.O2.position", [[0.0, 0.2, 0.3], [1.0, 1.1, 1.5]], outputs="effort.O2")
+    ax, drawn, _ = lines(moved, "effort.O2")
+    assert [x.tolist() for x, _ in drawn] == [[1, 2, 3]] * 2
+    assert ax.get_xlabel() == "position"
+    ax, ((x, _),), _ = lines(moved, "effort.O2", "rms")
+    assert (x.tolist(), ax.get_xlabel()) == ([1, 2], "drives.O2.position")
+    angles = [plots._positions(of, Shown(of.nominal, Notation()))[2] for of in (s, moved)]
+    assert [*angles, plots._values(moved, Shown(moved.nominal, Notation()))[2]] == [True, False, False]
+    grid = da.sweep(FOUR_BAR, {COUPLER: [10.0, 20.0], ROCKER: [5.0]}, positions=4, outputs="effort.O2")
+    _, drawn, names = lines(grid, "effort.O2")
+    assert names == ["10 N, 5 N", "20 N, 5 N"]
+    for (_, y), effort in zip(drawn, grid["effort.O2"][:, 0], strict=True):
+        assert y == pytest.approx(effort / LBF / INCH)
+    many = da.sweep(FOUR_BAR, COUPLER, np.arange(1.0, 14.0), positions=3, outputs="effort.O2")
+    ax, _, names = lines(many, "effort.O2")
+    assert names == [f"{k} N" for k in (1, 3, 6, 8, 11, 13)]
+    assert "effort.O2 by links.coupler.weight, 6 of 13 curves" in {
+        t.text for t in many.plot("effort.O2").texts()
+    }
+
+
 def test_a_parameter_is_swept_by_its_name() -> None:
     s = da.sweep(da.loads(ENGINE), "r", ["40 mm", "50 mm"])
     alone = [da.dynamics(da.loads(ENGINE.replace("45 mm", f"{r} mm"))).effort("O") for r in (40, 50)]
@@ -151,8 +201,8 @@ def test_inertia_counts_whichever_design_is_first(
     alone = [da.solve(m.with_values({path: w})).effort("O") for w in (first, 20.0, 5.0)]
     assert s["effort.O"] == pytest.approx(np.array(alone), rel=1e-9, abs=1e-12)
     assert abs(s["effort.O"][1, 0] / s["effort.O"][2, 0]) == pytest.approx(16)
-    assert "moment.guide" in s.answers.arrays
-    assert "moment.A" not in s.answers.arrays
+    assert "reaction_moment.guide" in s.answers.arrays
+    assert "reaction_moment.A" not in s.answers.arrays
 
 
 def test_curves_of_a_sweep() -> None:

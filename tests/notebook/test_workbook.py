@@ -109,7 +109,7 @@ def test_tables_by_the_values_of_the_drives() -> None:
     r = da.solve(da.load(examples()["two_drives"]))
     frame = r.to_dataframe("file", index="drives")
     assert list(frame.index.names) == [
-        f"{d} [{'mm' if r.mechanism.drives[d].turns is False else 'deg'}]" for d in r.drives
+        f"drive.{d} [{'mm' if r.mechanism.drives[d].turns is False else 'deg'}]" for d in r.drives
     ]
     assert len(frame.index) == len(r.status)
     plain = r.to_dataframe("file")
@@ -118,8 +118,8 @@ def test_tables_by_the_values_of_the_drives() -> None:
     assert frame.attrs["units"]["residual"] == "1"
     data = r.to_xarray("file")
     for drive in r.drives:
-        place = data.coords[f"position_{drive}"]
-        assert (place.values == plain[f"drive {drive} position [{place.attrs['units']}]"].to_numpy()).all()
+        place = data.coords[f"drive_{drive}"]
+        assert (place.values == plain[f"drive.{drive} [{place.attrs['units']}]"].to_numpy()).all()
     one = da.dynamics(FOUR_BAR, positions=6)
     assert list(one.to_dataframe("file", index="drives").index) == pytest.approx(
         np.degrees(one.drive_position("O2"))

@@ -19,7 +19,7 @@ vary:
 least: peak effort.O2
 where:
   - transmission.B >= 33 deg
-  - peak magnitude.O4 <= 900 N
+  - peak reaction.O4.magnitude <= 900 N
 starts: 5
 seed: 1
 positions: 24
@@ -47,7 +47,7 @@ CONDITIONS = (
     *("transmission.B = 33 deg", "transmission.B => 33 deg", "effort.O2 == 3", "effort.O2 != 3"),
     *("transmission.B >= 33 deg >= 3", "transmission.B > > 3", "effort.O2 <= 3 and effort.O2 >= 0"),
     *("transmission.B >= 33 kg", "transmission.B >= 33 N", "transmission.B >= 33 furlongs"),
-    *("33 mm <= transmission.B", "abs(effort.O2) <= 2*3 N", "peak magnitude.O4 <= 3 kg"),
+    *("33 mm <= transmission.B", "abs(effort.O2) <= 2*3 N", "peak reaction.O4.magnitude <= 3 kg"),
     *("transmision.B >= 33 deg", "transmission.Q >= 33 deg", "peak magnitud.O4 <= 3 N"),
     *("reaction.A <= 3 N", "rms effort.O2 <= 3", "peek effort.O2 <= 3 N*m", "mean effort.O2 <= 3 N*m"),
     *("3 <= peak effort.O2", "peak effort.O2 >= 3"),
@@ -69,7 +69,7 @@ def malformed() -> list[tuple[str, str, int]]:
     out += [(vary, f"vary: {x}\n", 3) for x in ("3", "{}", "[a, b]")] + [(vary, "", 1)]
     out += [("least: peak effort.O2", f"least: {x}", 6) for x in AIMS]
     out += [("- transmission.B >= 33 deg", f"- {x}", 8) for x in CONDITIONS]
-    out += [("- peak magnitude.O4 <= 900 N", f"- {x}", 9) for x in CONDITIONS[-3:]]
+    out += [("- peak reaction.O4.magnitude <= 900 N", f"- {x}", 9) for x in CONDITIONS[-3:]]
     out += [(where, f"where: {x}\n", 7) for x in ("3", "{a: 1}", "transmission.Q >= 3 deg")]
     keys = (("starts: 5", 10), ("seed: 1", 11), ("positions: 24", 12))
     out += [(old, f"{old.split(':')[0]}: {x}", line) for old, line in keys for x in NO_NUMBERS]

@@ -9,9 +9,19 @@ drives, nothing is redundant, and the drawn configuration is one position in clo
 
 from tests.random_mechanisms.drawing import Drawing, Rigid
 from tests.random_mechanisms.growth import Case, random_case, random_mechanism
-from tests.random_mechanisms.writing import IN_LBF, MM_N, SI, Scale, Style, exchangeable, pose_array, tree
+from tests.random_mechanisms.writing import (
+    IN_LBF,
+    MM_N,
+    SI,
+    Scale,
+    Style,
+    exchangeable,
+    mirrored,
+    pose_array,
+    tree,
+)
 
 __all__ = [
     "IN_LBF", "MM_N", "SI", "Case", "Drawing", "Rigid", "Scale", "Style",
-    "exchangeable", "pose_array", "random_case", "random_mechanism", "tree",
+    "exchangeable", "mirrored", "pose_array", "random_case", "random_mechanism", "tree",
 ]  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, pi, sin
 from typing import Any
 
@@ -85,6 +85,36 @@ def _moved(d: Drawing, m: Rigid) -> Drawing:
         for k, load in d.loads.items()
     }
     return Drawing(poses, spots, joints, d.drives, loads, d.masses, m.vector(d.gravity), d.seed)
+
+
+def mirrored(d: Drawing) -> Drawing:
+    """The drawing reflected in ground's x axis, every link in its own."""
+
+    def flipped(p: Point) -> Point:
+        return p[0], -p[1]
+
+    def joint(j: Joint) -> Joint:
+        wheel = pi if j.type == "rolling" and not j.radii[0] else 0.0  # on the left of its line
+        return replace(j, direction=wheel - j.direction)
+
+    def drive(q: Drive) -> Drive:
+        turned = replace(q, steps=tuple(-x for x in q.steps), speed=-q.speed, acceleration=-q.acceleration)
+        return turned if q.freedom == "turn" else q
+
+    def load(f: Load) -> Load:
+        turns = {"couple": {"value": -f.value}, "torsion_spring": {"free": -f.free}}
+        return replace(f, vector=flipped(f.vector), **turns.get(f.type, {}))
+
+    return Drawing(
+        {k: (x, -y, -angle) for k, (x, y, angle) in d.poses.items()},
+        {link: {k: flipped(p) for k, p in points.items()} for link, points in d.spots.items()},
+        {k: joint(j) for k, j in d.joints.items()},
+        {k: drive(q) for k, q in d.drives.items()},
+        {k: load(f) for k, f in d.loads.items()},
+        {k: (mass, flipped(center), inertia) for k, (mass, center, inertia) in d.masses.items()},
+        flipped(d.gravity),
+        d.seed,
+    )
 
 
 @dataclass(frozen=True)

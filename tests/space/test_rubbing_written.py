@@ -35,15 +35,15 @@ def test_json_and_tables_have_friction_s_part(rough: Any) -> None:
     arrays = r.to_xarray(axes="joint")
     k = int(np.flatnonzero(r.ok)[-1])
     for joint in ("O", "C", "A"):
-        part = answer["positions"][k]["reactions"][joint]["friction"]
-        axes = np.array(answer["positions"][k]["reactions"][joint]["axes"])
-        assert part["force"] == pytest.approx(axes @ r.friction_force(joint)[k], abs=1e-12)
-        assert part["moment"] == pytest.approx(axes @ r.friction_moment(joint)[k], abs=1e-12)
-        assert part["power_lost"] == r.power_lost(joint)[k]
-        on = r.mechanism.joints[joint].links[1]
-        assert frame[f"friction {joint} on {on} moment y [N*m]"].iloc[k] == part["moment"][1]
-        assert float(arrays["friction_moment"].sel(joint=joint, component="z")[k]) == part["moment"][2]
-        assert float(arrays["friction_force"].sel(joint=joint, component="x")[k]) == part["force"][0]
+        position = answer["positions"][k]
+        force, moment = position["friction_force"][joint], position["friction_moment"][joint]
+        axes = np.array(answer["positions"][k]["joint_axes"][joint]["force"])
+        assert force == pytest.approx(axes @ r.friction_force(joint)[k], abs=1e-12)
+        assert moment == pytest.approx(axes @ r.friction_moment(joint)[k], abs=1e-12)
+        assert position["power_lost"][joint] == r.power_lost(joint)[k]
+        assert frame[f"friction_moment.{joint}.y [N*m]"].iloc[k] == moment[1]
+        assert float(arrays["friction_moment"].sel(joint=joint, component="z")[k]) == moment[2]
+        assert float(arrays["friction_force"].sel(joint=joint, component="x")[k]) == force[0]
 
 
 def test_free_bodies_and_virtual_work_hold_with_friction(rough: Any) -> None:

@@ -28,23 +28,27 @@ def test_json_has_vectors_of_three_components(axes: Any) -> None:
     assert answer["reaction_axes"] == axes
     assert answer["mobility"]["passive"] == []
     for k, position in enumerate(answer["positions"]):
-        for joint, found in position["reactions"].items():
+        assert ("joint_axes" in position) == (axes == "joint")
+        for joint, found in answer["joints"].items():
             i, j = r.mechanism.joints[joint].links
             assert (found["by"], found["on"]) == (i, j)
-            assert found["force"] == r.reaction(joint, j, axes)[k].tolist()
-            assert found["moment"] == r.reaction_moment(joint, j, axes)[k].tolist()
-            assert ("axes" in found) == (axes == "joint")
-        for link, found in position["links"].items():
-            assert "angle" not in found
-            assert found["rotation"] == r.rotation(link)[k].tolist()
-            for name in ("position", "center", "center_acceleration", "speed", "acceleration"):
-                assert found[name] == getattr(r, name)(link)[k].tolist()
+            assert position["reaction"][joint] == r.reaction(joint, j, axes)[k].tolist()
+            assert position["reaction_moment"][joint] == r.reaction_moment(joint, j, axes)[k].tolist()
+        for link, found in position["point"].items():
+            assert position["rotation"][link] == r.rotation(link)[k].tolist()
+            assert position["angle"][link] == {
+                "speed": r.speed(link)[k].tolist(),
+                "acceleration": r.acceleration(link)[k].tolist(),
+            }
+            assert found["origin"]["value"] == r.position(link)[k].tolist()
+            assert found["center"]["acceleration"] == r.center_acceleration(link)[k].tolist()
 
 
 def test_rotation_turns_link_components_into_ground_components() -> None:
     r = da.dynamics(oracle("rsur"))
-    first = r.to_dict()["positions"][0]["links"]["rod"]
-    at = np.array(first["position"]) + np.array(first["rotation"]) @ r.mechanism.point("rod", "B")
+    first = r.to_dict()["positions"][0]
+    origin = np.array(first["point"]["rod"]["origin"]["value"])
+    at = origin + np.array(first["rotation"]["rod"]) @ r.mechanism.point("rod", "B")
     assert at == pytest.approx(r.point("rod", "B")[0], abs=1e-15)
 
 
@@ -52,14 +56,15 @@ def test_axes_of_link_and_joint_are_the_same_vectors() -> None:
     r = da.dynamics(oracle("rsur"))
     own = r.to_dict(axes="joint")["positions"]
     link = r.to_dict(axes="link")["positions"]
-    for k, position in enumerate(r.to_dict()["positions"]):
-        for joint, found in position["reactions"].items():
-            rotation = np.array(position["links"][found["on"]]["rotation"])
-            axes = np.array(own[k]["reactions"][joint]["axes"])
-            for name in ("force", "moment"):
-                vector = np.array(found[name])
-                assert rotation.T @ vector == pytest.approx(link[k]["reactions"][joint][name], abs=1e-12)
-                assert axes @ vector == pytest.approx(own[k]["reactions"][joint][name], abs=1e-12)
+    answer = r.to_dict()
+    for k, position in enumerate(answer["positions"]):
+        for joint, found in answer["joints"].items():
+            rotation = np.array(position["rotation"][found["on"]])
+            axes = np.array(own[k]["joint_axes"][joint]["force"])
+            for name in ("reaction", "reaction_moment"):
+                vector = np.array(position[name][joint])
+                assert rotation.T @ vector == pytest.approx(link[k][name][joint], abs=1e-12)
+                assert axes @ vector == pytest.approx(own[k][name][joint], abs=1e-12)
 
 
 def test_a_moment_may_have_axes_of_its_own() -> None:
@@ -87,13 +92,13 @@ def test_a_moment_may_have_axes_of_its_own() -> None:
     )
     r = da.statics(m)
     assert r.ok.all()
-    found = r.to_dict(axes="joint")["positions"][0]["reactions"]["A"]
-    ground = r.to_dict()["positions"][0]["reactions"]["A"]
-    assert np.array(found["axes"]) @ ground["force"] == pytest.approx(found["force"])
-    assert np.array(found["moment_axes"]) @ ground["moment"] == pytest.approx(found["moment"])
-    assert found["moment"][1:] == pytest.approx([0, 0], abs=1e-14)
-    assert abs(found["moment"][0]) > 0.1
-    assert "moment_axes" not in r.to_dict(axes="joint")["positions"][0]["reactions"]["B"]
+    found, ground = r.to_dict(axes="joint")["positions"][0], r.to_dict()["positions"][0]
+    for part, name in (("force", "reaction"), ("moment", "reaction_moment")):
+        turned = np.array(found["joint_axes"]["A"][part]) @ ground[name]["A"]
+        assert turned == pytest.approx(found[name]["A"])
+    assert found["reaction_moment"]["A"][1:] == pytest.approx([0, 0], abs=1e-14)
+    assert abs(found["reaction_moment"]["A"][0]) > 0.1
+    assert "moment" not in found["joint_axes"]["B"]
 
 
 def test_a_rod_that_could_spin_is_named() -> None:
@@ -109,12 +114,13 @@ def test_what_is_not_unique_is_null_with_least_norm_beside(axes: Any) -> None:
     assert answer["mobility"]["redundant_joints"] == ["A", "B"]
     for k, position in enumerate(answer["positions"]):
         assert position["status"] == "redundant"
-        assert position["efforts"]["A"] == pytest.approx(r.effort("A")[k])
-        for joint, found in position["reactions"].items():
-            least = found["least_norm"]
-            assert least["force"] + least["moment"] == r.least_norm(joint, axes=axes)[k].tolist()
-            for name in ("force", "moment"):
-                for given, beside in zip(found[name], least[name], strict=True):
+        assert position["effort"]["A"] == pytest.approx(r.effort("A")[k])
+        least = position["least_norm"]
+        for joint in answer["joints"]:
+            both = least["reaction"][joint] + least["reaction_moment"][joint]
+            assert both == r.least_norm(joint, axes=axes)[k].tolist()
+            for name in ("reaction", "reaction_moment"):
+                for given, beside in zip(position[name][joint], least[name][joint], strict=True):
                     assert given is None or given == beside
 
 
@@ -122,12 +128,11 @@ def test_in_the_axes_of_a_skew_hinge_its_own_moment_is_unique() -> None:
     """About their own line two hinges carry nothing: known in the joint's axes, hidden in ground's and the link's."""
     r = da.dynamics(door(axis=(1.0, 2.0, 3.0)))
     for joint in ("A", "B"):
-        own = r.to_dict(axes="joint")["positions"][0]["reactions"][joint]
-        assert own["moment"][:2] == [None, None]
-        assert own["moment"][2] == pytest.approx(0.0, abs=1e-10)
-        assert own["force"] == [None, None, None]
-        ground = r.to_dict()["positions"][0]["reactions"][joint]
-        assert ground["moment"] == [None, None, None]
+        own = r.to_dict(axes="joint")["positions"][0]
+        assert own["reaction_moment"][joint][:2] == [None, None]
+        assert own["reaction_moment"][joint][2] == pytest.approx(0.0, abs=1e-10)
+        assert own["reaction"][joint] == [None, None, None]
+        assert r.to_dict()["positions"][0]["reaction_moment"][joint] == [None, None, None]
     both = sum(r.least_norm(joint, axes="joint")[0, 2] for joint in ("A", "B"))
     whole = sum(r.least_norm(joint)[0, :3] for joint in ("A", "B"))
     assert both == pytest.approx(whole @ np.array([1, 2, 3]) / np.sqrt(14))
@@ -139,19 +144,18 @@ def test_tables_hold_the_numbers_of_the_json_answer(axes: Any) -> None:
     frame = r.to_dataframe(axes=axes)
     answer = r.to_dict(axes=axes)
     for k, position in enumerate(answer["positions"]):
-        found = position["reactions"]["B"]
-        for name, kind, unit in (("", "force", "N"), (" moment", "moment", "N*m")):
+        for name, unit in (("reaction", "N"), ("reaction_moment", "N*m")):
             for c, axis in enumerate("xyz"):
-                given = frame[f"reaction B on door{name} {axis} [{unit}]"].iloc[k]
-                expected = found[kind][c]
+                given = frame[f"{name}.B.{axis} [{unit}]"].iloc[k]
+                expected = position[name]["B"][c]
                 assert np.isnan(given) if expected is None else given == expected
-                least = frame[f"reaction B on door least norm{name} {axis} [{unit}]"].iloc[k]
-                assert least == found["least_norm"][kind][c]
-        rotation = position["links"]["door"]["rotation"]
-        assert [frame[f"link door rotation {a}{b}"].iloc[k] for a in "xyz" for b in "xyz"] == list(
+                least = frame[f"{name}.B.least_norm.{axis} [{unit}]"].iloc[k]
+                assert least == position["least_norm"][name]["B"][c]
+        rotation = position["rotation"]["door"]
+        assert [frame[f"rotation.door.{a}{b}"].iloc[k] for a in "xyz" for b in "xyz"] == list(
             chain.from_iterable(rotation)
         )
-        assert frame["link door speed z [rad/s]"].iloc[k] == position["links"]["door"]["speed"][2]
+        assert frame["angle.door.speed.z [rad/s]"].iloc[k] == position["angle"]["door"]["speed"][2]
 
 
 def test_arrays_are_labelled(tmp_path: Path) -> None:
@@ -163,9 +167,9 @@ def test_arrays_are_labelled(tmp_path: Path) -> None:
         assert list(found["component"].values) == list(found["link_axis"].values) == ["x", "y", "z"]
         one = found["reaction_moment"].sel(joint="B", component="y")
         assert np.array_equal(one, r.reaction_moment("B")[:, 1])
-        assert found["link_rotation"].dims == ("position", "link", "component", "link_axis")
-        assert np.array_equal(found["link_rotation"].sel(link="rod"), r.rotation("rod"))
-        assert np.array_equal(found["link_speed"].sel(link="rod"), r.speed("rod"))
+        assert found["rotation"].dims == ("position", "link", "component", "link_axis")
+        assert np.array_equal(found["rotation"].sel(link="rod"), r.rotation("rod"))
+        assert np.array_equal(found["angle_speed"].sel(link="rod"), r.speed("rod"))
 
 
 def test_csv_and_workbook_agree(tmp_path: Path) -> None:
@@ -178,7 +182,7 @@ def test_csv_and_workbook_agree(tmp_path: Path) -> None:
         plain = list(csv.reader(stream))
     sheet = [list(row) for row in load_workbook(tmp_path / "r.xlsx")["positions"].values]
     assert plain[0] == sheet[0]
-    assert "link rod rotation xy" in plain[0]
+    assert "rotation.rod.xy" in plain[0]
     for one, other in zip(plain[1:], sheet[1:], strict=True):
         assert [float(x) for x in one[2:-1]] == pytest.approx([float(x) for x in other[2:-1]], rel=1e-14)
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import pickle
+import re
 from pathlib import Path
+from statistics import NormalDist
 
 import numpy as np
 import pytest
@@ -12,10 +15,10 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.studies import Study, StudyResult
 from dalembert.studies.sampling import Plan, Sobol, permuted
-from dalembert.studies.spreads import Spread
+from dalembert.studies.spreads import Spread, read_spread
 
 VARY = {"stroke": "± 0.5 mm", "bore": "uniform ± 2 %", "pressure": "5.5..6.5 MPa", "density": "normal 1 %"}
-OUTPUTS = ["effort.O", "magnitude.A"]
+OUTPUTS = ["effort.O", "reaction.A.magnitude"]
 
 
 def pump(**options: object) -> Study:
@@ -33,7 +36,7 @@ def test_a_design_is_the_analysis_of_its_mechanism(draw: str) -> None:
     for n in (0, 17, 299):
         own = da.dynamics(s.mechanism_of(n))
         assert r["effort.O"][n] == pytest.approx(np.abs(own.effort("O")).max(), rel=1e-12)
-        assert r["magnitude.A"][n] == pytest.approx(
+        assert r["reaction.A.magnitude"][n] == pytest.approx(
             np.linalg.norm(own.reaction("A"), axis=1).max(), rel=1e-12
         )
 
@@ -109,6 +112,64 @@ def test_the_draw_has_the_spread(spread: Spread) -> None:
     if spread.kind != "normal":
         low, high = spread.ends
         assert low <= values.min() < values.max() <= high
+
+
+CUT_NORMAL = math.sqrt(1 - 6 * math.exp(-4.5) / math.sqrt(2 * math.pi) / math.erf(3 / math.sqrt(2)))
+
+
+@pytest.mark.parametrize(
+    ("said", "nominal", "kind", "ends", "sigma"),
+    [
+        ("± 5 %", -20.0, "tolerance", (-21.0, -19.0), CUT_NORMAL / 3),
+        ("+- 0.6", 3.0, "tolerance", (2.4, 3.6), 0.2 * CUT_NORMAL),
+        ("normal 2 %", -50.0, "normal", (-53.0, -47.0), 1.0),
+        ("normal 0.5", 0.0, "normal", (-1.5, 1.5), 0.5),
+        ("uniform ± 10 %", -4.0, "uniform", (-4.4, -3.6), 0.8 / math.sqrt(12)),
+        ("-2..4", 9.0, "uniform", (-2.0, 4.0), 6 / math.sqrt(12)),
+        ("70..90 in 3", 0.0, "levels", (70.0, 90.0), math.sqrt(200 / 3)),
+        ("range", 0.0, "uniform", (5.0, 8.0), 3 / math.sqrt(12)),
+        ([4.0, 1.0, 7.0], 0.0, "levels", (1.0, 7.0), math.sqrt(6)),
+    ],
+)
+def test_what_a_spread_says(
+    said: object, nominal: float, kind: str, ends: tuple[float, float], sigma: float
+) -> None:
+    """Its ends and its standard deviation; of a percentage the size of what it is one of."""
+    found = read_spread(said, nominal, lambda x: float(str(x)), (5.0, 8.0))
+    assert found.kind == kind
+    assert found.ends == pytest.approx(ends)
+    assert found.sigma == pytest.approx(sigma)
+    low, width, a, b, normal = found.law
+    share = NormalDist().cdf(-3) if kind == "tolerance" else 0.0
+    assert (low, width) == pytest.approx((share, 1 - 2 * share))
+    assert normal == (kind in ("tolerance", "normal"))
+    if kind != "levels":
+        assert (a, a + b) == pytest.approx((nominal, nominal + (ends[1] - nominal) / 3) if normal else ends)
+    else:
+        picked = found.pick(np.array([0.0, 0.3333, 0.3334, 0.9999, 1.0]))
+        assert picked.tolist() == [found.levels[k] for k in (0, 0, 1, 2, 2)]
+
+
+@pytest.mark.parametrize(
+    ("said", "what"),
+    [
+        ("± 5 %", "5 % of a number that is 0 is nothing"),
+        ("± 0", "a tolerance of '0' is not positive"),
+        ("± -2", "a tolerance of '-2' is not positive"),
+        ("9..9", "the range from 9 to 9 is empty; write the smaller end first"),
+        ("1..9 in 1", "1 levels are asked for; ask for 2 to 1000000"),
+        ("1..9 in 1000001", "1000001 levels are asked for"),
+        ("range", "it states no range"),
+        ("normal ± 3", "'normal ± 3' says no spread"),
+        ("uniform 3", "'uniform 3' says no spread"),
+        ("3", "'3' says no spread"),
+        ([], "a list of 0 values says no levels"),
+        ([1.0, 2.0, 1.0], "a value stands twice in the list"),
+    ],
+)
+def test_what_is_no_spread(said: object, what: str) -> None:
+    with pytest.raises(da.ModelError, match=re.escape(what)):
+        read_spread(said, 0.0, lambda x: float(str(x)))
 
 
 def test_correlated_numbers_are() -> None:

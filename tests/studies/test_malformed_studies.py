@@ -63,7 +63,7 @@ def malformed() -> list[tuple[dict[str, str | None], str]]:
         "effort",
         "effort.P",
         "efort.O",
-        "magnitude.Q",
+        "reaction.Q.magnitude",
         "effort.O +",
         "3 *",
         "peak effort.O",

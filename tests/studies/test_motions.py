@@ -42,7 +42,7 @@ VARY = {
     "links.piston.mass": "± 5 %",
     "start.O2.position": "0..90 deg",
 }
-OUTPUTS = ["time", "magnitude.A", "O2.speed", "O2.position"]
+OUTPUTS = ["time", "reaction.A.magnitude", "O2.speed", "O2.position"]
 KEYS = {
     "study": "1",
     "model": "m.yaml",
@@ -87,7 +87,7 @@ def test_each_design_is_that_of_simulate(tmp_path: Path) -> None:
         assert r["time"][n] == pytest.approx(own.time[-1], rel=1e-9)
         assert r["O2.position"][n] == pytest.approx(own.position("O2")[-1], rel=1e-9)
         assert r["O2.speed"][n] == pytest.approx(40, rel=1e-9)
-        assert r["magnitude.A"][n] == pytest.approx(own.result["magnitude.A"][-1], rel=1e-7)
+        assert r["reaction.A.magnitude"][n] == pytest.approx(own.result["reaction.A.magnitude"][-1], rel=1e-7)
 
 
 def test_what_a_motion_ends_with_is_not_reduced() -> None:
@@ -95,15 +95,15 @@ def test_what_a_motion_ends_with_is_not_reduced() -> None:
     for name in ("time", "O2.speed", "O2.position"):
         assert (final[name] == peak[name]).all()
         assert (final[name] == every[name]).all()
-    assert every["magnitude.A"].shape == (40, 201)
-    assert (np.abs(every["magnitude.A"]).max(axis=1) == peak["magnitude.A"]).all()
+    assert every["reaction.A.magnitude"].shape == (40, 201)
+    assert (np.abs(every["reaction.A.magnitude"]).max(axis=1) == peak["reaction.A.magnitude"]).all()
     assert peak.kinds == {
         "time": "time",
-        "magnitude.A": "force",
+        "reaction.A.magnitude": "force",
         "O2.speed": "angular_speed",
         "O2.position": "angle",
     }
-    assert every.to_xarray()["magnitude.A"].shape == (40, 201)
+    assert every.to_xarray()["reaction.A.magnitude"].shape == (40, 201)
 
 
 @pytest.mark.parametrize("reduce", ["peak", None])
@@ -131,7 +131,7 @@ def test_undecided_motions_are_no_numbers() -> None:
     r = s.run()
     lost = r.counts()["undecided"]
     assert 0 < lost < 60
-    assert len(r.values("magnitude.A")) == len(r.values("time")) == 60 - lost == r.ok.sum()
+    assert len(r.values("reaction.A.magnitude")) == len(r.values("time")) == 60 - lost == r.ok.sum()
     assert r.share("time", "< 9 s") == pytest.approx(1 - lost / 60)
     assert r.failed()[0].sentence.startswith(
         "The steps of the motion became too small, or it comes near a dead"
@@ -153,7 +153,7 @@ def test_what_is_not_compiled_is_simulated_one_by_one() -> None:
     assert s.why_slow.startswith("joint 'A' has dry friction")
     for n in range(3):
         own = da.simulate(s.mechanism_of(n), "0.1 s", tolerance=1e-9)
-        assert r["magnitude.A"][n] == np.nanmax(np.abs(own.result["magnitude.A"]))
+        assert r["reaction.A.magnitude"][n] == np.nanmax(np.abs(own.result["reaction.A.magnitude"]))
         assert r["O2.speed"][n] == own.speed("O2")[-1]
 
 

@@ -27,7 +27,7 @@ FILE = f"""
 study: 1
 model: {examples()["four_bar"]}
 vary: {{links.coupler.weight: ± 5 %, links.rocker.weight: uniform ± 5 %}}
-outputs: [effort.O2, magnitude.A]
+outputs: [effort.O2, reaction.A.magnitude]
 designs: {DESIGNS}
 seed: 3
 """
@@ -111,7 +111,7 @@ def test_a_half_made_store_is_none_and_is_made_anew(
     keys = [k for k in kept.keys("s.zarr/") if k.endswith("zarr.json")]
     kept.remove([k for k in kept.keys("s.zarr/") if k not in keys[-written:]])
     kept.write("s.zarr/zarr.json", json.dumps(group).encode())
-    with pytest.raises(da.ModelError, match=r"there is no study memory://.*s\.zarr; dalembert study run"):
+    with pytest.raises(da.ModelError, match=r"memory://.*s\.zarr: file not found; dalembert study run"):
         StudyResult.open(address)
     study.run(address)
     assert chunks_of(stored(address)) == answers
@@ -168,7 +168,7 @@ def test_a_lease_is_renewed_taken_over_when_it_has_ended_and_then_lost(
         ("zz://a/s.zarr", "zz://a/s.zarr: protocol not known: zz; fsspec knows memory://, file://, s3://"),
         (
             "memory://none/s.zarr",
-            "there is no study memory://none/s.zarr; dalembert study run FILE makes one",
+            "memory://none/s.zarr: file not found; dalembert study run FILE makes one",
         ),
     ],
 )
@@ -198,7 +198,7 @@ def test_the_commands_take_an_address(
     file.write_text(FILE.replace(str(DESIGNS), "300"))
     assert main(["study", "run", str(file), "-o", address]) == 0
     assert main(["study", "run", str(file), "-o", address]) == 2
-    assert f"{address} is there already; dalembert study resume {address}" in capsys.readouterr().err
+    assert f"{address} already exists; dalembert study resume {address}" in capsys.readouterr().err
     assert main(["study", "resume", address]) == main(["study", "resume", str(file), "-o", address]) == 0
     assert main(["study", "extend", address, "--designs", "400"]) == main(["study", "show", address]) == 0
     assert "400 of 400 designs" in capsys.readouterr().out

@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+import zlib
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,10 +14,11 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.batch.batch_result import CODES
 from dalembert.bundled import examples
 from dalembert.studies import Study, StudyResult
 from dalembert.studies.running import compute_block
-from dalembert.studies.store import Store
+from dalembert.studies.store import Store, checksum, ledger_row
 from tests.tiers import tiers
 
 DESIGNS = 20_000
@@ -24,7 +26,7 @@ FILE = f"""
 study: 1
 model: {examples()["four_bar"]}
 vary: {{links.coupler.weight: ± 5 %, links.rocker.weight: uniform ± 5 %}}
-outputs: [effort.O2, magnitude.A]
+outputs: [effort.O2, reaction.A.magnitude]
 designs: {DESIGNS}
 seed: 3
 """
@@ -33,7 +35,9 @@ seed: 3
 def drawn(**options: object) -> Study:
     vary = {"links.coupler.weight": "± 5 %", "links.rocker.weight": "uniform ± 5 %"}
     m = da.load(examples()["four_bar"])
-    return da.study(m, vary, ["effort.O2", "magnitude.A"], **{"designs": DESIGNS, "seed": 3, **options})
+    return da.study(
+        m, vary, ["effort.O2", "reaction.A.magnitude"], **{"designs": DESIGNS, "seed": 3, **options}
+    )
 
 
 @pytest.fixture(scope="module")
@@ -114,6 +118,52 @@ def test_a_finished_study_is_not_computed_again(study: Study, store: Path) -> No
     counted: list[int] = []
     study.run(store, progress=lambda done, of: counted.append(done))
     assert not counted
+
+
+@pytest.mark.parametrize(("before", "again"), [(8192, 3), (9000, 3), (12_288, 2), (16_500, 1)])
+def test_a_store_with_more_designs_computes_what_is_new(
+    before: int, again: int, finished: Path, tmp_path: Path
+) -> None:
+    """Blocks of 4,096: a last one that was full is kept, another one is done again, once."""
+    path, counted = tmp_path / "s.zarr", list[tuple[int, int]]()
+    first = drawn(designs=before).run(path)
+    assert first.block == 4096
+    r = drawn().run(path, threads=1, progress=lambda done, of: counted.append((done, of)))
+    assert len(counted) == again
+    assert counted[-1] == (DESIGNS, DESIGNS)
+    whole = StudyResult.open(finished)
+    assert len(r["effort.O2"]) == DESIGNS
+    assert np.array_equal(r["effort.O2"], whole["effort.O2"])
+    assert r.counts() == whole.counts() == {"ok": DESIGNS}
+    assert len(r.ledger) == -(-DESIGNS // 4096)
+    drawn(designs=before).run(tmp_path / "t.zarr")
+    again = drawn().run(tmp_path / "t.zarr", check=False)  # what the ledger says is believed
+    assert np.array_equal(again["effort.O2"], whole["effort.O2"])
+
+
+@pytest.mark.parametrize("field", [0, 2, 3])
+def test_a_ledger_that_says_other_than_its_block_is_not_believed(
+    field: int, study: Study, store: Path, finished: Path
+) -> None:
+    """Its checksum, or how many designs have which status."""
+    kept = Store(store)
+    kept.open()
+    row = kept.ledger()[2]
+    row[field] += 1
+    kept.arrays["ledger"][2] = row
+    counted: list[int] = []
+    study.run(store, progress=lambda done, of: counted.append(done))
+    assert counted == [DESIGNS]
+    assert same(store, finished)
+
+
+def test_a_checksum_is_that_of_every_array_in_the_order_of_their_names() -> None:
+    a, b = np.array([1.0, 2.0]), np.array([3], np.uint8)
+    both = zlib.crc32(b.tobytes(), zlib.crc32(a.tobytes())) + 1
+    assert checksum({"a": a, "b": b}) == checksum({"b": b, "a": a}) == both
+    assert checksum({"a": a[::-1], "b": b}) == zlib.crc32(b.tobytes(), zlib.crc32(a[::-1].tobytes())) + 1
+    row = ledger_row({"status": np.array([0, 2, 2, 1], np.uint8)}, 6.6)
+    assert row[1:].tolist() == [7, 1, 1, 2, *[0] * (len(CODES) - 3)]
 
 
 def test_half_written_files_are_swept(study: Study, store: Path, finished: Path) -> None:
@@ -198,7 +248,7 @@ def test_what_is_no_study_is_left_alone(study: Study, tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("precious")
     with pytest.raises(da.ModelError, match="is there and is no study; give another name"):
         study.run(tmp_path)
-    with pytest.raises(da.ModelError, match=r"there is no study .*nothing"):
+    with pytest.raises(da.ModelError, match=r"nothing: file not found"):
         StudyResult.open(tmp_path / "nothing")
     assert [p.name for p in tmp_path.iterdir() if p.suffix != ".lock"] == ["mine.txt"]
 
@@ -253,7 +303,7 @@ def test_xarray_opens_it(finished: Path, study: Study) -> None:
 
 KILLED = """
 import os, random, signal, sys, time
-from dalembert.studies.store import Store
+from dalembert.studies.store import Store, checksum, ledger_row
 from dalembert.studies.study_file import load_study
 put = Store.put
 def late(self, *rest):
@@ -279,10 +329,64 @@ for seed in sys.argv[3:]:
 def test_killed_runs_are_resumed_bit_by_bit(
     seeds: range, study: Study, finished: Path, tmp_path: Path
 ) -> None:
-    (tmp_path / "s.yaml").write_text(FILE)
+    (tmp_path / "s.yaml").write_text(FILE, encoding="utf-8")
     names = [str(tmp_path / "s.yaml"), str(tmp_path), *map(str, seeds)]
     subprocess.run([sys.executable, "-c", KILLED, *names], check=True)
     for seed in seeds:
         target = tmp_path / f"{seed}.zarr"
         study.run(target)
         assert same(target, finished), seed
+
+
+ELSEWHERE = """
+import importlib.abc, os, sys, types
+class Missing(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path=None, target=None):
+        if name in ("fcntl", "resource", "pwd", "grp", "termios"):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+fcntl = None
+if sys.argv[3] == "windows":
+    import fcntl
+    import subprocess  # asks for msvcrt to know the system
+    windows = sys.modules["msvcrt"] = types.ModuleType("msvcrt")
+    windows.LK_NBLCK = 2
+    def locking(file, mode, count):
+        assert (mode, count, os.lseek(file, 0, os.SEEK_CUR)) == (2, 1, 1 << 20)
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    windows.locking = locking
+for name in ("fcntl", "resource", "pwd", "grp", "termios"):
+    sys.modules.pop(name, None)
+sys.meta_path.insert(0, Missing())
+for name in ("sched_getaffinity", "sysconf", "fork", "getuid", "geteuid", "statvfs"):
+    if hasattr(os, name):
+        delattr(os, name)
+
+import dalembert as da
+from dalembert.studies.store import Store
+from dalembert.studies.study_file import load_study
+study, target = load_study(sys.argv[1]), sys.argv[2]
+def stop(done, of):
+    raise KeyboardInterrupt
+try:
+    study.run(target, threads=2, progress=stop)
+except KeyboardInterrupt:
+    print(0 < da.StudyResult.open(target).done.sum() < study.count)
+if sys.argv[3] == "windows":
+    with Store(target).locked():
+        try:
+            study.run(target)
+        except da.ModelError as error:
+            print(f"is being written by process {os.getpid()} on " in str(error))
+study.run(target)
+"""
+"""Without what only POSIX systems have: a stored study that is stopped and resumed."""
+
+
+@pytest.mark.parametrize("system", ["windows", "no locks"])
+def test_a_study_is_stored_where_there_is_no_posix(system: str, finished: Path, tmp_path: Path) -> None:
+    (tmp_path / "s.yaml").write_text(FILE, encoding="utf-8")
+    command = [sys.executable, "-c", ELSEWHERE, str(tmp_path / "s.yaml"), str(tmp_path / "s.zarr"), system]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.split() == ["True"] * (2 if system == "windows" else 1)
+    assert same(tmp_path / "s.zarr", finished)

@@ -46,7 +46,7 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"vary": "{drives.O.position: ± 1 deg}"}, 3, "is no single number; leave it out: a single position"),
     ({"vary": "{stroke: ± 0.5 kg}"}, 3, "stroke: '0.5 kg' is a mass, and a length is needed; write one"),
     ({"vary": "{stroke: 50..60 N}"}, 3, "stroke: '50 N' is a force, and a length is needed; write one"),
-    ({"vary": "{stroke: ± 0.5 furl}"}, 3, "stroke: there is no unit 'furl'; choose among m, meter"),
+    ({"vary": "{stroke: ± 0.5 furl}"}, 3, "stroke: there is no unit 'furl'; units of length: m, meter"),
     ({"vary": "{stroke: ± -0.5 mm}"}, 3, "a tolerance of '-0.5 mm' is not positive; give one above zero"),
     ({"vary": "{stroke: ± 0 mm}"}, 3, "a tolerance of '0 mm' is not positive; give one above zero"),
     ({"vary": "{stroke: ± -5 %}"}, 3, "a tolerance of '-5 %' is not positive; give one above zero"),
@@ -91,8 +91,16 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"draw": "factorial"}, 7, "stroke: a factorial needs levels; write a list, or 70..90 N in 5"),
     ({"outputs": "[efort.O]"}, 4, "there is no output 'efort.O'; did you mean 'effort.O'?"),
     ({"outputs": "[effort.P]"}, 4, "did you mean 'effort.O'?"),
-    ({"outputs": "[]"}, 4, "outputs are not a list of names; write outputs: [effort.O2, magnitude.A]"),
-    ({"outputs": "{a: 1}"}, 4, "outputs are not a list of names; write outputs: [effort.O2, magnitude.A]"),
+    (
+        {"outputs": "[]"},
+        4,
+        "outputs are not a list of names; write outputs: [effort.O2, reaction.A.magnitude]",
+    ),
+    (
+        {"outputs": "{a: 1}"},
+        4,
+        "outputs are not a list of names; write outputs: [effort.O2, reaction.A.magnitude]",
+    ),
     ({"outputs": "[effort.O, effort.O]"}, 4, "an output is asked for twice; leave one of them out"),
     ({"reduce": "highest"}, 7, "there is no reduction 'highest'; there are: peak"),
     ({"reduce": "3"}, 7, "3 is no reduction; write reduce: peak, or none"),
@@ -120,7 +128,7 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"static": "perhaps"}, 7, "static is 'perhaps'; write static: true, or false"),
     ({"keep": "1"}, 7, "keep is 1; write keep: true, or false"),
     ({"positions": "0"}, 7, "positions is 0, which is no whole number of 1 or more; write positions: 1000"),
-    ({"positions": "1e12"}, 7, "1000000000000 positions are asked for; ask for 1 to 10000000"),
+    ({"positions": "1e12"}, 7, "positions is 1000000000000; give a whole number from 1 to 10000000"),
     ({"table": "t.csv"}, 5, "table and designs are both given; leave designs out: the table is the designs"),
     ({"table": "t.csv", "designs": None, "seed": None}, 3, "table and vary are both given; leave vary out"),
     (
@@ -208,7 +216,7 @@ def test_the_command_runs_resumes_extends_shows_and_exports(
     assert main(["study", "run", "s.yaml"]) == 2
     assert (
         capsys.readouterr().err
-        == "s.zarr is there already; dalembert study resume s.zarr, or name another with -o\n"
+        == "s.zarr already exists; dalembert study resume s.zarr, or name another with -o\n"
     )
     assert main(["study", "resume", "s.yaml"]) == 0
     assert main(["study", "extend", "s.zarr", "--designs", "200"]) == 0

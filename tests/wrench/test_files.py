@@ -136,7 +136,7 @@ def test_command(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_command_in_space(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["wrench", "box.yaml", "--view", "top", "--drawing", "box.svg", "--units", "si"]) == 0
+    assert main(["wrench", "box.yaml", "--camera", "top", "--drawing", "box.svg", "--units", "si"]) == 0
     assert "About A at (0, 0, 0) m" in capsys.readouterr()[0]
     assert main(["wrench", "box.yaml", "--about", "[1, 0, 0]", "--figures", "6"]) == 0
     assert "About O at (1.00000, 0, 0) m" in capsys.readouterr()[0]
@@ -160,7 +160,7 @@ def test_command_refused(here: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert main(["wrench", "box.yaml", "--about", "D"]) == 2
     assert capsys.readouterr()[1] == "the system has no point 'D'; choose among A, B, C, E\n"
     assert main(["wrench", "bx.yaml"]) == 2
-    assert capsys.readouterr()[1] == "bx.yaml:1: there is no file bx.yaml; did you mean 'box.yaml'?\n"
+    assert capsys.readouterr()[1] == "bx.yaml: file not found; did you mean 'box.yaml'?\n"
 
 
 @pytest.mark.parametrize("seed", range(8))

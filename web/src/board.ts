@@ -4,9 +4,13 @@ import type { Data, Drawing, FreeBody, Item, Pair, Rows } from "./data";
 import { action, item, Paper, type Part, type Shown } from "./items";
 import type { Kernel } from "./kernel";
 import { label, type Placed, Placer } from "./labels";
-import { make, type Point } from "./svg";
+import { figures, make, path, type Point, set, short, width } from "./svg";
 
-export interface Board { svg: SVGSVGElement; paper: Paper; names: boolean; update(cycle: boolean): void; fit(): void; force(): number }
+/** ``need``: newtons a mm at which every force finds room; ``fit``: scales anew, with forces to that scale or another. */
+export interface Board {
+  svg: SVGSVGElement; paper: Paper; names: boolean;
+  update(cycle: boolean): void; fit(force?: number): void; need(): number; force(): number; resize(w: number, h: number): void;
+}
 
 const ROUND = [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10];
 
@@ -15,6 +19,12 @@ export function roundUp(x: number): number {
   if (!(x > 0) || !Number.isFinite(x)) return 1;
   const power = 10 ** Math.floor(Math.log10(x) + 1e-12);
   return power * (ROUND.find((r) => r * power >= x * (1 - 1e-12)) ?? 10);
+}
+
+/** The round number below: 1, 2 or 5 times a power of ten. */
+function roundDown(x: number): number {
+  const power = 10 ** Math.floor(Math.log10(x) + 1e-12);
+  return power * ([5, 2].find((r) => r * power <= x * (1 + 1e-12)) ?? 1);
 }
 
 /** Low and high ends of some points to the right and up; null where there is none. */
@@ -36,10 +46,28 @@ function cycleBounds(paper: Paper, d: Drawing): ReturnType<typeof bounds> {
 
 const inSpace = (d: Drawing): boolean => d.items.some((i) => i.t === "pair");
 
-/** Height in mm of a drawing of some width whose cycle finds room in it. */
-export function heightFor(kernel: Kernel, d: Drawing, w: number): number {
-  const b = cycleBounds(new Paper(kernel, 1, inSpace(d)), d), aspect = b ? (b.y[1] - b.y[0]) / (b.x[1] - b.x[0]) : NaN;
-  return Number.isFinite(aspect) ? w * Math.min(Math.max(aspect * 1.05, 0.56), 0.9) : 0.7 * w;
+/** A length of paper that stands for a round number of a unit, drawn: true at any zoom and in any print. */
+export class ScaleBar {
+  private readonly line: SVGPathElement;
+  private readonly text: SVGTextElement;
+  constructor(parent: Element, private readonly arrow = false) {
+    const g = make("g", parent, { class: "scale" });
+    this.line = make("path", g, { class: "l-axis", style: "fill:none" });
+    this.text = make("text", g, { class: "l-note-t", "font-size": 2.8 });
+  }
+  /** From the left end at a place: ``size`` of SI a mm, in a unit; gives the right end. */
+  set([x, y]: Point, size: number, unit: { unit: string; size: number }): number {
+    const perMm = size / unit.size, known = perMm > 0 && Number.isFinite(perMm);
+    this.line.setAttribute("visibility", known ? "visible" : "hidden");
+    this.text.textContent = "";
+    if (!known) return x;
+    const value = roundDown(26 * perMm), long = value / perMm, end = x + long, said = `${figures(value)} ${unit.unit}`;
+    const tick = `M${short(x)} ${short(y - 1)}v2`;
+    const close = this.arrow ? `M${short(end - 2.4)} ${short(y - 0.8)}L${short(end)} ${short(y)}L${short(end - 2.4)} ${short(y + 0.8)}` : `M${short(end)} ${short(y - 1)}v2`;
+    this.line.setAttribute("d", tick + path([[x, y], [end, y]]) + close);
+    set(this.text, { x: short(end + 1.4), y: short(y + 1) }).textContent = said;
+    return end + 1.4 + width(said, 2.8);
+  }
 }
 
 export function canvas(parent: Element, width: number, height: number, name: string): SVGSVGElement {
@@ -59,27 +87,60 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
   const arrows: Shown[] = d.arrows.map((a) => action(acting, a, paper, () => perMm, about ?? undefined));
   const names: { l: Placed; p: Rows; q?: Rows }[] =
     d.labels.map((l) => ({ l: label(lettered, l.role, l.text, l.kind === "joint" ? 3.8 : 3.3), p: l.p, q: l.q }));
-  const note = make("text", lettered, { class: "l-note-t", "font-size": 2.8, x: -w / 2 + 2, y: h / 2 - 2 });
+  const long = new ScaleBar(lettered), strong = new ScaleBar(lettered, true), forces = d.arrows.filter((a) => a.t === "force");
+  const step = Math.max(1, Math.floor(kernel.count / 72));
 
   function centre(b: ReturnType<typeof bounds>): void {
     if (b) paper.middle = [(b.x[0] + b.x[1]) / 2, (b.y[0] + b.y[1]) / 2];
   }
 
-  /** Scales anew: the whole cycle finds room, the largest force is as long as it was. */
-  function fit(): void {
-    const b = about ? bounds(about.map((r) => paper.here(r))) : cycleBounds(paper, d);
-    if (b) {
-      const room = about ? [46, 40] : [w * 0.76, h * 0.74];
-      const need = Math.max((b.x[1] - b.x[0]) / room[0], (b.y[1] - b.y[0]) / room[1]) || d.per_mm;
-      centre(b);
-      paper.perMm = roundUp(need / size.length) * size.length;
-    }
-    const most = Math.max(0, ...d.arrows.map((a) => (a.t === "force" ? kernel.largest((k) => Math.hypot(...a.f.map((r) => kernel.value(r, k)))) : 0)));
-    if (most > 0) perMm = roundUp(most / (about ? 26 : 22) / size.force) * size.force;
+  /** What a free body takes up: its points, those that forces act at, its wheels. */
+  const corners = about ? [...about, ...d.arrows.map((a) => a.p), ...d.items.flatMap((i) => (i.t === "symbol" ? [i.p] : []))] : [];
+  const wheels = d.items.flatMap((i): { p: Rows; reach(value: (row: number) => number): number }[] => {
+    if (i.t === "circle") return [{ p: i.p, reach: (value) => Math.abs(value(i.r)) }];
+    const drawn = i.t === "symbol" && i.per_mm ? i.per_mm * Math.max(0, ...[...i.svg.matchAll(/ r="([\d.]+)"/g)].map((m) => +m[1])) : 0;
+    return i.t === "symbol" && drawn ? [{ p: i.p, reach: () => drawn }] : [];
+  });
+  function extent(value: (row: number) => number): ReturnType<typeof bounds> {
+    const rims = wheels.flatMap(({ p, reach }) => [-1, 1].map((side) => paper.seen(p, value).map((x) => x + side * reach(value)) as Point));
+    return bounds([...corners.map((p) => paper.seen(p, value)), ...rims]);
+  }
+
+  /** The same at each of some positions. */
+  function poses(): { k: number; b: NonNullable<ReturnType<typeof bounds>> }[] {
+    return Array.from({ length: Math.ceil(kernel.count / step) }, (_, n) => n * step).flatMap((k) => {
+      const b = kernel.good[k] ? extent((r) => kernel.value(r, k)) : null;
+      return b ? [{ k, b }] : [];
+    });
+  }
+
+  /** Newtons a mm: the largest force as long as the paper allows; of a free body every arrow ends within it. */
+  function need(): number {
+    const largest = kernel.largest((k) => Math.max(0, ...forces.map((a) => Math.hypot(...a.f.map((r) => kernel.value(r, k))))));
+    let most = largest / (about ? 26 : Math.min(Math.max(0.18 * Math.min(w, 1.3 * h), 16), 40));
+    for (const { k, b } of about ? poses() : [])
+      for (const a of forces) {
+        const value = (r: number) => kernel.value(r, k), at = paper.seen(a.p, value), f = paper.seen(a.f, value);
+        [w / 2 - 9, h / 2 - 12].forEach((half, c) => {
+          const middle = c ? (b.y[0] + b.y[1]) / 2 : (b.x[0] + b.x[1]) / 2, room = half - Math.abs(at[c] - middle) / paper.perMm;
+          most = Math.max(most, Math.abs(f[c]) / Math.max(room, 4));
+        });
+      }
+    return most > 0 ? roundUp(most / size.force) * size.force : perMm;
+  }
+
+  /** The whole cycle finds room. */
+  function fit(force?: number): void {
+    const spans = about ? poses().map(({ b }) => b) : [cycleBounds(paper, d)].filter((b) => b !== null);
+    const room = about ? [46, 40] : [w - Math.max(0.22 * w, 34), h - Math.max(0.22 * h, 30)];
+    const wide = Math.max(0, ...spans.flatMap((b) => [(b.x[1] - b.x[0]) / room[0], (b.y[1] - b.y[0]) / room[1]]));
+    if (!about && spans.length) centre(spans[0]);
+    if (wide > 0) paper.perMm = roundUp(wide / size.length) * size.length;
+    perMm = force ?? need();
   }
 
   function placeLabels(): void {
-    const placer = new Placer([-w / 2, -h / 2, w / 2, h / 2 - 4]);
+    const placer = new Placer([-w / 2, -h / 2, w / 2, h / 2 - 6]);
     for (const part of [...live, ...arrows]) part.mark?.(placer);
     for (const { l, p, q } of names) {
       const on = out.names || !!q;
@@ -97,15 +158,20 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
   }
 
   const out: Board = {
-    svg, paper, fit, force: () => perMm, names: d.labels.filter((l) => l.kind === "joint").length <= 8,
+    svg, paper, fit, need, force: () => perMm, names: d.labels.filter((l) => l.kind === "joint").length <= 8,
+    resize(wide, high) {
+      [w, h] = [wide, high];
+      svg.setAttribute("viewBox", `${-w / 2} ${-h / 2} ${w} ${h}`);
+    },
     update(cycle) {
       if (cycle) cyclic.forEach((p) => p.update());
       acting.setAttribute("visibility", kernel.solved ? "visible" : "hidden");
+      const y = h / 2 - 2.6, end = long.set([-w / 2 + 2, y], paper.perMm, units.length);
+      strong.set([end + 5, y], forces.length ? perMm : NaN, units.force);
       if (!kernel.finite) return; // the last pose stays, greyed
-      if (about) centre(bounds(about.map((r) => paper.here(r))));
+      if (about) centre(extent((r) => kernel.here[r]));
       for (const part of [...live, ...arrows]) part.update();
       placeLabels();
-      note.textContent = `1 mm = ${+(paper.perMm / size.length).toPrecision(4)} ${units.length.unit}, ${+(perMm / size.force).toPrecision(4)} ${units.force.unit}`;
     },
   };
   return out;

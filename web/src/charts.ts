@@ -1,11 +1,11 @@
 /** Curves over the cycle with a cursor, polar diagrams, and polygons of forces. */
 
-import { bounds, canvas, roundUp } from "./board";
+import { bounds, canvas, roundUp, ScaleBar } from "./board";
 import type { Chart, Curve, Data, Polygon } from "./data";
 import { curve } from "./items";
 import type { Kernel } from "./kernel";
 import { label, Placer } from "./labels";
-import { Arrow, html, letters, make, path, type Point, pointer, set, short, width } from "./svg";
+import { Arrow, figures, html, letters, make, path, type Point, pointer, set, short, width } from "./svg";
 
 const LEFT = 16, TOP = 5, LOW = 8, LINE = 4;
 
@@ -15,31 +15,34 @@ function step(span: number, count: number): number {
   return power * ([1, 2, 5, 10].find((s) => s * power >= raw) ?? 10);
 }
 
+/** The same of degrees: parts of a turn, or turns. */
+function turnStep(span: number, count: number): number {
+  return [1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360].find((s) => s >= span / count) ?? 360 * step(span / 360, count);
+}
+
 /** The multiples of a step between two numbers. */
 function ticks(low: number, high: number, by: number): number[] {
   const first = Math.ceil(low / by - 1e-9), count = Math.floor(high / by + 1e-9) - first + 1;
   return Array.from({ length: Math.max(count, 0) }, (_, k) => (first + k) * by);
 }
 
-export const figures = (x: number, digits = 4): string => (Number.isFinite(x) ? String(+x.toPrecision(digits)).replace("-", "−") : "–");
-
 export interface View { update(cycle: boolean): void }
 
 export interface Cursor { time(): number; seek(t: number): void; pick(curve: Curve): void; picked(): Curve | undefined }
 
 /** ``W``: width in mm. */
-export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cursor: Cursor, W: number): View {
+export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cursor: Cursor, W: number): View & { resize(W: number): void } {
   const figure = html("figure", parent, { class: "chart" }), unit = data.units[c.kind];
   html("figcaption", figure, {}, `${c.title}, ${unit.unit}`);
   const names = data.views.charts.flatMap((x) => x.curves.map((one) => width(one.name, 3)));
-  const right = Math.min(Math.max(...names) + 4, 0.3 * W), H = Math.max(52, TOP + LOW + LINE * c.curves.length);
-  const svg = canvas(figure, W, H, c.title), w = W - LEFT - right, h = H - TOP - LOW, x0 = -W / 2 + LEFT, y0 = -H / 2 + TOP;
+  const H = Math.max(44, TOP + LOW + LINE * c.curves.length), svg = canvas(figure, W, H, c.title), h = H - TOP - LOW, y0 = -H / 2 + TOP;
+  let w = 0, x0 = 0;
   const grid = make("path", svg, { class: "l-grid", style: "fill:none" }), axis = make("path", svg, { class: "l-axis", style: "fill:none" });
   const scale = make("g", svg), lines = c.curves.map((x) => make("path", svg, { class: `l-${x.role}`, style: "fill:none" }));
   const now = make("path", svg, { class: "cursor" }), dots = c.curves.map((x) => make("circle", svg, { class: `l-${x.role}-h`, r: 0.9 }));
   const last = Math.max(kernel.count - 1, 1), least = data.noise[c.kind as "force"] ?? 0;
   const keys = c.curves.map((x, k) => {
-    const t = make("text", svg, { class: `l-${x.role}-t key`, "font-size": 3, x: x0 + w + 2, y: y0 + 3 + LINE * k, tabindex: 0, role: "button" });
+    const t = make("text", svg, { class: `l-${x.role}-t key`, "font-size": 3, y: y0 + 3 + LINE * k, tabindex: 0, role: "button" });
     letters(t, x.name, 3);
     make("title", t).textContent = "show what lowers its peak";
     t.addEventListener("click", () => cursor.pick(x));
@@ -50,7 +53,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     const v = kernel.value(x.row, k) / unit.size;
     return Math.abs(v) * unit.size < least ? 0 : v;
   };
-  let low = NaN, high = NaN;
+  let low = NaN, high = NaN, by = 1;
   const at = (k: number): number => x0 + (k / last) * w, up = (v: number): number => y0 + h - ((v - low) / (high - low)) * h;
 
   /** From tick to tick, so that the scale stands still while curves move a little; whether it is another. */
@@ -59,15 +62,15 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     for (const x of c.curves)
       for (let k = 0; k < kernel.count; k++)
         if (kernel.good[k]) {
-          const v = value(x, k);
-          l = Math.min(l, v);
-          u = Math.max(u, v);
+          const v = value(x, k), w = kernel.reverses(k) ? kernel.onceAfter(() => value(x, k)) : v;
+          l = Math.min(l, v, w);
+          u = Math.max(u, v, w);
         }
     if (!(l <= u)) [l, u] = [0, 1];
     if (l > 0 && l < 0.4 * u) l = 0;
     if (u < 0 && u > 0.4 * l) u = 0;
     if (u - l < 1e-9 * Math.max(Math.abs(u), Math.abs(l), 1e-9)) [l, u] = [Math.min(l, 0), Math.max(u, 0) || 1];
-    const by = step(u - l, 4);
+    by = step(u - l, 4);
     [l, u] = [Math.floor(l / by + 1e-9) * by, Math.ceil(u / by - 1e-9) * by];
     if (l === low && u === high) return false;
     [low, high] = [l, u];
@@ -75,7 +78,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
   }
 
   function drawScale(): void {
-    const drive = data.drives[0], by = step(high - low, 4);
+    const drive = data.drives[0];
     const say = (text: string, x: number, y: number, anchor: string) =>
       (make("text", scale, { class: "l-note-t", "font-size": 2.6, "text-anchor": anchor, x, y }).textContent = text);
     scale.replaceChildren();
@@ -86,7 +89,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     }
     if (drive) {
       const [from, to] = [0, last].map((k) => kernel.position(drive.name, k) / drive.size);
-      for (const m of ticks(Math.min(from, to), Math.max(from, to), step(Math.abs(to - from), 5))) {
+      for (const m of ticks(Math.min(from, to), Math.max(from, to), (drive.unit === "°" ? turnStep : step)(Math.abs(to - from), 6))) {
         const x = x0 + ((m - from) / (to - from || 1)) * w;
         lattice += `M${short(x)} ${y0}v${h}`;
         say(figures(m, 5) + (drive.unit === "°" ? "°" : ""), x, y0 + h + 3.4, "middle");
@@ -97,6 +100,14 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     axis.setAttribute("d", `M${x0} ${y0}v${h}` + (low < 0 && high > 0 ? `M${x0} ${short(up(0))}h${w}` : ""));
   }
 
+  function resize(wide: number): void {
+    W = wide;
+    [w, x0] = [W - LEFT - Math.min(Math.max(...names) + 4, 0.3 * W), -W / 2 + LEFT];
+    svg.setAttribute("viewBox", `${-W / 2} ${-H / 2} ${W} ${H}`);
+    keys.forEach((t) => t.setAttribute("x", short(x0 + w + 2)));
+    low = NaN;
+  }
+  resize(W);
   const move = (e: PointerEvent) => cursor.seek(((pointer(svg, e)[0] - x0) / w) * last);
   svg.addEventListener("pointerdown", (e) => {
     if ((e.target as Element).closest(".key")) return;
@@ -105,6 +116,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
   });
   svg.addEventListener("pointermove", (e) => e.buttons && svg.hasPointerCapture(e.pointerId) && move(e));
   return {
+    resize,
     update(cycle) {
       if (cycle) {
         if (rescale()) drawScale();
@@ -131,9 +143,10 @@ export function polar(parent: Element, kernel: Kernel, c: Curve, unit: { unit: s
   return {
     update(cycle) {
       if (cycle) {
-        perMm = roundUp(kernel.largest((k) => Math.hypot(kernel.value(fx, k), kernel.value(fy, k))) / 28 / unit.size) * unit.size;
+        const outer = roundUp(kernel.largest((k) => Math.hypot(kernel.value(fx, k), kernel.value(fy, k))) / unit.size);
+        perMm = (outer / 30) * unit.size;
         line.setAttribute("d", curve(kernel, (k) => [kernel.value(fx, k) / perMm, -kernel.value(fy, k) / perMm], true));
-        caption.textContent = `Joint ${c.name}: 1 mm = ${figures(perMm / unit.size)} ${unit.unit}`;
+        caption.textContent = `Joint ${c.name}: circles of ${figures(outer / 2)} and ${figures(outer)} ${unit.unit}`;
       }
       arrow.set([0, 0], kernel.solved ? [kernel.here[fx] / perMm, -kernel.here[fy] / perMm] : [0, 0]);
     },
@@ -151,7 +164,7 @@ export function polygon(parent: Element, data: Data, kernel: Kernel, title: stri
     const drawn = sides.filter((s) => s !== shared).map((s) => ({ s, arrow: new Arrow(svg, s.role, s.name), name: label(lettered, s.role, s.name, 3) }));
     return { shared, drawn };
   });
-  const gap = make("path", svg, { class: "l-gap", style: "fill:none" }), note = make("text", svg, { class: "l-note-t", "font-size": 2.8, x: -w / 2 + 2, y: h / 2 - 2 });
+  const gap = make("path", svg, { class: "l-gap", style: "fill:none" }), bar = new ScaleBar(svg, true);
   return {
     figure,
     update() {
@@ -185,7 +198,7 @@ export function polygon(parent: Element, data: Data, kernel: Kernel, title: stri
         if (shown) placer.put({ label: name, anchors: [mid], away: mid, leave: 0.9 });
       }
       gap.setAttribute("d", gaps.map(([p, q]) => path([on(p), on(q)])).join(""));
-      note.textContent = `1 mm = ${figures(perMm / unit.size)} ${unit.unit}`;
+      bar.set([-w / 2 + 2, h / 2 - 2.6], perMm, unit);
     },
   };
 }

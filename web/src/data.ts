@@ -11,8 +11,18 @@ export interface Channel { name: string; values: Series; table?: Table }
 export interface Module { wasm: string; heap: number; row: number; count: number; outputs: number; channels: string[] }
 export interface NumberField {
   path: string; label: string; value: number; unit: string; size: number;
-  parameter?: boolean; about?: string; range?: Rows;
+  parameter?: boolean; about?: string; range?: Rows; kind: string; sign?: Sign;
 }
+/** What the model demands of a number. */
+export type Sign = "positive" | "not negative";
+/** How numbers are read: units by name (SI value = number * first / second, then powers), kinds, Python's sentences. */
+export interface Reading {
+  units: Record<string, number[]>; sentences: Record<string, string>; signs: Record<Sign, string>;
+  kinds: Record<string, { phrase: string; dimension: number[]; remedy: string; units: string; per_radian?: boolean; force?: boolean }>;
+}
+/** A place of the saved text: what stood there, the numbers it depends on, and what is there once one has changed: text, or
+ * a number with the size of its unit. Those behind the numbers are of the assembly. */
+export interface Place { was?: string; of?: number[]; now: (string | Pair)[] }
 export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; along?: Rows; p: Rows; link: string }
 
 /** Something drawn: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle. */
@@ -43,9 +53,30 @@ export interface TableRow { name: string; kind: string; rows: number[] }
 /** Numbers of a point in axes whose origin and unit vectors are rows. */
 export interface End { n: number[]; at: Rows; axes: Rows[] }
 export type Handle =
-  | { kind: "joint" | "point" | "center"; name: string; p: Rows; ends: End[]; by?: number[] }
+  | { kind: "joint" | "point" | "center"; name: string; p: Rows; ends: End[]; by?: number[]; about?: Rows }
   | { kind: "load"; name: string; p: Rows; f: Rows; axes: Rows[]; components?: number[]; size?: number; direction?: number }
   | { kind: "direction"; name: string; p: Rows; along: Rows; direction: number; axes: Rows[] };
+
+/** A row that is held, between links i and j (the ground's number is that of the moving links): a constraint, a phase of
+ * wheels that mesh, a freedom; outputs of the closure program. */
+export interface SketchRow { kind: "constraint" | "phase" | "freedom"; joint: string; ends: Pair; angular: boolean; value: number; period?: number }
+/** How the linkage is closed and its motion followed: see `pages/sketch_data.py`. */
+export interface SketchData {
+  dimension: 2 | 3; length: number; links: string[]; order: number[];
+  rows: SketchRow[]; entries: number[]; turns: number[]; drives: number[]; closure: Module;
+  pose: { point: number[]; rotation: number[]; turn: number[] }; place: number;
+  course: number[]; places: number[]; cycle?: number[]; counted: Record<string, number>; assembly: string[];
+  shown: Module; branches: string[]; known: string[]; drawn: number[];
+  gaps: { joint: string; p: number[]; q: number[] }[]; poses: number[][];
+}
+
+/** Sentences of the analyses, with the rows that fill them: see `pages/messages/position_sentences.py`. */
+export interface Sentences {
+  templates: Record<string, string>; words: { [name: string]: any; kinds: Record<"length" | "angle", { what: string; how: string }> };
+  limits: { shut: number; alike: number }; units: Record<string, { unit: string; size: number }>; joints: string[];
+  overflow: Record<string, [string, ...number[]][]>; unknowns: { name: string; kind: string; row: number }[];
+  contacts: { joint: string; row: number }[]; gears: { sentence: string; rows: number[]; error: number }[];
+}
 
 export interface Data {
   format: string; version: string; title: string; source: string;
@@ -53,11 +84,12 @@ export interface Data {
   noise: { force: number; moment: number };
   kernel: Module; channels: Channel[]; only_at_positions: boolean;
   gradient?: Module & { curves: number[]; numbers: number[] };
-  numbers: NumberField[]; template: string[]; drives: Drive[]; handles: Handle[];
+  numbers: NumberField[]; limits: { row: number; path: string; sign: Sign }[]; reading: Reading; template: (string | Place)[]; drives: Drive[]; handles: Handle[]; sketch: SketchData;
   views: {
     mechanism: Drawing & { middle?: Pair }; bodies: FreeBody[];
     polygons: { links: Polygon[]; chain: number[] }; charts: Chart[]; table: TableRow[];
   };
+  sentences: Sentences;
   statuses: { status: string; sentence: string; numbered: boolean }[];
   assumptions: Record<string, string>;
   style: { light: string; dark: string };

@@ -64,7 +64,7 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
   });
   make("title", knob).textContent = `drag ${said}`;
   const paper = b.paper, u = kernel.values, here = (rows: Rows): number[] => rows.map((r) => kernel.here[r]);
-  let held: Held[] = [], place: number[] = [], from: Point = [0, 0], acting: number[] = [], grip: Point = [0, 0], moving = false;
+  let held: Held[] = [], place: number[] = [], from: Point = [0, 0], acting: number[] = [], middle: number[] = [], grip: Point = [0, 0], moving = false;
 
   const where = (): Point => {
     const p = paper.point(h.p), way = "f" in h ? paper.here(h.f) : "along" in h ? paper.here(h.along) : [0, 0];
@@ -75,17 +75,24 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
     const one = (axes: Rows[], at: Rows): Held => ({ axes: axes.map(here), at: here(at) });
     held = "ends" in h ? h.ends.map((e) => one(e.axes, e.at)) : [one(h.axes, h.p)];
     [place, from, acting, moving] = [here(h.p), where(), "f" in h ? here(h.f) : [], true];
+    middle = "about" in h && h.about ? here(h.about) : [];
   };
   /** The vector by which it went, in the plane of the paper, metres. */
   const went = (at: Point): number[] => paper.vector([at[0] - from[0], at[1] - from[1]]);
   const to = (at: Point) => {
     if ("by" in h && h.by) follow(kernel, paper, h.p, h.by, paper.metres(at));
-    else if ("ends" in h) move(h.ends, went(at));
+    else if ("ends" in h) move(h.ends, round(went(at)));
     else if (h.kind === "direction") {
       const p = paper.point(h.p), way = [at[0] - p[0], p[1] - at[1]], [x, y] = held[0].axes.map((axis) => dot(axis, way));
       u[h.direction] = near(Math.atan2(y, x), u[h.direction]);
     } else turnLoad(h, went(at).map((x, k) => acting[k] + (x / paper.perMm) * b.force()));
     hold.changed();
+  };
+  /** By which a wheel's centre goes that has to stay at its distance from another's. */
+  const round = (by: number[]): number[] => {
+    if (!("about" in h) || !h.about) return by;
+    const c = middle, arm = place.map((x, k) => x - c[k]), far = arm.map((x, k) => x + by[k]), size = Math.hypot(...arm) / (Math.hypot(...far) || 1);
+    return far.map((x, k) => c[k] + size * x - place[k]);
   };
   /** The point stands elsewhere in each of its links, which stay where they were. */
   const move = (ends: End[], by: number[]) =>

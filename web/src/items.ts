@@ -136,7 +136,11 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
         end.setAttribute("d", `M${short(near - wide)} ${-r}H${short(near + wide)}V${r}H${short(near - wide)}Z`);
       }
     },
-    mark: (placer) => placer.disc(paper.point(i.p), 2.4),
+    mark(placer) {
+      const [x, y] = paper.point(i.p), [ex, ey] = paper.here(i.e), long = i.shape === "ball" ? 0 : half;
+      placer.disc([x, y], 2.4);
+      placer.line([x - long * ex, y + long * ey], [x + long * ex, y - long * ey]);
+    },
   };
 }
 
@@ -149,6 +153,10 @@ export function curve(k: Kernel, at: (n: number) => Point, closed = false): stri
     if (good) {
       const [x, y] = at(n);
       d += (pen ? "L" : "M") + short(x) + " " + short(y);
+      if (k.reverses(n)) {
+        const [ax, ay] = k.onceAfter(() => at(n));
+        d += "L" + short(ax) + " " + short(ay);
+      }
     }
     pen = good;
   }
@@ -220,7 +228,7 @@ function couple(parent: Element, a: Couple, paper: Paper): Shown {
     },
     anchor() {
       const [x, y] = paper.point(a.p);
-      return shown ? [[x, y - RADIUS], [0, -1]] : null;
+      return shown ? [[x, y - RADIUS], [x - RADIUS, y], [x + RADIUS, y], [x, y + RADIUS], [0, -1]] : null;
     },
   };
 }

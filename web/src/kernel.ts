@@ -1,51 +1,14 @@
 /** The compiled analysis of the page: rows of numbers over the cycle and at one place of it. */
 
-import type { Channel, Data, Module, Pair, Series, Table } from "./data";
+import type { Channel, Data, Pair, Table } from "./data";
+import { Motion } from "./motion";
+import { Program, series } from "./program";
+import type { Pose } from "./sketch";
 
-export function bytes(text: string): Uint8Array<ArrayBuffer> {
-  return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-}
-
-export function series(given: Series): Float64Array {
-  if (typeof given === "string") return new Float64Array(bytes(given).buffer);
-  const step = (given.to - given.from) / Math.max(given.count - 1, 1);
-  return Float64Array.from({ length: given.count }, (_, k) => (k === given.count - 1 ? given.to : given.from + k * step));
-}
-
-export async function inflate(text: string): Promise<ArrayBuffer> {
-  const stream = new Blob([bytes(text)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Response(stream).arrayBuffer();
-}
-
-type Run = (values: number, path: number, out: number, blocks: number) => void;
-
-/** One WebAssembly program with room for its inputs and outputs. */
-class Program {
-  readonly values: Float64Array;
-  readonly path: Float64Array;
-  readonly out: Float64Array;
-  readonly row: number;
-  private readonly places: number[] = [];
-  private constructor(private readonly run: Run, memory: WebAssembly.Memory, m: Module, numbers: number) {
-    this.row = m.row;
-    const sizes = [numbers, m.channels.length * m.row, (m.outputs + 1) * m.row];
-    let end = m.heap;
-    for (const size of sizes) {
-      this.places.push(end);
-      end = (end + 8 * size + 15) & ~15;
-    }
-    if (end > memory.buffer.byteLength) memory.grow(Math.ceil((end - memory.buffer.byteLength) / 65536));
-    [this.values, this.path, this.out] = sizes.map((n, k) => new Float64Array(memory.buffer, this.places[k], n));
-  }
-  static async create(m: Module, numbers: number): Promise<Program> {
-    const { instance } = await WebAssembly.instantiate(await inflate(m.wasm));
-    const { memory, run } = instance.exports as unknown as { memory: WebAssembly.Memory; run: Run };
-    return new Program(run, memory, m, numbers);
-  }
-  call(positions: number): void {
-    this.run(this.places[0], this.places[1], this.places[2], Math.ceil(positions / 2));
-  }
-}
+/** The mark of a position that does not close, or that the motion does not reach. */
+const OPEN = 1;
+/** Numbers beyond this, SI, are taken for the cause where numbers overflow. */
+const ABSURD = 1e60;
 
 /** A table of the file, exact between its points. */
 class Pieces {
@@ -78,17 +41,33 @@ export class Kernel {
   readonly count: number;
   /** Outputs at one place, by row; the mark last. */
   readonly here: Float64Array;
+  /** The same just after contacts reverse there; elsewhere equal. */
+  readonly hereAfter: Float64Array;
+  /** Outputs over the positions just after reversals; ``here`` and ``rows`` are just before them. */
+  readonly after: Float64Array;
+  /** The channel of the side of reversals; -1 without friction. */
+  private readonly side: number;
   /** Whether every output is a number there, right or not. */
   finite = true;
   /** 1 at each position that has numbers. */
   readonly good: Uint8Array;
+  /** Why the analyses refuse the mechanism with these numbers; then no position has numbers. */
+  refused = "";
   /** Whether the cycle goes on from its last position to its first. */
   readonly cyclic: boolean;
   readonly values: Float64Array;
   readonly positions: Map<string, Float64Array>;
+  /** The pose in hand and the motion from there. */
+  readonly motion: Motion;
+  /** Where nothing closes: joints whose two points are apart, by these places. */
+  open: { joint: string; p: number[]; q: number[] }[] = [];
+  private read: Float64Array;
+  private later: Float64Array;
   private readonly channels: Map<string, { values: Float64Array; pieces?: Pieces; drive: string }>;
+  private followed: { name: string; channel: number }[];
+  private readonly known: Map<string, number>;
 
-  private constructor(private readonly data: Data, private readonly whole: Program, private readonly one: Program, private readonly slope?: Program) {
+  private constructor(private readonly data: Data, private readonly whole: Program, private readonly one: Program, closure: Program, shown: Program, private readonly slope?: Program) {
     this.count = data.kernel.count;
     this.row = data.kernel.row;
     this.values = whole.values;
@@ -96,26 +75,36 @@ export class Kernel {
     this.rows = whole.out;
     this.good = new Uint8Array(this.count);
     this.here = new Float64Array(data.kernel.outputs + 1);
+    this.hereAfter = new Float64Array(data.kernel.outputs + 1);
+    this.side = data.kernel.channels.indexOf("side");
+    this.after = this.side < 0 ? this.rows : this.rows.slice();
+    [this.read, this.later] = [this.rows, this.after];
     this.positions = new Map(data.drives.map((d) => [d.name, series(d.position)]));
     this.channels = new Map(data.channels.map((c: Channel) => [c.name, {
       values: series(c.values), pieces: c.table && new Pieces(c.table), drive: c.table ? c.table.drive : c.name.replace(/^position /, ""),
     }]));
+    const given = new Set([...data.sketch.branches, ...data.sketch.known]);
+    this.followed = data.kernel.channels.flatMap((name, channel) => (given.has(name) || name.startsWith("phase ") ? [{ name, channel }] : []));
+    this.known = new Map(data.sketch.known.map((name, k) => [name, data.sketch.branches.length + k]));
     data.kernel.channels.forEach((name, k) => {
       const c = this.channels.get(name)!.values;
       for (let p = 0; p < this.row; p++) whole.path[k * this.row + p] = c[Math.min(p, this.count - 1)];
     });
-    this.cyclic = !data.only_at_positions && data.drives.some((d) => d.turns && this.closes(d.name));
+    if (this.side >= 0) whole.path.fill(-1, this.side * this.row, (this.side + 1) * this.row);
+    const all = (name: string): Float64Array => this.channels.get(name)?.values ?? new Float64Array(this.count);
+    this.motion = new Motion(data, this, closure, shown, this.values, all);
+    this.cyclic = !data.only_at_positions && data.drives.some((d) => d.turns && this.isWholeTurn(d.name));
   }
 
   static async create(data: Data): Promise<Kernel> {
     const n = data.numbers.length;
-    const [whole, here, slope] = await Promise.all([
-      Program.create(data.kernel, n), Program.create(data.kernel, n), data.gradient ? Program.create(data.gradient, n) : undefined,
+    const [whole, here, closure, shown, slope] = await Promise.all([
+      Program.create(data.kernel, n), Program.create(data.kernel, n), Program.create(data.sketch.closure, n), Program.create(data.sketch.shown, n), data.gradient ? Program.create(data.gradient, n) : undefined,
     ]);
-    return new Kernel(data, whole, here, slope);
+    return new Kernel(data, whole, here, closure, shown, slope);
   }
 
-  private closes(drive: string): boolean {
+  private isWholeTurn(drive: string): boolean {
     const q = this.positions.get(drive)!;
     if (q.length < 8) return false;
     const turn = ((q[q.length - 1] - q[0]) * q.length) / (q.length - 1) / (2 * Math.PI);
@@ -131,7 +120,7 @@ export class Kernel {
   position(drive: string, t: number): number {
     const q = this.positions.get(drive)!, [k, s] = this.split(t);
     if (s === 0 || q.length < 2) return q[k];
-    const next = k + 1 < q.length ? q[k + 1] : this.closes(drive) ? q[k] + (q[1] - q[0]) : q[0];
+    const next = k + 1 < q.length ? q[k + 1] : this.isWholeTurn(drive) ? q[k] + (q[1] - q[0]) : q[0];
     return q[k] + s * (next - q[k]);
   }
 
@@ -148,50 +137,140 @@ export class Kernel {
     return s === 0 ? c.values[k] : c.values[k] + s * (next - c.values[k]);
   }
 
-  /** All positions with the numbers as they are. */
+  /** All positions with the numbers as they are; those that the motion does not reach are marked. */
   cycle(): void {
-    this.whole.call(this.count);
-    for (let k = 0; k < this.count; k++) this.good[k] = +this.numbered(this.markAt(k));
-  }
-
-  /** One place t of the cycle, 0 to `end`. */
-  at(t: number): void {
-    this.load(this.one, this.data.kernel.channels, t);
-    this.one.values.set(this.values);
-    this.one.call(1);
-    this.finite = true;
-    for (let r = 0; r < this.here.length; r++) {
-      this.here[r] = this.one.out[r * this.one.row];
-      if (!Number.isFinite(this.here[r])) this.finite = false;
+    this.motion.update();
+    this.closes();
+    if (this.side >= 0) this.bothSides();
+    const last = this.rows.length - this.row;
+    for (let k = 0; k < this.count; k++) {
+      this.rows[last + k] = this.motion.poses[k] ? this.judged(this.rows[last + k], (r) => this.rows[r * this.row + k]) : OPEN;
+      this.good[k] = +this.numbered(this.markAt(k));
     }
   }
 
-  /** The same for other numbers, into `out`; what `at` loaded before stands. */
+  /** Runs over all positions with the inputs of the motion; where it closes. */
+  closes(): Uint8Array {
+    for (const { name, channel } of this.followed) this.whole.path.set(this.channels.get(name)!.values, channel * this.row);
+    this.whole.call(this.count);
+    return Uint8Array.from({ length: this.count }, (_, k) => +(this.markAt(k) !== OPEN));
+  }
+
+  /** Numbers just after reversals of contacts; the marks of positions where they are not those just before. */
+  private bothSides(): void {
+    const { path, out } = this.whole, from = this.side * this.row, before = out.slice();
+    path.fill(1, from, from + this.row);
+    this.whole.call(this.count);
+    this.after.set(out);
+    out.set(before);
+    path.fill(-1, from, from + this.row);
+    const last = out.length - this.row;
+    for (let k = 0; k < this.count; k++) out[last + k] = this.between(out[last + k], this.after[last + k], (r) => out[r * this.row + k] === this.after[r * this.row + k]);
+  }
+
+  /** The mark of a position by its marks just before and just after, and whether a row is the same there. */
+  private between(before: number, after: number, same: (row: number) => boolean): number {
+    if (before !== after) return this.numbered(before) ? after : before;
+    const reverses = this.numbered(before) && !this.here.every((_, r) => r === this.here.length - 1 || same(r));
+    return reverses && before === 0 ? this.marked("reversal") : before;
+  }
+
+  /** A mark, or that of an overflow, where some row is no finite number because of numbers out of all proportion. */
+  private judged(mark: number, value: (row: number) => number): number {
+    if (mark === OPEN || (!this.numbered(mark) && this.data.statuses[mark].status !== "undecided")) return mark;
+    const absurd = this.numbered(mark) || this.values.some((x) => Math.abs(x) > ABSURD);
+    for (let r = 0; absurd && r < this.here.length - 1; r++) if (!Number.isFinite(value(r))) return this.marked("overflow");
+    return mark;
+  }
+
+  private marked(status: string): number {
+    return this.data.statuses.findIndex((s) => s.status === status);
+  }
+
+  closesAt(t: number): boolean {
+    this.run(t, null, this.motion.otherwise);
+    return this.one.at(this.here.length - 1) !== OPEN;
+  }
+
+  posed(k: number): number[][] {
+    return this.data.sketch.poses.map((rows) => rows.map((row) => this.value(row, k)));
+  }
+
+  drives(t: number): number[] {
+    return this.data.drives.map((d) => this.position(d.name, t));
+  }
+
+  /** One place t of the cycle, 0 to `end`; where nothing closes what is drawn is the pose in hand, open at a joint. */
+  at(t: number): void {
+    const pose = this.motion.at(t), { here } = this;
+    this.run(t, pose, pose ? this.motion.read(pose, t) : this.motion.otherwise);
+    for (let r = 0; r < here.length; r++) [here[r], this.hereAfter[r]] = [this.one.at(r), this.one.at(r, 1)];
+    const last = here.length - 1, reverses = this.side >= 0 ? this.between(here[last], this.hereAfter[last], (r) => here[r] === this.hereAfter[r]) : here[last];
+    here[last] = this.judged(reverses, (r) => here[r]);
+    if (!pose) here[here.length - 1] = OPEN;
+    this.open = [];
+    if (!pose || !here.every(Number.isFinite)) this.stretch(pose ?? this.motion.stretched(t), t);
+    this.finite = this.data.sketch.drawn.every((r) => Number.isFinite(here[r]));
+  }
+
+  /** Rows of what is drawn, of a pose that need not close. */
+  private stretch(pose: Pose, t: number): void {
+    const { sketch } = this.data, p = this.motion.look(pose, t, this.motion.otherwise), first = sketch.branches.length + sketch.known.length;
+    sketch.drawn.forEach((row, k) => (this.here[row] = p.at(first + k)));
+    const at = (rows: number[]): number[] => rows.map((r) => p.at(r));
+    const gaps = sketch.gaps.map((g) => ({ joint: g.joint, p: at(g.p), q: at(g.q) })), size = gaps.map((g) => Math.hypot(...g.p.map((x, k) => x - g.q[k])));
+    const seen = Math.max(1e-6 * sketch.length, 0.02 * Math.max(...size));
+    this.open = gaps.filter((_, k) => size[k] > seen);
+  }
+
+  /** The one program at a place, with the branches there and what is known of the pose. */
+  private run(t: number, pose: Pose | null, branch: Float64Array): void {
+    this.feed(this.one, this.data.kernel.channels, t, pose, branch);
+    this.one.values.set(this.values);
+    this.one.call(1);
+  }
+
+  private feed(p: Program, names: string[], t: number, pose: Pose | null, branch: Float64Array): void {
+    const found = pose && this.data.sketch.known.length ? this.motion.look(pose, t, branch) : null;
+    names.forEach((name, k) => {
+      const b = this.data.sketch.branches.indexOf(name), known = this.known.get(name);
+      if (name === "side") return p.put(k, -1, 1);
+      p.put(k, b >= 0 ? branch[b] : known !== undefined ? found?.at(known) ?? NaN : this.input(name, t));
+    });
+  }
+
+  /** The same for other numbers, into `out`, on the branches that `at` has loaded. */
   other(values: Float64Array, out: Float64Array): void {
     this.one.values.set(values);
     this.one.call(1);
-    for (let r = 0; r < out.length; r++) out[r] = this.one.out[r * this.one.row];
+    for (let r = 0; r < out.length; r++) out[r] = this.one.at(r);
   }
 
   /** Derivatives of a curve (its place among those of the gradient) by the numbers of the gradient, at a position. */
   gradient(curve: number, position: number): Float64Array {
     const g = this.data.gradient!, p = this.slope!;
-    this.load(p, g.channels, position);
+    const pose = this.motion.poses[position];
+    this.feed(p, g.channels, position, pose, Float64Array.from(this.motion.branches, (of) => of[position]));
     p.values.set(this.values);
     p.call(1);
     const n = g.numbers.length;
-    return Float64Array.from({ length: n }, (_, k) => p.out[(curve * n + k) * p.row]);
-  }
-
-  private load(p: Program, names: string[], t: number): void {
-    names.forEach((name, k) => {
-      p.path[k * p.row] = p.path[k * p.row + 1] = this.input(name, t);
-    });
+    return Float64Array.from({ length: n }, (_, k) => p.at(curve * n + k));
   }
 
   /** Whether a mark is one of positions that have numbers. */
   numbered(mark: number): boolean {
-    return this.data.statuses[mark].numbered;
+    return !this.refused && this.data.statuses[mark].numbered;
+  }
+
+  /** The numbers and the pose in hand, to come back to. */
+  state(): Float64Array {
+    return Float64Array.from([...this.values, ...this.motion.state()]);
+  }
+
+  restore(state: Float64Array): void {
+    const n = this.values.length;
+    this.values.set(state.subarray(0, n));
+    this.motion.restore([...state.subarray(n)]);
   }
 
   get mark(): number {
@@ -208,13 +287,28 @@ export class Kernel {
   }
 
   value(row: number, k: number): number {
-    return this.rows[row * this.row + k];
+    return this.read[row * this.row + k];
   }
 
-  /** The largest of something over the positions that have numbers. */
+  /** Whether contacts reverse at a position. */
+  reverses(k: number): boolean {
+    return this.side >= 0 && this.data.statuses[this.markAt(k)].status === "reversal";
+  }
+
+  /** Something made of values just after reversals. */
+  onceAfter<T>(of: () => T): T {
+    [this.read, this.later] = [this.later, this.read];
+    try {
+      return of();
+    } finally {
+      [this.read, this.later] = [this.later, this.read];
+    }
+  }
+
+  /** The largest of something over the positions that have numbers, both sides of reversals. */
   largest(of: (k: number) => number): number {
     let most = 0;
-    for (let k = 0; k < this.count; k++) if (this.good[k]) most = Math.max(most, of(k));
+    for (let k = 0; k < this.count; k++) if (this.good[k]) most = Math.max(most, of(k), this.reverses(k) ? this.onceAfter(() => of(k)) : 0);
     return most;
   }
 }

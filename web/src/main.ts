@@ -1,14 +1,14 @@
 /** What a page and a notebook import. */
 
-import { inflate } from "./kernel";
 import { mount, type Page } from "./page";
+import { inflate } from "./program";
 import { html } from "./svg";
 
 /** The page of compressed data in an element; what goes wrong is said there. */
 export async function open(el: HTMLElement, packed: string): Promise<Page> {
   try {
     const data = JSON.parse(new TextDecoder().decode(await inflate(packed)));
-    return await mount(el, data, { address: location.protocol !== "about:" });
+    return await mount(el, data, { address: location.protocol !== "about:", full: true });
   } catch (error) {
     el.textContent = String(error);
     throw error;

@@ -1,56 +1,63 @@
 /** `mount(element, data)`: the page of one mechanism; the same for a file, a notebook and, later, a studio. */
 
-import { type Board, board, heightFor } from "./board";
-import { figures } from "./charts";
+import { type Board, board } from "./board";
 import type { Curve, Data } from "./data";
+import { gapMarks } from "./gap";
+import { Gate } from "./gate";
 import { handles } from "./handles";
 import { Kernel } from "./kernel";
 import style from "./page.css?inline";
 import { methodPanel, numbersPanel, panel } from "./panels";
 import { results } from "./results";
-import { html, plain } from "./svg";
+import { Reasons } from "./sentences";
+import { figures, html, plain } from "./svg";
 import { toolbar } from "./toolbar";
-import { change, changes, Cloud, csvText, fileName, fragment, Gradients, History, modelText, restore, save, svgText } from "./tools";
+import { changes, Cloud, csvText, fileName, fragment, Gradients, History, modelText, restore, save, svgText } from "./tools";
 
 type Changes = Record<string, number>;
-/** ``changes``: to begin with, by path; ``edited`` is told all there are after each. ``address``: they stand there. */
-export interface Options { changes?: Changes; edited?: (changes: Changes) => void; address?: boolean }
+/** ``changes``: to begin with, by path; ``edited`` is told all there are after each. ``address``: they stand there.
+ * ``full``: the page is all there is in its window: it fills it, and takes its keys. */
+export interface Options { changes?: Changes; edited?: (changes: Changes) => void; address?: boolean; full?: boolean }
 export interface Page {
   kernel: Kernel; data: Data; times: number[]; set(changes: Changes): void; show(t: number): void; text(): string; remove(): void;
 }
 
-/** Width in mm of the drawing, on a screen and on a phone, where letters must not shrink with it. */
-const WIDE = 170, NARROW = 105;
+/** Pixels of a mm of the drawing, at least and at most: letters are readable in every window. */
+const LEAST = 3.6, MOST = 5.2;
+/** Where letters are typed, and where a space presses or opens what has the focus. */
+const TYPED = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]";
+const PRESSED = "button,summary,select,a,input[type=checkbox],[role=button]";
 /** Seconds of a cycle that is played. */
 const CYCLE = 6;
 
 export async function mount(el: HTMLElement, data: Data, options: Options = {}): Promise<Page> {
   if (data.format !== "dalembert-page/1") throw new Error(`this page cannot show data of the form ${data.format}`);
   const kernel = await Kernel.create(data), root = document.createElement("div"), times: number[] = [];
-  const narrow = (el.clientWidth || window.innerWidth) < 560, wide = narrow ? NARROW : WIDE;
-  root.className = "dalembert";
+  root.className = options.full ? "dalembert full" : "dalembert";
   root.tabIndex = -1;
   const dark = `@media (prefers-color-scheme:dark){${data.style.dark}}@media print{${data.style.light}}`;
   html("style", root).textContent = style + data.style.light + dark;
-  if (options.changes) change(data, kernel, options.changes);
-  let t = options.address ? restore(data, kernel, location.hash) : 0, asked = 0, whole = true, runs = 0;
+  const gate = new Gate(data, kernel);
+  if (options.changes) gate.change(options.changes);
+  let t = options.address ? restore(kernel, gate, location.hash) : 0, asked = 0, whole = true, runs = 0;
   kernel.cycle();
-  const history = new History(kernel);
+  const history = new History(kernel, gate);
   const curves = data.views.charts.flatMap((c) => c.curves.map((curve) => ({ curve, unit: data.units[c.kind] })));
   let picked = curves.find((c) => data.gradient?.curves.includes(c.curve.row));
 
-  const bar = toolbar(root, data, kernel, { play, show, go, reset });
+  const reasons = new Reasons(data, kernel), bar = toolbar(root, data, kernel, reasons, { play, show, go, reset });
   const main = html("main", root), stage = html("section", main, { class: "stage", "aria-label": "mechanism" });
-  const drawing = data.views.mechanism;
-  const m = board(stage, kernel, drawing, null, wide, heightFor(kernel, drawing, wide), data.units, "the mechanism");
+  const paper = html("div", stage, { class: "paper" });
+  const m = board(paper, kernel, data.views.mechanism, null, 170, 119, data.units, "the mechanism");
   const gradients = new Gradients(m, data, kernel);
-  const cloud = new Cloud(stage, m, data, kernel, data.handles.flatMap((h) => (h.kind === "joint" || h.kind === "point" ? [h.p] : [])));
-  const updateHandles = handles(m, data, kernel, { changed: () => request(true), finished, seek: show, time: () => t });
+  const cloud = new Cloud(paper, m, data, kernel, data.handles.flatMap((h) => (h.kind === "joint" || h.kind === "point" ? [h.p] : [])));
+  const updateHandles = handles(m, data, kernel, { changed: moved, finished, seek: show, time: () => t });
+  const updateGaps = gapMarks(m, data, kernel);
   const side = html("section", main, { class: "side", "aria-label": "results" });
   const pick = (c: Curve) => ((picked = curves.find((x) => x.curve === c)), request(true));
-  const shown = results(side, data, kernel, { time: () => t, seek: show, pick, picked: () => picked?.curve }, () => request(true), narrow);
+  const shown = results(side, data, kernel, { time: () => t, seek: show, pick, picked: () => picked?.curve }, () => request(true));
   const spread = switches();
-  const inputs = numbersPanel(panel(side, "Change numbers", data.numbers.some((n) => n.parameter)), data, kernel, (done) => (done ? finished() : request(true)));
+  const inputs = numbersPanel(panel(side, "Change numbers", data.numbers.some((n) => n.parameter)), data, kernel, gate, (done) => (done ? finished() : moved()));
   methodPanel(panel(side, "Method and assumptions"), data);
   files();
   m.svg.addEventListener("click", (e) => shown.choose((e.target as Element).closest<SVGElement>("[data-link]")?.dataset.link));
@@ -68,7 +75,7 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
     if (data.handles.some((h) => h.kind === "joint")) toggle("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", false, (on) => (cloud.on = on));
     if (m.paper.axes.length > 2) {
       html("span", box, {}, "drag to look from elsewhere");
-      orbit([m, ...shown.bodies], () => request(true));
+      orbit([m, ...shown.bodies], () => (fit(), request(true)));
     }
     return html("span", box, { class: "spread" });
   }
@@ -91,18 +98,43 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
     options.edited?.(changes(data, kernel));
     if (options.address) window.history.replaceState(null, "", "#" + fragment(data, kernel, t));
   }
+  function moved(): void {
+    gate.pass();
+    request(true);
+  }
   /** After a change that can be undone. */
   function finished(): void {
+    const { sentence } = gate;
+    if (gate.pass()) gate.sentence = sentence;
     history.note();
-    m.fit();
+    fit();
     tell();
   }
   function reset(): void {
-    change(data, kernel, {});
+    gate.change({});
     finished();
   }
   function go(back: boolean): void {
-    if (history.go(back)) tell();
+    if (!history.go(back)) return;
+    fit();
+    tell();
+  }
+  /** Scales anew, of the drawing and of the free bodies. */
+  function fit(): void {
+    kernel.cycle();
+    m.fit();
+    shown.fit();
+  }
+  /** The drawing fills its place, the charts their column. */
+  function resize(): void {
+    const { width, height } = paper.getBoundingClientRect();
+    if (width > 0 && height > 0) {
+      const pixels = Math.min(Math.max(Math.min(width / 170, height / 105), LEAST), MOST);
+      m.resize(width / pixels, height / pixels);
+    }
+    if (side.clientWidth > 0) shown.resize(side.clientWidth);
+    m.fit();
+    request(true);
   }
   function show(place: number): void {
     t = Math.min(Math.max(place, 0), kernel.end);
@@ -141,42 +173,62 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
     whole = false;
     if (all) kernel.cycle();
     kernel.at(t);
+    const refused = reasons.refusal();
+    if (refused !== kernel.refused) {
+      kernel.refused = refused;
+      kernel.cycle();
+    }
     root.classList.toggle("unsolved", !kernel.solved);
     m.update(all);
     updateHandles();
+    updateGaps();
     gradients.update(picked?.curve);
     const s = cloud.update(picked?.curve.row);
-    spread.textContent = s && picked ? `${plain(picked.curve.name)}: ${figures(s.mean / picked.unit.size)} ± ${figures(s.sigma / picked.unit.size, 2)} ${picked.unit.unit} (1 σ)` : "";
+    const peak = gradients.on && picked && gradients.peak(picked.curve);
+    const lowers = peak && picked ? `arrows lower the peak of ${plain(picked.curve.name)}, now ${figures(peak.size / picked.unit.size)} ${picked.unit.unit}${peak.where}` : "";
+    spread.textContent = [lowers, s && picked ? `${plain(picked.curve.name)}: ${figures(s.mean / picked.unit.size)} ± ${figures(s.sigma / picked.unit.size, 2)} ${picked.unit.unit} (1 σ)` : ""].filter(Boolean).join("; ");
     shown.update(all);
-    bar.update(t, history.can);
+    bar.update(t, history.can, gate.sentence);
   }
   root.querySelectorAll("details").forEach((d) => d.addEventListener("toggle", () => request(true)));
-  root.addEventListener("keydown", (e) => {
-    const typing = /INPUT|SELECT|TEXTAREA/.test((e.target as Element).tagName);
-    if ((e.ctrlKey || e.metaKey) && !typing && /^[zy]$/i.test(e.key)) {
+  const keys: Document | HTMLElement = options.full ? document : root;
+  const key = (e: Event): void => press(e as KeyboardEvent);
+  keys.addEventListener("keydown", key);
+  function press(e: KeyboardEvent): void {
+    const on = e.target as Element;
+    if (e.defaultPrevented || on.closest?.(TYPED)) return;
+    if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) {
       e.preventDefault();
       go(e.key.toLowerCase() === "z" && !e.shiftKey);
-    } else if (e.key === " " && !typing && (e.target as Element).tagName !== "BUTTON" && kernel.count > 1) {
+    } else if (e.key === " " && !e.ctrlKey && !e.metaKey && !on.closest?.(PRESSED) && kernel.count > 1) {
       e.preventDefault();
       play();
     }
-  });
+  }
   kernel.at(t);
   el.replaceChildren(root);
-  m.fit();
+  fit();
+  resize();
   frame();
   inputs.update();
+  const sized = new ResizeObserver(resize);
+  for (const one of [paper, side]) sized.observe(one);
   return {
     kernel, data, times, show,
     set(to) {
-      change(data, kernel, to);
+      gate.change(to);
       history.note();
-      m.fit();
+      fit();
       request(true);
       inputs.update();
     },
     text: () => modelText(data, kernel),
-    remove: () => (stop(), root.remove()),
+    remove() {
+      stop();
+      sized.disconnect();
+      keys.removeEventListener("keydown", key);
+      root.remove();
+    },
   };
 }
 
@@ -187,10 +239,7 @@ function orbit(boards: Board[], again: () => void): void {
     one.svg.addEventListener("pointerdown", (e) => one.svg.setPointerCapture(e.pointerId));
     one.svg.addEventListener("pointermove", (e) => {
       if (!one.svg.hasPointerCapture(e.pointerId)) return;
-      for (const b of boards) {
-        b.paper.turn(-0.01 * e.movementX, 0.01 * e.movementY);
-        b.fit();
-      }
+      for (const b of boards) b.paper.turn(-0.01 * e.movementX, 0.01 * e.movementY);
       again();
     });
   }

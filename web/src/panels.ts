@@ -1,9 +1,9 @@
 /** Panels beside the drawing: the numbers that can be changed, the answers in numbers, a free body's equations, method. */
 
-import { figures } from "./charts";
 import type { Data, FreeBody, NumberField, Term } from "./data";
+import type { Gate } from "./gate";
 import type { Kernel } from "./kernel";
-import { html, plain } from "./svg";
+import { figures, html, plain } from "./svg";
 
 export function panel(parent: Element, title: string, open = false): HTMLElement {
   const d = html("details", parent, { class: "panel" });
@@ -15,7 +15,7 @@ export function panel(parent: Element, title: string, open = false): HTMLElement
 export interface Numbers { update(): void }
 
 /** Parameters with sliders first, then every other number, by what it belongs to. */
-export function numbersPanel(parent: Element, data: Data, kernel: Kernel, changed: (done: boolean) => void): Numbers {
+export function numbersPanel(parent: Element, data: Data, kernel: Kernel, gate: Gate, changed: (done: boolean) => void): Numbers {
   const boxes: { box: HTMLInputElement; slide?: HTMLInputElement; n: number; field: NumberField }[] = [];
   const groups = new Map<string, Element>();
   const group = (name: string): Element => {
@@ -32,27 +32,45 @@ export function numbersPanel(parent: Element, data: Data, kernel: Kernel, change
     const [owner, rest] = field.parameter ? ["Parameters", field.label] : split(field.label);
     const line = html("label", group(owner), { title: field.about ?? field.path });
     html("span", line, {}, rest);
-    const box = html("input", line, { type: "number", step: "any", "aria-label": field.label, "data-path": field.path });
+    const box = html("input", line, { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", "aria-label": field.label, "data-path": field.path });
     html("span", line, { class: "unit" }, field.unit);
-    const entry: (typeof boxes)[number] = { box, n, field };
-    const apply = (value: number, done: boolean) => {
-      if (!Number.isFinite(value)) return;
-      kernel.values[n] = value * field.size;
-      changed(done);
+    const wrong = html("span", line, { class: "wrong", role: "alert" }), entry: (typeof boxes)[number] = { box, n, field };
+    const say = (sentence: string): void => {
+      wrong.textContent = sentence;
+      box.toggleAttribute("aria-invalid", !!sentence);
     };
-    box.addEventListener("change", () => (box.value.trim() === "" ? write(entry) : apply(+box.value, true)));
+    const typed = () => {
+      if (box.value.trim() === "" || box.value === shown(entry)) return say(""), write(entry);
+      const sentence = gate.type(n, box.value);
+      say(sentence);
+      if (sentence) return;
+      box.value = shown(entry);
+      changed(true);
+    };
+    box.addEventListener("change", typed);
+    box.addEventListener("keydown", (e) => {
+      if (e.key !== "Escape") return;
+      say("");
+      box.value = shown(entry);
+      box.blur();
+    });
     if (field.parameter) {
       const [low, high] = field.range ?? around(field.value);
       const slide = html("input", line, { type: "range", min: low / field.size, max: high / field.size, step: "any", "aria-label": `${field.label}, slider` });
       entry.slide = slide;
-      slide.addEventListener("input", () => apply(+slide.value, false));
-      slide.addEventListener("change", () => apply(+slide.value, true));
+      const slid = (done: boolean) => () => {
+        kernel.values[n] = +slide.value * field.size;
+        changed(done);
+      };
+      slide.addEventListener("input", slid(false));
+      slide.addEventListener("change", slid(true));
     }
     boxes.push(entry);
   }
+  const shown = (e: (typeof boxes)[number]): string => String(+(kernel.values[e.n] / e.field.size).toPrecision(6));
   const write = (e: (typeof boxes)[number]) => {
     const value = kernel.values[e.n] / e.field.size;
-    if (document.activeElement !== e.box) e.box.value = String(+value.toPrecision(6));
+    if (document.activeElement !== e.box && !e.box.hasAttribute("aria-invalid")) e.box.value = shown(e);
     if (e.slide && document.activeElement !== e.slide) e.slide.value = String(value);
     e.box.classList.toggle("changed", kernel.values[e.n] !== e.field.value);
   };

@@ -7,13 +7,18 @@ import type { Kernel } from "./kernel";
 import { answersPanel, equations, type Numbers, panel } from "./panels";
 import { html } from "./svg";
 
-export interface Results extends View { bodies: Board[]; choose(link: string | undefined): void }
+/** ``fit``: the free bodies' scales anew; ``resize``: the charts to a width of the column in pixels. */
+export interface Results extends View { bodies: Board[]; choose(link: string | undefined): void; fit(): void; resize(pixels: number): void }
+
+/** Pixels of a mm of a chart: letters stay readable however wide the column is. */
+const PIXELS = 4.6;
+const chartWidth = (pixels: number): number => Math.min(Math.max(pixels / PIXELS, 72), 140);
 
 const open = (e: Element): boolean => e.closest("details")?.open ?? true;
 
-export function results(side: Element, data: Data, kernel: Kernel, cursor: Cursor, again: () => void, narrow: boolean): Results {
-  const { charts, bodies, polygons } = data.views, always: View[] = [], closable: { box: Element; view: View | Numbers; link?: number }[] = [];
-  if (kernel.count > 1) for (const c of charts) always.push(chart(side, data, kernel, c, cursor, narrow ? 88 : 120));
+export function results(side: Element, data: Data, kernel: Kernel, cursor: Cursor, again: () => void): Results {
+  const { charts, bodies, polygons } = data.views, always: ReturnType<typeof chart>[] = [], closable: { box: Element; view: View | Numbers; link?: number }[] = [];
+  if (kernel.count > 1) for (const c of charts) always.push(chart(side, data, kernel, c, cursor, 120));
   const body = panel(side, "Free body", true), select = html("select", body, { "aria-label": "link" });
   const boards = bodies.map((b, link) => {
     html("option", select, { value: link }, `${b.title}${b.member && `, ${b.member} member`}`);
@@ -38,8 +43,14 @@ export function results(side: Element, data: Data, kernel: Kernel, cursor: Curso
   const numbers = panel(side, "Numbers of this position");
   closable.push({ box: numbers, view: answersPanel(numbers, data, kernel) });
   select.addEventListener("change", again);
+  function fit(): void {
+    for (const b of boards) b.fit();
+    const force = Math.max(0, ...boards.map((b) => b.need())); // one scale for all: action and reaction are equally long
+    for (const b of boards) b.fit(force || undefined);
+  }
   return {
-    bodies: boards,
+    bodies: boards, fit,
+    resize: (pixels) => always.forEach((c) => c.resize(chartWidth(pixels))),
     choose(link) {
       const k = bodies.findIndex((b) => b.link === link);
       if (k >= 0) select.value = String(k);

@@ -30,6 +30,9 @@ export function short(x: number): string {
   return sign + whole + (rest ? (rest < 10 ? ".0" : ".") + rest : "");
 }
 
+/** A number to some figures, with a real minus. */
+export const figures = (x: number, digits = 4): string => (Number.isFinite(x) ? String(+x.toPrecision(digits)).replace("-", "−") : "–");
+
 export function path(points: Point[], closed = false): string {
   return points.length ? "M" + points.map(([x, y]) => short(x) + " " + short(y)).join("L") + (closed ? "Z" : "") : "";
 }

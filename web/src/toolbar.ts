@@ -1,14 +1,15 @@
 /** The head of a page: title, play, place of the cycle, undo, and the sentence of a position without an answer. */
 
-import { figures } from "./charts";
 import type { Data } from "./data";
 import type { Kernel } from "./kernel";
+import type { Reasons } from "./sentences";
 import { html } from "./svg";
+import { standing } from "./tools";
 
 export interface Acts { play(): void; show(t: number): void; go(back: boolean): void; reset(): void }
-export interface Toolbar { update(t: number, can: [boolean, boolean]): void; playing(on: boolean): void }
+export interface Toolbar { update(t: number, can: [boolean, boolean], refused: string): void; playing(on: boolean): void }
 
-export function toolbar(parent: Element, data: Data, kernel: Kernel, acts: Acts): Toolbar {
+export function toolbar(parent: Element, data: Data, kernel: Kernel, reasons: Reasons, acts: Acts): Toolbar {
   const header = html("header", parent);
   html("h1", header, {}, data.title);
   const bar = html("div", header, { class: "bar", role: "toolbar", "aria-label": "cycle and page" });
@@ -27,11 +28,11 @@ export function toolbar(parent: Element, data: Data, kernel: Kernel, acts: Acts)
   for (const x of [play, slider, readout]) x.hidden = kernel.count < 2;
   return {
     playing: (on) => (play.textContent = on ? "❚❚" : "▶"),
-    update(t, can) {
-      const { sentence } = data.statuses[kernel.mark];
+    update(t, can, refused) {
+      const sentence = [refused, reasons.at(t)].filter(Boolean).join(" ");
       if (mark.textContent !== sentence) mark.textContent = sentence;
       slider.value = String(t);
-      readout.textContent = data.drives.map((d) => `${d.name} = ${figures(kernel.position(d.name, t) / d.size, 5)}${d.unit === "°" ? "" : " "}${d.unit}`).join(", ");
+      readout.textContent = standing(data, kernel, t);
       [undo.disabled, redo.disabled] = can.map((x) => !x);
     },
   };

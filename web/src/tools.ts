@@ -2,8 +2,9 @@
 
 import type { Board } from "./board";
 import type { Curve, Data, End, Rows } from "./data";
+import type { Gate } from "./gate";
 import type { Kernel } from "./kernel";
-import { Arrow, make, plain, set } from "./svg";
+import { Arrow, figures, make, plain, set } from "./svg";
 
 /** At each joint, point and mass centre the direction in which moving it lowers the peak of a curve. */
 export class Gradients {
@@ -14,11 +15,16 @@ export class Gradients {
     const movable = data.gradient ? data.handles.flatMap((h) => ("ends" in h && h.ends.length ? [h] : [])) : [];
     this.arrows = movable.map((h) => ({ p: h.p, ends: h.ends, arrow: new Arrow(layer, "acceleration", `lower the peak by ${h.name}`) }));
   }
+  /** The largest size of a curve over the cycle, and in words where it is. */
+  peak(curve: Curve): { k: number; size: number; where: string } {
+    const k = this.kernel, of = (n: number): number => Math.abs(k.value(curve.row, n)), size = k.largest(of);
+    const peak = Math.max(0, k.good.findIndex((good, n) => good > 0 && of(n) === size));
+    return { k: peak, size, where: k.count > 1 ? ` at ${standing(this.data, k, peak)}` : "" };
+  }
   update(curve: Curve | undefined): void {
     const g = this.data.gradient, k = this.kernel, place = curve && g ? g.curves.indexOf(curve.row) : -1;
     if (!this.on || place < 0 || !g || !curve || !k.solved) return this.arrows.forEach((a) => a.arrow.set([0, 0], [0, 0]));
-    const size = (n: number): number => Math.abs(k.value(curve.row, n)), most = k.largest(size);
-    const peak = Math.max(0, k.good.findIndex((good, n) => good > 0 && size(n) === most));
+    const peak = this.peak(curve).k;
     const slope = k.gradient(place, peak), down = -Math.sign(k.value(curve.row, peak)) || 1;
     const by = new Map(g.numbers.map((n, i) => [n, slope[i]]));
     const vectors = this.arrows.map(({ ends }) => {
@@ -34,6 +40,10 @@ export class Gradients {
     });
   }
 }
+
+/** Where the drives stand at a place of the cycle: 'O2 = 60°'. */
+export const standing = (data: Data, kernel: Kernel, t: number): string =>
+  data.drives.map((d) => `${d.name} = ${figures(kernel.position(d.name, t) / d.size, 5)}${d.unit === "°" ? "" : " "}${d.unit}`).join(", ");
 
 /** A thousand machines whose points lie about those of this one, drawn as dots. */
 export class Cloud {
@@ -92,22 +102,23 @@ export class History {
   private past: Float64Array[] = [];
   private future: Float64Array[] = [];
   private now: Float64Array;
-  constructor(private readonly kernel: Kernel) {
-    this.now = kernel.values.slice();
+  constructor(private readonly kernel: Kernel, private readonly gate: Gate) {
+    this.now = kernel.state();
   }
   note(): void {
-    if (this.now.every((x, k) => x === this.kernel.values[k])) return;
+    if (this.kernel.values.every((x, k) => x === this.now[k])) return;
     this.past.push(this.now);
     if (this.past.length > 500) this.past.shift();
     this.future = [];
-    this.now = this.kernel.values.slice();
+    this.now = this.kernel.state();
   }
   go(back: boolean): boolean {
     const from = back ? this.past : this.future, to = back ? this.future : this.past, next = from.pop();
     if (!next) return false;
     to.push(this.now);
     this.now = next;
-    this.kernel.values.set(next);
+    this.kernel.restore(next);
+    this.gate.accept(this.kernel.values);
     return true;
   }
   get can(): [boolean, boolean] {
@@ -115,14 +126,11 @@ export class History {
   }
 }
 
-/** The numbers that are not those of the file, by path. */
+/** The numbers that are not those of the file, by path, and with them the assembly of the first position. */
 export function changes(data: Data, kernel: Kernel): Record<string, number> {
-  return Object.fromEntries(data.numbers.flatMap((n, k) => (kernel.values[k] === n.value ? [] : [[n.path, kernel.values[k]]])));
-}
-
-/** The file's numbers but for some; what fits none is left out. */
-export function change(data: Data, kernel: Kernel, to: Record<string, number>): void {
-  data.numbers.forEach((n, k) => (kernel.values[k] = Number.isFinite(to[n.path]) ? to[n.path] : n.value));
+  const found = data.numbers.flatMap((n, k): [string, number][] => (kernel.values[k] === n.value ? [] : [[n.path, kernel.values[k]]]));
+  const pose = found.length ? kernel.motion.assembly() : [];
+  return Object.fromEntries([...found, ...pose.map((x, k) => [data.sketch.assembly[k], x])]);
 }
 
 /** The changed numbers and the place of the cycle as text for an address. */
@@ -133,17 +141,22 @@ export function fragment(data: Data, kernel: Kernel, t: number): string {
 }
 
 /** Read such a text; the place of the cycle. */
-export function restore(data: Data, kernel: Kernel, said: string): number {
+export function restore(kernel: Kernel, gate: Gate, said: string): number {
   const found = new Map([...new URLSearchParams(said.replace(/^#/, ""))].map(([path, x]) => [path, x.trim() ? Number(x) : NaN]));
   const t = found.get("t") ?? 0;
   found.delete("t");
-  change(data, kernel, Object.fromEntries(found));
+  gate.change(Object.fromEntries(found));
   return Number.isFinite(t) ? Math.min(Math.max(t, 0), kernel.end) : 0;
 }
 
-/** A model file with the numbers as they are. */
+/** The model file as its author wrote it, with the numbers as they are and, if any has changed, the assembly as it is. */
 export function modelText(data: Data, kernel: Kernel): string {
-  return data.template.map((part, k) => (k % 2 ? String(kernel.values[+part]) : part)).join("");
+  const all = [...kernel.values, ...kernel.motion.assembly()], changed = data.numbers.map((n, k) => n.value !== kernel.values[k]), any = changed.includes(true);
+  return data.template.map((part) => {
+    if (typeof part === "string") return part;
+    if (part.was !== undefined && !part.of?.some((n) => changed[n] ?? any)) return part.was;
+    return part.now.map((x) => (typeof x === "string" ? x : String(all[x[0]] / x[1]))).join("");
+  }).join("");
 }
 
 /** The curves over the cycle as a table, in the page's units. */

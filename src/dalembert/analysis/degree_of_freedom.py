@@ -62,12 +62,18 @@ def mobility_at(c: Compiled, pose: Pose, special: bool = False) -> Mobility:
     return result
 
 
+COUNTS = "the mechanism has {freedoms} and {drives}"
+ADD = "add {drives}{where}, or join the links that still move: {loose}"
+NAMED = 6
+"""Freedoms that are named at most."""
+
+
 def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
     """Drives must equal freedoms."""
     missing = mobility.freedoms - mobility.drives
     path = ("drives",) if mobility.drives else ("joints",)
-    counts = (
-        f"the mechanism has {_count(mobility.freedoms, 'freedom')} and {_count(mobility.drives, 'drive')}"
+    counts = COUNTS.format(
+        freedoms=_count(mobility.freedoms, "freedom"), drives=_count(mobility.drives, "drive")
     )
     if missing < 0:
         names = ", ".join(c.schedule.names)
@@ -75,8 +81,8 @@ def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
     if missing > 0 or found.loose.any():
         loose = ", ".join(name for name, moves in zip(c.links, found.loose, strict=True) if moves)
         free = [f"{j} ({kind})" for (j, kind), moves in zip(c.freedoms, found.free, strict=True) if moves]
-        where = f" at {'one' if missing <= 1 else 'some'} of {', '.join(free[:6])}" if free else ""
-        remedy = f"add {_count(max(missing, 1), 'drive')}{where}, or join the links that still move: {loose}"
+        where = f" at {'one' if missing <= 1 else 'some'} of {', '.join(free[:NAMED])}" if free else ""
+        remedy = ADD.format(drives=_count(max(missing, 1), "drive"), where=where, loose=loose)
         raise ModelError(counts, remedy, path)
 
 

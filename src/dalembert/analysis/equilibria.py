@@ -97,6 +97,7 @@ class _Scan:
 def select_positions(result: Result, where: Ints) -> Result:
     """A result at some of its positions."""
     counts = tuple(replace(n, margin=n.margin[where]) for n in result.compiled.counts)
+    turns = {name: values[where] for name, values in result.compiled.pose_turns.items()}
     arrays: Tree = {
         name: value[where]
         for name, value in vars(result).items()
@@ -104,7 +105,7 @@ def select_positions(result: Result, where: Ints) -> Result:
     }
     return replace(
         result,
-        compiled=replace(some_positions(result.compiled, where), counts=counts),
+        compiled=replace(some_positions(result.compiled, where), counts=counts, pose_turns=turns),
         status=tuple(result.status[k] for k in where),
         reasons=tuple(result.reasons[k] for k in where),
         **arrays,

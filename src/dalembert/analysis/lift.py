@@ -11,7 +11,7 @@ import numpy as np
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.joints.plane_joints import Gear, Pin, Slider, Slot, Weld
 from dalembert.model.paths import used_parameters, with_dependents
 from dalembert.model.quantities.values import Vector
@@ -25,7 +25,7 @@ Freed = Literal["cylindrical", "spherical"]
 
 
 def lifted(
-    m: Mechanism,
+    m: ModelOrPath,
     offsets: Mapping[str, object] | None = None,
     become: Mapping[str, Freed] | None = None,
 ) -> Mechanism:
@@ -47,6 +47,7 @@ def lifted(
     >>> da.mobility(m).sentence
     'mobility 1, driven by 1 drive, no redundant constraint'
     """
+    m = as_mechanism(m)
     if m.space != "plane":
         raise ModelError("the mechanism is in space already", "lift one of the plane", ("space",))
     return _Lift(_in_numbers(m), dict(offsets or {}), dict(become or {})).mechanism()

@@ -12,13 +12,15 @@ from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.engine.force_program import ForceBlock
 from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.engine.structures import known_forces
-from dalembert.analysis.friction.friction_equilibrium import FrictionProblem, block_size, friction_equilibrium
+from dalembert.analysis.friction.friction_equilibrium import block_size, friction_equilibrium
+from dalembert.analysis.friction.friction_problem import FrictionProblem
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.force_arrays import Forces, at_places, concatenate_blocks, forces_of
 from dalembert.analysis.result.joint_freedoms import whole_pose
 from dalembert.analysis.result.reaction_axes import marks
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
+from dalembert.analysis.status.overflow import size_sentence
 from dalembert.analysis.status.statuses import KEPT, UNBALANCED, statuses
 from dalembert.arrays import Array, Flags, Index, Ints, at
 from dalembert.core.equilibrium import Known, balance, known_sources, motion, reactions
@@ -39,12 +41,17 @@ def at_schedule(
         c = compile_mechanism(m, schedule)
         if forces:
             check_knowns(c)
+        beyond = size_sentence(c)
+        if beyond is not None:
+            return _nothing(Positions(c, None, None, None), inertia, "overflow", beyond)
         quick = quick_answer(c, inertia, forces) if method == "auto" else None
         if isinstance(quick, Result):
             return quick
         followed = quick or positions(c)
         if followed.path is None:
-            return _nothing(followed, inertia)
+            return _nothing(
+                followed, inertia, "not_assembled", open_sentence(c, None, np.arange(len(c.targets)))
+            )
         return _along(followed, followed.path, inertia, forces, method)
 
 
@@ -241,13 +248,13 @@ def _result(
     return replace(result_of(f), ends=tuple(zip(ends[::2], ends[1::2], strict=True)), after=after)
 
 
-def _nothing(followed: Positions, inertia: bool) -> Result:
-    """No position closes."""
+def _nothing(followed: Positions, inertia: bool, status: str, sentence: str) -> Result:
+    """No position has an answer."""
     c = followed.compiled
     g, count, links = c.layout.algebra, len(c.targets), len(c.links)
-    sentence = open_sentence(c, None, np.arange(count))
-    turn, rotation = (np.full_like(a, np.nan) for a in g.reference_rotation(count, links))
+    turn, rotation = g.reference_rotation(count, links)
+    counted = max((int(f.count.max()) + 1 for f in c.layout.counted if f.count.size), default=0)
+    turn, rotation = _nan(count, max(turn.shape[1], counted)), np.full_like(rotation, np.nan)
     none = _no_forces(c, count)[:6]
     motion = (_nan(count, links, g.d), turn, rotation, _nan(count, links, g.n), _nan(count, links, g.n))
-    status = ("not_assembled",) * count
-    return Result(c, inertia, None, None, status, (sentence,) * count, *motion, *none)
+    return Result(c, inertia, None, None, (status,) * count, (sentence,) * count, *motion, *none)

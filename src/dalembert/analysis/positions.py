@@ -20,8 +20,9 @@ from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
 from dalembert.core.gear_rows import Misfit, mesh_wheels
 from dalembert.core.layout import Mesh, Pose
-from dalembert.core.position.assembly_modes import closing
+from dalembert.core.position.assembly_modes import Wanted, closing, stated_sides
 from dalembert.core.position.assur_plan import plan
+from dalembert.core.position.dyads import sides
 from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows, without_phase
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.core.position.motion_path import BLOCK, Path, path
@@ -55,6 +56,8 @@ class Positions:
 
 def positions(c: Compiled) -> Positions:
     """Follow the mechanism over its schedule."""
+    if not isinstance(c.guess, Guess):
+        _refuse_far(c)
     found = _first(c)
     if found is None:
         _refuse_overdriven(c)
@@ -81,19 +84,37 @@ def positions(c: Compiled) -> Positions:
 
 
 def _first(c: Compiled) -> tuple[int, Modes] | None:
-    """The first position found that closes, and its modes."""
+    """The first position found that closes on the sides that `assembly` states, else on others, and its modes."""
+    other: tuple[int, Modes] | None = None
     for k in _places_to_try(c):
         found = c.first_modes if k == 0 else c.guess.modes(c.layout, c.targets[k])
-        if found is not None:
+        if found is None:
+            continue
+        if on_stated_sides(c, c.targets[k], found):
             return int(k), found
-    return None
+        other = other or (int(k), found)
+    return other
+
+
+def on_stated_sides(c: Compiled, target: Array, found: Modes) -> bool:
+    """True if no group of the chosen mode is on another side than `assembly` states."""
+    if not isinstance(c.guess, Guess) or found.chosen_by in ("given", "drawn"):
+        return True
+    free, held = without_phase(c.layout, target, c.guess, hold=True)
+    way = plan(free)
+    if way is None or not way.closed:
+        return True
+    stated = stated_sides(free, way, held, Wanted(c.guess.turn, c.guess.point, None))
+    first, nothing = found.pose.at(slice(0, 1)), np.full((1, len(held)), np.nan)
+    with np.errstate(all="ignore"):
+        return not (sides(way, first.turn, first.point, nothing)[0] * stated < 0).any()
 
 
 def _places_to_try(c: Compiled) -> Iterator[int]:
     """Positions at which a first pose is sought: some of all, then some of those at which groups in closed form close,
     however few these are."""
     yield 0
-    yield from np.setdiff1d(_spread(course(c.layout, c.targets).order), 0)
+    yield from np.setdiff1d(places_to_sample(course(c.layout, c.targets).order), 0)
     if not isinstance(c.guess, Guess):
         return
     free, start = without_phase(c.layout, c.targets[0], c.guess, hold=True)
@@ -102,10 +123,13 @@ def _places_to_try(c: Compiled) -> Iterator[int]:
         drives = c.targets[:, c.layout.constraints.count :]
         targets = np.column_stack([np.broadcast_to(constant, (len(drives), len(constant))), drives])
         blocks = range(0, len(targets), BLOCK)
-        yield from _spread(np.concatenate([k + closing(way, targets[k : k + BLOCK]) for k in blocks]))
+        yield from places_to_sample(
+            np.concatenate([k + closing(way, targets[k : k + BLOCK]) for k in blocks])
+        )
 
 
-def _spread(places: Ints) -> Ints:
+def places_to_sample(places: Ints) -> Ints:
+    """A few of some positions, spread over all of them."""
     kept = np.linspace(0, len(places) - 1, min(len(places), SAMPLES)).astype(int)
     return np.asarray(places[kept])
 
@@ -149,6 +173,10 @@ def _with_phase(c: Compiled, first: Pose) -> Compiled:
     return replace(c, target=target)
 
 
+GEAR = "gear {}: centres {} m apart, but pitch radii {} m and {} m need {} m"
+GEAR_REMEDY = "change the radii or move a centre"
+
+
 def _check_meshes(c: Compiled, first: Pose) -> None:
     """Wheels in mesh stand at the sum (internal: difference) of their pitch radii."""
     g, constraints = c.layout.algebra, c.layout.constraints
@@ -161,11 +189,9 @@ def _check_meshes(c: Compiled, first: Pose) -> None:
             wanted = float(f.ri[k] + f.rj[k])
             if abs(found - wanted) > MESH * wanted:
                 name = c.joints[constraints.joint[f.row[k]]]
-                radii = f"{abs(f.ri[k]):.6g} m and {abs(f.rj[k]):.6g} m"
-                what = (
-                    f"gear {name!r}: centres {found:.6g} m apart, but pitch radii {radii} need {wanted:.6g} m"
-                )
-                raise ModelError(what, "change the radii or move a centre", ("joints", name))
+                numbers = (found, abs(f.ri[k]), abs(f.rj[k]), wanted)
+                what = GEAR.format(repr(name), *(f"{x:.6g}" for x in numbers))
+                raise ModelError(what, GEAR_REMEDY, ("joints", name))
 
 
 def _check_misfit(c: Compiled, misfit: Misfit) -> None:
@@ -200,6 +226,17 @@ def _refuse_endless(c: Compiled, along: Course) -> None:
     what = f"drive {c.schedule.names[drive]!r} goes from {texts[0]} to {texts[1]} between two positions"
     remedy = f"check the position and its unit; {FARTHEST:.0e} rad or link lengths at a time can be followed"
     raise ModelError(what, remedy, ("drives", c.schedule.names[drive], "position"))
+
+
+def _refuse_far(c: Compiled) -> None:
+    """In space the first pose is followed from the drawing, with all drives at 0."""
+    away = np.abs(c.schedule.position[0])
+    away = away / np.where(c.layout.freedoms.angular[c.layout.driven], 1.0, c.layout.length)
+    if away.size and not away.max() <= FARTHEST:
+        k = int(np.argmax(away))
+        what = f"drive {c.schedule.names[k]!r} begins at {drive_text(c, 0, k)}, and is at 0 as drawn"
+        remedy = f"check the position and its unit; {FARTHEST:.0e} rad or link lengths can be followed"
+        raise ModelError(what, remedy, ("drives", c.schedule.names[k], "position"))
 
 
 def _refuse_overdriven(c: Compiled) -> None:

@@ -8,16 +8,24 @@ from dalembert.analysis.friction.friction_status import refuse_friction
 from dalembert.analysis.one_pass import Method, at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.errors import AnalysisError, ModelError
-from dalembert.model import Mechanism
+from dalembert.model import AtPositions, ModelOrPath, as_mechanism
 
 
-def kinematics(m: Mechanism, positions: int | None = None, strict: bool = False) -> Result:
-    """Positions, velocities and accelerations; no forces (efforts and reactions are NaN)."""
+def kinematics(m: ModelOrPath, positions: AtPositions = None, strict: bool = False) -> Result:
+    """Positions, velocities and accelerations; no forces (efforts and reactions are NaN).
+
+    ``positions``, here and in the other analyses: how many, or values of the drives (P,) or (P, D), SI, instead of the
+    file's. ``strict``: raise AnalysisError where a position has no answer.
+
+    >>> import dalembert as da
+    >>> da.kinematics(da.four_bar(), positions=[0.1, 0.2])["drive.O2"]
+    array([0.1, 0.2])
+    """
     return _analyse(m, positions, strict, inertia=True, forces=False)
 
 
 def statics(
-    m: Mechanism, positions: int | None = None, strict: bool = False, method: Method = "auto"
+    m: ModelOrPath, positions: AtPositions = None, strict: bool = False, method: Method = "auto"
 ) -> Result:
     """Joint forces and efforts without inertia; springs, weights and, at the drives' speeds, dampers act.
 
@@ -28,7 +36,7 @@ def statics(
 
 
 def dynamics(
-    m: Mechanism, positions: int | None = None, strict: bool = False, method: Method = "auto"
+    m: ModelOrPath, positions: AtPositions = None, strict: bool = False, method: Method = "auto"
 ) -> Result:
     """Joint forces and efforts that keep the prescribed motion, by D'Alembert: A x + w - inertia = 0.
 
@@ -37,18 +45,22 @@ def dynamics(
     return _analyse(m, positions, strict, inertia=True, forces=True, method=method)
 
 
-def solve(m: Mechanism, static: bool = False, positions: int | None = None, strict: bool = False) -> Result:
+def solve(
+    m: ModelOrPath, static: bool = False, positions: AtPositions = None, strict: bool = False
+) -> Result:
     """What the command ``dalembert solve`` does: with inertia when the file has speeds, unless ``static``."""
+    m = as_mechanism(m)
     if static or not m.has_speeds:
         return statics(m, positions, strict)
     return dynamics(m, positions, strict)
 
 
 def _analyse(
-    m: Mechanism, count: int | None, strict: bool, inertia: bool, forces: bool, method: Method = "auto"
+    m: ModelOrPath, positions: AtPositions, strict: bool, inertia: bool, forces: bool, method: Method = "auto"
 ) -> Result:
+    m = as_mechanism(m)
     try:
-        schedule = m.schedule(count)
+        schedule = m.schedule(positions)
         if schedule.unknown is not None:
             refuse_friction(m)
             result = equilibria(m, schedule, inertia)
@@ -61,7 +73,7 @@ def _analyse(
     return result
 
 
-def mobility(m: Mechanism) -> Mobility:
+def mobility(m: ModelOrPath) -> Mobility:
     """Freedoms, drives and redundant constraints of a mechanism, by the rank of its constraints where it first closes.
 
     Raises ModelError where it closes nowhere, and where drives and freedoms do not match.
@@ -70,6 +82,7 @@ def mobility(m: Mechanism) -> Mobility:
     >>> mobility(four_bar()).freedoms
     1
     """
+    m = as_mechanism(m)
     result = kinematics(m)
     if result.mobility is None:
         raise ModelError(str(result.reasons[0]), "", ("assembly",)).at_source(m.source)

@@ -6,6 +6,7 @@ In: a command line. Out: text, files, an exit status. Imports everything but ``c
 from __future__ import annotations
 
 import gc
+import io
 import os
 import sys
 
@@ -30,6 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     if arguments is None:
         _spare_the_collector()
+        _write_any_text()
         arguments = sys.argv[1:]
     try:
         status = _run(list(arguments))
@@ -49,6 +51,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _let_go() -> None:
     """Let the last flush of an output that takes no more go nowhere."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
+def _write_any_text() -> None:
+    """Pipes and files take UTF-8, as from Python 3.15 on; an encoding that somebody asked for writes what it lacks as
+    \\u03b1."""
+    for stream in (sys.stdout, sys.stderr):
+        if not isinstance(stream, io.TextIOWrapper):
+            continue
+        if "PYTHONIOENCODING" in os.environ or stream.isatty():
+            stream.reconfigure(errors="backslashreplace")
+        else:
+            stream.reconfigure(encoding="utf-8")
 
 
 def _spare_the_collector() -> None:

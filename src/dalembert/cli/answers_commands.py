@@ -20,20 +20,20 @@ if TYPE_CHECKING:
 
 def check_answers(
     file: ModelFile,
-    answers: Annotated[Path | None, with_help("File of your figures.")] = None,
+    answers: Annotated[Path | None, with_help("File with your answers.")] = None,
     /,
     *,
-    interactive: Annotated[bool, flag("Ask for them one by one.")] = False,
+    interactive: Annotated[bool, flag("Enter the answers one by one.")] = False,
     tolerance: Annotated[
         str | None,
         with_help(
-            "Of figures that state none, as 3% for graphical work (default: 0.5 %, or the digits written)."
+            "Tolerance for answers that give none, e.g. 3% for graphical work (default: 0.5 %, or the digits given)."
         ),
     ] = None,
     static: Static = False,
     changes: Changes = AS_IN_FILE,
 ) -> int:
-    """Compare your own figures with what is computed, and name the mistakes that explain the differences."""
+    """Compare your answers with the computed ones, and name the mistakes that explain the differences."""
     from dalembert.cli.model_argument import load_model
     from dalembert.grading.answer_sheet import read_sheet
     from dalembert.grading.mistakes import Problem
@@ -99,28 +99,31 @@ SHOWN = 10
 
 def grade(
     answers: Annotated[
-        Path, with_help("Folder of sheets (.yaml, .json, .toml, .csv), one a student, or a table (.csv).")
+        Path,
+        with_help("Folder of answer sheets (.yaml, .json, .toml, .csv), one per student, or a table (.csv)."),
     ],
     /,
     *,
-    key: Annotated[Path, with_help("Key (.csv, .json) that `variants` writes, or a model file.")],
-    rubric: Annotated[Path | None, with_help("Marks and shares: YAML, JSON or TOML.")] = None,
-    output: Annotated[Path | None, output("Workbook to write, .xlsx.")] = None,
-    feedback: Annotated[Path | None, with_help("Folder to write: a text for each student.")] = None,
+    key: Annotated[Path, with_help("Answer key (.csv, .json) written by `variants`, or a model file.")],
+    rubric: Annotated[Path | None, with_help("Points and partial-credit shares: YAML, JSON or TOML.")] = None,
+    output: Annotated[Path | None, output("Workbook of results to write, .xlsx.")] = None,
+    feedback: Annotated[Path | None, with_help("Folder for the feedback, one text per student.")] = None,
     tolerance: Annotated[
         str | None,
-        with_help("Of figures to which the key gives none, as 3% (default: 0.5 %, or the digits)."),
+        with_help(
+            "Tolerance for quantities to which the key gives none, e.g. 3% (default: 0.5 %, or the digits given)."
+        ),
     ] = None,
     static: Static = False,
     force: Force = False,
 ) -> int:
-    """Mark a class's ANSWERS by a key: mistakes named, partial marks, and what follows from own figures counts."""
+    """Grade a class's ANSWERS by a key: mistakes named, partial credit, carried-forward errors not penalised twice."""
     from dalembert.grading.marking.grade import grade as graded
     from dalembert.saving import check_installed, check_new, check_new_folder
 
     if output is not None:
         if output.suffix.lower() != ".xlsx":
-            raise ModelError(f"{output} is no name of a workbook", "name it .xlsx")
+            raise ModelError(f"{output} is not a workbook", "name it .xlsx")
         check_installed("openpyxl", "a workbook")
         check_new(output, force)
     if feedback is not None:

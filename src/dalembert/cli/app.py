@@ -1,7 +1,7 @@
-"""The table of the commands, the help of the whole, and what is said where a command line is wrong.
+"""The table of the commands, the overview, and the messages for a wrong command line.
 
-A command's room is imported where it is asked for, and so is what cyclopts needs to print help, which takes longer
-than to read a model: the help of the whole is printed here.
+A command's room is imported when it is called, and so is the part of cyclopts that prints help, which takes longer
+than reading a model: the overview is printed here.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         "page_command": ("page",),
         "wrench_command": ("wrench",),
     },
-    "Begin and check model files": {
+    "Create and check model files": {
         "describe_commands": ("new", "examples", "convert", "schema", "joints"),
         "check_command": ("check", "validate"),
     },
@@ -116,7 +116,7 @@ def _command(name: str) -> tuple[Any, Any]:
 
 
 def overview() -> str:
-    """What `dalembert --help` prints: every command with the first sentence of its help."""
+    """Text of `dalembert --help`: every command with the first sentence of its help."""
     width = min(shutil.get_terminal_size().columns, 100)
     text = ["Usage: dalembert COMMAND", "", *_paragraphs([HELP], width)]
     for heading, modules in GROUPS.items():
@@ -150,9 +150,11 @@ def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
 def _report_error(error: CycloptsError, asked: str) -> str:
     if isinstance(error, UnknownCommandError):
         meant = next((name for name, words in FIELD_WORDS.items() if asked.lower() in words.split()), asked)
-        return f"there is no command {asked!r}; {closest(meant, list(MODULES))}"
+        return f"unknown command {asked!r}; {closest(meant, list(MODULES))}"
     if isinstance(error, UnusedCliTokensError):
-        return f"{' '.join(error.unused_tokens or ())!r} is one too many; what has spaces stands in quotes"
+        return (
+            f"{' '.join(error.unused_tokens or ())!r} is an unexpected argument; quote arguments with spaces"
+        )
     missing = isinstance(error, MissingArgumentError) and re.search(r"parameter (\S+) requires", str(error))
     sentence = f"{asked} needs {missing[1]}" if missing else str(error).strip().rstrip(".")
     return sentence[:1].lower() + sentence[1:]

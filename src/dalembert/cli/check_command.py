@@ -23,11 +23,14 @@ def check(
     *files: Annotated[Path, with_help("Model files, or folders of them.")],
     every: Annotated[
         bool,
-        flag("Print every answer of many files, not only one line a file and what disagrees.", "--all"),
+        flag(
+            "Print every answer of many files (default: one line per file, and the answers that disagree).",
+            "--all",
+        ),
     ] = False,
     changes: Changes = AS_IN_FILE,
 ) -> int:
-    """Compare the answers that stand in model files with what is computed."""
+    """Compare the published answers in model files with the computed ones."""
     if not files:
         raise ModelError("check needs a file or a folder", "for example: dalembert check four_bar.yaml")
     found = list(_model_files(files))
@@ -38,7 +41,7 @@ def check(
 
 
 def validate() -> int:
-    """Qualify this installation: solve every bundled published problem and compare all answers."""
+    """Verify this installation: solve every bundled published problem and compare all answers."""
     from dalembert.bundled import cases
 
     started = time.perf_counter()
@@ -59,16 +62,17 @@ def _model_files(named: Iterable[Path]) -> Iterator[Path]:
         if path.is_dir():
             inside = sorted(p for p in path.rglob("*") if p.suffix in ENDINGS)
             if not inside:
-                raise ModelError(f"there is no model file in {path}", f"they end in {', '.join(ENDINGS)}")
+                raise ModelError(f"{path} has no model file", f"they end in {', '.join(ENDINGS)}")
             yield from inside
         else:
             yield path
 
 
 def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list[Row], int]:
-    """Rows of all files, and how many files are wrong; what is wrong is said at once."""
+    """Rows of all files, and how many files are wrong; wrong files are reported at once."""
     from dalembert.cli.model_argument import load_model
     from dalembert.grading.file_answers import check
+    from dalembert.model.gravity import gravity_doubt
 
     rows: list[Row] = []
     wrong = 0
@@ -76,7 +80,10 @@ def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list
         for done, path in enumerate(files):
             step(done, path.name)
             try:
-                rows += check(load_model(path, changes), path.stem)
+                m = load_model(path, changes)
+                if doubt := gravity_doubt(m.gravity_vector):
+                    print(f"{path}: note: the acceleration of gravity of {doubt}", file=sys.stderr)
+                rows += check(m, path.stem)
             except DalembertError as error:
                 print(error, file=sys.stderr)
                 wrong += 1
@@ -131,7 +138,7 @@ def _mark(ok: bool) -> str:
 
 
 def _failure(row: Row) -> str:
-    """What disagrees, by how much, where it stands."""
+    """Answers that disagree, by how much, and their places."""
     place = f"{row.case}, line {row.line}" if row.line else row.case
     said = f"{place}: {row.quantity}: published {row.published}, computed {row.computed}"
     said += f", {row.deviation} apart" if row.deviation else ""
@@ -142,7 +149,7 @@ def _failure(row: Row) -> str:
 
 
 def _installation() -> str:
-    """What the numbers were computed with."""
+    """Versions that the numbers were computed with."""
     import platform
 
     import numpy

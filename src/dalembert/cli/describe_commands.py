@@ -19,7 +19,7 @@ YAML = (".yaml", ".yml")
 
 
 def schema(*, output: NewFile = None, force: Force = False) -> int:
-    """Print the JSON schema of the model file, for editors that complete and check."""
+    """Print the JSON schema of the model file, for completion and checks in editors."""
     return write_or_print(schema_text(), output, force)
 
 
@@ -30,14 +30,14 @@ def new(
     output: NewFile = None,
     force: Force = False,
 ) -> int:
-    """Begin a model file from a template; without a name, list the templates."""
+    """Create a model file from a template; without a name, list the templates."""
     if not template:
         return write_or_print(template_list(), output, force)
     return _model_file(template_file(template), output, force)
 
 
 def examples(
-    name: Annotated[str, with_help("Name of the example; without one, they are listed.")] = "",
+    name: Annotated[str, with_help("Name of the example (default: list them).")] = "",
     /,
     *,
     output: NewFile = None,
@@ -109,7 +109,7 @@ def example_text(name: str) -> str:
 
     found = {**cases(), **examples()}
     if name not in found:
-        raise ModelError(f"there is no example {name!r}", closest(name, list(examples())))
+        raise ModelError(f"unknown example {name!r}", closest(name, list(examples())))
     return found[name].read_text(encoding="utf-8")
 
 
@@ -125,7 +125,7 @@ def convert(
     file: ModelFile,
     /,
     *,
-    output: Annotated[Path, written("File to write; its ending names the format.")],
+    output: Annotated[Path, written("File to write; its extension selects the format.")],
     set: Set = None,  # noqa: A002
     force: Force = False,
 ) -> int:
@@ -157,7 +157,7 @@ def template_file(name: str) -> str:
     return template_text(name)
 
 
-JOINT_HEADS = ("joint", "turns", "slides", "reactions", "its own axes")
+JOINT_HEADS = ("joint", "turns", "slides", "reactions", "local axes")
 
 
 def joint_rows() -> list[list[str]]:
@@ -185,13 +185,13 @@ def joints(
     *,
     output: Annotated[
         Path | None,
-        written("Draw them: all in one .svg, .pdf, .png or .dxf; without an ending, each in a folder."),
+        written("Drawing of all joints (.svg, .pdf, .png, .dxf), or a folder for one drawing per joint."),
     ] = None,
     camera: Seen = None,
     theme: Theme = "light",
     force: Force = False,
 ) -> int:
-    """Print the joints in space: what each leaves free, its own axes, and the reactions it carries along them."""
+    """Print the joints in space: degrees of freedom, local axes, and reactions along these axes."""
     from dalembert.cli.draw_command import camera_at
     from dalembert.model.joints.pairs import PAIRS
     from dalembert.views import draw

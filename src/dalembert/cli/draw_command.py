@@ -70,7 +70,7 @@ def draw(
     output: Annotated[
         Path,
         output(
-            "File to write; its ending names the format: .svg, .pdf, .png, .dxf; .gif or .webp for an animation; "
+            "File to write; its extension selects the format: .svg, .pdf, .png, .dxf; .gif or .webp for an animation; "
             ".glb for a model in motion for 3-D viewers."
         ),
     ],
@@ -85,9 +85,7 @@ def draw(
     ] = None,
     camera: Seen = None,
     names: Names = False,
-    question: Annotated[
-        bool, flag("The mechanism with what is given alone: no efforts, no reactions, nothing computed.")
-    ] = False,
+    question: Annotated[bool, flag("Show only the given data; nothing computed.")] = False,
     changes: Changes = AS_IN_FILE,
     force: Force = False,
 ) -> int:
@@ -177,7 +175,7 @@ def camera_at(text: str | None) -> str | tuple[float, float] | None:
     try:
         azimuth, elevation = (float(part) for part in text.split(","))
     except ValueError:
-        raise ModelError(f"--camera {text} is no direction", "write --camera 30,20: degrees") from None
+        raise ModelError(f"--camera {text} is not a direction", "write --camera 30,20: degrees") from None
     return azimuth, elevation
 
 
@@ -185,18 +183,20 @@ def report(
     file: ModelFile,
     /,
     *,
-    output: Annotated[Path, output("File to write; its ending names the format: .pdf, .html, .tex or .txt.")],
+    output: Annotated[
+        Path, output("File to write; its extension selects the format: .pdf, .html, .tex or .txt.")
+    ],
     at: At = None,
     positions: Positions = None,
     static: Static = False,
     method: Annotated[
         list[Literal["matrix", "graphical", "superposition", "virtual-work"]] | None,
         Parameter(
-            negative=(), help="Methods to show, one or more (default: all); graphical is for the plane."
+            negative=(), help="Methods to show, one or more (default: all); graphical only in the plane."
         ),
     ] = None,
     style: Style = AS_USUAL,
-    about: Annotated[str, with_help("Joint to take moments about, where a link has it.")] = "",
+    about: Annotated[str, with_help("Joint about which moments are taken, for links that have it.")] = "",
     changes: Changes = AS_IN_FILE,
     force: Force = False,
 ) -> int:
@@ -283,12 +283,12 @@ def _way(m: Mechanism, at: str) -> list[float] | None:
 
 
 def _moves(view: Any, output: Path) -> bool:
-    """Whether an animation is asked for."""
+    """True if an animation is requested."""
     return view == "animation" or output.suffix.lower() in (".gif", ".webp", ".glb")
 
 
 def _enough(m: Mechanism, count: int) -> int | None:
-    """Charts and animations of a file with one position show a whole turn."""
+    """Charts and animations of a file with one position show a full turn."""
     schedule = m.schedule()
     return count if len(schedule.position) == 1 and m.drives and schedule.unknown is None else None
 

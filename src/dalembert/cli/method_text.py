@@ -10,8 +10,9 @@ import numpy as np
 from dalembert.analysis.friction.joint_friction import unknown_names
 from dalembert.analysis.methods.applied_forces import magnitude
 from dalembert.analysis.methods.superposition import directions, with_sum
-from dalembert.analysis.output.columns import UnitChoice, drive_kinds, load_kind, unknown_kinds
+from dalembert.analysis.output.columns import UnitChoice
 from dalembert.analysis.output.summary.printed_units import Printed, print_scale, significant
+from dalembert.analysis.result.number_kinds import drive_kinds, load_kind, unknown_kinds
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.printing import number, remainder, round_components, table, tables, with_unit, wrap
@@ -40,9 +41,7 @@ def superposition_text(result: Result, units: UnitChoice) -> str:
     heads = ["source", *(f"{name}\n[{to.text(kind)}]" for name, _, kind in of_each)]
     split = tables(heads, rows, 1, together=[len(group) for group in groups])
     gap = float(np.nanmax(parts.gap, initial=0.0))
-    words = (
-        f"Joint forces are those on j. The parts sum to the whole within {remainder(gap, 1)} of the largest."
-    )
+    words = f"Joint forces are those on j. They sum to the total within {remainder(gap, 1)} of the largest."
     where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
     return f"Superposition{where}\n\n{split}\n\n{wrap(words)}"
 
@@ -103,7 +102,8 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
 
     if not result.drives:
         raise ModelError(
-            "virtual work finds efforts and unknown loads, and nothing moves here", "leave --method out"
+            "virtual work needs a drive, and this structure does not move",
+            "leave --method out",
         )
     found, to, k = virtual_work(result), print_scale(result, units), _first(result)
     blocks = _all_powers(found, k, to)
@@ -123,12 +123,12 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
 
 
 def _agreement(found: VirtualWork) -> list[str]:
-    """How far the matrix answer is off, and what that shows."""
+    """Agreement of the matrix answer with virtual work."""
     words = []
     if not found.independent:
         words.append(
             "The work of friction contains the reactions of the matrix answer: with friction virtual work checks "
-            "that answer, it is no independent solution."
+            "that answer; it is not an independent solution."
         )
     if np.isfinite(found.gap).any():
         gap = remainder(float(np.nanmax(found.gap)), 1)
@@ -207,11 +207,11 @@ def _first(result: Result) -> int:
 
 
 MOST_STEPS = 24
-"""Steps of the taught iteration that are printed."""
+"""Steps of the textbook iteration that are printed."""
 
 
 def fixed_point_text(result: Result) -> str:
-    """The taught iteration at the first position: unknowns and friction at each step, and its rate."""
+    """The textbook iteration at the first position: unknowns and friction at each step, and its rate."""
     from dalembert.analysis.friction.fixed_point import fixed_point
 
     table = fixed_point(result)
@@ -223,10 +223,10 @@ def fixed_point_text(result: Result) -> str:
     rows = every
     if len(every) > MOST_STEPS:
         rows = [*every[: MOST_STEPS - 3], ["..."] * len(heads), *every[-2:]]
-    end = "arrives" if table.arrived else "has not arrived"
+    end = "converges" if table.arrived else "has not converged"
     words = (
-        f"The taught iteration {end} after {table.steps} steps; each step leaves {table.rate:.3g} of the change. "
-        "Friction on j in N or N*m; solve, set friction by the reactions found, solve again."
+        f"The textbook iteration {end} after {table.steps} steps; each step leaves {table.rate:.3g} of the change. "
+        "Friction on j in N or N*m; solve, set friction from these reactions, solve again."
     )
     return f"{tables(heads, rows, 1)}\n{wrap(words)}"
 
@@ -237,9 +237,9 @@ def other_solutions_text(result: Result, units: UnitChoice) -> str:
 
     found, to, kinds = every_other_solution(result), print_scale(result, units), unknown_kinds(result)
     if not any(found.values()):
-        proved = "it is proved that there are none" if not found else "none was found"
+        proved = "proved not to exist" if not found else "none detected"
         if not any(s in SOUGHT for s in result.status):
-            proved = "they are sought where the senses of friction are given, at no position here"
+            proved = "searched only where the senses of friction are given, at no position of this result"
         return wrap(f"Other solutions of friction: {proved}.")
     heads = ["other solutions\nat position", *(f"{name}\n{to.text(kind)}" for name, kind in kinds.items())]
     heads.append("determinant\nratio")

@@ -1,4 +1,4 @@
-"""Options that several commands share, each said once: its type, its check and the sentence that --help prints."""
+"""Options that several commands share, each defined once: its type, its check and the sentence that --help prints."""
 
 from __future__ import annotations
 
@@ -21,10 +21,34 @@ def whole(least: int, most: int | None = None) -> Callable[..., int]:
         number = int(text) if text.isascii() and text.isdigit() and len(text) < 16 else least - 1
         if number < least or (most is not None and number > most):
             limits = f"of {least} or more" if most is None else f"from {least} to {most}"
-            raise ValueError(f"{text!r} is no whole number {limits}")
+            raise ValueError(f"{text!r} is not a whole number {limits}")
         return number
 
     return read
+
+
+def bounded(key: str) -> Callable[..., Any]:
+    """A reader of numbers within the bounds that functions of Python have too."""
+    from dalembert.bounds import BOUNDS
+
+    bound = BOUNDS[key]
+
+    def read(_: Any, tokens: Sequence[Any]) -> int | float:
+        text = tokens[0].value
+        try:
+            number: object = int(text) if bound.whole else float(text)
+        except ValueError:
+            number = text
+        if not bound.allows(number):
+            raise ValueError(f"{text!r} cannot be; {bound.remedy_for(number)}")
+        return number  # type: ignore[return-value]
+
+    return read
+
+
+def numeric(key: str, sentence: str, name: str | None = None) -> Parameter:
+    """An option that takes a number within its bounds."""
+    return Parameter(name=name, converter=bounded(key), allow_leading_hyphen=True, help=sentence)
 
 
 def with_help(sentence: str) -> Parameter:
@@ -48,25 +72,25 @@ def output(sentence: str) -> Parameter:
 
 
 def target(sentence: str) -> Parameter:
-    """What may begin with a hyphen: - for the screen, a negative number."""
+    """An option that may begin with a hyphen: - for the screen, a negative number."""
     return Parameter(allow_leading_hyphen=True, help=sentence)
 
 
 ModelFile = Annotated[Path, with_help("Model file: YAML, JSON or TOML; - is standard input.")]
-NewFile = Annotated[Path | None, output("Write it to this file; without it, it is printed.")]
+NewFile = Annotated[Path | None, output("File to write (default: print).")]
 Positions = Annotated[
     int | None,
     Parameter(
         converter=whole(1),
         allow_leading_hyphen=True,
-        help="Number of positions over the range of the drives, instead of the file's own count.",
+        help="Number of positions over the range of the drives (default: as in the file).",
     ),
 ]
 At = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="The position: its number from 1, or a value of the first drive such as 60deg; the first by default.",
+        help="Position: its number from 1, or a value of the first drive such as 60deg (default: the first).",
     ),
 ]
 Axes = Literal["ground", "link"]
@@ -75,44 +99,44 @@ Seen = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="In space: isometric (default), front, side, top, or azimuth and elevation of the eye in degrees: 30,20.",
+        help="In space: isometric (default), front, side, top, or azimuth and elevation of the view in degrees: 30,20.",
     ),
 ]
-Drawing = Annotated[Path | None, with_help("Draw it to this file: .svg, .pdf, .png or .dxf.")]
+Drawing = Annotated[Path | None, with_help("Write a drawing: .svg, .pdf, .png or .dxf.")]
 Report = Annotated[
     Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
 ]
 PrintedUnits = Annotated[
     Literal["si", "file"] | None,
-    with_help("Units of what is printed (default: those of the file) and written (default: si)."),
+    with_help("Units of printed numbers (default: file) and of written ones (default: si)."),
 ]
 Theme = Annotated[
     Literal["light", "dark", "print"],
-    with_help("Colours for light paper, for a dark screen, or black and white for print."),
+    with_help("Colour theme: light, dark, or print (black and white)."),
 ]
 Figures = Annotated[int, Parameter(converter=whole(1, 15), help="Significant figures.")]
-Static = Annotated[bool, flag("Leave inertia out, even where the file has speeds.")]
-NoFriction = Annotated[bool, flag("Leave friction out.")]
+Static = Annotated[bool, flag("Ignore inertia, even if the file has speeds.")]
+NoFriction = Annotated[bool, flag("Ignore friction.")]
 Set = Annotated[
     list[str] | None,
     Parameter(
         negative=(),
-        help="Another value of a parameter or any number: --set r=50mm --set links.rod.mass=2kg; repeatable.",
+        help="Override a parameter or any number in the file: --set r=50mm --set links.rod.mass=2kg; repeatable.",
     ),
 ]
-Names = Annotated[bool, flag("Write links by their names, not by number.")]
+Names = Annotated[bool, flag("Show link names instead of numbers.")]
 Force = Annotated[bool, flag("Overwrite files that exist.")]
 
 
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Style:
-    """How a worked solution is written."""
+    """Notation of a worked solution."""
 
     units: Annotated[Literal["si", "file"], with_help("Units of the numbers: file (default) or si.")] = "file"
     axes: Annotated[Axes, with_help("Axes of components: ground, or the link acted on.")] = "ground"
     names: Names = False
-    on_by: Annotated[bool, flag("Write F_ij for the force on i by j; without it, by i on j.")] = False
+    on_by: Annotated[bool, flag("F_ij is the force on i by j (default: by i on j).")] = False
     letter: Annotated[Literal["F", "G"], with_help("Letter of the joint forces: F or G.")] = "F"
     figures: Figures = 4
     decimals: Annotated[
@@ -120,7 +144,7 @@ class Style:
         Parameter(
             converter=whole(0, 15),
             allow_leading_hyphen=True,
-            help="Decimals, in place of significant figures.",
+            help="Decimals, instead of significant figures.",
         ),
     ] = None
     clockwise: Annotated[bool, flag("Count moments positive clockwise.")] = False
@@ -144,7 +168,7 @@ class Style:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Changes:
-    """What is otherwise than the model file says."""
+    """Changes of the model file by options."""
 
     no_friction: NoFriction = False
     set: Set = None

@@ -24,7 +24,7 @@ def page(
     changes: Changes = AS_IN_FILE,
     force: Force = False,
 ) -> int:
-    """Make one HTML file of FILE to open anywhere: drag joints, change numbers, and all forces follow exactly."""
+    """Make a live page of FILE, one HTML file: drag joints, change numbers, and all forces follow."""
     from dalembert.cli.model_argument import load_model
     from dalembert.pages.html_page import page as make_page
 

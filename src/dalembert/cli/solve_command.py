@@ -54,47 +54,41 @@ ENDINGS = {
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Wanted:
-    """What to print and write, and of what."""
+    """Choices of what is printed and written."""
 
-    json: Annotated[
-        Path | None, target("Write the JSON answer to this file; - prints it, and nothing else.")
-    ] = None
+    json: Annotated[Path | None, target("Write the answer as JSON; - prints only the JSON.")] = None
     csv: Annotated[
-        Path | None, target("Write a table, one row a position; - prints it, and nothing else.")
+        Path | None, target("Write a table (CSV), one row per position; - prints only the table.")
     ] = None
     xlsx: Annotated[Path | None, target("Write a workbook.")] = None
-    netcdf: Annotated[
-        Path | None, target("Write labelled arrays for xarray and other readers of netCDF.")
-    ] = None
+    netcdf: Annotated[Path | None, target("Write labelled arrays as netCDF, e.g. for xarray.")] = None
     method: Annotated[
         Literal["matrix", "superposition", "virtual-work", "fixed-point"],
-        with_help(
-            "How the forces are found; fixed-point shows the taught iteration of friction at the first position."
-        ),
+        with_help("Method; fixed-point shows the textbook iteration for friction at the first position."),
     ] = "matrix"
     units: PrintedUnits = None
     axes: Annotated[
         ReactionAxes,
-        with_help("Axes of the reactions: ground, the link they act on, in space the joint's own."),
+        with_help("Axes of the reactions: ground, the link they act on, or, in space, the joint."),
     ] = "ground"
     changes: Changes = AS_IN_FILE
     other_solutions: Annotated[
         bool,
         flag(
-            "Seek the other solutions of friction's equations, where the physical one may not be the only one."
+            "Search for other solutions of the friction equations where the physical one may not be unique."
         ),
     ] = False
-    every: Annotated[bool, flag("Print every position, however many.", "--all")] = False
+    every: Annotated[bool, flag("Print every position.", "--all")] = False
     force: Force = False
 
     @property
     def written_units(self) -> Literal["SI", "file"]:
-        """Units of files: SI unless told otherwise."""
+        """Units of files: SI unless specified otherwise."""
         return "file" if self.units == "file" else "SI"
 
     @property
     def printed_units(self) -> Literal["SI", "file"]:
-        """Units of what a person reads: the file's unless told otherwise."""
+        """Units of what a person reads: the file's unless specified otherwise."""
         return "SI" if self.units == "si" else "file"
 
     @property
@@ -139,7 +133,7 @@ def _check_targets(file: Path, wanted: Wanted) -> None:
             raise ModelError(f"--{kind} needs the name of a file", printed)
     for kind, (_, what) in PACKAGES.items():
         if str(wanted.targets[kind]) == "-":
-            raise ModelError(f"--{kind} - asks for {what} on the screen, which is no text", "name a file")
+            raise ModelError(f"--{kind} - asks for {what} on the screen, which is not text", "name a file")
     check_targets(file, wanted.targets, wanted.force)
 
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dalembert.cli.options import AS_IN_FILE, At, Changes, Force, ModelFile, Static, output, whole, with_help
+from dalembert.cli.options import AS_IN_FILE, At, Changes, Force, ModelFile, Static, numeric, output, target
 
 EXAMPLES = """Examples:
   dalembert variants four_bar.yaml --vary "loads.T_4.value=100..140" -o exam
@@ -30,31 +30,29 @@ def variants(
             "PATH as in with_values: links.crank.points.A.0, loads.P.value, drives.O2.speed.",
         ),
     ],
-    output: Annotated[Path, output("Folder to write, new or empty.")],
-    count: Annotated[int, Parameter(converter=whole(1, 1000), help="Number of variants (default: 30).")] = 30,
+    output: Annotated[Path, output("Folder to write; must be new or empty.")],
+    count: Annotated[int, numeric("variants", "Number of variants (default: 30).")] = 30,
     ask: Annotated[
         list[str] | None,
         Parameter(
             negative=(),
-            help="What is asked, one or more: effort.O2, reaction.A, reaction.A.magnitude, speed.rocker "
+            help="Quantities asked for, one or more: effort.O2, reaction.A, reaction.A.magnitude, angle.rocker.speed "
             "(default: the file's answers, else all efforts and reactions).",
         ),
     ] = None,
     seed: Annotated[
         int | None,
-        Parameter(
-            converter=whole(0), help="Draws the same variants again; without it by chance, and printed."
-        ),
+        numeric("seed", "Seed; repeats the same variants (default: random, printed)."),
     ] = None,
     at: At = None,
     tolerance: Annotated[
-        str, with_help("A mistake must change a figure by more than this; it is the key's tolerance: 3 %.")
+        str, target("Smallest effect of a common mistake, and the key's tolerance, e.g. 3 %.")
     ] = "",
     static: Static = False,
     changes: Changes = AS_IN_FILE,
     force: Force = False,
 ) -> int:
-    """Make exam variants of FILE: values drawn, each solved and checked, question and solution sheets, and a key."""
+    """Make exam variants of FILE with random values, each solved and checked: question sheets, solutions and a key."""
     from dalembert.cli.model_argument import load_model
     from dalembert.exams.choices import read_option
     from dalembert.exams.exam_folder import check_folder

@@ -11,7 +11,7 @@ from dalembert.cli.options import Drawing, Figures, Force, Report, Theme, target
 EXAMPLES = """Examples:
   dalembert wrench plate.yaml
   dalembert wrench plate.yaml --about A --drawing plate.svg
-  dalembert wrench box.yaml --view front --report box.pdf
+  dalembert wrench box.yaml --camera front --report box.pdf
 
 A file:
   units: {length: mm}
@@ -27,13 +27,13 @@ def wrench(
     about: Annotated[
         str | None,
         target(
-            'Point to take moments about: a name of the file\'s points, or "[x, y]" (default: the origin).'
+            'Point about which moments are taken: a point of the file, or "[x, y]" (default: the origin).'
         ),
     ] = None,
     drawing: Drawing = None,
     report: Report = None,
-    view: Annotated[
-        Literal["isometric", "front", "side", "top"], with_help("Side from which a system in space is drawn.")
+    camera: Annotated[
+        Literal["isometric", "front", "side", "top"], with_help("View direction of a spatial system.")
     ] = "isometric",
     theme: Theme = "light",
     units: Annotated[
@@ -55,7 +55,7 @@ def wrench(
     notation = draw.Notation(units="SI" if units == "si" else "file", figures=figures)
     sheet = worked_out(system, about, notation=notation)
     if drawing is not None:
-        draw.force_system(system, about, notation, view).save(drawing, force, theme)
+        draw.force_system(system, about, notation, camera).save(drawing, force, theme)
     if report is not None:
         sheet.save(report, force)
     print(sheet, end="")

@@ -210,7 +210,7 @@ def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rat
     needed = needs_direction(springs)
     if any_traced(span):  # no number at length zero, where the general executor decides
         return np.asarray(span / np.sqrt(square + np.where(needed, 0.0, 1e-300))[..., None])
-    gone = (square == 0) | (needed & (square <= (VANISHED * layout.length) ** 2))
+    gone = (square == 0) | (needed & (square <= _vanished(layout)))
     speed = np.sqrt((rate * rate).sum(axis=-1))
     moving = rate / np.where(speed > 0, speed, 1.0)[..., None]
     there = np.where(pushes_at_zero_length(springs)[..., None], np.nan, moving)
@@ -228,9 +228,15 @@ def needs_direction(springs: Springs) -> Flags:
     return np.array(pushes_at_zero_length(springs) | (springs.damping != 0), bool)
 
 
+def _vanished(layout: Layout) -> float:
+    """Square of the length below which a span has no direction."""
+    least = VANISHED * layout.length
+    return least * least
+
+
 def away(layout: Layout, springs: Springs, pose: Pose) -> Array:
     """Square of each length (..., k) less that below which there is no direction: not positive at length zero."""
-    return np.asarray(_spans(layout, springs, pose)[-1] - (VANISHED * layout.length) ** 2)
+    return np.asarray(_spans(layout, springs, pose)[-1] - _vanished(layout))
 
 
 def resistance_wrench(layout: Layout, resistances: Resistances, pose: Pose, twist: Array) -> Source:

@@ -14,12 +14,13 @@ All arms (``ui``, ``uj``) are in link axes from the link's own reference point. 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from dalembert.algebra import plane, space
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags, Index, Ints
 
@@ -321,6 +322,13 @@ class Layout:
     solver: Callable[[Layout, System], Any] | None = field(
         repr=False, default=None
     )  # factors systems that are not made of numbers (the kernel's)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A module cannot be pickled: the algebra goes by its name."""
+        return {f.name: getattr(self, f.name) for f in fields(self)} | {"algebra": self.algebra.name}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state, algebra=space if state["algebra"] == space.name else plane)
 
     @cached_property
     def stack(self) -> Rows:

@@ -152,9 +152,12 @@ def recount_turns(layout: Layout, pose: Pose) -> Pose:
             was, now = g.rotate(drawn, p), arm(g, pose, link, p)
             rotation[..., link, :] = space.compose(space.least_turn(was, now), drawn)
             pose = pose._replace(rotation=rotation)
-    if not layout.counted:
-        return pose
-    turn = pose.turn.copy()
+    return pose._replace(turn=counted_turns(layout, pose)) if layout.counted else pose
+
+
+def counted_turns(layout: Layout, pose: Pose) -> Array:
+    """The relative angles (..., T) of a pose counted anew from near ones."""
+    g, turn = layout.algebra, pose.turn.copy()
     for f in layout.counted:
         turn[..., f.count] = gear_rows.angles(g, f, pose) if isinstance(f, Gearing) else angle(g, f, pose)
-    return pose._replace(turn=turn)
+    return turn

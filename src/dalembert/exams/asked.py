@@ -29,7 +29,7 @@ CHECKS = ("residual", "power_balance")
 NOTHING = 1e-9
 """Part of the largest reaction below which a figure is none."""
 
-FORMS = "write effort.O2, reaction.A, reaction.A.coupler, reaction.A.magnitude, speed.rocker or point.rod.P.x"
+FORMS = "write effort.O2, reaction.A, reaction.A.coupler, reaction.A.magnitude, angle.rocker.speed or point.rod.P.x"
 
 
 class Figure(NamedTuple):

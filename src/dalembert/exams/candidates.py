@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.errors import NUMBERED, STATUSES, DalembertError

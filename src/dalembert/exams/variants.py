@@ -13,19 +13,18 @@ from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.exams.asked import asked_quantities, key_row, stated_value
 from dalembert.exams.candidates import Candidate, Unfit, Variant, candidate, figure_size
 from dalembert.exams.choices import Choices, read_choices
 from dalembert.grading.file_answers import describe_answer
 from dalembert.grading.tolerance import NEAR, percent
+from dalembert.model import ModelOrPath, as_mechanism
 from dalembert.progress import progress
 
 if TYPE_CHECKING:
     from dalembert.model import Answer, Mechanism
-
-MOST = 1000
-"""Variants of one problem."""
 
 TRIES = 20
 """Sets of values tried for each variant that is asked for."""
@@ -73,7 +72,7 @@ class Variants(Sequence[Variant]):
 
 
 def variants(
-    mechanism: Mechanism,
+    mechanism: ModelOrPath,
     vary: Mapping[str, object],
     count: int = 30,
     seed: int | None = None,
@@ -101,8 +100,9 @@ def variants(
     """
     from dalembert.analysis.solution import solve
 
-    if not 1 <= count <= MOST:
-        raise ModelError(f"{count} variants are asked for", f"ask for 1 to {MOST}")
+    mechanism = as_mechanism(mechanism)
+    require("variants", count, "count")
+    require("seed", seed)
     choices, near = read_choices(vary), percent(tolerance) if tolerance else NEAR
     for path, some in choices:
         for value in (some[0], some[-1]):

@@ -10,6 +10,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import Locator, ModelError, errors_at
 from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS
 from dalembert.grading.tolerance import percent
+from dalembert.model.stated_answers import parts_of_name
 from dalembert.wording import closest, quote_value
 
 if TYPE_CHECKING:
@@ -130,19 +131,17 @@ def short_item(quantity: str, of: str, value: object) -> Tree:
     return {"quantity": quantity, "of": of, "value": value} | component
 
 
-COMPONENTS = ("x", "y", "z", "magnitude", "direction")
-
-
 def named_figure(name: str, value: object) -> dict[str, object]:
-    """A figure by the name of its column: effort.O2, reaction.A, reaction.A.crank, speed.rod, reaction.A.x, mobility.
+    """A figure by the name of its column: a quantity, of a reaction with the link acted on; or a word, as `mobility`.
 
     >>> named_figure("reaction.A.coupler", "155 @ 220")
     {'quantity': 'reaction', 'of': 'A', 'value': '155 @ 220', 'on': 'coupler'}
+    >>> named_figure("angle.rod.speed", 3)
+    {'quantity': 'speed', 'of': 'rod', 'value': 3}
     """
-    quantity, *words = name.split(".")
-    component = words.pop() if len(words) > 1 and words[-1] in COMPONENTS else None
-    on = words.pop() if len(words) > 1 and quantity in ("reaction", "moment") else None
-    if not words:
-        return {"quantity": quantity, "value": value}
-    item = short_item(quantity, ".".join(words), value)
-    return item | ({"component": component} if component else {}) | ({"on": on} if on else {})
+    if "." not in name:
+        return {"quantity": name, "value": value}
+    item: dict[str, object] = dict(parts_of_name(name))
+    of, _, on = str(item["of"]).partition(".")
+    acts = {"of": of, "on": on} if on and item["quantity"] in ("reaction", "moment") else {}
+    return short_item(str(item["quantity"]), str(item["of"]), value) | item | acts

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import STATUSES, ModelError, errors_at
-from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS, Series, component, size
+from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS, Series, component, series_of, size
 from dalembert.grading.tolerance import Target, percent, radians
 from dalembert.unit_names import unit
 from dalembert.units import KINDS, NUMBER, Units, file_units, quantity
@@ -102,7 +102,7 @@ def _compare(result: Result, answer: Answer, case: str) -> Row:
 
 def read(result: Result, answer: Answer) -> Series:
     """The quantity of an answer over the positions."""
-    return component(QUANTITIES[answer.quantity](result, answer), answer.component)
+    return component(series_of(result, answer), answer.component)
 
 
 def sides_of(result: Result, answer: Answer) -> tuple[Result, ...]:

@@ -16,6 +16,7 @@ from dalembert.grading.file_answers import describe_answer, position_of, value_t
 from dalembert.grading.quantities import WHOLE, WORDS
 from dalembert.grading.tolerance import percent
 from dalembert.grading.wrong_problems import WrongProblems
+from dalembert.model import ModelOrPath, as_mechanism
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -40,7 +41,7 @@ class Verdict(NamedTuple):
 
 
 def check_answers(
-    mechanism: Mechanism, answers: Sequence[Answer], static: bool = False, tolerance: str | None = None
+    mechanism: ModelOrPath, answers: Sequence[Answer], static: bool = False, tolerance: str | None = None
 ) -> list[Verdict]:
     """Verdicts on figures for a mechanism; ``tolerance``, `3 %`, is that of the figures that state none.
 
@@ -50,6 +51,7 @@ def check_answers(
     >>> da.check_answers(da.load(examples()["four_bar"]), [mine])[0].mistake
     'the sense is opposite: action taken for reaction'
     """
+    mechanism = as_mechanism(mechanism)
     return Problem(mechanism, static).verdicts(answers, tolerance)
 
 

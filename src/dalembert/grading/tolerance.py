@@ -137,6 +137,10 @@ def relative(tolerance: object, size: float, kind: str, units: Units) -> float:
         return percent(tolerance)
     with errors_at("tolerance"):
         allowed = quantity(tolerance, kind, units)
+        if allowed < 0:
+            raise ModelError(
+                f"{quote_value(tolerance)} is below 0", "write one of 0 or more, for example 3 %"
+            )
     return allowed if kind == "angle" else allowed / (size or 1.0)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import math
 import os
+from contextlib import suppress
 from typing import Any, ClassVar
 
 import numpy as np
@@ -72,7 +73,7 @@ def available() -> float:
     """Bytes that a result may take: what is free or can be freed, on Linux, within a container's limit; elsewhere all
     there are, infinite where the system does not say."""
     found = math.inf
-    if hasattr(os, "sysconf"):
+    with suppress(AttributeError, ValueError, OSError):  # not on Windows; not every system knows the names
         found = float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
     free = _read("/proc/meminfo").get("MemAvailable:")
     limit = _read("/sys/fs/cgroup/memory.max", "limit").get("limit")

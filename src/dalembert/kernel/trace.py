@@ -32,7 +32,7 @@ from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.geometry import span
 from dalembert.core.layout import Angle, Layout, Pose, System
 from dalembert.core.linear import Factor
-from dalembert.core.position.first_pose_plane import held_wheels, phase_rows, with_rows
+from dalembert.core.position.first_pose_plane import held_places, held_wheels, phase_rows, with_rows
 from dalembert.core.position.newton import CLOSED, gap
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
@@ -90,6 +90,7 @@ class Problem:
     side: Node | None = None  # -1 just before reversals, 1 just after
     redundant: bool = False  # some rows repeat others
     whole: bool = False  # and where closed forms need a choice of these, Newton's steps take all
+    phased: bool = False  # the phases of wheels stand in the target
 
 
 @dataclass(frozen=True)
@@ -136,6 +137,8 @@ def trace(p: Problem) -> Traced:
     placed = _trace_pose(p, layout, target, p.drives, p.path)
     if p.redundant:
         placed.open.append(_closed(p, layout, placed.pose, target))
+    if p.phased:
+        apart = _centres_apart(p, layout, placed)
     return _trace_at(p, layout, placed, apart)
 
 
@@ -264,7 +267,7 @@ def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
     """Targets of meshes and rolling wheels: their measures at the first position, of each design its own; and what
     is negative where wheels do not meet there."""
     rows = phase_rows(layout.constraints)
-    if not rows.size:
+    if not rows.size or p.phased:
         return p.target, []
     geometry = [a for f in layout.stack.families for n, a in vars(f).items() if n not in ("row", "i", "j")]
     if not any(type(x) is Node for a in geometry for x in np.ravel(a)):
@@ -273,8 +276,12 @@ def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
     known = np.concatenate([p.like_target[kept], p.like_target[layout.constraints.count :]])
     held = held_wheels(p.like, with_rows(p.like, kept, []), known, rows, p.guess)
     angles = np.nan_to_num(p.guess.turn[np.array(held, np.intp)])
-    target = np.concatenate([p.target[kept], angles])
-    first = _trace_pose(p, with_rows(layout, kept, held), target, p.first, p.first_path)
+    known = np.concatenate([known[: len(kept)], angles, known[len(kept) :]])
+    places = held_places(p.like, with_rows(p.like, kept, held), known, p.guess)
+    values = np.zeros(0) if places is None else places.value
+    places = None if places is None else places.of(layout)
+    target = np.concatenate([p.target[kept], angles, values])
+    first = _trace_pose(p, with_rows(layout, kept, held, places), target, p.first, p.first_path)
     out = p.target.astype(object)
     out[rows] = measure(layout.algebra, layout.constraints, first.pose)[rows]
     return out, _apart(p, layout, first)
@@ -282,7 +289,12 @@ def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
 
 def _apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
     """Wheels in mesh stand at the sum of their pitch radii, and the first position must be right itself."""
-    out = [*first.doubt, *first.open]
+    return [n for n in (*first.doubt, *first.open) if n.level != CONSTANT] + _centres_apart(p, layout, first)
+
+
+def _centres_apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
+    """Below zero where the distance of two centres is not the sum of the pitch radii."""
+    out: list[Node] = []
     for f in fc.meshes(layout):
         line = span(layout.algebra, f, first.pose)
         for k in range(len(f.i)):
@@ -332,7 +344,7 @@ def _singular(p: Problem, *factors: object) -> list[Node]:
     for pivot, sample in zip(pivots, p.graph.evaluate(pivots, {}), strict=True):
         usual = float(abs(sample) if np.ndim(sample) == 0 else np.nanquantile(np.abs(sample), 0.75))
         if usual > 0:
-            out.append(pivot * pivot * (1 / usual**2) - NEAR)
+            out.append(pivot * pivot * (1 / usual / usual) - NEAR)
     return out
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from dalembert.analysis.methods.inertia_couples import turning
 from dalembert.arrays import Array
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
 
@@ -38,6 +39,7 @@ class Gyroscopic:
 
     def bearing_force(self, apart: float) -> Array:
         """Size of the pair of bearing forces (P,), N, that the couple is, for bearings so far apart, m."""
+        require("distance of the bearings", apart)
         return np.asarray(np.linalg.norm(self.couple, axis=1) / apart)
 
 

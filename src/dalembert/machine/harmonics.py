@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from dalembert.arrays import Array
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.printing import number
 
@@ -110,6 +111,11 @@ def whole_turns(angle: Array) -> int:
 
 def _orders(orders: int | Sequence[float], turns: int, count: int) -> Array:
     """The orders asked for, multiples of one over the turns."""
+    if isinstance(orders, Sequence | np.ndarray) and not isinstance(orders, str):
+        for order in orders:
+            require("order", order)
+    else:
+        require("orders", orders)
     asked = np.arange(orders * turns + 1) / turns if isinstance(orders, int) else np.array(orders, float)
     steps = asked * turns
     if not np.allclose(steps, np.round(steps)) or (asked < 0).any():

@@ -23,9 +23,10 @@ from dalembert.analysis.methods.applied_forces import (
     magnitude,
     unknown_load_actions,
 )
-from dalembert.analysis.output.columns import Column, Scale, columns, parts
+from dalembert.analysis.output.columns import Column, Scale, parts
 from dalembert.analysis.result.transmission_lines import ground_points
 from dalembert.arrays import Array, Tree
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
 from dalembert.machine.output.answer import Answer
@@ -45,12 +46,13 @@ About = str | Sequence[float] | Array | None
 Wrench = tuple[Array, Array]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Shaking(Answer):
     """Force (P, d) and moment (P,), in space (P, 3), that some links exert on all else, about a fixed point (d,).
 
     ``parts``: the same by cause: `inertia`, `weight`, `external`. ``residual`` (P,): difference to what the joints,
     drives, springs and dampers carry, over ``largest``, the largest single force of the cycle; NaN where unknown.
+    ``outside_sizes``: by load or drive that is external, its greatest force, with its couple over the length, N.
     ``couple`` (P, 2), in the plane where links have a `place` z along the normal: sum of z k x F over the links.
     """
 
@@ -66,6 +68,7 @@ class Shaking(Answer):
     residual: Array = field(repr=False)
     largest: float = field(repr=False)
     couple: Array | None = field(default=None, repr=False)
+    outside_sizes: dict[str, float] = field(default_factory=dict, repr=False)
 
     def floor(self, kind: str) -> float:
         """What is nothing but rounding beside the largest single force of the cycle: a `force`, else a moment."""
@@ -76,9 +79,10 @@ class Shaking(Answer):
         """Whether all links are counted: then it is what the ground feels."""
         return len(self.links) == len(self.result.links)
 
-    def without_weight(self, name: str) -> Array:
-        """The `force` or the `moment` less the constant weights: what counterweights are to make small."""
-        return np.asarray(getattr(self, name) - self.parts["weight"][("force", "moment").index(name)])
+    @property
+    def outside(self) -> tuple[str, ...]:
+        """Loads, and drives `by: outside`, whose force or moment on the ground is not 0: the part `external`."""
+        return tuple(name for name, size in self.outside_sizes.items() if size > self.floor("force"))
 
     def harmonics(self, orders: int | Sequence[float] = 4, of: str = "force") -> Harmonics:
         """Harmonics of the `force`, the `moment` or the `couple` over whole turns of the first drive.
@@ -99,14 +103,14 @@ class Shaking(Answer):
         whole = {"shaking": (self.force, self.moment)}
         for name, wrench in (whole | self.parts).items():
             for kind, numbers in zip(("force", "moment"), wrench, strict=True):
-                yield from (Column(f"{name} {kind}{axis}", kind, v) for axis, v in parts(numbers))
+                yield from (Column(f"{name}_{kind}{axis}", kind, v) for axis, v in parts(numbers))
         if self.couple is not None:
-            yield from (Column(f"shaking couple{axis}", "moment", v) for axis, v in parts(self.couple))
+            yield from (Column(f"shaking_couple{axis}", "moment", v) for axis, v in parts(self.couple))
         yield Column("residual", "number", self.residual)
 
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""
-        said = {"links": self.links, "about": self.about, "whole": self.whole}
+        said = {"links": self.links, "about": self.about, "whole": self.whole, "outside": self.outside}
         return {"shaking": {**said, "point": to("length", self.point)}}
 
 
@@ -134,7 +138,11 @@ def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) 
     largest = max((float(np.nanmax(s, initial=0.0)) for s in sizes), default=0.0)
     off = [_size(a + b) for a, b in zip((force, moment), through, strict=True)]
     gap = np.maximum(off[0], off[1] / length) / (largest or 1.0)
-    return Shaking(r, chosen, name, point, force, moment, causes, gap, largest, _couple(r, loads))
+    outside = [a for a in loads if CAUSES[a.kind] == "external"]
+    named = {
+        a.of: float(np.nanmax(magnitude(a.force) + _size(a.couple) / length, initial=0.0)) for a in outside
+    }
+    return Shaking(r, chosen, name, point, force, moment, causes, gap, largest, _couple(r, loads), named)
 
 
 def _couple(r: Result, loads: Sequence[Action]) -> Array | None:
@@ -163,6 +171,8 @@ def fixed_point(r: Result, about: About) -> tuple[str, Array]:
                 f"{about!r} is no joint with the ground and no point of it", closest(about, list(points))
             )
         return about, np.array(points[about], float)
+    for value in about:
+        require("place", value, "about")
     place = np.array(about, float)
     if place.shape != (d,) or not np.isfinite(place).all():
         raise ModelError(f"{about} is no point", f"give {d} numbers, in metres")
@@ -196,16 +206,3 @@ def _size(values: Array) -> Array:
 def shaking_force(r: Result) -> Array:
     """Force of the whole machine on the ground (P, d), N."""
     return shaking(r).force
-
-
-def harmonics_of(r: Result, of: str, orders: int | Sequence[float] = 4) -> Harmonics:
-    """Harmonics of the shaking force or moment, or of a column of the outputs, over the first drive's turns; of a name
-    without its component, of the vector."""
-    if of in ("shaking", "shaking force", "shaking moment"):
-        return shaking(r).harmonics(orders, "moment" if of == "shaking moment" else "force")
-    named = {c.name: c.values for c in columns(r)}
-    vector = [named[f"{of} {axis}"] for axis in "xyz" if f"{of} {axis}" in named]
-    if of not in named and not vector:
-        raise ModelError(f"no output is named {of!r}", closest(of, ["shaking", "shaking moment", *named]))
-    values = named[of] if of in named else np.stack(vector, axis=-1)
-    return harmonics(values, turning_angle(r), orders)

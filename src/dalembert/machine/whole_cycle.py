@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Ints
 from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.machine.harmonics import whole_turns
+from dalembert.printing import number
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Mechanism
+    from dalembert.model import AtPositions, Mechanism
 
 ENOUGH = 72
 """Positions over a turn."""
+FEWEST = 6
+"""Positions of which half are still a cycle."""
 
 
-def over_a_turn(m: Mechanism, positions: int | None = None) -> int | None:
-    """The number of positions to analyse: a whole turn where there is one position, which a drive can step round."""
+def over_a_turn(m: Mechanism, positions: AtPositions = None) -> AtPositions:
+    """The positions to analyse: a whole turn where there is one position, which a drive can step round."""
     turning = [drive for drive in m.drives.values() if drive.turns]
     if positions is not None or len(turning) != 1 or any(d.unknown or d.counts() for d in m.drives.values()):
         return positions
@@ -37,25 +42,93 @@ def refuse_unknown(r: Result, what: str, *needed: Array) -> None:
         raise AnalysisError(f"{what}; position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
 
 
-def durations(r: Result) -> Array:
-    """Time (P,), s, that each position stands for: trapezoids over time, or over the first drive's motion.
+def durations(r: Result, at: Ints | None = None) -> Array:
+    """Time (P,), s, that each position, or some, stand for: trapezoids over time, or over the first drive's motion.
 
     Even positions over whole turns stand for the same part each. Raises ModelError where the drive stands still.
     """
+    at = np.arange(len(r.status)) if at is None else at
     if len(r.status) == 1:
         return np.ones(1)
     if r.schedule.time is not None:
-        return _trapezoids(r.schedule.time)
+        return _trapezoids(r.schedule.time[at])
     if not r.drives or not np.all(r.drive_speed(r.drives[0])):
         raise ModelError(
             "the time of each position is not known", "give the first drive a speed that is not 0"
         )
-    q, speed = r.drive_position(r.drives[0]), np.abs(r.drive_speed(r.drives[0]))
+    q, speed = r.drive_position(r.drives[0])[at], np.abs(r.drive_speed(r.drives[0])[at])
+    if not is_period(r.drive_position(r.drives[0])):
+        return np.asarray(_trapezoids(q) / speed)
+    return np.asarray(abs(q[1] - q[0]) / speed)
+
+
+def is_period(q: Array) -> bool:
+    """True for even positions of a drive over whole turns."""
     try:
         whole_turns(q)
     except ModelError:
-        return np.asarray(_trapezoids(q) / speed)
-    return np.asarray(abs(q[1] - q[0]) / speed)
+        return False
+    return True
+
+
+def _closed(r: Result) -> bool:
+    """True if the first position follows the last."""
+    timed = r.schedule.time is not None
+    return not timed and bool(r.drives) and is_period(r.drive_position(r.drives[0]))
+
+
+def halves(r: Result) -> list[Ints]:
+    """Both halves of the positions, every other from the first and from the second; the ends of a range in both.
+
+    None below 6 positions, and for an odd number over whole turns, whose halves are not even.
+    """
+    count = len(r.status)
+    if count < FEWEST or (_closed(r) and count % 2):
+        return []
+    ends = [] if _closed(r) else [0, count - 1]
+    return [np.union1d(np.arange(first, count, 2), np.array(ends, int)) for first in (0, 1)]
+
+
+def sampled(r: Result, changes: Mapping[str, float], what: str = "Means and greatest values") -> str:
+    """A sentence on values that are those of the positions: by how much half of these would change them."""
+    count = len(r.status)
+    if count == 1:
+        return ""
+    said = f"{what} are those of the {count} positions, not of the motion between them"
+    worst = max(
+        (name for name in changes if np.isfinite(changes[name])), key=lambda name: changes[name], default=""
+    )
+    if not worst:
+        return f"{said}."
+    return f"{said}: with half of the positions they differ by {number(100 * changes[worst], 2)} % at most ({worst})."
+
+
+def sampling(
+    r: Result, of: Callable[[Ints], Mapping[str, float]], peaks: Mapping[str, Array]
+) -> dict[str, float]:
+    """By how much half of the positions would change values, as parts of these; NaN without halves.
+
+    ``of(at)`` gives them for some positions; ``peaks``: of those that are the greatest of
+    values (P,), these: where a parabola through a peak and its neighbours goes further beyond it, that counts.
+    """
+    whole, some = of(np.arange(len(r.status))), [of(at) for at in halves(r)]
+    out = {}
+    for name, value in whole.items():
+        off = max((abs(v[name] - value) for v in some), default=math.nan)
+        if name in peaks and some:
+            off = max(off, _beyond(np.abs(peaks[name]), _closed(r)))
+        out[name] = off / abs(value) if value else off
+    return out
+
+
+def _beyond(y: Array, closed: bool) -> float:
+    """How far a parabola through the greatest value and its neighbours goes beyond it; 0 at the ends of a range."""
+    k = int(np.argmax(y))
+    if not closed and k in (0, len(y) - 1):
+        return 0.0
+    before, after = y[k - 1], y[(k + 1) % len(y)]
+    bend = 2 * y[k] - before - after
+    return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0
 
 
 def _trapezoids(x: Array) -> Array:

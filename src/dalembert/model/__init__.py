@@ -13,10 +13,13 @@ from dalembert.model.drives.drives import Drive as Drive
 from dalembert.model.drives.drives import Range as Range
 from dalembert.model.drives.laws import Rise as Rise
 from dalembert.model.drives.laws import TimeTable as TimeTable
+from dalembert.model.drives.schedule import AtPositions as AtPositions
 from dalembert.model.drives.schedule import Schedule as Schedule
 from dalembert.model.files.conversion import convert as convert
 from dalembert.model.files.json_schema import json_schema as json_schema
 from dalembert.model.files.messages import ModelErrors as ModelErrors
+from dalembert.model.files.model_files import ModelOrPath as ModelOrPath
+from dalembert.model.files.model_files import as_mechanism as as_mechanism
 from dalembert.model.files.model_files import load as load
 from dalembert.model.files.model_files import loads as loads
 from dalembert.model.files.model_files import read_file as read_file

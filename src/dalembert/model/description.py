@@ -15,8 +15,9 @@ from dalembert.errors import ModelError
 from dalembert.model.assembly import Pose, PoseValue
 from dalembert.model.drives.driven_freedoms import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.drives.drives import Drive
-from dalembert.model.drives.schedule import Schedule, schedule
+from dalembert.model.drives.schedule import AtPositions, Schedule, schedule
 from dalembert.model.drives.starting import Start, StartValue, drives_at_start
+from dalembert.model.files.copies.likeness import Likeness
 from dalembert.model.files.messages import of_originals, together
 from dalembert.model.files.source import Source
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
@@ -99,6 +100,7 @@ class Mechanism(Part):
     answers: tuple[Answer, ...] = Field((), description="published answers, compared by `check`")
     _source: Source | None = PrivateAttr(None)
     _changes: Mapping[str, object] = PrivateAttr({})
+    _likenesses: tuple[Likeness, ...] = PrivateAttr(())
 
     @classmethod
     def _rules(cls, keys: Mapping[str, object]) -> Reading:
@@ -171,7 +173,7 @@ class Mechanism(Part):
 
         return mechanism_html(self)
 
-    def draw(self, positions: int | None = None) -> Scene:
+    def draw(self, positions: AtPositions = None) -> Scene:
         """The mechanism at its first position, with the paths of its points; ``da.draw`` has the other drawings."""
         from dalembert.notebook.html_views import first_pose
 
@@ -258,8 +260,8 @@ class Mechanism(Part):
         """The joint a drive prescribes a freedom of."""
         return self.drives[drive].joint or drive
 
-    def schedule(self, positions: int | None = None) -> Schedule:
-        """What the drives do, position by position; `positions` replaces the file's counts."""
+    def schedule(self, positions: AtPositions = None) -> Schedule:
+        """What the drives do, position by position; `positions`: how many, or the drives' values."""
         return schedule(drives_at_start(self.drives, self.start), positions)
 
     @property
@@ -292,7 +294,15 @@ class Mechanism(Part):
         changed = Mechanism.model_validate(fields(found), context=rules)
         paths = {f"parameters.{named[path]}" if path in named else path: given[path] for path in given}
         changed._source, changed._changes = self._source, latest(self._changes, paths)
+        own = [path.split(".")[1] for path in given if path.startswith("assembly.")]
+        ends = {name: joint.links for name, joint in self.joints.items()}
+        changed._likenesses = tuple(alike.without(own, ends) for alike in self._likenesses)
         return changed
+
+    @property
+    def likenesses(self) -> tuple[Likeness, ...]:
+        """How its `copies` are alike to what they were copied from."""
+        return self._likenesses
 
     @property
     def changes(self) -> Mapping[str, object]:
@@ -355,26 +365,26 @@ def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mecha
                 "this is a file of forces and couples", "use dalembert wrench, or da.wrench.load"
             )
         folders = (source.folder, source.data) if source else ()
+        alike: tuple[Likeness, ...] = ()
         if "copies" in tree:
-            tree, source = _with_copies(tree, source)
+            tree, source, alike = _with_copies(tree, source, file_rules(tree, *folders))
         found = Mechanism.model_validate(tree, context=file_rules(tree, *folders))
     except ModelError as error:
         raise (of_originals(error, source.copied) if source else error).at_source(source) from None
-    found._source = source
+    found._source, found._likenesses = source, alike
     return found
 
 
 def _with_copies(
-    tree: Mapping[str, object], source: Source | None
-) -> tuple[Mapping[str, object], Source | None]:
+    tree: Mapping[str, object], source: Source | None, rules: Reading
+) -> tuple[Mapping[str, object], Source | None, tuple[Likeness, ...]]:
     """The tree with its copies, and the source that knows which line each is from."""
     from dalembert.model.files.copies.expansion import expand
 
-    units = at_item("units", file_units, tree.get("units", {}))
     if tree.get("space") == "space":
         raise ModelError("copies are for the plane", "write the parts out", ("copies",))
-    expanded, copied = expand(tree, Reading(units, drive_freedoms(tree), 2))
-    return expanded, replace(source, copied=copied) if source else None
+    expanded, copied, alike = expand(tree, rules)
+    return expanded, replace(source, copied=copied) if source else None, alike
 
 
 def _items(value: object) -> list[tuple[object, object]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 from pydantic import ValidationInfo
@@ -13,6 +14,9 @@ from dalembert.wording import closest, quote_value
 
 STANDARD = 9.80665
 """Standard acceleration of gravity, m/s2."""
+
+LEAST, MOST = 1.0, 30.0
+"""m/s2: the Moon's is 1.6, Jupiter's 24.8. What lies outside is likely a number without its unit."""
 
 Gravity = Vector | Literal["standard"] | None
 
@@ -28,7 +32,8 @@ class GravityValue(Value):
         if isinstance(value, str) and "@" not in value:
             raise ModelError(
                 f"{quote_value(value)} says no direction",
-                closest(value, ["none", "standard"]) + "; or write a vector, gravity: [0, -9.81]",
+                closest(value, ["none", "standard"])
+                + "; or write a vector with its unit, gravity: [0, -9.81 m/s^2]",
             )
         return vector(value, "acceleration", reading(info))
 
@@ -39,3 +44,20 @@ class GravityValue(Value):
 
     def json_schema(self) -> JsonSchema:
         return {"anyOf": [{"enum": ["none", "standard"]}, *vector_schema()["anyOf"]]}
+
+
+def gravity_doubt(vector: Vector) -> str:
+    """Why the acceleration of gravity (m/s2) is likely in another unit; empty where it is not.
+
+    >>> gravity_doubt((0.0, -9.80665)), gravity_doubt((0.0, 0.0))
+    ('', '')
+    >>> gravity_doubt((0.0, -0.00981))
+    '0.00981 m/s2 is not between 1 and 30 m/s2: write gravity: standard, or [0, -9.81 m/s^2]'
+    """
+    size = math.hypot(*vector)
+    if not size or LEAST < size < MOST:
+        return ""
+    example = "[" + "0, " * (len(vector) - 1) + "-9.81 m/s^2]"
+    return (
+        f"{size:.3g} m/s2 is not between {LEAST:g} and {MOST:g} m/s2: write gravity: standard, or {example}"
+    )

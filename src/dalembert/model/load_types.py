@@ -10,7 +10,7 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.part import Part, Reading, reading
-from dalembert.model.quantities.expressions import Functions
+from dalembert.model.quantities.expression_trees import Functions
 from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.values import (
     Components,

@@ -21,6 +21,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.messages import UnknownKey, translate
 from dalembert.model.quantities.dependent_numbers import Dependent, follows
+from dalembert.model.quantities.expressions import units_inside
 from dalembert.model.quantities.parameters import Parameters, of_parameters, refuse_other_names, uses
 from dalembert.units import Units, quantity
 from dalembert.wording import closest, quote_value
@@ -46,18 +47,20 @@ class Reading:
     data: str = ""
 
     def quantity(self, value: object, kind: str) -> float:
-        """The SI value of a number, a text with its unit, or an expression of parameters."""
+        """The SI value of a number, a text with its unit, or an expression of parameters and of numbers with units."""
         if isinstance(value, Dependent):
             return value if value.names <= self.parameters.keys() else float(value)
-        if not self.parameters or not isinstance(value, str):
+        if not isinstance(value, str):
             return quantity(value, kind, self.units)
-        if uses(value, self.parameters):
+        if uses(value, self.parameters) or units_inside(value):
             found = of_parameters(value, kind, self.units, self.parameters, {})
             assert isinstance(found, float)
             return found
         try:
             return quantity(value, kind, self.units)
         except ModelError:
+            if not self.parameters:
+                raise
             refuse_other_names(value, self.parameters)
             raise
 

@@ -10,7 +10,8 @@ from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.links.link import CENTER, GROUND, Link, Offset
 from dalembert.model.load_types import Couple, ForceLoad, SpanLoad, TurnLoad
 from dalembert.model.quantities.coordinates import SPEED, TIME, along_of, parts
-from dalembert.model.quantities.expressions import ARGUMENTS, CONSTANTS, Expression
+from dalembert.model.quantities.expression_trees import ARGUMENTS
+from dalembert.model.quantities.expressions import CONSTANTS, Expression
 from dalembert.model.quantities.tables import Table
 from dalembert.model.quantities.varying import Varying
 from dalembert.model.space_checks import assembly_problems, space_problems

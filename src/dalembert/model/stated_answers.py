@@ -3,27 +3,53 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+import re
+from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import Field, ValidationInfo, field_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Part
 from dalembert.wording import quote_value
 
-_NAMES = """
-effort reaction moment unknown_load position velocity angle rotation speed acceleration center center_velocity
-center_acceleration point point_velocity point_acceleration drive slide slide1 slide2 turn turn1 turn2 effort_low
-effort_high unknown_load_low unknown_load_high friction_force friction_moment power_lost shaking_force shaking_moment
-shaking_couple energy_fluctuation lower_face upper_face residual power_balance status count mobility redundant stability
-"""
-RATES = ("", "_speed", "_acceleration")
-"""What freedoms, slides and turns, have behind their names besides."""
+NAMES = {
+    "effort": "effort.{of}",
+    "effort_low": "effort.{of}.low",
+    "effort_high": "effort.{of}.high",
+    "unknown_load": "load.{of}",
+    "unknown_load_low": "load.{of}.low",
+    "unknown_load_high": "load.{of}.high",
+    "reaction": "reaction.{of}",
+    "moment": "reaction_moment.{of}",
+    "drive": "drive.{of}",
+    "angle": "angle.{of}",
+    "speed": "angle.{of}.speed",
+    "acceleration": "angle.{of}.acceleration",
+    "rotation": "rotation.{of}",
+    "position": "point.{of}.origin",
+    "velocity": "point.{of}.origin.velocity",
+    "center": "point.{of}.center",
+    "center_velocity": "point.{of}.center.velocity",
+    "center_acceleration": "point.{of}.center.acceleration",
+    "point": "point.{of}",
+    "point_velocity": "point.{of}.velocity",
+    "point_acceleration": "point.{of}.acceleration",
+    **{
+        freedom + rate: f"{freedom}.{{of}}{rate.replace('_', '.')}"
+        for freedom in ("slide", "slide1", "slide2", "turn", "turn1", "turn2")
+        for rate in ("", "_speed", "_acceleration")
+    },
+    **{word: f"{word}.{{of}}" for word in ("friction_force", "friction_moment", "power_lost")},
+    **{
+        word: f"{word}.{{of}}"
+        for word in ("lower_face", "upper_face", "energy_fluctuation", "shaking_moment")
+    },
+    **{word: word for word in ("shaking_force", "shaking_couple", "residual", "power_balance")},
+}
+"""The words of format version 1 for quantities, with the names they stand for (docs/quantities.md)."""
 
-QUANTITIES = tuple(
-    name + rate for name in _NAMES.split() for rate in (RATES if name.startswith(("slide", "turn")) else [""])
-)
-"""Whatever may be claimed: numbers of a position or of the mechanism, and words."""
+QUANTITIES = (*NAMES, "status", "count", "mobility", "redundant", "stability")
+"""What an answer may be of: numbers of a position or of the mechanism, and words."""
 
 if TYPE_CHECKING:
     Quantity = str
@@ -64,6 +90,19 @@ class Answer(Part):
     exact_tolerance: object = Field(None, description="in place of 1e-7 relative")
     why: str | None = Field(None, description="the reason of the tolerance")
 
+    @model_validator(mode="before")
+    @classmethod
+    def _from_name(cls, keys: Any) -> Any:
+        """A name such as `reaction.A.x` as quantity, of and component."""
+        if not isinstance(keys, dict) or "." not in str(keys.get("quantity")):
+            return keys
+        return {**keys, **parts_of_name(str(keys["quantity"]))}
+
+    @property
+    def name(self) -> str:
+        """The name of the quantity, without its component: `angle.rod.speed`."""
+        return NAMES[self.quantity].format(of=self.of or "").rstrip(".")
+
     @field_validator("value", "exact", "at", "tolerance", "exact_tolerance")
     @classmethod
     def _plain(cls, value: object, info: ValidationInfo) -> object:
@@ -72,6 +111,35 @@ class Answer(Part):
             for number in item if rows else (item,):
                 _check_plain(number)
         return _frozen(value)
+
+
+_COMPONENTS = ("x", "y", "z", "magnitude", "direction")
+
+
+def parts_of_name(name: str) -> dict[str, str]:
+    """The keys of an answer for the name of a quantity.
+
+    >>> parts_of_name("point.rod.center.velocity.x")
+    {'quantity': 'center_velocity', 'of': 'rod', 'component': 'x'}
+    >>> parts_of_name("speed.rod") == parts_of_name("angle.rod.speed")
+    True
+    """
+    whole, _, last = name.rpartition(".")
+    part = {"component": last} if last in _COMPONENTS and "." in whole else {}
+    fits = {
+        word: re.fullmatch(re.escape(form).replace(r"\{of\}", "(.+)"), whole if part else name)
+        for word, form in NAMES.items()
+    }
+    found = {word: match[1] for word, match in fits.items() if match and match.re.groups}
+    word, _, of = (whole if part else name).partition(".")
+    found = found or ({word: of} if word in NAMES and of else {})  # in the words of the first format
+    if not found:
+        raise ModelError(
+            f"unknown quantity {name!r}",
+            "write effort.NAME, reaction.NAME.x or another of docs/quantities.md",
+        )
+    best = min(found, key=lambda word: len(found[word]))
+    return {"quantity": best, "of": found[best], **part}
 
 
 def _frozen(value: object) -> object:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
     from dalembert.analysis.batch.design_sweep import Sweep
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Mechanism
+    from dalembert.model import AtPositions, Mechanism
     from dalembert.views.paper.scene import Scene
     from dalembert.wrench import System
 
@@ -83,7 +83,7 @@ def _drive(m: Mechanism, name: str) -> list[str]:
     return [name, m.drive_joint(name), *ends, str(len(path))]
 
 
-def first_pose(m: Mechanism, positions: int | None = None) -> Scene:
+def first_pose(m: Mechanism, positions: AtPositions = None) -> Scene:
     """The mechanism drawn at its first position that closes, with the paths of its points."""
     from dalembert.analysis import kinematics
     from dalembert.views import draw

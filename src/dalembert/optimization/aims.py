@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.compiled_kernel import Kernel, compile  # noqa: A004
 from dalembert.arrays import Array
 from dalembert.errors import ModelError, errors_at
-from dalembert.model import Mechanism
+from dalembert.model import AtPositions, Mechanism
 from dalembert.optimization.optimizers import DEFAULT
 from dalembert.wording import closest
 
@@ -41,8 +41,8 @@ class Condition(NamedTuple):
 def parse_aim(text: str) -> Aim:
     """An aim from its words; without one of them the peak is meant.
 
-    >>> parse_aim("rms shaking.x"), parse_aim("effort.O2").word
-    (Aim(word='rms', of='shaking.x'), 'peak')
+    >>> parse_aim("rms shaking_force.x"), parse_aim("effort.O2").word
+    (Aim(word='rms', of='shaking_force.x'), 'peak')
     """
     word, of = _first_word(text)
     if not of:
@@ -115,6 +115,7 @@ class Problem:
     positions: Array
     static: bool = False
     method: str = DEFAULT
+    requested: AtPositions = None
 
     def check(self) -> None:
         """Raise ModelError, with the key that it is about, where the aim or a condition is none of this mechanism."""

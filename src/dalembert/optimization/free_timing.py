@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dalembert.analysis.batch.checked_input import numbers as checked
+from dalembert.analysis.batch.checked_input import drive_values
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.own_positions import OwnPositions
 from dalembert.arrays import Array, Flags, Ints
@@ -52,7 +52,7 @@ class FreeTiming(Misfit):
             raise ModelError(
                 f"timing is free of one drive, and there are {len(drives)}", 'give timing="given"'
             )
-        q = m.schedule(over_a_turn(m)).position if given is None else checked("positions", given)
+        q = m.schedule(over_a_turn(m)).position if given is None else drive_values(m, given)
         q = k.course(q).schedule.position[:, 0]
         turns, step = m.drives[drives[0]].turns, q[-1] - q[0]
         step = step / max(len(q) - 1, 1)

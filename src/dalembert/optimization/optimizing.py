@@ -14,9 +14,10 @@ import numpy as np
 from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds, numbers
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Flags
+from dalembert.bounds import require
 from dalembert.errors import ModelError, errors_at
 from dalembert.machine.whole_cycle import over_a_turn
-from dalembert.model import Mechanism
+from dalembert.model import AtPositions, Mechanism, ModelOrPath, as_mechanism
 from dalembert.optimization.aims import Condition, Problem, parse_aim, parse_condition
 from dalembert.optimization.optimizers import DEFAULT, METHODS, find_method, search_by
 from dalembert.optimization.optimum import Optimum
@@ -40,13 +41,13 @@ Bounds = Mapping[str, Sequence[object]]
 
 
 def optimize(
-    mechanism: Mechanism,
+    mechanism: ModelOrPath,
     vary: Bounds,
     least: str,
     where: str | Sequence[str] = (),
     starts: int = 1000,
     seed: int = 0,
-    positions: int | None = None,
+    positions: AtPositions = None,
     static: bool = False,
     method: str = DEFAULT,
 ) -> Optimum:
@@ -55,7 +56,7 @@ def optimize(
     vary: path -> (low, high), or (low, high, step) where only whole steps from low can be made; texts are read as
     in the file ("13 in"), plain numbers are SI; of a vector the bounds hold for each component. least: ``peak``,
     ``mean``, ``rms`` or ``norm8`` of an output or an expression of outputs (`da.compile`). where: conditions such as
-    ``transmission.B >= 33 deg`` or ``peak magnitude.A <= 2 kN``. starts: designs drawn at random from the bounds,
+    ``transmission.B >= 33 deg`` or ``peak effort.O2 <= 2 N*m``. starts: designs drawn at random from the bounds,
     beside the mechanism's own, all improved side by side with exact gradients; the best ten are polished one by one.
     method: another that polishes or searches (``METHODS``), as ``nlopt.slsqp`` or ``pymoo.de``, where it is installed.
     Raises ModelError for unknown names, empty bounds, and where no design in the bounds has an answer.
@@ -67,6 +68,7 @@ def optimize(
     >>> best.value < best.value_before, best.feasible
     (True, True)
     """
+    mechanism = as_mechanism(mechanism)
     name = find_method(method, "polish", "search")
     p, steps, found = problem_of(mechanism, vary, least, where, positions, static)
     p = replace(p, method=name)
@@ -74,20 +76,21 @@ def optimize(
 
 
 def problem_of(
-    m: Mechanism, vary: Bounds, least: str, where: str | Sequence[str], positions: int | None, static: bool
+    m: Mechanism, vary: Bounds, least: str, where: str | Sequence[str], positions: AtPositions, static: bool
 ) -> tuple[Problem, Array, tuple[Number, ...]]:
     """The problem, the steps of its numbers (NaN where there are none), and the numbers."""
     found, low, high, steps = bounds_of(m, vary)
     texts = [where] if isinstance(where, str) else where
     with errors_at("positions"):
-        place = m.schedule(over_a_turn(m, positions)).position
+        at = over_a_turn(m, positions)
+        place = m.schedule(at).position
     with errors_at("least"):
         aim = parse_aim(least)
     conditions = list[Condition]()
     for k, text in enumerate(texts):
         with errors_at("where", k):
             conditions.append(parse_condition(text))
-    problem = Problem(m, tuple(vary), low, high, aim, tuple(conditions), place, static)
+    problem = Problem(m, tuple(vary), low, high, aim, tuple(conditions), place, static, requested=at)
     problem.check()
     return problem, steps, found
 
@@ -157,8 +160,8 @@ def starts_of(p: Problem, count: int, seed: int) -> Array:
 
 def random_places(answers: Callable[[Array], Flags], own: Array, count: int, seed: int) -> Array:
     """Places (start, number) in the unit box that have an answer: a given one, then random ones."""
-    if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 1 <= count <= 1_000_000:
-        raise ModelError(f"starts={count!r} is no number of starts", "give 1 to 1,000,000", ("starts",))
+    require("starts", count, path=("starts",))
+    require("seed", seed, path=("seed",))
     draw, got, drawn = np.random.default_rng(seed), 0, 0
     found = [own[None][answers(own[None])]]
     while got < count and drawn < MOST_DRAWN * count:
@@ -213,7 +216,6 @@ def optimum_of(
 ) -> Optimum:
     m, values = p.mechanism, p.numbers(u)
     best = m.with_values({n.path: float(v) for n, v in zip(found, values, strict=True)})
-    count = None if len(p.positions) == len(m.schedule().position) else len(p.positions)
     return Optimum(
         mechanism=best,
         numbers=tuple(n.path for n in found),
@@ -222,8 +224,8 @@ def optimum_of(
         bounds=np.stack([p.low, p.high], axis=1),
         aim=p.aim,
         conditions=p.conditions,
-        before=solve(m, p.static, count),
-        after=solve(best, p.static, count),
+        before=solve(m, p.static, p.requested),
+        after=solve(best, p.static, p.requested),
         feasible=feasible,
         found=alike,
         polished=polished,

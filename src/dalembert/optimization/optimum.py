@@ -10,14 +10,15 @@ import numpy as np
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.result import Result
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.model import Mechanism
 from dalembert.optimization.aims import Aim, Condition, parse_aim
 from dalembert.printing import number, table, wrap
 
 
-@dataclass(frozen=True)
-class Optimum:
+@dataclass(frozen=True, eq=False)
+class Optimum(Compared):
     """The best design that was found; ``values`` (number,) in SI in the order of ``numbers``.
 
     before, after: the analyses of the description as it was and of ``mechanism``. value: the aim, SI. found: how many

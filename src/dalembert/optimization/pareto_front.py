@@ -15,9 +15,11 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import compile  # noqa: A004
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
+from dalembert.bounds import require
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.optimization.aims import parse_aim
 from dalembert.optimization.optimizers import DEFAULT, METHODS, OPEN, evolve, find_method
 from dalembert.optimization.optimizing import Bounds, judge, optimize, optimum_of, problem_of, starts_of
@@ -30,8 +32,8 @@ AS_GOOD = 1e-6
 """Part of an aim within which a design counts as no better."""
 
 
-@dataclass(frozen=True)
-class Front:
+@dataclass(frozen=True, eq=False)
+class Front(Compared):
     """Designs from the best by the first aim to the best by the second; ``values`` (design, aim), SI."""
 
     aims: tuple[str, str]
@@ -47,7 +49,7 @@ class Front:
 
 
 def pareto(
-    mechanism: Mechanism,
+    mechanism: ModelOrPath,
     vary: Bounds,
     least: Sequence[str],
     where: str | Sequence[str] = (),
@@ -62,14 +64,17 @@ def pareto(
 
     >>> import dalembert as da
     >>> front = da.pareto(
-    ...     da.four_bar(), {"links.rocker.points.B.0": (0.2, 0.28)}, ["effort.O2", "magnitude.O4"], points=3, starts=4
+    ...     da.four_bar(), {"links.rocker.points.B.0": (0.2, 0.28)},
+    ...     ["effort.O2", "reaction.O4.magnitude"], points=3, starts=4,
     ... )
     >>> bool((np.diff(front.values[:, 0]) > 0).all() and (np.diff(front.values[:, 1]) < 0).all())
     True
     """
-    if isinstance(least, str) or len(least) != 2 or points < 2:
+    mechanism = as_mechanism(mechanism)
+    require("points", points)
+    if isinstance(least, str) or len(least) != 2:
         raise ModelError(
-            "a front is between two aims, of 2 points or more", 'give ["effort.O2", "magnitude.A"]'
+            "a front is between two aims, of 2 points or more", 'give ["effort.O2", "reaction.A.magnitude"]'
         )
     _, second = map(parse_aim, least)
     name = find_method("pymoo.nsga2" if method == "pymoo" else method, "polish", "search", "front")

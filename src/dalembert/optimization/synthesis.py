@@ -15,11 +15,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dalembert.analysis.batch.checked_input import numbers as checked
+from dalembert.analysis.batch.checked_input import drive_values
 from dalembert.analysis.batch.compiled_kernel import Kernel, compile  # noqa: A004
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.optimization.free_timing import FreeTiming
 from dalembert.optimization.least_squares import Misfit, least_squares, wanted
 from dalembert.optimization.optimizing import Bounds, bounds_of, random_places
@@ -29,8 +30,8 @@ EXACT = 1e-6
 """Rms error over the spread of the targets below which a design is said to meet them."""
 
 
-@dataclass(frozen=True)
-class Synthesis:
+@dataclass(frozen=True, eq=False)
+class Synthesis(Compared):
     """The mechanism found; ``error`` its rms error over the spread of the targets, ``exact`` how many of ``started``
     designs meet them to a millionth. ``values`` (number,) in SI in the order of ``numbers``; ``positions`` (P, D) are
     those of the drives at the targets, found where the timing is free."""
@@ -59,7 +60,7 @@ class Synthesis:
 
 
 def synthesize(
-    mechanism: Mechanism,
+    mechanism: ModelOrPath,
     vary: Bounds,
     targets: Mapping[str, ArrayLike],
     positions: ArrayLike | None = None,
@@ -82,6 +83,7 @@ def synthesize(
     >>> found.error < 0.5
     True
     """
+    mechanism = as_mechanism(mechanism)
     found, low, high, steps = bounds_of(mechanism, vary)
     if not np.isnan(steps).all():
         raise ModelError("a synthesis takes no steps", "give (low, high)")
@@ -127,6 +129,6 @@ def _misfit(
     """What is to be small, with the drives' positions given or free."""
     if free:
         return FreeTiming.of(k, low, size, targets, positions)
-    place = None if positions is None else checked("positions", positions)
+    place = None if positions is None else drive_values(k.mechanism, positions)
     count = len(k.course(place).schedule.position)
     return Misfit(k, low, size, *wanted(k, targets, count), place)

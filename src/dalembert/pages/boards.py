@@ -15,7 +15,7 @@ import numpy as np
 from dalembert.algebra import plane, space
 from dalembert.analysis.methods.applied_forces import Action, joint_place, magnitude, whole_actions
 from dalembert.analysis.methods.members import members
-from dalembert.analysis.output.columns import drive_kinds, load_kind
+from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Numeric, Tree
 from dalembert.kernel.graph import CONSTANT, Node
@@ -200,7 +200,12 @@ class Boards:
         for k, joint in enumerate(r.joints):
             force = s.force_array[0, k]
             row = self.rows.of((force * force).sum().sqrt())
-            curve = {"row": row, "name": joint, "role": f"curve-{k % CURVES + 1}", "of": f"magnitude.{joint}"}
+            curve = {
+                "row": row,
+                "name": joint,
+                "role": f"curve-{k % CURVES + 1}",
+                "of": f"reaction.{joint}.magnitude",
+            }
             curves.append(curve | ({"f": self.rows.vector(force)} if self.d == 2 else {}))
         out.append({"title": "Joint forces", "kind": "force", "curves": curves})
         self.items.roles |= {c["role"] for chart in out for c in chart["curves"]}

@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 
 from dalembert.arrays import Tree
-from dalembert.model import Mechanism
+from dalembert.model import ModelOrPath, as_mechanism
 from dalembert.pages.page_data import page_data
 from dalembert.saving import new_file
 
@@ -22,7 +22,9 @@ POLICY = (
 """Nothing may be loaded from anywhere, whatever stands in the data."""
 
 
-def page(m: Mechanism, path: str | Path | None = None, static: bool = False, overwrite: bool = False) -> str:
+def page(
+    m: ModelOrPath, path: str | Path | None = None, static: bool = False, overwrite: bool = False
+) -> str:
     """The HTML of a live page of a mechanism; written to ``path`` where that is given.
 
     Every drawn number is computed by the kernel's WebAssembly in the page: joints, loads and every number of the file
@@ -34,6 +36,7 @@ def page(m: Mechanism, path: str | Path | None = None, static: bool = False, ove
     >>> html[:15], len(html) < 120_000
     ('<!doctype html>', True)
     """
+    m = as_mechanism(m)
     text = html_text(page_data(m, static))
     if path is not None:
         with new_file(path, overwrite) as file:

@@ -11,16 +11,16 @@ from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.tracing.symbolic_model import may_vary, number_kinds
-from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.methods.applied_forces import link_place
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array, Tree
 from dalembert.kernel.graph import Node
 from dalembert.model import GROUND, Mechanism
 from dalembert.model.quantities.dependent_numbers import Dependent
-from dalembert.model.quantities.dimensions import si_unit
 from dalembert.model.quantities.parameters import Parameter
 from dalembert.model.quantities.tables import Table
 from dalembert.pages.boards import Boards
-from dalembert.units import KINDS
+from dalembert.pages.messages.number_reading import sign_of
 from dalembert.views.notation import pretty
 
 
@@ -123,7 +123,9 @@ def number_fields(b: Boards, k: Kernel) -> list[Tree]:
                 "value": n.value,
                 "unit": b.shown.unit(kind),
                 "size": b.shown.size(kind),
+                "kind": kind,
             }
+            | ({"sign": sign} if (sign := sign_of(m, n.path)) else {})
         )
     return out
 
@@ -132,6 +134,7 @@ def _parameter_field(name: str, value: float, p: Parameter) -> Tree:
     """A parameter, in the unit that its file writes it in."""
     size = value / p.in_unit() if p.in_unit() else 1.0 / p.in_unit(1.0)
     field: Tree = {"path": name, "label": name, "value": value, "unit": pretty(p.unit), "size": size}
+    field["kind"] = p.kind or ("" if any(p.dimension) else "number")
     about: Tree = {"about": p.about} if p.about else {}
     return field | {"parameter": True} | about | ({"range": list(p.range)} if p.range else {})
 
@@ -208,8 +211,38 @@ class _Handles:
                 if not self._slides(link, name)
             ]
             ends = [end for link, path in own if (end := self._end(link, path))]
-            if ends:
-                yield {"kind": "joint", "name": name, "p": self.b.items.at(name), "ends": ends}
+            about = {
+                k: v for link, path in own for k, v in self._wheels_about(link, path.split(".")[-1]).items()
+            }
+            if ends and len(about) < 2:
+                found: Tree = {"kind": "joint", "name": name, "p": self.b.items.at(name), "ends": ends}
+                yield found | ({"about": next(iter(about.values()))} if about else {})
+
+    def _wheels_about(self, link: str, point: str) -> dict[tuple[float, ...], list[int]]:
+        """Rows of the places about which a point of a link goes round, by where they are: where it is the centre of a
+        wheel, and the link holds the centre of another one in mesh with it, their distance stays."""
+        out: dict[tuple[float, ...], list[int]] = {}
+        mine = self._place(link, self.m_known.point(link, point))
+        for name, joint in self.m.joints.items():
+            if not joint.wheels:
+                continue
+            ends = zip(joint.links, self.m_known.joint_points(name), strict=True)
+            centres = [self._place(wheel, u) for wheel, u in ends]
+            others = [b for a, b in (centres, centres[::-1]) if np.allclose(a, mine, atol=1e-9)]
+            for other, u in self.m_known.points(link).items():
+                if other != point and any(np.allclose(self._place(link, u), b, atol=1e-9) for b in others):
+                    out[u] = self.b.rows.place(link, self.m.point(link, other))
+        return out
+
+    @property
+    def m_known(self) -> Mechanism:
+        """The mechanism with the file's numbers."""
+        return self.b.known.mechanism
+
+    def _place(self, link: str, u: ArrayLike) -> Array:
+        """Where a point of a link is over the positions (P, d)."""
+        with np.errstate(invalid="ignore"):
+            return np.nan_to_num(link_place(self.b.known, link, np.asarray(u)))
 
     def _slides(self, link: str, hinge: str) -> bool:
         others = [j for n, j in self.m.joints.items() if link in j.links and n != hinge]
@@ -284,7 +317,7 @@ def channel_fields(k: Kernel, names: dict[int, str], channels: list[Node]) -> li
     return out
 
 
-JUMPS = ("counted", "way", "speed", "acceleration", "known reversal")
+JUMPS = ("counted", "speed", "acceleration", "known reversal")
 """Beginnings of channels that are right at the listed positions only, where they change."""
 
 
@@ -295,45 +328,6 @@ def only_at_positions(k: Kernel, names: dict[int, str], channels: list[Node]) ->
         names[n.index].startswith(JUMPS) and float(np.ptp(np.asarray(found[n](course), float))) > 0
         for n in channels
     )
-
-
-def template(m: Mechanism, k: Kernel) -> list[str]:
-    """The text of a model file between the numbers, in their order, with those in SI: '... mass: ', ' kg\\n...'.
-
-    Each part but the first begins behind a number; ``order`` is that of ``k.numbers`` as they come in the text.
-    """
-    from dalembert.model.files.model_files import tree_text
-
-    tree, kinds = m.to_tree(), number_kinds(m, k.trace.numbers)
-    for i, n in enumerate(k.trace.numbers):
-        if n.path in m.parameters:
-            _put_parameter(
-                tree["parameters"], n.path, f"@@{i}@@ {si_unit(m.parameters[n.path].dimension)}".strip()
-            )
-        else:
-            _put(tree, n.keys, f"@@{i}@@ {KINDS[kinds[i]].si}".strip(), m)
-    return tree_text(tree).split("@@")
-
-
-def _put_parameter(parameters: Tree, name: str, text: str) -> None:
-    if isinstance(parameters[name], dict):
-        parameters[name]["value"] = text
-    else:
-        parameters[name] = text
-
-
-def _put(tree: Any, keys: list[str], text: str, m: Mechanism) -> None:
-    *way, last = keys
-    if last.isdigit() and not isinstance(_at(tree, way), list):
-        _put(tree, way, [0, 0], m)  # type: ignore[arg-type]
-    holder = _at(tree, way)
-    holder[int(last) if isinstance(holder, list) else last] = text
-
-
-def _at(tree: Any, keys: list[str]) -> Any:
-    for key in keys:
-        tree = tree[int(key) if isinstance(tree, list) else key]
-    return tree
 
 
 def series(values: Array) -> Tree | str:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import zlib
 from collections.abc import Sequence
 from importlib.metadata import version
 
@@ -14,13 +12,14 @@ from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.tracing.symbolic_model import geometric
 from dalembert.analysis.batch.tracing.traced_analysis import trace_analysis
+from dalembert.analysis.compile.contacts import friction_on
 from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.result.result import Result
 from dalembert.arrays import Tree
 from dalembert.errors import STATUSES, ModelError
 from dalembert.kernel.derivatives import gradients
-from dalembert.kernel.emit.wasm.module import LANES, emit_wasm
+from dalembert.kernel.emit.wasm.module import LANES
 from dalembert.kernel.graph import Node
-from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
 from dalembert.pages.boards import Boards
 from dalembert.pages.inputs import (
@@ -30,9 +29,13 @@ from dalembert.pages.inputs import (
     number_fields,
     numbers_of,
     only_at_positions,
-    template,
 )
+from dalembert.pages.messages.number_reading import limits, reading, sign_sentences
+from dalembert.pages.messages.position_sentences import position_sentences
+from dalembert.pages.modules import module
 from dalembert.pages.rows import Rows
+from dalembert.pages.saved_text import template
+from dalembert.pages.sketch_data import page_pose, pose_result, sketch_data
 from dalembert.pages.space_boards import SpaceBoards
 from dalembert.pages.sweep import with_cycle
 from dalembert.pages.symbolic_result import symbolic_actions, symbolic_result
@@ -55,6 +58,7 @@ ALWAYS = (
     "gap",
     "mark",
     "faint",
+    "acceleration",
 )
 """Roles that the page itself draws with."""
 
@@ -69,18 +73,13 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
     k = _kernel(m, inertia)
     r = symbolic_result(k)
     known = at_schedule(m, k.trace.course.schedule, inertia)
-    rows = Rows(k.trace.catalogue.graph, r)
-    b = (SpaceBoards if m.dimension == 3 else Boards)(known, rows, symbolic_actions(r, k))
-    views: Tree = {
-        "mechanism": b.mechanism(),
-        "bodies": b.free_bodies(),
-        "polygons": b.polygons(),
-        "charts": b.charts(),
-        "table": b.table(),
-    }
-    dragged = handles(b, k)
-    drives = drive_fields(b)
+    pose = page_pose(k)
+    rows, shown = Rows(k.trace.catalogue.graph, r), Rows(k.trace.catalogue.graph, pose_result(r, pose))
+    b, views, dragged, drives = _shown(known, rows, k)
+    _shown(known, shown, k)
     names, channels = k.trace.catalogue.graph.names, []
+    beside = Rows(rows.graph, r, rows.nodes, rows.places)  # of the same rows, of which nothing is drawn
+    limited, said = limits(m, k, beside), position_sentences(known, k, beside)
     program = plain(k, rows.nodes)
     data: Tree = {
         "format": FORMAT,
@@ -89,58 +88,68 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
         "source": m.source_text,
         "units": _units(b, views),
         "noise": _noise(b),
-        "kernel": _module(program, len(k.trace.course.schedule.position)),
+        "kernel": module(program, len(k.trace.course.schedule.position)),
         "numbers": number_fields(b, k),
+        "limits": limited,
+        "reading": reading() | {"signs": sign_sentences()},
         "template": template(m, k),
         "drives": drives,
         "handles": dragged,
         "views": views,
         "statuses": _statuses(),
+        "sentences": said,
         "assumptions": known.assumptions,
         "style": {theme: _style(b, theme) for theme in ("light", "dark")},
     }
-    gradient = _gradient(k, b, views["charts"])
+    gradient = _gradient(k, b, dragged, views["charts"])
     if gradient is not None:
         data["gradient"] = gradient["fields"]
         channels = gradient["channels"]
     channels = list(dict.fromkeys([*program.inputs_in_use("channel"), *channels]))
+    data["sketch"] = sketch_data(k, rows, shown, pose, {names[n.index] for n in channels})
+    given, more = k.trace.inputs.named, data["sketch"]["shown"]["channels"]
+    channels = list(
+        dict.fromkeys([*channels, *(given["channel", n] for n in more if ("channel", n) in given)])
+    )
     data["channels"] = channel_fields(k, names, channels)
     data["only_at_positions"] = only_at_positions(k, names, channels)
     return data
 
 
+def _shown(known: Result, rows: Rows, k: Kernel) -> tuple[Boards, Tree, list[Tree], list[Tree]]:
+    """All that is shown, with the handles and the drives."""
+    m = known.mechanism
+    b = (SpaceBoards if m.dimension == 3 else Boards)(known, rows, symbolic_actions(rows.r, k))
+    views: Tree = {
+        "mechanism": b.mechanism(),
+        "bodies": b.free_bodies(),
+        "polygons": b.polygons(),
+        "charts": b.charts(),
+        "table": b.table(),
+    }
+    return b, views, handles(b, k), drive_fields(b)
+
+
 def _kernel(m: Mechanism, inertia: bool) -> Kernel:
     """The kernel with every number free that the trace takes as such; no machine code is made."""
     free = numbers_of(m)
+    sided = friction_on(m) and bool(m.schedule().moves.any())
     try:
         try:
-            trace = trace_analysis(m, free, inertia)
+            trace = trace_analysis(m, free, inertia, sided=sided, followed=True)
         except ModelError:
             if m.dimension == 2:
                 raise
-            trace = trace_analysis(m, [path for path in free if not geometric(m, path)], inertia)
+            fixed = [path for path in free if not geometric(m, path)]
+            trace = trace_analysis(m, fixed, inertia, sided=sided, followed=True)
     except ModelError as error:
         raise error.at_source(m.source) from None
     return Kernel(m, trace, (), None, False, LANES)
 
 
-def _module(program: Program, count: int) -> Tree:
-    row = count + count % LANES
-    code, heap = emit_wasm(program, row)
-    names = program.graph.names
-    return {
-        "wasm": base64.b64encode(zlib.compress(code, 9)).decode(),
-        "heap": heap,
-        "row": row,
-        "count": count,
-        "outputs": len(program.outputs),
-        "channels": [names[n.index] for n in program.inputs_in_use("channel")],
-    }
-
-
-def _gradient(k: Kernel, b: Boards, charts: Sequence[Tree]) -> Tree | None:
+def _gradient(k: Kernel, b: Boards, dragged: Sequence[Tree], charts: Sequence[Tree]) -> Tree | None:
     """Derivatives of the curves by the numbers that are dragged, at one position; as many as find room."""
-    wanted = sorted({n for h in handles(b, k) for end in h.get("ends", ()) for n in end["n"]})
+    wanted = sorted({n for h in dragged for end in h.get("ends", ()) for n in end["n"]})
     curves = [curve["row"] for chart in charts for curve in chart["curves"]]
     inputs = [k.number_nodes[n] for n in wanted]
     rows, nodes = list[int](), list[Node]()
@@ -152,7 +161,7 @@ def _gradient(k: Kernel, b: Boards, charts: Sequence[Tree]) -> Tree | None:
     if not nodes:
         return None
     program = plain(k, nodes, marked=False)
-    fields = _module(program, LANES) | {"curves": rows, "numbers": wanted}
+    fields = module(program, LANES) | {"curves": rows, "numbers": wanted}
     return {"fields": fields, "channels": program.inputs_in_use("channel")}
 
 

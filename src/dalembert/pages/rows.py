@@ -15,12 +15,13 @@ from dalembert.pages.symbolic_result import SymbolicResult
 
 @dataclass
 class Rows:
-    """Nodes in the order in which they were asked for, each once."""
+    """Nodes in the order in which they were asked for, each once; ``asked``: the row of each time."""
 
     graph: Graph
     r: SymbolicResult
     nodes: list[Node] = field(default_factory=list)
     places: dict[int, int] = field(default_factory=dict)
+    asked: list[int] = field(default_factory=list)
 
     def of(self, x: Numeric) -> int:
         """The row of a number or node."""
@@ -28,7 +29,8 @@ class Rows:
         if node.index not in self.places:
             self.places[node.index] = len(self.nodes)
             self.nodes.append(node)
-        return self.places[node.index]
+        self.asked.append(self.places[node.index])
+        return self.asked[-1]
 
     def vector(self, v: Iterable[Numeric]) -> list[int]:
         """The rows of a vector's components."""

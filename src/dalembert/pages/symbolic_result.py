@@ -46,7 +46,7 @@ def symbolic_result(k: Kernel) -> SymbolicResult:
         status=("ok",),
         reasons=(None,),
         point_array=t.pose.point[None, moving],
-        turn_array=t.pose.turn[None, moving],
+        turn_array=t.pose.turn[None, moving] if c.layout.algebra.d == 2 else t.pose.turn[None],
         rotation_array=t.pose.rotation[None, moving],
         twist_array=t.twist[None, moving],
         acceleration_array=t.acceleration[None, moving],
@@ -63,7 +63,9 @@ def symbolic_result(k: Kernel) -> SymbolicResult:
 def symbolic_actions(r: SymbolicResult, k: Kernel) -> tuple[Action, ...]:
     """Everything on every link, in nodes, as ``whole_actions`` of a result."""
     t = k.trace.catalogue.traced
-    pose = Pose(*(a[None] for a in (t.pose.point, t.pose.turn, t.pose.rotation)))
+    g = r.compiled.layout.algebra
+    point = np.concatenate([r.point_array, t.pose.point[None, -1:]], axis=1)
+    pose = Pose(point, *g.with_ground(r.turn_array, r.rotation_array))
     nothing: Any = None  # virtual velocities, rows and factors are not asked
     moving = Motion(t.twist[None], t.acceleration[None], nothing, nothing)
     known = known_actions(r, State(pose, moving, nothing, nothing))

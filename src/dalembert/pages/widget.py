@@ -11,16 +11,17 @@ from typing import Any
 from uuid import uuid4
 
 from dalembert.errors import DalembertError
-from dalembert.model import Mechanism
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.pages.html_page import page
 from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
+from dalembert.pages.with_changes import with_changed_numbers
 from dalembert.saving import check_installed
 
 BUNDLE = Path(__file__).with_name("bundle")
 
 
-def widget(m: Mechanism, static: bool = False) -> Any:
+def widget(m: ModelOrPath, static: bool = False) -> Any:
     """The live page of a mechanism in Jupyter; needs the extra ``notebook``, and works offline.
 
     ``w.mechanism`` is the mechanism as it has been dragged, ``w.result`` its answer, ``w.changes`` the numbers that
@@ -33,6 +34,7 @@ def widget(m: Mechanism, static: bool = False) -> Any:
     >>> w.mechanism.links["rocker"].points["B"][0]
     0.2
     """
+    m = as_mechanism(m)
     check_installed("anywidget", "a widget", "notebook")
     return _kind()(m, static)
 
@@ -94,7 +96,7 @@ def _kind() -> type:
         def mechanism(self) -> Mechanism:
             """The mechanism with the numbers that were changed, its drive along the cycle that is shown."""
             shown = with_cycle(self._first)
-            return shown.with_values(dict(self.changes)) if self.changes else shown
+            return with_changed_numbers(shown, dict(self.changes)) if self.changes else shown
 
         @mechanism.setter
         def mechanism(self, m: Mechanism) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import actions
 from dalembert.analysis.methods.members import components_along
-from dalembert.analysis.output.columns import drive_kinds, load_kind
+from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.position_lookup import PositionChoice, position_at
 from dalembert.errors import NUMBERED, ModelError
 from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, figure, in_ground

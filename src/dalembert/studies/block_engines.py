@@ -148,6 +148,10 @@ class AnalysisEngine:
         result = solve(m, self.static, self.count)
         codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
         found = np.array(codes, np.uint8)
+        unique = among(found, [CODES.index("redundant")])
+        for name in self.outputs if unique.any() else ():
+            unique &= np.isfinite(quantity(result, name).values.reshape(len(found), -1)).all(axis=1)
+        found[unique] = 0  # as a kernel's, it is the status of the outputs
         return self._reduced(result), first_mark(found) if self.reduce else found
 
     def block(self, values: Array) -> Block:

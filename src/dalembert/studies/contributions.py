@@ -14,6 +14,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import NUMBERED, among
 from dalembert.analysis.batch.over_positions import PLACES
 from dalembert.arrays import Array
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.studies.sampling import Plan
 from dalembert.wording import closest
@@ -61,6 +62,7 @@ def contributions(study: Study, output: str, by: str, designs: int) -> Contribut
     """What `Study.contributions` does."""
     if by not in ("linear", "sobol"):
         raise ModelError(f"there are no contributions by {by!r}", "there are: linear, sobol")
+    require("samples", designs, "designs")
     _check(study, output)
     return _linear(study, output) if by == "linear" else _sobol(study, output, designs)
 
@@ -88,7 +90,9 @@ def _answers(study: Study, output: str, values: Array) -> Array:
     parts = (np.ascontiguousarray(values[k : k + size]) for k in range(0, len(values), size))
     found = np.concatenate([study.engine.block(part)[output] for part in parts])
     if found.ndim > 1:
-        raise ModelError(f"{output} has {found[0].size} numbers a design", "ask for a scalar, as magnitude.A")
+        raise ModelError(
+            f"{output} has {found[0].size} numbers a design", "ask for a scalar, as reaction.A.magnitude"
+        )
     return found
 
 
@@ -217,8 +221,9 @@ def response(study: Study, output: str, paths: Sequence[str], count: int) -> Res
     for path in paths:
         if path not in study.paths:
             raise ModelError(f"{path!r} does not vary", closest(path, list(study.paths)))
-    if len(paths) not in (1, 2) or len(set(paths)) < len(paths) or not 2 <= count <= 1000:
-        raise ModelError(f"{len(paths)} numbers, {count} values of each", "ask for one or two, of 2 to 1,000")
+    require("values", count, "count")
+    if len(paths) not in (1, 2) or len(set(paths)) < len(paths):
+        raise ModelError(f"{len(paths)} numbers, {count} values of each", "ask for one or two different ones")
     places = [study.paths.index(path) for path in paths]
     axes = tuple(np.linspace(*study.plan.spreads[k].ends, count) for k in places)
     rows = np.repeat(_middle(study)[None], count ** len(paths), axis=0)

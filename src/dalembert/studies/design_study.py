@@ -19,8 +19,9 @@ from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.tracing.symbolic_model import number_kinds, of_motion
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
+from dalembert.bounds import require
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.studies.block_engines import Block, Engine, KernelEngine, make_engine, program_print
 from dalembert.studies.limits import Limit, output_kinds, read_limit
 from dalembert.studies.motion_engines import Motion, end_kinds, make_motion_engine, read_motion
@@ -41,7 +42,7 @@ MOST_BLOCKS = 5_000
 
 
 def study(
-    mechanism: Mechanism,
+    mechanism: ModelOrPath,
     vary: Mapping[str, object] | Sequence[str],
     outputs: Sequence[str] | str | None = None,
     reduce: str | None = "peak",
@@ -75,18 +76,21 @@ def study(
     >>> r["effort.O2"].shape, int(r.ok.sum())
     ((1000,), 1000)
     """
+    mechanism = as_mechanism(mechanism)
     motion = None
     if simulate is not None:
         _refuse_beside_motion(static=static, positions=positions, lanes=lanes)
         mechanism, motion = read_motion(mechanism, simulate)
     if motion is None or reduce != "final":
         over_positions.check(reduce)
-    _check_counts(lanes=lanes, positions=positions)
+    whole = int(designs) if isinstance(designs, float) and float(designs).is_integer() else designs
+    asked = {"lanes": lanes, "positions": positions, "designs": whole, "seed": seed}
+    for key, value in asked.items():
+        require(key, value, path=(key,))
     given = dict.fromkeys(vary, "") if not isinstance(vary, Mapping) else dict(vary)
     table = dict(draw) if isinstance(draw, Mapping) else None
     if table is None and not given:
         raise ModelError("nothing varies", "give path: spread, as stroke: ± 0.1 mm", ("vary",))
-    _check_draw(designs, seed)
     numbers, spreads, rows = (
         spreads_of(mechanism, given) if table is None else columns_of(mechanism, given, table)
     )
@@ -96,7 +100,7 @@ def study(
     paths = tuple(n.path for n in numbers)
     how = "table" if table is not None else str(draw)
     mixing = triangle_of(paths, correlation or {}, how)
-    plan = Plan(paths, spreads, how, int(designs), int(seed), rows, mixing)
+    plan = Plan(paths, spreads, how, int(whole), int(seed), rows, mixing)
     names = (outputs,) if isinstance(outputs, str) else tuple(outputs) if outputs else None
     if names and len(set(names)) < len(names):
         raise ModelError("an output is asked for twice", "leave one of them out", ("outputs",))
@@ -105,24 +109,10 @@ def study(
     return found.with_limits(limits or {})
 
 
-def _check_draw(designs: int, seed: int) -> None:
-    """Raise ModelError for what is no number of designs, or no seed."""
-    if isinstance(designs, bool) or designs != int(designs):
-        raise ModelError(f"{designs!r} is no number of designs", "give a whole number", ("designs",))
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
-        raise ModelError(f"the seed {seed!r} is no whole number of 0 or more", "give one, as 7", ("seed",))
-
-
 def _refuse_beside_motion(**given: object) -> None:
     for name, value in given.items():
         if value:
             raise ModelError(f"{name} is given, and the study simulates", f"leave {name} out", (name,))
-
-
-def _check_counts(**given: int | None) -> None:
-    for name, count in given.items():
-        if count is not None and (isinstance(count, bool) or not isinstance(count, int) or count < 1):
-            raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
 
 
 @dataclass(frozen=True)
@@ -207,9 +197,7 @@ class Study:
 
     def with_limits(self, limits: Mapping[str, str]) -> Study:
         """The same study with other limits: output -> what it has to keep, as ``"< 45 N*m"``."""
-        read = tuple(
-            read_limit(str(name), said, self.kinds, self.mechanism.units) for name, said in limits.items()
-        )
+        read = tuple(read_limit(str(name), said, self.kinds, self.mechanism) for name, said in limits.items())
         return replace(self, limits=read, cache=self.cache)
 
     @property
@@ -244,7 +232,8 @@ class Study:
 
     def design(self, n: int) -> dict[str, float]:
         """The numbers of a design by path, SI; designs are numbered from 0."""
-        if not 0 <= n < self.count:
+        require("design", n)
+        if n >= self.count:
             raise ModelError(f"there is no design {n}", f"there are 0 to {self.count - 1}")
         return dict(zip(self.paths, self.plan.values(n, n + 1)[0].tolist(), strict=True))
 
@@ -258,6 +247,7 @@ class Study:
             raise ModelError(
                 f"a study drawn by {self.plan.draw} is whole", "only random and sobol ones can be extended"
             )
+        require("designs", designs)
         if designs < self.count:
             raise ModelError(f"the study has {self.count} designs already", f"ask for more than {designs}")
         return replace(self, plan=replace(self.plan, designs=designs), cache=self.cache)

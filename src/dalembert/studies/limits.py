@@ -14,8 +14,9 @@ from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
-from dalembert.units import NUMBER, Units
-from dalembert.units import quantity as read_quantity
+from dalembert.model import Mechanism
+from dalembert.model.part import Reading
+from dalembert.units import NUMBER
 from dalembert.wording import closest, quote_value
 
 FORMS = "write '< 45 N*m', '>= 3 kN', or '2..5 kN'"
@@ -47,7 +48,7 @@ def output_kinds(nominal: Result, outputs: Sequence[str], reduce: str | None) ->
     return found
 
 
-def read_limit(name: str, said: object, kinds: Mapping[str, str], units: Units) -> Limit:
+def read_limit(name: str, said: object, kinds: Mapping[str, str], m: Mechanism) -> Limit:
     """What an output has to keep, in words; raises ModelError."""
     if name not in kinds:
         raise ModelError(
@@ -57,7 +58,7 @@ def read_limit(name: str, said: object, kinds: Mapping[str, str], units: Units) 
         )
     text = " ".join(str(said).split())
     try:
-        low, high = _ends(text, kinds[name], units)
+        low, high = _ends(text, kinds[name], Reading(m.units, parameters=m.parameters))
     except ModelError as error:
         raise ModelError(f"limit of {name}: {error.what}", error.remedy, ("limits", name)) from None
     if not low < high:
@@ -65,13 +66,13 @@ def read_limit(name: str, said: object, kinds: Mapping[str, str], units: Units) 
     return Limit(name, low, high, text)
 
 
-def _ends(text: str, kind: str, units: Units) -> tuple[float, float]:
+def _ends(text: str, kind: str, rules: Reading) -> tuple[float, float]:
     if found := BETWEEN.fullmatch(text):
         low, first, high, last = found.groups()
-        a = read_quantity(f"{low} {first or last}".strip(), kind, units)
-        return a, read_quantity(f"{high} {last or first}".strip(), kind, units)
+        a = rules.quantity(f"{low} {first or last}".strip(), kind)
+        return a, rules.quantity(f"{high} {last or first}".strip(), kind)
     sign = re.match(r"<=?|>=?|≤|≥", text)
     if sign is None:
         raise ModelError(f"{quote_value(text)} is no limit", FORMS)
-    value = read_quantity(text[sign.end() :].strip(), kind, units)
+    value = float(rules.quantity(text[sign.end() :].strip(), kind))
     return (-math.inf, value) if sign[0] in ("<", "<=", "≤") else (value, math.inf)

@@ -16,7 +16,8 @@ from dalembert.analysis.result.named_quantities import quantity
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError, errors_at
 from dalembert.machine.motion.compiled_motion import MotionKernel, compile_motion
-from dalembert.machine.motion.simulation import Simulation, check_choices, read_end, read_start, simulate
+from dalembert.machine.motion.occurrences import read_end
+from dalembert.machine.motion.simulation import Simulation, check_choices, read_start, simulate
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import SLIDE, TURN
 from dalembert.model.part import check_keys

@@ -295,7 +295,7 @@ class Lease:
         return int(keys[-1].rpartition("/")[2]) if keys else 0, said
 
     def _refuse(self, held: dict[str, Any]) -> None:
-        end = time.strftime("%T", time.localtime(float(held.get("until", time.time() + LEASE))))
+        end = time.strftime("%H:%M:%S", time.localtime(float(held.get("until", time.time() + LEASE))))
         who = held.get("who", "another process")
         raise ModelError(
             f"{self.address} is being written by {who}, whose lease ends at {end} if it is not renewed",

@@ -14,7 +14,9 @@ import numpy as np
 
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.arrays import Array, Ints, Tree
+from dalembert.bounds import require
 from dalembert.errors import ModelError
+from dalembert.kernel.parallel_runs import cores
 from dalembert.model.files.rewriting import text_of
 from dalembert.studies.block_engines import Block
 from dalembert.studies.design_study import Study
@@ -46,8 +48,7 @@ def run_study(
     check: bool,
 ) -> StudyResult:
     """What `Study.run` does."""
-    if threads is not None and threads < 1:
-        raise ModelError(f"threads={threads} is no number of threads", "give 1 or more, or leave it out")
+    require("threads", threads)
     if target is None:
         memory = InMemory(study)
         _compute(study, memory, range(memory.blocks), threads, scheduler, progress)
@@ -189,7 +190,7 @@ def _compute(
     if scheduler is not None:
         _on_dask(study, target, todo, scheduler, tell)
     elif todo:
-        _on_threads(study, target, todo, threads or len(os.sched_getaffinity(0)), tell)
+        _on_threads(study, target, todo, threads or cores(), tell)
 
 
 def _length(study: Study, block: int, b: int) -> int:

@@ -16,7 +16,7 @@ import numpy as np
 
 from dalembert.analysis.batch.batch_result import CODES, first_mark
 from dalembert.arrays import Array, Ints, Tree
-from dalembert.errors import ModelError
+from dalembert.errors import MissingFileError, ModelError
 from dalembert.saving import check_installed
 from dalembert.studies.object_store import Objects, is_address
 from dalembert.studies.store_folder import Folder
@@ -83,7 +83,7 @@ class Store:
         import zarr
 
         if not self.exists():
-            raise ModelError(f"there is no study {self}", "dalembert study run FILE makes one")
+            raise MissingFileError(str(self), "dalembert study run FILE makes one")
         try:
             self.group = zarr.open_group(self.place.group(), mode=mode, zarr_format=3)
             found = dict(self.group.attrs)
@@ -188,5 +188,10 @@ def _fill(
         dimension_names=("block", "field"),
         attributes={"fields": list(FIELDS)},
     )
-    own = {"block": block, "designs": count, "blocks_of": list(layout), "created": time.strftime("%FT%T")}
+    own = {
+        "block": block,
+        "designs": count,
+        "blocks_of": list(layout),
+        "created": time.strftime("%Y-%m-%dT%H:%M:%S"),
+    }
     group.attrs.update({**attributes, **own})

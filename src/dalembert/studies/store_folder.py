@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import shutil
 import time
@@ -13,12 +14,15 @@ from typing import Any
 
 from dalembert.errors import ModelError
 
+BEHIND = 1 << 20
+"""Place of the byte that is locked on Windows, where nobody can read what is locked."""
+
 KEPT = "finished blocks are kept: make room, and resume"
 
 
 def this_run() -> str:
     """This process, in words for those whom its lock keeps out."""
-    return f"process {os.getpid()} on {gethostname()} since {time.strftime('%F %T')}"
+    return f"process {os.getpid()} on {gethostname()} since {time.strftime('%Y-%m-%d %H:%M:%S')}"
 
 
 class Folder:
@@ -71,8 +75,6 @@ class Folder:
     @contextmanager
     def locked(self) -> Iterator[None]:
         """One run at a time: a lock on a file beside it, let go by the system when its process dies."""
-        import fcntl
-
         path = self.path.with_name(self.path.name + ".lock")
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -81,7 +83,7 @@ class Folder:
             raise unwritable(self, error) from None
         try:
             try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                _lock(file)
             except OSError:
                 who = os.read(file, 200).decode(errors="replace") or "another process"
                 raise ModelError(f"{self} is being written by {who}", "wait for it, or end it") from None
@@ -90,6 +92,30 @@ class Folder:
             yield
         finally:
             os.close(file)
+
+
+def _lock(file: int) -> None:
+    """Lock an open file for this process; OSError where another one has it. Where the system has no locks, as in a
+    browser, nothing is locked."""
+    try:
+        import fcntl
+    except ImportError:
+        _lock_on_windows(file)
+    else:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def _lock_on_windows(file: int) -> None:
+    """A byte far behind the text, which others can still read."""
+    try:
+        msvcrt: Any = importlib.import_module("msvcrt")
+    except ImportError:
+        return
+    os.lseek(file, BEHIND, os.SEEK_SET)
+    try:
+        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+    finally:
+        os.lseek(file, 0, os.SEEK_SET)
 
 
 def unwritable(place: object, error: Exception) -> ModelError:

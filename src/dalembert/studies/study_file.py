@@ -102,7 +102,7 @@ def _options(tree: Mapping[str, object]) -> Tree:
         names = [outputs] if isinstance(outputs, str) else outputs
         if not isinstance(names, list) or not names or not all(isinstance(n, str) for n in names):
             what = "outputs are not a list of names"
-            raise ModelError(what, "write outputs: [effort.O2, magnitude.A]", ("outputs",))
+            raise ModelError(what, "write outputs: [effort.O2, reaction.A.magnitude]", ("outputs",))
         out["outputs"] = names
     if "reduce" in tree:
         reduce = tree["reduce"]

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.batch.batch_result import CODES, SOLVED, among, first_mark
-from dalembert.arrays import Array, Flags, Ints
-from dalembert.errors import STATUSES, ModelError
+from dalembert.analysis.batch.batch_result import CODES, NUMBERED, SOLVED, among, first_mark, one_number
+from dalembert.answer.named_answer import NamedAnswer
+from dalembert.arrays import Array, Flags, Ints, Tree
+from dalembert.bounds import require
+from dalembert.errors import STATUSES, DalembertError, ModelError
 from dalembert.studies.design_study import Study, study_of_tree
 from dalembert.studies.limits import Limit, read_limit
 from dalembert.studies.motion_engines import SENTENCES
@@ -20,23 +22,46 @@ from dalembert.wording import closest
 if TYPE_CHECKING:
     import xarray
 
+    from dalembert.model import Mechanism
     from dalembert.reports import Report
 
 PERCENTILES = (0.1, 5.0, 50.0, 95.0, 99.9)
 ROUNDING = 1e-12
 """Spread of values over their mean that is none."""
+REFUSED = "The description refuses the values of these designs, or one of them is not finite."
+SAMPLE = 1_000
+"""Designs of each sort that are compared, evenly out of all."""
+CERTAIN = 2.2
+"""Kolmogorov and Smirnov's statistic times the root of n m/(n + m) that one number in 8,000 exceeds by chance."""
+LEAST = 0.3
+"""Differences of two distributions below which nothing is said of a number."""
+
+
+class Difference(NamedTuple):
+    """A number that failing designs have mostly on one side of a value: the shares there of these, and of those that
+    answered."""
+
+    path: str
+    above: bool
+    value: float
+    failing: float
+    answered: float
 
 
 class Failure(NamedTuple):
-    """Designs that are not solved for one reason: status, how many, the first of them, the sentence."""
+    """Designs that are not solved for one reason: status, how many, the first of them, the sentence; their share of the
+    designs that are there, the sentence of the first one's own analysis, how their numbers differ."""
 
     status: str
     designs: int
     first: tuple[int, ...]
     sentence: str
+    share: float = 0.0
+    reason: str = ""
+    differs: Difference | None = None
 
 
-class StudyResult:
+class StudyResult(NamedAnswer):
     """Answers of a study by output, SI, NaN where there is none: ``r["effort.O2"]`` (design, ...).
 
     Of a store that is not finished the designs that are there; `done` says which.
@@ -63,8 +88,42 @@ class StudyResult:
                 ledger[b] = 0
         return cls(study, store.arrays, ledger, block)
 
-    def __repr__(self) -> str:
-        return f"<StudyResult: {int(self.done.sum()):,} of {self.study.count:,} designs, {self.counts()}>"
+    ROW = "design"
+
+    def keys(self) -> list[str]:
+        """Names of the outputs."""
+        return list(self.study.outputs)
+
+    @property
+    def codes(self) -> Array:
+        """Statuses of the designs, of their positions where these are kept, as numbers."""
+        return self["status"]
+
+    def __len__(self) -> int:
+        return self.study.count
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The description that is varied."""
+        return self.study.mechanism
+
+    @property
+    def extent(self) -> str:
+        """How many designs are there."""
+        return f"{int(self.done.sum()):,} of {self.study.count:,} designs"
+
+    @property
+    def outcome(self) -> str:
+        """Counts by status, from the ledger alone."""
+        return ", ".join(f"{n:,} {status}" for status, n in self.counts().items()) or "none done"
+
+    def both_sides(self, name: str) -> list[Array]:
+        """An output; where it is reduced, one number for each design."""
+        return [one_number(name, self[name], self.study.reduce is not None)]
+
+    def compared(self) -> Tree:
+        """What equal answers share: the study, the statuses and all outputs."""
+        return {"study": self.study, "status": self["status"], **{name: self[name] for name in self.keys()}}
 
     @property
     def done(self) -> Flags:
@@ -84,8 +143,6 @@ class StudyResult:
                 values[which] = array[which]
         values[~self.done] = 255 if values.dtype == np.uint8 else np.nan
         return values
-
-    __iter__ = None  # a result is no sequence
 
     @property
     def status(self) -> Array:
@@ -109,16 +166,14 @@ class StudyResult:
         return {name: int(n) for name, n in zip(CODES, total, strict=False) if n}
 
     def failed(self, some: int = 5) -> list[Failure]:
-        """Designs that are not solved, by status, with the numbers of the first few."""
-        marks, out = self._marks, []
-        known = {} if self.study.motion is None else SENTENCES
-        for mark in np.unique(marks[~among(marks, (*SOLVED, 255))]):
-            where = np.flatnonzero(marks == mark)
-            code = CODES[mark]
-            sentence = STATUSES[code].sentence if code in STATUSES else "Its values are refused."
-            sentence = known.get(code, sentence)
-            out.append(Failure(code, len(where), tuple(where[:some].tolist()), sentence))
-        return out
+        """Designs that are not solved, by status: their share, the numbers of the first few, the reason in the first
+        one's own analysis, and the number by which they differ most from the designs that are solved."""
+        require("some", some)
+        return failures(self, self._marks, some)
+
+    def unsolved(self) -> tuple[int, int]:
+        """Designs that are there, and how many of them have no numbers: statistics are of the others."""
+        return unsolved(self._marks)
 
     def values(self, name: str) -> Array:
         """The finite numbers of an output of one number a design, in the order of the designs."""
@@ -126,13 +181,7 @@ class StudyResult:
         return found[np.isfinite(found)]
 
     def _single(self, name: str) -> Array:
-        found = self[name]
-        if found.ndim > 1:
-            raise ModelError(
-                f"{name} has {found[0].size} numbers a design",
-                'ask for one: reduce="peak" of a scalar, as magnitude.A',
-            )
-        return found
+        return one_number(name, self[name], True)
 
     def worst(self, name: str) -> int:
         """Number of the design with the greatest value."""
@@ -150,12 +199,15 @@ class StudyResult:
 
     def percentiles(self, name: str, of: tuple[float, ...] = PERCENTILES) -> dict[float, float]:
         """Percent -> value that so many percent of the solved designs do not exceed."""
+        for percent in of:
+            require("percentile", percent)
         values = self.values(name)
         found = np.percentile(values, of) if len(values) else np.full(len(of), np.nan)
         return dict(zip(of, found.tolist(), strict=True))
 
     def histogram(self, name: str, bins: int = 40) -> tuple[Ints, Array]:
         """Designs in each of some equal intervals, and the intervals' ends."""
+        require("bins", bins)
         values = self.values(name)
         middle = float(np.mean(values)) if len(values) else 0.0
         alike = bool((np.abs(values - middle) <= ROUNDING * np.abs(middle)).all())  # then 1 wide
@@ -164,14 +216,14 @@ class StudyResult:
 
     def share(self, output: str, limit: str) -> float:
         """Share of the designs that keep a limit, as ``"< 45 N*m"``; a failed design keeps none."""
-        return self._share(read_limit(output, limit, self.kinds, self.study.mechanism.units))
+        return self._share(read_limit(output, limit, self.kinds, self.study.mechanism))
 
     def _share(self, limit: Limit) -> float:
         return float(limit.kept(self[limit.output])[self.done].mean())
 
     def capability(self, output: str, limit: str) -> float:
         """Process capability Cpk: the least distance of the mean from a limit over three standard deviations."""
-        found = read_limit(output, limit, self.kinds, self.study.mechanism.units)
+        found = read_limit(output, limit, self.kinds, self.study.mechanism)
         values = self.values(output)
         mean, sigma = float(values.mean()), float(values.std())
         return min(found.high - mean, mean - found.low) / (3 * sigma) if sigma > 0 else np.inf
@@ -223,3 +275,61 @@ def stored_study(store: Store, found: Mapping[str, Any]) -> Study:
     table = np.asarray(store.group["table"][:]) if "table" in store.group else None
     tree = {**found["study"], "designs": found["designs"]}
     return study_of_tree(m, tree, table)
+
+
+def failures(r: StudyResult, marks: Array, some: int) -> list[Failure]:
+    """Each reason why designs are not solved, by the marks of all designs (255 where one is not there)."""
+    out, there, solved = [], marks != 255, np.flatnonzero(among(marks, SOLVED))
+    known = {} if r.study.motion is None else SENTENCES
+    for mark in np.unique(marks[~among(marks, (*SOLVED, 255))]):
+        where = np.flatnonzero(marks == mark)
+        code = CODES[mark]
+        sentence = STATUSES[code].sentence if code in STATUSES else REFUSED
+        first, share = tuple(where[:some].tolist()), len(where) / int(there.sum())
+        reason = _reason(r.study, first[0], code) if r.study.motion is None else ""
+        differs = _difference(r.study, where, solved)
+        out.append(Failure(code, len(where), first, known.get(code, sentence), share, reason, differs))
+    return out
+
+
+def unsolved(marks: Array) -> tuple[int, int]:
+    """Designs that are there, and how many of them have no numbers."""
+    there = marks != 255
+    return int(there.sum()), int((there & ~among(marks, NUMBERED)).sum())
+
+
+def _reason(study: Study, n: int, status: str) -> str:
+    """The sentence of one design's own analysis, with its position; nothing where that has another status."""
+    try:
+        problems = study.answer(study.mechanism_of(n)).problems()
+    except DalembertError as error:
+        return str(error) if status == "failed" else ""
+    return next((f"position {which}: {text}" for which, code, text in problems if code == status), "")
+
+
+def _difference(study: Study, failing: Ints, answered: Ints) -> Difference | None:
+    """Number whose distributions over failing and answering designs are farthest apart (Kolmogorov and Smirnov)."""
+    if not (len(failing) and len(answered)):
+        return None
+    one, other = (_values(study, of) for of in (failing, answered))
+    found = [_apart(path, one[:, k], other[:, k]) for k, path in enumerate(study.paths)]
+    best = max(found, key=lambda of: of.failing - of.answered)
+    gap = best.failing - best.answered
+    sure = gap * np.sqrt(len(one) * len(other) / (len(one) + len(other))) >= CERTAIN
+    return best if sure and gap >= LEAST else None
+
+
+def _values(study: Study, designs: Ints) -> Array:
+    kept = designs[np.unique(np.linspace(0, len(designs) - 1, min(len(designs), SAMPLE)).astype(int))]
+    return np.concatenate([study.plan.values(n, n + 1) for n in kept.tolist()])
+
+
+def _apart(path: str, one: Array, other: Array) -> Difference:
+    """Where the empirical distributions of two samples differ most, and on which side the first one lies."""
+    ends = np.unique(np.concatenate([one, other]))
+    below = [np.searchsorted(np.sort(of), ends, side="right") / len(of) for of in (one, other)]
+    k = int(np.argmax(np.abs(below[0] - below[1])))
+    above = bool(below[0][k] < below[1][k])
+    shares = [float(1 - of[k]) if above else float(of[k]) for of in below]
+    middle = (ends[k] + ends[min(k + 1, len(ends) - 1)]) / 2
+    return Difference(path, above, float(middle), *shares)

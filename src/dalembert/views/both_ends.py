@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.friction.joint_friction import joints_at_limit, reversing_joints, unknown_names
-from dalembert.analysis.output.columns import unknown_kinds
+from dalembert.analysis.result.number_kinds import unknown_kinds
 from dalembert.views.notation import Shown
 from dalembert.views.paper.lettering import BOLD, break_lines
 from dalembert.views.paper.scene import Scene, Text, stack_scenes

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import magnitude
-from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError

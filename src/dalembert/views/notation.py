@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import numpy as np
 
 from dalembert import unit_names
-from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import least
 from dalembert.analysis.output.summary.printed_units import Printed, print_scale
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import numpy as np
 
 from dalembert.analysis.compile.contacts import coefficient, resting_coefficient
 from dalembert.analysis.methods.applied_forces import actions
-from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.model.joints.plane_joints import Joint

@@ -6,6 +6,7 @@ import numpy as np
 
 from dalembert.algebra.lines import meeting_point
 from dalembert.arrays import Array
+from dalembert.bounds import require
 from dalembert.errors import AnalysisError
 from dalembert.wrench.forces import Axis
 from dalembert.wrench.reading import read_only
@@ -21,6 +22,7 @@ def arrangement(system: System, tolerance: float = EXACT) -> str:
     >>> arrangement(System(Force([1, 0], at=[0, 1]), Force([0, 2], at=[3, 0]), Force([1, 1], at=[5, 3])))
     'concurrent'
     """
+    require("tolerance", tolerance)
     lines = _lines(system)
     if not lines:
         return "no forces"
@@ -37,6 +39,7 @@ def arrangement(system: System, tolerance: float = EXACT) -> str:
 
 def concurrency(system: System, tolerance: float = EXACT) -> Array | None:
     """The point (m) where all lines of action meet; None where they do not, or are parallel."""
+    require("tolerance", tolerance)
     forces = [f for f in system.forces if f.size > 0]
     if len(forces) < 2:
         return None
@@ -57,6 +60,7 @@ def parallel_center(system: System, tolerance: float = EXACT) -> Array:
     >>> parallel_center(System(Force([0, -30], at=[0, 0]), Force([0, -10], at=[4, 0])))
     array([1., 0.])
     """
+    require("tolerance", tolerance)
     lines = _lines(system)
     if not lines or not _parallel(lines, tolerance):
         raise AnalysisError("The forces are not parallel, so they have no centre. Ask for the central axis.")

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dalembert.arrays import Array, Numeric
+from dalembert.bounds import require
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.units import Units, file_units
 from dalembert.wording import closest
@@ -171,6 +172,7 @@ class System:
         The force is the largest of all forces and of couples over the length; the moment is that force times the
         length. At one point, without a length: the largest force and the largest couple.
         """
+        require("length", length)
         reach = self.length if length is None else length
         force = max((f.size for f in self.forces), default=0.0)
         couple = max((c.size for c in self.couples), default=0.0)
@@ -234,6 +236,7 @@ class System:
         >>> c.axis.crossing(z=0).round(3), round(c.moment, 3)
         (array([1.44, 0.  , 0.  ]), 12.522)
         """
+        require("tolerance", tolerance)
         force, at = self.resultant, self.middle
         size = math.hypot(*force)
         if size <= tolerance * self.scales(length)[0]:
@@ -249,6 +252,7 @@ class System:
 
     def kind(self, tolerance: float = EXACT, length: float | None = None) -> str:
         """What it reduces to: `zero`, `couple`, `single force`, or in space `wrench` (force and couple along it)."""
+        require("tolerance", tolerance)
         largest, moment_scale = self.scales(length)
         size = math.hypot(*self.resultant)
         if size <= tolerance * largest:

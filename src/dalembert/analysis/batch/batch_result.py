@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dalembert import errors
 from dalembert.algebra import plane, space
-from dalembert.arrays import Array, Flags
+from dalembert.analysis.result.named_quantities import component
+from dalembert.answer.named_answer import NamedAnswer
+from dalembert.arrays import Array, Flags, Tree
 from dalembert.errors import STATUSES, ModelError
+
+if TYPE_CHECKING:
+    from dalembert.model import Mechanism
 
 CODES = (
     "ok",
@@ -71,8 +76,8 @@ def mark_overflow(code: NDArray[np.uint8], arrays: dict[str, Array], rates: dict
         rate[np.isinf(rate)] = np.nan
 
 
-@dataclass(frozen=True)
-class BatchResult:
+@dataclass(frozen=True, repr=False, eq=False)
+class BatchResult(NamedAnswer):
     """Answer for many designs: arrays (design, position), or (design,) where reduced over the positions.
 
     SI and radians, vectors in ground axes with their components last. NaN where there is no answer; ``status`` says
@@ -80,14 +85,45 @@ class BatchResult:
     after; None where nothing reverses, and where reduced: reductions are over both.
     """
 
-    kernel: Any = field(repr=False)
-    values: Array = field(repr=False)  # (design, number)
-    positions: Array = field(repr=False)  # (position, drive)
-    code: NDArray[np.uint8] = field(repr=False)
-    arrays: dict[str, Array] = field(repr=False)
-    gradients: dict[str, Array] = field(repr=False)
+    kernel: Any = field(compare=False)
+    values: Array  # (design, number)
+    positions: Array  # (position, drive)
+    code: NDArray[np.uint8]
+    arrays: dict[str, Array]
+    gradients: dict[str, Array]
     redone: int = 0
-    after: BatchResult | None = field(default=None, repr=False)
+    after: BatchResult | None = None
+
+    ROW = "design"
+
+    def keys(self) -> list[str]:
+        """Names of the outputs."""
+        return list(self.arrays)
+
+    def __getitem__(self, name: str) -> Array:
+        """An output by its name, or a component of a vector that is not reduced."""
+        vector, _, part = name.rpartition(".")
+        if name in self.arrays or vector not in self.arrays or self.kernel.reduce is not None:
+            return self.value(name)
+        return component(self.arrays[vector], part, name, self.code.ndim)
+
+    def both_sides(self, name: str) -> list[Array]:
+        """An output, and where contacts reverse also its values just after."""
+        return [one_number(name, a, self.kernel.reduce is not None) for a in super().both_sides(name)]
+
+    @property
+    def codes(self) -> Array:
+        """Statuses (design,) or (design, position)."""
+        return self.status
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The description that was compiled."""
+        return self.kernel.mechanism  # type: ignore[no-any-return]
+
+    def compared(self) -> Tree:
+        """What equal answers share: the recipe of the kernel, and all numbers."""
+        return super().compared() | {"kernel": self.kernel.__reduce__()[1]}
 
     @property
     def status(self) -> Array:
@@ -147,11 +183,11 @@ class BatchResult:
 
     def magnitude(self, joint: str) -> Array:
         """Size of a joint's force."""
-        return self.value(f"magnitude.{joint}")
+        return self.value(f"reaction.{joint}.magnitude")
 
     def reaction_moment(self, joint: str, on: str | None = None) -> Array:
         """Moment of a joint about j's point."""
-        return self._sign(joint, on) * self.value(f"moment.{joint}")
+        return self._sign(joint, on) * self.value(f"reaction_moment.{joint}")
 
     def _sign(self, joint: str, on: str | None) -> float:
         joints = self.kernel.mechanism.joints
@@ -178,31 +214,31 @@ class BatchResult:
 
     def speed(self, link: str) -> Array:
         """Angular velocity of a link."""
-        return self.value(f"speed.{link}")
+        return self.value(f"angle.{link}.speed")
 
     def acceleration(self, link: str) -> Array:
         """Angular acceleration of a link."""
-        return self.value(f"acceleration.{link}")
+        return self.value(f"angle.{link}.acceleration")
 
     def position(self, link: str) -> Array:
         """Origin of a link's axes."""
-        return self.value(f"position.{link}")
+        return self.value(f"point.{link}.origin")
 
     def velocity(self, link: str) -> Array:
         """Velocity of the origin of a link's axes."""
-        return self.value(f"velocity.{link}")
+        return self.value(f"point.{link}.origin.velocity")
 
     def center(self, link: str) -> Array:
         """Mass centre of a link."""
-        return self.value(f"center.{link}")
+        return self.value(f"point.{link}.center")
 
     def center_velocity(self, link: str) -> Array:
         """Velocity of a link's mass centre."""
-        return self.value(f"center_velocity.{link}")
+        return self.value(f"point.{link}.center.velocity")
 
     def center_acceleration(self, link: str) -> Array:
         """Acceleration of a link's mass centre."""
-        return self.value(f"center_acceleration.{link}")
+        return self.value(f"point.{link}.center.acceleration")
 
     def point(self, link: str, name: str) -> Array:
         """A named point of a link."""
@@ -210,11 +246,21 @@ class BatchResult:
 
     def point_velocity(self, link: str, name: str) -> Array:
         """Velocity of a named point of a link."""
-        return self.value(f"point_velocity.{link}.{name}")
+        return self.value(f"point.{link}.{name}.velocity")
 
     def point_acceleration(self, link: str, name: str) -> Array:
         """Acceleration of a named point of a link."""
-        return self.value(f"point_acceleration.{link}.{name}")
+        return self.value(f"point.{link}.{name}.acceleration")
+
+
+def one_number(name: str, values: Array, reduced: bool) -> Array:
+    """Values of an output; a reduced one that has several numbers in each design is refused."""
+    if reduced and values.ndim > 1:
+        raise ModelError(
+            f"{name} has {values[0].size} numbers a design",
+            'ask for one: reduce="peak" of a scalar, as reaction.A.magnitude',
+        )
+    return values
 
 
 def _sentence(code: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from numbers import Real
 
@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.model import Schedule
+from dalembert.model import Mechanism, Schedule
+from dalembert.wording import closest
 
 KINDS = {
     "c": "complex",
@@ -67,6 +68,46 @@ def targets(out: Array | Mapping[str, Array], shapes: dict[str, tuple[int, ...]]
     if len({id(array) for array in given.values()}) < len(given):
         raise ModelError("out= has one array for several results", "give each its own")
     return {name: np.asarray(given[name]) for name in shapes}
+
+
+def design_values(
+    values: ArrayLike | Mapping[str, ArrayLike] | None, names: Sequence[str], nominal: Array
+) -> Array:
+    """Designs (design, number); a single design may be a list, as may many of one number."""
+    if isinstance(values, Mapping):
+        values = _named_values(values, names, nominal)
+    given = nominal if values is None else numbers("values", values)
+    if given.ndim < 2:
+        given = given.reshape(-1, 1) if len(names) == 1 else given.reshape(1, -1)
+    if given.ndim != 2 or given.shape[1] != len(names):
+        raise ModelError(
+            f"values of shape {np.shape(np.asarray(values))} do not fit {len(names)} numbers",
+            "give (design, number) in the order of .numbers",
+        )
+    return given
+
+
+def _named_values(values: Mapping[str, ArrayLike], names: Sequence[str], nominal: Array) -> Array:
+    """Designs (design, number) from numbers by name, each one value or one for each design; the others nominal."""
+    for name in values:
+        if name not in names:
+            raise ModelError(f"the kernel does not vary {name!r}", closest(name, list(names)))
+    given = {name: np.atleast_1d(numbers(name, of)) for name, of in values.items()}
+    counts = {len(of) for of in given.values()} - {1}
+    if len(counts) > 1 or any(of.ndim > 1 for of in given.values()):
+        shapes = ", ".join(f"{name} of shape {of.shape}" for name, of in given.items())
+        raise ModelError(f"values do not fit each other: {shapes}", "give one value, or one for each design")
+    columns = [given.get(name, of) for name, of in zip(names, nominal, strict=True)]
+    return np.stack(np.broadcast_arrays(*map(np.atleast_1d, columns)), axis=-1)
+
+
+def drive_values(m: Mechanism, positions: int | ArrayLike) -> Array:
+    """Values of the drives: those that are given, or those of so many positions."""
+    if isinstance(positions, (int, float, np.number)) or (
+        isinstance(positions, np.ndarray) and not positions.ndim
+    ):
+        return m.schedule(positions).position  # type: ignore[arg-type]  # refuses what is no count
+    return numbers("positions", positions)
 
 
 def check_positions(given: Array, schedule: Schedule) -> None:

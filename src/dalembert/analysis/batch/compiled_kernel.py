@@ -20,7 +20,13 @@ from dalembert.analysis.batch.batch_result import (
     mark_overflow,
     not_finite,
 )
-from dalembert.analysis.batch.checked_input import check_positions, numbers, read_target, targets
+from dalembert.analysis.batch.checked_input import (
+    check_positions,
+    design_values,
+    drive_values,
+    read_target,
+    targets,
+)
 from dalembert.analysis.batch.sides import Sides
 from dalembert.analysis.batch.tracing.kernel_inputs import Course
 from dalembert.analysis.batch.tracing.symbolic_model import chooses_motion
@@ -31,14 +37,14 @@ from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.program import Program
-from dalembert.model import Mechanism
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 
 LARGEST = float(np.finfo(float).max)
 """Largest number there is."""
 
 
 def compile(  # noqa: A001
-    mechanism: Mechanism,
+    mechanism: ModelOrPath,
     vary: Sequence[str] = (),
     outputs: Sequence[str] | None = None,
     reduce: str | None = None,
@@ -62,6 +68,7 @@ def compile(  # noqa: A001
     >>> k([[1.0], [2.0]]).effort("O2").shape
     (2, 72)
     """
+    mechanism = as_mechanism(mechanism)
     over_positions.check(reduce)
     _check_count("lanes", lanes)
     try:
@@ -110,7 +117,7 @@ def lanes_here() -> int:
 
 @dataclass(frozen=True)
 class Kernel:
-    """A compiled analysis; call it with values (design, number) in SI, in the order of ``numbers``."""
+    """A compiled analysis; call it with values (design, number) in SI, in the order of ``numbers``, or by name."""
 
     mechanism: Mechanism = field(repr=False)
     trace: Trace = field(repr=False)
@@ -211,7 +218,7 @@ class Kernel:
         known = self.trace.course
         if positions is None:
             return known
-        given = numbers("positions", positions)
+        given = drive_values(self.mechanism, positions)
         drives = len(known.schedule.names)
         if given.ndim < 2 and given.size % max(drives, 1) == 0:
             given = given.reshape(-1, drives)
@@ -236,7 +243,7 @@ class Kernel:
 
     def __call__(
         self,
-        values: ArrayLike | None = None,
+        values: ArrayLike | Mapping[str, ArrayLike] | None = None,
         positions: ArrayLike | None = None,
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
@@ -247,19 +254,20 @@ class Kernel:
     ) -> BatchResult:
         """Answers for many designs.
 
-        values: (design, number) in SI in the order of ``numbers``, default the description's own. positions: the
-        drives' values (position, drive), default the file's. threads: at most so many, default one a core.
+        values: (design, number) in SI in the order of ``numbers``, default the description's own; or by name, each one
+        value or one for each design, ``k({"r": 0.06})``, the others as in the description. positions: the
+        drives' values (position, drive), or how many, default the file's. threads: at most so many, default one a core.
         progress: called with (designs done, designs). redo: ask the general executor where the kernel is not sure.
         device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy. out: the array that an output goes to, one on disk
         by ``np.memmap`` too, or arrays by output (of derivatives by ``gradient.`` and the output). target: what
         ``squares`` compares an output with (position[, component]), or arrays by output; default 0.
         """
-        given, course = self._values(values), self._course_to(positions, target)
+        given, course = design_values(values, self.numbers, self.nominal), self._course_to(positions, target)
         return self.answer(given, course, threads, progress, redo, device, out)
 
     def blocks(
         self,
-        values: ArrayLike | None = None,
+        values: ArrayLike | Mapping[str, ArrayLike] | None = None,
         size: int | None = None,
         positions: ArrayLike | None = None,
         target: ArrayLike | Mapping[str, ArrayLike] | None = None,
@@ -268,7 +276,7 @@ class Kernel:
         """Answers for ``size`` designs after ``size``, default as many as take 64 MB: of however many designs no more
         stand in memory at once. ``options`` are the other arguments of a call."""
         _check_count("size", size)
-        given, course = self._values(values), self._course_to(positions, target)
+        given, course = design_values(values, self.numbers, self.nominal), self._course_to(positions, target)
         each = 8 * max(1, len(self.flat)) * (1 if self.reduce else len(course.schedule.position))
         step = size or max(1, BLOCK // each)
         return (self.answer(given[k : k + step], course, **options) for k in range(0, len(given), step))
@@ -345,18 +353,6 @@ class Kernel:
         if not self._deciding.size:
             return None
         return np.asarray((values != self._nominal)[:, self._deciding].any(axis=1))
-
-    def _values(self, values: ArrayLike | None) -> Array:
-        count = len(self.trace.numbers)
-        given = self.nominal if values is None else numbers("values", values)
-        if given.ndim < 2:  # one design, or many of one number
-            given = given.reshape(-1, 1) if count == 1 else given.reshape(1, -1)
-        if given.ndim != 2 or given.shape[1] != count:
-            raise ModelError(
-                f"values of shape {np.shape(np.asarray(values))} do not fit {count} numbers",
-                "give (design, number) in the order of .numbers",
-            )
-        return given
 
     def _targets(
         self, out: Array | Mapping[str, Array] | None, designs: int, positions: int

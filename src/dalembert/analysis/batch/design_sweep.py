@@ -14,13 +14,15 @@ from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
 from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds
-from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, in_plane
-from dalembert.analysis.result.named_quantities import Quantity, quantity, quantity_names
+from dalembert.analysis.output.columns import Scale, UnitChoice
+from dalembert.analysis.result.named_quantities import Quantity, component, names_of, quantity
+from dalembert.analysis.result.number_kinds import drive_kinds, in_plane
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
+from dalembert.answer.named_answer import NamedAnswer, counted
 from dalembert.arrays import Array, Tree
 from dalembert.errors import SOLVED, STATUSES, ModelError
-from dalembert.model import Mechanism
+from dalembert.model import AtPositions, Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.paths import value_at
 from dalembert.model.quantities.parameters import Parameter
 from dalembert.progress import progress as progress_line
@@ -33,7 +35,7 @@ if TYPE_CHECKING:
 
 MANY, MOST = 500, 10_000_000
 """Designs from which on a compiled analysis pays for its tracing; and more of them than anybody means."""
-KEPT = ("effort", "load", "reaction", "magnitude", "moment")
+KEPT = ("effort", "load", "reaction", "reaction_moment")
 """What is kept of each answer where nothing else is asked for."""
 
 Values = Mapping[str, Sequence[object]]
@@ -41,14 +43,14 @@ Done = Callable[[int, int], object]
 
 
 def sweep(
-    m: Mechanism,
+    m: ModelOrPath,
     vary: str | Values,
     values: Sequence[object] | None = None,
     *,
     outputs: Sequence[str] | str | None = None,
     together: bool = False,
     static: bool = False,
-    positions: int | None = None,
+    positions: AtPositions = None,
     progress: Done | None = None,
 ) -> Sweep:
     """The analyses of `solve` with the value at a path (of ``with_values``) replaced by each of some values.
@@ -63,6 +65,7 @@ def sweep(
     >>> s["effort.O2"].shape, s.over("effort.O2", "peak").shape
     ((3, 72), (3,))
     """
+    m = as_mechanism(m)
     given = _given(vary, values)
     shape = _shape(given, together)
     designs = list(zip(*given.values(), strict=True) if together else product(*given.values()))
@@ -157,13 +160,13 @@ def _all_numbers(given: Values) -> bool:
 
 def _kept(r: Result) -> list[str]:
     """Every effort, unknown load and reaction; of a pin in the plane that turns freely no moment."""
-    names = [n for n in quantity_names(r) if n.split(".")[0] in KEPT]
+    names = names_of(r, compiled=True, words=KEPT)
     free = [j for j in r.joints if in_plane(r) and r.friction is None and r.mechanism.joints[j].hinge]
-    return [n for n in names if n not in {f"moment.{j}" for j in free}]
+    return [n for n in names if n not in {f"reaction_moment.{j}" for j in free}]
 
 
 def _analysis(
-    m: Mechanism, paths: Sequence[str], design: Sequence[object], static: bool, positions: int | None
+    m: Mechanism, paths: Sequence[str], design: Sequence[object], static: bool, positions: AtPositions
 ) -> Result:
     return solve(m.with_values(dict(zip(paths, design, strict=True))), static, positions)
 
@@ -212,6 +215,8 @@ def _compiled(
         kernel = compile_kernel(nominal.mechanism, paths, list(like), static=not nominal.inertia)
     except ModelError:
         return None
+    if kernel.trace.redundant:
+        return None  # a kernel's status is that of its outputs, a sweep's that of the analysis
     found = kernel(np.array(designs, float), progress=tell)
     if (found.code == CODES.index("failed")).any():
         return None  # the analysis of that design says why
@@ -226,8 +231,8 @@ def _compiled(
     return _Answers(found.status, reasons, drives, sides[0], sides[1] if len(sides) > 1 else {})
 
 
-@dataclass(frozen=True, repr=False)
-class Sweep:
+@dataclass(frozen=True, repr=False, eq=False)
+class Sweep(NamedAnswer):
     """Answers along one axis a path (one for all where taken together), then position; SI and radians.
 
     ``s["effort.O2"]`` has the axes (values..., position), of a vector its components last; NaN where there is no
@@ -268,29 +273,56 @@ class Sweep:
         texts = [of.texts for of in self.labels.values()]
         return list(zip(*texts, strict=True) if self.together else product(*texts))
 
-    def __repr__(self) -> str:
-        many = " x ".join(map(str, self.shape))
-        solved = f"{int(self.ok.sum())} of {self.status.size} positions solved"
-        return f"<Sweep of {', '.join(self.paths)}: {many} designs, {solved}>"
+    ROW = "design"
+
+    @property
+    def codes(self) -> Array:
+        """Statuses along the axes of the designs, then the positions."""
+        return self.status
+
+    def __len__(self) -> int:
+        return math.prod(self.shape)
+
+    @property
+    def subject(self) -> str:
+        """The paths that are varied."""
+        return ", ".join(self.paths)
+
+    @property
+    def extent(self) -> str:
+        """Designs along each axis, and their positions."""
+        *front, last = self.shape
+        many = "".join(f"{n} x " for n in front) + counted(last, "design")
+        return f"{many} of {counted(self.status.shape[-1], 'position')}"
 
     def __getitem__(self, name: str) -> Array:
         """A quantity by its name, SI."""
-        if name not in self.answers.arrays:
-            raise ModelError(f"the sweep has not kept {name!r}", closest(name, list(self.answers.arrays)))
-        return self.answers.arrays[name]
+        return self._kept(self.answers.arrays, name)
 
-    __iter__ = None  # a sweep is no sequence
+    def both_sides(self, name: str) -> list[Array]:
+        """A quantity, and where contacts reverse also its values just after."""
+        answers = self.answers
+        return [self._kept(kept, name) for kept in (answers.arrays, answers.after) if kept]
 
-    def _ipython_key_completions_(self) -> list[str]:
+    def _kept(self, kept: Mapping[str, Array], name: str) -> Array:
+        vector, _, part = name.rpartition(".")
+        if name in kept:
+            return kept[name]
+        if vector not in kept:
+            raise ModelError(f"the sweep has not kept {name!r}", closest(name, list(kept)))
+        return component(kept[vector], part, name, self.status.ndim)
+
+    def keys(self) -> list[str]:
+        """Names of the quantities that are kept."""
         return list(self.answers.arrays)
 
     def over(self, name: str, reduce: str = "peak") -> Array:
         """A number, or a vector's size, reduced over the positions: `peak` (largest magnitude), `mean`, `rms`,
         `envelope`, ...; both sides of reversals counted, NaN where some position has no value."""
         check(reduce)
-        sides = [self[name], *([self.answers.after[name]] if self.answers.after else [])]
         axis = len(self.shape)
-        both = np.concatenate([np.linalg.norm(a, axis=-1) if a.ndim > axis + 1 else a for a in sides], axis)
+        sizes = [np.linalg.norm(a, axis=-1) if a.ndim > axis + 1 else a for a in self.both_sides(name)]
+        both = np.concatenate(sizes, axis)
         return reduce_positions(reduce, np.moveaxis(both, axis, 0))
 
     def problems(self) -> list[tuple[str, str, str]]:
@@ -326,7 +358,7 @@ class Sweep:
         for k, drive in enumerate(self.nominal.drives):
             kind = drive_kinds(self.nominal, drive)["position"]
             values = to(kind, self.answers.drives[..., k])
-            names[f"position_{drive}"] = ((*axes, "position"), values, {"units": to.text(kind)})
+            names[f"drive_{drive}"] = ((*axes, "position"), values, {"units": to.text(kind)})
         return xarray.Dataset(data, coords=names, attrs={"title": self.mechanism.title or ""})
 
     def plot(self, name: str, reduce: str | None = None, ax: Any = None) -> Any:

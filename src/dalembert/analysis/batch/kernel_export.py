@@ -16,6 +16,7 @@ from dalembert.kernel.emit import c_text
 from dalembert.kernel.emit.wasm.module import LANES, emit_wasm
 from dalembert.kernel.graph import Node
 from dalembert.kernel.program import Marks, Program
+from dalembert.model.quantities.expression_trees import Functions
 from dalembert.model.quantities.expressions import Expression
 
 if TYPE_CHECKING:
@@ -23,12 +24,16 @@ if TYPE_CHECKING:
 
 
 def plain(
-    k: Kernel, nodes: list[Node] | None = None, marked: bool = True, without: frozenset[str] = frozenset()
+    k: Kernel,
+    nodes: list[Node] | None = None,
+    marked: bool = True,
+    without: frozenset[str] = frozenset(),
+    known: Functions | None = None,
 ) -> Program:
     """The program with the drives' own quantities as inputs: cosines and expressions are computed inside.
 
     nodes: other outputs than those asked for. marked: with what says whether they are right. without: operations with
-    which an expression stays an input.
+    which an expression stays an input. known: functions of expressions other than the graph's.
     """
     graph, inputs = k.trace.catalogue.graph, k.trace.inputs
     places: dict[int, Node] = {}
@@ -40,7 +45,7 @@ def plain(
         if kind == "channel" and what in ("cos", "sin") and of in raw:
             places[node.index] = raw[of].cos() if what == "cos" else raw[of].sin()
         elif isinstance(inputs.varying.get(name), Expression) and inputs.varying[name].names <= raw.keys():
-            value = inputs.varying[name].at(raw, functions(graph))
+            value = inputs.varying[name].at(raw, known or functions(graph))
             value = value if isinstance(value, Node) else graph.constant(value)
             if not any(n.op in without for n in graph.order([value])):
                 places[node.index] = value

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import combinations, starmap
 
@@ -70,6 +71,9 @@ class Compiled:
     passive: tuple[str, ...] = ()  # links whose spin moves nothing else, set to none
     pose_names: tuple[str, ...] = ()  # what loads go by that is known once the motion is
     counts: tuple[Count, ...] = ()  # of the whole turns of torsion springs, once the motion is known
+    pose_turns: Mapping[str, Array] = field(
+        default_factory=dict
+    )  # (P,) what the count adds to angles of pose_names
 
     @cached_property
     def targets(self) -> Array:
@@ -307,16 +311,27 @@ def _references(m: Mechanism, index: dict[str, int], at: Places) -> Array:
 
 
 def characteristic_length(m: Mechanism, at: Places) -> float:
-    """Mean over the links of the largest distance between two points of joints; 1 m if all links are points."""
-    spans = []
-    ends: dict[str, list[tuple[float, ...]]] = {}
+    """Mean over the links of the largest distance between two points of joints, or else of any points; 1 m if all links
+    are points."""
+    spans = [span for span in link_spans(m, at).values() if span > 0]
+    if not spans:
+        every = [_span(list(m.points(link).values())) for link in m.links]
+        spans = [span for span in every if span > 0]
+    return math.fsum(spans) / len(spans) if spans else 1.0
+
+
+def link_spans(m: Mechanism, at: Places) -> dict[str, float]:
+    """Largest distance between two points of joints, by link."""
+    ends: dict[str, list[Vector]] = {}
     for name, joint in m.joints.items():
         for link, u in zip(joint.links, at[name], strict=True):
             ends.setdefault(link, []).append(tuple(u))
-    for points in ends.values():  # distances, not extents: the same in whatever axes
-        spans.append(max(starmap(math.dist, combinations(points, 2)), default=0.0))
-    spans = [s for s in spans if s > 0]
-    return math.fsum(spans) / len(spans) if spans else 1.0
+    return {link: _span(points) for link, points in ends.items()}
+
+
+def _span(points: list[Vector]) -> float:
+    """Largest distance of two points: not their extents, so that it is the same in whatever axes."""
+    return max(starmap(math.dist, combinations(points, 2)), default=0.0)
 
 
 def _driven_freedom(m: Mechanism, drive: str) -> tuple[str, str]:

@@ -16,13 +16,20 @@ from dalembert.core.layout import Pose
 from dalembert.core.position.motion_path import Path
 from dalembert.model.quantities.coordinates import TIME, parts
 
-__all__ = ["TIME", "coordinates", "with_pose_loads"]
+__all__ = ["TIME", "coordinates", "counted_coordinates", "with_pose_loads"]
 
 
 def coordinates(c: Compiled, pose: Pose, names: Iterable[str]) -> Tree:
     """The angles and freedoms named, radians and metres, of the pose's leading shape; numbers or nodes."""
     measured = measure(c.layout.algebra, c.layout.freedoms, pose)
     return dict(_coordinates(c, pose, measured, names))
+
+
+def counted_coordinates(c: Compiled, counted: Compiled, pose: Pose, names: Iterable[str]) -> Tree:
+    """The same (P,) with the whole turns that were counted along the motion of ``counted``."""
+    return {
+        name: value + counted.pose_turns.get(name, 0.0) for name, value in coordinates(c, pose, names).items()
+    }
 
 
 def _coordinates(c: Compiled, pose: Pose, measured: Array, names: Iterable[str]) -> Iterator[tuple[str, Any]]:
@@ -38,7 +45,7 @@ def with_pose_loads(c: Compiled, found: Path) -> Compiled:
     """The mechanism with the values of its loads that go by the pose, along a motion."""
     if not c.pose_names or not found.reached.any():
         return c
-    at = coordinates(c, found.pose, c.pose_names)
+    at = counted_coordinates(c, c, found.pose, c.pose_names)
     known = int(np.argmax(found.reached))  # positions without a pose have no answer, whatever loads them
     at = {name: np.where(found.reached, values, values[known]) for name, values in at.items()}
     setting = setting_of(c)

@@ -1,9 +1,10 @@
-"""Which whole turn the joint of a torsion spring counts: a rule that does not depend on the list of positions.
+"""Which whole turn torsion springs, and loads that depend on an angle, count: not by the list of positions.
 
-A turn that no drive settles is counted where the drives stand as `assembly` has them, else at 0: there it is within
-half a turn of what `assembly` states, the angle of j less that of i as written, or of 0 where it states neither link's.
-From there it is followed through the motion. Where wheels that mesh or roll turn it, it is counted where their phase
-is, at the first position.
+A turn that no drive settles, of a joint or of a link, is counted where the drives stand as `assembly` has them, else
+at 0: there it is within half a turn of what `assembly` states, the angle of j less that of i as written, or of 0 where
+it states neither link's. From there it is followed through the motion. Where wheels that mesh or roll turn it, it is
+counted where their phase is, at the first position. What is a copy is counted as the image of its original, where the
+drives are those of the image.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 
 from dalembert.algebra import space
 from dalembert.analysis.compile.compiled_mechanism import Compiled, Count
+from dalembert.analysis.compile.copied_angles import Counted, copied_angle
 from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
@@ -22,8 +24,16 @@ from dalembert.core.layout import Angle, Pose
 from dalembert.core.position.first_pose_plane import Guess
 from dalembert.core.position.first_pose_space import ALONG, Drawing
 from dalembert.core.position.motion_path import Path
-from dalembert.core.position.whole_turns import Way, phase_freedoms, rigid_turns, way, whole_turns
+from dalembert.core.position.whole_turns import (
+    Way,
+    phase_freedoms,
+    phase_links,
+    rigid_turns,
+    way,
+    whole_turns,
+)
 from dalembert.errors import ModelError
+from dalembert.model.quantities.coordinates import parts
 
 FARTHEST = 1e4
 """Longest way to where turns are counted, in radians or characteristic lengths."""
@@ -36,11 +46,14 @@ DOUBTFUL = np.radians(20)
 
 
 def wound(c: Compiled, first: tuple[int, Pose], found: Path) -> Compiled:
-    """The mechanism with the whole turns of its torsion springs, ``first`` being the first position and its pose."""
+    """The mechanism with the whole turns of its torsion springs and of the angles that its loads depend on, ``first``
+    being the first position and its pose."""
     loads, rows = c.mechanism.loads_on("turn"), c.forcing.resistances.row
     names = list(loads)
     asked = [k for k, load in enumerate(loads.values()) if load.FORCE == "spring" and _open(c, int(rows[k]))]
-    if not asked or not found.reached.any():
+    of_loads = {name: angle for name in c.pose_names if (angle := _angle_of(c, name)) is not None}
+    of_loads = {name: angle for name, angle in of_loads.items() if _open(c, angle)}
+    if not (asked or of_loads) or not found.reached.any():
         return c
     counting = _Counting(c, first, found)
     turns = np.zeros((len(found.reached), len(rows)))
@@ -49,14 +62,33 @@ def wound(c: Compiled, first: tuple[int, Pose], found: Path) -> Compiled:
         turns[:, k], count = counting.offset_and_count(names[k], k, int(rows[k]))
         counts.append(count)
     resistances = replace(c.forcing.resistances, turns=turns)
-    return replace(c, forcing=replace(c.forcing, resistances=resistances), counts=tuple(counts))
+    pose_turns = {name: counting.offset_and_count(name, -1, angle)[0] for name, angle in of_loads.items()}
+    forcing = replace(c.forcing, resistances=resistances)
+    return replace(c, forcing=forcing, counts=tuple(counts), pose_turns=pose_turns)
 
 
-def _open(c: Compiled, row: int) -> bool:
-    """Whether neither a drive nor constraints settle the angle of a freedom."""
-    if row in c.layout.driven:
+def _angle_of(c: Compiled, name: str) -> Counted | None:
+    """The angle that a coordinate of a load names; None of a length."""
+    kind, of, which = parts(name) or ("", "", "")
+    if kind == "links":
+        return of
+    row = c.freedoms.index((of, which))
+    return row if c.layout.freedoms.angular[row] else None
+
+
+def _ends(c: Compiled, angle: Counted) -> tuple[int, int]:
+    """Links i and j of an angle."""
+    if isinstance(angle, str):
+        return c.layout.links, c.links.index(angle)
+    i, j = (int(end[angle]) for end in c.layout.freedoms.ends)
+    return i, j
+
+
+def _open(c: Compiled, angle: Counted) -> bool:
+    """Whether neither a drive nor constraints settle an angle."""
+    if angle in c.layout.driven:
         return False
-    i, j = (int(end[row]) for end in c.layout.freedoms.ends)
+    i, j = _ends(c, angle)
     together = rigid_turns(c.layout)
     return bool(together[i] != together[j])
 
@@ -71,7 +103,7 @@ class _Counting:
         stated = measure(g, self.freedoms, self.given)[c.layout.driven]
         self.wanted = np.where(np.isfinite(stated), stated, 0.0)
         self.phased = phase_freedoms(c.layout, self.first)
-        self.ways: dict[int, Way] = {}
+        self.ways: dict[tuple[int, bytes], Way] = {}
         self.pieces = self._pieces()
 
     def _pieces(self) -> list[Ints]:
@@ -83,51 +115,76 @@ class _Counting:
         numbers = np.unique(found.stretch[found.reached])
         return [np.flatnonzero(found.reached & (found.stretch == n)) for n in numbers]
 
-    def offset_and_count(self, spring: str, k: int, row: int) -> tuple[Array, Count]:
-        """What the count adds to the turn at each position (P,), and how it was made."""
-        found, with_phase = self.found, bool(self.phased[row])
+    def offset_and_count(self, what: str, k: int, angle: Counted) -> tuple[Array, Count]:
+        """What the count adds to an angle at each position (P,), and how it was made."""
+        found, with_phase = self.found, self._has_phase(angle)
         turns, margin = np.zeros((2, len(found.reached)))
         for number, mask in reversed(list(enumerate(self.pieces))):  # the first is told of
-            end = self._at_first() if with_phase else self._end(spring, number, mask)
-            near, stated = self._near(row, end.pose)
-            whole = whole_turns(end.phi[row], np.array(near))
+            wanted, near, stated = self._where(what, angle, number, mask)
+            end = self._at_first() if with_phase else self._end(what, number, mask, wanted)
+            phi = self._value(end, angle)
+            whole = whole_turns(phi, np.array(near))
             turns[mask] = -2 * np.pi * whole
-            margin[mask] = np.pi - abs(end.phi[row] + turns[mask] - near)
-        at = None if with_phase else self.wanted
-        return turns, Count(spring, k, near, stated, at, end.met, margin)
+            margin[mask] = np.pi - abs(phi + turns[mask] - near)
+        at = None if with_phase else wanted
+        return turns, Count(what, k, near, stated, at, end.met, margin)
+
+    def _where(self, what: str, angle: Counted, number: int, mask: Ints) -> tuple[Array, float, bool]:
+        """The drives' positions where an angle is counted, and what it is counted by: of a copy the image's."""
+        image = copied_angle(self.c, angle)
+        if image is not None:
+            wanted, near, stated = self._where(what, image.original, number, mask)
+            return image.drives(self.c, wanted), image.alike.side * near + image.offset, stated
+        end = self._at_first() if self._has_phase(angle) else self._end(what, number, mask, self.wanted)
+        return self.wanted, *self._near(angle, end.pose)
+
+    def _has_phase(self, angle: Counted) -> bool:
+        if isinstance(angle, str):
+            return bool(phase_links(self.c.layout, self.first)[self.c.links.index(angle)])
+        return bool(self.phased[angle])
+
+    def _value(self, end: Way, angle: Counted) -> Array:
+        return np.asarray(
+            end.pose.turn[self.c.links.index(angle)] if isinstance(angle, str) else end.phi[angle]
+        )
 
     def _at_first(self) -> Way:
         phi = measure(self.c.layout.algebra, self.freedoms, self.first)
         return Way(self.first, phi, True)
 
-    def _end(self, spring: str, number: int, where: Ints) -> Way:
+    def _end(self, what: str, number: int, where: Ints, wanted: Array) -> Way:
         """Where the motion of a piece comes nearest to the drives' positions that turns are counted at."""
-        if number not in self.ways:
+        key = (number, wanted.tobytes())
+        if key not in self.ways:
             c = self.c
             scale = np.where(c.layout.freedoms.angular[c.layout.driven], 1.0, c.layout.length)
-            apart = np.abs((c.schedule.position[where] - self.wanted) / scale).max(axis=1, initial=0.0)
-            self._refuse_endless(spring, float(apart.min()))
-            there = np.concatenate([c.target, self.wanted])
+            apart = np.abs((c.schedule.position[where] - wanted) / scale).max(axis=1, initial=0.0)
+            self._refuse_endless(what, float(apart.min()))
+            there = np.concatenate([c.target, wanted])
             order = where[np.argsort(apart, kind="stable")]
             for k in dict.fromkeys(
                 (order[0], order[-1])
             ):  # from the farthest too: the nearest may stand at the end itself
-                self.ways[number] = way(c.layout, self.found.pose.at(k), c.targets[k], there)
-                if self.ways[number].met:
+                self.ways[key] = way(c.layout, self.found.pose.at(k), c.targets[k], there)
+                if self.ways[key].met:
                     break
-        return self.ways[number]
+        return self.ways[key]
 
-    def _refuse_endless(self, spring: str, apart: float) -> None:
+    def _refuse_endless(self, of: str, apart: float) -> None:
         if apart > FARTHEST:
+            heading = of if "." in of else f"torsion spring {of!r}"
             what = (
-                f"torsion spring {spring!r}: its turns are counted from {_drives(self.c, self.wanted)} on, and the "
+                f"{heading}: its turns are counted from {_drives(self.c, self.wanted)} on, and the "
                 f"positions are {apart:.3g} rad or link lengths away"
             )
             raise ModelError(what, f"check their unit; {FARTHEST:.0e} of them can be followed", ("drives",))
 
-    def _near(self, row: int, actual: Pose) -> tuple[float, bool]:
+    def _near(self, row: Counted, actual: Pose) -> tuple[float, bool]:
         """What a turn is counted by, at a pose of the motion; whether the file states it."""
         c, given = self.c, self.given
+        if isinstance(row, str):
+            stated = float(given.turn[c.links.index(row)])
+            return (stated, True) if np.isfinite(stated) else (0.0, False)
         ends = [int(end[row]) for end in self.freedoms.ends]
         known = [bool(np.isfinite(given.rotation[k]).all()) for k in ends]
         if not any(k != c.layout.links and here for k, here in zip(ends, known, strict=True)):

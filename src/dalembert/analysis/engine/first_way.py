@@ -10,7 +10,7 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.kept_program import KeptProgram
-from dalembert.analysis.positions import mode_sentence
+from dalembert.analysis.positions import mode_sentence, on_stated_sides
 from dalembert.arrays import Array
 from dalembert.core.position.assembly_modes import NEAR
 from dalembert.core.position.first_pose_plane import Guess
@@ -120,7 +120,7 @@ def _wrapped(angle: float) -> float:
 def _by_search(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
     """The ways of the pose that a search for the first pose finds."""
     modes = c.first_modes
-    if modes is None:
+    if modes is None or not on_stated_sides(c, c.first_target, modes):
         return None
     pose = modes.pose.at(0)
     stands = pose.rotation[:-1].T[..., None]

@@ -104,7 +104,7 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
             return None
         try:
             program = _traced(c, numbers, given, inertia)
-        except DeadCentreError:
+        except (DeadCentreError, ZeroDivisionError):  # or a length that its closed forms divide by is zero
             return None
         STRUCTURES.put(key, program)
     if not isinstance(program, KeptProgram):
@@ -121,7 +121,7 @@ def _traced(c: Compiled, numbers: Numbers, given: list[object], inertia: bool) -
         turn = c.guess.angles(c.layout, c.first_target)
         try:
             program = trace_structure(c, numbers, Pose(c.guess.point, turn, plane.rotation(turn)), inertia)
-        except DeadCentreError:
+        except (DeadCentreError, ZeroDivisionError):
             pass
         else:
             return program

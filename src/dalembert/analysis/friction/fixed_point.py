@@ -19,6 +19,7 @@ from dalembert.core.friction.contact_equations import (
     response,
     strength,
 )
+from dalembert.core.rank import singular_below
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -107,6 +108,9 @@ def contacts_at(r: Result, position: int) -> tuple[Contacts, Response, SlipState
     w = total_wrench(c.layout, *sources.values())
     w = np.broadcast_to(w, (1, *w.shape[1:]))
     stated = statement(c.layout, known, pose, rows, solver, w)
+    if (stated.forces.rcond < singular_below(c.layout)).any():
+        what = f"{' and '.join(c.unknown_loads)}: friction alone balances the given effort, and without it nothing does"
+        raise ModelError(what, "give the load and leave the effort unknown")
     _, problem = response(c.layout, contacts, pose, stated.forces, stated.w, moving.twist)
     return contacts, problem, SlipState(f.sense[part], f.open[part], f.rate[part])
 

@@ -110,14 +110,24 @@ def _kinds(c: Compiled) -> list[str]:
     return ["moment" if turning else "force" for turning in (*turns, *c.known.couple)]
 
 
+JAMMED = "Friction jams the mechanism{arc}{side}: no effort moves it in this sense, whatever its size."
+FREED = "It would move with less than {scale} times the coefficients of friction."
+LOCKED = "Self-locking{arc}{side}: the load cannot drive the machine against its friction"
+NEEDS = "{name} needs {rubbed} and without friction {bare}"
+REVERSAL = "{joints} {verb}{arc}, and friction there changes its sense: {values}."
+BOTH_SIDES = "{name} is {before} just before and {after} just after"
+REST = "At rest{arc}: any value of {name} between the two impending motions holds the machine"
+NO_RATE = (
+    "No relative motion in {joints}{arc}: the friction there may have any value within its limits, "
+    "and {names} {verb}."
+)
+
+
 def _jam_sentence(c: Compiled, f: Forces, run: Ints) -> str:
     f, side = _side(f, _jams, int(run[0]))
     assert f.friction is not None
     scale = float(np.nanmin(f.friction.critical[run]))
-    return (
-        f"Friction jams the mechanism{arc(c, run)}{side}: no effort moves it in this sense, whatever its size. "
-        f"It would move with less than {scale:.6g} times the coefficients of friction."
-    )
+    return f"{JAMMED.format(arc=arc(c, run), side=side)} {FREED.format(scale=f'{scale:.6g}')}"
 
 
 def _locked_sentence(c: Compiled, f: Forces, run: Ints) -> str:
@@ -128,11 +138,11 @@ def _locked_sentence(c: Compiled, f: Forces, run: Ints) -> str:
     bare = np.concatenate([f.friction.bare_effort[:, c.known.asked], f.friction.bare_load], axis=1)[run]
     worst = int(np.argmax(np.abs(with_ - bare).sum(axis=1)))
     figures = ", ".join(
-        f"{name} needs {quantity_text(c, kind, a)} and without friction {quantity_text(c, kind, b)}"
+        NEEDS.format(name=name, rubbed=quantity_text(c, kind, a), bare=quantity_text(c, kind, b))
         for name, kind, a, b in zip(names, _kinds(c), with_[worst], bare[worst], strict=True)
     )
     where = "" if len(run) == 1 else arc(c, run[[worst]])
-    return f"Self-locking{arc(c, run)}{side}: the load cannot drive the machine against its friction;{where} {figures}."
+    return f"{LOCKED.format(arc=arc(c, run), side=side)};{where} {figures}."
 
 
 def _reversal_sentence(c: Compiled, f: Forces, run: Ints) -> str:
@@ -145,11 +155,11 @@ def _reversal_sentence(c: Compiled, f: Forces, run: Ints) -> str:
     before, after = (np.concatenate([side.effort[k, c.known.asked], side.load[k]]) for side in (f, f.after))
     values = _and(
         [
-            f"{name} is {quantity_text(c, kind, a)} just before and {quantity_text(c, kind, b)} just after"
+            BOTH_SIDES.format(name=name, before=quantity_text(c, kind, a), after=quantity_text(c, kind, b))
             for name, kind, a, b in zip(_unknowns(c), _kinds(c), before, after, strict=True)
         ]
     )
-    return f"{_and(joints)} {verb}{arc(c, run)}, and friction there changes its sense: {values}."
+    return REVERSAL.format(joints=_and(joints), verb=verb, arc=arc(c, run), values=values)
 
 
 def _open_sentence(c: Compiled, f: Forces, run: Ints) -> str:
@@ -166,17 +176,14 @@ def _open_sentence(c: Compiled, f: Forces, run: Ints) -> str:
         return _rest_sentence(c, f, run, names)
     joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
     verb = "lies in an interval" if len(names) == 1 else "each lie in an interval of their own"
-    return (
-        f"No relative motion in {joints}{arc(c, run)}: the friction there may have any value within its limits, "
-        f"and {_and(names)} {verb}."
-    )
+    return NO_RATE.format(joints=joints, arc=arc(c, run), names=_and(names), verb=verb)
 
 
 def _rest_sentence(c: Compiled, f: Forces, run: Ints, names: list[str]) -> str:
     """At rest: what holds the machine, and where friction is at its limit."""
     if len(names) == 1:
-        held = f"any value of {names[0]} between the two impending motions holds the machine"
-        return f"At rest{arc(c, run)}: {held}{_limits(c, f.ends[:2], run)}.{_histories(c, f, run, names)}"
+        held = REST.format(arc=arc(c, run), name=names[0])
+        return f"{held}{_limits(c, f.ends[:2], run)}.{_histories(c, f, run, names)}"
     limits = "".join(
         f" For {name}{_limits(c, f.ends[2 * n : 2 * n + 2], run).replace(';', ',', 1)}."
         for n, name in enumerate(names)

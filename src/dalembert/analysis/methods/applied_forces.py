@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from dalembert.analysis.compile.plane_rows import signed_radii
-from dalembert.analysis.output.columns import force_and_moment
 from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.kept import kept
+from dalembert.analysis.result.reaction_axes import force_and_moment
 from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import system
 from dalembert.core.equilibrium import Motion, known_sources, motion
@@ -71,6 +72,7 @@ class State(NamedTuple):
     solver: Factor
 
 
+@kept
 def state(r: Result) -> State:
     """Pose and motion of the links of a result, ready for the core's functions."""
     c = r.compiled
@@ -80,6 +82,7 @@ def state(r: Result) -> State:
     return State(pose, moving, rows, solver)
 
 
+@kept
 def actions(r: Result) -> tuple[Action, ...]:
     """Everything that acts on the links: reactions of joints, efforts, loads, weights, inertia.
 
@@ -88,11 +91,13 @@ def actions(r: Result) -> tuple[Action, ...]:
     return (*joint_actions(r), *other_actions(r))
 
 
+@kept
 def whole_actions(r: Result) -> tuple[Action, ...]:
     """The same with dry friction inside the reactions, at the joints' own places."""
     return (*joint_actions(r, split=False), *other_actions(r))
 
 
+@kept
 def other_actions(r: Result) -> tuple[Action, ...]:
     """Everything but the reactions of joints."""
     return (*effort_actions(r), *known_actions(r), *unknown_load_actions(r))

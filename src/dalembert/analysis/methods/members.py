@@ -24,9 +24,9 @@ from dalembert.analysis.methods.applied_forces import (
     on_link,
     other_actions,
 )
-from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.analysis.plane_only import refuse_space
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, State, known_actions, state
-from dalembert.analysis.output.columns import force_and_moment
+from dalembert.analysis.result.reaction_axes import force_and_moment
 from dalembert.arrays import Array
 from dalembert.core.equilibrium import balance, reactions
 from dalembert.core.forcing import Source, total_wrench

@@ -5,20 +5,24 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from dalembert.analysis.compile.torsion_turns import count_notes
 from dalembert.analysis.friction import joint_friction
-from dalembert.analysis.result.joint_freedoms import whole_pose
-from dalembert.model.gravity import STANDARD
+from dalembert.analysis.result.joint_freedoms import freedom_motion, whole_pose
+from dalembert.model.gravity import STANDARD, gravity_doubt
 from dalembert.model.space_checks import impossible, principal_inertias
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.arrays import Array
     from dalembert.model import Mechanism
+    from dalembert.model.drives.end_stops import Stops
 
 
 def assumptions(result: Result) -> dict[str, str]:
     """Gravity, inertia, joint_friction, how reactions beyond statics were found, which whole turn torsion
-    springs count, inertias that no real body has.
+    springs count, brakes, motors and stops that a prescribed motion leaves out, inertias that no real body has.
 
     >>> import dalembert as da
     >>> da.statics(da.four_bar()).assumptions["inertia"]
@@ -28,17 +32,54 @@ def assumptions(result: Result) -> dict[str, str]:
     shown = "[" + ", ".join(f"{c:.6g}" for c in gravity) + "] m/s2"
     if result.mechanism.gravity == "standard":
         shown = f"standard ({STANDARD:.6g} m/s2 along -{'xyz'[len(gravity) - 1]})"
+    doubt = gravity_doubt(gravity)
     found = {
-        "gravity": shown if any(gravity) else "none",
+        "gravity": (f"{shown} ({doubt})" if doubt else shown) if any(gravity) else "none",
         "inertia": "on (D'Alembert)" if result.inertia else "off (static)",
         "friction": joint_friction.assumption(result),
     }
     if result.compiled.layout.compliance is not None and result.unique_array is not None:
         found["redundant reactions"] = "by the joints' stiffness, links rigid, free of stress without load"
-    found |= count_notes(result.compiled, whole_pose(result))
+    found |= count_notes(result.compiled, whole_pose(result)) | _left_to_forces(result)
     return found | (_doubts(result.mechanism) if result.inertia else {})
 
 
+def _left_to_forces(r: Result) -> dict[str, str]:
+    """Brakes, motors and starts that only a motion under forces has, and stops that the positions go beyond."""
+    m, found = r.mechanism, {}
+    for name, drive in m.drives.items():
+        given, unit = ("moment", "N m") if drive.turns else ("force", "N")
+        if drive.brake:
+            found[f"brake of {name}"] = (
+                f"not counted apart: the effort is the {given} of motor and brake together; while it slips the motor "
+                f"gives {drive.brake:.6g} {unit} more in the direction of motion, at rest the brake takes up to as much"
+            )
+        if drive.motor is not None:
+            found[f"motor of {name}"] = (
+                "its curve is not used: the effort is what the prescribed motion needs"
+            )
+        if name in m.start:
+            found[f"start of {name}"] = "not used: the drive is prescribed (simulate begins there)"
+        if drive.stops is not None and name in r.schedule.names:
+            found |= _beyond(
+                f"stops of {name}", drive.stops, r.schedule.position[:, r.schedule.names.index(name)]
+            )
+    for name, joint in m.joints.items():
+        if (stops := getattr(joint, "stops", None)) is not None and r.ok.any():
+            which = "slide" if stops.kind == "length" else "turn"
+            found |= _beyond(f"stops of {name}", stops, freedom_motion(r, name, which)[0])
+    return found
+
+
+def _beyond(what: str, stops: Stops, positions: Array) -> dict[str, str]:
+    """Stops that some of the positions are beyond."""
+    past = np.count_nonzero((positions < stops.least - PAST) | (positions > stops.greatest + PAST))
+    many = f"{past} of {len(positions)} positions {'is' if past == 1 else 'are'} beyond them"
+    return {what: f"not counted: {many}, where a stop would push"} if past else {}
+
+
+PAST = 1e-9
+"""How far beyond a stop, m or rad, is rounding."""
 SMALLEST, LARGEST = 2e-3, 100.0
 """Radii of gyration, over the reach of their link and over the largest reach, beyond which a unit is likely wrong."""
 

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.result.reaction_axes import Axes, to_axes
+from dalembert.analysis.result.link_motion import ORIGIN
+from dalembert.analysis.result.named_quantities import things
+from dalembert.analysis.result.number_kinds import in_plane, unknown_kinds
+from dalembert.analysis.result.quantity_catalogue import CATALOGUE, FREEDOMS, Reading, magnitude
+from dalembert.analysis.result.reaction_axes import Axes, force_and_moment, to_axes
 from dalembert.arrays import Array, Numeric
+from dalembert.model.links.link import CENTER
 from dalembert.units import KINDS, file_units
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 UnitChoice = Literal["SI", "file"]
-
-LENGTHWISE = {"position": "length", "speed": "speed", "acceleration": "acceleration", "effort": "force"}
-ANGULAR = {
-    "position": "angle",
-    "speed": "angular_speed",
-    "acceleration": "angular_acceleration",
-    "effort": "moment",
-}
 
 
 class Column(NamedTuple):
@@ -76,18 +74,6 @@ def scale(result: Result, units: UnitChoice) -> Scale:
     return Scale(None if units == "SI" else result.mechanism.units)
 
 
-def drive_kinds(result: Result, drive: str) -> dict[str, str]:
-    """Kinds of a drive's position, speed, acceleration and effort."""
-    compiled = result.compiled
-    row = compiled.layout.driven[result.drives.index(drive)]
-    return ANGULAR if compiled.layout.freedoms.angular[row] else LENGTHWISE
-
-
-def load_kind(result: Result, load: str) -> str:
-    """Kind of an unknown load: force, or moment of a couple."""
-    return "force" if result.mechanism.loads[load].ON == "point" else "moment"
-
-
 def reactions(result: Result, axes: Axes = "ground") -> Iterator[Reaction]:
     """The reaction of every joint on its j."""
     for joint in result.joints:
@@ -101,139 +87,113 @@ def parts(values: Array) -> Iterator[tuple[str, Array]]:
     """Names and values (P,) of the components of numbers (P,), vectors (P, d) or matrices (P, 3, 3).
 
     >>> [name for name, _ in parts(np.zeros((1, 3)))]
-    [' x', ' y', ' z']
+    ['.x', '.y', '.z']
     """
     if values.ndim == 1:
         yield "", values
         return
     for place in np.ndindex(values.shape[1:]):
-        yield " " + "".join("xyz"[k] for k in place), values[(slice(None), *place)]
-
-
-OF_LINKS = {
-    "angle": "angle",
-    "rotation": "number",
-    "speed": "angular_speed",
-    "acceleration": "angular_acceleration",
-    "position": "length",
-    "velocity": "speed",
-    "center": "length",
-    "center_velocity": "speed",
-    "center_acceleration": "acceleration",
-}
-"""What a result answers about a link, by the name of the method -> its kind."""
-
-OF_POINTS = {"point": "length", "point_velocity": "speed", "point_acceleration": "acceleration"}
-"""The same about a point of a link."""
-
-
-def in_plane(result: Result) -> bool:
-    """Whether a result is one of the plane."""
-    return result.mechanism.dimension == 2
+        yield "." + "".join("xyz"[k] for k in place), values[(slice(None), *place)]
 
 
 class Entry(NamedTuple):
-    """A quantity of one thing: its keys in the JSON record, its name as a column, its kind, values in SI (P, ...)."""
+    """A quantity of one thing, by the parts of its name (docs/quantities.md), with its kind and SI values (P, ...)."""
 
-    keys: tuple[str, ...]
-    name: str
+    word: str
+    thing: str
+    rate: str
     kind: str
     values: Array
 
+    @property
+    def name(self) -> str:
+        """Its name, without a component."""
+        return ".".join(filter(None, (self.word, self.thing, self.rate)))
 
-def drive_entries(result: Result) -> Iterator[Entry]:
-    """What is prescribed."""
-    for drive in result.drives:
-        kinds = drive_kinds(result, drive)
-        for name in ("position", "speed", "acceleration"):
-            values = getattr(result, f"drive_{name}")(drive)
-            yield Entry(("drives", drive, name), f"drive {drive} {name}", kinds[name], values)
-
-
-def unknown_entries(result: Result) -> Iterator[Entry]:
-    """What balances the machine."""
-    for drive in result.drives:
-        kind = drive_kinds(result, drive)["effort"]
-        yield Entry(("efforts", drive), f"effort {drive}", kind, result.effort(drive))
-    for load in result.unknown_loads:
-        kind, values = load_kind(result, load), result.unknown_load(load)
-        yield Entry(("unknown_loads", load), f"unknown load {load}", kind, values)
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """Its keys in the JSON answer: a quantity with rates has its value under `value`."""
+        rated = set(CATALOGUE[self.word].rates) - {"", "low", "high"}
+        rate = self.rate or ("value" if rated else "")
+        return tuple(filter(None, (self.word, *self.thing.split("."), rate)))
 
 
-def joint_entries(result: Result, axes: Axes, every: bool = False) -> Iterator[Entry]:
-    """Reactions, and friction's part of them in the joints that have it, or in ``every`` joint."""
+UNKNOWN = ("effort", "load")
+BY_FRICTION = (*UNKNOWN, "reaction", "reaction_moment", "friction_force", "friction_moment", "power_lost")
+"""Quantities that jump where contacts reverse; of efforts and loads friction may leave an interval open."""
+MOTION = (*FREEDOMS, "angle", "rotation", "point")
+CHECKS = ("residual", "power_balance")
+
+
+def entries(
+    result: Result, words: Sequence[str], axes: Axes = "ground", every: bool = False
+) -> Iterator[Entry]:
+    """The quantities of a result that begin with some words, reactions and friction in the axes asked for.
+
+    Friction is that of the joints that have it, or, so that arrays are complete, of ``every`` joint.
+    """
+    rubbing = result.joints if every and result.friction is not None else friction_joints(result)
+    for word in words:
+        row = CATALOGUE[word]
+        for thing in _written_things(result, word, rubbing):
+            for rate, reading in row.rates.items():
+                if rate in ("low", "high") or (rate == "" and word == "angle" and not in_plane(result)):
+                    continue
+                kind = reading.kind if isinstance(reading.kind, str) else reading.kind(result, thing)
+                yield Entry(word, thing, rate, kind, _values(result, word, thing, reading, axes))
+
+
+def _written_things(result: Result, word: str, rubbing: Sequence[str]) -> Sequence[str]:
+    if word == "point":
+        return [f"{link}.{point}" for link in result.links for point in (ORIGIN, CENTER)]
+    if word == "rotation" and in_plane(result):
+        return ()
+    return rubbing if CATALOGUE[word].friction else things(result, CATALOGUE[word].of)
+
+
+def _values(result: Result, word: str, thing: str, reading: Reading, axes: Axes) -> Array:
+    if word in ("reaction", "reaction_moment"):
+        return np.asarray(getattr(result, word)(thing, axes=axes))
+    if word in ("friction_force", "friction_moment"):
+        return friction_in(result, thing, axes)[word == "friction_moment"]
+    return np.asarray(reading.read(result, thing))
+
+
+def least_norms(result: Result, axes: Axes) -> Iterator[Entry]:
+    """The reactions of least norm of the joints whose reactions are not unique."""
     for r in reactions(result, axes):
-        keys, name = ("reactions", r.joint), f"reaction {r.joint} on {r.on}"
-        yield from _wrench(keys, name, r.force, r.moment)
         if r.least_norm is not None:
-            yield from _wrench((*keys, "least_norm"), f"{name} least norm", *force_and_moment(r.least_norm))
-    for joint in result.joints if every and result.friction is not None else friction_joints(result):
-        on, of = result.mechanism.joints[joint].links[1], ("reactions", joint, "friction")
-        yield from _wrench(of, f"friction {joint} on {on}", *friction_in(result, joint, axes))
-        yield Entry((*of, "power_lost"), f"power lost {joint}", "power", result.power_lost(joint))
+            force, moment = force_and_moment(r.least_norm)
+            yield Entry("reaction", r.joint, "least_norm", "force", force)
+            yield Entry("reaction_moment", r.joint, "least_norm", "moment", moment)
 
 
-def _wrench(keys: tuple[str, ...], name: str, force: Array, moment: Array) -> Iterator[Entry]:
-    yield Entry((*keys, "force"), name, "force", force)
-    yield Entry((*keys, "moment"), f"{name} moment", "moment", moment)
-
-
-def link_entries(result: Result) -> Iterator[Entry]:
-    """How links are turned and turn, where they are, and what their mass centres do."""
-    turned = "angle" if in_plane(result) else "rotation"
-    for link in result.links:
-        for word in (turned, "speed", "acceleration", "position", "center", "center_acceleration"):
-            name = f"link {link} {word.replace('_', ' ')}"
-            yield Entry(("links", link, word), name, OF_LINKS[word], getattr(result, word)(link))
-
-
-def check_entries(result: Result) -> Iterator[Entry]:
-    """What is left of equilibrium and of power."""
-    yield Entry(("residual",), "residual", "number", result.residual)
-    yield Entry(("power_balance",), "power balance", "number", result.power_balance)
+def bounds(result: Result, axes: Axes, every: bool = False) -> Iterator[Entry]:
+    """Low and high of what friction leaves open at rest; where contacts reverse, of the numbers before and after."""
+    words = BY_FRICTION if result.after is not None else UNKNOWN if result.ends else ()
+    sides = [list(entries(side, words, axes, every)) for side in result.sides]
+    for each in zip(*sides, strict=True):
+        e, values = each[0], [one.values for one in each]
+        ends = np.minimum.reduce(values), np.maximum.reduce(values)
+        if e.word in UNKNOWN and e.thing in unknown_kinds(result):
+            ends = tuple(result.interval(e.thing).T)
+        for rate, end in zip(("low", "high"), ends, strict=True):
+            yield e._replace(rate=rate, values=end)
 
 
 def columns(result: Result, axes: Axes = "ground") -> Iterator[Column]:
-    """Every number of a result: drives, efforts, unknown loads, reactions, links, residual, power balance; where some
-    contact reverses also the low and the high of each that depends on friction."""
-    yield from _columns(drive_entries(result))
-    yield from _columns(unknown_entries(result))
-    for name, kind in unknown_kinds(result).items() if result.ends else ():
-        for k, end in enumerate(("low", "high")):
-            yield Column(f"{name} {end} end", kind, result.interval(name)[:, k])
-    yield from _columns(joint_entries(result, axes))
-    yield from _columns(link_entries(result))
-    yield from _columns(check_entries(result))
-    if result.after is not None:
-        yield from _span_columns(result, axes)
-
-
-def _columns(some: Iterable[Entry]) -> Iterator[Column]:
-    """A column for each component."""
-    for q in some:
-        for part, values in parts(q.values):
-            yield Column(f"{q.name}{part}", q.kind, values)
-
-
-def _span_columns(result: Result, axes: Axes) -> Iterator[Column]:
-    """Low and high of everything that depends on friction: of the numbers just before and just after reversals, at
-    rest the ends of what friction leaves open, elsewhere twice the number itself."""
-    sides = [_columns([*unknown_entries(side), *joint_entries(side, axes)]) for side in result.sides]
-    open_ = {("effort " if n in result.drives else "unknown load ") + n: n for n in unknown_kinds(result)}
-    for before, after in zip(*sides, strict=True):
-        if before.name in open_:
-            low, high = result.interval(open_[before.name]).T
-        else:
-            low, high = np.minimum(before.values, after.values), np.maximum(before.values, after.values)
-        yield before._replace(name=f"{before.name} low", values=low)
-        yield before._replace(name=f"{before.name} high", values=high)
-
-
-def unknown_kinds(result: Result) -> dict[str, str]:
-    """Kind of every effort and load that was asked for."""
-    asked = zip(result.drives, result.compiled.known.asked, strict=True)
-    kinds = {d: drive_kinds(result, d)["effort"] for d, a in asked if a}
-    return kinds | {load: load_kind(result, load) for load in result.unknown_loads}
+    """Every number of a result: drives, efforts, unknown loads, reactions and their sizes, joints' slides and turns,
+    links, points, residual, power balance; low and high of what friction leaves open."""
+    for e in chain(
+        entries(result, ("time", "drive", *BY_FRICTION), axes),
+        least_norms(result, axes),
+        entries(result, (*MOTION, *CHECKS), axes),
+        bounds(result, axes),
+    ):
+        for part, values in parts(e.values):
+            yield Column(f"{e.name}{part}", e.kind, values)
+        if e.name == f"reaction.{e.thing}":
+            yield Column(f"{e.name}.magnitude", e.kind, np.asarray(magnitude(e.values)))
 
 
 def friction_joints(result: Result) -> list[str]:
@@ -251,8 +211,3 @@ def friction_in(result: Result, joint: str, axes: Axes) -> tuple[Array, Array]:
     force, moment = result.friction_force(joint), result.friction_moment(joint)
     whole = np.concatenate([force, moment.reshape((len(moment), -1))], axis=-1)
     return force_and_moment(to_axes(result, joint, None, axes, whole))
-
-
-def force_and_moment(wrench: Array) -> tuple[Array, Array]:
-    """Force (..., d) and moment (...) or (..., 3) of wrenches (..., n)."""
-    return (wrench[..., :2], wrench[..., 2]) if wrench.shape[-1] == 3 else (wrench[..., :3], wrench[..., 3:])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Literal
@@ -9,19 +10,20 @@ from typing import IO, TYPE_CHECKING, Literal
 import numpy as np
 
 from dalembert.analysis.output.columns import (
+    BY_FRICTION,
+    CHECKS,
+    MOTION,
     Entry,
     Scale,
     UnitChoice,
+    bounds,
     columns,
-    drive_entries,
-    drive_kinds,
-    joint_entries,
-    link_entries,
+    entries,
     scale,
-    unknown_entries,
-    unknown_kinds,
 )
 from dalembert.analysis.output.json_record import BLOCK, nan_to_none, to_dict, to_json, write_json
+from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.analysis.result.quantity_catalogue import CATALOGUE
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
@@ -135,9 +137,7 @@ def to_dataframe(
     frame.insert(0, "status", list(result.status))
     frame.index = pandas.RangeIndex(1, len(frame) + 1, name="position")
     if index == "drives" and result.drives:
-        places = [names[3 * k] for k in range(len(result.drives))]
-        frame = frame.set_index(places)
-        frame.index.names = [name.removeprefix("drive ").replace(" position [", " [") for name in places]
+        frame = frame.set_index([n for n in names if re.fullmatch(r"drive\.[^.]*( \[.*)?", n)])
     units_of = {name: name.rpartition(" [")[2][:-1] if name.endswith("]") else "1" for name in names}
     frame.attrs.update(_about(result), units=units_of)
     return frame
@@ -152,74 +152,64 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
     import xarray
 
     to = scale(result, units)
+    every = [
+        *entries(result, ("time", "drive", *BY_FRICTION), axes, every=True),
+        *entries(result, (*MOTION, *CHECKS)),
+        *bounds(result, axes, every=True),
+    ]
     data: Tree = {"status": ("position", np.array(result.status, dtype=str))}
-    data |= _arrays([*drive_entries(result), *link_entries(result)], to)
-    data |= _force_arrays(result, to, axes) | _reaction_links(result) | _ends(result, to)
-    if result.after is not None:
-        data |= _spans(result, to, axes)
-    data["residual"] = ("position", result.residual, {"units": "1"})
-    data["power_balance"] = ("position", result.power_balance, {"units": "1"})
+    data |= _arrays(every, to) | _reaction_links(result)
     coordinates: Tree = {
         "position": np.arange(1, len(result.status) + 1),
         "component": list("xyz"[: result.mechanism.dimension]),
         "link_axis": [] if result.mechanism.dimension == 2 else list("xyz"),
-        "drive": list(result.drives),
-        "joint": list(result.joints),
-        "link": list(result.links),
     }
+    for e in every:
+        if e.thing and e.thing not in (names := coordinates.setdefault(_dimension(e.word), [])):
+            names.append(e.thing)
     present: Tree = {name: names for name, names in coordinates.items() if len(names)}
     for drive in result.drives:  # so that a position is found by the value of a drive
         kind = drive_kinds(result, drive)["position"]
         values = to(kind, result.drive_position(drive))
-        present[f"position_{drive}"] = ("position", values, {"units": to.text(kind)})
+        present[f"drive_{drive}"] = ("position", values, {"units": to.text(kind)})
     return xarray.Dataset(data, coords=present, attrs=_about(result) | {"reaction_axes": axes})
 
 
-ARRAYS = {
-    "drives": ("drive", "drive_{}"),
-    "links": ("link", "link_{}"),
-    "efforts": ("drive", "effort"),
-    "reactions": ("joint", "{}"),
+DIMENSIONS = {
+    "drives": "drive_name",
+    "unknown_loads": "load_name",
+    "joints": "joint",
+    "links": "link",
+    "points": "link_point",
+    "slide": "sliding_joint",
+    "turn": "turning_joint",  # a dimension is not called as a variable over it
 }
-"""First key of a quantity -> the dimension its things stand along, and the name of the array with the other keys in it.
-A load that was asked for has an array of its own."""
-JOINTS = {"force": "reaction", "moment": "reaction_moment", "friction_power_lost": "power_lost"}
-"""Arrays of joints that have another name than their keys."""
+"""Things a quantity is asked of -> the dimension along which they are."""
+
+
+def _dimension(word: str) -> str:
+    of = CATALOGUE[word].of
+    return DIMENSIONS.get(of, f"{of}_joint")
 
 
 def _arrays(some: Iterable[Entry], to: Scale) -> Tree:
     """Quantities of all things of a sort side by side; drives that turn and that slide differ in their units."""
     groups: dict[tuple[str, str], list[Entry]] = {}
-    for q in some:
-        dimension, name = ARRAYS.get(q.keys[0], ("", f"unknown_load_{q.keys[1]}"))
-        keys = "_".join(q.keys[2:])
-        groups.setdefault((dimension, name.format(JOINTS.get(keys, keys))), []).append(q)
+    for e in some:
+        groups.setdefault((e.word, e.rate), []).append(e)
     out: Tree = {}
-    for (dimension, name), each in groups.items():
-        units = [to.text(q.kind) for q in each]
-        unit = units[0] if len(set(units)) == 1 else "of each drive: " + ", ".join(units)
-        values = np.stack([to(q.kind, q.values) for q in each], axis=1)
-        over = ("position", dimension, "component", "link_axis")[: values.ndim]
-        out[name] = (
-            (over, values, {"units": unit}) if dimension else ("position", values[:, 0], {"units": unit})
+    for (word, rate), each in groups.items():
+        units = [to.text(e.kind) for e in each]
+        unit = (
+            units[0]
+            if len(set(units)) == 1
+            else f"of each {_dimension(word).removesuffix('_name')}: " + ", ".join(units)
         )
-    return out
-
-
-def _force_arrays(result: Result, to: Scale, axes: Axes) -> Tree:
-    """Efforts, reactions, what friction does in the joints and the power that it takes, unknown loads."""
-    some = [*unknown_entries(result), *joint_entries(result, axes, every=True)]
-    some = [q for q in some if "least_norm" not in q.keys]
-    return _arrays(sorted(some, key=lambda q: q.keys[0] == "unknown_loads"), to)
-
-
-def _spans(result: Result, to: Scale, axes: Axes) -> Tree:
-    """Low and high of the numbers just before and just after reversals; elsewhere twice the number itself."""
-    sides = [_force_arrays(side, to, axes) for side in result.sides]
-    out: Tree = {}
-    for name, (over, before, units) in sides[0].items():
-        for word, of in (("low", np.minimum), ("high", np.maximum)):
-            out[f"{name}_{word}"] = (over, of(before, sides[1][name][1]), units)
+        values = [to(e.kind, e.values) for e in each]
+        things = [_dimension(word)] if each[0].thing else []
+        array = np.stack(values, axis=1) if things else values[0]
+        over = ("position", *things, "component", "link_axis")[: array.ndim]
+        out["_".join(filter(None, (word, rate)))] = (over, array, {"units": unit or "1"})
     return out
 
 
@@ -229,16 +219,6 @@ def _reaction_links(result: Result) -> Tree:
     if not links:
         return {}
     return {"reaction_on": ("joint", [j for _, j in links]), "reaction_by": ("joint", [i for i, _ in links])}
-
-
-def _ends(result: Result, to: Scale) -> Tree:
-    """Ends of the efforts and loads that friction leaves open at rest."""
-    out: Tree = {}
-    for name, kind in unknown_kinds(result).items() if result.ends else ():
-        for k, end in enumerate(("low", "high")):
-            values = to(kind, result.interval(name)[:, k])
-            out[f"{name}_{end}_end"] = ("position", values, {"units": to.text(kind)})
-    return out
 
 
 def to_netcdf(

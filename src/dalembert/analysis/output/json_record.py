@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
@@ -12,21 +12,20 @@ import numpy as np
 from dalembert.analysis.compile.torsion_turns import count_turns, two_ways
 from dalembert.analysis.friction.joint_friction import bears_on_faces, guide_contact, joints_at_limit
 from dalembert.analysis.output.columns import (
-    OF_LINKS,
+    BY_FRICTION,
+    CHECKS,
+    MOTION,
     Entry,
     Scale,
     UnitChoice,
-    check_entries,
-    drive_entries,
+    bounds,
+    entries,
     friction_joints,
-    in_plane,
-    joint_entries,
-    link_entries,
+    least_norms,
     scale,
-    unknown_entries,
-    unknown_kinds,
 )
 from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.number_kinds import in_plane, unknown_kinds
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array, Tree
 from dalembert.saving import new_file
@@ -50,7 +49,7 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tre
     to = scale(result, units)
     mobility = result.mobility
     return {
-        "dalembert": 1,
+        "dalembert": 2,
         "title": result.mechanism.title,
         "units": "SI" if units == "SI" else {kind: to.text(kind) for kind in KINDS if to.text(kind)},
         "reaction_axes": axes,
@@ -66,6 +65,10 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tre
             **({} if in_plane(result) else {"passive": list(mobility.passive)}),
         },
         "assembly_mode": result.mode,
+        "joints": {
+            name: dict(zip(("by", "on"), result.mechanism.joints[name].links, strict=True))
+            for name in result.joints
+        },
         **_counts(result, to),
     }
 
@@ -110,26 +113,22 @@ Fields = dict[tuple[str, ...], Lists]
 def _fields(result: Result, to: Scale, axes: Axes) -> Fields:
     """Everything that may stand in a record."""
     numbers, kinds = _numbers(to), unknown_kinds(result)
-    out = _of(to, [*drive_entries(result), *unknown_entries(result)])
+    out = _of(to, entries(result, ("time", "drive")))
     if result.after is not None:
         out |= _side_fields(result, to, axes)
+    out |= _force_fields(result, to, axes)
     for name, kind in kinds.items() if result.ends else ():
-        group = "efforts" if name in result.drives else "unknown_loads"
-        out[group, name] = _ranges(out[group, name], numbers(kind, result.interval(name)), result.status)
+        word = "effort" if name in result.drives else "load"
+        out[word, name] = _ranges(out[word, name], numbers(kind, result.interval(name)), result.status)
         out["holding", name] = _holding_ranges(numbers(kind, result.holding(name)), result.holding(name))
-    out |= _reaction_fields(result, to, axes)
     for name, ends in zip(kinds, result.ends, strict=False):
         for which, end in zip(("low", "high"), ends, strict=True):
-            out |= _under(_reaction_fields(end, to, axes), "ends", name, which)
+            out |= _under(_force_fields(end, to, axes, BY_FRICTION[2:]), "ends", name, which)
             out["ends", name, which, "at_limit"] = _limits(end)
-    out |= _of(to, sorted(link_entries(result), key=lambda q: OF_LINKS[q.keys[-1]] in TURNING))
+    out |= _of(to, entries(result, MOTION))
     for spring, turn in count_turns(result.compiled, whole_pose(result)).items():
         out["spring_turns", spring] = numbers("angle", turn)
-    return out | _of(to, check_entries(result))
-
-
-TURNING = ("angle", "number", "angular_speed", "angular_acceleration")
-"""Kinds of the numbers that say how a link turns; they stand behind those of its points."""
+    return out | _of(to, entries(result, CHECKS))
 
 
 def _of(to: Scale, some: Iterable[Entry]) -> Fields:
@@ -143,31 +142,30 @@ def _under(some: Fields, *keys: str) -> Fields:
 
 def _side_fields(result: Result, to: Scale, axes: Axes) -> Fields:
     """Everything just after reversals, and the low and the high of both sides."""
-    before, after = ([*unknown_entries(side), *joint_entries(side, axes)] for side in result.sides)
     behind = result.sides[1]
-    out = _of(to, unknown_entries(behind)) | _reaction_fields(behind, to, axes)
-    out = _under(out | _of(to, check_entries(behind)), "after")
-    both = [(b, a) for b, a in zip(before, after, strict=True) if "least_norm" not in b.keys]
-    for word, of in (("low", np.minimum), ("high", np.maximum)):
-        out |= _under(_of(to, (b._replace(values=of(b.values, a.values)) for b, a in both)), word)
-    return out
-
-
-def _reaction_fields(result: Result, to: Scale, axes: Axes) -> Fields:
-    """Reactions, and what friction does in them."""
+    after = _force_fields(behind, to, axes) | _of(to, entries(behind, CHECKS))
     numbers = _numbers(to)
-    out = _of(to, sorted(joint_entries(result, axes), key=lambda q: "least_norm" in q.keys))
+    ends = {(e.rate, *e._replace(rate="").keys): numbers(e.kind, e.values) for e in bounds(result, axes)}
+    return _under(after, "after") | ends
+
+
+def _force_fields(result: Result, to: Scale, axes: Axes, words: Sequence[str] = BY_FRICTION) -> Fields:
+    """Efforts, unknown loads, reactions, and what friction does in them."""
+    numbers = _numbers(to)
+    out = _of(to, entries(result, words, axes))
+    for e in least_norms(result, axes):
+        out["least_norm", e.word, e.thing] = numbers(e.kind, e.values)
     for joint in result.joints if axes == "joint" else ():
         own, of_moment = (result.joint_axes(joint, moment) for moment in (False, True))
-        out["reactions", joint, "axes"] = numbers("number", own)
+        out["joint_axes", joint, "force"] = numbers("number", own)
         if not np.array_equal(own, of_moment, equal_nan=True):
-            out["reactions", joint, "moment_axes"] = numbers("number", of_moment)
+            out["joint_axes", joint, "moment"] = numbers("number", of_moment)
     for joint in friction_joints(result):
         if bears_on_faces(result, joint):
             contact = guide_contact(result, joint)
-            out["reactions", joint, "contact", "mode"] = _words(contact.mode)
-            out["reactions", joint, "contact", "lower"] = numbers("force", contact.lower)
-            out["reactions", joint, "contact", "upper"] = numbers("force", contact.upper)
+            out["contact", joint, "mode"] = _words(contact.mode)
+            out["contact", joint, "lower"] = numbers("force", contact.lower)
+            out["contact", joint, "upper"] = numbers("force", contact.upper)
     return out
 
 
@@ -223,15 +221,11 @@ def _transpose(lists: dict[tuple[str, ...], list[object]]) -> Iterator[dict[tupl
 
 def _record(result: Result, position: int, values: dict[tuple[str, ...], object]) -> Tree:
     status, reason = result.status[position], result.reasons[position]
-    record: Tree = {"drives": {}, "status": status}
+    record: Tree = {"status": status}
     if reason is not None:
         record["reason"] = reason
     if result.stability is not None and result.stability[position] is not None:
         record["stability"] = result.stability[position]
-    record |= {"efforts": {}, "unknown_loads": {}, "reactions": {}, "links": {}}
-    for joint in result.joints:
-        by, on = result.mechanism.joints[joint].links
-        record["reactions"][joint] = {"on": on, "by": by}
     reverses = bool(result.reverses[position])
     if result.friction is not None:
         record["friction"] = _solution(result, position)
@@ -280,7 +274,7 @@ def _other_solutions(result: Result, to: Scale) -> dict[int, list[Tree]]:
                     for name, v in s.unknowns.items()
                     if (name in result.drives) == drive
                 }
-                for group, drive in (("efforts", True), ("unknown_loads", False))
+                for group, drive in (("effort", True), ("load", False))
             }
             | {"determinant_ratio": s.determinant}
             for s in found

@@ -7,12 +7,12 @@ Mechanics: docs/theory.md 1.2.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import actions
+from dalembert.analysis.result.kept import kept
 from dalembert.arrays import Array
 
 if TYPE_CHECKING:
@@ -35,24 +35,17 @@ def least(r: Result, k: int) -> dict[str, float]:
     return {kind: PART * float(size[k]) for kind, size in sizes(r).items()}
 
 
+@kept
+@np.errstate(all="ignore")
 def sizes(r: Result) -> dict[str, Array]:
     """By kind of number: the largest there is at each position (P,), in SI; of forces and moments one size over the
     length. Kept with the result, as every number that is printed asks for it."""
-    return read_once(r, _sizes)
-
-
-def read_once(r: Result, of: Callable[[Result], dict[str, Array]]) -> dict[str, Array]:
-    """What a function makes of a result, made once."""
-    if of.__qualname__ not in vars(r):
-        vars(r)[of.__qualname__] = of(r)
-    return vars(r)[of.__qualname__]  # type: ignore[no-any-return]
-
-
-def _sizes(r: Result) -> dict[str, Array]:
     length, many = r.compiled.layout.length, len(r.status)
     turning, rising = _rates(r)
     everything, given = actions(r), r.compiled.forcing.inertia
-    mass = max(float(np.max(given.mass, initial=0.0)), float(np.max(given.inertia, initial=0.0)) / length**2)
+    mass = max(
+        float(np.max(given.mass, initial=0.0)), float(np.max(given.inertia, initial=0.0)) / length / length
+    )
     heavy = mass * length * turning**2 if r.inertia else np.zeros(many)
     force = largest(many, heavy, *(a.force for a in everything), *(a.couple / length for a in everything))
     return {

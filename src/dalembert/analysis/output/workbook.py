@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, in_plane, scale, unknown_kinds
+from dalembert.analysis.output.columns import Scale, UnitChoice, scale
 from dalembert.analysis.output.json_record import nan_to_none
 from dalembert.analysis.output.summary.printed_series import extremes
 from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.result.number_kinds import drive_kinds, in_plane, unknown_kinds
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
 from dalembert.units import KINDS

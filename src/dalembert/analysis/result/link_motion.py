@@ -7,12 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.compile.load_arrays import point_of
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.model import Mechanism
+
+
+ORIGIN = "origin"
+"""The point of a link where its axes begin, beside its named points and its mass centre."""
 
 
 def place_of(names: tuple[str, ...], name: str, kind: str) -> int:
@@ -48,10 +52,17 @@ class LinkMotion:
         return int(self.compiled.layout.algebra.d)
 
     def angle(self, link: str) -> Array:
-        """Angle of a link's x axis to ground's (P,), followed through whole turns; in space ask ``rotation``."""
+        """Angle of a link's x axis to ground's (P,), followed through whole turns; in space ask ``rotation``.
+
+        Where a load depends on it, the whole turns are those that the load counts.
+        """
         if self._d == 3:
             raise ModelError(f"link {link!r} has no single angle in space", "ask its rotation")
-        return np.asarray(self.turn_array[..., self._link(link)])
+        return np.asarray(self.turn_array[..., self._link(link)] + self._counted(f"links.{link}.angle"))
+
+    def _counted(self, name: str) -> Numeric:
+        """Whole turns of an angle as loads count it."""
+        return self.compiled.pose_turns.get(name, 0.0)
 
     def rotation(self, link: str) -> Array:
         """Matrices (P, d, d) that turn components in a link's axes into components in ground axes."""
@@ -108,6 +119,9 @@ class LinkMotion:
         return place_of(self.links, link, "link")
 
     def _point(self, link: str, name: str) -> Array:
+        if name == ORIGIN and name not in self.mechanism.points(link):
+            self._link(link)
+            return np.zeros(self._d)
         return point_of(self.mechanism, link, name)
 
     def _arm(self, link: str, u: Array) -> tuple[int, Array]:

@@ -1,34 +1,36 @@
-"""A quantity of a result by its name, as `da.compile` names its outputs: ``effort.O2``, ``reaction.A.x``."""
+"""Quantities by their names: which there are, what a name is made of, its value, and expressions of such names."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dalembert.algebra import plane
-from dalembert.analysis.output.columns import OF_LINKS, OF_POINTS, drive_kinds, load_kind
-from dalembert.analysis.result.quantity_expressions import check_units, kind_of, parse_quantity
-from dalembert.analysis.result.transmission_lines import (
-    Line,
-    OfLines,
-    closure_margin,
-    ground_points,
-    transmission_angle,
-    transmission_lines,
-    transmission_names,
+from dalembert.analysis.result.link_motion import ORIGIN
+from dalembert.analysis.result.quantity_catalogue import (
+    CATALOGUE,
+    FREEDOMS,
+    Named,
+    Reading,
+    bearing_areas,
+    magnitude,
 )
-from dalembert.arrays import Array
+from dalembert.analysis.result.quantity_expressions import check_units, kind_of, parse_quantity
+from dalembert.analysis.result.transmission_lines import ground_points, transmission_names
+from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
-from dalembert.model import GROUND
 from dalembert.model.links.link import CENTER
-from dalembert.model.quantities.expressions import evaluate, names_in, numpy_functions
+from dalembert.model.quantities.expression_trees import evaluate, names_in, numpy_functions
+from dalembert.model.quantities.parameters import Parameters
+from dalembert.units import KINDS
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Mechanism
+
+BOUNDS = ("low", "high")
+COMPONENTS = ("x", "y", "z", "magnitude", "direction")
 
 
 class Quantity(NamedTuple):
@@ -38,134 +40,133 @@ class Quantity(NamedTuple):
     values: Array
 
 
-Read = Callable[["Result", str], Array]
-
-
-def _of(method: str) -> Read:
-    """What a method of a result answers about one name."""
-    return lambda r, of: np.asarray(getattr(r, method)(of))
-
-
-def _of_point(method: str) -> Read:
-    return lambda r, of: np.asarray(getattr(r, method)(*of.split(".", 1)))
-
-
-def _magnitude(r: Result, joint: str) -> Array:
-    return np.asarray(np.linalg.norm(r.reaction(joint), axis=-1))
-
-
-def _hinge(value: OfLines) -> Read:
-    """What is made of the two lines of a hinge."""
-
-    def read(r: Result, of: str) -> Array:
-        lines = transmission_lines(r.mechanism, of)
-        return np.asarray(value(_turned(r, lines[0]), _turned(r, lines[1]), lines))
-
-    return read
-
-
-def _turned(r: Result, line: Line) -> Array:
-    if line.link == GROUND:
-        return np.broadcast_to(line.along, (len(r.status), 2))
-    return plane.rotate(plane.rotation(r.angle(line.link)), line.along)
-
-
-def _pressure(r: Result, joint: str) -> Array:
-    """Force across the axis over the projected area."""
-    from dalembert.analysis.friction.bearing_ends import bearing_axis
-
-    force = r.reaction(joint)
-    if r.mechanism.dimension == 3:
-        axis = bearing_axis(r, joint)
-        force = force - (force * axis).sum(axis=1, keepdims=True) * axis
-    return np.asarray(np.linalg.norm(force, axis=-1) / bearing_areas(r)[joint])
-
-
-def _shaking(part: str) -> Read:
-    def read(r: Result, about: str) -> Array:
-        from dalembert.machine.shaking import shaking
-
-        return np.asarray(getattr(shaking(r, about or None), part))
-
-    return read
-
-
-READ: dict[str, tuple[str, str, Read]] = {
-    "effort": ("drives", "", _of("effort")),
-    "load": ("unknown_loads", "", _of("unknown_load")),
-    "reaction": ("joints", "force", _of("reaction")),
-    "magnitude": ("joints", "force", _magnitude),
-    "moment": ("joints", "moment", _of("reaction_moment")),
-    "power_lost": ("joints", "power", _of("power_lost")),
-    "drive": ("drives", "", _of("drive_position")),
-    "power": ("drives", "power", lambda r, of: r.effort(of) * r.drive_speed(of)),
-    "transmission": ("hinges", "angle", _hinge(transmission_angle)),
-    "closure": ("hinges", "length", _hinge(closure_margin)),
-    "pressure": ("sized bearings", "pressure", _pressure),
-    "shaking": ("", "force", _shaking("force")),
-    "shaking_moment": ("fixed points", "moment", _shaking("moment")),
-    **{word: ("links", kind, _of(word)) for word, kind in OF_LINKS.items()},
-    **{word: ("points", kind, _of_point(word)) for word, kind in OF_POINTS.items()},
-    "residual": ("", "number", lambda r, _: r.residual),
-    "power_balance": ("", "number", lambda r, _: r.power_balance),
-}
-"""First word of a name -> what it is asked of, its kind (a drive's or load's own where it is empty), how it is read."""
-
-
-class Named(Protocol):
-    """What has names to ask about: a result, or what is compiled."""
-
-    @property
-    def mechanism(self) -> Mechanism: ...
-    @property
-    def links(self) -> tuple[str, ...]: ...
-    @property
-    def joints(self) -> tuple[str, ...]: ...
-    @property
-    def drives(self) -> tuple[str, ...]: ...
-    @property
-    def unknown_loads(self) -> tuple[str, ...]: ...
-
-
 def things(r: Named, of: str) -> list[str]:
-    """What there is to ask about."""
+    """The things that a word can be asked of, by name."""
+    m = r.mechanism
     if of == "points":
-        links = r.mechanism.links
-        return [f"{link}.{point}" for link in r.links for point in (*links[link].points, CENTER)]
+        return [
+            f"{link}.{p}" for link in r.links for p in dict.fromkeys((*m.links[link].points, CENTER, ORIGIN))
+        ]
+    if of in FREEDOMS:
+        return [joint for joint, freedom in r.compiled.freedoms if freedom == of]
+    if of == "placed":
+        return [""] if any(m.links[link].place for link in r.links) else []
+    if of == "times":
+        return [] if getattr(r, "time", None) is None else [""]
+    if of == "guides":
+        return [n for n in r.joints if getattr(getattr(m.joints[n], "friction", None), "guide", None)]
     if of == "hinges":
-        return transmission_names(r.mechanism)
+        return transmission_names(m)
     if of == "sized bearings":
         return list(bearing_areas(r))
     if of == "fixed points":
-        return ["", *ground_points(r.mechanism)]
+        return ["", *ground_points(m)]
     return list(getattr(r, of)) if of else [""]
 
 
-def bearing_areas(r: Named) -> dict[str, Any]:
-    """Projected area of each bearing with a diameter and a length; where a number varies, a node."""
-    bearings = {name: getattr(r.mechanism.joints[name], "bearing", None) for name in r.joints}
-    return {name: b.area for name, b in bearings.items() if b is not None and b.area is not None}
-
-
-def names_of(r: Named, words: Iterable[str]) -> list[str]:
-    """Every name that begins with one of some words, without components."""
-    return [f"{word}.{thing}".rstrip(".") for word in words for thing in things(r, READ[word][0])]
+def names_of(r: Named, compiled: bool = False, words: Iterable[str] = CATALOGUE) -> list[str]:
+    """Every name without components, those with a rate behind those without."""
+    return [
+        ".".join(filter(None, (word, thing, rate)))
+        for word in words
+        if CATALOGUE[word].exists(r, compiled)
+        for thing in things(r, CATALOGUE[word].of)
+        for rate in CATALOGUE[word].rates
+        if not (rate in BOUNDS and compiled)
+        and not (r.mechanism.dimension == 3 and (word, rate) == ("angle", ""))
+    ]
 
 
 def quantity_names(r: Result) -> list[str]:
-    """Every name there is, without components.
+    """Every name of a result, without components; bounds and friction where there is friction.
 
     >>> import dalembert as da
     >>> quantity_names(da.statics(da.four_bar()))[:3]
     ['effort.O2', 'reaction.O2', 'reaction.A']
     """
-    plane = r.mechanism.dimension == 2
-    left_out = ("rotation" if plane else "angle", *(() if r.friction else ("power_lost",)))
-    return names_of(r, [word for word in READ if word not in left_out])
+    hidden = [] if r.friction else [word for word, row in CATALOGUE.items() if row.friction]
+    hidden += ["rotation"] if r.mechanism.dimension == 2 else []
+    names = names_of(r, words=[word for word in CATALOGUE if word not in hidden])
+    return [n for n in names if r.friction or n.rpartition(".")[2] not in BOUNDS]
+
+
+class Name(NamedTuple):
+    """A name taken apart; the component is empty for a number or a complete vector."""
+
+    word: str
+    thing: str
+    rate: str
+    component: str
+
+    @property
+    def reading(self) -> Reading:
+        """Its row of the catalogue."""
+        return CATALOGUE[self.word].rates[self.rate]
+
+    def kind(self, r: Any) -> str:
+        """The kind of its value, a key of ``units.KINDS``."""
+        if self.component == "direction":
+            return "angle"
+        kind = self.reading.kind
+        return kind if isinstance(kind, str) else kind(r, self.thing)
+
+
+def take_apart(r: Named, name: str) -> Name | None:
+    """The parts of a name, the longest thing that fits; None if it is not a quantity of this mechanism."""
+    word, _, rest = name.partition(".")
+    if word not in CATALOGUE:
+        return None
+    row = CATALOGUE[word]
+    for thing in sorted(things(r, row.of), key=len, reverse=True):
+        if thing and rest != thing and not rest.startswith(f"{thing}."):
+            continue
+        behind = rest[len(thing) :].strip(".").split(".") if rest != thing else []
+        rate = behind.pop(0) if behind and behind[0] in row.rates else ""
+        component = behind.pop(0) if behind else ""
+        fits = component.isidentifier() if thing else component in COMPONENTS
+        if not behind and rate in row.rates and (fits or not component):
+            return Name(word, thing, rate, component)
+    return None
+
+
+def read(r: Any, name: str) -> Quantity | None:
+    """The quantity of a single name, of a component of it, or None; nodes where ``r`` is a compiled analysis."""
+    parts = take_apart(r, name)
+    if parts is None:
+        return None
+    values = np.asarray(parts.reading.read(r, parts.thing))
+    return Quantity(parts.kind(r), component(values, parts.component, name, _leading(r)))
+
+
+def _leading(r: Any) -> int:
+    """Leading axes of its values: the positions of a result, none of a compiled analysis."""
+    return 1 if hasattr(r, "status") else 0
+
+
+def component(values: Array, part: str, name: str = "", leading: int = 1) -> Array:
+    """A component of vectors (..., d) or matrices (..., 3, 3): x, magnitude, in the plane direction, xx; or all."""
+    if not part:
+        return values
+    known = dict(components(values, leading))
+    if part not in known:
+        what = name.rpartition(".")[0] or "a number"
+        raise ModelError(f"{what} has no component {part!r}", closest(part, list(known)))
+    return known[part]
+
+
+def components(values: Array, leading: int = 1) -> Iterator[tuple[str, Array]]:
+    """Names and values of what a quantity is made of; of a vector its size and, in the plane, its direction too."""
+    rank = values.ndim - leading
+    for place in np.ndindex(values.shape[leading:]) if rank else ():
+        yield "".join("xyz"[k] for k in place), values[(..., *place)]
+    if rank == 1:
+        yield "magnitude", np.asarray(magnitude(values))
+    if rank == 1 and values.shape[-1] == 2:
+        yield "direction", np.asarray(np.arctan2(values[..., 1], values[..., 0]))
 
 
 def quantity(r: Result, name: str) -> Quantity:
-    """The quantity of a name; of a vector a component behind a dot: x, y, z, magnitude; or an expression of such.
+    """The quantity of a name, of one component of it, or of an expression of such.
 
     >>> import dalembert as da
     >>> r = da.statics(da.four_bar())
@@ -174,62 +175,36 @@ def quantity(r: Result, name: str) -> Quantity:
     >>> quantity(r, "max(abs(effort.O2), 3 N*m)").kind
     'moment'
     """
-    found = _find_quantity(r, str(name))
-    if found is not None:
-        return found
-    tree = parse_quantity(str(name), quantity_names(r), "quantity")
-    parts = {n: _scalar(r, n) for n in names_in(tree)}
-    check_units(tree, lambda n: parts[n].kind)
+    single = read(r, str(name))
+    if single is not None:
+        return single
+    value, kind = evaluated(r, str(name), quantity_names(r), numpy_functions(), "quantity")
+    return Quantity(kind, np.broadcast_to(np.asarray(value, float), (len(r.status),)).copy())
+
+
+def evaluated(
+    r: Any, text: str, names: Sequence[str], functions: Mapping[str, Any], what: str = "output"
+) -> tuple[Numeric, str]:
+    """Value and kind of an expression of quantities and parameters, on numbers or on nodes."""
+    given: Parameters = r.mechanism.parameters
+    tree = parse_quantity(text, [*names, *given], what)
+    parts = {name: _number(r, name, names) for name in names_in(tree)}
+    known = {n: given[n].dimension if n in given else KINDS[q.kind].dimension for n, q in parts.items()}
+    check_units(tree, known, given)
     with np.errstate(all="ignore"):
-        value = evaluate(tree, {n: q.values for n, q in parts.items()}, numpy_functions())
-    return Quantity(
-        kind_of(tree, lambda n: parts[n].kind) or "number",
-        np.broadcast_to(np.asarray(value, float), (len(r.status),)).copy(),
-    )
+        value = evaluate(tree, {name: q.values[()] for name, q in parts.items()}, functions)
+    return value, kind_of(tree, lambda name: parts[name].kind, given) or "number"
 
 
-def _scalar(r: Result, name: str) -> Quantity:
-    found = _find_quantity(r, name)
-    if found is None:
-        raise ModelError(f"there is no quantity {name!r}", closest(name, quantity_names(r)))
-    if found.values.ndim > 1:
+def _number(r: Any, name: str, names: Sequence[str]) -> Quantity:
+    part = read(r, name)
+    if part is None and name in r.mechanism.parameters:
+        parameter = r.mechanism.parameters[name]
+        return Quantity(parameter.kind or "number", np.asarray(parameter.value))
+    if part is None:
+        raise ModelError(f"unknown quantity {name!r}", closest(name, list(names)))
+    if part.values.ndim > _leading(r):
         raise ModelError(
-            f"{name} is a vector, and an expression is of numbers", f"write {name}.x or {name}.magnitude"
+            f"{name} is a vector; an expression needs numbers", f"write {name}.x or {name}.magnitude"
         )
-    return found
-
-
-def _find_quantity(r: Result, name: str) -> Quantity | None:
-    """The quantity of a single name, or of a component; None where there is none."""
-    word, _, behind = name.partition(".")
-    if word not in READ:
-        return None
-    of, _, read = READ[word]
-    whole, _, part = behind.rpartition(".")
-    tries = [(behind, []), (whole, [part])] if part.isidentifier() else [(behind, [])]
-    for thing, parts in tries:
-        if thing in things(r, of):
-            return Quantity(kind_of_name(r, f"{word}.{thing}"), _component(name, read(r, thing), parts))
-    return None
-
-
-def kind_of_name(r: Any, name: str) -> str:
-    """The kind of the quantity of a name without a component, of what has ``Named``'s names and is compiled."""
-    word, _, thing = name.partition(".")
-    of, kind, _ = READ[word]
-    if kind:
-        return kind
-    kinds = drive_kinds(r, thing) if of == "drives" else {"load": load_kind(r, thing)}
-    return kinds["position" if word == "drive" else word]
-
-
-def _component(name: str, values: Array, asked: list[str]) -> Array:
-    if not asked:
-        return values
-    there = dict(zip("xyz", values.T, strict=False)) if values.ndim == 2 else {}
-    if values.ndim == 2:
-        there["magnitude"] = np.linalg.norm(values, axis=-1)
-    if asked[0] not in there:
-        whole = name.rpartition(".")[0]
-        raise ModelError(f"{whole} has no component {asked[0]!r}", closest(asked[0], list(there)))
-    return np.asarray(there[asked[0]])
+    return part

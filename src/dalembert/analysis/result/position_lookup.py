@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import drive_kinds, scale
+from dalembert.analysis.output.columns import scale
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.units import file_units, quantity

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from dalembert.errors import ModelError
-from dalembert.model.quantities.dimensions import dimension
-from dalembert.model.quantities.expressions import (
-    GRAMMAR,
+from dalembert.model.quantities.dimensions import Powers, dimension, kind_of_dimension
+from dalembert.model.quantities.expression_trees import (
+    COMPARISONS,
     Apply,
     Name,
     Number,
     Tree,
     names_in,
     nodes,
-    parse_expression,
 )
-from dalembert.units import KINDS
+from dalembert.model.quantities.expressions import GRAMMAR, parse_expression
 from dalembert.wording import closest, quote_value
 
-COMPONENTS = ("x", "y", "z", "magnitude")
+COMPONENTS = ("x", "y", "z", "magnitude", "direction")
 """Of a vector, behind a dot."""
 
 KEEP_KIND = ("+", "-", "max", "min", "abs")
@@ -71,19 +70,20 @@ def _rename(tree: Tree, names: dict[str, str]) -> Tree:
     return tree
 
 
-def check_units(tree: Tree, kind: Callable[[str], str]) -> None:
-    """Raise ModelError where what is written with a unit is added to, or compared with, a quantity of another kind.
-    Plain numbers are SI beside anything, and so are weights in a sum of unlike quantities.
+def check_units(tree: Tree, known: Mapping[str, Powers | None], given: Collection[str] = ()) -> None:
+    """Raise ModelError where a number with a unit, or a parameter of those given, is added to, or compared with, a
+    quantity of another kind. Plain numbers are SI beside anything, and so are weights in a sum of unlike quantities.
 
-    >>> kinds = {"effort.O": "moment", "magnitude.A": "force"}
-    >>> check_units(parse_quantity("abs(effort.O) + 0.1*magnitude.A - 3 N*m", list(kinds)), kinds.__getitem__)
-    >>> check_units(parse_quantity("magnitude.A - 3 kg", list(kinds)), kinds.__getitem__)
+    >>> known = {"effort.O": (2, 1, -2, 0), "reaction.A.x": (1, 1, -2, 0)}
+    >>> check_units(parse_quantity("abs(effort.O) + 0.1*reaction.A.x - 3 N*m", list(known)), known)
+    >>> check_units(parse_quantity("reaction.A.x - 3 kg", list(known)), known)
     Traceback (most recent call last):
-    dalembert.errors.ModelError: 'magnitude.A - 3 kg' cannot be: magnitude.A is a force, and 3 kg is a mass; ...
+    dalembert.errors.ModelError: 'reaction.A.x - 3 kg' cannot be: reaction.A.x is a force, and 3 kg is a mass; ...
     """
-    known = {name: KINDS[kind(name)].dimension for name in names_in(tree)}
     for part in nodes(tree):
-        if isinstance(part, Apply) and part.function in KEEP_KIND and any(map(_with_unit, part.arguments)):
+        if not isinstance(part, Apply) or part.function not in (*KEEP_KIND, *COMPARISONS):
+            continue
+        if any(_with_unit(a, [n for n in given if any(known.get(n) or ())]) for a in part.arguments):
             try:
                 for argument in part.arguments:
                     dimension(argument, known)
@@ -92,19 +92,24 @@ def check_units(tree: Tree, kind: Callable[[str], str]) -> None:
             dimension(part, known)
 
 
-def _with_unit(tree: Tree) -> bool:
-    """Whether a part is of numbers alone, and some of them have a unit."""
-    return not names_in(tree) and any(isinstance(n, Number) and n.text not in ("", "pi") for n in nodes(tree))
+def _with_unit(tree: Tree, given: Collection[str]) -> bool:
+    """True if a part is of numbers and of names given alone, and has one of these or a number with a unit."""
+    stated = any(isinstance(n, Number) and n.text not in ("", "pi") for n in nodes(tree))
+    return names_in(tree) <= set(given) and (stated or bool(names_in(tree)))
 
 
-def kind_of(tree: Tree, kind: Callable[[str], str]) -> str:
+def kind_of(tree: Tree, kind: Callable[[str], str], given: Collection[str] = ()) -> str:
     """The kind of an expression's value: that of its quantities while they are added, compared and scaled; a `number`
     (in SI) otherwise."""
     if isinstance(tree, Name):
         return kind(tree.name)
     if isinstance(tree, Number):
+        return kind_of_dimension(tree.dimension) or "number" if any(tree.dimension[:3]) else ""
+    if tree.function in COMPARISONS:
         return ""
-    kinds = [kind_of(argument, kind) for argument in tree.arguments]
+    keeps = tree.function in KEEP_KIND
+    arguments = [a for a in tree.arguments if not (keeps and _with_unit(a, given))] or tree.arguments
+    kinds = [kind_of(argument, kind, given) for argument in arguments]
     scales = (tree.function == "*" and "" in kinds) or (tree.function == "/" and kinds[1] == "")
     named = set(kinds) - {""}
     if not named:

@@ -141,3 +141,8 @@ def _link_rotation(result: Result, link: str, whole: Array) -> Array:
         return whole
     force = plane.unrotate(plane.rotation(result.angle(link)), whole[..., :2])
     return np.concatenate([force, whole[..., 2:]], axis=-1)
+
+
+def force_and_moment(wrench: Array) -> tuple[Array, Array]:
+    """Force (..., d) and moment (...) or (..., 3) of wrenches (..., n)."""
+    return (wrench[..., :2], wrench[..., 2]) if wrench.shape[-1] == 3 else (wrench[..., :3], wrench[..., 3:])

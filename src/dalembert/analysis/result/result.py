@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
+from dalembert.answer.named_answer import NamedAnswer
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.errors import SOLVED, ModelError
 
@@ -25,14 +26,15 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.position_lookup import PositionChoice
     from dalembert.analysis.result.reaction_axes import Axes
     from dalembert.machine.harmonics import Harmonics
+    from dalembert.machine.shaking import Shaking
     from dalembert.model import Schedule
     from dalembert.views.draw import View
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
 
 
-@dataclass(frozen=True, repr=False)
-class Result(LinkMotion):
+@dataclass(frozen=True, repr=False, eq=False)
+class Result(LinkMotion, NamedAnswer):
     """Answer of one analysis over P positions (a leading axis design may stand before position).
 
     Everything in SI and radians, vectors in ground axes. A reaction is what a joint's other link exerts on the link
@@ -40,7 +42,7 @@ class Result(LinkMotion):
     Where contacts reverse the numbers are those just before, and ``after`` is the whole result with those just after.
     """
 
-    compiled: Compiled
+    compiled: Compiled = field(compare=False)
     inertia: bool
     mobility: Mobility | None
     mode: str | None
@@ -65,15 +67,14 @@ class Result(LinkMotion):
     ends: tuple[tuple[Result, Result], ...] = ()
     after: Result | None = None
 
+    def __getstate__(self) -> Tree:
+        return {f.name: getattr(self, f.name) for f in fields(self)}  # without what is kept
+
     def __str__(self) -> str:
         """What `dalembert solve` prints."""
         from dalembert.analysis.output.summary.printed_answer import answer_text
 
         return answer_text(self)
-
-    def __repr__(self) -> str:
-        counts = ", ".join(f"{self.status.count(s)} {s}" for s in dict.fromkeys(self.status))
-        return f"<Result of {self.mechanism.title or 'a mechanism'!r}: positions {counts}>"
 
     def _repr_html_(self) -> str:
         from dalembert.notebook.html_views import result_html
@@ -88,12 +89,20 @@ class Result(LinkMotion):
 
         return quantity(self, name).values
 
-    __iter__ = None  # a result is no sequence
-
-    def _ipython_key_completions_(self) -> list[str]:
+    def keys(self) -> list[str]:
+        """Names of its quantities, without components."""
         from dalembert.analysis.result.named_quantities import quantity_names
 
         return quantity_names(self)
+
+    @property
+    def codes(self) -> Array:
+        """Statuses (P,)."""
+        return np.array(self.status, object)
+
+    def compared(self) -> Tree:
+        """What equal results share: the description, the motion that is asked for, and all numbers."""
+        return super().compared() | {"mechanism": self.mechanism, "schedule": self.schedule}
 
     def plot(
         self, *names: str, ax: Any = None, against: str | None = None, notation: Notation | None = None
@@ -309,6 +318,11 @@ class Result(LinkMotion):
 
         return joint_friction.holding(self, name)
 
+    @property
+    def time(self) -> Array | None:
+        """Times (P,) of the positions, s, where the drives have a law of motion."""
+        return self.schedule.time
+
     # joints' freedoms
 
     def freedom(self, joint: str, kind: str) -> tuple[Array, Array, Array]:
@@ -317,14 +331,18 @@ class Result(LinkMotion):
 
         return freedom_motion(self, joint, kind)
 
+    def shaking(self, about: str = "") -> Shaking:
+        """What the machine exerts on its foundation, about a fixed point: `da.shaking`."""
+        from dalembert.machine.shaking import shaking
+
+        return shaking(self, about or None)
+
     def harmonics(self, of: str, orders: int | Sequence[float] = 4) -> Harmonics:
-        """Harmonics over whole turns of the first drive: of `shaking`, `shaking moment`, or a column of the outputs.
+        """Harmonics over whole turns of the first drive of a quantity: `effort.O2`, `reaction.A`, `shaking_force`."""
+        from dalembert.machine.harmonics import harmonics
+        from dalembert.machine.whole_cycle import turning_angle
 
-        A column by its name, or without the component for its vector: `effort O2`, `reaction A on rod`.
-        """
-        from dalembert.machine.shaking import harmonics_of
-
-        return harmonics_of(self, of, orders)
+        return harmonics(self[of], turning_angle(self), orders)
 
     # summaries and files
 

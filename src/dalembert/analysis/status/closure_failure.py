@@ -28,24 +28,39 @@ ASIDE = 0.05
 """Radians by which links are turned before the least gap is looked for."""
 
 
+OPEN = "{verdict} {span}{gap}. Change {datum} or the assembly{drives}."
+"""Sentence of positions that do not close; ``span`` says where, ``gap`` what stays open and how far, if known."""
+UNFOLLOWED = (
+    "The linkage closes {span}, but the motion could not be followed there: on the way lies a dead centre, or two "
+    "branches come too near to each other to be told apart. Solve these positions by themselves, with an assembly, or "
+    "change a length."
+)
+ONE = "the {what} of joint {joint} stay {figure} {how}"
+SEVERAL = "the {what} of its joints stay {total} {how} in all, {where}"
+ALL_ALIKE, MOST = "alike at {joints}", "most at {joint} ({figure})"
+WORDS = {"length": {"what": "points", "how": "apart"}, "angle": {"what": "axes", "how": "out of line"}}
+"""What of a joint stays open, and how, by the kind of its gap."""
+
+
 def open_sentence(c: Compiled, found: Path | None, where: Ints) -> str:
     """Why a run of positions does not close: what stays open in the middle of it at least, where, and how far."""
     middle = int(where[len(where) // 2])
     shift, turn = _openings(c, found, middle)
-    lengths = _most(c, shift, "length", c.layout.length, "apart")
-    parts = [part for part in (lengths, _most(c, turn, "angle", 1.0, "out of line")) if part]
+    lengths = _most(c, shift, "length", c.layout.length)
+    parts = [part for part in (lengths, _most(c, turn, "angle", 1.0)) if part]
     if found is not None and not parts:
-        return (
-            f"The linkage closes {_span(c, where)}, but the motion could not be followed there: on the way lies a dead "
-            "centre, or two branches come too near to each other to be told apart. Solve these positions by "
-            "themselves, with an assembly, or change a length."
-        )
+        return UNFOLLOWED.format(span=_span(c, where))
     there = f"at {_values(c, middle)} " if len(where) > 1 and c.schedule.names else ""
     gap = f": {there}{' and '.join(parts)}" if parts else ""
-    drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
     datum = "a length" if lengths or not parts else "a direction"
+    return open_template(c).format(span=_span(c, where), gap=gap, datum=datum)
+
+
+def open_template(c: Compiled) -> str:
+    """The sentence with what depends on the positions left open."""
+    drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
     verdict = "The linkage does not close" if _every_way_is_known(c) else "No pose of the linkage was found"
-    return f"{verdict} {_span(c, where)}{gap}. Change {datum} or the assembly{drives}."
+    return OPEN.format(verdict=verdict, drives=drives, span="{span}", gap="{gap}", datum="{datum}")
 
 
 def _every_way_is_known(c: Compiled) -> bool:
@@ -85,30 +100,30 @@ def _aside(c: Compiled, pose: Pose) -> Pose:
     return displace(c.layout, pose.at(None), dq).at(0)
 
 
-def _most(c: Compiled, open_: Array, kind: str, size: float, how: str) -> str:
+def _most(c: Compiled, open_: Array, kind: str, size: float) -> str:
     """'the points of joint B stay 12 mm apart', or of several the sum and the widest; nothing where all are shut."""
     wide = np.flatnonzero(open_ > SHUT * size)
     if not wide.size:
         return ""
     most = int(np.argmax(open_))
     figure = quantity_text(c, kind, float(open_[most]), 3)
-    what = "points" if kind == "length" else "axes"
     if wide.size == 1:
-        return f"the {what} of joint {c.joints[most]} stay {figure} {how}"
+        return ONE.format(joint=c.joints[most], figure=figure, **WORDS[kind])
     total = quantity_text(c, kind, float(open_.sum()), 3)
     alike = open_[wide].min() > ALIKE * open_[most]
-    where = (
-        f"alike at {', '.join(c.joints[k] for k in wide)}"
-        if alike
-        else f"most at {c.joints[most]} ({figure})"
-    )
-    return f"the {what} of its joints stay {total} {how} in all, {where}"
+    names = ", ".join(c.joints[k] for k in wide)
+    where = ALL_ALIKE.format(joints=names) if alike else MOST.format(joint=c.joints[most], figure=figure)
+    return SEVERAL.format(total=total, where=where, **WORDS[kind])
+
+
+AS_DESCRIBED = "as it is described"
+"""Where a mechanism without drives does not close."""
 
 
 def _span(c: Compiled, where: Ints) -> str:
     """'between 212 deg and 238 deg of O2'."""
     if not c.schedule.names:
-        return "as it is described"
+        return AS_DESCRIBED
     if len(where) == 1:
         return f"at {_values(c, int(where[0]))}"
     ends = [[drive_text(c, int(where[e]), k) for e in (0, -1)] for k in range(len(c.schedule.names))]

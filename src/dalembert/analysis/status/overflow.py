@@ -1,4 +1,4 @@
-"""Where numbers are too large for the arithmetic: said, with what they are of, in place of infinities."""
+"""Numbers that are too large for the arithmetic: reported by quantity instead of infinities."""
 
 from __future__ import annotations
 
@@ -6,12 +6,38 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.analysis.compile.compiled_mechanism import link_spans
 from dalembert.analysis.friction.friction_status import arc
 from dalembert.arrays import Array, Flags, Ints
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.result.force_arrays import Forces
+
+
+LONGEST = 1e150
+"""Distances between joints (m) above which their squares and products overflow; below the reciprocal they vanish."""
+
+
+SURE = (1e10 / LONGEST, LONGEST / 1e10)
+"""Mean lengths at which no link comes near them."""
+
+
+def size_sentence(c: Compiled) -> str | None:
+    """Sentence on links whose squared lengths the arithmetic cannot represent; None where it can."""
+    if SURE[0] < c.layout.length < SURE[1]:
+        return None
+    m = c.mechanism
+    spans = link_spans(m, {name: m.joint_points(name) for name in m.joints})
+    long = [link for link, span in spans.items() if not span <= LONGEST]
+    if (not long and max(spans.values(), default=0.0) * LONGEST >= 1) or not any(spans.values()):
+        return None
+    which = long or [link for link, span in spans.items() if span > 0]
+    limit = f"more than {LONGEST:g} m" if long else f"less than {1 / LONGEST:g} m"
+    return (
+        f"The joints of {', '.join(which)} are {limit} apart: the squares of such lengths exceed the range of "
+        "numbers. A coordinate, or its unit, is probably wrong by many powers of ten: correct it."
+    )
 
 
 def fast(twist: Array, acceleration: Array) -> Flags:
@@ -31,13 +57,18 @@ def not_finite(f: Forces) -> Flags:
     return np.asarray(strong(f).any(axis=1) | ~np.isfinite(np.concatenate(single, axis=1)).all(axis=1))
 
 
+OVERFLOW = (
+    "{whose} exceed 1.8e308{arc}, the largest number there is (SI). A speed, mass, length or load, or its unit, "
+    "is probably wrong by many powers of ten: correct it."
+)
+OF, CHECKS = "The {what} of {names}", "The {what} or the powers they are checked by"
+RATES, FORCES = "rates or accelerations", "forces"
+
+
 def overflow_sentence(c: Compiled, what: str, names: tuple[str, ...], found: Flags, run: Ints) -> str:
     """Of which links or joints numbers overflow; of none, what checks them."""
     of = ", ".join(
         name for name, bad in zip(names, np.atleast_1d(found[run].any(axis=0)), strict=True) if bad
     )
-    whose = f"The {what} of {of} exceed" if of else f"The {what} or the powers they are checked by exceed"
-    return (
-        f"{whose} 1.8e308{arc(c, run)}, the largest number there is (SI). A speed, mass, length or load, or its unit, "
-        "is probably wrong by many powers of ten: correct it."
-    )
+    whose = OF.format(what=what, names=of) if of else CHECKS.format(what=what)
+    return OVERFLOW.format(whose=whose, arc=arc(c, run))

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.friction.friction_status import Check, alone, friction_checks, reversal_checks
-from dalembert.analysis.status.closure_failure import drive_text, open_sentence
-from dalembert.analysis.status.overflow import fast, not_finite, overflow_sentence, strong
+from dalembert.analysis.friction.friction_status import Check, alone, arc, friction_checks, reversal_checks
+from dalembert.analysis.status.closure_failure import open_sentence
+from dalembert.analysis.status.overflow import FORCES, RATES, fast, not_finite, overflow_sentence, strong
 from dalembert.analysis.status.undefined_springs import find_undefined_springs, undefined_sentence
 from dalembert.arrays import Array, Ints
 from dalembert.core.rank import singular_below
@@ -44,17 +44,16 @@ def statuses(
         ("singular", ~(rcond >= limit), lambda k: _singular_sentence(c, k)),
     ]
     racing = fast(twist, acceleration)
-    rates = "rates or accelerations"
-    checks += [("overflow", racing.any(axis=1), lambda k: overflow_sentence(c, rates, c.links, racing, k))]
+    checks += [("overflow", racing.any(axis=1), lambda k: overflow_sentence(c, RATES, c.links, racing, k))]
     if forces:
         loaded, held = strong(f), f.rcond >= limit
         pushing = find_undefined_springs(c, path.pose)
         checks += [("undefined_load", pushing.any(axis=-1), lambda k: undefined_sentence(c, pushing, k))]
-        checks += [("no_balance", unheld.all(axis=0), lambda k: _no_balance_sentence(c))]
+        checks += [("no_balance", unheld.all(axis=0), lambda k: no_balance_sentence(c, k))]
         checks += friction_checks(c, f, held)
         checks += [
-            ("overflow", not_finite(f) & held, lambda k: overflow_sentence(c, "forces", c.joints, loaded, k)),
-            ("no_balance", unbalanced, lambda k: _no_balance_sentence(c)),
+            ("overflow", not_finite(f) & held, lambda k: overflow_sentence(c, FORCES, c.joints, loaded, k)),
+            ("no_balance", unbalanced, lambda k: no_balance_sentence(c, k)),
             ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
             *reversal_checks(c, f),
         ]
@@ -71,13 +70,15 @@ def statuses(
     return tuple(status), tuple(reasons)
 
 
+SINGULAR = "Dead centre or change point{at}: drive another joint, or step over this position."
+
+
 def _singular_sentence(c: Compiled, where: Ints) -> str:
-    at = [f"{n} = {drive_text(c, int(where[0]), k)}" for k, n in enumerate(c.schedule.names)]
-    here = f" at {' and '.join(at)}" if at else ""
-    return f"Dead centre or change point{here}: drive another joint, or step over this position."
+    return SINGULAR.format(at=arc(c, where[:1]))
 
 
-def _no_balance_sentence(c: Compiled) -> str:
+def no_balance_sentence(c: Compiled, where: Ints) -> str:
+    """Why the loads have no equilibrium at some positions."""
     given = ", ".join(n for n, asked in zip(c.schedule.names, c.known.asked, strict=True) if not asked)
     unknown = ", ".join(c.unknown_loads)
     if c.passive:
@@ -88,7 +89,12 @@ def _no_balance_sentence(c: Compiled) -> str:
             "Put a universal joint in place of one of them, or bring the mass centre onto the line."
         )
     if unknown:
-        return f"The unknown {unknown} cannot balance the given effort of {given}: it has no power here."
+        why = "it has no power here"
+        if c.contacts is not None and c.schedule.moves[where].any():
+            why += ", and the friction that it causes does not balance it either"
+        elif c.contacts is not None:
+            why += ", and friction at rest may have any value within its limits. Give the drive a speed"
+        return f"The unknown {unknown} cannot balance the given effort of {given}: {why}."
     return "The loads have no equilibrium here."
 
 

@@ -23,7 +23,7 @@ def bounds_of(m: Mechanism, text: str) -> tuple[str, dict[str, object]]:
     for part in filter(None, rest.split(",")):
         key, equals, value = part.partition("=")
         if not equals:
-            raise ModelError(f"--on {text}: {part!r} is no bound", "write --on crank:radius=80mm,mass=2kg")
+            raise ModelError(f"--on {text}: {part!r} is not a bound", "write --on crank:radius=80mm,mass=2kg")
         if key == "disc":
             sizes = value.split("/m^3/", 1)
             sizes = [f"{sizes[0]}/m^3", *sizes[1].split("/")] if len(sizes) > 1 else value.split("/")
@@ -69,10 +69,10 @@ def two_planes(m: Mechanism, planes: str, radii: str, on: object) -> tuple[Range
 
 
 def sum_of(text: str) -> str | dict[str, float]:
-    """What is to be least: a word, or parts with their weights."""
+    """Objective: a word, or parts with their weights."""
     if "=" not in text:
         return text
     try:
         return {name: float(value) for name, value in (part.split("=") for part in text.split(","))}
     except ValueError:
-        raise ModelError(f"--of {text} is no sum", "write --of force=1,torque=0.5") from None
+        raise ModelError(f"--of {text} is not a sum", "write --of force=1,torque=0.5") from None

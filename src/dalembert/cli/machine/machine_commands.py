@@ -21,6 +21,7 @@ from dalembert.cli.options import (
     Report,
     Static,
     Theme,
+    numeric,
     several,
     target,
     with_help,
@@ -37,15 +38,13 @@ if TYPE_CHECKING:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Outputs:
-    """What an answer is written to."""
+    """Files of an answer."""
 
-    json: Annotated[
-        Path | None, target("Write everything as JSON to this file; - prints it, and nothing else.")
-    ] = None
+    json: Annotated[Path | None, target("Write everything as JSON; - prints only the JSON.")] = None
     csv: Annotated[
-        Path | None, target("Write a table, one row a position; - prints it, and nothing else.")
+        Path | None, target("Write a table (CSV), one row per position; - prints only the table.")
     ] = None
-    xlsx: Annotated[Path | None, target("Write a workbook: the table, and what is printed.")] = None
+    xlsx: Annotated[Path | None, target("Write a workbook with the table and the printed answer.")] = None
     drawing: Drawing = None
     report: Report = None
     units: PrintedUnits = None
@@ -145,11 +144,21 @@ class Analysis(Outputs):
 AS_ASKED = Analysis()
 
 
-def number_of(r: Result, text: str | None, kind: str) -> float | None:
-    """What an option says, in the units of the file."""
+def number_of(r: Result, text: str | None, kind: str, option: str, key: str) -> float | None:
+    """Value of an option, in the units of the file; raises ArgumentError outside the bounds of its key."""
+    from dalembert.bounds import BOUNDS
+    from dalembert.errors import ArgumentError
     from dalembert.units import file_units, quantity
 
-    return None if text is None else quantity(text, kind, file_units(r.mechanism.units))
+    if text is None:
+        return None
+    try:
+        value = quantity(text, kind, file_units(r.mechanism.units))
+    except ModelError as error:
+        raise ArgumentError(f"--{option}: {error.what}", error.remedy) from None
+    if not BOUNDS[key].allows(value):
+        raise ArgumentError(f"--{option} is {text}", BOUNDS[key].remedy_for(value))
+    return value
 
 
 def shake(
@@ -159,14 +168,15 @@ def shake(
     about: Annotated[
         str | None,
         target(
-            'Point to take moments about: a joint or point of the ground, or "[x, y]"; default its first joint.'
+            'Point about which moments are taken: a joint or point of the ground, or "[x, y]" '
+            "(default: its first joint)."
         ),
     ] = None,
-    links: Annotated[list[str] | None, several("Links to count, one or more (default: all).")] = None,
-    orders: Annotated[int, with_help("Highest order of the harmonics.")] = 4,
+    links: Annotated[list[str] | None, several("Links to include, one or more (default: all).")] = None,
+    orders: Annotated[int, numeric("orders", "Highest order of the harmonics.")] = 4,
     out: Analysis = AS_ASKED,
 ) -> int:
-    """Shaking force and moment of FILE: what the machine exerts on its foundation, and the harmonics."""
+    """Shaking force and moment that the machine of FILE exerts on its foundation, with harmonics."""
     import numpy as np
 
     from dalembert.machine.shaking import shaking
@@ -194,18 +204,17 @@ def flywheel(
     /,
     *,
     cs: Annotated[
-        float | None, Parameter(name="--Cs", help="Fluctuation of speed to allow: (greatest - least) / mean.")
+        float | None,
+        numeric("Cs", "Allowed coefficient of fluctuation of speed: (max - min) / mean.", "--Cs"),
     ] = None,
-    inertia: Annotated[
-        str | None, with_help("Inertia of a flywheel that is there, such as 3.5kg*m^2.")
-    ] = None,
+    inertia: Annotated[str | None, target("Inertia of an existing flywheel, e.g. 3.5kg*m^2.")] = None,
     out: Analysis = AS_ASKED,
 ) -> int:
-    """Flywheel of FILE: energy curve, inertia from Cs or back, and the exact speed over the cycle."""
+    """Flywheel of FILE: energy curve, inertia from Cs, or Cs from inertia, and the exact speed over the cycle."""
     from dalembert.machine.flywheel import flywheels
 
     result = out.of(file)
-    given = number_of(result, inertia, "inertia")
+    given = number_of(result, inertia, "inertia", "inertia", "flywheel inertia")
     return out.answer(result, lambda r: flywheels.flywheel(r, None, cs, given))
 
 
@@ -221,7 +230,7 @@ def balance(
     on: Annotated[
         list[str] | None,
         several(
-            "Links that get a counterweight, each with its bounds: crank, or crank:radius=80mm,mass=2kg; also "
+            "Links with a counterweight, each with its bounds: crank, or crank:radius=80mm,mass=2kg; also "
             "moment=..., place=X/Y, x=FROM/TO, disc=DENSITY/THICKNESS/RADIUS, at=POINT, without spaces."
         ),
     ] = None,
@@ -229,17 +238,20 @@ def balance(
         str | None,
         target("Two planes of a rotor in space, along its axis from the driven joint: 50mm,450mm."),
     ] = None,
-    radii: Annotated[str | None, with_help("Radii of the masses in them: 40mm,60mm, or one of both.")] = None,
+    radii: Annotated[
+        str | None, target("Radii of the masses in these planes: 40mm,60mm, or one radius for both.")
+    ] = None,
     least: Annotated[
-        Literal["rms", "max"], with_help("Make the rms value least (default), or the greatest.")
+        Literal["rms", "max"], with_help("Minimise the rms (default) or the largest value.")
     ] = "rms",
     of: Annotated[
         str,
         with_help(
-            "What: force (default), moment, torque, or a sum of parts of what was: force=1,torque=0.5."
+            "Objective: force (default), moment, torque, or a weighted sum of ratios to the unbalanced values: "
+            "force=1,torque=0.5."
         ),
     ] = "force",
-    about: Annotated[str | None, target("Point to take moments about, as for shake.")] = None,
+    about: Annotated[str | None, target("Point about which moments are taken, as for shake.")] = None,
     output: Annotated[
         Path | None, output_to("Write the model file with the counterweights here: .yaml, .json, .toml.")
     ] = None,
@@ -247,7 +259,7 @@ def balance(
     changes: Changes = AS_IN_FILE,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
-    """Counterweights on links of FILE that leave least shaking, within bounds, proved best; a rotor in two planes."""
+    """Optimal counterweights on links of FILE within bounds, with a proof of optimality; rotors in two planes."""
     from dalembert.cli.machine.counterweight_argument import bounds_of, sum_of, two_planes
     from dalembert.machine.balance.balancing import balance as balanced
     from dalembert.machine.balance.rotors import balance_rotor
@@ -262,7 +274,7 @@ def balance(
         return 0
     if not on:
         remedy = "write --on crank rocker, or of a rotor --planes 50mm,450mm --radii 40mm"
-        raise ModelError("nothing says where masses may be added", remedy)
+        raise ModelError("the links for the counterweights are missing", remedy)
     weights = dict(bounds_of(m, text) for text in on)
     out.deliver(m, lambda: balanced(m, weights, least, sum_of(of), _point(m, about), positions), output)
     return 0
@@ -281,14 +293,25 @@ def simulate(
     *,
     until: Annotated[
         list[str],
-        several('When it ends: a time (2s), or a condition ("O2.speed = 0 rad/s"); the first of several.'),
+        several('End of the motion: a time (2s), or a condition ("O2.speed = 0 rad/s"); the first one met.'),
     ],
     event: Annotated[
         list[str] | None,
-        Parameter(negative=(), help='Condition to note when it is met: "O2.position = 90 deg".'),
+        Parameter(negative=(), help='Condition to record when it is met: "O2.position = 90 deg".'),
     ] = None,
-    count: Annotated[int, with_help("Instants in the answer, evenly in time, besides the events.")] = 201,
-    tolerance: Annotated[float | None, with_help("Relative error of a step (default: 1e-12).")] = None,
+    count: Annotated[
+        int, numeric("instants", "Number of equally spaced instants in the answer, besides the events.")
+    ] = 201,
+    tolerance: Annotated[
+        float | None, numeric("step error", "Relative error of a step (default: 1e-12).")
+    ] = None,
+    steps: Annotated[
+        int,
+        numeric(
+            "steps",
+            "Limit on integration steps when --until gives no time.",
+        ),
+    ] = 10_000,
     changes: Changes = AS_IN_FILE,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
@@ -296,8 +319,8 @@ def simulate(
     from dalembert.machine.motion import simulation
 
     m, small = out.load(file, changes), tolerance or simulation.TOLERANCE
-    found = out.deliver(m, lambda: simulation.simulate(m, until, None, event or (), count, tolerance=small))
-    return 1 if found.ended.startswith("stopped") else 0
+    found = out.deliver(m, lambda: simulation.simulate(m, until, None, event or (), count, small, steps))
+    return {"ended": 0, "interrupted": 130}.get(found.status, 1)
 
 
 SIMULATE = """Examples:

@@ -6,14 +6,16 @@ from pathlib import Path
 from typing import Annotated
 
 from dalembert.cli.machine.machine_commands import AS_ASKED, Analysis, number_of
-from dalembert.cli.options import ModelFile, several, with_help
+from dalembert.cli.options import ModelFile, numeric, several, target, with_help
 
 
 def members(
     file: ModelFile,
     /,
     *,
-    links: Annotated[list[str] | None, several("Links, one or more (default: all with a length).")] = None,
+    links: Annotated[
+        list[str] | None, several("Links to analyse, one or more (default: all with a length).")
+    ] = None,
     out: Analysis = AS_ASKED,
 ) -> int:
     """Axial force, shear and bending moment inside links of FILE; stress, safety and buckling of their sections."""
@@ -25,23 +27,27 @@ def members(
 MEMBERS = """Examples:
   dalembert members press.yaml
   dalembert members press.yaml --links rod --drawing rod.svg --report rod.pdf
-  dalembert members press.yaml --set "links.rod.section={circle: 30 mm, yield_stress: 250 MPa}" """
+  dalembert members press.yaml --set "links.rod.section={circle: 30 mm, yield_stress: 250 MPa}"
+  dalembert members press.yaml --set links.rod.effective_length=1.2"""
 
 
 def bearings(
     file: ModelFile,
     /,
     *,
-    joints: Annotated[list[str] | None, several("Joints, one or more (default: all that turn).")] = None,
-    hours: Annotated[float | None, with_help("Life to be had, in hours.")] = None,
-    table: Annotated[
-        Path | None, with_help("Bearings to choose from: a text file with columns name, C, C0, d.")
+    joints: Annotated[
+        list[str] | None, several("Joints to analyse, one or more (default: all that turn).")
     ] = None,
-    factor: Annotated[float, with_help("The load is taken so many times (default: 1).")] = 1.0,
-    safety: Annotated[float, with_help("C0 over the largest load, at least (default: 1).")] = 1.0,
+    hours: Annotated[float | None, numeric("hours", "Required life in hours.")] = None,
+    table: Annotated[
+        Path | None, with_help("Table of bearings: a text file with columns name, C, C0, d.")
+    ] = None,
+    factor: Annotated[float, numeric("factor", "Load factor (default: 1).")] = 1.0,
+    safety: Annotated[float, numeric("safety", "Minimum static safety factor C0/P0 (default: 1).")] = 1.0,
     out: Analysis = AS_ASKED,
 ) -> int:
-    """Pressure, PV, equivalent load and life of the bearings of FILE; the smallest of a table that lives so long."""
+    """Pressure, PV, equivalent load and life of the bearings of FILE; the smallest one in a table that
+    reaches the required life."""
     from dalembert.machine.bearings.bearing_table import bearings as bearing_table
 
     return out.answer(out.of(file), lambda r: bearing_table(r, joints, hours, table, factor, safety))
@@ -58,22 +64,23 @@ def motor(
     /,
     *,
     drive: Annotated[str | None, with_help("The drive (default: the first).")] = None,
-    inertia: Annotated[str, with_help("The motor's own inertia, such as 0.002kg*m^2.")] = "0",
-    ratio: Annotated[
-        float | None, with_help("Gear ratio, speed of the motor over that of the drive.")
-    ] = None,
-    efficiency: Annotated[float, with_help("Of the gear (default: 1).")] = 1.0,
+    inertia: Annotated[str, target("Inertia of the motor, e.g. 0.002kg*m^2.")] = "0",
+    ratio: Annotated[float | None, numeric("ratio", "Gear ratio: motor speed over drive speed.")] = None,
+    efficiency: Annotated[float, numeric("efficiency", "Efficiency of the gear (default: 1).")] = 1.0,
     curve: Annotated[
-        Path | None, with_help("Greatest torque of the motor: a text file with columns speed, torque.")
+        Path | None, with_help("Torque limit of the motor: a text file with columns speed, torque.")
     ] = None,
-    rated: Annotated[str | None, with_help("Torque that may last, such as 3N*m, against the rms.")] = None,
+    rated: Annotated[
+        str | None, target("Continuous torque rating, e.g. 3N*m, compared with the rms torque.")
+    ] = None,
     out: Analysis = AS_ASKED,
 ) -> int:
-    """Torque, speed and power that a drive of FILE asks for, and the gear ratio with which its motor needs least."""
+    """Torque, speed and power required by a drive of FILE, and the gear ratio that minimises motor torque."""
     from dalembert.machine.motors import motor_choice
 
     result = out.of(file)
-    own, lasting = number_of(result, inertia, "inertia") or 0.0, number_of(result, rated, "moment")
+    own = number_of(result, inertia, "inertia", "inertia", "motor inertia") or 0.0
+    lasting = number_of(result, rated, "moment", "rated", "rated torque")
     choice = drive, own, ratio, efficiency, curve, lasting
     return out.answer(result, lambda r: motor_choice.motor(r, *choice))
 

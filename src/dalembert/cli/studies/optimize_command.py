@@ -28,14 +28,14 @@ def optimize(
     /,
     *,
     output: Annotated[
-        Path | None, output_to("Write the model file of the design found here: .yaml, .json, .toml.")
+        Path | None, output_to("Write the model file of the best design: .yaml, .json, .toml.")
     ] = None,
     report: Annotated[
-        Path | None, with_help("Write a page of before and after here: .html, .pdf, .tex or .txt.")
+        Path | None, with_help("Write a report comparing before and after: .html, .pdf, .tex or .txt.")
     ] = None,
     force: Force = False,
 ) -> int:
-    """Find the numbers of a model file for which something is least, within bounds and conditions."""
+    """Optimise numbers of a model file within bounds and constraints."""
     from dalembert.optimization.optimize_file import optimize_file
     from dalembert.reports import report as write_report
     from dalembert.saving import check_new

@@ -8,9 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from cyclopts import App, Parameter
+from cyclopts import App
 
-from dalembert.cli.options import Force, flag, output, whole, with_help
+from dalembert.cli.options import Force, flag, numeric, output, with_help
 from dalembert.errors import ModelError
 from dalembert.progress import progress
 
@@ -31,11 +31,13 @@ study = App(
 )
 
 StudyFile = Annotated[Path, with_help("Study file: YAML, JSON or TOML.")]
-StorePath = Annotated[str, with_help("Store of a study: a folder, or an address as s3://bucket/pump.zarr.")]
+StorePath = Annotated[
+    str, with_help("Store of a study: a folder, or an address such as s3://bucket/pump.zarr.")
+]
 Either = Annotated[str, with_help("Store of a study, or its study file.")]
-Threads = Annotated[int | None, Parameter(converter=whole(1), help="Threads (default: one a core).")]
+Threads = Annotated[int | None, numeric("threads", "Threads (default: one per core).")]
 Scheduler = Annotated[
-    str | None, with_help("Address of a dask scheduler whose workers compute, as tcp://host:8786.")
+    str | None, with_help("Address of a dask scheduler for the computation, e.g. tcp://host:8786.")
 ]
 
 
@@ -46,18 +48,18 @@ def run(
     file: StudyFile,
     /,
     *,
-    output: Annotated[str | None, output("Store to make (default: FILE with the ending .zarr).")] = None,
+    output: Annotated[str | None, output("New store (default: FILE with extension .zarr).")] = None,
     threads: Threads = None,
     scheduler: Scheduler = None,
 ) -> int:
-    """Run the study of FILE into a new store, and show what it says."""
+    """Run the study of FILE into a new store, and print its summary."""
     from dalembert.studies.store import Store
     from dalembert.studies.study_file import load_study
 
     store = output or str(file.with_suffix(".zarr"))
     if Store(store).exists():
         raise ModelError(
-            f"{store} is there already", f"dalembert study resume {store}, or name another with -o"
+            f"{store} already exists", f"dalembert study resume {store}, or name another with -o"
         )
     return _run(load_study(file), store, threads, scheduler)
 
@@ -67,11 +69,13 @@ def resume(
     study: Either,
     /,
     *,
-    output: Annotated[str | None, output("Store of a study file (default: with the ending .zarr).")] = None,
+    output: Annotated[
+        str | None, output("Store of a study file (default: FILE with extension .zarr).")
+    ] = None,
     threads: Threads = None,
     scheduler: Scheduler = None,
 ) -> int:
-    """Go on with a study that was stopped: blocks that are missing or broken are computed, the others checked."""
+    """Resume a stopped study: missing or damaged blocks are computed, the others checked."""
     from dalembert.studies.store import Store
 
     store = study if _is_store(study) else output or str(Path(study).with_suffix(".zarr"))
@@ -84,13 +88,13 @@ def extend(
     store: StorePath,
     /,
     *,
-    designs: Annotated[float, with_help("How many designs it shall have altogether.")],
+    designs: Annotated[float, with_help("Total number of designs.")],
     threads: Threads = None,
     scheduler: Scheduler = None,
 ) -> int:
-    """Add designs to a study drawn by random or sobol; those that are there stay as they are."""
+    """Add designs to a study with random or sobol sampling; existing designs do not change."""
     if not designs.is_integer():
-        raise ModelError(f"--designs {designs} is no whole number", "give one, as 100000 or 1e6")
+        raise ModelError(f"--designs {designs} is not a whole number", "give one, such as 100000 or 1e6")
     return _run(_read(store).extended(int(designs)), store, threads, scheduler)
 
 
@@ -104,12 +108,12 @@ def show(
     contributions: Annotated[
         Literal["linear", "sobol"] | None,
         with_help(
-            "What each number contributes to the variance, by derivatives or by sampling; and the worst case."
+            "Contribution of each number to the variance, by derivatives or by sampling, and the worst case."
         ),
     ] = None,
-    unused: Annotated[bool, flag("Name numbers that change no output.")] = False,
+    unused: Annotated[bool, flag("Name numbers that do not affect any output.")] = False,
 ) -> int:
-    """Print statuses, percentiles, histograms, worst and best designs, and the share that keeps the limits."""
+    """Print the summary: statuses, percentiles, histograms, worst and best designs, and the yield."""
     from dalembert.studies.output.study_text import contributions_text, summary
 
     found = _stored(store)
@@ -125,7 +129,7 @@ def show(
 @study.command(help_epilogue="Examples:\n  dalembert study design pump.zarr 4711 -o design.yaml")
 def design(
     study: Either,
-    number: Annotated[int, Parameter(converter=whole(0), help="Number of the design, from 0.")],
+    number: Annotated[int, numeric("design", "Number of the design, from 0.")],
     /,
     *,
     output: Annotated[
@@ -133,7 +137,7 @@ def design(
     ] = None,
     force: Force = False,
 ) -> int:
-    """Print the numbers of one design, made again exactly; or write its model file."""
+    """Print the numbers of one design, reproduced exactly, or write its model file."""
     from dalembert.studies.output.study_text import design_text
 
     found = _read(study)
@@ -166,7 +170,7 @@ def report(
     output: Annotated[Path, output("File to write: .html, .pdf, .tex or .txt.")],
     force: Force = False,
 ) -> int:
-    """Write a page: percentiles, histograms, limits, contributions, worst case, responses, extreme designs drawn."""
+    """Write a report: percentiles, histograms, limits, contributions, worst case, responses, extreme designs."""
     from dalembert.saving import check_new
 
     check_new(output, force)

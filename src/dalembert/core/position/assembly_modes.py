@@ -138,11 +138,14 @@ def _order(layout: Layout, laid: Laid, stated: Array, wanted: Wanted) -> Ints:
     """The order in which ways are taken, which may be laid down in part."""
     wrong = (laid.side * stated[: laid.side.shape[1]] < 0).sum(axis=1)
     off = np.nansum(wrap_angle(laid.turn - wanted.turn)[:, :-1] ** 2, axis=1)
-    shift = np.nansum((laid.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length**2
+    shift = np.nansum((laid.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length / layout.length
     keys = [wrong, off, shift]
     if wanted.start is not None:
         away = np.nansum(wrap_angle(laid.turn - wanted.start.turn) ** 2, axis=1)
-        keys.append(away + np.nansum((laid.point - wanted.start.point) ** 2, axis=(1, 2)) / layout.length**2)
+        keys.append(
+            away
+            + np.nansum((laid.point - wanted.start.point) ** 2, axis=(1, 2)) / layout.length / layout.length
+        )
     if wanted.given:
         order = np.lexsort([key.round(9) for key in reversed(keys)])
         if np.any([np.diff(key[order].round(9)) for key in keys], axis=0).all():

@@ -32,6 +32,7 @@ from dalembert.core.position.assembly_modes import (
 )
 from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.newton import CLOSED, close_loops, distance
+from dalembert.core.position.wheel_places import WheelPlaces, loose_places
 
 STARTS = 64
 FEW = 40
@@ -97,10 +98,7 @@ def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
 
 
 def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
-    rows = free.constraints.count
-    drawn = _starting_poses(
-        free, target, guess, np.zeros((1, layout.links + 1)), np.full((1, rows), layout.length)
-    )
+    drawn = _starting_poses(free, target, guess, np.zeros((1, layout.links + 1)), slides_ahead(layout, free))
     pose, missing = close_loops(free, drawn, target[None])
     given = np.isfinite(guess.turn[:-1])
     if missing[0] <= CLOSED * layout.length:
@@ -121,9 +119,15 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
 def tree_pose(layout: Layout, target: Array, guess: Guess) -> Pose:
     """The links laid down joint by joint (L+1, ...): the first start, before any correction."""
     one = np.zeros((1, layout.links + 1))
-    return _starting_poses(
-        layout, target, guess, one, np.full((1, layout.constraints.count), layout.length)
-    ).at(0)
+    return _starting_poses(layout, target, guess, one, slides_ahead(layout, layout)).at(0)
+
+
+def slides_ahead(layout: Layout, free: Layout) -> Array:
+    """How far along its axis each row of the free layout lays a point down (1, K): the characteristic length, but
+    wheels that roll on a line over the point that says where they are."""
+    rolling = [f.row[f.pitch != 0] for f in layout.constraints.families if isinstance(f, Along)]
+    joints = layout.constraints.joint[np.concatenate([*rolling, np.zeros(0, np.intp)]).astype(np.intp)]
+    return np.where(np.isin(free.constraints.joint, joints), 0.0, layout.length)[None]
 
 
 def phase_rows(rows: Rows) -> Ints:
@@ -144,13 +148,26 @@ def without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tu
     kept = np.setdiff1d(np.arange(layout.constraints.count), phased)
     target = np.concatenate([target[kept], target[layout.constraints.count :]])
     free = with_rows(layout, kept, [])
-    held = held_wheels(layout, free, target, phased, guess) if hold else []
-    angles = np.nan_to_num(guess.turn[np.array(held, np.intp)])
-    return with_rows(layout, kept, held), np.concatenate([target[: len(kept)], angles, target[len(kept) :]])
+    if not hold:
+        return free, target
+    held = held_wheels(layout, free, target, phased, guess)
+    known = np.concatenate([target[: len(kept)], np.nan_to_num(guess.turn[np.array(held, np.intp)])])
+    places = held_places(
+        layout, with_rows(layout, kept, held), np.concatenate([known, target[len(kept) :]]), guess
+    )
+    values = np.zeros(0) if places is None else places.value
+    return with_rows(layout, kept, held, places), np.concatenate([known, values, target[len(kept) :]])
 
 
-def with_rows(layout: Layout, kept: Ints, held: list[int]) -> Layout:
-    """The layout with some of its constraints, and rows that hold the angles of some links."""
+def held_places(layout: Layout, free: Layout, target: Array, guess: Guess) -> WheelPlaces | None:
+    """The wheels on lines that are still free to shift with their angles held."""
+    one = np.zeros((1, layout.links + 1))
+    pose = _starting_poses(free, target, guess, one, slides_ahead(layout, free))
+    return loose_places(layout, free, pose, guess.turn, guess.point)
+
+
+def with_rows(layout: Layout, kept: Ints, held: list[int], places: WheelPlaces | None = None) -> Layout:
+    """The layout with some of its constraints, and rows that hold the angles of some links and wheels on lines."""
     rows, count = layout.constraints, len(kept) + len(held)
     place, ground = np.arange(len(kept), count), np.full(len(held), layout.links)
     families = select_rows(rows, kept)
@@ -158,13 +175,16 @@ def with_rows(layout: Layout, kept: Ints, held: list[int]) -> Layout:
         families.append(Turn(place, ground, np.array(held, np.intp)))
     angular = np.concatenate([rows.angular[kept], np.ones(len(held), bool)])
     joint = np.concatenate([rows.joint[kept], np.zeros(len(held), np.intp)])
-    return replace(layout, constraints=Rows(count, rows.links, tuple(families), joint, angular))
+    if places is not None:
+        families.append(places.renumbered(count))
+        angular, joint = np.append(angular, np.zeros(len(places.joint), bool)), np.append(joint, places.joint)
+    return replace(layout, constraints=Rows(len(joint), rows.links, tuple(families), joint, angular))
 
 
 def held_wheels(layout: Layout, free: Layout, target: Array, phased: Ints, guess: Guess) -> list[int]:
     """A link for each phase row that still turns where it is laid down: j, else i, else any; given angles first."""
     one = np.zeros((1, layout.links + 1))
-    pose = _starting_poses(free, target, guess, one, np.full((1, free.constraints.count), layout.length))
+    pose = _starting_poses(free, target, guess, one, slides_ahead(layout, free))
     rows = stack_rows(free, pose)
     scaled = dense(free, rows)[0] * free.row_scale[:, None] * free.column_scale
     idle = np.eye(layout.unknowns) - generalized_inverse(scaled, rcond=1e-7) @ np.nan_to_num(scaled)
@@ -191,7 +211,8 @@ def _search_modes(layout: Layout, free: Layout, target: Array, wanted: Wanted, g
     by = "nearest" if wanted.given else "search"
     if way is None or not way.closed:
         angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
-        found = _closing(free, _starting_poses(free, target, guess, angles, slides * layout.length), target)
+        ahead = slides * slides_ahead(layout, free)
+        found = _closing(free, _starting_poses(free, target, guess, angles, ahead), target)
         if found is not None:
             found = distinct(layout, remove_whole_turns(layout, found))
             return Modes(found.at(sort_modes(layout, found, wanted)), by)
@@ -342,7 +363,7 @@ def _spread_turns(turn: Array, target: Array, edges: _Edges) -> None:
     while grown:
         grown = False
         for i, j, row in edges.turns:
-            if np.isnan(turn[0, i]) != np.isnan(turn[0, j]):
+            if np.isnan(turn[0, i]) != np.isnan(turn[0, j]) and np.isfinite(target[row]):
                 known, new, sign = (i, j, 1.0) if np.isnan(turn[0, j]) else (j, i, -1.0)
                 turn[:, new] = turn[:, known] + sign * target[row]
                 grown = True

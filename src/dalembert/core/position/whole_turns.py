@@ -69,11 +69,23 @@ def rigid_turns(layout: Layout) -> Ints:
 
 def phase_freedoms(layout: Layout, pose: Pose) -> Flags:
     """Freedoms (F,) that the phases of meshing or rolling wheels turn."""
-    rows = phase_rows(layout.constraints)
-    if not rows.size:
-        return np.zeros(layout.freedoms.count, bool)
+    moved = _with_phase(layout, pose)
     with np.errstate(all="ignore"):
-        one = np.eye(layout.stack.count)[rows] * layout.row_scale[rows, None]
-        moved = twists(layout, displacements(layout, stack_rows(layout, pose.at(None)), one)[0])
         turns = rates(system(layout.algebra, layout.freedoms, pose), moved) * layout.length
     return np.asarray((np.abs(turns) > MOVES).any(axis=0) & layout.freedoms.angular)
+
+
+def phase_links(layout: Layout, pose: Pose) -> Flags:
+    """Links of the plane (L,) that the phases of meshing or rolling wheels turn."""
+    turns = _with_phase(layout, pose)[:, :-1, -1] * layout.length
+    return np.asarray((np.abs(turns) > MOVES).any(axis=0))
+
+
+def _with_phase(layout: Layout, pose: Pose) -> Array:
+    """Displacements (phases, L+1, n) of the links for one unit of each phase."""
+    rows = phase_rows(layout.constraints)
+    if not rows.size:
+        return np.zeros((0, layout.links + 1, layout.algebra.n))
+    with np.errstate(all="ignore"):
+        one = np.eye(layout.stack.count)[rows] * layout.row_scale[rows, None]
+        return np.asarray(twists(layout, displacements(layout, stack_rows(layout, pose.at(None)), one)[0]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from dalembert.errors import DalembertError, ModelError
+from dalembert.errors import DalembertError, MissingFileError, ModelError
 from dalembert.grading.answer_sheet import about_sheet, named_figure, sheet_items
 from dalembert.grading.marking.key import cell_value, place
 from dalembert.grading.marking.table_files import KEYS, Row, read_table
@@ -42,7 +42,7 @@ def class_sheets(path: str | Path) -> list[StudentSheet]:
     path = Path(path)
     if not path.is_dir():
         if not path.exists():
-            raise ModelError(f"there is no file or folder {path}", "name a folder of answers, or a table")
+            raise MissingFileError(str(path), "name a folder of answers, or a table")
         return list(_sheets(path, strict=True))
     files = sorted(p for p in path.iterdir() if p.suffix.lower() in ENDINGS and not p.name.startswith("."))
     if not files:

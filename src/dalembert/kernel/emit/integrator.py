@@ -22,8 +22,9 @@ SAFETY, LEAST, MOST, STILL = 0.9, 0.2, 10.0, 2e-15
 
 
 def state_size(n: int) -> int:
-    """Numbers of a motion: state, its rates, time, next step, end, two tolerances, most growth, attempts made."""
-    return 2 * n + 7
+    """Numbers of a motion: state, its rates, least errors that count, time, next step, end, relative tolerance, most
+    growth, attempts made."""
+    return 3 * n + 6
 
 
 def record_size(n: int) -> int:
@@ -90,13 +91,14 @@ class _Integrator(Text):
         self.put(f"call void @next({given}, i64 {s}, {self.kind} {t}, {self.kind} {h})")
         return []
 
-    def error(self, h: str, tolerance: str, least: str) -> str:
+    def error(self, h: str, tolerance: str) -> str:
         """The estimated error of a step over what is allowed."""
 
         def one(i: str, fifth: str, third: str) -> list[str]:
             off = [self.combined(str(ERRORS + k), STAGES + 1, i) for k in range(2)]
             ends = [self.intrinsic("fabs", self.get(base, i)) for base in ("%y", "%w")]
             size = self.select(self.compare("ogt", *ends), *ends)
+            least = self.get("%y", self.sum(i, 2 * self.n))
             scale = self.intrinsic("fmuladd", tolerance, size, least)
             parts = [self.let(f"fdiv {self.kind} {x}, {scale}") for x in off]
             return [
@@ -180,9 +182,9 @@ def _motion(t: _Integrator, b: str) -> list[str]:
     t.put(f"%y = getelementptr inbounds {t.kind}, ptr %state, i64 {t.product(b, state_size(n))}")
     t.put(f"%f = getelementptr inbounds {t.kind}, ptr %y, i64 {n}")
     _copy(t, ("%y", 0, "%z"))
-    t.set(t.get("%y", 2 * n), "%z", n)
+    t.set(t.get("%y", 3 * n), "%z", n)
     t.put("call void @stage(ptr %z, ptr %given, ptr %f)")
-    t.set(t.splat(0.0), "%y", 2 * n + 6)
+    t.set(t.splat(0.0), "%y", 3 * n + 5)
     t.put(f"%pages = mul i64 {b}, %most")
     t.put("%some = icmp ugt i64 %most, 0")
     t.put("br i1 %some, label %attempts, label %done")
@@ -207,7 +209,7 @@ def _copy(t: _Integrator, *ways: tuple[str, str | int, str]) -> None:
 def _attempt(t: _Integrator, j: str) -> list[str]:
     """One attempt of a step of every lane: those that have ended, or go nowhere, stay."""
     n, zero = t.n, t.splat(0.0)
-    time, wish, end, tolerance, least, growth, made = (t.get("%y", 2 * n + k) for k in range(7))
+    time, wish, end, tolerance, growth, made = (t.get("%y", 3 * n + k) for k in range(6))
     room = t.let(f"fsub {t.kind} {end}, {time}")
     last = t.compare("oge", wish, room)
     h = t.select(last, room, wish)
@@ -215,7 +217,7 @@ def _attempt(t: _Integrator, j: str) -> list[str]:
 
     t.loop(STAGES, lambda s: t.stage(t.sum(s, 1), time, h))
     _copy(t, ("%z", 0, "%w"))
-    error = t.error(h, tolerance, least)
+    error = t.error(h, tolerance)
     moves, small = t.compare("ogt", h, zero), t.compare("olt", error, t.splat(1.0))
     taken = t.both(moves, small)
     root = error
@@ -256,8 +258,8 @@ def _attempt(t: _Integrator, j: str) -> list[str]:
     refused = t.both(moves, t.compare("uge", error, t.splat(1.0)))
     growth = t.select(refused, t.splat(1.0), t.splat(MOST))
     made = t.let(f"fadd {t.kind} {made}, {t.splat(1.0)}")
-    for k, value in ((0, new), (1, wish), (5, growth), (6, made)):
-        t.set(value, "%y", 2 * n + k)
+    for k, value in ((0, new), (1, wish), (4, growth), (5, made)):
+        t.set(value, "%y", 3 * n + k)
     live = t.both(t.compare("olt", new, end), t.compare("ogt", wish, zero))
     if t.lanes > 1:
         live = t.let(f"call i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit} {live})")

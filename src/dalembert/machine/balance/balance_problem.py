@@ -62,10 +62,23 @@ class Problem:
         """Values (P, d) of a quantity with these mass numbers."""
         return np.asarray(self.base[name] + self.columns[name] @ numbers)
 
+    def weighted(self, least: str, of: Mapping[str, float]) -> dict[str, float]:
+        """The weights of what counts, that is not 0 before, so that their sum, of squares under a root or as they are,
+        is 1 without counterweights."""
+        before = self.sizes(least)
+        used = {n: w for n, w in of.items() if w and before[n]}
+        whole = math.hypot(*used.values()) if least == "rms" else sum(used.values())
+        return {n: w / whole for n, w in used.items()}
+
+    def part(self, least: str, of: Mapping[str, float], parts: Mapping[str, float]) -> float:
+        """What is left of a weighted sum, as a part of what it was before; ``parts``: what is left of each quantity."""
+        some = [w * parts[n] for n, w in self.weighted(least, of).items()]
+        return math.hypot(*some) if least == "rms" else sum(some)
+
     def solve(self, least: str, of: Mapping[str, float]) -> Solved:
         """The least weighted sum: of squares of rms values under a root, or of greatest values."""
         before = self.sizes(least)
-        used = {n: w / before[n] for n, w in of.items() if w and before[n]}
+        used = {n: w / before[n] for n, w in self.weighted(least, of).items()}
         if not used:
             return self._solved(np.zeros(self.count * len(self.weights)), 0.0, least, of)
         maps, cones = self._variables(used)
@@ -87,8 +100,7 @@ class Problem:
             p[k] *= p[k][0] > NOTHING * (w.mass or 0.0)
         left = {n: self.predict(n, p.ravel()) for n in self.base}
         parts = {n: _size(least, v) / (_size(least, self.base[n]) or 1.0) for n, v in left.items()}
-        some = [w * parts[n] for n, w in of.items()]
-        return Solved(p.ravel(), math.hypot(*some) if least == "rms" else sum(some), bound, parts)
+        return Solved(p.ravel(), self.part(least, of, parts), bound, parts)
 
     def _variables(self, used: Mapping[str, float]) -> tuple[Array, list[tuple[Array, Array]]]:
         """Mass numbers as a linear map (N W, n) of the numbers that matter, and the cones (G, h) these are in."""

@@ -8,14 +8,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.output.columns import Scale
+from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import dynamics
 from dalembert.arrays import Array, Tree
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.balance.balance_problem import Problem, Solved
 from dalembert.machine.balance.comparison import Comparison, values_of
@@ -30,11 +32,8 @@ from dalembert.machine.balance.mass_columns import mass_columns, numbers_of
 from dalembert.machine.output.written import greatest
 from dalembert.machine.shaking import About, Shaking, shaking
 from dalembert.machine.whole_cycle import over_a_turn, refuse_unknown
-from dalembert.model import GROUND
-
-if TYPE_CHECKING:
-    from dalembert.analysis.result.result import Result
-    from dalembert.model import Mechanism
+from dalembert.model import GROUND, AtPositions, Mechanism, ModelOrPath, as_mechanism
+from dalembert.wording import quote_value
 
 Least = Literal["rms", "max"]
 QUANTITIES = ("force", "moment", "torque")
@@ -56,7 +55,7 @@ class Placed:
     radius: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Balance(Comparison):
     """Counterweights by link, what is left, and the proof that no others leave less.
 
@@ -88,22 +87,24 @@ class Balance(Comparison):
 
     @property
     def complete(self) -> bool:
-        """Whether nothing of the force is left: full force balance."""
-        before, after = (greatest(s.without_weight("force"))[0] for s in (self.before, self.after))
-        return after < COMPLETE * (before or 1.0)
+        """Whether nothing of the inertia force is left: full force balance."""
+        before, after = (greatest(s.parts["inertia"][0])[0] for s in (self.before, self.after))
+        return after <= max(COMPLETE * before, self.before.floor("force"))
 
     def trade_off(self, other: str, count: int = 9) -> list[tuple[float, float]]:
         """Pairs (of, other), parts of what they were before, none of which can be bettered in both.
 
         From the least of ``of`` to the least of the other, by weights cos and sin of even angles.
         """
+        require("count", count)
+        if other not in QUANTITIES:
+            raise ModelError(f"{other!r} cannot be balanced", f"there is: {', '.join(QUANTITIES)}")
         out = []
         for angle in np.linspace(0.02, math.pi / 2 - 0.02, count):
             weights = {n: w * math.cos(angle) for n, w in self.of.items()}
             weights[other] = weights.get(other, 0.0) + math.sin(angle)
             found = self.problem.solve(self.least, weights)
-            main = math.hypot(*(w * found.parts[n] for n, w in self.of.items()))
-            out.append((main, found.parts[other]))
+            out.append((self.problem.part(self.least, self.of, found.parts), found.parts[other]))
         return out
 
     @property
@@ -113,16 +114,17 @@ class Balance(Comparison):
 
     def missing(self) -> list[str]:
         """Links of which a counterweight too is needed for full force balance; empty where it is there or cannot be."""
-        if self.complete or self.only_bounds:
+        if self.complete or self.only_bounds or _force_left(self.result, [*self.result.links]) >= COMPLETE:
             return []
-        r, m = self.result, self.result.mechanism
-        held = {link for joint in m.joints.values() if GROUND in joint.links for link in joint.links}
-        rest = [link for link in r.links if link not in self.weights and m.mass(link)]
-        rest.sort(key=lambda link: link not in held)  # a pivot on the ground is the first place for one
-        for link in rest:
-            if _force_left(r, [*self.weights, link]) < COMPLETE:
-                return [link]
-        return rest if rest and _force_left(r, [*self.weights, *rest]) < COMPLETE else []
+        joints = self.result.mechanism.joints.values()
+        held = {link for joint in joints if GROUND in joint.links for link in joint.links}
+        needed = [link for link in self.result.links if link not in self.weights]
+        for link in sorted(
+            needed, key=lambda link: link in held
+        ):  # a pivot on the ground is the first place for one
+            fewer = [other for other in needed if other != link]
+            needed = fewer if _force_left(self.result, [*self.weights, *fewer]) < COMPLETE else needed
+        return needed
 
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""
@@ -145,19 +147,20 @@ class Balance(Comparison):
 
 
 def balance(
-    m: Mechanism | Result,
+    m: ModelOrPath | Result,
     weights: Wanted,
     least: Least = "rms",
     of: Of = "force",
     about: About = None,
-    positions: int | None = None,
+    positions: AtPositions = None,
 ) -> Balance:
     """Counterweights on links that leave least of the shaking force, moment, torque, or a weighted sum, over the cycle.
 
     ``weights``: links, or by link the bounds of a `Counterweight`. ``least``: the root mean square over the positions
     or the greatest value. ``of``: `force`, `moment` (about ``about``) or `torque` (of the first drive), or weights of
     these, {"force": 1, "torque": 0.5}, each as a part of what it was before; rms values add up by their squares,
-    greatest values as they are. Weights, which are constant, do not count in force and moment, but in the torque.
+    greatest values as they are. Force and moment are those of inertia: weights and loads from outside do not count in
+    them, as no counterweight balances a load, but in the torque. What was 0 before has no part and does not count.
     Convex and exact for all harmonics; a weight not needed is 0. Raises ModelError for bounds that mean nothing.
     Berkof and Lowen, J. Eng. Ind. 91 (1969); Demeulenaere, Verschuure et al. (2004) for the convex form.
 
@@ -167,9 +170,9 @@ def balance(
     >>> found.complete, bool(found.gap < 1e-9)
     (True, True)
     """
-    from dalembert.model import Mechanism as Description
-
-    r = dynamics(m, over_a_turn(m, positions)) if isinstance(m, Description) else m
+    if least not in ("rms", "max"):
+        raise ModelError(f"least is {quote_value(least)}", "write rms or max")
+    r = m if isinstance(m, Result) else _over_a_cycle(as_mechanism(m), positions)
     wanted, asked, before = _wanted(of, r), counterweights(r.mechanism, weights), shaking(r, about)
     base = {name: v.reshape(len(v), -1) for name, v in values_of(before).items()}
     refuse_unknown(r, "balancing needs every position", *base.values())
@@ -187,13 +190,16 @@ def balance(
     return Balance(r, asked, least, wanted, placed, numbers, *proof, problem)
 
 
+def _over_a_cycle(m: Mechanism, positions: AtPositions) -> Result:
+    return dynamics(m, over_a_turn(m, positions))
+
+
 def _wanted(of: Of, r: Result) -> dict[str, float]:
     wanted = {of: 1.0} if isinstance(of, str) else dict(of)
     for name, weight in wanted.items():
         if name not in QUANTITIES:
             raise ModelError(f"{name!r} cannot be balanced", f"there is: {', '.join(QUANTITIES)}")
-        if not weight >= 0:
-            raise ModelError(f"the weight of {name} is {weight:g}", "give a number that is not negative")
+        require("weight", weight, f"the weight of {name}")
         if name == "torque" and not r.drives:
             raise ModelError("no drive has a torque that could be balanced", "balance force or moment")
     if not any(wanted.values()):
@@ -227,7 +233,9 @@ def _force_left(r: Result, links: list[str]) -> float:
     asked = counterweights(r.mechanism, links)
     s = shaking(r)
     columns = mass_columns(r, asked, s.point, None).of["force"]
-    base = s.without_weight("force").ravel()
+    if not greatest(s.parts["inertia"][0])[0] > s.floor("force"):
+        return 0.0
+    base = s.parts["inertia"][0].ravel()
     flat = columns.reshape(len(base), len(links), -1)[..., 1 : columns.shape[1] + 1].reshape(len(base), -1)
     scale = np.abs(flat).max(axis=0)
     counts = scale > 1e-12 * scale.max()

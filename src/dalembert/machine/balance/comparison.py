@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Comparison(Answer):
-    """An answer with shaking ``before`` and ``after``; weights, which are constant, are left out."""
+    """An answer with shaking ``before`` and ``after``; of force and moment the parts of inertia are compared."""
 
     before: Shaking
     after: Shaking
@@ -44,13 +44,16 @@ class Comparison(Answer):
         """Force, moment and torque before and after, over the positions."""
         yield from self.drive_columns()
         for name, s in (("before", self.before), ("after", self.after)):
-            shaking = (c for c in s.columns() if c.name.startswith("shaking"))
-            yield from (c._replace(name=f"{name} {c.name}") for c in shaking)
+            shaking = (c for c in s.columns() if c.name.startswith(("shaking", "inertia")))
+            yield from (c._replace(name=f"{name}.{c.name}") for c in shaking)
             for drive in s.result.drives:
-                yield Column(f"{name} effort {drive}", "moment", s.result.effort(drive))
+                yield Column(f"{name}.effort.{drive}", "moment", s.result.effort(drive))
 
 
 def values_of(s: Shaking) -> dict[str, Array]:
-    """Force and moment that added masses are to make small, and the effort of the first drive if there is one."""
+    """Force and moment of inertia, which added masses are to make small, and the effort of the first drive if any.
+
+    No added mass changes a load from outside, so neither that nor the weights are part of what is to be least.
+    """
     torque = {"torque": s.result.effort(s.result.drives[0])} if s.result.drives else {}
-    return {name: s.without_weight(name) for name in ("force", "moment")} | torque
+    return dict(zip(("force", "moment"), s.parts["inertia"], strict=True)) | torque

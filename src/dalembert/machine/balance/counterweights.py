@@ -17,6 +17,7 @@ import numpy as np
 
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.arrays import Array, Tree
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
 from dalembert.wording import closest
@@ -115,10 +116,17 @@ def _known(link: str, bounds: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _check(link: str, w: Counterweight, d: int) -> None:
-    numbers: list[float | None] = [w.radius, w.mass, w.moment, *(w.disc or ())]
-    bad = [x for x in numbers if x is not None and not (x > 0 and math.isfinite(x))]
-    if bad:
-        raise ModelError(f"counterweight on {link}: a bound is {bad[0]:g}", "give positive numbers")
+    sizes = {name: getattr(w, name) for name in ("radius", "mass", "moment")}
+    sizes |= zip(("density", "thickness", "largest radius"), w.disc or (), strict=False)
+    for name, size in sizes.items():
+        require("bound", size, f"counterweight on {link}: {name}")
+    if w.disc is not None and len(w.disc) != 3:
+        raise ModelError(
+            f"counterweight on {link}: a disc is density, thickness, largest radius", "give three numbers"
+        )
+    for name, ends in (("place", w.place), *zip("xyz", w.spans, strict=True)):
+        for end in ends or ():
+            require("place", end, f"counterweight on {link}: {name}")
     if (w.place is not None and len(w.place) != d) or (d == 2 and w.z is not None):
         raise ModelError(f"counterweight on {link}: a place has {d} coordinates", "give so many, in metres")
     for name, span in zip("xyz", w.spans, strict=True):

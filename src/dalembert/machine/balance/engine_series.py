@@ -51,9 +51,10 @@ class EngineSeries:
 
     @property
     def loss(self) -> float:
-        """Largest difference of the book's force, over the largest exact force."""
+        """Largest difference of the book's force, over the largest exact force; 0 where it is rounding."""
         exact = self.exact.parts["inertia"][0]
-        return greatest(exact - self.force)[0] / (greatest(exact)[0] or 1.0)
+        off = greatest(exact - self.force)[0]
+        return off / greatest(exact)[0] if off > self.exact.floor("force") else 0.0
 
 
 def cylinders(m: Mechanism) -> tuple[Cylinder, ...]:

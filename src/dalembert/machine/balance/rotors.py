@@ -21,19 +21,23 @@ from dalembert.analysis.output.columns import Scale
 from dalembert.analysis.result.transmission_lines import ground_points
 from dalembert.analysis.solution import dynamics
 from dalembert.arrays import Array, Tree
-from dalembert.errors import ModelError
+from dalembert.bounds import require
+from dalembert.errors import ArgumentError, ModelError
 from dalembert.machine.balance.comparison import Comparison
 from dalembert.machine.balance.counterweights import with_masses
 from dalembert.machine.shaking import Shaking, shaking
 from dalembert.machine.whole_cycle import over_a_turn
-from dalembert.model import GROUND
+from dalembert.model import GROUND, ModelOrPath, as_mechanism
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Mechanism
 
 
-@dataclass(frozen=True)
+NOTHING = 1e-15
+"""Part of the sizes of what adds up to the unbalance below which it is rounding."""
+
+
+@dataclass(frozen=True, eq=False)
 class RotorBalance(Comparison):
     """Corrections in two planes: m r (2,), kg m, and angles (2,), rad, from an axis of the shaft across its own.
 
@@ -57,6 +61,14 @@ class RotorBalance(Comparison):
     before: Shaking = field(repr=False)
     after: Shaking = field(repr=False)
 
+    @property
+    def residual(self) -> float:
+        """What the corrections leave, S and T over the greatest distance of a plane, over all moments that they have;
+        0 of a rotor that was balanced already."""
+        reach = max(abs(z) for z in (*self.planes, self.planes[1] - self.planes[0]))
+        left = max(abs(self.left[0]), abs(self.left[1]) / reach)
+        return float(left / self.moment.sum()) if self.moment.any() else 0.0
+
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""
         moment = to("mass", to("length", self.moment))
@@ -75,7 +87,7 @@ class RotorBalance(Comparison):
         return {"rotor": out | self.sizes_record(to)}
 
 
-def balance_rotor(m: Mechanism, planes: tuple[float, float], radii: Sequence[float]) -> RotorBalance:
+def balance_rotor(m: ModelOrPath, planes: tuple[float, float], radii: Sequence[float]) -> RotorBalance:
     """Corrections of a rotor in space, in two planes (m along the driven joint's axis, from it) at radii (m).
 
     All moving links must turn with the first drive's joint. Angles count from the axis of the shaft's link that is
@@ -88,16 +100,19 @@ def balance_rotor(m: Mechanism, planes: tuple[float, float], radii: Sequence[flo
     >>> bool(np.abs(again.unbalance).max() < 1e-12 * np.abs(found.unbalance).max())
     True
     """
+    m = as_mechanism(m)
     if m.dimension == 2:
         raise ModelError(
             "two planes balance a rotor in space, and this one is in the plane", "use da.balance"
         )
+    for key, two in (("plane", planes), ("radius", radii)):
+        for value in two:
+            require(key, value)
+        if len(two) != 2:
+            raise ArgumentError(f"{len(two)} of two: {key}", "give one for each of the two planes")
     (a, b), radius = planes, np.array(radii, float)
-    if not abs(b - a) > 0 or not radius.min() > 0:
-        raise ModelError(
-            f"planes at {a:g} and {b:g} m, radii {radius[0]:g} and {radius[1]:g} m",
-            "give two planes and two radii",
-        )
+    if a == b:
+        raise ArgumentError(f"both planes are at {a:g} m", "give two planes apart: (0.05, 0.45)")
     r = dynamics(m, over_a_turn(m))
     shaft, joint, frame, zero = _axes(r)
     origin = joint_place(r, joint)[0]
@@ -138,7 +153,7 @@ def _axes(r: Result) -> tuple[str, str, Array, str]:
 
 def _unbalance(r: Result, origin: Array, frame: Array) -> tuple[complex, complex]:
     """S and T of all links, with the products of inertia about their centres in T."""
-    out = np.zeros(2, complex)
+    out, sizes = np.zeros(2, complex), np.zeros(2)
     for link in r.links:
         mass, c, turned = (
             r.mechanism.mass(link),
@@ -148,4 +163,7 @@ def _unbalance(r: Result, origin: Array, frame: Array) -> tuple[complex, complex
         products = turned @ inertia_matrix(r, link) @ turned.T
         u = mass * complex(c[0], c[1])
         out += u, c[2] * u - complex(products[0, 2], products[1, 2])
+        reach = float(np.abs(c).max()) + r.compiled.layout.length
+        sizes += mass * reach, mass * reach**2 + np.abs(products).max()
+    out = np.where(np.abs(out) > NOTHING * sizes, out, 0.0)
     return complex(out[0]), complex(out[1])

@@ -9,16 +9,17 @@ Mechanics: docs/theory.md 10.5.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.friction.bearing_ends import bearing_axis
 from dalembert.analysis.methods.applied_forces import magnitude
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Ints
+from dalembert.bounds import require
 from dalembert.errors import ModelError
-from dalembert.machine.whole_cycle import durations
+from dalembert.machine.whole_cycle import durations, sampling
 from dalembert.model import GROUND
 from dalembert.model.joints.bearing_keys import Bearing
 from dalembert.wording import closest
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 MILLION = 1e6
+STILL = 1e-12
+"""Part of the links' own speeds below which the turn of one against the other is rounding."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +76,7 @@ class BearingLoad:
 
     @property
     def mean_pv(self) -> float:
-        """Its mean over time."""
+        """Its mean over time, by the positions: ``sampling`` says how much half of them would change it."""
         return float((self.pv * self.time).sum() / self.time.sum())
 
     @property
@@ -84,6 +87,22 @@ class BearingLoad:
             thrust = np.nanmax(self.axial, initial=0.0) > 1e-9 * np.nanmax(self.radial, initial=0.0)
             return np.full_like(self.radial, np.nan) if thrust else self.radial
         return np.maximum(self.radial, b.radial_factor * self.radial + b.axial_factor * self.axial)
+
+    def sampling(self) -> dict[str, float]:
+        """By how much half of the positions would change its greatest values and means, as parts of these."""
+        peaks = {"radial force": self.radial} | ({"greatest PV": self.pv} if self.sized else {})
+        return sampling(self.result, lambda at: self._at(at)._summary(), peaks)
+
+    def _at(self, at: Ints) -> BearingLoad:
+        """The same at some positions alone."""
+        found = {name: getattr(self, name)[at] for name in ("radial", "axial", "couple", "rate")}
+        return replace(self, **found, time=durations(self.result, at))
+
+    def _summary(self) -> dict[str, float]:
+        """The values that are over all positions."""
+        out = {"equivalent load": self.equivalent, "mean turning": self.speed}
+        out["radial force"] = float(np.max(self.radial, initial=0.0))
+        return out | ({"mean PV": self.mean_pv, "greatest PV": float(self.pv.max())} if self.sized else {})
 
     @property
     def exponent(self) -> float:
@@ -142,6 +161,10 @@ class BearingLoad:
         ``weibull``: (x0, theta - x0, b) of a catalogue, for the reliability of that life: C = a P (x / (x0 + (theta -
         x0) ln(1/R)^(1/b)))^(1/e), x in million turns; without it the life is L10. Budynas and Nisbett, section 11-4.
         """
+        for key, value in (("hours", hours), ("factor", factor), ("reliability", reliability)):
+            require(key, value)
+        for key, value in zip(("x0", "theta - x0", "b"), weibull or (), strict=False):
+            require(key, value, f"{key} of weibull")
         if weibull is None and reliability != 0.9:
             raise ModelError(
                 f"life of a reliability of {reliability:g}", "give the catalogue's weibull numbers"
@@ -181,6 +204,8 @@ def bearing(r: Result, joint: str) -> BearingLoad:
         along, about = ((v * axis).sum(axis=1) for v in (force, moment))
         radial, couple = magnitude(force - along[:, None] * axis), magnitude(moment - about[:, None] * axis)
         axial, rate = np.abs(along), ((j - i) * axis).sum(axis=1)
+    if np.nanmax(np.abs(rate), initial=0.0) <= STILL * max(np.nanmax(np.abs(w), initial=0.0) for w in (i, j)):
+        rate = 0 * rate  # both links turn alike
     given = getattr(r.mechanism.joints[joint], "bearing", None)
     return BearingLoad(r, joint, given, radial, axial, couple, rate + 0.0 * radial, durations(r))
 

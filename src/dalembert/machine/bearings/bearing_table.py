@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from dalembert.analysis.output.columns import Column, Scale
 from dalembert.arrays import Tree
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.bearings.bearing_load import BearingLoad, bearing, turning_joints
 from dalembert.machine.bearings.catalogue import Row, catalogue, choose
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BearingTable(Answer):
     """Loads by joint; ``hours`` of life asked for, the load times ``factor``; ``chosen`` from a table of ``rows``."""
 
@@ -35,15 +36,15 @@ class BearingTable(Answer):
         """The drives' positions; forces and turning of each joint, pressure and PV of those with a size."""
         yield from self.drive_columns()
         for joint, b in self.loads.items():
-            yield Column(f"radial force {joint}", "force", b.radial)
+            yield Column(f"radial_force.{joint}", "force", b.radial)
             if b.axial.any():
-                yield Column(f"axial force {joint}", "force", b.axial)
+                yield Column(f"axial_force.{joint}", "force", b.axial)
             if b.tilting:
-                yield Column(f"couple across {joint}", "moment", b.couple)
-            yield Column(f"turning {joint}", "angular_speed", b.rate)
+                yield Column(f"couple_across.{joint}", "moment", b.couple)
+            yield Column(f"turning_speed.{joint}", "angular_speed", b.rate)
             if b.sized:
-                yield Column(f"pressure {joint}", "pressure", b.pressure)
-                yield Column(f"PV {joint} in W/m^2", "number", b.pv)
+                yield Column(f"pressure.{joint}", "pressure", b.pressure)
+                yield Column(f"pv.{joint}", "pressure_speed", b.pv)
 
     def record(self, to: Scale) -> Tree:
         """Equivalent load, life and what was chosen, in the units of a scale."""
@@ -51,6 +52,7 @@ class BearingTable(Answer):
         for joint, b in self.loads.items():
             own = out[joint] = {"equivalent_load": to("force", b.equivalent), "swings": b.swings}
             own["couple_not_counted"] = to("moment", b.tilting)
+            own["sampling"] = b.sampling()
             own["mean_turning"] = to("angular_speed", b.speed)
             if b.sized:
                 own |= {"pressure": to("pressure", b.pressure.max()), "mean_PV": b.mean_pv, "PV": b.pv.max()}
@@ -69,13 +71,15 @@ def bearings(
     hours: float | None = None,
     table: str | Path | None = None,
     factor: float = 1.0,
-    static: float = 1.0,
+    safety: float = 1.0,
 ) -> BearingTable:
     """Bearings of the joints asked for, or of all that turn: pressure, PV, equivalent load, life, and a choice.
 
     ``hours``: the life to be had with the load times ``factor``; ``table``: a text file with columns name, C, C0, d, of
-    which the smallest row is chosen that lives so long and whose C0 is ``static`` times the largest load.
+    which the smallest row is chosen that lives so long and whose C0 is ``safety`` times the largest load.
     """
+    for key, value in (("hours", hours), ("factor", factor), ("safety", safety)):
+        require(key, value)
     asked = [joints] if isinstance(joints, str) else list(joints or turning_joints(r))
     found = {joint: bearing(r, joint) for joint in asked}
     if not found:
@@ -85,5 +89,5 @@ def bearings(
     if hours is None:
         raise ModelError("a bearing is chosen by its life", "say how many hours: 20000")
     rows = catalogue(table, r.mechanism.units)
-    chosen = {joint: choose(b, rows, hours, factor, static) for joint, b in found.items()}
+    chosen = {joint: choose(b, rows, hours, factor, safety) for joint, b in found.items()}
     return BearingTable(r, found, hours, factor, len(rows), chosen)

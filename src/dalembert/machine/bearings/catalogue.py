@@ -37,13 +37,13 @@ def catalogue(file: str | Path, units: Units | None = None) -> list[Row]:
 
 
 def choose(
-    load: BearingLoad, rows: list[Row], hours: float, factor: float = 1.0, static: float = 1.0
+    load: BearingLoad, rows: list[Row], hours: float, factor: float = 1.0, safety: float = 1.0
 ) -> Row | None:
     """The smallest bearing, by bore, then by rating, that lives so long; None where none does.
 
-    Its C is at least ``rating_for`` the hours, C0 ``static`` times the largest load, d the pin's diameter.
+    Its C is at least ``rating_for`` the hours, C0 ``safety`` times the largest load, d the pin's diameter.
     """
-    needed = load.rating_for(hours, factor), static * factor * float(load.load.max())
+    needed = load.rating_for(hours, factor), safety * factor * float(load.load.max())
     bore = (load.bearing.diameter if load.bearing else None) or 0.0
     enough = [
         row for row in rows if needed[0] <= row.C and needed[1] <= row.C0 and row.d >= bore * (1 - 1e-9)

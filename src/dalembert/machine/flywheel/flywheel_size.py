@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 
 
@@ -34,7 +35,8 @@ class FlywheelSize:
 
     def mass(self, radius_of_gyration: float) -> float:
         """Mass, kg, at a radius of gyration, m: I / k^2."""
-        return self.inertia / _positive(radius_of_gyration, "radius of gyration") ** 2
+        require("radius of gyration", radius_of_gyration)
+        return self.inertia / radius_of_gyration**2
 
     def disc(
         self, density: float, radius: float | None = None, thickness: float | None = None
@@ -42,11 +44,13 @@ class FlywheelSize:
         """Radius and thickness, m, of a solid disc of a density, kg/m3, one of them given: I = pi rho t R^4 / 2."""
         if (radius is None) == (thickness is None):
             raise ModelError("a disc is sized by its radius or its thickness", "give one of them")
-        half = math.pi * _positive(density, "density") / 2
+        for name, size in (("density", density), ("radius", radius), ("thickness", thickness)):
+            require(name, size)
+        half = math.pi * density / 2
         if radius is not None:
-            return radius, self.inertia / (half * _positive(radius, "radius") ** 4)
+            return radius, self.inertia / (half * radius**4)
         assert thickness is not None
-        return (self.inertia / (half * _positive(thickness, "thickness"))) ** 0.25, thickness
+        return (self.inertia / (half * thickness)) ** 0.25, thickness
 
     def rim(
         self, density: float, radius: float, breadth: float | None = None, height: float | None = None
@@ -57,13 +61,22 @@ class FlywheelSize:
         """
         if (breadth is None) == (height is None):
             raise ModelError("a rim is sized by the breadth or the height of its section", "give one of them")
-        round_ = 2 * math.pi * _positive(density, "density") * _positive(radius, "radius")
+        for name, size in (
+            ("density", density),
+            ("radius", radius),
+            ("breadth", breadth),
+            ("height", height),
+        ):
+            require(name, size)
+        round_ = 2 * math.pi * density * radius
+        if height is not None and height > 2 * radius:
+            raise ModelError(
+                f"a rim {height:.4g} m high reaches beyond its axis", "give less height or more radius"
+            )
         if height is not None:
-            return self.inertia / (round_ * height * (radius**2 + _positive(height, "height") ** 2 / 4))
+            return self.inertia / (round_ * height * (radius**2 + height**2 / 4))
         assert breadth is not None
-        wanted = self.inertia / (
-            round_ * _positive(breadth, "breadth")
-        )  # h^3 / 4 + R^2 h: a cubic of one root
+        wanted = self.inertia / (round_ * breadth)  # h^3 / 4 + R^2 h: a cubic of one root
         turned = math.asinh(0.75 * math.sqrt(3) * wanted / radius**3) / 3
         side = 4 * radius / math.sqrt(3) * math.sinh(turned)
         if side > 2 * radius:
@@ -88,25 +101,23 @@ def flywheel_size(
     >>> round(f.energy, 2), round(f.inertia, 4)
     (261.05, 2.0884)
     """
-    pulses = () if isinstance(energy, (int, float)) else tuple(float(e) for e in energy)
-    sums = [0.0, *accumulate(pulses)]
-    fluctuation = float(energy) if isinstance(energy, (int, float)) else max(sums) - min(sums)
+    pulses = () if isinstance(energy, (int, float, str)) else tuple(energy)
+    for pulse in pulses:
+        require("pulse", pulse)
+    for name, value in (("mean speed", speed), ("Cs", Cs), ("flywheel inertia", inertia)):
+        require(name, value, name.split()[-1])
     if (Cs is None) == (inertia is None):
         raise ModelError(
             "a flywheel is sized by Cs or told by its inertia", "give one of them: Cs=0.02 or inertia=3.5"
         )
+    pulses = tuple(float(pulse) for pulse in pulses)
+    sums = [0.0, *accumulate(pulses)]
+    fluctuation = energy if isinstance(energy, (int, float)) else max(sums) - min(sums)
+    require("energy", fluctuation)
     square = speed**2
-    if not square > 0 or not math.isfinite(square):
+    if not square:
         raise ModelError(f"a flywheel at {speed:g} rad/s keeps no energy", "give the mean speed")
     if Cs is not None:
-        return FlywheelSize(fluctuation, speed, Cs, fluctuation / (_positive(Cs, "Cs") * square), pulses)
+        return FlywheelSize(fluctuation, speed, Cs, fluctuation / (Cs * square), pulses)
     assert inertia is not None
-    return FlywheelSize(
-        fluctuation, speed, fluctuation / (_positive(inertia, "inertia") * square), inertia, pulses
-    )
-
-
-def _positive(value: float, name: str) -> float:
-    if not value > 0 or not math.isfinite(value):
-        raise ModelError(f"{name} is {value:g}", "give a positive number")
-    return value
+    return FlywheelSize(fluctuation, speed, fluctuation / (inertia * square), inertia, pulses)

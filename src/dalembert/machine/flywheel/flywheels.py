@@ -13,6 +13,7 @@ import numpy as np
 
 from dalembert.analysis.output.columns import Column, Scale
 from dalembert.arrays import Array, Tree
+from dalembert.bounds import require
 from dalembert.errors import AnalysisError
 from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
 from dalembert.machine.flywheel.legendre_panels import resolve
@@ -24,12 +25,12 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Flywheel(Answer):
     """Energy curve of a drive at steady speed, the flywheel by the book's rule, and the exact speed with it.
 
     ``torque`` (P,) effort of the drive, ``energy`` (P,) E(q) = int (T - T_m) dq from the first position, both at the
-    positions of the result; ``zeros`` where T = T_m and ``energies`` E there; ``own`` the mean of the machine's own
+    positions of the result; ``zeros`` where T crosses T_m, ``energies`` E there; ``own`` the mean of the machine's own
     reduced inertia J over angle. ``exact``: the speed with the book's flywheel; ``exact_size``: the flywheel with which
     the exact C_s is the one asked for (None where the inertia was given, or where it cannot be had). Where E is
     greatest the machine has asked most, and is slowest.
@@ -75,12 +76,12 @@ class Flywheel(Answer):
     def columns(self) -> Iterator[Column]:
         """Angle, effort and energy over the positions, with the exact speed."""
         r = self.result
-        yield Column(f"drive {self.drive}", "angle", r.drive_position(self.drive))
-        yield Column("effort", "moment", self.torque)
-        yield Column("energy", "energy", self.energy)
+        yield Column(f"drive.{self.drive}", "angle", r.drive_position(self.drive))
+        yield Column(f"effort.{self.drive}", "moment", self.torque)
+        yield Column("energy.flywheel", "energy", self.energy)
         if self.exact is not None:
             speed = np.interp(r.drive_position(self.drive), self.exact.angle, self.exact.speed)
-            yield Column("speed", "angular_speed", speed)
+            yield Column(f"drive.{self.drive}.speed", "angular_speed", speed)
 
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""
@@ -134,14 +135,17 @@ def flywheel(
     >>> round(f.size.energy, 2), round(f.inertia, 5), round(f.exact_size.inertia, 5)
     (441.64, 0.22374, 0.21434)
     """
+    require("Cs", Cs)
+    require("flywheel inertia", inertia, "inertia")
     t = TurningMoment(r, drive)
     panels, torque = resolve(t.steady, t.edges, t.floor)
     mean = panels.mean(torque)
-    even = bool(np.abs(torque - mean).max() <= 100 * t.floor)
-    zeros, energies = panels.zeros(np.zeros_like(torque) if even else torque - mean)
-    pulses = np.diff(np.append(energies, energies[:1])) if len(zeros) > 1 else np.zeros(0)
+    above = torque - mean
+    above = above if np.abs(above).max() > 100 * t.floor else np.zeros_like(torque)
+    zeros, energies = panels.turning_points(above, t.floor * panels.period)
+    even, pulses = not len(zeros), np.diff(np.append(energies, energies[:1]))
     size = flywheel_size([*pulses], t.speed, Cs, inertia)
-    starts = panels.antiderivative(torque - mean)[1]
+    starts = panels.antiderivative(above)[1]
     curve = np.interp(r.drive_position(t.drive), np.append(panels.low, t.edges[-1]), starts)
     own = t.inertia(panels.points.ravel()).reshape(torque.shape)
     mean_own = panels.mean(own)

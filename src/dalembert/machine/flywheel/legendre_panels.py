@@ -22,8 +22,8 @@ POINTS = 12
 RESOLVED = 1e-13
 """Error of the integral over a panel that is let be, of that of the curve's size over the period."""
 MOST_HALVINGS, MOST_PANELS = 45, 10_000
-ONE = 1e-9
-"""Of the period: zeros as near as this are one place."""
+ROUNDING = 1e-15
+"""Part of a series' largest coefficient below which its highest are left out."""
 
 ENDS = np.array([-1.0, 1.0])
 NODES, _ = legendre.leggauss(POINTS)
@@ -72,33 +72,33 @@ class Panels:
             2 / self.width[:, None]
         )
 
-    def zeros(self, values: Array) -> tuple[Array, Array]:
-        """Where a curve changes its sign, in order, and its integral from the period's begin up to there."""
-        c = self.coefficients(values)
-        starts = self.antiderivative(values)[1]
-        ends = legendre.legval(ENDS, c)
-        signs = np.sign(np.column_stack([ends[:, :1], values, ends[:, 1:]]))
-        jumps = np.flatnonzero(np.sign(ends[:-1, 1]) * np.sign(ends[1:, 0]) < 0) + 1  # between two panels
-        at, area = [*self.low[jumps]], [*starts[jumps]]
-        for k in np.flatnonzero((signs != signs[:, :1]).any(axis=1)):
+    def turning_points(self, values: Array, floor: float = 0.0) -> tuple[Array, Array]:
+        """Where the integral of a curve of mean 0 turns, greatest and least by turns, and the integral from the
+        period's begin up to there; an integral that comes and goes by less than the ``floor`` does not turn.
+
+        It turns at zeros within the panels and at their edges, where the curve may jump: all are tried, so that no
+        zero is lost or counted twice for being at an edge but for rounding.
+        """
+        c, starts = self.coefficients(values), self.antiderivative(values)[1]
+        at, area = [*self.low], [*starts[:-1]]
+        for k in _may_vanish(c):
             real, whole = _roots(c[:, k]), legendre.legint(c[:, k], lbnd=-1)
             at += [*self._at(k, real)]
             area += [*(starts[k] + legendre.legval(real, whole) * self.width[k] / 2)]
         order = np.argsort(at, kind="stable")
         place, reached = np.array(at)[order], np.array(area)[order]
-        # a zero at a kink is found on both sides of it and between: one change of sign; two are none
-        group = np.cumsum(np.diff(place, prepend=-np.inf) > ONE * self.period)
-        first = np.flatnonzero(np.diff(group, prepend=0))[np.bincount(group)[1:] % 2 == 1]
-        return place[first], reached[first]
+        turns = _turns(reached, floor)
+        return place[turns], reached[turns]
 
     def extremes(self, values: Array) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with where they are, on the curve itself."""
-        c, slopes = self.coefficients(values), np.sign(self.derivative(values))
+        c = self.coefficients(values)
         ends = np.stack([self.low, self.low + self.width], axis=1)
         pairs = ((values, self.points), (legendre.legval(ENDS, c), ends))
         found = [z for y, x in pairs for z in zip(y.ravel().tolist(), x.ravel().tolist(), strict=True)]
-        for k in np.flatnonzero((slopes != slopes[:, :1]).any(axis=1)):
-            x = _roots(legendre.legder(c[:, k]))
+        slopes = legendre.legder(c)
+        for k in _may_vanish(slopes):
+            x = _roots(slopes[:, k])
             found += zip(legendre.legval(x, c[:, k]).tolist(), self._at(k, x).tolist(), strict=True)
         return min(found), max(found)
 
@@ -107,10 +107,27 @@ class Panels:
         return np.asarray(self.low[k] + self.width[k] * (x + 1) / 2)
 
 
+def _may_vanish(c: Array) -> Array:
+    """Panels on which a Legendre series (n, K) may vanish: elsewhere c_0 is beyond all others, as |P_k| <= 1."""
+    return np.flatnonzero((np.abs(c[0]) <= np.abs(c[1:]).sum(axis=0)) & c.any(axis=0))
+
+
 def _roots(c: Array) -> Array:
-    """Real roots of a Legendre series from -1 up to 1."""
-    roots = legendre.legroots(c)
-    return np.sort(roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real >= -1) & (roots.real < 1)])
+    """Real roots of a Legendre series from -1 to 1; what is rounding of the highest coefficients makes none."""
+    roots = legendre.legroots(legendre.legtrim(c, ROUNDING * float(np.abs(c).max())))
+    return np.sort(roots.real[(np.abs(roots.imag) < 1e-6) & (np.abs(roots.real) <= 1)])
+
+
+def _turns(values: Array, floor: float) -> list[int]:
+    """Indices, rising, at which values over a period are greatest and least by turns, by more than a floor."""
+    start = int(np.argmax(values))
+    best, side, found = start, 1.0, list[int]()  # side: 1 until the values have fallen and rise again
+    for k in (np.arange(1, len(values) + 1) + start) % len(values):
+        if side * (values[k] - values[best]) < 0:
+            best = int(k)
+        elif side * (values[k] - values[best]) > floor:
+            found, best, side = [*found, best], int(k), -side
+    return sorted([*found, start] if found else [])
 
 
 def resolve(curve: Callable[[Array], Array], edges: Array, floor: float = 0.0) -> tuple[Panels, Array]:

@@ -30,6 +30,10 @@ SURE = 1e4
 """Gap at the positions of a result, over rounding, up to which the powers there give its effort."""
 
 
+STEADY = 1e-9
+"""Change of the speed, and acceleration over its square, that are the rounding of a law of the position."""
+
+
 class TurningMoment:
     """Effort and reduced inertia of a machine with one turning drive, at any angle and speed.
 
@@ -168,7 +172,8 @@ def _only_drive(r: Result, drive: str | None) -> str:
 
 def _steady_speed(r: Result, drive: str) -> float:
     speed, acceleration = r.drive_speed(drive), r.drive_acceleration(drive)
-    if np.ptp(speed) > 1e-9 * np.abs(speed).max() or acceleration.any() or not speed[0]:
+    most = float(np.abs(speed).max())
+    if not most or np.ptp(speed) > STEADY * most or np.abs(acceleration).max() > STEADY * most**2:
         raise ModelError(
             f"drive {drive!r} does not turn at one speed, and a flywheel goes by the torque at a steady speed",
             "write one speed that is not 0, and no acceleration",

@@ -16,12 +16,15 @@ from dalembert.arrays import Array, Ints
 from dalembert.core.equilibrium import shifts, statement
 from dalembert.core.linear import PseudoInverse
 from dalembert.machine.link_axes import LinkAxes, couple_in_space, in_space
+from dalembert.machine.members.mass_along import MassLayout, MassPiece
 from dalembert.machine.members.straight_members import Straight
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
+BESIDE = 1e-6
+"""Part of a member's length that a force may be off it and still act on it."""
 COMBINATIONS = 3
 """Of what is free: in all of them the change of what is not unique is never zero by chance."""
 
@@ -42,10 +45,10 @@ class Wrench:
 
 
 class Loads(NamedTuple):
-    """What acts at feet, what mass along a member (by its number) does in all, and what of the first is free."""
+    """What acts at feet, what each piece of mass along a member does in all, and what of the first is free."""
 
     seated: list[Wrench]
-    spread: list[tuple[int, Wrench]]
+    spread: list[tuple[MassPiece, Wrench]]
     free: list[list[Wrench]]
 
 
@@ -133,13 +136,35 @@ class LinkBalance(LinkAxes):
         """An action at its foot."""
         return _seated(members, self.place(a), self.own(a.force), self.own_couple(a.couple))
 
+    def brackets(self, members: tuple[Straight, ...]) -> dict[str, float]:
+        """Joints and loads beside the members, whose forces need a bracket, each with its greatest distance, m."""
+        out: dict[str, float] = {}
+        for a in self.actions:
+            off = np.min([e.foot(self.place(a))[1] for e in members], axis=0)
+            loaded = np.nan_to_num(np.abs(a.force).max(axis=1)) > 0
+            size = float(np.nanmax(off, where=loaded, initial=0.0))
+            if a.kind not in ("weight", "inertia") and size > BESIDE * max(e.length for e in members):
+                out[a.of] = max(size, out.get(a.of, 0.0))
+        return out
+
     def distributed(self, e: Straight) -> tuple[Array, Array]:
         """Force on unit mass along a member: c0 - c1 s, both (P, 3), by gravity and acceleration."""
         at_start = self.acceleration + self.rate @ (e.start - self.center)
         return self.gravity - at_start, self.rate @ e.along
 
-    def loads(self, members: tuple[Straight, ...]) -> Loads:
-        """All that acts; what mass along members does is taken off weight and inertia at the centre."""
+    def turning_couple(self, inertia: Array) -> Array:
+        """Inertia couple (P, 3) of an inertia (3, 3) about its centre: -(I alpha + w x I w), in the plane about z.
+
+        With S = tr(I) / 2 - I = int r r^T dm it is -int r x (R r) dm = -eps (R S), R r the acceleration of an arm r.
+        """
+        spread = self.rate @ (np.trace(inertia) / 2 * np.eye(3) - inertia)
+        i, j, k = [0, 1, 2], [1, 2, 0], [2, 0, 1]
+        couple = spread[:, j, k] - spread[:, k, j]
+        couple[:, i[: 2 * (self.r.mechanism.dimension == 2)]] = 0.0
+        return np.asarray(couple)
+
+    def loads(self, members: tuple[Straight, ...], mass: MassLayout) -> Loads:
+        """All that acts; what mass along and beside members does is taken off weight and inertia at the centre."""
         zero = np.zeros_like(self.acceleration)
         out = Loads([], [], [[self.seated(members, a) for a in some] for some in self.free])
         force, couple = zero, zero
@@ -148,15 +173,19 @@ class LinkBalance(LinkAxes):
                 force, couple = force + self.own(a.force), couple + self.own_couple(a.couple)
             else:
                 out.seated.append(self.seated(members, a))
-        for k, e in enumerate(members):
+        for p in mass.pieces:
+            e = members[p.member]
             c0, c1 = self.distributed(e)
-            for p in e.mass:
-                m0, m1, m2 = (p.density * (p.end**n - p.start**n) / n for n in (1, 2, 3))
-                moment = np.cross(e.along, m1 * c0 - m2 * c1)
-                start, foot = zero + e.start, np.full(len(zero), p.end)
-                spread = Wrench(start, m0 * c0 - m1 * c1, moment, np.full(len(zero), k), foot)
-                force, couple = force - spread.force, couple - spread.about(self.center)
-                out.spread.append((k, spread))
+            m0, m1, m2 = (p.density * (p.end**n - p.start**n) / n for n in (1, 2, 3))
+            moment = np.cross(e.along, m1 * c0 - m2 * c1)
+            moment += (p.end - p.start) * self.turning_couple(p.inertia)
+            where = np.full(len(zero), p.member), np.full(len(zero), p.end)
+            out.spread.append((p, Wrench(zero + e.start, m0 * c0 - m1 * c1, moment, *where)))
+        for x in mass.lumps:
+            pull = x.mass * (self.gravity - self.acceleration - self.rate @ (x.center - self.center))
+            out.seated.append(_seated(members, zero + x.center, pull, self.turning_couple(x.inertia)))
+        for w in [*(w for _, w in out.spread), *out.seated[len(out.seated) - len(mass.lumps) :]]:
+            force, couple = force - w.force, couple - w.about(self.center)
         out.seated.append(_seated(members, zero + self.center, force, couple))
         return out
 

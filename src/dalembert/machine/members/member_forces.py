@@ -20,13 +20,15 @@ from dalembert.arrays import Array, Flags, Tree
 from dalembert.core.equilibrium import UNIQUE
 from dalembert.errors import ModelError
 from dalembert.machine.members.link_balance import LinkBalance, Loads, Wrench, acting
+from dalembert.machine.members.mass_along import mass_layout
 from dalembert.machine.members.straight_members import Straight, beyond, members_of
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.methods.applied_forces import Action
     from dalembert.analysis.result.result import Result
-    from dalembert.machine.members.stresses import Buckling, Stresses
+    from dalembert.machine.members.buckling import Buckling, Factors
+    from dalembert.machine.members.stresses import Stresses
     from dalembert.model.links.sections import Section
 
 ORDER = ("axial", "shear", "shear z", "torsion", "bending y", "bending")
@@ -110,12 +112,14 @@ class MemberForces:
     """What a link carries inside: a curve for each straight member; ``residual`` (P,), how little is left over.
 
     ``residual``: force and moment that do not close at the end, over the largest on the link; NaN where unknown.
+    ``brackets``: joints and loads beside the members, with the distance in m; what carries them is not analysed.
     """
 
     result: Result = field(repr=False)
     link: str
     curves: tuple[MemberCurve, ...]
     residual: Array = field(repr=False)
+    brackets: dict[str, float] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -164,21 +168,24 @@ class MemberForces:
 
         return stresses(self, section)
 
-    def buckling(self, section: Section | Tree | None = None, ends: float = 1.0) -> Buckling:
-        """Critical compression of the link as a column, by Euler or Johnson, beside the greatest of the cycle."""
-        from dalembert.machine.members.stresses import buckling
+    def buckling(self, section: Section | Tree | None = None, ends: Factors | None = None) -> Buckling:
+        """Critical compression of the link as a column, by Euler or Johnson, beside that of the cycle.
+
+        ``ends``: its effective length factor K, or (in the plane, across it), instead of that of its joints.
+        """
+        from dalembert.machine.members.buckling import buckling
 
         return buckling(self, section, ends)
 
     def columns(self) -> Iterator[Column]:
         """Least and greatest of each inner force, with places."""
         for curve in self.curves:
-            name = self.link if len(self.curves) == 1 else f"{self.link} {curve.name}"
+            name = self.link if len(self.curves) == 1 else f"{self.link}.{curve.name}"
             for of in self.names:
                 for k, found in enumerate(curve.extremes(of)):
-                    word, kind = ("least", "greatest")[k // 2], "length" if k % 2 else kind_of(of)
-                    yield Column(f"{of} {name} {word}{' at' * (k % 2)}", kind, found)
-        yield Column(f"residual {self.link}", "number", self.residual)
+                    word, kind = ("low", "high")[k // 2], "length" if k % 2 else kind_of(of)
+                    yield Column(f"{of}.{name}.{word}{'.place' * (k % 2)}", kind, found)
+        yield Column(f"residual.{self.link}", "number", self.residual)
 
     def record(self, to: Scale) -> Tree:
         """The largest over the cycle, by name, in the units of a scale."""
@@ -187,6 +194,8 @@ class MemberForces:
             value, member, place, k = self.largest(of)
             found = {"largest": to(kind_of(of), value), "member": member, "at": to("length", place)}
             out[of] = found | {"position": None if math.isnan(value) else k + 1}
+        if self.brackets:
+            out["brackets"] = {of: to("length", size) for of, size in self.brackets.items()}
         unknown = self.unknown()
         return out | {"unknown": unknown} if unknown else out
 
@@ -215,14 +224,15 @@ def forces_inside(r: Result, link: str, found: list[tuple[Action, ...]]) -> Memb
         raise ModelError(f"there is no moving link {link!r}", closest(link, list(r.links)))
     own = LinkBalance(r, link, found)
     members = members_of(r.mechanism, link, own.joints())
-    loads, far = own.loads(members), beyond(members)
+    loads, far = own.loads(members, mass_layout(r.mechanism, link, members)), beyond(members)
     curves = tuple(_curve(own, e, k, far[k], loads) for k, e in enumerate(members))
-    return MemberForces(r, link, curves, _residual(own, loads))
+    return MemberForces(r, link, curves, _residual(own, curves, loads, far), own.brackets(members))
 
 
 def _curve(own: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> MemberCurve:
     """Cubics of member number k: sums of what is beyond each piece, and the mass on it."""
-    count, masses = len(own.rotation), {0.0, e.length, *(x for p in e.mass for x in (p.start, p.end))}
+    count, mine = len(own.rotation), [p for p, _ in loads.spread if p.member == k]
+    masses = {0.0, e.length, *(x for p in mine for x in (p.start, p.end))}
     feet = [np.where(w.member == k, w.foot, 0.0) for w in loads.seated if (w.member == k).any()]
     fixed = [np.full(count, x) for x in masses]
     edges = np.sort(np.stack([*feet, *fixed], axis=1), axis=1)
@@ -232,14 +242,15 @@ def _curve(own: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> M
         for w in wrenches:
             on = (w.member == k)[:, None] & (w.foot[:, None] >= high)
             _add(into, e, np.asarray(on | far[w.member][:, None]), w)
-    for j, w in loads.spread:
-        if far[j]:
+    for p, w in loads.spread:
+        if far[p.member]:
             _add(cubics, e, np.ones_like(high, bool), w)
-    density = sum(
-        (np.where((low >= p.start) & (high <= p.end), p.density, 0.0) for p in e.mass), np.zeros_like(high)
-    )
-    if e.mass:
-        _add_mass(cubics, edges, density, *(v @ e.axes.T for v in own.distributed(e)))
+    c0, c1 = (v @ e.axes.T for v in own.distributed(e))
+    for p in mine:
+        there = np.asarray((low >= p.start) & (high <= p.end), float)
+        _add_mass(cubics, edges, p.density * there, c0, c1)
+        couple = own.turning_couple(p.inertia) @ e.axes.T
+        _add_couple(cubics, edges, there[..., None] * couple[:, None, :])
     for moved in free:
         cubics[(np.abs(moved) > UNIQUE).any(axis=-1)] = np.nan
     return MemberCurve(e, edges, cubics)
@@ -275,8 +286,18 @@ def _add_mass(cubics: Array, edges: Array, density: Array, c0: Array, c1: Array)
     cubics[:, :, 5] += arm[:, :, 1]
 
 
-def _residual(own: LinkBalance, loads: Loads) -> Array:
-    """What is left of forces and moments about the centre, over the largest."""
+def _add_couple(cubics: Array, edges: Array, couple: Array) -> None:
+    """Inner moments of a couple per length (P, J, 3) in member axes: the rotary inertia of the sections."""
+    low, high = edges[:, :-1, None], edges[:, 1:, None]
+    on = couple * (high - low)
+    behind = np.cumsum(on[:, ::-1], axis=1)[:, ::-1] - on
+    cubics[:, :, 3:, 0] += behind + couple * high
+    cubics[:, :, 3:, 1] -= couple
+
+
+def _residual(own: LinkBalance, curves: tuple[MemberCurve, ...], loads: Loads, far: Flags) -> Array:
+    """Sum of all forces and moments on the link about its centre, and at both ends of each member the difference of
+    its curves from all that acts beyond; over the largest of these forces and moments."""
     wrenches = [*loads.seated, *(w for _, w in loads.spread)]
     forces = np.array([w.force for w in wrenches])
     moments = np.array([w.about(own.center) for w in wrenches])
@@ -284,4 +305,31 @@ def _residual(own: LinkBalance, loads: Loads) -> Array:
     largest = [float(np.nanmax(np.abs(x), initial=0.0)) for x in (forces, moments)]
     size = max(largest[0], largest[1] / length) or 1.0
     off = [np.abs(x.sum(axis=0)).max(axis=1) for x in (forces, moments)]
-    return np.asarray(np.maximum(off[0], off[1] / length) / size)
+    gaps = [off[0], off[1] / length]
+    for k, curve in enumerate(curves):
+        for at_end in (False, True):
+            gap = np.abs(_inner(curve, at_end) - _beyond(loads, curve.member, k, far[k], at_end))
+            gaps += [gap[:, :3].max(axis=1), gap[:, 3:].max(axis=1) / length]
+    return np.asarray(np.fmax.reduce(gaps) / size)
+
+
+def _inner(curve: MemberCurve, at_end: bool) -> Array:
+    """Force, then moment about the member's start (P, 6), on one of its ends by what is beyond, in member axes."""
+    s = curve.member.length if at_end else 0.0
+    inner = curve.at(s)[:, 0]
+    force = inner[:, :3] * [1.0, -1.0, 1.0]
+    return np.concatenate([force, inner[:, 3:] + np.cross([s, 0.0, 0.0], force)], axis=1)
+
+
+def _beyond(loads: Loads, e: Straight, k: int, far: Flags, at_end: bool) -> Array:
+    """The same by summing what acts there: all but what has its foot at the start, or only what is at the end."""
+    axes = np.kron(np.eye(2), e.axes.T)
+    total = np.zeros((len(loads.seated[0].force), 6))
+    for w in loads.seated:
+        mine = (w.foot >= e.length) if at_end else (w.foot > 0.0)
+        on = far[w.member] | ((w.member == k) & mine)
+        total += np.where(on[:, None], np.concatenate([w.force, w.about(e.start)], axis=1) @ axes, 0.0)
+    for p, w in loads.spread:
+        if far[p.member] or (p.member == k and not at_end):
+            total += np.concatenate([w.force, w.about(e.start)], axis=1) @ axes
+    return total

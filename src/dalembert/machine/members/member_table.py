@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from dalembert.analysis.output.columns import Column, Scale
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
+from dalembert.machine.members.buckling import Buckling, stepped_column
 from dalembert.machine.members.link_balance import acting
 from dalembert.machine.members.member_forces import MemberForces, forces_inside
-from dalembert.machine.members.stresses import Buckling, Stresses
+from dalembert.machine.members.stresses import Stresses
+from dalembert.machine.members.struts import rod_of
 from dalembert.machine.output.answer import Answer
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MemberTable(Answer):
-    """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: why others are not there."""
+    """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: why others are not there,
+    ``not_judged``: why links with a section have no critical compression."""
 
     NAME = "member"
 
@@ -29,6 +32,7 @@ class MemberTable(Answer):
     stress: dict[str, Stresses]
     buckling: dict[str, Buckling]
     left_out: dict[str, str]
+    not_judged: dict[str, str] = field(default_factory=dict)
 
     @property
     def unknown(self) -> dict[str, str]:
@@ -42,8 +46,16 @@ class MemberTable(Answer):
         for link, forces in self.links.items():
             yield from forces.columns()
             if link in self.stress:
-                yield Column(f"stress {link}", "pressure", self.stress[link].equivalent)
-                yield Column(f"stress {link} at", "length", self.stress[link].place)
+                yield Column(f"stress.{link}", "pressure", self.stress[link].equivalent)
+                yield Column(f"stress.{link}.place", "length", self.stress[link].place)
+            if link in self.buckling:
+                b = self.buckling[link]
+                yield Column(f"compression.{link}", "force", b.compressions)
+                yield Column(f"critical_load.{link}", "force", b.criticals)
+                for k, plane in enumerate(self.planes):
+                    yield Column(
+                        f"effective_length.{link}.{plane.replace(' ', '_')}", "number", b.factors[:, k]
+                    )
 
     def record(self, to: Scale) -> Tree:
         """The largest of each link over the cycle, in the units of a scale."""
@@ -53,11 +65,34 @@ class MemberTable(Answer):
             if link in self.stress:
                 out[link]["stress"] = _stress_record(self.stress[link], to)
             if link in self.buckling:
-                b = asdict(self.buckling[link])
-                for key in ("critical", "compression"):
-                    b[key] = to("force", b[key])
-                out[link]["buckling"] = b | {"position": b["position"] + 1}
-        return {"members": out, "left_out": self.left_out, "unknown": self.unknown}
+                out[link]["buckling"] = self._buckling_record(self.buckling[link], to)
+        return {
+            "members": out,
+            "left_out": self.left_out,
+            "unknown": self.unknown,
+            "not_judged": self.not_judged,
+        }
+
+    @property
+    def planes(self) -> tuple[str, str]:
+        """Words for the two planes of bending."""
+        return ("in plane", "across") if self.result.mechanism.dimension == 2 else ("along y", "along z")
+
+    def _buckling_record(self, b: Buckling, to: Scale) -> Tree:
+        return {
+            "critical": to("force", b.critical),
+            "formula": b.formula,
+            "slenderness": b.slenderness,
+            "compression": to("force", b.compression),
+            "position": b.position + 1,
+            "safety": b.safety,
+            "two_force": b.two_force,
+            "effective_length": list(b.effective_length),
+            "plane": self.planes[b.plane],
+            "ends": list(b.ends),
+            "member": b.member,
+            "links": list(b.links),
+        }
 
 
 def _stress_record(s: Stresses, to: Scale) -> Tree:
@@ -74,6 +109,7 @@ def _stress_record(s: Stresses, to: Scale) -> Tree:
             "mean": to("pressure", f.mean),
             "amplitude": to("pressure", f.amplitude),
             "safety": f.safety,
+            "sampling": f.sampling,
         },
     }
 
@@ -96,5 +132,39 @@ def member_table(r: Result, links: Iterable[str] | None = None) -> MemberTable:
         raise ModelError(next(iter(left.values()), "no link moves"), "")
     sections = {link: r.mechanism.links[link].section for link in found}
     stress = {link: found[link].stress() for link, s in sections.items() if s}
-    columns = [link for link, s in sections.items() if s and s.elasticity and len(found[link].curves) == 1]
-    return MemberTable(r, found, stress, {link: found[link].buckling() for link in columns}, left)
+    buckled, why = buckled_links(r, {link: found[link] for link, s in sections.items() if s})
+    return MemberTable(r, found, stress, buckled, left, why)
+
+
+def buckled_links(r: Result, some: dict[str, MemberForces]) -> tuple[dict[str, Buckling], dict[str, str]]:
+    """Buckling of links with a section, barrel and rod as one column, and why others are not judged."""
+    out: dict[str, Buckling] = {}
+    why: dict[str, str] = {}
+    left = dict(some)
+    while left:
+        link = next(iter(left))
+        column, joints = _sliding(r, link, left)
+        for name in column:
+            del left[name]
+        try:
+            if len(column) > 2:
+                what = f"{', '.join(column)} slide in each other, and only two links are judged as one column"
+                raise ModelError(what, "give each an effective_length")
+            found = (
+                stepped_column(some[link], some[column[1]], joints[0]) if joints else some[link].buckling()
+            )
+            out |= dict.fromkeys(column, found)
+        except ModelError as error:
+            why[" and ".join(column)] = f"{error.what}; {error.remedy}"
+    return out, why
+
+
+def _sliding(r: Result, link: str, some: dict[str, MemberForces]) -> tuple[list[str], list[str]]:
+    """A link with those that slide in it or in each other along its line, and the joints by which they do."""
+    free = {n: f for n, f in some.items() if not r.mechanism.links[n].effective_length}
+    column, joints = [link], []
+    for one in column if link in free else ():
+        while (found := rod_of(r, one, {n: f for n, f in free.items() if n == one or n not in column}))[1]:
+            joints.append(found[0])
+            column.append(found[1])
+    return column, joints

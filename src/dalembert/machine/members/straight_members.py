@@ -1,4 +1,4 @@
-"""The straight members of a link, the mass along each, and where what acts on the link has its foot.
+"""The straight members of a link, and where what acts on the link has its base point.
 
 Mechanics: docs/theory.md 10.4.
 """
@@ -6,7 +6,7 @@ Mechanics: docs/theory.md 10.4.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -15,11 +15,9 @@ import numpy as np
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.machine.link_axes import in_space
-from dalembert.model import Box
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
-    from dalembert.model.links.shapes import Points, ShapePart
 
 FLAT = 1e-9
 """Off a line by less than this part of its length is on it."""
@@ -28,23 +26,13 @@ DIGITS = 12
 
 
 @dataclass(frozen=True)
-class MassPiece:
-    """Mass per length between two distances from the start of a member, kg/m and m."""
-
-    start: float
-    end: float
-    density: float
-
-
-@dataclass(frozen=True)
 class Straight:
-    """A straight member in link axes: its ends by name, start (3,), length, axes (3, 3) in rows t, y, z; its mass."""
+    """A straight member in link axes: its ends by name, start (3,), length, axes (3, 3) in rows t, y, z."""
 
     ends: tuple[str, str]
     start: Array
     length: float
     axes: Array
-    mass: tuple[MassPiece, ...] = ()
 
     @property
     def along(self) -> Array:
@@ -81,7 +69,7 @@ def members_of(m: Mechanism, link: str, joints: Array) -> tuple[Straight, ...]:
         found = [straight(pair, *(in_space(m.point(link, end)) for end in pair)) for pair in part.members]
     else:
         found = [_line(m, link, joints)]
-    return tuple(_with_mass(m, link, found))
+    return tuple(found)
 
 
 def _line(m: Mechanism, link: str, joints: Array) -> Straight:
@@ -117,40 +105,6 @@ def _size(places: Array) -> float:
 def _off(places: Array, middle: Array, t: Array) -> Array:
     arm = places - middle
     return np.asarray(np.linalg.norm(arm - (arm @ t)[..., None] * t, axis=-1))
-
-
-def _with_mass(m: Mechanism, link: str, found: list[Straight]) -> list[Straight]:
-    """The members with their mass: all of it evenly, or what of the shape lies along them."""
-    part = m.links[link]
-    if part.mass_along == "uniform":
-        density = m.mass(link) / sum(e.length for e in found)
-        return [replace(e, mass=(MassPiece(0.0, e.length, density),)) for e in found]
-    if part.mass_along == "lumped":
-        return found
-    pieces: list[list[MassPiece]] = [[] for _ in found]
-    solids = [shape.solid(part.point) for shape in part.shapes]
-    volume = sum(s.volume for s in solids)
-    for shape, solid in zip(part.shapes, solids, strict=True):
-        mass = solid.volume * (m.mass(link) / volume if shape.density is None else shape.density)
-        for direction, middle, length in _prisms(shape, part.point):
-            for e, own in zip(found, pieces, strict=True):
-                on_line = _off(middle[None], e.start, e.along)[0] <= FLAT * e.length
-                if abs(direction @ e.along) > 1 - FLAT and on_line:
-                    s = float((middle - e.start) @ e.along)
-                    low, high = (float(np.clip(s + x * length / 2, 0.0, e.length)) for x in (-1, 1))
-                    if high > low:
-                        own.append(MassPiece(low, high, mass / length))
-    return [replace(e, mass=tuple(p)) for e, p in zip(found, pieces, strict=True)]
-
-
-def _prisms(shape: ShapePart, points: Points) -> list[tuple[Array, Array, float]]:
-    """Directions along which a shape has the same section all the way, with its middle and length."""
-    if isinstance(shape, Box):
-        return [(np.array(a), shape.middle(), x) for a, x in zip(shape.own_axes, shape.size, strict=True)]
-    if hasattr(shape, "line"):
-        length, middle, axis = shape.line(points)
-        return [(axis, middle, float(length))]
-    return []
 
 
 def beyond(members: Sequence[Straight]) -> Flags:

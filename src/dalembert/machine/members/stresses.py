@@ -1,4 +1,4 @@
-"""Stress of a section along a member, safety against yield, fatigue of each fibre, and buckling of the link.
+"""Stress of a section along a member, safety against yield, and fatigue of each fibre.
 
 sigma = N/A - M_z y / I_z + M_y z / I_y at a fibre (y, z); von Mises at the outer fibres with torsion, and at the axis
 with shear and torsion, the larger. No notches, no stress concentration.
@@ -18,6 +18,7 @@ import numpy as np
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.members.member_forces import MemberCurve
+from dalembert.machine.whole_cycle import sampling
 from dalembert.model.links.sections import Section
 
 if TYPE_CHECKING:
@@ -35,7 +36,8 @@ FIBRES = 72
 class Fatigue:
     """Worst fibre over the cycle: place (m) on a member, mean and amplitude of its stress, Pa, and the safety.
 
-    By Goodman 1 / n = amplitude / endurance + mean / ultimate, a mean in compression left out; None without these.
+    By Goodman 1 / n = amplitude / endurance + mean / ultimate, a mean in compression left out; None without these. The
+    extremes are those of the positions: half of these would change the stress' range by the part ``sampling``.
     """
 
     member: str
@@ -43,6 +45,7 @@ class Fatigue:
     mean: float
     amplitude: float
     safety: float | None
+    sampling: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -89,23 +92,6 @@ class Stresses:
         found = [_fatigue(self.forces, curve, self.section) for curve in self.forces.curves]
         use = [_utilisation(self.section, f.mean, f.amplitude) for f in found]
         return found[int(np.argmax(use))]
-
-
-@dataclass(frozen=True)
-class Buckling:
-    """Critical compression of a link, N, by `Euler` or `Johnson`, and its greatest compression of the cycle, N.
-
-    ``position`` (from 0) where; ``safety`` critical / compression, infinite without compression; ``two_force``: whether
-    it bends by nothing, so that the formula holds: else it is for comparison.
-    """
-
-    critical: float
-    formula: str
-    slenderness: float
-    compression: float
-    position: int
-    safety: float
-    two_force: bool
 
 
 def section_of(forces: MemberForces, given: Section | Tree | None) -> Section:
@@ -199,7 +185,7 @@ def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
     """The worst fibre of a member: at even stations and on both sides of every force, then closer about the worst."""
     plane, length, jumps = forces.result.mechanism.dimension == 2, curve.member.length, curve.jumps
     low, high, round_it = 0.0, length, (0.0, math.pi)
-    best = (-math.inf, 0.0, math.nan, math.nan)
+    best, worst = (-math.inf, 0.0, math.nan, math.nan), np.zeros(0)
     for _ in range(3):
         places = np.union1d(np.linspace(low, high, STATIONS), jumps[(jumps >= low) & (jumps <= high)])
         at = outer_fibres(s, plane, *round_it)
@@ -213,40 +199,13 @@ def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
             k = np.unravel_index(np.argmax(use), use.shape)
             if use[k] > best[0]:
                 best = (float(use[k]), float(inner[k[0]]), float(mean[k]), float(swing[k]))
+                worst = sigma[:, k[0], k[1]]
                 round_it = math.atan2(at[k[1], 1], at[k[1], 0]), round_it[1]
         step = (high - low) / (STATIONS - 1)
         low, high = max(0.0, best[1] - step), min(length, best[1] + step)
         round_it = round_it[0], round_it[1] * 2 / FIBRES
     goodman = s.endurance is not None and s.ultimate is not None
     safety = (1 / best[0] if best[0] > 0 else math.inf) if goodman else None
-    return Fatigue(curve.name, best[1], best[2], best[3], safety)
-
-
-def buckling(forces: MemberForces, given: Section | Tree | None = None, ends: float = 1.0) -> Buckling:
-    """Euler's N = pi^2 E I / (k L)^2, or below slenderness pi sqrt(2 E / S_y) Johnson's, with the least I.
-
-    ``ends``: k, 1 between pins. N = A S_y (1 - S_y (k L / i)^2 / (4 pi^2 E)), i^2 = I / A. Raises ModelError for a
-    bent link, and without Young's modulus.
-    """
-    from dalembert.analysis.methods.members import members
-
-    s = section_of(forces, given)
-    if s.elasticity is None:
-        path = ("links", forces.link, "section")
-        raise ModelError(
-            f"the section of {forces.link!r} has no elasticity", "give elasticity: 210 GPa", path
-        )
-    curve = forces.curve()
-    inertia, area = min(s.second_moments), s.area_of
-    slender = ends * curve.member.length / math.sqrt(inertia / area)
-    euler = math.pi**2 * s.elasticity * area / slender**2
-    critical, formula = euler, "Euler"
-    if s.yield_stress is not None and slender < math.pi * math.sqrt(2 * s.elasticity / s.yield_stress):
-        critical = area * s.yield_stress * (1 - s.yield_stress * slender**2 / (4 * math.pi**2 * s.elasticity))
-        formula = "Johnson"
-    least = curve.extremes("axial")[0]
-    k = int(np.nanargmin(least)) if np.isfinite(least).any() else 0
-    compression = float(np.maximum(0.0, -least[k]))
-    safety = critical / compression if compression else math.inf
-    kind = members(forces.result)[forces.link].kind
-    return Buckling(critical, formula, slender, compression, k, safety, kind in ("two-force", "zero-force"))
+    peaks = {"range": worst - (worst.min() + worst.max()) / 2}
+    change = sampling(forces.result, lambda at: {"range": float(np.ptp(worst[at]))}, peaks)["range"]
+    return Fatigue(curve.name, best[1], best[2], best[3], safety, change)

@@ -9,6 +9,7 @@ import numpy as np
 from dalembert.analysis.compile.pose_loads import TIME
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
+from dalembert.machine.motion.corners.one_sided import Sided, has_corners
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.end_stops import Stops
@@ -16,12 +17,25 @@ from dalembert.model.drives.motors import Switch
 from dalembert.model.drives.starting import Start
 from dalembert.model.joints.plane_joints import Joint
 from dalembert.model.quantities.coordinates import SPEED
+from dalembert.model.quantities.expressions import Expression
+from dalembert.model.quantities.tables import Table
 
 
 def joint_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
     """Stops of joints by joint and freedom."""
     found = {n: s for n, j in m.joints.items() if (s := getattr(j, "stops", None)) is not None}
     return {(n, "slide" if s.kind == "length" else "turn"): s for n, s in found.items()}
+
+
+def drive_lengths(m: Mechanism) -> Array:
+    """What a position of each drive (D,) is compared with: 1 rad of a turn, of a slide the size of the largest link, or
+    else where it starts; 1 m of a lone point there."""
+    at = [np.array(list(m.points(name).values()), float) for name, link in m.links.items() if link.points]
+    size = max((float(np.ptp(x, axis=0).max()) for x in at), default=0.0)
+    start = [float(np.ravel(np.array(d.position, object))[0]) for d in m.drives.values()]
+    return np.array(
+        [1.0 if d.turns else size or abs(q) or 1.0 for d, q in zip(m.drives.values(), start, strict=True)]
+    )
 
 
 @dataclass
@@ -42,7 +56,14 @@ class Actuation:
         self.drives = tuple(self.m.drives.values())
         self.motors = {k: d.motor for k, d in enumerate(self.drives) if d.motor is not None}
         self.brake = np.array([d.brake for d in self.drives])
+        self.turns = np.array([d.turns for d in self.drives])
         self.on = np.array([self._begins(k) for k in range(len(self.names))])
+        efforts = {k: d.effort for k, d in enumerate(self.drives) if has_corners(d.effort)}
+        self.sided = {
+            k: Sided(e, f"the effort of drive {self.names[k]!r}")
+            for k, e in efforts.items()
+            if isinstance(e, Expression | Table)
+        }
 
     def _begins(self, k: int) -> bool:
         motor = self.motors.get(k)
@@ -55,15 +76,17 @@ class Actuation:
         by, value = switch
         return float({"time": t, "position": q[k], "speed": u[k]}[by] - value)
 
+    def known(self, t: float, q: Array, u: Array) -> dict[str, float]:
+        """What efforts go by: time, positions and speeds of the drives."""
+        return {TIME: t, **dict(zip((*self.names, *self.speeds), (*q, *u), strict=True))}
+
     def effort(self, t: float, q: Array, u: Array) -> Array:
         """Efforts (D,) of motors with those that are given, without brakes."""
-        out, known = (
-            np.zeros(len(q)),
-            {TIME: t, **dict(zip((*self.names, *self.speeds), (*q, *u), strict=True))},
-        )
+        out, known = np.zeros(len(q)), self.known(t, q, u)
         for k, drive in enumerate(self.drives):
             if drive.effort is not None:
-                out[k] = drive.effort.at(known) if hasattr(drive.effort, "at") else drive.effort
+                effort = self.sided.get(k, drive.effort)
+                out[k] = effort.at(known) if hasattr(effort, "at") else effort
             if k in self.motors and self.on[k]:
                 out[k] += self.motors[k].at(u[k])
         return out
@@ -95,6 +118,13 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
             "no drive is let go: none has a start, a motor or an effort",
             "write start: {O2: {position: 60 deg, speed: 0}}, with the name of a drive",
             ("drives",),
+        )
+    braked = next((n for n, d in m.drives.items() if d.brake and n not in free), "")
+    if braked:
+        raise ModelError(
+            f"drive {braked!r} is prescribed, and its brake would have no effect on the motion",
+            f"let it go: start: {{{braked}: {{position: ..., speed: 0}}}}, or leave the brake out",
+            ("drives", braked, "brake"),
         )
     at = {name: _at_start(name, d, m.start.get(name), name in free) for name, d in m.drives.items()}
     q, u, a = np.array(list(at.values())).T

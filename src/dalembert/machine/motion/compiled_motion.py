@@ -22,12 +22,13 @@ from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
 from dalembert.kernel.memory import available
-from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
+from dalembert.machine.motion.actuation import Actuation, actuation, drive_lengths, joint_stops
 from dalembert.machine.motion.equation import Corners, Equation, StoppedError
 from dalembert.machine.motion.equation_trace import trace_equation
 from dalembert.machine.motion.motion_block import MotionBlock, Motions
-from dalembert.machine.motion.simulation import check_choices, read_end, read_start
-from dalembert.model import Mechanism
+from dalembert.machine.motion.occurrences import read_end
+from dalembert.machine.motion.simulation import check_choices, read_start
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.drives.starting import Start
 
 AT_ONCE = 16_384
@@ -69,7 +70,7 @@ class MotionBatch:
 
 
 def compile_motion(
-    mechanism: Mechanism,
+    mechanism: ModelOrPath,
     until: str | float | Sequence[str | float],
     vary: Sequence[str] = (),
     outputs: Sequence[str] = (),
@@ -83,16 +84,18 @@ def compile_motion(
     until: a time, and conditions such as ``"O2.speed = 0 rad/s"`` that end a design's motion before it. vary: paths as
     in `da.compile`, and ``drives.NAME.effort``, ``drives.NAME.motor.stall`` and ``.no_load``, ``start.NAME.position``
     and ``.speed``. outputs: names as in `da.compile`, at ``count`` instants evenly from a design's start to its end;
-    reduce: over these, as there, or ``final``. tolerance: of the steps, relative. Raises ModelError for what is not
+    reduce: over these instants, as there, or ``final``. tolerance: of each step, relative; the error of the motion
+    grows beyond it with the steps: compare with a tenth of it. Raises ModelError for what is not
     smooth: dry friction, brakes, stops, motors with switches, efforts that go by positions or time.
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2)
     >>> start = {"O2": {"position": "30 deg", "speed": "20 rad/s"}}
-    >>> k = da.compile_motion(m, "0.5 s", ["links.piston.mass"], ["magnitude.A"], reduce="peak", start=start)
-    >>> k([[1.0], [2.0]]).value("magnitude.A").shape
+    >>> k = da.compile_motion(m, "0.5 s", ["links.piston.mass"], ["reaction.A.magnitude"], reduce="peak", start=start)
+    >>> k([[1.0], [2.0]]).value("reaction.A.magnitude").shape
     (2,)
     """
+    mechanism = as_mechanism(mechanism)
     if reduce != "final":
         over_positions.check(reduce)
     try:
@@ -147,7 +150,7 @@ def _compile(
     places = [k for path in vary for k, n in enumerate(where) if f"{n.path}.".startswith(f"{path}.")]
     instants = 1 if reduce == "final" or not outputs else count
     small = max(tolerance * CORNERED, 1e-14) if corners else tolerance
-    block = MotionBlock(equation, code, tuple(conditions), end, small, instants)
+    block = MotionBlock(equation, code, tuple(conditions), end, small, instants, drive_lengths(prescribed))
     return MotionKernel(m, block, lines, formulas, where, tuple(places), reduce)
 
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags
+from dalembert.arrays import Array, Flags, Numeric
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.rotation_rows import recount_turns
 from dalembert.errors import AnalysisError
@@ -27,8 +27,12 @@ from dalembert.kernel.emit import llvm_text
 from dalembert.kernel.graph import CONSTANT, Node, trace_array
 from dalembert.kernel.memory import address
 from dalembert.kernel.program import Program
-from dalembert.machine.motion.dry_friction import Contacted, DryFriction, Linear
+from dalembert.machine.motion.corners.one_sided import Sided
+from dalembert.machine.motion.rest.dry_friction import Contacted, DryFriction, Linear
 from dalembert.machine.motion.steps import Integrator
+from dalembert.model.quantities.coordinates import TIME
+from dalembert.model.quantities.expressions import Expression
+from dalembert.model.quantities.tables import Table
 
 if TYPE_CHECKING:
     from dalembert.kernel.emit.machine_code import Machine
@@ -61,7 +65,7 @@ class Terms(NamedTuple):
     """At a state: efforts (D,) at no acceleration, M_r (D, D), powers of loads and dampers (2,), rates of the contacts
     (E,), what is below zero within 0.2 deg of a dead centre or change point; of the freedoms that are
     watched (J, 3 + D) value, but for whole turns, rate and, at no acceleration, second rate, and how far it goes with
-    each drive; and what friction changes."""
+    each drive; what loads by the pose switch by; and what friction changes."""
 
     effort: Array
     mass: Array
@@ -69,16 +73,39 @@ class Terms(NamedTuple):
     rates: Array
     closure: Array
     freedoms: Array
+    corners: Array
     linear: Linear | None
 
 
 @dataclass
+class LoadChannel:
+    """A load that follows from the drives' positions and time, each of its corners on one side."""
+
+    varying: Expression | Table
+    names: tuple[str, ...]
+    sided: Sided | None = None
+
+    def known(self, t: float, q: Array) -> dict[str, float]:
+        """What it goes by at a state."""
+        return {**dict(zip(self.names, q, strict=True)), TIME: t}
+
+    def __call__(self, t: float, q: Array, _: object) -> Numeric:
+        return (self.sided or self.varying).at(self.known(t, q))
+
+    def again(self) -> LoadChannel:
+        """The same for another motion."""
+        return replace(self, sided=self.sided and self.sided.again())
+
+
+@dataclass
 class LastPose:
-    """The pose of the last state, where whole turns are counted from and Newton's steps begin; a course of one."""
+    """The pose of the last state, where whole turns are counted from and Newton's steps begin; a course of one.
+    ``anchor``: that where a step begins, for what its trials lead too far from."""
 
     pose: Pose
     followed: Any
     layout: Layout
+    anchor: Pose | None = None
 
     def follow(self, values: Array) -> float:
         """Take another pose, all its numbers in a row; how far it is, in m or rad."""
@@ -99,7 +126,8 @@ class Equation:
 
     ``parts``: nodes of the terms, in their order; ``numbers``: those of speeds, then of accelerations; ``values``: of
     all numbers, those of nodes where ``places`` says; ``channels``: where an input stands in positions, senses and
-    time, or how it follows from time and positions. ``known``: the pose, where states are followed one by one; ``dry``:
+    time, or how it follows from time and positions; ``sides``: where the values have the sides of loads
+    computed in machine code. ``known``: the pose, where states are followed one by one; ``dry``:
     the contacts, where there is friction, with the names of the joints of its ``own`` ones.
     """
 
@@ -124,12 +152,14 @@ class Equation:
         self.kept: dict[object, Any] = {}
         self.kernel: Any = None
         self.asked, self.asked_channels = program, channels
+        self.sides: list[int] = []
 
     def again(self, values: Array | None = None) -> Equation:
         """The same equation for another motion, of other numbers; its machine code is shared."""
         new = copy(self)
         new.values = (self.values if values is None else values).copy()
         new.known, new.dry = self.known and replace(self.known), self.dry and replace(self.dry)
+        new.channels = [c.again() if isinstance(c, LoadChannel) else c for c in self.channels]
         new.__dict__.pop("run", None)
         return new
 
@@ -149,19 +179,28 @@ class Equation:
     def __call__(self, t: float, q: Array, u: Array) -> Terms:
         """The terms at a state, at no accelerations and without dry friction."""
         d, state = len(u), (*q, t)
+        pose: Any = self.known and self.known.pose
         self.values[self.rates] = [*u, *np.zeros(d)]
         for _ in range(STEPS):
             along = [f(t, q, self.known) if callable(f) else state[f] for f in self.channels]
             out = self.run(along)
             if not self.known or self.known.follow(out[self.ends[-1] :]) <= NEAR or not self.by_newton:
                 break
-        effort, mass, power, rates, closure, freedoms, *more = np.split(out[: self.ends[-1]], self.ends[:-1])
+        effort, mass, power, rates, closure, freedoms, corners, *more = np.split(
+            out[: self.ends[-1]], self.ends[:-1]
+        )
+        if self.known and not np.isfinite(effort).all():
+            self.known.pose = self.known.anchor or pose  # no state goes on from where the loops do not close
+            if self.known.pose is not pose:
+                return self(t, q, u)
         linear = None
         if self.dry:
             e = self.dry.contacts.count
             shapes = (d, e), (3, e), (3, e, d), (3, e, e), (e,)
             linear = Linear(*(x.reshape(shape) for x, shape in zip(more, shapes, strict=True)))
-        return Terms(effort, mass.reshape(d, d), power, rates, closure, freedoms.reshape(-1, 3 + d), linear)
+        return Terms(
+            effort, mass.reshape(d, d), power, rates, closure, freedoms.reshape(-1, 3 + d), corners, linear
+        )
 
     def steps(
         self, free: Flags, lanes: int = 1, works: bool = True, corners: Mapping[int, Corners] = NO_CORNERS
@@ -244,9 +283,9 @@ def solve_nodes(mass: Array, right: Array, names: Sequence[str]) -> Array:
     for k, name in enumerate(names):
         if mass[k, k].level == CONSTANT and not mass[k, k].value:
             raise StoppedError(no_inertia(name))
-        factor = mass[:, k] / mass[k, k]
-        factor[k] = (mass[k, k] - 1.0) / mass[k, k]
-        mass, right = mass - np.outer(factor, mass[k]), right - factor * right[k]
+        row, value = mass[k] / mass[k, k], right[k] / mass[k, k]
+        mass, right = mass - np.outer(mass[:, k], row), right - mass[:, k] * value
+        mass[k], right[k] = row, value  # not by a difference, in which what is heavy would lose its digits
     return right
 
 

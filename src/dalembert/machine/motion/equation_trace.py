@@ -7,20 +7,21 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Sequence
-from functools import lru_cache
+from collections.abc import Callable, Sequence
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
+from dalembert.analysis.batch.tracing.symbolic_model import functions
 from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME
 from dalembert.analysis.engine.kept_program import KeptProgram
 from dalembert.analysis.engine.structures import ready
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Ints, Tree
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.friction.contact_equations import Contacts
@@ -30,9 +31,12 @@ from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
 from dalembert.kernel.program import Program
 from dalembert.kernel.trace import Traced
 from dalembert.machine.motion.actuation import joint_stops
-from dalembert.machine.motion.dry_friction import DryFriction
-from dalembert.machine.motion.equation import LOCK, Equation, LastPose
+from dalembert.machine.motion.corners.one_sided import Sided, has_corners, sided
+from dalembert.machine.motion.equation import LOCK, Equation, LastPose, LoadChannel
+from dalembert.machine.motion.rest.dry_friction import DryFriction
 from dalembert.model import Mechanism, Schedule
+from dalembert.model.quantities.expression_trees import Functions
+from dalembert.model.quantities.expressions import Expression
 
 OUTSIDE = frozenset({"min", "exp", "log", "asin", "acos", "tan"})
 """Operations of expressions without machine code."""
@@ -78,7 +82,13 @@ def trace_equation(
     names = tuple(m.drives)
     moving = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
     whole, varied = outputs is None, [*vary, *moving]
-    trace = trace_analysis(m, varied, inertia=True, moves=True, redundant=True, whole=whole)
+    switches: dict[Node, Node] = {}
+    of: Callable[[Graph], Tree] = partial(_sided_functions, switches) if whole else functions
+    trace = trace_analysis(m, varied, True, moves=True, redundant=True, whole=whole, functions_of=of)
+    known_functions = of(trace.catalogue.graph)
+    if whole:
+        _trace_switches(trace, names, known_functions, switches)
+    met = dict(switches)  # those of loads that stay outside machine code have their own sides
     trace.unique(outputs or ())
     graph, traced, count = trace.catalogue.graph, trace.catalogue.traced, len(names)
     kernel = Kernel(m, trace, outputs or (), None, False, 1)
@@ -90,22 +100,24 @@ def trace_equation(
     rubbing, *linear = _contacts(trace, numbers[count:])
     c, watched = trace.catalogue.compiled, (*joint_stops(m), *freedoms)
     moved = [rubbing, traced.closure, _motion(graph, c, traced, watched, numbers[count:])]
-    parts = [effort, mass, _powers(graph, c, traced), *moved, *linear]
+    parts = [effort, mass, _powers(graph, c, traced), *moved, list(met), *linear]
     slip, none = traced.friction.slip, dict[int, Node]()
     if slip is not None:
         none = dict.fromkeys((n.index for n in (*trace_array(graph, slip.cz), *numbers[count:])), graph.zero)
 
     def program(*more: Node) -> Program:
         nodes = graph.substitute([*(n for part in parts for n in part), *more], none)
-        return plain(kernel, nodes, marked=False, without=OUTSIDE)
+        return plain(kernel, nodes, marked=False, without=OUTSIDE, known=known_functions)
 
     found = program()
     known = [x for n in found.inputs_in_use("channel") if (x := graph.names[n.index]).startswith("known ")]
     if known:  # whole turns, and groups without a closed form: followed from state to state
         found = program(*(n for a in traced.pose for n in trace_array(graph, a).ravel()))
     channels = [_channel(trace, names, n) for n in found.inputs_in_use("channel")]
-    own = {n.index: k for k, n in enumerate(kernel.number_nodes)}
-    out = Equation(names, found, parts, numbers, own, np.append(kernel.nominal, 0.0), channels)
+    own = {n.index: k for k, n in enumerate((*kernel.number_nodes, *met.values()))}
+    values = np.concatenate([kernel.nominal, np.ones(len(met)), [0.0]])
+    out = Equation(names, found, parts, numbers, own, values, channels)
+    out.sides = [own[side.index] for side in met.values()]
     out.kernel = kernel
     if outputs is not None:
         out.asked = plain(
@@ -122,6 +134,28 @@ def trace_equation(
     return out
 
 
+def _sided_functions(switches: dict[Node, Node], graph: Graph) -> Tree:
+    """Functions of expressions whose corners are on one side: what switches, with the input that says which."""
+
+    def switch(x: Node | float) -> Node:
+        by = x if isinstance(x, Node) else graph.constant(x)
+        return switches.setdefault(by, graph.input("number", f"side {by.index}", 1.0))
+
+    return {**functions(graph), **sided(switch)}
+
+
+def _trace_switches(trace: Trace, names: Sequence[str], known: Functions, switches: dict[Node, Node]) -> None:
+    """Note what switches loads that go by drives and time, where they are computed in machine code."""
+    graph, inputs = trace.catalogue.graph, trace.inputs
+    raw = {n: inputs.named["channel", f"position {n}"] for n in names} | {TIME: inputs.time()}
+    for varying in inputs.varying.values():
+        if isinstance(varying, Expression) and varying.names <= raw.keys():
+            before, value = list(switches), varying.at(raw, known)
+            if isinstance(value, Node) and any(n.op in OUTSIDE for n in graph.order([value])):
+                for more in switches.keys() - set(before):
+                    del switches[more]
+
+
 def _channel(trace: Trace, names: tuple[str, ...], node: Node) -> Any:
     """Where an input stands in positions and time, or how it follows from time and positions."""
     name = trace.catalogue.graph.names[node.index]
@@ -135,7 +169,8 @@ def _channel(trace: Trace, names: tuple[str, ...], node: Node) -> Any:
         return lambda t, q, known: np.ravel(found(known))[0]
     if name in trace.inputs.varying and not any("." in n for n in trace.inputs.varying[name].names):
         varying = trace.inputs.varying[name]
-        return lambda t, q, known: varying.at({**dict(zip(names, q, strict=True)), TIME: t})
+        of = f"load {name.split('.')[1]!r}"
+        return LoadChannel(varying, names, Sided(varying, of) if has_corners(varying) else None)
     raise ModelError(
         f"the motion under forces needs {name!r}, which does not follow from the drives' positions alone",
         "choose drives that place the links in closed form, one group after the other",
@@ -166,7 +201,7 @@ def _shared(k: KeptProgram, names: tuple[str, ...], freedoms: Freedoms) -> Equat
     effort = list(k.traced.effort)
     mass = [n for row in gradients(graph, effort, list(a)) for n in row]
     moved = _motion(graph, k.symbols.compiled, k.traced, freedoms, list(a))
-    parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure, moved]
+    parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure, moved, []]
     own = [
         n if n.op == "number" else graph.input("number", f"value {j}", 1.0) for j, n in enumerate(k.inputs)
     ]

@@ -15,7 +15,7 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.kernel.memory import address
 from dalembert.machine.motion.equation import Equation
 from dalembert.machine.motion.occurrences import Condition
-from dalembert.machine.motion.steps import Integrator, between, first_step
+from dalembert.machine.motion.steps import Integrator, between, first_step, state_sizes
 
 ATTEMPTS, MOST, SMALL, ROOTS = 24, 100_000, 0.01, 60
 """Attempts of steps at once, and those after which a motion is given up; part of the mean step below which it is asked
@@ -43,6 +43,7 @@ class MotionBlock:
     end: float
     tolerance: float
     instants: int
+    lengths: Array
 
     @cached_property
     def asked(self) -> int:
@@ -77,16 +78,19 @@ class MotionBlock:
     def _integrate(self, y: Array, given: Array) -> tuple[Array, Ints, Flags]:
         """All steps (R, ``record_size``), those of a design one after the other, of which design, and which failed."""
         code, m = self.code, len(y)
-        values, motions = code.blocks(given), code.motions(y, 0.0, self.end, self.tolerance)
+        values, motions = code.blocks(given), code.motions(y, 0.0, self.end, self.tolerance, 1.0)
         code.advance(values, motions, 0)
         f = code.part(motions, m, "rates")
+        natural = state_sizes(f[:, : f.shape[1] // 2], f[:, f.shape[1] // 2 :], self.lengths)
+        motions = code.motions(y, 0.0, self.end, self.tolerance, natural[0])
+        code.advance(values, motions, 0)
 
         def ahead(h: Array) -> Array:
-            there = code.motions(y + h[:, None] * f, h, self.end, self.tolerance)
+            there = code.motions(y + h[:, None] * f, h, self.end, self.tolerance, natural[0])
             code.advance(values, there, 0)
             return code.part(there, m, "rates")
 
-        code.put(motions, "step", first_step(y, f, ahead, self.end, self.tolerance))
+        code.put(motions, "step", first_step(y, f, ahead, self.end, self.tolerance, natural))
         rows, of, attempts, stop, lost = [], [], 0, np.full(m, self.end), np.zeros(m, bool)
         while attempts < MOST:
             records = code.advance(values, motions, ATTEMPTS, True).transpose(0, 3, 1, 2)
@@ -135,7 +139,7 @@ class MotionBlock:
     def _at(self, given: Array, y: Array, t: Array) -> tuple[Array, Flags]:
         """Outputs (K, N) at states, and where they are sure."""
         code, d = self.code, len(self.equation.names)
-        motions = code.motions(y, t, self.end, self.tolerance)
+        motions = code.motions(y, t, self.end, self.tolerance, 1.0)
         code.advance(code.blocks(given), motions, 0)
         rates, e = code.part(motions, len(y), "rates"), self.equation
         given[:, e.rates[:d]], given[:, e.rates[d:]] = y[:, d : 2 * d], rates[:, d : 2 * d]

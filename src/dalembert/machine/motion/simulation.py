@@ -5,7 +5,6 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,29 +13,32 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.output.columns import Column, Scale, columns, drive_kinds
+from dalembert.analysis.output.columns import Column, Scale, columns
 from dalembert.analysis.output.rounding import sizes
 from dalembert.analysis.result.closure_residual import closure_gap
 from dalembert.analysis.result.link_motion import place_of
+from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.answer.named_answer import NamedAnswer, counted
 from dalembert.arrays import Array, Tree
-from dalembert.errors import ModelError
+from dalembert.bounds import BOUNDS, text_of
+from dalembert.errors import ArgumentError, ModelError
 from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
 from dalembert.machine.motion.coordinates.pieces import analysis_along, instants, integrate
 from dalembert.machine.motion.energies import energies
 from dalembert.machine.motion.integration import Integration
-from dalembert.machine.motion.occurrences import Condition, Event, Words, say
+from dalembert.machine.motion.occurrences import Event, Words, read_end, say
+from dalembert.machine.motion.stepping import Limits
 from dalembert.machine.motion.stops.stop_loads import stop_effort, with_stop_loads
 from dalembert.machine.output.answer import Answer
-from dalembert.model import Mechanism, Schedule
-from dalembert.model.drives.drives import SLIDE, TURN, kind_of
+from dalembert.model import Mechanism, ModelOrPath, Schedule, as_mechanism
+from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.starting import Start, StartValue
-from dalembert.units import quantity
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-TOLERANCE, MOST = 1e-12, 100_000
+TOLERANCE = 1e-12
 """Of the integration, relative; and the most instants that are kept."""
 CLOSE, DOUBT = 1e-10, 1e-5
 """Gap of a check that needs no other measure; and that above which the answer says so: results are read to five digits
@@ -47,8 +49,8 @@ NOTHING = 1e-6
 these they may be nothing but rounding."""
 
 
-@dataclass(frozen=True)
-class Simulation(Answer):
+@dataclass(frozen=True, repr=False, eq=False)
+class Simulation(NamedAnswer, Answer):
     """A motion under forces: ``result`` has every joint force at the instants ``time`` (T,), s.
 
     ``applied`` (T, D): what acts in each drive's freedom, brakes and stops included; ``stop_force`` (T, D): of the stop
@@ -60,6 +62,7 @@ class Simulation(Answer):
     """
 
     NAME = "simulation"
+    ROW = "instant"
 
     schedule: Schedule = field(repr=False)
     works: Mapping[str, Array]
@@ -70,6 +73,9 @@ class Simulation(Answer):
     given: Array = field(repr=False)  # applied, where that is no joint force: else NaN
     pushed: Array = field(repr=False)  # efforts on what rests on a stop, else NaN
     on_joints: Array = field(repr=False)  # stops of joints, (T, J, 2)
+    status: str = "ended"
+    """``ended`` by a time or a condition; ``not_met``: its conditions are not, within the limits or as it is at rest
+    for good; ``stopped`` where nothing goes on, ``interrupted`` by Ctrl-C: ``ended`` says why and when."""
     motion: Result | None = field(
         repr=False, default=None
     )  # where other freedoms have led: its poses and rates
@@ -140,7 +146,8 @@ class Simulation(Answer):
         sure = np.array([s in ("ok", "self_locking", "redundant") for s in r.status])
         if r.friction is not None:
             sure &= ~r.friction.reversing.any(axis=1)
-        asked, given = r.effort_array[:, free], self.applied[:, free]
+        arm = np.where(self.moves.turns, 1.0, r.compiled.layout.length)[free]  # forces as couples
+        asked, given = r.effort_array[:, free] * arm, self.applied[:, free] * arm
         inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
         forces, couples = r.compiled.forcing.forces.value, r.compiled.forcing.couples.value
         loads = np.append(np.ravel(forces) * r.compiled.layout.length, couples)  # of numbers that cancel
@@ -197,34 +204,79 @@ class Simulation(Answer):
         """Acceleration of a drive (T,), rad/s2 or m/s2."""
         return self.schedule.acceleration[:, place_of(self.drives, drive, "drive")]
 
+    @property
+    def mechanism(self) -> Mechanism:
+        """The description with the motion that was computed."""
+        return self.prescribed
+
+    @property
+    def codes(self) -> Array:
+        """Statuses (T,) of the joint forces at the instants."""
+        return self.result.codes
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def extent(self) -> str:
+        """How many instants."""
+        return counted(len(self), self.ROW)
+
+    @property
+    def outcome(self) -> str:
+        """By what it ended, without the joint forces."""
+        return f"{self.status} {self.ended}"
+
+    def _further(self) -> dict[str, Column]:
+        """What is no quantity of the result: efforts that were applied, stops, works and energies, by name."""
+        return {c.name: c for c in self._columns_of_motion()}
+
+    def keys(self) -> list[str]:
+        """Names of the quantities of ``result``, and of applied efforts, stops, works and energies."""
+        return [*self.result.keys(), *self._further()]
+
+    def __getitem__(self, name: str) -> Array:
+        """A quantity by its name, at the instants, SI."""
+        further = self._further()
+        return further[name].values if name in further else self.result[name]
+
+    def both_sides(self, name: str) -> list[Array]:
+        """A quantity, and where contacts reverse also its values just after."""
+        return [self[name]] if name in self._further() else self.result.both_sides(name)
+
     def event(self, name: str) -> list[Event]:
         """Events whose name or sentence begins so."""
         return [e for e in self.events if e.name.startswith(name) or e.sentence.startswith(name)]
 
     def columns(self) -> Iterator[Column]:
         """Time, all numbers of the result, works and energies."""
-        yield Column("time", "time", self.time)
         yield from columns(self.result)
+        yield from self._columns_of_motion()
+
+    def _columns_of_motion(self) -> Iterator[Column]:
         for k, drive in enumerate(self.drives):
-            yield Column(f"applied {drive}", drive_kinds(self.result, drive)["effort"], self.applied[:, k])
+            yield Column(
+                f"applied_effort.{drive}", drive_kinds(self.result, drive)["effort"], self.applied[:, k]
+            )
             if self.stop_force[:, k].any():
                 yield Column(
-                    f"stop {drive}", drive_kinds(self.result, drive)["effort"], self.stop_force[:, k]
+                    f"stop_force.{drive}", drive_kinds(self.result, drive)["effort"], self.stop_force[:, k]
                 )
         for joint, (_, freedom) in zip(
             self.joint_stop_force, joint_stops(self.result.mechanism), strict=True
         ):
             if self.joint_stop_force[joint].any():
-                yield Column(f"stop {joint}", kind_of(freedom, "effort"), self.joint_stop_force[joint])
+                yield Column(f"stop_force.{joint}", kind_of(freedom, "effort"), self.joint_stop_force[joint])
         for name, values in self.works.items():
-            yield Column(f"work of {name}", "energy", values)
-        yield Column("kinetic energy", "energy", self.kinetic)
-        yield Column("potential energy", "energy", self.potential)
+            yield Column(f"energy.work.{name}", "energy", values)
+        yield Column("energy.kinetic", "energy", self.kinetic)
+        yield Column("energy.potential", "energy", self.potential)
 
     def record(self, to: Scale) -> Tree:
         """Events, the end and the checks."""
         return {
             "ended": say(self.ending, to),
+            "status": self.status,
             "events": [self._event(e, to) for e in self.events],
             "energy_residual": self.energy_residual,
             "law_residual": self.law_residual,
@@ -238,21 +290,24 @@ class Simulation(Answer):
 
 
 def simulate(
-    m: Mechanism,
+    m: ModelOrPath,
     until: str | float | Sequence[str | float],
     start: Mapping[str, object] | None = None,
     events: Sequence[str] = (),
     count: int = 201,
     tolerance: float = TOLERANCE,
+    steps: int = Limits.steps,
 ) -> Simulation:
     """Motion under forces: motors, given efforts, loads, weights, springs, dampers and dry friction.
 
     (V^T M V) u' + h(q, u) = tau for the drives that ``start`` lets go; the others stay prescribed. ``until``: a time
     (``"2 s"``, or seconds), a condition such as ``"O2.speed = 0 rad/s"`` or ``"O2.position = 90 deg"``, or several,
-    the first ends it. ``start``: in place of the file's, ``{"O2": {"position": "60 deg", "speed": 0}}``. ``events``:
-    conditions that are noted. ``count``: instants in the answer, evenly in time, besides the events; without a time the
-    steps of the integration. Dry friction sticks and lets go; nothing is smoothed. Raises ModelError for a model that
-    forces cannot move. Hairer, Norsett, Wanner, Solving ODEs I, II.5 (DOP853).
+    the first ends it. Without a time, a motion also ends where its conditions are not met within so many ``steps`` of
+    the integration (a radian at least counts as one), or 1e5 s: its ``status`` is ``not_met``. Ctrl-C ends it with what
+    there is, ``interrupted``. ``start``: in place of the file's, ``{"O2": {"position": "60 deg", "speed": 0}}``.
+    ``events``: conditions that are noted. ``count``: instants in the answer, evenly in time, besides the events;
+    without a time the steps of the integration. Dry friction sticks and lets go; nothing is smoothed. Raises ModelError
+    for a model that forces cannot move. Hairer, Norsett, Wanner, Solving ODEs I, II.5 (DOP853).
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2)
@@ -260,12 +315,15 @@ def simulate(
     >>> bool(s.energy_residual < 1e-9), bool(s.law_residual < 1e-9)
     (True, True)
     """
+    m = as_mechanism(m)
     try:
         prescribed, moves = actuation(m, read_start(m, start))
         end, conditions = read_end(m, until, events)
         check_choices(count, tolerance)
+        if isinstance(steps, bool) or not isinstance(steps, int) or steps < 1:
+            raise ModelError(f"{steps!r} is not a number of steps", "ask for 1 or more")
         times = np.linspace(0.0, end, count)[1:] if np.isfinite(end) else None
-        run = Integration(prescribed, moves, end, times, conditions, tolerance)
+        run = Integration(prescribed, moves, end, times, conditions, tolerance, Limits(steps))
         pieces = integrate(run)
     except ModelError as error:
         raise error.at_source(m.source) from None
@@ -274,10 +332,14 @@ def simulate(
 
 def check_choices(count: int, tolerance: float) -> None:
     """Raise ModelError for so many instants, or such a tolerance."""
-    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST:
-        raise ModelError(f"{count} instants are asked for", f"ask for 2 to {MOST}")
-    if not 1e-14 <= tolerance <= 1e-3:
-        raise ModelError(f"the tolerance {tolerance:g} is not between 1e-14 and 1e-3", "leave it out: 1e-12")
+    if not BOUNDS["instants"].allows(count):
+        raise ArgumentError(
+            f"{text_of(count)} instants are asked for", f"ask for 2 to {BOUNDS['instants'].high}"
+        )
+    if not BOUNDS["step error"].allows(tolerance):
+        raise ArgumentError(
+            f"the tolerance {text_of(tolerance)} is not between 1e-14 and 1e-3", "leave it out: 1e-12"
+        )
 
 
 def read_start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]:
@@ -290,36 +352,6 @@ def read_start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, St
                 f"start names the drive {name!r}, which is not there", closest(name, list(m.drives))
             )
     return StartValue().starts(start, m._later_rules({}))
-
-
-CONDITION = re.compile(r"\s*(?P<drive>\S+)\.(?P<what>position|speed)\s*=\s*(?P<value>.+?)\s*")
-
-
-def read_end(
-    m: Mechanism, until: str | float | Sequence[str | float], events: Sequence[str]
-) -> tuple[float, list[Condition]]:
-    """The end, infinite where only conditions end it, and the conditions."""
-    several = [until] if isinstance(until, (str, float, int)) else list(until)
-    times = [u for u in several if not (isinstance(u, str) and "=" in u)]
-    said = [(str(u), True) for u in several if u not in times] + [(e, False) for e in events]
-    conditions = [_condition(m, text, stops) for text, stops in said]
-    end = min((quantity(u, "time", m.units.of_texts()) for u in times), default=np.inf)
-    if not end > 0 or not several:
-        raise ModelError("the simulation does not say until when", 'write until="2 s"')
-    return end, conditions
-
-
-def _condition(m: Mechanism, text: str, stops: bool) -> Condition:
-    found = CONDITION.fullmatch(text)
-    if found is None:
-        raise ModelError(f"{text!r} is no condition", 'write "O2.speed = 0 rad/s" or "O2.position = 90 deg"')
-    drive = found["drive"]
-    if drive not in m.drives:
-        raise ModelError(f"the condition {text!r} names no drive", closest(drive, list(m.drives)))
-    what, kinds = found["what"], TURN if m.drives[drive].turns else SLIDE
-    kind = kinds["" if what == "position" else what]
-    value = quantity(found["value"], kind, m.units.of_texts()) if found["value"] != "0" else 0.0
-    return Condition(text.strip(), list(m.drives).index(drive), what, value, stops)
 
 
 def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, pieces: list[Integration]) -> Simulation:
@@ -348,6 +380,7 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, pieces: list[
         applied,
         on_stop,
         stops,
+        run.status,
         motion,
         sum(piece.evaluations for piece in pieces),
     )

@@ -5,6 +5,7 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,13 +18,13 @@ from dalembert.kernel.memory import address
 from dalembert.kernel.program import Program
 
 LEAST = 1e-4
-"""Absolute tolerance over the relative one."""
+"""Part of the natural size of a state's number below which its errors do not count relative to itself."""
 AT_ONCE, UNWATCHED = 16, 256
 """Attempts of steps of one motion at once: an event among them makes the others useless; and where none may happen."""
 
 
-PARTS = ("state", "rates", "time", "step", "end", "tolerance", "least", "growth", "attempts")
-"""Of a motion, as ``kernel.emit.integrator`` has them."""
+PARTS = ("state", "rates", "least", "time", "step", "end", "tolerance", "growth", "attempts")
+"""Of a motion, as ``kernel.emit.integrator`` has them: the first three of n numbers."""
 
 
 def _table() -> Array:
@@ -62,11 +63,11 @@ class Integrator:
 
         return to_blocks(array, self.lanes)
 
-    def motions(self, y: Array, t: Array | float, end: float, tolerance: float) -> Array:
-        """Motions at states (M, n) and times, before their first step."""
-        out = np.zeros((len(y), state_size(self.n)))
-        out[:, : self.n], out[:, 2 * self.n] = y, t
-        out[:, 2 * self.n + 2 : 2 * self.n + 6] = end, tolerance, LEAST * tolerance, 10.0
+    def motions(self, y: Array, t: Array | float, end: float, tolerance: float, size: Array | float) -> Array:
+        """Motions at states (M, n) of natural ``size`` (M, n) and times, before their first step."""
+        n, out = self.n, np.zeros((len(y), state_size(self.n)))
+        out[:, :n], out[:, 2 * n : 3 * n], out[:, 3 * n] = y, LEAST * tolerance * size, t
+        out[:, 3 * n + 2 : 3 * n + 5] = end, tolerance, 10.0
         return self.blocks(out)
 
     def part(self, motions: Array, count: int, name: str) -> Array:
@@ -79,31 +80,52 @@ class Integrator:
 
     def _place(self, name: str) -> slice:
         n, k = self.n, PARTS.index(name)
-        return slice(k * n, (k + 1) * n) if k < 2 else slice(2 * n + k - 2, 2 * n + k - 1)
+        return slice(k * n, (k + 1) * n) if k < 3 else slice(3 * n + k - 3, 3 * n + k - 2)
 
     def rates(self, values: Array, t: Array | float, y: Array) -> Array:
         """Rates (M, n) at states (M, n) of motions with the same values, one lane wide."""
         motions = np.zeros((len(y), state_size(self.n), 1))
-        motions[:, : self.n, 0], motions[:, 2 * self.n, 0] = y, t
+        motions[:, : self.n, 0], motions[:, 3 * self.n, 0] = y, t
         self.advance(values if len(y) == 1 else np.tile(values, (len(y), 1)), motions, 0)
         return motions[:, self.n : 2 * self.n, 0]
 
 
-def first_step(y: Array, f: Array, ahead: Any, room: Array | float, tolerance: float) -> Array:
-    """Length (M,) of the first steps of motions with states and rates (M, n); ``ahead(h)``: rates behind steps h (M,)
-    along those. Hairer, Norsett, Wanner, II.4."""
-    scale = tolerance * (LEAST + np.abs(y))
+def state_sizes(u: Array, a: Array, length: Array, mass: Array | None = None) -> tuple[Array, Array]:
+    """Natural sizes of positions and speeds (M, 2D), with a ``mass`` (M, D) also of D + 4 works behind them; and the
+    natural pace w (M,), 1/s.
 
-    def size(x: Array) -> Array:
+    A length X (D,), 1 of a turn, is passed at w = max(u/X, sqrt(a/X)), 1/s where all rests: speeds are of the size X w,
+    works of m (X w)^2. So a machine of other masses, lengths or speeds takes the same steps.
+    """
+    w = np.maximum(np.abs(u) / length, np.sqrt(np.abs(a) / length)).max(axis=1, keepdims=True)
+    w = np.where((w > 0) & np.isfinite(w), w, 1.0)
+    speed = length * w
+    parts = [np.broadcast_to(length, u.shape), speed]
+    if mass is not None:
+        work = (np.abs(mass) * speed**2).max(axis=1, keepdims=True)
+        parts.append(np.repeat(np.where((work > 0) & np.isfinite(work), work, 1.0), u.shape[1] + 4, axis=1))
+    return np.concatenate(parts, axis=1), w[:, 0]
+
+
+def first_step(
+    y: Array, f: Array, ahead: Any, room: Array | float, tolerance: float, natural: tuple[Array, Array]
+) -> Array:
+    """Length (M,) of the first steps of motions with states and rates (M, n), ``natural`` sizes of the states and
+    paces; ``ahead(h)``: rates behind steps h (M,) along those. Hairer, Norsett, Wanner, II.4, times in 1/pace."""
+    size, pace = natural
+    scale = tolerance * (LEAST * size + np.abs(y))
+
+    def norm(x: Array) -> Array:
         return np.asarray(np.sqrt(((x / scale) ** 2).sum(axis=1) / x.shape[1]))
 
     with np.errstate(all="ignore"):
-        d0, d1 = size(y), size(f)
+        room = room * pace
+        d0, d1 = norm(y), norm(f) / pace
         h = np.minimum(np.where((d0 < 1e-5) | (d1 < 1e-5), 1e-6, 0.01 * d0 / d1), room)
-        d2 = size(ahead(h) - f) / h
+        d2 = norm(ahead(h / pace) - f) / pace / h
         still = (d1 <= 1e-15) & (d2 <= 1e-15)
         longer = np.where(still, np.maximum(1e-6, h * 1e-3), (0.01 / np.maximum(d1, d2)) ** (1 / 8))
-        return np.asarray(np.minimum(np.minimum(100 * h, longer), room))
+        return np.asarray(np.minimum(np.minimum(100 * h, longer), room) / pace)
 
 
 def between(records: Array, t: Array) -> Array:
@@ -139,19 +161,27 @@ class MachineSteps:
     """Steps of one motion, taken some at a time in machine code and handed on one by one, as scipy's solvers do."""
 
     def __init__(
-        self, code: Integrator, values: Array, t: float, y: Array, end: float, rtol: float, between: bool
+        self,
+        code: Integrator,
+        values: Array,
+        t: float,
+        y: Array,
+        end: float,
+        rtol: float,
+        natural: tuple[Array, Array],
+        between: bool,
     ) -> None:
         self.code, self.values, self.end, self.between, self.n = code, values, end, between, code.n
         self.t, self.y, self.status, self.h_previous = t, y, "running", 0.0
         n = self.n
-        self.motion = code.motions(y[None], t, end, rtol)
+        self.motion = code.motions(y[None], t, end, rtol, natural[0])
         f = code.rates(values, t, y[None])
 
         def ahead(h: Array) -> Array:
             return code.rates(values, t + h, y + h[:, None] * f)
 
-        self.h_abs = float(first_step(y[None], f, ahead, end - t, rtol)[0])
-        self.motion[0, 2 * n + 1] = self.h_abs
+        self.h_abs = float(first_step(y[None], f, ahead, end - t, rtol, natural)[0])
+        self.motion[0, 3 * n + 1] = self.h_abs
         self.records, self.next = np.zeros((0, record_size(n))), 0
 
     def step(self) -> str | None:
@@ -168,7 +198,7 @@ class MachineSteps:
         self.y = record[2 + n : 2 + 2 * n]
         self.h_abs = self.h_previous
         inner = self.next < len(self.records)
-        self.t = float(self.records[self.next][0] if inner else self.motion[0, 2 * n, 0])
+        self.t = float(self.records[self.next][0] if inner else self.motion[0, 3 * n, 0])
         if self.t >= self.end:
             self.status = "finished"
         return None
@@ -188,7 +218,7 @@ class MachineSteps:
     def _more(self, most: int = AT_ONCE) -> bool:
         """Further attempts in machine code; whether there are any."""
         whole = self.motion[0, :, 0]
-        if not whole[2 * self.n + 1] > 0:
+        if not whole[3 * self.n + 1] > 0:
             return False
         self.records = self.code.advance(self.values, self.motion, most, self.between)[
             0, : int(whole[-1]), :, 0
@@ -196,17 +226,22 @@ class MachineSteps:
         self.next = 0
         return True
 
+    @property
+    def ahead_rate(self) -> Array:
+        """Rates at the end of the last step."""
+        return np.asarray(self.record[2 + 3 * self.n : 2 + 4 * self.n])
+
     def dense_output(self) -> Between:
         """States within the last step."""
         if not self.between:
             motion = self.motion.copy()
             whole, n = motion[0, :, 0], self.n
-            whole[:n], whole[2 * n], whole[2 * n + 1] = (
+            whole[:n], whole[3 * n], whole[3 * n + 1] = (
                 self.record[2 : 2 + n],
                 self.record[0],
                 self.h_previous,
             )
-            whole[2 * n + 2], whole[2 * n + 3 : 2 * n + 5] = np.inf, 1e300
+            whole[3 * n + 2], whole[2 * n : 3 * n], whole[3 * n + 3] = np.inf, 1e300, 1e300
             self.record = self.code.advance(self.values, motion, 1, True)[0, 0, :, 0]
         return Between(self.record)
 
@@ -214,8 +249,27 @@ class MachineSteps:
 class Steps(DOP853):
     """scipy's solver, which begins where no rate tells how far to step, too."""
 
-    rtol: float
-    atol: float
+    def __init__(
+        self,
+        rate: Callable[[float, Array], Array],
+        t: float,
+        y: Array,
+        end: float,
+        rtol: float,
+        natural: tuple[Array, Array],
+    ) -> None:
+        least = rtol * LEAST * natural[0][0]
+        super().__init__(rate, t, y, end, rtol=rtol, atol=least, first_step=min(1.0, end - t))
+
+        def ahead(h: Array) -> Array:
+            return rate(t + float(h[0]), y + h[0] * self.f)[None]
+
+        self.h_abs = float(first_step(y[None], self.f[None], ahead, end - t, rtol, natural)[0])
+
+    @property
+    def ahead_rate(self) -> Array:
+        """Rates at the end of the last step."""
+        return np.asarray(self.f)
 
     def _step_impl(self) -> Any:
         self.h_abs = max(10 * float(np.spacing(self.t)), self.h_abs)

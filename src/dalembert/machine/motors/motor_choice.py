@@ -11,19 +11,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Column, Scale, drive_kinds
-from dalembert.arrays import Array, Tree
+from dalembert.analysis.output.columns import Column, Scale
+from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.arrays import Array, Ints, Tree
+from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.flywheel.turning_moment import reduced_inertia
 from dalembert.machine.motors.motor_curves import read_curve
 from dalembert.machine.output.answer import Answer
-from dalembert.machine.whole_cycle import durations
+from dalembert.machine.whole_cycle import durations, sampling
 from dalembert.model.drives.motors import MotorCurve
 from dalembert.wording import closest
 
@@ -45,7 +47,7 @@ class Need:
     enough: bool | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MotorChoice(Answer):
     """Effort (P,) of a drive, its speed and acceleration, and the inertia (P,) of all links as seen from it.
 
@@ -81,6 +83,23 @@ class MotorChoice(Answer):
         """Root of the mean square over time."""
         return math.sqrt(self.mean(values**2))
 
+    def sampling(self) -> dict[str, float]:
+        """By how much half of the positions would change rms and greatest effort and power, as parts of these."""
+
+        def of(at: Ints) -> dict[str, float]:
+            time = durations(self.result, at)
+            return replace(self, effort=self.effort[at], speed=self.speed[at], time=time)._summary()
+
+        peaks = {"greatest effort": self.effort, "greatest power": self.power}
+        return sampling(self.result, of, peaks)
+
+    def _summary(self) -> dict[str, float]:
+        """Rms and greatest values over all positions."""
+        out: dict[str, float] = {}
+        for name, values in (("effort", self.effort), ("power", self.power)):
+            out |= {f"rms {name}": self.rms(values), f"greatest {name}": float(np.abs(values).max())}
+        return out
+
     def torque(self, ratio: float) -> Array:
         """Torque of the motor (P,), N m, behind a gear."""
         lost = np.where(self.power >= 0, 1 / self.efficiency, self.efficiency)
@@ -88,6 +107,7 @@ class MotorChoice(Answer):
 
     def need(self, ratio: float) -> Need:
         """What the motor must give with a gear ratio."""
+        require("ratio", ratio)
         torque, speed = self.torque(ratio), ratio * np.abs(self.speed)
         rms, enough = self.rms(torque), None
         if self.curve is not None:
@@ -121,18 +141,20 @@ class MotorChoice(Answer):
     def columns(self) -> Iterator[Column]:
         """The drives' positions; what the drive needs, and the motor behind each ratio."""
         yield from self.drive_columns()
-        kinds = drive_kinds(self.result, self.drive)
-        for name in ("effort", "speed", "acceleration"):
-            yield Column(name, kinds[name], getattr(self, name))
-        yield Column("power", "power", self.power)
-        yield Column("reflected inertia", "inertia" if kinds["effort"] == "moment" else "mass", self.inertia)
+        kinds, drive = drive_kinds(self.result, self.drive), self.drive
+        names = {"effort": f"effort.{drive}"} | {x: f"drive.{drive}.{x}" for x in ("speed", "acceleration")}
+        yield from (Column(name, kinds[of], getattr(self, of)) for of, name in names.items())
+        yield Column(f"power.{drive}", "power", self.power)
+        yield Column(
+            f"reflected_inertia.{drive}", "inertia" if kinds["effort"] == "moment" else "mass", self.inertia
+        )
         for name, need in self.needs.items():
-            yield Column(f"motor torque {name}", "moment", self.torque(need.ratio))
+            yield Column(f"motor_torque.{name.replace(' ', '_')}", "moment", self.torque(need.ratio))
 
     def record(self, to: Scale) -> Tree:
         """Rms and greatest values, and the ratios, in the units of a scale."""
         kind = drive_kinds(self.result, self.drive)["effort"]
-        out: Tree = {"drive": self.drive}
+        out: Tree = {"drive": self.drive, "sampling": self.sampling()}
         for name, unit, values in (("effort", kind, self.effort), ("power", "power", self.power)):
             sizes = {"greatest": np.abs(values).max(), "rms": self.rms(values), "mean": self.mean(values)}
             out[name] = {what: to(unit, value) for what, value in sizes.items()}
@@ -165,14 +187,18 @@ def motor(
     >>> found.effort.shape, bool(found.rms(found.effort) < np.abs(found.effort).max())
     ((72,), True)
     """
+    for key, value in (
+        ("motor inertia", inertia),
+        ("ratio", ratio),
+        ("efficiency", efficiency),
+        ("rated torque", rated),
+    ):
+        require(key, value)
     name = drive or next(iter(r.drives), "")
     if not name:
         raise ModelError("the machine has no drive, and a motor turns one", "drive a joint")
     if name not in r.drives:
         raise ModelError(f"there is no drive {name!r}", closest(name, list(r.drives)))
-    for what, value in (("efficiency", efficiency), ("ratio", 1.0 if ratio is None else ratio)):
-        if not value > 0 or not math.isfinite(value):
-            raise ModelError(f"{what} is {value:g}", "give a positive number")
     if isinstance(curve, (str, Path)):
         curve = read_curve(curve, r.mechanism.units)
     motion = r.effort(name), r.drive_speed(name), r.drive_acceleration(name), reduced_inertia(r, name)

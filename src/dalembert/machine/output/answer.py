@@ -6,8 +6,10 @@ from collections.abc import Iterable, Iterator
 from importlib import import_module
 from typing import TYPE_CHECKING, ClassVar
 
-from dalembert.analysis.output.columns import Column, Scale, UnitChoice, drive_kinds
+from dalembert.analysis.output.columns import Column, Scale, UnitChoice
 from dalembert.analysis.output.summary.printed_units import print_scale
+from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.answer.equality import Compared
 from dalembert.arrays import Tree
 from dalembert.printing import Part, wrap
 
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-class Answer:
+class Answer(Compared):
     """An answer of machine design; ``NAME`` is that of its text, its drawings and its section of the report."""
 
     NAME: ClassVar[str]
@@ -33,7 +35,7 @@ class Answer:
         """The drives' positions, with which every table begins."""
         r = self.result
         for drive in r.drives:
-            yield Column(f"drive {drive}", drive_kinds(r, drive)["position"], r.drive_position(drive))
+            yield Column(f"drive.{drive}", drive_kinds(r, drive)["position"], r.drive_position(drive))
 
     def contents(self, units: UnitChoice = "file", **choice: object) -> Iterable[Part]:
         """What a person reads: sentences and tables."""

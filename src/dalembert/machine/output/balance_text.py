@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.machine.output.written import greatest
 from dalembert.printing import Part, Table, number, remainder, round_components, wrap
 
 if TYPE_CHECKING:
@@ -50,16 +51,28 @@ def comparison_table(b: Comparison, to: Printed) -> Table:
             new = left if left > max(1e-12 * was, b.before.floor(kind)) else 0.0
             share = number(100 * new / old, 4) + " %" if old else "-"
             rows.append([f"{what} {name}", to.quantity(kind, old), to.quantity(kind, new), share])
-    about = f"Moment about {b.before.about}; weights, which are constant, are left out of force and moment."
-    return Table(["", "before", "after", "left"], rows, note=wrap(about))
+    said = f"Moment about {b.before.about}. Force and moment are those of inertia, without weights and external loads."
+    if b.before.outside:
+        most = to.quantity("force", greatest(b.before.parts["external"][0])[0])
+        said += (
+            f" No counterweight changes the external loads, {', '.join(b.before.outside)}: at most {most}."
+        )
+    return Table(["", "before", "after", "left"], rows, note=wrap(said))
 
 
 def proof(b: Balance) -> str:
     """What was made least, how it is known to be, and what stands in the way of full force balance."""
+    counted = b.problem.weighted(b.least, b.of)
     what = " + ".join(f"{'' if w == 1 else f'{w:g} '}{name}" for name, w in b.of.items() if w)
+    if not counted:
+        return f"There was no {' and no '.join(b.of)} to balance: no counterweight is needed."
     said = f"Least {'rms' if b.least == 'rms' else 'greatest'} {what}: {_percent(b.value)} of what it was. "
     said += f"No counterweights within the bounds leave less than {_percent(b.bound)} (dual value). "
-    if b.complete:
+    zero = [name for name, w in b.of.items() if w and name not in counted]
+    said += f"The {' and the '.join(zero)}, 0 before, did not count. " if zero else ""
+    if not b.before.parts["inertia"][0].any():
+        said += "No inertia force is there to balance. "
+    elif b.complete:
         said += "The force is balanced completely: the moment is the same about every point. "
     elif b.missing():
         said += f"For complete force balance a counterweight is missing on {', '.join(b.missing())}. "

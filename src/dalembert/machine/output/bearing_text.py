@@ -10,6 +10,7 @@ import numpy as np
 from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.output.written import greatest
+from dalembert.machine.whole_cycle import sampled
 from dalembert.printing import Part, Table, number
 
 if TYPE_CHECKING:
@@ -27,7 +28,10 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     for joint, b in t.loads.items():
         size, k = greatest(b.radial)
         most, *others = (to.number("force", x) for x in (size, b.axial.max(), b.equivalent))
-        turning = [to.number("angular_speed", b.speed), "to and fro" if b.swings else "on"]
+        turning = [
+            to.number("angular_speed", b.speed),
+            "to and fro" if b.swings else "on" if b.speed else "-",
+        ]
         loads.append([joint, most, where(t.result, to, k), *others, *turning])
         if b.sized:
             values = [number(x / unit) for x in (float(b.pv.max()), b.mean_pv)]
@@ -52,6 +56,8 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
         "The equivalent load is weighted by the turning of the joint's links to each other; exponent 3, of rollers "
         "10/3. A joint that turns to and fro: turns are the angle swept over 360 deg."
     )
+    changes = {f"{what} of {j}": part for j, b in t.loads.items() for what, part in b.sampling().items()}
+    yield sampled(t.result, changes)
     thrust = [j for j, b in t.loads.items() if np.isfinite(b.radial).all() and not np.isfinite(b.load).all()]
     if thrust:
         yield f"{', '.join(thrust)}: an axial force, and no axial_factor in the bearing to count it by."

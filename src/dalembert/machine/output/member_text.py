@@ -11,7 +11,8 @@ import numpy as np
 from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.members.member_forces import ORDER, kind_of
-from dalembert.printing import Part, Table, number, remainder
+from dalembert.machine.whole_cycle import sampled
+from dalembert.printing import Part, Table, number, remainder, wrap
 
 if TYPE_CHECKING:
     from dalembert.machine.members.member_forces import MemberForces
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 SIGNS = dict(zip(ORDER, ("N", "V", "V_z", "T", "M_y", "M"), strict=True))
 NONE = 1e-11
 """Part of the largest force of a link that is nothing but rounding."""
+CLOSED = 1e-8
+"""Part of the largest force of a link within which forces and moments close."""
 
 
 def floors(f: MemberForces) -> dict[str, float]:
@@ -41,10 +44,31 @@ def member_parts(t: MemberTable, to: Printed) -> Iterator[Part]:
         yield Table(heads, rows, 2) if rows else "Nothing is carried inside the links."
     yield from (_unknown(t, which, why) for which, why in t.unknown.items())
     yield from (table for f in (_stress_table, _fatigue_table, _buckling_table) if (table := f(t, to)).rows)
-    said = "N tension +; the distance is from the first end of the member. "
-    known = [float(x) for f in t.links.values() for x in f.residual[f.residual == f.residual]]
-    yield said + (f"Forces and moments close on every link within {remainder(max(known))}." if known else "")
+    if notes := " ".join(_buckling_notes(t)):
+        yield notes
+    yield f"N tension +; the distance is from the first end of the member. {_closure(t)}".rstrip()
     yield from (f"Left out: {why}." for why in t.left_out.values())
+    yield from (_brackets(link, f, to) for link, f in t.links.items() if f.brackets)
+    yield from (f"Buckling of {link} is not judged: {why}." for link, why in t.not_judged.items())
+
+
+def _closure(t: MemberTable) -> str:
+    """How well forces and moments close, or on which link they do not."""
+    with np.errstate(all="ignore"):
+        known = {link: float(np.nanmax(f.residual, initial=0.0)) for link, f in t.links.items()}
+    if not any(np.isfinite(f.residual).any() for f in t.links.values()):
+        return ""
+    link = max(known, key=lambda n: known[n])
+    if known[link] > CLOSED:
+        what = f"{remainder(known[link])} of the largest is left over"
+        return f"Check failed: forces and moments do not close on {link}, {what}; do not use these numbers."
+    return f"Equilibrium of every link holds to {remainder(known[link])}."
+
+
+def _brackets(link: str, f: MemberForces, to: Printed) -> str:
+    """What acts beside the members of a link, by a bracket that nothing is computed of."""
+    some = ", ".join(f"{of} ({to.number('length', x)} {to.text('length')})" for of, x in f.brackets.items())
+    return f"Beside the members of {link}: {some}. Its bracket there is taken as rigid and is not analysed."
 
 
 def _unknown(t: MemberTable, which: str, why: str) -> str:
@@ -96,20 +120,52 @@ def _fatigue_table(t: MemberTable, to: Printed) -> Table:
         rows.append([link, *numbers, f.member, to.number("length", f.place), _safety(f.safety)])
     heads = ["fatigue\nof link", f"mean\n{to.text('pressure')}", "amplitude\n", "member\n"]
     lost = ", ".join(link for link, f in found.items() if math.isnan(f.mean))
-    note = f"{lost}: not known, as the stress is not at every position." if lost else ""
+    note = f"{lost}: not known, as the stress is not at every position. " if lost else ""
+    changes = {link: f.sampling for link, f in found.items()}
+    note = wrap(note + sampled(t.result, changes, "Largest values, means and amplitudes")) if rows else note
     return Table([*heads, f"at\n{to.text('length')}", "safety,\nGoodman"], rows, note=note)
 
 
 def _safety(n: float | None) -> str:
-    return "-" if n is None or math.isinf(n) else number(n, 4)
+    return "-" if n is None or not math.isfinite(n) else number(n, 4)
 
 
 def _buckling_table(t: MemberTable, to: Printed) -> Table:
-    rows = []
-    for link, b in t.buckling.items():
-        sizes = [number(float(to("force", x)), 5) for x in (b.compression, b.critical)]
-        rows.append([link, *sizes, b.formula, number(b.slenderness, 4), _safety(b.safety)])
-    heads = ["buckling\nof link", f"compression\n{to.text('force')}", "critical\n", "by\n"]
-    bent = ", ".join(link for link, b in t.buckling.items() if not b.two_force)
-    note = f"{bent}: bent as well, so that this is for comparison." if bent else ""
-    return Table([*heads, "slender-\nness", "safety\n"], rows, note=note)
+    rows, seen = [], []
+    for b in t.buckling.values():
+        if b not in seen:
+            seen.append(b)
+            sizes = [
+                "-" if math.isnan(x) else number(float(to("force", x)), 5)
+                for x in (b.compression, b.critical)
+            ]
+            factors = [number(x, 4) for x in b.effective_length]
+            held = "-".join(b.ends) if b.ends[0] != "given" else "given"
+            numbers = [_safety(b.safety), b.formula, *factors, held, number(b.slenderness, 4)]
+            rows.append([", ".join(b.links), *sizes, *numbers])
+    heads = ["buckling\nof link", f"compression\n{to.text('force')}", "critical\n", "safety\n", "by\n"]
+    heads += [f"K\n{plane}" for plane in t.planes] + ["ends\n", "slender-\nness"]
+    return Table(heads, rows)
+
+
+def _buckling_notes(t: MemberTable) -> Iterator[str]:
+    """What the critical loads assume, and where they are for comparison."""
+    if any(b.ends[0] != "given" for b in t.buckling.values()):
+        yield (
+            "K L is the effective length, the ends are those of the plane that decides: as the joints hold them with "
+            "the drives at rest and the other links rigid, under a force that keeps its direction."
+        )
+        if t.result.mechanism.dimension == 2:
+            yield "Across the plane joints hold their places; only welds, and what holds a link alone, hold the angle."
+    moved = list(dict.fromkeys(", ".join(b.links) for b in t.buckling.values() if b.moves_along))
+    if moved:
+        yield (
+            f"{'; '.join(moved)}: a joint at an end moves across with other links. Where these push from a point close "
+            "ahead, as in a toggle, the critical load is lower."
+        )
+    stepped = list(dict.fromkeys(", ".join(b.links) for b in t.buckling.values() if len(b.links) > 1))
+    if stepped:
+        yield f"{'; '.join(stepped)}: one stepped column, K with EI of the weaker part over the full length."
+    bent = list(dict.fromkeys(", ".join(b.links) for b in t.buckling.values() if not b.two_force))
+    if bent:
+        yield f"{'; '.join(bent)}: bent as well, so that the buckling load is for comparison."

@@ -7,14 +7,32 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.machine.output.written import greatest
+from dalembert.machine.whole_cycle import sampled
 from dalembert.printing import Part, Table, number, round_components
 
 if TYPE_CHECKING:
     from dalembert.machine.motors.motor_choice import MotorChoice
+
+
+def _no_least(c: MotorChoice) -> str:
+    """Why no ratio has the least torque."""
+    if not np.any(c.effort):
+        own = c.motor_inertia and np.any(c.acceleration)
+        said = (
+            "only the motor's own acceleration does: the lower the ratio, the less"
+            if own
+            else "nor does the motor"
+        )
+        return f"The drive needs no effort; {said}."
+    return (
+        "Torque falls with every higher ratio, as nothing of it goes into the motor's own acceleration: the ratio "
+        "is limited by the motor's speed alone."
+    )
+
 
 ENOUGH = {None: "-", True: "yes", False: "no"}
 
@@ -30,6 +48,7 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
         numbers = [to.number(kind, x) for x in (most, c.rms(values), mean)]
         rows.append([name, to.text(kind), numbers[0], where(c.result, to, k), *numbers[1:]])
     yield Table([f"drive {c.drive}", "unit", "greatest", "at", "rms", "mean"], rows, 2)
+    yield sampled(c.result, c.sampling())
     kind = "inertia" if kinds["effort"] == "moment" else "mass"
     low, high = (to.quantity(kind, float(x)) for x in (c.inertia.min(), c.inertia.max()))
     yield f"All links as seen from {c.drive}: {low} to {high}, {to.quantity(kind, c.mean(c.inertia))} on the mean."
@@ -43,10 +62,7 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
     heads = ["gear\n", "ratio\n", f"rms torque\n{moment}", f"greatest\n{moment}", f"speed\n{rate}"]
     yield Table([*heads, "inertia, links\n/ motor", "enough\n"], rows)
     if c.least_rms() is None:
-        yield (
-            "Torque falls with every higher ratio, as nothing of it goes into the motor's own acceleration: the ratio "
-            "is limited by the motor's speed alone."
-        )
+        yield _no_least(c)
     by = {"its curve": c.curve, "its rated torque against the rms": c.rated}
     given = " and ".join(what for what, value in by.items() if value is not None)
     judged = f"Whether it is enough is judged by {given}."

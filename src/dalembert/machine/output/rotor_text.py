@@ -43,8 +43,10 @@ def rotor_parts(b: RotorBalance, to: Printed) -> Iterator[Part]:
         f"the {b.zero} axis of {b.shaft}, centres in its axes."
     )
     yield comparison_table(b, to)
-    gap = [abs(left) / abs(was) if was else 0.0 for left, was in zip(b.left, b.unbalance, strict=True)]
-    yield f"With both corrections the unbalance, computed anew, is {remainder(max(gap))} of what it was."
+    if not b.moment.any():
+        yield "The rotor was balanced already: no correction is needed."
+    else:
+        yield f"Recomputed with both corrections, the unbalance left is {remainder(b.residual)} of the corrections."
 
 
 def _angle(u: complex) -> str:

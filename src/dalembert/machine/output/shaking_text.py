@@ -26,6 +26,11 @@ def shaking_parts(s: Shaking, to: Printed, orders: int | Sequence[float] = 4) ->
     what = "on the ground" if s.whole else "on all else"
     yield f"{whose} {what}: force, and moment about {s.about}, in ground axes."
     yield _values(s, to)
+    if s.outside:
+        yield (
+            f"External: {', '.join(s.outside)}. A load is external unless `by: ground` says that its opposite acts on "
+            "the ground, as gas does on a cylinder's head."
+        )
     yield from _harmonic_tables(s, to, orders)
     yield from _engine(s, to)
     known = s.residual[np.isfinite(s.residual)]
@@ -55,7 +60,11 @@ def _values(s: Shaking, to: Printed) -> Part:
         rows.append([name, to.text(kind), *cells, *[""] * (d - len(components))])
     axes = list("xyz"[:d])
     heads = axes if single else ["greatest", "at", "rms", *(f"mean {a}" for a in axes)]
-    return Table(["", "unit", *heads], rows, 2) if rows else "Nothing shakes the ground."
+    return (
+        Table(["", "unit", *heads], rows, 2)
+        if rows
+        else f"No force and no moment {'on the ground' if s.whole else 'on all else'}."
+    )
 
 
 def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> list[Part]:
@@ -96,7 +105,10 @@ def _engine(s: Shaking, to: Printed) -> list[Part]:
         return []
     heads = ["inertia", "order", "exact: with", "against", "book: with", "against"]
     said = f"{len(e.cylinders)} cylinder{'s' * (len(e.cylinders) > 1)}, by the book's two harmonics: "
-    said += f"its force is off by {number(100 * e.loss, 3)} % of the largest at most."
+    if greatest(e.exact.parts["inertia"][0])[0] <= s.floor("force"):
+        said += "no inertia force is left."
+    else:
+        said += f"its force is off by {number(100 * e.loss, 3)} % of the largest at most."
     return [Table(heads, rows, note=wrap(said))]
 
 
@@ -116,9 +128,15 @@ def _harmonic_table(name: str, h: Harmonics, to: Printed, floor: float) -> Table
         for part in (h.forward, h.backward) if turning else ():
             row.append(to.number(kind, abs(part[k])) if abs(part[k]) > floor else "0")
         rows.append(row)
-    note = f"Every other position left out changes them by {remainder(float(to(kind, h.aliasing)))} at most."
+    note = f"Every other position left out changes them by {_off(h.aliasing, kind, to)} at most."
     note = note if math.isfinite(h.aliasing) else "Too few positions to tell their aliasing."
     return Table([*heads, *(["with it", "against"] if turning else [])], rows, note=note)
+
+
+def _off(aliasing: float, kind: str, to: Printed) -> str:
+    """A change with its unit; 0 has none."""
+    said = remainder(float(to(kind, aliasing)))
+    return said if said == "0" else f"{said} {to.text(kind)}"
 
 
 def _phase(phase: float, order: float) -> str:

@@ -274,7 +274,8 @@ class Drive(Part):
     def _refuse(self, reason: str, *keys: str) -> None:
         for key in keys:
             if getattr(self, key) != type(self).model_fields[key].default:
-                raise ModelError(f"{reason} and a {key} are given", "leave one of them out", (key,))
+                article = "an" if key[0] in "aeiou" else "a"
+                raise ModelError(f"{reason} and {article} {key} are given", "leave one of them out", (key,))
 
     def _check_unknown(self) -> None:
         if self.effort is None:

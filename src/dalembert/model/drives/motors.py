@@ -95,9 +95,9 @@ class MotorCurve:
         curve: dict[str, object] = {"speed": speeds, kinds["name"]: efforts}
         line: dict[str, object] = {"stall": efforts[0], "no_load": speeds[1]}
         tree: dict[str, object] = line if self.straight else {"curve": curve}
-        for key, switch in (("on", self.on), ("off", self.off)):
-            if switch is not None:
-                tree[key] = value_text(switch[1], kinds[switch[0]])
+        for key, of in (("on", self.on), ("off", self.off)):
+            if of is not None:
+                tree[key] = value_text(of[1], kinds[of[0]])
         return tree
 
 
@@ -116,7 +116,7 @@ def motor_curve(value: object, kind: str, rules: Reading) -> MotorCurve:
     line = {"stall", "no_load"} & set(keys)
     if ("curve" in keys) == bool(line) or (line and len(line) < 2):
         raise ModelError("a motor has stall and no_load, or a curve", f"write motor: {EXAMPLE}")
-    switches = [at_item(k, _switch, keys[k], kinds, rules) if k in keys else None for k in ("on", "off")]
+    switches = [at_item(k, switch, keys[k], kinds, rules) if k in keys else None for k in ("on", "off")]
     if "curve" in keys:
         speed, effort = at_item("curve", _curve, keys["curve"], kinds, rules)
         return MotorCurve(speed, effort, False, *switches)
@@ -161,7 +161,7 @@ def _numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
     )
 
 
-def _switch(value: object, kinds: Mapping[str, str], rules: Reading) -> Switch:
+def switch(value: object, kinds: Mapping[str, str], rules: Reading) -> Switch:
     """A time, a position or a speed, as its unit says."""
     for by in SWITCHES:
         try:
@@ -182,12 +182,12 @@ def motor_schema() -> JsonSchema:
         "force": many | {"description": "of a slide, at each speed"},
     }
     straight = {"description": "straight lines between points, constant beyond"}
-    switch = "a time, a position or a speed at which it is switched "
+    switched = "a time, a position or a speed at which it is switched "
     keys = {
         "stall": NUMBER_OR_TEXT | {"description": "effort at rest"},
         "no_load": NUMBER_OR_TEXT | {"description": "speed without effort; a straight line between"},
         "curve": object_schema(curve, "speed") | straight,
-        "on": NUMBER_OR_TEXT | {"description": switch + "on"},
-        "off": NUMBER_OR_TEXT | {"description": switch + "off"},
+        "on": NUMBER_OR_TEXT | {"description": switched + "on"},
+        "off": NUMBER_OR_TEXT | {"description": switched + "off"},
     }
     return object_schema(keys)

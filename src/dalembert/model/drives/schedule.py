@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +11,7 @@ from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.laws import MOST
+from dalembert.wording import quote_value
 
 Motion = tuple[Any, Any, Any, Any]
 """Time, if a law says it, position, speed and acceleration of a drive: arrays, lists or single numbers."""
@@ -52,16 +53,24 @@ class Schedule:
         return np.asarray(moving | turning)
 
 
-def schedule(drives: Mapping[str, Drive], positions: int | None = None) -> Schedule:
-    """The drives' positions; `positions` replaces the counts of ranges and laws, or steps a lone turn round.
+AtPositions = int | Sequence[Any] | Array | None
+"""A number of positions, or the drives' values (position,) or (position, drive), SI; None for those of the file."""
 
-    Raises ModelError where counts disagree.
+
+def schedule(drives: Mapping[str, Drive], positions: AtPositions = None) -> Schedule:
+    """The drives' positions; a count replaces those of ranges and laws, or steps a lone turn round; values replace all.
+
+    Raises ModelError where counts disagree, and for a count that is not whole.
     """
     import numpy as np
 
-    if positions is not None:
+    count: int | None = None
+    if isinstance(positions, (int, float, np.number)):
+        count = positions = _whole(positions)
         drives = _step_full_turn(drives, positions)
-    size = _count(drives, positions)
+    elif positions is not None:
+        drives = _with_positions(drives, positions)
+    size = _count(drives, count)
     columns = {name: _motion(drive, size) for name, drive in drives.items()}
     shape = (size, len(drives))
     whole = np.empty((3, *shape))
@@ -74,9 +83,48 @@ def schedule(drives: Mapping[str, Drive], positions: int | None = None) -> Sched
     return Schedule(tuple(drives), position, speed, acceleration, _time(columns), unknown, span)
 
 
+def _whole(count: object) -> int:
+    """A number of positions; True and 72.0 are none."""
+    from numbers import Integral
+
+    if isinstance(count, bool) or not isinstance(count, Integral):
+        raise ModelError(
+            f"positions={count} is not a whole number", "give a number of positions, or a list of values"
+        )
+    return int(count)
+
+
+def _with_positions(drives: Mapping[str, Drive], values: Sequence[Any] | Array) -> Mapping[str, Drive]:
+    """The drives at given values, SI."""
+    import numpy as np
+
+    what = "give a list of numbers, one for each position and drive"
+    try:
+        given = np.asarray(values, float)
+    except (TypeError, ValueError):
+        raise ModelError(f"positions are {quote_value(values)}, not numbers", what) from None
+    count = len(drives)
+    flat = given.ndim == 1 and count and given.size % count == 0
+    if not given.size or not (flat or (given.ndim == 2 and given.shape[1] == count)):
+        raise ModelError(
+            f"positions of shape {given.shape} do not fit {count} drive(s)", "give (position, drive)"
+        )
+    if not np.isfinite(given).all():
+        raise ModelError("positions are not finite", what)
+    for name, drive in drives.items():
+        if drive.law is not None or drive.unknown:
+            why = "follows a law, which gives its positions" if drive.law else "has its position computed"
+            raise ModelError(f"drive {name!r} {why}", "leave positions out", ("drives", name))
+    columns = given.reshape(-1, count).T.tolist()
+    return {
+        name: drive.model_copy(update={"position": tuple(column)})
+        for (name, drive), column in zip(drives.items(), columns, strict=True)
+    }
+
+
 def _step_full_turn(drives: Mapping[str, Drive], positions: int) -> Mapping[str, Drive]:
     """The drives, a lone turn of one value stepped round a full turn."""
-    if isinstance(positions, bool) or not isinstance(positions, int) or not 1 <= positions <= MOST:
+    if not 1 <= positions <= MOST:
         raise ModelError(f"{positions} positions are asked for", f"ask for 1 to {MOST}")
     if positions == 1 or any(drive.counts() for drive in drives.values()):
         return drives

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from dalembert.errors import ModelError
+from dalembert.errors import MissingFileError, ModelError
 from dalembert.model.description import Mechanism, mechanism
 from dalembert.model.files.source import STANDARD_INPUT, Lines, Source, is_stream
 from dalembert.saving import DATA_FOLDER, new_file
@@ -24,12 +24,26 @@ LARGEST = 1_000_000
 FORMATS = {".yaml": "yaml", ".yml": "yaml", ".json": "json", ".toml": "toml"}
 
 FilePath = str | os.PathLike[str]
+ModelOrPath = Mechanism | FilePath
+"""A description, or the name of a model file: what every analysis starts from."""
+
+
+def as_mechanism(m: ModelOrPath) -> Mechanism:
+    """A description as it is, or that of a model file."""
+    if isinstance(m, Mechanism):
+        return m
+    if not isinstance(m, (str, os.PathLike)):
+        raise ModelError(
+            f"a {type(m).__name__} is not a mechanism", "give a Mechanism or the path of a model file"
+        )
+    return load(m)
 
 
 def load(path: FilePath, data: FilePath = "") -> Mechanism:
     """The mechanism of a .yaml, .json or .toml file; raises ModelError with file and line.
 
-    Tables may come from text files in its folder; from those in the folder ``data`` too.
+    Tables may come from text files in its folder; from those in the folder ``data`` too. Raises
+    FileNotFoundError, which is a ModelError too, for a file that does not exist.
     """
     tree, source = read_file(path)
     return mechanism(tree, replace(source, data=os.fspath(data)) if data else source)
@@ -90,7 +104,7 @@ def _content(path: Path, name: str) -> bytes:
         directory = path.is_dir()
         content = b"" if directory else _first_bytes(path)
     except FileNotFoundError:
-        raise ModelError(f"there is no file {name}", _neighbour(path), (), name, 1) from None
+        raise MissingFileError(name, _neighbour(path)) from None
     except (OSError, ValueError) as error:
         said = getattr(error, "strerror", None) or error
         words = f"the file {name!r} cannot be read: {said}"
@@ -130,7 +144,7 @@ def _neighbour(path: Path) -> str:
     files = sorted(path.parent.iterdir()) if path.parent.is_dir() else []
     named = {p.stem: p.name for p in reversed(files) if p.suffix in FORMATS}
     near = nearest(path.stem, list(named))
-    return f"did you mean {named[near]!r}?" if near else "check the name and the folder"
+    return f"did you mean {named[near]!r}?" if near else ""
 
 
 def _decode(content: bytes, name: str) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from dalembert.arrays import Tree
 from dalembert.model.files.source import Path, Source
-from dalembert.model.files.splicing import REMOVED, Renamed, splice
+from dalembert.model.files.splicing import REMOVED, Change, Renamed, changes_at_once, splice
 from dalembert.model.files.yaml_text import scalar
 from dalembert.model.quantities.figures import (
     SHORT,
@@ -27,6 +27,9 @@ from dalembert.units import NUMBER, Units
 
 if TYPE_CHECKING:
     from dalembert.model.description import Mechanism
+
+NOWHERE = "\0"
+"""No folder: a text that may be saved anywhere has no file beside it."""
 
 ROUNDS = 3
 """What an anchor hands on changes with it, so that others get their own value back in a second round."""
@@ -75,9 +78,7 @@ def _own_text(m: Mechanism, source: Source) -> str | None:
     mark = "\ufeff" if source.text.startswith("\ufeff") else ""
     text = source.text.removeprefix(mark)
     tree = read_text(text, source.form, source.name)[0]
-    values = dict(_values(m, tree)) | dict(listed_columns(m, tree))
-    known = tree.get("parameters") or {}
-    values |= {("parameters", name): REMOVED for name in known if name not in m.parameters}
+    values = _every_value(m, tree)
     for _ in range(ROUNDS):
         try:
             changed = splice(text, source.form, values)
@@ -89,6 +90,27 @@ def _own_text(m: Mechanism, source: Source) -> str | None:
             return mark + changed
         values |= dict(_differences(m, read, tree))
     return None
+
+
+def _every_value(m: Mechanism, tree: Mapping[str, object]) -> dict[Path, object]:
+    """The changes, columns that have to be written out, and parameters that nothing uses any more."""
+    known: Any = tree.get("parameters") or {}
+    unused = {("parameters", name): REMOVED for name in known if name not in m.parameters}
+    return dict(_values(m, tree)) | dict(listed_columns(m, tree)) | unused
+
+
+def text_changes(m: Mechanism, text: str, form: str) -> list[Change] | None:
+    """What to change in the text of a mechanism's file so that it is this mechanism, columns of other files written
+    out; None where that is not done in one go."""
+    from dalembert.model.files.model_files import read_text
+
+    token = FILE_FOLDER.set(NOWHERE)
+    try:
+        return changes_at_once(text, form, _every_value(m, read_text(text, form)[0]))
+    except (ValueError, LookupError, AssertionError):
+        return None
+    finally:
+        FILE_FOLDER.reset(token)
 
 
 def listed_columns(m: Mechanism, tree: object) -> Iterator[tuple[Path, object]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from dalembert.model.files.places import Places, inside, places
@@ -37,21 +37,36 @@ def splice(text: str, form: str, values: Mapping[Path, object]) -> str:
     """The text with values of its tree replaced, added or (REMOVED) taken out; those that overlap one by one."""
     waiting = dict(values)
     while waiting:
-        found, changes, later = places(text, form), list[Change](), dict[Path, object]()
-        for path, value in waiting.items():
-            change = _change(text, form, found, path, value)
-            if change is None:
-                continue
-            if any(
-                (change.start < c.end and c.start < change.end) or change.start == c.start for c in changes
-            ):
-                later[path] = value
-            else:
-                changes.append(change)
-        for change in sorted(changes, reverse=True):
-            text = text[: change.start] + change.text + text[change.end :]
-        waiting = later
+        changes, waiting = _round(text, form, waiting)
+        text = with_changes(text, changes)
     return text
+
+
+def with_changes(text: str, changes: Sequence[Change]) -> str:
+    """The text with some changes that do not overlap."""
+    for change in sorted(changes, reverse=True):
+        text = text[: change.start] + change.text + text[change.end :]
+    return text
+
+
+def changes_at_once(text: str, form: str, values: Mapping[Path, object]) -> list[Change] | None:
+    """The changes of a splice in the order of the text; None where they overlap."""
+    changes, later = _round(text, form, values)
+    return None if later else sorted(changes)
+
+
+def _round(text: str, form: str, values: Mapping[Path, object]) -> tuple[list[Change], dict[Path, object]]:
+    """Changes that do not overlap, and the values that are left."""
+    found, changes, later = places(text, form), list[Change](), dict[Path, object]()
+    for path, value in values.items():
+        change = _change(text, form, found, path, value)
+        if change is None:
+            continue
+        if any((change.start < c.end and c.start < change.end) or change.start == c.start for c in changes):
+            later[path] = value
+        else:
+            changes.append(change)
+    return changes, later
 
 
 def _change(text: str, form: str, found: Places, path: Path, value: object) -> Change | None:

@@ -10,6 +10,7 @@ from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
 
 from dalembert.arrays import Numeric, Tree
 from dalembert.errors import ModelError
+from dalembert.model.links.effective_lengths import EffectiveLength, Factors
 from dalembert.model.links.sections import MassAlong, Members, Section
 from dalembert.model.links.shapes import (
     MassProperties,
@@ -125,10 +126,12 @@ class Place(Value):
 class InertiaValue(Value):
     """About the mass centre: one number; in space three principal values or a symmetric matrix."""
 
+    sign = "not negative"
+
     def read(self, value: object, info: ValidationInfo) -> Inertia:
         rules = reading(info)
         if not isinstance(value, (list, tuple)):
-            return check_sign(rules.quantity(value, "inertia"), value, "not negative")
+            return check_sign(rules.quantity(value, "inertia"), value, self.sign)
         if rules.dimension == 2:
             remedy = "in the plane, write inertia: 0.02; in space, space: space at the top"
             raise ModelError(f"{quote_value(value)} stands where one number is needed", remedy)
@@ -140,7 +143,7 @@ class InertiaValue(Value):
                 tuple(at_item(i, numbers, row, "inertia", rules) for i, row in enumerate(value))
             )
         found = numbers(value, "inertia", rules)
-        return tuple(at_item(i, check_sign, x, value[i], "not negative") for i, x in enumerate(found))
+        return tuple(at_item(i, check_sign, x, value[i], self.sign) for i, x in enumerate(found))
 
     def write(self, value: Inertia) -> object:
         if isinstance(value, tuple):
@@ -218,6 +221,10 @@ class Link(Part):
         None, description="its straight members, [[A, B], [B, C]]; default the line through its joints"
     )
     section: Section | None = Field(None, description="section of its members: {rectangle: [20 mm, 40 mm]}")
+    effective_length: Annotated[Factors, EffectiveLength()] | None = Field(
+        None,
+        description="for buckling: K of the length K L, [in the plane, across it] or by member; default by joints",
+    )
 
     @model_validator(mode="after")
     def _place_in_the_plane(self, info: ValidationInfo) -> Self:
@@ -246,6 +253,13 @@ class Link(Part):
             if a == b:
                 what = f"points {pair[0]!r} and {pair[1]!r} are in one place"
                 raise ModelError(what, "name two that are apart", ("members", k))
+        names = [f"{a}-{b}" for a, b in self.members or ()]
+        for member in self.effective_length or {}:
+            if member and member not in names:
+                remedy = closest(member, names) if names else "name its members: members: [[A, B]]"
+                raise ModelError(
+                    f"{member!r} is not one of its members", remedy, ("effective_length", member)
+                )
         if self.mass_along == "shape" and not self.shapes:
             raise ModelError("mass_along is by a shape, and there is none", "write uniform", ("mass_along",))
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from dalembert.errors import ModelError
+from dalembert.errors import MissingFileError, ModelError
 from dalembert.model.part import Reading
 from dalembert.units import NUMBER
 from dalembert.wording import closest, quote_value
@@ -115,6 +115,8 @@ def find_file(file: str, rules: Reading) -> Path:
 def file_text(path: Path, file: str = "") -> str:
     """The text of a file of bounded size; ModelError with ``file``, its path by default, and the line."""
     file = file or str(path)
+    if not os.path.exists(path):
+        raise MissingFileError(file)
     try:
         if not path.is_file():
             raise _error("no ordinary file", "name a text file of columns", file, 1)

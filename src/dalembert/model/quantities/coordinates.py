@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 
 from dalembert.errors import ModelError
+from dalembert.model.quantities.expressions import long_name, long_names
 from dalembert.model.quantities.values import name
 from dalembert.wording import quote_value
 
@@ -18,12 +19,24 @@ SPEED = ".speed"
 
 
 def coordinate_name(value: object) -> str:
-    """A drive's name, `time`, or the path of a coordinate."""
+    """A drive's name, `time`, or the path of a coordinate, which `slide.G` and `angle.rod` name too."""
     if not isinstance(value, str) or "." not in value:
         return name(value)
-    if not parts(value):
+    path = path_of(value)
+    if "." in path and not parts(path):
         raise ModelError(f"{quote_value(value)} is nothing that a table can be against", f"write {EXAMPLES}")
-    return value
+    return path
+
+
+def path_of(value: str) -> str:
+    """The path of a coordinate by the name of its quantity; any other name as it is.
+
+    >>> path_of("slide.G"), path_of("drive.O-4"), path_of("time")
+    ('joints.G.slide', 'O-4', 'time')
+    """
+    word, _, thing = value.partition(".")
+    short = re.fullmatch(r"angle|drive|(?:slide|turn)[12]?", word) and thing and "." not in thing
+    return long_name(word, thing) if short else value
 
 
 def parts(path: str) -> tuple[str, str, str] | None:
@@ -44,7 +57,7 @@ def going_by(text: str) -> dict[str, str]:
     >>> going_by("p*sin(links.rod.angle)")
     {'time': 'time', 'links.rod.angle': 'turn'}
     """
-    found = re.findall(r"[^\W\d]\w*\.\w+\.\w+", text)
+    found = re.findall(r"[^\W\d]\w*\.\w+\.\w+", long_names(text))
     return {TIME: TIME} | {path: "slide" if ".slide" in path else "turn" for path in found if parts(path)}
 
 

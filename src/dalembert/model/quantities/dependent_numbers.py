@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from dalembert.arrays import Numeric
-from dalembert.model.quantities.expressions import Expression, Functions, Name, names_in
+from dalembert.model.quantities.expression_trees import Functions, Name, names_in
+from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.figures import FILE_UNITS, unit_vector
 from dalembert.units import KINDS
 
@@ -58,7 +59,7 @@ def polar_components(size: float, angle: float, kind: str) -> tuple[float, float
     """The components of a vector of which the length or the angle follows from parameters."""
     used = [part.expression.parameters or () for part in (size, angle) if isinstance(part, Dependent)]
     given = tuple(dict(pair for pairs in used for pair in pairs).items())
-    length, turn, found = _factor(size, kind), _factor(angle, "angle"), list[float]()
+    length, turn, found = factor_text(size, kind), factor_text(angle, "angle"), list[float]()
     for function, known in zip(("cos", "sin"), unit_vector(angle), strict=True):
         if isinstance(angle, Dependent):
             found.append(Dependent(Expression(f"{length}*{function}({turn})", "", given)))
@@ -69,11 +70,11 @@ def polar_components(size: float, angle: float, kind: str) -> tuple[float, float
     return found[0], found[1]
 
 
-def _factor(number: float, kind: str) -> str:
-    """A number as a factor of an expression of parameters."""
-    if not isinstance(number, Dependent):
-        return f"{number!r} {KINDS[kind].si}"
-    e = number.expression
+def factor_text(value: float | Expression, kind: str) -> str:
+    """A number or an expression of parameters as a factor of another expression of parameters."""
+    if not isinstance(value, (Dependent, Expression)):
+        return f"{value!r} {KINDS[kind].si}"
+    e = value.expression if isinstance(value, Dependent) else value
     text = e.text if isinstance(e.tree, Name) else f"({e.text})"
     return f"{text}*1 {e.unit}" if e.unit else text
 

@@ -10,8 +10,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from dalembert.errors import ModelError
-from dalembert.model.quantities.expressions import Apply, Number, Tree, expression_text
-from dalembert.model.quantities.expressions import Name as Variable
+from dalembert.model.quantities.expression_trees import (
+    COMPARISONS,
+    Apply,
+    Number,
+    Tree,
+    expression_text,
+    names_in,
+)
+from dalembert.model.quantities.expression_trees import Name as Variable
 from dalembert.unit_names import ANGLE, NONE
 from dalembert.units import KINDS, REFUSED_BARE
 from dalembert.wording import quote_value
@@ -27,7 +34,7 @@ OF_TURN |= {"turn speed": (0, 0, -1, None), "slide speed": (1, 0, -1, 0)}
 def dimension(tree: Tree, names: Mapping[str, Powers | None]) -> Powers | None:
     """The dimension of an expression, None of a 0; raises ModelError for a sum of unlike quantities and the like.
 
-    >>> from dalembert.model.quantities.expressions import parse_expression
+    >>> from dalembert.model.quantities.expressions import (parse_expression)
     >>> dimension(parse_expression("pi*d^2/4", ["d"])[0], {"d": (1, 0, 0, 0)})
     (2, 0, 0, None)
     """
@@ -42,17 +49,19 @@ def dimension(tree: Tree, names: Mapping[str, Powers | None]) -> Powers | None:
         return _power(parts[0], _exponent(tree.arguments[1]))
     if tree.function == "sqrt":
         return _power(parts[0], 0.5)
-    if tree.function in ("+", "-", "abs", "min", "max", "atan2"):
+    if tree.function in ("+", "-", "abs", "min", "max", "atan2", *COMPARISONS):
         common = parts[0]
         for other in parts[1:]:
             common = _common(tree, common, other)
+        if tree.function in COMPARISONS:
+            return NONE
         return ANGLE if tree.function == "atan2" else common
     _check_argument(tree, parts[0])
     return ANGLE if tree.function in ("asin", "acos", "atan") else NONE
 
 
 def _exponent(tree: Tree) -> float:
-    from dalembert.model.quantities.expressions import evaluate, numpy_functions
+    from dalembert.model.quantities.expression_trees import evaluate, numpy_functions
 
     return float(evaluate(tree, {}, numpy_functions()))
 
@@ -87,6 +96,8 @@ def _common(tree: Apply, a: Powers | None, b: Powers | None) -> Powers | None:
             return a
         if a[3] is None or any(a[:3]):
             return b
+    if any(not any(x[:3]) for x in (a, b)) and any(map(_of_seconds, tree.arguments, (a, b))):
+        return EITHER
     first, second = (
         f"{expression_text(x)} is {phrase(d)}" for x, d in zip(tree.arguments, (a, b), strict=True)
     )
@@ -97,12 +108,22 @@ def _common(tree: Apply, a: Powers | None, b: Powers | None) -> Powers | None:
 
 
 def _check_argument(tree: Apply, given: Powers | None) -> None:
-    if given is not None and tree.function != "sign" and any(given[:3]):
+    if (
+        given is not None
+        and tree.function != "sign"
+        and any(given[:3])
+        and not _of_seconds(tree.arguments[0], given)
+    ):
         said = f"{expression_text(tree.arguments[0])} is {phrase(given)}"
         raise ModelError(
             f"{quote_value(expression_text(tree))} cannot be: {said}",
             f"{tree.function} is taken of a plain number or an angle; divide by a quantity of the same kind",
         )
+
+
+def _of_seconds(tree: Tree, given: Powers) -> bool:
+    """True for a multiple of `time`, which beside plain numbers is a number of seconds: `sin(20*time + 1)`."""
+    return given[:3] == (0, 0, 1) and names_in(tree) == {"time"}
 
 
 def is_bare(given: Powers | None, kind: str, text: str) -> bool:

@@ -4,74 +4,47 @@ sum     = product {("+" | "-") product}
 product = sign {("*" | "/") sign}
 sign    = {"+" | "-"} power
 power   = atom [("^" | "**") sign]          the exponent: a number from -16 to 16, without drives
-atom    = NUMBER | "pi" | NAME | FUNCTION "(" sum {"," sum} ")" | "(" sum ")"
+atom    = NUMBER [UNIT] | "pi" | NAME | FUNCTION "(" sum {"," sum} ")" | "(" sum [COMPARISON sum] ")"
 
-NAME is a drive, its speed (`O2.speed`), a coordinate (`time`, `links.rod.angle`) or a parameter of the file;
-in an expression of parameters a NUMBER may have a unit: `r + 5 mm`.
+NAME is a drive, its speed (`O2.speed`), a coordinate (`time`, `links.rod.angle` or `angle.rod`) or a parameter.
+COMPARISON is >= <= > <, worth 1 or 0. A UNIT ends before a name and a function: `40 N*sin(O2)`.
 """
 
 from __future__ import annotations
 
 import math
-import operator
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
-from dalembert.unit_names import NONE, SYMBOLS, unit
-from dalembert.wording import closest, quote_value
+from dalembert.model.quantities.expression_trees import (
+    ARGUMENTS,
+    COMPARISONS,
+    MANY,
+    Apply,
+    Functions,
+    Name,
+    Number,
+    Tree,
+    evaluate,
+    names_in,
+    nodes,
+    numpy_functions,
+)
+from dalembert.unit_names import SYMBOLS, unit
+from dalembert.wording import quote_value
 
 GRAMMAR = (
-    "an expression is made of numbers, names of drives and parameters, pi, + - * / ^, brackets and sin cos tan asin "
-    "acos atan atan2 sqrt exp log abs sign min max"
+    "an expression is made of numbers, names of drives and parameters, pi, + - * / ^, brackets, comparisons in "
+    "brackets and sin cos tan asin acos atan atan2 sqrt exp log abs sign min max"
 )
-ARGUMENTS = dict.fromkeys(
-    ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "log", "abs", "sign"], 1
-)
-ARGUMENTS |= dict.fromkeys(("atan2", "min", "max"), 2)
-"""Function -> how many arguments it takes."""
-
 CONSTANTS = {"pi": math.pi}
 
 LONGEST, DEEPEST, MOST, EXPONENT = 1000, 40, 200, 16
 """Characters, brackets, operations, and size of an exponent."""
-Functions = Mapping[str, Callable[..., Numeric]]
-OPERATORS: dict[str, Callable[[Numeric, Numeric], Numeric]] = {
-    "+": operator.add,
-    "-": operator.sub,
-    "*": operator.mul,
-    "/": operator.truediv,
-    "^": operator.pow,
-}
-RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "^": 4}
-
-
-@dataclass(frozen=True, slots=True)
-class Number:
-    """A number, in SI where it was written with a unit; `dimension` is that of its unit, `pi` may be an angle."""
-
-    value: float
-    text: str = ""
-    dimension: tuple[float, float, float, float | None] = NONE
-
-
-@dataclass(frozen=True, slots=True)
-class Name:
-    name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Apply:
-    """An operator (`+ - * / ^`, one argument: the sign) or a function applied to its arguments."""
-
-    function: str
-    arguments: tuple[Tree, ...]
-
-
-Tree = Number | Name | Apply
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,105 +107,69 @@ class Expression:
         return "at " + ", ".join(said) if said else "anywhere"
 
 
-def numpy_functions() -> Functions:
-    """The functions of the grammar for numbers and arrays."""
-    import numpy as np
-
-    other = {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2}
-    other |= {"min": np.minimum, "max": np.maximum}
-    return {name: other.get(name) or getattr(np, name) for name in ARGUMENTS}
+_NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_QUANTITY = r"(?:angle|drive|(?:slide|turn)[12]?)\.(?!speed\b)\w+(?:\.speed\b)?"
+_NAME = rf"{_QUANTITY}|[^\W\d]\w*(?:\.\w+\.\w+(?:\.speed\b)?|\.speed\b)?"
+_TOKEN = re.compile(rf"\s*(?:(?P<number>{_NUMBER})|(?P<name>{_NAME})|(?P<sign>\*\*|[<>]=?|[-+*/^(),]))")
 
 
-def evaluate(tree: Tree, drives: Mapping[str, Numeric], functions: Functions) -> Numeric:
-    """The value of a tree over anything that has operators, functions from the table given."""
-    if isinstance(tree, Number):
-        return tree.value
-    if isinstance(tree, Name):
-        if tree.name not in drives:
-            raise unknown_name("an expression uses", tree.name, list(drives))
-        return drives[tree.name]
-    values = [evaluate(argument, drives, functions) for argument in tree.arguments]
-    return apply_function(tree.function, values, functions)
-
-
-def unknown_name(what: str, name: str, known: list[str]) -> ModelError:
-    """The error that ``what`` goes by a name that has no value."""
-    if name == "time":
-        remedy = "give a drive a law of motion, or let forces move the machine: simulate"
-        return ModelError(
-            "a quantity goes by time, and several positions without a law have no times", remedy
-        )
-    return ModelError(f"{what} {name!r}, which is no drive", closest(name, known))
-
-
-def apply_function(name: str, values: Sequence[Numeric], functions: Functions) -> Numeric:
-    """The value of an operator or a function of its arguments."""
-    if name in OPERATORS:
-        return -values[0] if len(values) == 1 else _apply(name, *values)
-    return functions[name](*values)
-
-
-def _apply(sign: str, a: Numeric, b: Numeric) -> Numeric:
-    if isinstance(a, float) and isinstance(b, float):
-        import numpy as np
-
-        return OPERATORS[sign](np.float64(a), np.float64(b))
-    return OPERATORS[sign](a, b)
-
-
-def names_in(tree: Tree) -> frozenset[str]:
-    """The names of drives and parameters in a tree."""
-    return frozenset(node.name for node in nodes(tree) if isinstance(node, Name))
-
-
-def nodes(tree: Tree) -> Iterator[Tree]:
-    """The tree and everything in it."""
-    yield tree
-    if isinstance(tree, Apply):
-        for argument in tree.arguments:
-            yield from nodes(argument)
-
-
-def expression_text(tree: Tree, rank: int = 0) -> str:
-    """The tree as text that parses to the same tree.
-
-    >>> expression_text(parse_expression("2*( (O2) + 1)^2")[0])
-    '2*(O2 + 1)^2'
-    """
-    if isinstance(tree, Number):
-        exact = tree.value == round(tree.value, 12)
-        return tree.text or (repr(tree.value).removesuffix(".0") if exact else f"{tree.value:.17g}")
-    if isinstance(tree, Name):
-        return tree.name
-    if tree.function not in OPERATORS:
-        return f"{tree.function}({', '.join(expression_text(argument) for argument in tree.arguments)})"
-    own = RANKS[tree.function]
-    if len(tree.arguments) == 1:
-        own, said = 3, "-" + expression_text(tree.arguments[0], 3)
-    else:
-        left, right = tree.arguments
-        space = " " if own == 1 else ""
-        base = own + 1 if own == 4 else own
-        last = expression_text(right, 3 if own == 4 else own + 1)
-        said = f"{expression_text(left, base)}{space}{tree.function}{space}{last}"
-    return f"({said})" if own < rank else said
-
-
-_TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[^\W\d]\w*(?:\.\w+\.\w+|\.speed\b)?)|(?P<sign>\*\*|[-+*/^(),]))"
-)
-
-
+_WORD = re.compile(r"([^\W\d]\w*)\s*(\(?)")
 _UNIT = re.compile(r"\s*([^\W\d_]+|[°%])(\s*(?:\^|\*\*)\s*-?[1-6])?")
-_MORE = re.compile(r"\s*[*/·]" + _UNIT.pattern + r"(?!\w|\s*\()")
+_MORE = re.compile(r"\s*[*/·]" + _UNIT.pattern + r"(?!\w|\.\w|\s*\()")
 
 
 def parse_expression(text: str, parameters: Iterable[str] | None = None) -> tuple[Tree, str]:
     """The tree of the longest expression that the text begins with, and the text left over.
 
-    With `parameters`, names or none, a number may have a unit behind it.
+    With `parameters`, names or none, a number may have a unit behind it; none of the names is read as a unit.
     """
     return _parse(text, None if parameters is None else frozenset(parameters))
+
+
+PATHS = ("links.", "joints.")
+
+
+def long_name(word: str, thing: str) -> str:
+    """The path of a coordinate that a quantity's name gives: of `slide` and `G` `joints.G.slide`."""
+    return {"angle": f"links.{thing}.angle", "drive": thing}.get(word, f"joints.{thing}.{word}")
+
+
+def long_names(text: str) -> str:
+    """An expression with the names of quantities as paths of coordinates.
+
+    >>> long_names("2*slide.G + sin(angle.rod) - drive.O.speed")
+    '2*joints.G.slide + sin(links.rod.angle) - O.speed'
+    """
+    return _SHORT.sub(lambda match: long_name(match[1], match[2]), text)
+
+
+_SHORT = re.compile(r"(?<![\w.])(angle|drive|(?:slide|turn)[12]?)\.(?!speed\b)(\w+)")
+
+
+def units_inside(text: str, names: Iterable[str] = ()) -> bool:
+    """True if a text is an expression with a unit at a number inside, among drives of these names.
+
+    A unit behind an expression that has no other is one of its result: `2*sin(O) + 1 kN` is in kN throughout.
+
+    >>> [units_inside(text) for text in ("40 N*sin(O)", "2*(O + 1 N)", "2*sin(O) kN", "12 N-m", "40 N*m")]
+    [True, True, False, False, False]
+    """
+    if not _NUMBER_WITH_UNIT.search(text):
+        return False
+    try:
+        rest = parse_expression(text)[1]
+    except ModelError:
+        return True
+    known = {*names, *ARGUMENTS, "time"} - SYMBOLS.keys()
+    words = _PATH.findall(long_names(rest))
+    return rest[:1].isalpha() and (
+        bool(_MORE_TERMS.search(rest)) or any(word in known or word.startswith(PATHS) for word in words)
+    )
+
+
+_NUMBER_WITH_UNIT = re.compile(r"(?<![\w.])(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[^\W\d_]")
+_PATH = re.compile(r"[^\W\d]\w*(?:\.\w+)*")
+_MORE_TERMS = re.compile(r"(?<![\^*])\s*[-*/(]\s*\d|\+|[^\W\d_]\w*\s*\(\s*[\d-]")
 
 
 @lru_cache(maxsize=1024)
@@ -310,7 +247,7 @@ class _Parser:
         if match["number"]:
             return self.number(match["number"])
         if match["sign"]:
-            return self.close_bracket(self.sum(depth + 1))
+            return self.close_bracket(self.condition(depth + 1), match.start("sign"))
         return self.parse_name(match["name"], depth)
 
     def number(self, digits: str) -> Number:
@@ -319,44 +256,70 @@ class _Parser:
         match = _UNIT.match(self.text, start) if self.parameters is not None else None
         if match is None or self.parameters is None:
             return Number(value)
-        if match[1] in self.parameters:
-            what = f"{quote_value(self.text)} has a number beside the parameter {match[1]!r}"
-            raise ModelError(what, f"write {digits}*{match[1]}")
-        while match and (match.start() == start or match[1] in SYMBOLS):
+        self.refuse_beside(digits, match.start(1))
+        while match and (match.start() == start or (match[1] in SYMBOLS and match[1] not in self.parameters)):
             self.place = match.end()
             match = _MORE.match(self.text, self.place)
         name = self.text[start : self.place].strip()
         named = unit(name)
         return Number(named.si(value), f"{digits} {name}", named.dimension)
 
+    def refuse_beside(self, digits: str, place: int) -> None:
+        """Raise ModelError where a name or a function follows a number without a sign between them."""
+        word = _WORD.match(self.text, place)
+        if word is None or self.parameters is None:
+            return
+        call = word[1] in ARGUMENTS and (word[1] not in SYMBOLS or word[2] == "(")
+        if call or word[1] in self.parameters:
+            what = f"{quote_value(self.text)} has a number beside {word[1]!r}"
+            raise ModelError(what, f"write {digits}*{word[1]}{'(...)' if call else ''}")
+
     def parse_name(self, name: str, depth: int) -> Tree:
         call = self.sign_among(("(",))
         if call and name not in ARGUMENTS:
             raise ModelError(f"there is no function {quote_value(name)} in an expression", GRAMMAR)
         if call:
-            return self.parse_call(name, depth)
+            return self.parse_call(name, depth, self.place - 1)
         if name in CONSTANTS:
             return Number(CONSTANTS[name], name if self.parameters is not None else "", (0, 0, 0, None))
         if name in ARGUMENTS:
             raise ModelError(f"the function {name} stands without its brackets", f"write {name}(...)")
         if "__" in name:
             raise self.refusal(name)
-        return Name(name)
+        path = long_names(name)
+        if path.endswith(".speed") and path.count(".") > 1:
+            what = f"{quote_value(self.text)} uses {name!r}, and a load cannot depend on the speed of a link or a joint"
+            raise ModelError(what, "use a damper, or the effort of a drive and its speed")
+        return Name(path)
 
-    def parse_call(self, name: str, depth: int) -> Tree:
+    def parse_call(self, name: str, depth: int, opened: int) -> Tree:
         arguments = [self.sum(depth + 1)]
         while self.sign_among((",",)):
             arguments.append(self.sum(depth + 1))
-        tree = self.close_bracket(Apply(name, tuple(arguments)))
-        if len(arguments) != ARGUMENTS[name]:
+        least, more = ARGUMENTS[name], name in MANY
+        if len(arguments) < least or (len(arguments) > least and not more):
             what = f"{name} is given {len(arguments)} arguments in {quote_value(self.text)}"
-            raise ModelError(what, f"it takes {ARGUMENTS[name]}")
-        return tree
+            raise ModelError(what, f"it takes {least}{' or more' if more else ''}")
+        first: tuple[Tree, ...] = tuple(arguments[:least])
+        tree: Tree = Apply(name, first)
+        for argument in arguments[least:]:
+            tree = Apply(name, (tree, argument))
+        self.operations += len(arguments) - least
+        return self.close_bracket(tree, opened)
 
-    def close_bracket(self, tree: Tree) -> Tree:
-        if not self.sign_among((")",)):
-            raise self.refusal("", "a bracket is not closed")
-        return tree
+    def condition(self, depth: int) -> Tree:
+        """A sum, or the comparison of two."""
+        left = self.sum(depth)
+        found = self.sign_among(COMPARISONS)
+        return Apply(found, (left, self.sum(depth))) if found else left
+
+    def close_bracket(self, tree: Tree, opened: int) -> Tree:
+        if self.sign_among((")",)):
+            return tree
+        if self.text[self.place :].strip():
+            raise self.refusal()
+        what = f"{quote_value(self.text)}: the bracket '(' at column {opened + 1} is never closed"
+        raise ModelError(what, "write ')' where it ends")
 
     def refusal(self, found: str = "", why: str = "") -> ModelError:
         rest = found or self.text[self.place :].strip()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
@@ -19,14 +19,8 @@ from dalembert.model.quantities.dimensions import (
     phrase,
     si_unit,
 )
-from dalembert.model.quantities.expressions import (
-    ARGUMENTS,
-    CONSTANTS,
-    Expression,
-    Functions,
-    names_in,
-    parse_expression,
-)
+from dalembert.model.quantities.expression_trees import ARGUMENTS, Functions, names_in
+from dalembert.model.quantities.expressions import CONSTANTS, Expression, parse_expression
 from dalembert.model.quantities.figures import shortest, whole
 from dalembert.unit_names import NONE, ONE, SYMBOLS, Dimension, unit
 from dalembert.units import KINDS, NUMBER, REFUSED_BARE, Units, check_unit, quantity
@@ -92,32 +86,43 @@ def uses(value: object, names: Mapping[str, object]) -> bool:
 
 
 def of_parameters(
-    text: str, kind: str, units: Units | None, given: Parameters, drives: Mapping[str, str]
+    text: str,
+    kind: str,
+    units: Units | None,
+    given: Parameters,
+    drives: Mapping[str, str],
+    unit_text: str = "",
 ) -> float | Expression:
     """The number that an expression of parameters gives; with drives in it, the expression.
 
-    A plain number that it comes to is in the file's unit, as a bare number is. Raises ModelError where it is another
-    kind of quantity.
+    A plain number that it comes to is in the unit given, or in the file's, as a bare number is. Raises ModelError where
+    it is another kind of quantity.
     """
+    if unit_text:
+        check_unit(unit_text, kind)
     found, of = _read(text, given, drives)
     if found.unit:
         check_unit(found.unit, kind)
     elif is_bare(of, kind, text):
-        if units is not None and units.refuses_bare(kind):
+        if units is not None and units.refuses_bare(kind) and not unit_text:
             what = f"{quote_value(text)} is {KINDS[kind].phrase} without a unit"
             raise ModelError(what, f"write ({text}) with its unit behind it: {REFUSED_BARE[kind]}")
-        found = replace(found, unit=units.text(kind) if units else KINDS[kind].si)
-    return found if found.names else Dependent(found)
+        found = replace(found, unit=unit_text or (units.text(kind) if units else KINDS[kind].si))
+    if found.names:
+        return found
+    return Dependent(found) if found.parameters else float(found.at({}))
 
 
 def _read(text: str, given: Parameters, drives: Mapping[str, str]) -> tuple[Expression, Powers | None]:
     """An expression and its dimension; a unit behind it is that of a plain number."""
-    tree, rest = parse_expression(text, given)
+    text = _without_unit_names(text, {*given, *drives})
+    tree, rest = parse_expression(text, {*given, *drives})
     names = names_in(tree)
-    refuse_unknown(text, names, given, drives)
-    of = dimension(
-        tree, {n: p.dimension for n, p in given.items()} | {n: OF_TURN[d] for n, d in drives.items()}
-    )
+    if given:
+        refuse_unknown(text, names, given, drives)
+    known: dict[str, Powers | None] = dict.fromkeys(names)  # of any dimension: the description checks names
+    known |= {n: p.dimension for n, p in given.items()} | {n: OF_TURN[d] for n, d in drives.items()}
+    of = dimension(tree, known)
     if rest and re.match(r"[^\W\d]|[°%]", rest):
         named = unit(rest)
         text = text.strip()[: -len(rest)].strip()
@@ -126,6 +131,12 @@ def _read(text: str, given: Parameters, drives: Mapping[str, str]) -> tuple[Expr
             raise ModelError(what, "leave the unit out")
         return _expression(text, given, rest), named.dimension
     return _expression(text, given), of
+
+
+def _without_unit_names(text: str, names: Collection[str]) -> str:
+    """The text with names that are units too in brackets, where they are factors: `40 N*(t)` of a drive t."""
+    both = "|".join(sorted(SYMBOLS.keys() & names))
+    return re.sub(rf"(?<=[*/])(\s*)({both})\b(?!\s*\()", r"\1(\2)", text) if both else text
 
 
 def _expression(text: str, given: Parameters, name: str = "") -> Expression:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
-from dalembert.model.quantities.expressions import Functions, unknown_name
+from dalembert.model.quantities.expression_trees import Functions, unknown_name
 
 UNITS = {"angle": "deg", "length": "m", "time": "s"}
 """Kind of a table's x -> the unit in which messages say it."""

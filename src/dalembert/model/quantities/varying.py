@@ -10,7 +10,8 @@ from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
 from dalembert.model.quantities.coordinates import SPEED, going_by
 from dalembert.model.quantities.dependent_numbers import expression_with_unit
-from dalembert.model.quantities.expressions import Expression, Functions, parse_expression
+from dalembert.model.quantities.expression_trees import Functions
+from dalembert.model.quantities.expressions import Expression, parse_expression, units_inside
 from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.parameters import of_parameters, uses
 from dalembert.model.quantities.tables import Table
@@ -50,13 +51,26 @@ def varying(value: object, kind: str, rules: Reading) -> Varying:
         return value
     if isinstance(value, Mapping):
         return _map_values(value, kind, rules)
-    if uses(value, rules.parameters):
-        going = going_by(str(value)) | dict(rules.freedoms)
-        going |= {f"{name}{SPEED}": f"{freedom} speed" for name, freedom in rules.freedoms.items()}
-        return of_parameters(str(value), kind, rules.units, rules.parameters, going)
-    if isinstance(value, str) and _is_expression(value):
-        return expression(value, kind, rules)
+    if isinstance(value, str):
+        return _read_text(value, kind, rules)
     return rules.quantity(value, kind)
+
+
+def _read_text(value: str, kind: str, rules: Reading) -> float | Expression:
+    if has_units(value, rules):
+        return _with_units(value, kind, rules)
+    return expression(value, kind, rules) if _is_expression(value) else rules.quantity(value, kind)
+
+
+def has_units(value: object, rules: Reading) -> bool:
+    """True if a text is an expression of parameters, or one with units inside: its dimensions are checked."""
+    return uses(value, rules.parameters) or (isinstance(value, str) and units_inside(value, rules.freedoms))
+
+
+def _with_units(value: str, kind: str, rules: Reading, unit_text: str = "") -> float | Expression:
+    known = going_by(value) | dict(rules.freedoms)
+    known |= {f"{name}{SPEED}": f"{freedom} speed" for name, freedom in rules.freedoms.items()}
+    return of_parameters(value, kind, rules.units, rules.parameters, known, unit_text)
 
 
 def _is_expression(value: str) -> bool:
@@ -91,7 +105,8 @@ def _map_values(value: Mapping[str, object], kind: str, rules: Reading) -> Varyi
         if not isinstance(unit_text, str):
             what = f"{quote_value(unit_text)} is no unit"
             raise ModelError(what, f"write {KINDS[kind].si}, for example", ("unit",))
-        return at_item("expression", expression, keys["expression"], kind, rules, unit_text)
+        read = _with_units if has_units(keys["expression"], rules) else expression
+        return at_item("expression", read, keys["expression"], kind, rules, unit_text)
     return table(value, kind, rules)
 
 

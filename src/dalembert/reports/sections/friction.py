@@ -26,7 +26,8 @@ from dalembert.analysis.friction.joint_friction import (
     holds_beyond,
     unknown_names,
 )
-from dalembert.analysis.output.columns import friction_joints, unknown_kinds
+from dalembert.analysis.output.columns import friction_joints
+from dalembert.analysis.result.number_kinds import unknown_kinds
 from dalembert.model import GROUND
 from dalembert.reports.pictures import friction_pictures
 from dalembert.reports.report_context import ReportContext, figure

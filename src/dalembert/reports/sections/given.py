@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from dalembert.analysis.methods.inertia_couples import inertia_matrix
-from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.model import GROUND
 from dalembert.model.joints.pairs import AXES
 from dalembert.model.quantities.dependent_numbers import Dependent

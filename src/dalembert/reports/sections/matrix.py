@@ -17,7 +17,7 @@ from dalembert.analysis.methods.applied_forces import (
     on_link,
     unit_load,
 )
-from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.result.reaction_components import components
 from dalembert.arrays import Array
 from dalembert.reports.sections.equilibrium_equations import moment_point

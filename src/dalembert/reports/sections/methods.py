@@ -6,7 +6,7 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import actions, magnitude, on_link
 from dalembert.analysis.methods.members import ZERO, members, order_of_solution
-from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.printing import remainder
 from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.terms import floors

@@ -10,8 +10,8 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import Action, actions, magnitude
 from dalembert.analysis.methods.superposition import directions, with_sum
 from dalembert.analysis.methods.superposition import superposition as split
-from dalembert.analysis.output.columns import drive_kinds, load_kind
 from dalembert.analysis.output.rounding import PART
+from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model import GROUND

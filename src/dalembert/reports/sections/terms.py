@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, drive_wrench, unit_load
-from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import least
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.result.reaction_components import Component, components, remainder
 from dalembert.arrays import Array
 from dalembert.views.notation import Shown, along, own_name

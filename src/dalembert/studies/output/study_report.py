@@ -14,7 +14,9 @@ from dalembert.reports.sheet import Sheet
 from dalembert.studies.contributions import Contributions
 from dalembert.studies.output.study_text import (
     extreme_rows,
+    failure_text,
     heading,
+    left_out,
     limit_rows,
     output_rows,
     reduction,
@@ -41,13 +43,12 @@ def study_sheet(r: StudyResult) -> Sheet:
     sheet.heading("Designs by status")
     sheet.table(["status", "designs", "share"], status_rows(r))
     for f in r.failed():
-        some = ", ".join(map(str, f.first))
-        sheet.text(f"{f.status}: {f.sentence} First: design {some}.")
+        sheet.text(failure_text(r, f))
     heads, rows = output_rows(r)
     if rows:
         sheet.heading("Outputs")
-        left = "Designs that are not solved are left out, and keep no limit"
-        sheet.table(heads, rows, f"{reduction(r)} {left}".strip())
+        sheet.text(left_out(r))
+        sheet.table(heads, rows, reduction(r))
         sheet.table(["limit", "designs that keep it", "Cpk"], limit_rows(r))
     for name in (row[0] for row in rows):
         sheet.heading(name)

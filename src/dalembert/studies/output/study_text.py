@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.analysis.output.columns import Scale
+from dalembert.errors import NUMBERED
 from dalembert.printing import number, table
 from dalembert.studies.design_study import Study
-from dalembert.studies.study_result import PERCENTILES, StudyResult
+from dalembert.studies.study_result import PERCENTILES, Difference, Failure, StudyResult
 from dalembert.studies.varied_numbers import varied_numbers
 
 BLOCKS = " ▁▂▃▄▅▆▇█"
@@ -44,8 +45,41 @@ def status_rows(r: StudyResult) -> list[list[str]]:
 
 def _statuses(r: StudyResult) -> str:
     text = table(["status", "designs", "share"], status_rows(r), 1)
-    said = [f"{f.status}: {f.sentence} First: design {', '.join(map(str, f.first))}" for f in r.failed()]
-    return "\n".join([text, *said])
+    return "\n".join([text, *(failure_text(r, f) for f in r.failed())])
+
+
+def failure_text(r: StudyResult, f: Failure) -> str:
+    """Status, reason, the first designs, and how the numbers of these designs differ."""
+    first = f"First: design {', '.join(map(str, f.first))}"
+    reason = f" Design {f.first[0]}: {f.reason}" if f.reason else ""
+    return f"{f.status}: {f.sentence} {first}.{reason}{_difference_text(r, f.differs)}"
+
+
+def _difference_text(r: StudyResult, d: Difference | None) -> str:
+    if d is None:
+        return ""
+    kind, to = r.study.number_kinds[d.path], Scale(r.study.mechanism.units)
+    value = f"{float(to(kind, d.value)):.4g} {to.text(kind)}".strip()
+    side = "above" if d.above else "below"
+    return (
+        f" These designs differ most in {d.path}: {d.failing:.0%} of them have it {side} {value}, "
+        f"and {d.answered:.0%} of the solved designs."
+    )
+
+
+def left_out(r: StudyResult) -> str:
+    """Sentence on the designs that statistics do not cover; empty where they cover all."""
+    count, without = r.unsolved()
+    if not without:
+        return ""
+    shares = [
+        f"{f.status} {f.share:.2%}" for f in r.failed(1) if f.status not in (*NUMBERED, "no_derivative")
+    ]
+    return (
+        f"Means, sigmas and percentiles are of the {count - without:,} of {count:,} designs that have numbers "
+        f"({1 - without / count:.2%}); the others have none: {', '.join(shares)}. As these may differ from the rest, "
+        "the figures may be biased. A design without numbers keeps no limit."
+    )
 
 
 def output_rows(r: StudyResult) -> tuple[list[str], list[list[str]]]:
@@ -71,7 +105,7 @@ def _outputs(r: StudyResult) -> list[str]:
         return said
     pictures = [_histogram(r, row[0]) for row in rows]
     return [
-        f"{reduction(r)}\n{table(heads, rows, 2)}".strip(),
+        "\n".join(part for part in (reduction(r), left_out(r), table(heads, rows, 2)) if part),
         table(["", "from", "", "to", ""], pictures, 1),
         *said,
     ]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, whole_actions
-from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import SOLVED, ModelError
 from dalembert.saving import check_installed, new_file

@@ -127,7 +127,7 @@ def place_title(r: Result, k: int, heading: str, shown: Shown) -> str:
     """A heading with the position of the drives."""
     if not r.drives:
         return heading
-    from dalembert.analysis.output.columns import drive_kinds
+    from dalembert.analysis.result.number_kinds import drive_kinds
 
     at = [
         f"{d} = {shown.text(drive_kinds(r, d)['position'], float(r.drive_position(d)[k]), NOISE)}"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import link_place
-from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.model import GROUND

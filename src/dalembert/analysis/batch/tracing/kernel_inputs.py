@@ -11,13 +11,17 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.batch.over_positions import is_cycle
+from dalembert.analysis.batch.tracing.branches import Branch, place_on_branch
 from dalembert.analysis.batch.tracing.traced_parameters import traced, varies
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
-from dalembert.analysis.compile.pose_loads import TIME, coordinates
+from dalembert.analysis.compile.pose_loads import TIME, counted_coordinates
 from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.positions import Positions, positions
+from dalembert.analysis.result.joint_freedoms import turns_off
 from dalembert.analysis.result.result import Result
-from dalembert.arrays import Array, Numeric, Tree
+from dalembert.analysis.status.overflow import size_sentence
+from dalembert.arrays import Array, Ints, Numeric, Tree
+from dalembert.core.constraints import measure
 from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
 from dalembert.errors import ModelError
@@ -51,6 +55,9 @@ class Course:
 
     @cached_property
     def followed(self) -> Positions:
+        beyond = size_sentence(self.compiled)
+        if beyond is not None:
+            raise ModelError(beyond, "", ("links",))
         with np.errstate(all="ignore"):
             found = quick_answer(self.compiled, inertia=True, forces=False)
         return found if isinstance(found, Positions) else positions(self.compiled)
@@ -90,7 +97,7 @@ class Course:
                 "a load goes by time, which positions given to the kernel do not have", "leave them out"
             )
         by_pose = [name for name in names if "." in name]
-        at = coordinates(self.compiled, self.pose, by_pose) if by_pose else {}
+        at = counted_coordinates(self.compiled, self.counted, self.pose, by_pose) if by_pose else {}
         at = {name: np.where(np.isfinite(values), values, values[self.first]) for name, values in at.items()}
         return {TIME: self.schedule.time, **found, **at}
 
@@ -131,10 +138,15 @@ class Course:
 
 @dataclass
 class Inputs:
-    """The inputs of a trace, each with how it is found for a course: channels (P,), common ones a number."""
+    """The inputs of a trace, each with how it is found for a course: channels (P,), common ones a number.
+
+    followed: the motion is followed where the program runs, so that every branch, which `branches` lists, is an input.
+    """
 
     graph: Graph
     course: Course
+    followed: bool = False
+    branches: list[Branch] = field(default_factory=list)
     found: dict[Node, Callable[[Course], Numeric]] = field(default_factory=dict)
     named: dict[tuple[str, str], Node] = field(default_factory=dict)
     varying: Tree = field(default_factory=dict)
@@ -232,16 +244,48 @@ class Inputs:
         forcing = replace(c.forcing, resistances=replace(own, turns=turns))
         return replace(c, forcing=forcing), margins
 
+    def whole_turns(self, c: Compiled, row: int) -> Numeric:
+        """What is added to the measured value of a freedom, so that it is counted as in a result."""
+        own = c.forcing.resistances
+        for n in self.course.counted.counts:
+            if own.row[n.place] == row:
+                counted: Scalar = own.turns[n.place]
+                return counted
+        name = "joints.{}.{}".format(*c.freedoms[row])
+        if name in self.course.counted.pose_turns:
+            return self.pose_turns(name)
+        if row in c.layout.driven or not c.layout.freedoms.angular[row]:
+            return 0.0
+        return self.make("common", f"whole turns of freedom {row}", partial(_turns_off, row=row))
+
+    def pose_turns(self, name: str) -> Numeric:
+        """Whole turns of an angle that a load depends on, 0 where none are counted."""
+        if name not in self.course.counted.pose_turns:
+            return 0.0
+        return self.make("channel", f"counted turns of {name}", partial(_pose_turns, name=name))
+
     def signs(self, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int) -> Scalar:
         """Which of two rotations of link b against link a the known motion has: 1 or -1, or an input if it changes."""
         kind = "channel" if any(n.level & POSITION for n in plus if isinstance(n, Node)) else "common"
         signs = self._signs(self.course, kind, plus, minus, a, b)
-        if (signs >= 0).all() or (signs <= 0).all():
+        if not self.followed and ((signs >= 0).all() or (signs <= 0).all()):
             return 1.0 if signs.sum() >= 0 else -1.0
-        name = f"way {a} {b} {len(self.named)}"
-        return self.make(
-            "channel", name, lambda c: _carry_sign_forward(self._signs(c, kind, plus, minus, a, b))
-        )
+
+        def along(c: Course) -> Array:
+            found = _carry_sign_forward(self._signs(c, kind, plus, minus, a, b))
+            return np.broadcast_to(found, (len(c.schedule.position),))
+
+        sign = self.make("channel", f"way {a} {b} {len(self.named)}", along)
+        self.branches.append(Branch(sign, plus, minus, a, b))
+        return sign
+
+    def phases(self, known: Array, rows: Ints) -> Array:
+        """Targets (K,) of meshing and rolling wheels that are inputs, those of the known motion here."""
+        out = known.astype(object)
+        for row in rows:
+            along = partial(_constant, value=float(known[row]))
+            out[row] = self.make("channel", f"phase {row}", along)
+        return out
 
     def _signs(
         self, c: Course, kind: str, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int
@@ -249,22 +293,12 @@ class Inputs:
         values = {} if c is self.course else {n.index: f(c) for n, f in self.found.items()}
         nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
         ways = np.array(np.broadcast_arrays(*self.graph.evaluate(nodes, values)))
-        known = _place(c.pose, len(plus), a, b)
+        known = place_on_branch(c.pose, len(plus), a, b)
         if kind == "common":
             known = known[:, [c.first]]
         off = [np.linalg.norm(way - known, axis=0) for way in np.split(ways.reshape(2 * len(plus), -1), 2)]
         gain = np.nan_to_num(off[1] - off[0])
         return np.where(np.abs(gain) > 1e-5 * np.nanmax(np.abs(known)), np.sign(gain), 0.0)
-
-
-def _place(pose: Pose, components: int, a: int, b: int) -> Array:
-    """What is compared of a motion (component, P): the turn of link b against a (2), b's point (3) or its rotation."""
-    r = pose.rotation
-    if components == 2:
-        cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]
-        sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
-        return np.stack([cos, sin])
-    return np.asarray((pose.point if components == 3 else r)[:, b].T)
 
 
 def target_values(course: Course, output: str, component: int) -> Array:
@@ -274,11 +308,28 @@ def target_values(course: Course, output: str, component: int) -> Array:
     return np.asarray(course.target[output][:, component])
 
 
+def _constant(course: Course, value: float) -> Array:
+    """The same value at every position (P,)."""
+    return np.full(len(course.schedule.position), value)
+
+
 def _turns(course: Course, place: int) -> Array:
     """What the count of whole turns adds to the turn of a torsion spring (P,)."""
     c = course.counted
     turns = c.forcing.resistances.turns
     return turns[:, place] if turns.ndim > 1 else np.zeros(len(c.schedule.position))
+
+
+def _turns_off(course: Course, row: int) -> float:
+    """Whole turns by which a freedom is counted less than measured, so that it begins within half a turn of 0."""
+    return turns_off(
+        measure(course.compiled.layout.algebra, course.compiled.layout.freedoms, course.pose)[:, row]
+    )
+
+
+def _pose_turns(course: Course, name: str) -> Array:
+    """What the count of whole turns adds to an angle that a load depends on (P,)."""
+    return course.counted.pose_turns.get(name, np.zeros(len(course.schedule.position)))
 
 
 def _margin(course: Course, place: int) -> Array:

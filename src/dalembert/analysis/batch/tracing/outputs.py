@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.algebra import plane
 from dalembert.algebra.protocol import Algebra
+from dalembert.analysis.batch.tracing.kernel_inputs import Inputs
 from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.result.joint_freedoms import freedom_rates
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
-from dalembert.analysis.result.named_quantities import bearing_areas, kind_of_name, names_of
-from dalembert.analysis.result.quantity_expressions import check_units, parse_quantity
-from dalembert.analysis.result.transmission_lines import (
-    OfLines,
-    closure_margin,
-    ground_points,
-    transmission_angle,
-    transmission_lines,
-)
+from dalembert.analysis.result.named_quantities import evaluated, names_of, read
+from dalembert.analysis.result.transmission_lines import ground_points
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.kernel.trace import Traced
 from dalembert.model import GROUND
-from dalembert.model.quantities.expressions import evaluate, names_in
-from dalembert.wording import closest
+
+
+class TracedShaking(NamedTuple):
+    """Force (d,) and moment on the foundation, as nodes."""
+
+    force: Array
+    moment: Numeric
 
 
 @dataclass(frozen=True)
@@ -38,55 +37,27 @@ class Catalogue(LinkMotion):
     graph: Graph
     compiled: Compiled
     traced: Traced
-    speeds: Array
-    """Of the drives (D,)."""
+    motion: tuple[Array, Array, Array]
+    """Positions, speeds and accelerations of the drives, each (D,)."""
+    inputs: Inputs
 
     def nodes(self, name: str) -> list[Node]:
         """The components of one output."""
-        if name in self.names:
-            return self._named(name)
-        tree = parse_quantity(name, self.names)
-        parts = {n: self._scalar(n) for n in names_in(tree)}
-        whole = {n: n if n in self.names else n.rpartition(".")[0] for n in parts}
-        check_units(tree, lambda n: kind_of_name(self, whole[n]))
+        single = read(self, name)
+        if single is not None:
+            return list(trace_array(self.graph, np.ravel(single.values)))
         try:
-            with np.errstate(all="ignore"):
-                value = evaluate(tree, parts, symbol_functions(self.graph))
+            value, _ = evaluated(self, name, self.names, symbol_functions(self.graph))
         except (TypeError, ZeroDivisionError) as error:
             raise ModelError(
                 f"{name!r} cannot be compiled: {error}", "use powers of whole numbers other than 0"
             ) from None
         return list(trace_array(self.graph, np.ravel(np.asarray(value, object))))
 
-    def _named(self, name: str) -> list[Node]:
-        """Of a name without a component."""
-        kind, _, of = name.partition(".")
-        return list(trace_array(self.graph, np.ravel(np.asarray(KINDS[kind](self, of), object))))
-
-    def _scalar(self, name: str) -> Node:
-        """A number, or a component of a vector."""
-        whole, _, part = name.rpartition(".")
-        vector = self._named(name if name in self.names else whole)
-        if name in self.names and len(vector) == 1:
-            return vector[0]
-        size = len(vector) if len(vector) in (2, 3) else 0
-        there = {**dict(zip("xyz"[:size], vector, strict=False))}
-        if size:
-            there["magnitude"] = sum((x * x for x in vector), self.graph.zero).sqrt()
-        if name in self.names:
-            raise ModelError(
-                f"{name} is a vector, and an expression is of numbers", f"write {name}.x or {name}.magnitude"
-            )
-        if part not in there:
-            raise ModelError(f"{whole} has no component {part!r}", closest(part, list(there)))
-        return there[part]
-
     @cached_property
     def names(self) -> list[str]:
-        """Every output there is, without components."""
-        return names_of(
-            self, [word for word in KINDS if self.algebra.d == 2 or word not in ("angle", "pressure")]
-        )
+        """Every output, without components."""
+        return names_of(self, compiled=True)
 
     @property
     def point_array(self) -> Array:  # type: ignore[override]
@@ -125,41 +96,55 @@ class Catalogue(LinkMotion):
         c = self.compiled
         fixed = {c.joints[k] for k in c.layout.constraints.joint[c.layout.constraints.angular]}
         out = [f"effort.{n}" for n in c.schedule.names] + [f"load.{n}" for n in c.unknown_loads]
-        return out + [f"reaction.{j}" for j in c.joints] + [f"moment.{j}" for j in c.joints if j in fixed]
+        return (
+            out
+            + [f"reaction.{j}" for j in c.joints]
+            + [f"reaction_moment.{j}" for j in c.joints if j in fixed]
+        )
 
     @property
     def algebra(self) -> Algebra:
         """Of the plane, or of space."""
         return self.compiled.layout.algebra
 
-    def drive(self, name: str) -> int:
-        return place_of(tuple(self.compiled.schedule.names), name, "drive")
+    def _counted(self, name: str) -> Numeric:
+        return self.inputs.pose_turns(name)
 
-    def joint(self, name: str) -> int:
-        return place_of(self.compiled.joints, name, "joint")
+    def effort(self, drive: str) -> Numeric:
+        return self.traced.effort[place_of(self.drives, drive, "drive")]
 
-    def load(self, name: str) -> Numeric:
-        return self.traced.load[place_of(self.compiled.unknown_loads, name, "unknown load")]
+    def drive_position(self, drive: str) -> Numeric:
+        return self.motion[0][place_of(self.drives, drive, "drive")]
 
+    def drive_speed(self, drive: str) -> Numeric:
+        return self.motion[1][place_of(self.drives, drive, "drive")]
 
-def _magnitude(c: Catalogue, joint: str) -> Node:
-    force = c.traced.force[c.joint(joint)]
-    total: Node = (force * force).sum().sqrt()
-    return total
+    def drive_acceleration(self, drive: str) -> Numeric:
+        return self.motion[2][place_of(self.drives, drive, "drive")]
 
+    def unknown_load(self, name: str) -> Numeric:
+        return self.traced.load[place_of(self.unknown_loads, name, "unknown load")]
 
-def _hinge(c: Catalogue, of: str, value: OfLines) -> Numeric:
-    """What is made of the two lines of a hinge."""
-    turned_lines, lines = [], transmission_lines(c.mechanism, of)
-    for line in lines:
-        along = np.asarray(line.along, object)
-        turned = (
-            along
-            if line.link == GROUND
-            else plane.rotate(c.traced.pose.rotation[place_of(c.links, line.link, "link")], along)
-        )
-        turned_lines.append(trace_array(c.graph, turned))
-    return value(turned_lines[0], turned_lines[1], lines)
+    def reaction(self, joint: str) -> Array:
+        return np.asarray(self.traced.force[place_of(self.joints, joint, "joint")])
+
+    def reaction_moment(self, joint: str) -> Numeric:
+        return self.traced.moment[place_of(self.joints, joint, "joint")]
+
+    def freedom(self, joint: str, kind: str) -> tuple[Numeric, ...]:
+        """Value and rates of a joint's freedom, turns counted as along the known motion."""
+        row, t = self.compiled.freedoms.index((joint, kind)), self.traced
+        freedoms = self.compiled.layout.freedoms
+        value, rate, second = freedom_rates(self.algebra, freedoms, t.pose, t.twist, t.acceleration)
+        return value[row] + self.inputs.whole_turns(self.compiled, row), rate[row], second[row]
+
+    def shaking(self, about: str) -> TracedShaking:
+        wrench, d = _shaking(self, about), self.algebra.d
+        return TracedShaking(wrench[:d], wrench[d] if len(wrench) == d + 1 else wrench[d:])
+
+    @property
+    def residual(self) -> Node:
+        return self.traced.residual
 
 
 def _shaking(c: Catalogue, about: str) -> Array:
@@ -188,33 +173,3 @@ def _shaking(c: Catalogue, about: str) -> Array:
             w, arm = source.wrench.reshape(-1, g.n)[k], t.pose.point[link] + origin - fixed
             total = total + np.concatenate([w[: g.d], w[g.d :] + g.cross(arm, w[: g.d])])
     return np.asarray(total)
-
-
-MOTION = (
-    *("angle", "rotation", "speed", "acceleration", "position", "velocity"),
-    *("center", "center_velocity", "center_acceleration", "point", "point_velocity", "point_acceleration"),
-)
-"""Of a link or of its point: the methods of `LinkMotion`."""
-
-
-def _motion(c: Catalogue, of: str, kind: str) -> Numeric:
-    found: Numeric = getattr(c, kind)(*of.split(".", 1))
-    return found
-
-
-KINDS: dict[str, Callable[[Catalogue, str], Numeric]] = {
-    "effort": lambda c, of: c.traced.effort[c.drive(of)],
-    "load": lambda c, of: c.load(of),
-    "reaction": lambda c, of: c.traced.force[c.joint(of)],
-    "magnitude": _magnitude,
-    "power": lambda c, of: c.traced.effort[c.drive(of)] * c.speeds[c.drive(of)],
-    "transmission": partial(_hinge, value=transmission_angle),
-    "closure": partial(_hinge, value=closure_margin),
-    "pressure": lambda c, of: _magnitude(c, of) / bearing_areas(c)[of],
-    "shaking": lambda c, of: _shaking(c, of)[: c.algebra.d],
-    "shaking_moment": lambda c, of: _shaking(c, of)[c.algebra.d :],
-    "moment": lambda c, of: c.traced.moment[c.joint(of)],
-    **{kind: partial(_motion, kind=kind) for kind in MOTION},
-    "residual": lambda c, of: c.traced.residual,
-}
-"""Output kind -> its nodes; the part of the name behind the first dot says of what."""

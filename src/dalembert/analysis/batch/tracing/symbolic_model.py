@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 from dalembert.analysis.batch.tracing.traced_parameters import Channel, symbol_functions
@@ -13,7 +13,7 @@ from dalembert.kernel.graph import Graph, Node, Scalar
 from dalembert.model import Mechanism
 from dalembert.model.paths import ancestors, parameter_name, reached, set_value, value_at, with_dependents
 from dalembert.model.quantities.dependent_numbers import parameters_of, with_new
-from dalembert.model.quantities.expressions import Functions
+from dalembert.model.quantities.expression_trees import Functions
 from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.parameters import values_of
 from dalembert.model.quantities.values import Vector
@@ -202,6 +202,8 @@ def with_numbers(
     if changed:
         new = values_of(m.parameters, changed, symbols)
         m = with_dependents(m, lambda leaf: with_new(leaf, new, symbols), None)
+        parameters = {name: replace(p, value=new[name]) for name, p in m.parameters.items()}
+        m = m.model_copy(update={"parameters": parameters})
     for number, value in given:
         if not number.parameter:
             m = set_value(m, number.keys, value)

@@ -17,7 +17,7 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import stack_rows
 from dalembert.core.equilibrium import UNIQUE
 from dalembert.core.factor import factor
@@ -71,6 +71,8 @@ def trace_analysis(
     sided: bool = False,
     redundant: bool = False,
     whole: bool = False,
+    functions_of: Callable[[Graph], Tree] = functions,
+    followed: bool = False,
 ) -> Trace:
     """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses.
 
@@ -78,6 +80,9 @@ def trace_analysis(
     ``moves``: the drives go on from the known motion, which is that of the state before.
     ``sided``: with the side of reversals as an input. ``redundant``: constraints may repeat each other; reactions that
     are not unique are then one choice of many; ``whole``: links that these place stand by all constraints at once.
+    ``functions_of`` a graph: those of loads by the pose.
+    ``followed``: branches of closed forms and phases of wheels are inputs, as the motion is followed where the program
+    runs.
     """
     schedule = m.schedule()
     if schedule.unknown is not None:
@@ -92,17 +97,17 @@ def trace_analysis(
     if m.dimension == 3:
         _check_space(course.compiled, moved)
     graph = Graph()
-    inputs = Inputs(graph, course)
+    inputs = Inputs(graph, course, followed)
     description = symbolic(m, where, graph, inputs.load)
     drives = inputs.drives(description)
-    like = course.followed.compiled
+    like, phased = course.followed.compiled, followed and m.dimension == 2
     c, margins = inputs.turns(compile_mechanism(description, _symbolic(schedule, drives.position), like=like))
     problem = Problem(
         graph=graph,
-        layout=_with_meshes(c.layout, like.layout),
+        layout=with_meshes(c.layout, like.layout),
         forcing=c.forcing,
         known=c.known,
-        target=_targets(c.target, like.target, like.layout),
+        target=_targets(c.target, like.target, like.layout, inputs if phased else None),
         drives=drives,
         first=inputs.drives(description, "common"),
         like=like.layout,
@@ -116,18 +121,20 @@ def trace_analysis(
         reversals=None if solved is None else inputs.reversals(c),
         margins=margins if moved else {},
         contacts=c.contacts,
-        at_pose=_pose_loads(inputs, c, moved),
+        at_pose=_pose_loads(inputs, c, moved, functions_of(graph)),
         moves=moves,
         side=inputs.side() if sided else None,
         redundant=repeated,
         whole=whole and repeated,
+        phased=phased,
     )
-    catalogue = Catalogue(graph, c, _run(problem), drives.speed)
+    motion = drives.position, drives.speed, drives.acceleration
+    catalogue = Catalogue(graph, c, _run(problem), motion, inputs)
     return Trace(course, inputs, where, catalogue, inertia, repeated)
 
 
 def _pose_loads(
-    inputs: Inputs, c: Compiled, moved: list[Number]
+    inputs: Inputs, c: Compiled, moved: list[Number], known: Tree
 ) -> Callable[[Forcing, Pose], Forcing] | None:
     """Loads that are expressions of the pose as nodes of it; tables are taken at the known motion."""
     graph, names = inputs.graph, c.schedule.names
@@ -146,8 +153,9 @@ def _pose_loads(
         places = {}
         for name in by_pose.keys() - tables.keys():
             at = coordinates(c, pose, by_pose[name].names)
+            at = {of: value + inputs.pose_turns(of) for of, value in at.items()}
             time = {TIME: inputs.time()} if TIME in by_pose[name].names else {}
-            value = by_pose[name].at({**time, **drives, **at}, functions(graph))
+            value = by_pose[name].at({**time, **drives, **at}, known)
             places[inputs.named["channel", name].index] = value
         forces, couples = forcing.forces, forcing.couples
         return replace(
@@ -228,7 +236,7 @@ def _check_space(c: Compiled, moved: list[Number]) -> None:
         raise ModelError(what, "leave it out, or use da.dynamics or da.statics", moved[0].keys)
 
 
-def _with_meshes(layout: Layout, known: Layout) -> Layout:
+def with_meshes(layout: Layout, known: Layout) -> Layout:
     """The layout with the known one's meshes in space, which are fitted at its first position."""
     fitted = iter(gearings(known))
     families = tuple(next(fitted) if isinstance(f, Gearing) else f for f in layout.constraints.families)
@@ -240,19 +248,22 @@ def _symbolic(schedule: Schedule, position: Array) -> Schedule:
     return Schedule(schedule.names, row, row, row)
 
 
-def _targets(symbolic: Array, known: Array, layout: Layout) -> Array:
-    """Constants of the constraints; phases of meshes and rolling wheels are those of the known motion."""
+def _targets(symbolic: Array, known: Array, layout: Layout, inputs: Inputs | None) -> Array:
+    """Constants of the constraints; phases of meshes and rolling wheels are those of the known motion, or inputs."""
     from dalembert.core.position.first_pose_plane import phase_rows
 
     out = np.array(symbolic, object)
     rows = phase_rows(layout.constraints)
-    out[rows] = known[rows]
+    out[rows] = known[rows] if inputs is None else inputs.phases(known, rows)[rows]
     return out
 
 
 def _run(problem: Problem) -> Traced:
     try:
         return trace(problem)
+    except ZeroDivisionError:  # by constants: what varies is a symbol
+        what = "a link's joints coincide, or a length or a mass that a compiled analysis divides by is zero"
+        raise ModelError(what, "use da.dynamics or da.sweep, or give it another value", ("links",)) from None
     except ValueError as error:
         if isinstance(error, ModelError):
             raise

@@ -8,9 +8,8 @@ from dataclasses import replace
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, Scalar
-from dalembert.model.quantities.expressions import (
+from dalembert.model.quantities.expression_trees import (
     Apply,
-    Expression,
     Functions,
     Tree,
     apply_function,
@@ -18,7 +17,8 @@ from dalembert.model.quantities.expressions import (
     names_in,
     numpy_functions,
 )
-from dalembert.model.quantities.expressions import Name as Variable
+from dalembert.model.quantities.expression_trees import Name as Variable
+from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.tables import Table
 from dalembert.unit_names import unit
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.output.columns import drive_kinds, in_plane, load_kind, reactions
+from dalembert.analysis.output.columns import reactions
 from dalembert.analysis.output.summary.printed_friction import cycle_table, with_ends
 from dalembert.analysis.output.summary.printed_units import (
     Printed,
@@ -15,6 +15,7 @@ from dalembert.analysis.output.summary.printed_units import (
     significant,
     without_reactions,
 )
+from dalembert.analysis.result.number_kinds import drive_kinds, in_plane, load_kind
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
 from dalembert.printing import Part, Table, number

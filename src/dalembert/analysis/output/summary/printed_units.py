@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, load_kind
-from dalembert.analysis.output.rounding import PART, largest, read_once, sizes
+from dalembert.analysis.output.columns import Scale, UnitChoice
+from dalembert.analysis.output.rounding import PART, largest, sizes
+from dalembert.analysis.result.kept import kept
+from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.printing import number
 
@@ -80,7 +82,7 @@ RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 
 def print_scale(result: Result, units: UnitChoice) -> Printed:
     """The scale of a printed answer, the same in every table, drawing and report of the result."""
-    most = {kind: float(size[0]) for kind, size in read_once(result, _extents).items()}
+    most = {kind: float(size[0]) for kind, size in _extents(result).items()}
     return scale_for(None if units == "SI" else result.mechanism.units, most, _smallest(result))
 
 
@@ -109,6 +111,7 @@ def _power(most: float) -> int:
     return 3 * math.floor(math.log10(most * (1 + 1e-6)) / 3) if large else 0
 
 
+@kept
 def _extents(result: Result) -> Tree:
     """By kind the largest number of the whole answer (1,), 0 where there is none but rounding."""
     r, d = result.before, result.compiled.layout.algebra.d
@@ -154,12 +157,13 @@ def significant(result: Result, kind: str, values: Array) -> Array:
     >>> significant(statics(four_bar()), "force", np.array([1e-30, 5.0]))
     array([0., 5.])
     """
-    small: Array = PART * read_once(result, _largest).get(kind, np.zeros(len(result.status)))
+    small: Array = PART * _largest(result).get(kind, np.zeros(len(result.status)))
     shape = np.shape(values)
     small = small.reshape(-1, *[1] * (len(shape) - 1)) if shape[:1] == small.shape else small[0]
     return np.where(np.abs(values) < small, 0.0, values)
 
 
+@kept
 def _largest(result: Result) -> Tree:
     """By kind the largest number at each position (P,): quicker than all that acts there."""
     d, length, many = result.compiled.layout.algebra.d, result.compiled.layout.length, len(result.status)

@@ -40,8 +40,8 @@ def integrate(run: Integration) -> list[Integration]:
             last.stop(error)
             break
         followed = [LedCondition(**vars(c), led=led) for c in conditions]
-        piece = Integration(m, led, last.end, None, followed, last.tolerance)
-        piece.waiting, piece.events = last.waiting, last.events
+        piece = Integration(m, led, last.end, None, followed, last.tolerance, last.limits)
+        piece.waiting, piece.events, piece.taken = last.waiting, last.events, last.taken
         near, ahead = " and ".join(last.acting.names), " and ".join(led.names)
         piece.note(t, "coordinates", f"near a dead centre of {near}: the coordinate is {ahead} from here on")
         piece.run(t, y[2 * last.d :])

@@ -16,11 +16,11 @@ from dalembert.analysis.output.columns import Scale
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.motion.actuation import Actuation, joint_stops
-from dalembert.machine.motion.dry_friction import Contacted
 from dalembert.machine.motion.equation import OPEN, StoppedError, Terms
 from dalembert.machine.motion.occurrences import Event, Guard, Words, say
-from dalembert.machine.motion.standstill import STILL
-from dalembert.machine.motion.sticking import StickState
+from dalembert.machine.motion.rest.dry_friction import Contacted
+from dalembert.machine.motion.rest.standstill import STILL
+from dalembert.machine.motion.rest.sticking import StickState
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.end_stops import Stops
@@ -147,7 +147,9 @@ class StopState(StickState):
             if not (high[1] - x) * g.side < min(first, 0.0):
                 continue
             if first <= 0 and low[2] * g.side > 0 > high[2] * g.side:
-                start = float(brentq(lambda t, low=low: look(t, low)[2], low[0], high[0]))
+                start = float(
+                    brentq(lambda t, low=low: look(t, low)[2], low[0], high[0], xtol=1e-300, rtol=1e-15)
+                )
             within = (look(start, low)[1] - x) * g.side > 0
             ends = (start, high[0])
             return (

@@ -4,17 +4,25 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.copies.images import Image
-from dalembert.model.links.link import GROUND
-from dalembert.model.quantities.coordinates import SPEED
-from dalembert.units import quantity
+from dalembert.model.files.copies.likeness import Likeness
+from dalembert.model.links.link import GROUND, Link
+from dalembert.model.quantities.coordinates import SPEED, parts, path_of
+from dalembert.model.quantities.dependent_numbers import Dependent
+from dalembert.model.quantities.expressions import long_names, parse_expression
+from dalembert.model.quantities.figures import unit_vector
+from dalembert.model.quantities.values import vector
+from dalembert.model.quantities.varying import has_units
 
 Path = tuple[str | int, ...]
+
+GUIDES = ("slider", "slot")
+"""Joints with a direction in i's axes."""
 
 
 class Copying:
@@ -49,9 +57,25 @@ class Copying:
         for name, pose in list(assembly.items()) if isinstance(assembly, Mapping) else ():
             if str(name) in self.of and f"{name}{self.image.ending}" not in assembly:
                 self.pose(assembly, str(name), pose)
+        for name, start in self.items("start"):
+            if name in self.drives and f"{name}{self.image.ending}" not in self.tree["start"]:
+                self.add("start", name, self.start(name, start))
         if self.image.shift and not self.shifted:
             what = "none of its loads goes by a drive that stays, to be shifted"
             raise ModelError(what, "leave shift out", ("shift",))
+
+    def likeness(self) -> Likeness:
+        """How the copy is alike, but for links whose angle the file states by itself."""
+        end, image = self.image.ending, self.image
+        alike = Likeness(
+            image.side,
+            {link: image.offset(link) for link in image.phase},
+            *({f"{name}{end}": name for name in names} for names in (self.of, self.joints, self.drives)),
+        )
+        assembly = self.tree.get("assembly")
+        stated = assembly if isinstance(assembly, Mapping) else {}
+        ends = {f"{n}{end}": tuple(self.tree["joints"][f"{n}{end}"]["links"]) for n in self.joints}
+        return alike.without((n for n in stated if ("assembly", n) not in self.copied), ends)
 
     def add(self, section: str, name: str, value: object) -> None:
         new = f"{name}{self.image.ending}"
@@ -75,7 +99,7 @@ class Copying:
             if "file" in shape:
                 what = "a mesh is not mirrored"
                 raise ModelError(what, "give mass, center and inertia in place of its shape")
-        flipped = [{**s, **({"center": at(s["center"])} if "center" in s else {})} for s in _list(shapes)]
+        flipped = [s | {key: at(s[key]) for key in ("center", "axis") if key in s} for s in _list(shapes)]
         return new | ({"shape": flipped} if shapes else {})
 
     def place(self, place: object) -> object:
@@ -112,19 +136,25 @@ class Copying:
         here = [self.point(link, p) for link, p in zip(links, points, strict=False)]
         if joint.get("type") not in ("pin", "gear"):
             self.require_mirrors(name, *links)
-        i, j = (self.image.offset(link) if link not in self.of else 0.0 for link in (*links, "", "")[:2])
+        i, j = self.ends(links)
         new = {
             **joint,
             "links": [f"{link}{self.image.ending}" if link in self.of else link for link in links],
             "at": here,
         }
-        if "direction" in joint:
-            wheel = math.pi if self.image.mirrored and joint.get("type") == "rolling" else 0.0
-            new["direction"] = self.image.angle(joint["direction"], i + wheel)
-        slides = joint.get("type") == "slider"
+        rolls, slides = joint.get("type") == "rolling" and "radii" not in joint, joint.get("type") == "slider"
+        if rolls or joint.get("type") in GUIDES:
+            wheel = math.pi if self.image.mirrored and rolls else 0.0
+            new["direction"] = self.image.angle(joint.get("direction", 0), i + wheel)
         if "angle" in joint or (slides and j) or (joint.get("type") == "weld" and i != j):
             new["angle"] = self.image.angle(joint.get("angle", 0), (0.0 if slides else i) - j)
+        if "stops" in joint and joint.get("type") not in GUIDES:
+            new["stops"] = self.image.interval(joint["stops"], self.between(name))
         return new
+
+    def ends(self, links: list[str]) -> list[float]:
+        """Angles of the images of i and j against them; 0 of a link that is copied, as its image is the copy."""
+        return [0.0 if link in self.of else self.image.offset(link) for link in (*links, "", "")[:2]]
 
     def require_mirrors(self, name: str, *links: str) -> None:
         """A reflected copy needs the line on every link that says a direction."""
@@ -136,25 +166,38 @@ class Copying:
     def between(self, joint: str) -> float:
         """What the angle of a copied joint's j against its i has more than that of the image."""
         links = [str(link) for link in _list(self.joints[joint].get("links"))]
-        i, j = (0.0 if link in self.of else self.image.offset(link) for link in (*links, "", "")[:2])
+        self.require_mirrors(joint, *links)
+        i, j = self.ends(links)
         return i - j
 
     def drive(self, name: str, drive: Tree) -> Tree:
-        joint = str(drive.get("joint", name))
-        new = {**drive, **({"joint": f"{joint}{self.image.ending}"} if "joint" in drive else {})}
+        joint, image = str(drive.get("joint", name)), self.image
+        new = {**drive, **({"joint": f"{joint}{image.ending}"} if "joint" in drive else {})}
         if "effort" in drive:
             new["effort"] = self.going_by(drive["effort"])
         if self.slides(joint, drive):
             return new
         offset = self.between(joint)
-        if "position" in drive:
-            new["position"] = self.positions(drive["position"], offset)
-        if isinstance(drive.get("law"), Mapping):
-            new["law"] = self.positions(drive["law"], offset)
-        for key in ("speed", "acceleration", "effort"):
+        for key in ("position", "law"):
             if key in drive:
-                new[key] = self.image.opposite(new[key])
-        return new
+                new[key] = self.positions(drive[key], offset)
+        for key in ("stops", "range"):
+            if key in drive:
+                new[key] = image.interval(drive[key], offset)
+        if "motor" in drive:
+            new["motor"] = image.motor(drive["motor"], offset)
+        return new | {
+            key: image.opposite(new[key]) for key in ("speed", "acceleration", "effort") if key in new
+        }
+
+    def start(self, name: str, start: Tree) -> Tree:
+        """Where the copied drive starts."""
+        joint = str(self.drives[name].get("joint", name))
+        if self.slides(joint, self.drives[name]):
+            return start
+        new = {**start, **({"speed": self.image.opposite(start["speed"])} if "speed" in start else {})}
+        there = self.image.angle(start["position"], self.between(joint)) if "position" in start else None
+        return new if there is None else new | {"position": there}
 
     def slides(self, joint: str, drive: Tree) -> bool:
         return (
@@ -188,12 +231,10 @@ class Copying:
             ]
         if "joint" in load:
             joint = str(load["joint"])
-            free = {"free_angle": image.angle(load.get("free_angle", 0), self.between(joint))}
-            return (
-                new
-                | {"joint": f"{joint}{image.ending}"}
-                | (free if load.get("type") == "torsion_spring" else {})
-            )
+            new["joint"] = f"{joint}{image.ending}"
+            if load.get("type") == "torsion_spring":
+                new["free_angle"] = image.angle(load.get("free_angle", 0), self.between(joint))
+            return new
         if "on" not in load:
             return new
         new["on"] = f"{load['on']}{image.ending}"
@@ -206,15 +247,16 @@ class Copying:
         if "direction" in load:
             new["direction"] = image.angle(load["direction"], offset)
         if "value" in load:
-            new["value"] = self.going_by(load["value"])
+            value = load["value"]
             if load.get("type") == "couple":
-                new["value"] = image.opposite(new["value"])
+                value = image.opposite(value)
             elif "direction" not in load:
-                new["value"] = image.components(new["value"], offset, "force")
+                value = image.components(value, offset, "force")
+            new["value"] = self.going_by(value)
         return new
 
     def going_by(self, value: object) -> object:
-        """A value that goes by a drive, later by the shift; by a copied joint, link or drive: by the copy's."""
+        """A value that depends on a drive, later by the shift; on a copied joint, link or drive, on the copy's."""
         if isinstance(value, list):
             return [self.going_by(item) for item in value]
         if isinstance(value, Mapping) and "expression" in value:
@@ -223,12 +265,39 @@ class Copying:
             return self.table(value)
         if not isinstance(value, str):
             return value
-        names = {**dict.fromkeys(self.staying(), self.shift_text), **dict(self.copy_names())}
-        return re.sub(
+        size, at, angle = value.partition("@")
+        rules = self.image.rules
+        named = has_units(size, rules)
+        try:
+            rest = parse_expression(size, {*rules.parameters, *rules.freedoms} if named else None)[1]
+        except ModelError:
+            rest = ""
+        body = size.rstrip().removesuffix(rest)
+        names = re.sub(
             r"(?<![\w.])[^\W\d]\w*(?:\.\w+\.\w+|\.speed)?(?![\w.(])",
-            lambda m: names[m[0]](m[0]) if m[0] in names else m[0],
-            value,
+            lambda m: self.renamed(m[0], named),
+            long_names(body),
         )
+        return names + size[len(body) :] + at + angle
+
+    def renamed(self, name: str, dimensional: bool) -> str:
+        """A name of an expression as the copy has it; ``dimensional``: in an expression of parameters."""
+        found = self.coordinate(name)
+        if found is not None:
+            new, side, offset = found
+            back = repr(offset) if not dimensional else f"{offset / math.pi!r}*pi"
+            return new if side == 1 and not offset else f"({side}*({new} - {back}))"
+        if name not in self.staying():
+            return name
+        self.shifted, shift = True, self.image.shift
+        if not shift:
+            return name
+        of_turn = f"{shift / math.pi!r}*pi" if dimensional else repr(shift)
+        return f"({name} - {f'{shift!r} m' if dimensional and self.slid(name) else of_turn})"
+
+    def slid(self, drive: str) -> bool:
+        """True if a drive that stays is a slide."""
+        return self.image.rules.freedoms.get(drive) == "slide"
 
     def staying(self) -> list[str]:
         return [
@@ -237,71 +306,69 @@ class Copying:
             if name not in self.drives and ("drives", name) not in self.copied
         ]
 
-    def shift_text(self, drive: str) -> str:
-        self.shifted = True
-        return f"({drive} - {self.image.shift!r})" if self.image.shift else drive
-
-    def copy_names(self) -> Iterator[tuple[str, Callable[[str], str]]]:
-        """Coordinates of what is copied, as the copy's: turned and reflected back."""
+    def coordinate(self, name: str) -> tuple[str, int, float] | None:
+        """The copy's coordinate for one of the original, side times that of the original plus an offset."""
         end, side = self.image.ending, self.image.side
-
-        def turn(new: str, offset: float) -> Callable[[str], str]:
-            plain = side == 1 and offset == 0
-            return lambda _: new if plain else f"({side}*({new} - {offset!r}))"
-
-        for name, drive in self.drives.items():
-            joint = str(drive.get("joint", name))
-            yield (
-                name,
-                turn(f"{name}{end}", self.between(joint))
-                if not self.slides(joint, drive)
-                else turn_free(f"{name}{end}"),
-            )
-            rate = f"{name}{end}{SPEED}"
-            yield f"{name}{SPEED}", turn_free(rate) if self.slides(joint, drive) else turn(rate, 0.0)
-        for name in self.joints:
-            yield f"joints.{name}.turn", turn(f"joints.{name}{end}.turn", self.between(name))
-            yield f"joints.{name}.slide", turn_free(f"joints.{name}{end}.slide")
-        for name in self.of:
-            yield f"links.{name}.angle", turn(f"links.{name}{end}.angle", self.image.offset(GROUND))
+        drive, rate = name.removesuffix(SPEED), SPEED if name.endswith(SPEED) else ""
+        kind, of, which = parts(name) or ("", "", "")
+        if drive in self.drives:
+            joint, new = str(self.drives[drive].get("joint", drive)), f"{drive}{end}{rate}"
+            straight = self.slides(joint, self.drives[drive])
+            return (new, 1, 0.0) if straight else (new, side, 0.0 if rate else self.between(joint))
+        if kind == "joints" and of in self.joints:
+            new = f"joints.{of}{end}.{which}"
+            return (new, 1, 0.0) if which.startswith("slide") else (new, side, self.between(of))
+        if kind == "links" and of in self.of:
+            self.require_mirrors(name, GROUND)
+            return f"links.{of}{end}.angle", side, self.image.offset(GROUND)
+        return None
 
     def table(self, value: Mapping[str, object]) -> Mapping[str, object]:
-        drives = [name for name, _ in self.items("drives")]
-        against = str(value.get("against", drives[0] if len(drives) - len(self.drives) == 1 else ""))
-        new = dict(self.copy_names()).get(against)
-        if new is not None:
-            said = new(against)
-            if "(" in said:
-                what = f"a table against {against!r} is turned or mirrored with it"
-                raise ModelError(what, "write that load as an expression")
-            return {**value, "against": said}
-        if against not in self.staying() or not self.image.shift:
+        against, image = path_of(str(value.get("against", ""))), self.image
+        found = self.coordinate(against)
+        if found is None and (against not in self.staying() or not image.shift):
             return value
-        self.shifted = True
-        kind = "length" if self.image.rules.freedoms.get(against) == "slide" else "angle"
-        own = quantity(value.get("shift", 0), kind, self.image.rules.units)
-        return {
-            **value,
-            "against": against,
-            "shift": f"{own + float(str(self.image.shift))!r} {'m' if kind == 'length' else 'rad'}",
-        }
+        if found is None:
+            self.shifted = True
+            kind = "length" if self.slid(against) else "angle"
+            return {**value, "shift": image.plus(value.get("shift", 0), image.shift, kind)}
+        new, side, offset = found
+        table = value if side == 1 else image.reversed_table(value)
+        moved = {"shift": image.angle(value.get("shift", 0), offset)} if "shift" in value or offset else {}
+        return {**table, "against": new, **moved}
 
     def pose(self, assembly: Tree, name: str, pose: object) -> None:
-        """The copy's approximate angle; where the ground's image is turned a position is left out."""
-        offset = self.image.offset(GROUND)
+        """The copy's approximate angle and position."""
         if self.image.mirrored and GROUND not in self.image.phase:
             return
-        if isinstance(pose, list) and len(pose) == 3 and (offset or self.image.mirrored):
-            pose = pose[2]
-        assembly[f"{name}{self.image.ending}"] = (
-            pose if isinstance(pose, list) else self.image.angle(pose, offset)
-        )
-        self.copied["assembly", f"{name}{self.image.ending}"] = self.path
+        new = f"{name}{self.image.ending}"
+        listed = pose if isinstance(pose, list) and len(pose) == 3 else None
+        angle = self.image.angle(listed[2] if listed else pose, self.image.offset(GROUND))
+        place = self.position(listed[:2]) if listed else None
+        assembly[new] = angle if place is None else [*place, angle]
+        self.copied["assembly", new] = self.path
 
-
-def turn_free(new: str) -> Callable[[str], str]:
-    """A coordinate that is the same in the copy's image."""
-    return lambda _: new
+    def position(self, place: list[object]) -> list[object] | None:
+        """The image of a position in ground axes; None where it follows from parameters."""
+        image, ground = self.image, self.tree["links"].get(GROUND)
+        points = ground.get("points", {}) if isinstance(ground, Mapping) else {}
+        about = image.about if image.about in points else ""
+        if not image.mirrored and not image.offset(GROUND):
+            return place
+        try:
+            x, y = vector(place, "length", image.rules)
+            a, b = (
+                Link.model_validate({"points": points}, context=image.rules).point(about)
+                if about
+                else (0.0, 0.0)
+            )
+        except ModelError:
+            return None
+        if any(isinstance(value, Dependent) for value in (x, y, a, b)):
+            return None
+        cos, sin = unit_vector(image.offset(GROUND))
+        x, y = x - a, image.side * (y - b)
+        return [f"{a + cos * x - sin * y!r} m", f"{b + sin * x + cos * y!r} m"]
 
 
 def _list(value: object) -> list[Any]:

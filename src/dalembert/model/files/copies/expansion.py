@@ -8,6 +8,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.copies.copying import Copying
 from dalembert.model.files.copies.images import Image
+from dalembert.model.files.copies.likeness import Likeness
 from dalembert.model.links.link import GROUND
 from dalembert.model.part import Reading, mapping
 from dalembert.model.quantities.values import (
@@ -53,25 +54,55 @@ def copies_schema() -> JsonSchema:
     }
 
 
-def expand(tree: Mapping[str, object], rules: Reading) -> tuple[Mapping[str, object], dict[Path, Path]]:
-    """The tree with what its copies stand for; paths of the new parts -> path of the copy."""
+def expand(
+    tree: Mapping[str, object], rules: Reading
+) -> tuple[Mapping[str, object], dict[Path, Path], tuple[Likeness, ...]]:
+    """The tree with what its copies stand for; paths of the new parts -> path of the copy; how they are alike."""
     entries = tree.get("copies")
     if not isinstance(entries, (list, tuple)):
         said = f"{quote_value(entries)} stands where a list is needed"
         raise ModelError(said, f"write copies: [{EXAMPLE}]", ("copies",))
     out: Tree = {key: value for key, value in tree.items() if key != "copies"}
-    for key in ("links", "joints", "drives", "loads", "assembly"):
+    for key in ("links", "joints", "drives", "loads", "assembly", "start"):
         if isinstance(out.get(key), Mapping):
             out[key] = {str(name): value for name, value in out[key].items()}
+    _state_against(out)
     copied: dict[Path, Path] = {}
+    alike = []
     for k, entry in enumerate(entries):
         try:
             for image in _images(entry, out, rules):
-                Copying(out, [str(n) for n in entry["of"]], image, copied, ("copies", k)).run()
+                copying = Copying(out, [str(n) for n in entry["of"]], image, copied, ("copies", k))
+                copying.run()
+                alike.append(copying.likeness())
         except ModelError as error:
             what = f"copies {k + 1}: {error.what}"
             raise ModelError(what, error.remedy, ("copies", k, *error.path)) from None
-    return out, copied
+    return out, copied, tuple(alike)
+
+
+def _state_against(tree: Tree) -> None:
+    """Tables that leave out what they are against, the only drive, said before it is copied."""
+    drives: object = tree.get("drives")
+    if not isinstance(drives, Mapping) or len(drives) != 1:
+        return
+    only = next(iter(drives))
+    for section, key in (("loads", "value"), ("drives", "effort")):
+        parts = tree.get(section)
+        if isinstance(parts, Mapping):
+            tree[section] = {name: _part_against(part, key, only) for name, part in parts.items()}
+
+
+def _part_against(part: object, key: str, drive: str) -> object:
+    return {**part, key: _against(part[key], drive)} if isinstance(part, Mapping) and key in part else part
+
+
+def _against(value: object, drive: str) -> object:
+    if isinstance(value, list):
+        return [_against(item, drive) for item in value]
+    return (
+        {"against": drive, **value} if isinstance(value, Mapping) and {"x", "file"} & value.keys() else value
+    )
 
 
 def _images(entry: object, tree: Tree, rules: Reading) -> Iterator[Image]:

@@ -16,8 +16,9 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.machine.motion.actuation import Actuation
+from dalembert.machine.motion.corners.corner_events import CornerState
 from dalembert.machine.motion.equation import StoppedError
-from dalembert.machine.motion.standstill import STILL, ContactState
+from dalembert.machine.motion.rest.standstill import STILL
 from dalembert.model import Mechanism
 
 AT_ONCE = 7
@@ -28,7 +29,7 @@ EVEN = 1e-9
 """Part of a limit, or of what it accelerates, that is rounding."""
 
 
-class StickState(ContactState):
+class StickState(CornerState):
     """A motion's contacts and drives at rest; ``tied`` (own contacts,) and ``bound`` (D,): those that rest because
     contacts stick."""
 
@@ -40,6 +41,7 @@ class StickState(ContactState):
     def _settle_start(self, t: float, y: Array) -> None:
         """Senses at the start; what stands there is held, or goes the way it is pushed."""
         u = y[self.d : 2 * self.d]
+        self.find_sides(t, y)
         if self.equation.dry:
             self._check_inertia(t, y)
             self.sense = np.where(self.rubbing_rates(t, y) < 0, -1.0, 1.0)
@@ -74,7 +76,8 @@ class StickState(ContactState):
         slow = np.abs(y[self.d : 2 * self.d]) <= STILL * self.fastest
         begins = slow & self.acting.free & ~(self.locked | self.bound | self._kept)
         if begins.any():
-            self.toward[begins] = np.where(self.at(t, y)[0][begins] < 0, -1.0, 1.0)
+            ahead = self.at(*self.soon(t, y))[0][begins]  # where it slips the acceleration is nothing yet
+            self.toward[begins] = np.where(ahead < 0, -1.0, 1.0)
 
     @property
     def _kept(self) -> Flags:

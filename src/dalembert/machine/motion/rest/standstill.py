@@ -14,10 +14,10 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
-from dalembert.machine.motion.dry_friction import Contacted
 from dalembert.machine.motion.equation import Equation, StoppedError, Terms, no_inertia
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event, Words
+from dalembert.machine.motion.rest.dry_friction import Contacted
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.motors import Switch

@@ -1,0 +1,40 @@
+"""The kinds of numbers of drives and loads: a drive that turns has an angle and a moment, one that slides a length."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+LENGTHWISE = {"position": "length", "speed": "speed", "acceleration": "acceleration", "effort": "force"}
+ANGULAR = {
+    "position": "angle",
+    "speed": "angular_speed",
+    "acceleration": "angular_acceleration",
+    "effort": "moment",
+}
+
+
+def drive_kinds(result: Result, drive: str) -> dict[str, str]:
+    """Kinds of a drive's position, speed, acceleration and effort."""
+    compiled = result.compiled
+    row = compiled.layout.driven[result.drives.index(drive)]
+    return ANGULAR if compiled.layout.freedoms.angular[row] else LENGTHWISE
+
+
+def load_kind(result: Result, load: str) -> str:
+    """Kind of an unknown load: force, or moment of a couple."""
+    return "force" if result.mechanism.loads[load].ON == "point" else "moment"
+
+
+def in_plane(result: Result) -> bool:
+    """Whether a result is one of the plane."""
+    return result.mechanism.dimension == 2
+
+
+def unknown_kinds(result: Result) -> dict[str, str]:
+    """Kind of every effort and load that was asked for."""
+    asked = zip(result.drives, result.compiled.known.asked, strict=True)
+    kinds = {d: drive_kinds(result, d)["effort"] for d, a in asked if a}
+    return kinds | {load: load_kind(result, load) for load in result.unknown_loads}

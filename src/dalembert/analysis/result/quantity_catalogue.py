@@ -1,0 +1,239 @@
+"""The catalogue of quantities: one name for each, read from a result or from a compiled analysis alike.
+
+A name is WORD.THING[.RATE][.COMPONENT]: `effort.O2`, `reaction.A.x`, `slide.G.speed`, `point.rod.B.velocity.magnitude`.
+Only THING comes from the model. RATE is `speed`, `velocity`, `acceleration`, or `low` and `high`: both ends of what
+friction leaves open. COMPONENT is x, y, z, magnitude, in the plane direction; without it a vector is complete.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from itertools import chain
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+from dalembert.algebra import plane
+from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
+from dalembert.analysis.result.transmission_lines import (
+    Line,
+    OfLines,
+    closure_margin,
+    transmission_angle,
+    transmission_lines,
+)
+from dalembert.arrays import Array, Numeric
+from dalembert.model import GROUND
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile.compiled_mechanism import Compiled
+    from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
+
+
+class Named(Protocol):
+    """What has quantities: a result, or a compiled analysis."""
+
+    @property
+    def mechanism(self) -> Mechanism: ...
+    @property
+    def compiled(self) -> Compiled: ...
+    @property
+    def links(self) -> tuple[str, ...]: ...
+    @property
+    def joints(self) -> tuple[str, ...]: ...
+    @property
+    def drives(self) -> tuple[str, ...]: ...
+    @property
+    def unknown_loads(self) -> tuple[str, ...]: ...
+
+
+Read = Callable[[Any, str], Numeric]
+KindOf = Callable[[Any, str], str]
+
+
+class Reading(NamedTuple):
+    """A quantity of one thing: its kind, or what tells the kind of a thing, and how its value is read."""
+
+    kind: str | KindOf
+    read: Read
+
+
+class Word(NamedTuple):
+    """The first part of a name: of which things it can be asked, what it and its rates read, where it is defined."""
+
+    of: str
+    rates: Mapping[str, Reading]
+    compiled: bool = True
+    space: bool = True
+    friction: bool = False
+
+    def exists(self, r: Named, compiled: bool) -> bool:
+        """True if the word has a meaning for a result, or for a compiled analysis."""
+        in_space = r.mechanism.dimension == 3
+        return (self.compiled or not compiled) and (self.space or not in_space)
+
+
+def _method(name: str, *rest: object) -> Read:
+    return lambda r, of: getattr(r, name)(of, *rest)
+
+
+def _value(name: str) -> Read:
+    return lambda r, of: getattr(r, name)
+
+
+def _drive_kind(of: str) -> KindOf:
+    return lambda r, drive: drive_kinds(r, drive)[of]
+
+
+def _point(rate: str) -> Read:
+    """A point of a link, or its velocity or acceleration."""
+
+    def read(r: Any, of: str) -> Numeric:
+        link, point = of.split(".", 1)
+        return getattr(r, f"{'point_' if rate else 'point'}{rate}")(link, point)
+
+    return read
+
+
+def _freedom(kind: str) -> dict[str, Reading]:
+    kinds = ("length", "speed", "acceleration") if kind.startswith("slide") else _TURNING
+    rates = ("", "speed", "acceleration")
+    return {rate: Reading(kinds[k], _freedom_rate(kind, k)) for k, rate in enumerate(rates)}
+
+
+def _freedom_rate(kind: str, order: int) -> Read:
+    return lambda r, joint: r.freedom(joint, kind)[order]
+
+
+def _hinge(value: OfLines) -> Read:
+    """A function of the two lines of a hinge."""
+
+    def read(r: Any, of: str) -> Numeric:
+        first, second = lines = transmission_lines(r.mechanism, of)
+        return value(_turned(r, first), _turned(r, second), lines)
+
+    return read
+
+
+def _turned(r: Any, line: Line) -> Array:
+    if line.link == GROUND:
+        return np.asarray(line.along)
+    rotation = r.rotation_array[..., r.links.index(line.link), :]
+    return plane.rotate(rotation, line.along)
+
+
+def magnitude(vectors: Array) -> Numeric:
+    """Length of vectors (..., d), numbers or nodes."""
+    return np.sqrt((vectors * vectors).sum(axis=-1))
+
+
+def _pressure(r: Any, joint: str) -> Numeric:
+    """Force across the axis over the projected area."""
+    from dalembert.analysis.friction.bearing_ends import bearing_axis
+
+    force = r.reaction(joint)
+    if r.mechanism.dimension == 3:
+        axis = bearing_axis(r, joint)
+        force = force - (force * axis).sum(axis=1, keepdims=True) * axis
+    return magnitude(force) / bearing_areas(r)[joint]
+
+
+def _face(name: str) -> Read:
+    def read(r: Any, joint: str) -> Numeric:
+        from dalembert.analysis.friction.joint_friction import guide_contact
+
+        return getattr(guide_contact(r, joint), name)
+
+    return read
+
+
+def _shaking(part: str) -> Read:
+    return lambda r, about: getattr(r.shaking(about), part)
+
+
+def _bounded(kind: str | KindOf, read: Read) -> dict[str, Reading]:
+    """A quantity with both ends of what friction leaves open, and both sides of a reversal."""
+    return {
+        "": Reading(kind, read),
+        "low": Reading(kind, _end(0, read)),
+        "high": Reading(kind, _end(1, read)),
+    }
+
+
+def _end(k: int, read: Read) -> Read:
+    def end(r: Result, of: str) -> Array:
+        if of in r.drives or of in r.unknown_loads:
+            known = r.drives if read is _EFFORT else r.unknown_loads if read is _LOAD else ()
+            if of in known and of in _asked(r):
+                return r.interval(of)[:, k]
+        sides = [np.asarray(read(side, of)) for side in (*r.sides, *chain.from_iterable(r.ends))]
+        return np.asarray((np.fmin, np.fmax)[k].reduce(sides))
+
+    return end
+
+
+def _asked(r: Result) -> list[str]:
+    from dalembert.analysis.friction.joint_friction import unknown_names
+
+    return unknown_names(r)
+
+
+_TURNING = ("angle", "angular_speed", "angular_acceleration")
+_EFFORT, _LOAD = _method("effort"), _method("unknown_load")
+FREEDOMS = ("slide", "slide1", "slide2", "turn", "turn1", "turn2")
+"""Words of the freedoms of joints; those with numbers are of pairs in space with two slides or turns."""
+
+CATALOGUE: dict[str, Word] = {
+    "effort": Word("drives", _bounded(_drive_kind("effort"), _EFFORT)),
+    "load": Word("unknown_loads", _bounded(load_kind, _LOAD)),
+    "reaction": Word("joints", _bounded("force", _method("reaction"))),
+    "reaction_moment": Word("joints", _bounded("moment", _method("reaction_moment"))),
+    "friction_force": Word("joints", _bounded("force", _method("friction_force")), False, friction=True),
+    "friction_moment": Word("joints", _bounded("moment", _method("friction_moment")), False, friction=True),
+    "power_lost": Word("joints", _bounded("power", _method("power_lost")), False, friction=True),
+    "lower_face": Word("guides", {"": Reading("force", _face("lower"))}, False, False, friction=True),
+    "upper_face": Word("guides", {"": Reading("force", _face("upper"))}, False, False, friction=True),
+    "drive": Word(
+        "drives",
+        {
+            rate: Reading(_drive_kind(rate or "position"), _method(f"drive_{rate or 'position'}"))
+            for rate in ("", "speed", "acceleration")
+        },
+    ),
+    "power": Word("drives", {"": Reading("power", lambda r, of: r.effort(of) * r.drive_speed(of))}),
+    **{word: Word(word, _freedom(word)) for word in FREEDOMS},
+    "angle": Word(
+        "links",
+        {
+            "": Reading("angle", _method("angle")),
+            "speed": Reading("angular_speed", _method("speed")),
+            "acceleration": Reading("angular_acceleration", _method("acceleration")),
+        },
+    ),
+    "rotation": Word("links", {"": Reading("number", _method("rotation"))}),
+    "point": Word(
+        "points",
+        {
+            "": Reading("length", _point("")),
+            "velocity": Reading("speed", _point("velocity")),
+            "acceleration": Reading("acceleration", _point("acceleration")),
+        },
+    ),
+    "transmission": Word("hinges", {"": Reading("angle", _hinge(transmission_angle))}),
+    "closure": Word("hinges", {"": Reading("length", _hinge(closure_margin))}),
+    "pressure": Word("sized bearings", {"": Reading("pressure", _pressure)}),
+    "shaking_force": Word("", {"": Reading("force", _shaking("force"))}),
+    "shaking_moment": Word("fixed points", {"": Reading("moment", _shaking("moment"))}),
+    "shaking_couple": Word("placed", {"": Reading("moment", _shaking("couple"))}, False, False),
+    "residual": Word("", {"": Reading("number", _value("residual"))}),
+    "power_balance": Word("", {"": Reading("number", _value("power_balance"))}, False),
+    "time": Word("times", {"": Reading("time", _value("time"))}, False),
+}
+"""First word of a name -> of what it is asked, its kind and how it is read, by rate."""
+
+
+def bearing_areas(r: Named) -> dict[str, Any]:
+    """Projected area of each bearing with a diameter and a length; where a number varies, a node."""
+    bearings = {name: getattr(r.mechanism.joints[name], "bearing", None) for name in r.joints}
+    return {name: b.area for name, b in bearings.items() if b is not None and b.area is not None}

@@ -1,0 +1,91 @@
+"""Where a wheel that rolls on a line is at the first position, if nothing else says so: over the line's point.
+
+Mechanics: docs/theory.md 3.1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.algebra import plane
+from dalembert.arrays import Array, Flags, Index, Ints
+from dalembert.core.constraints import dense, stack_rows
+from dalembert.core.layout import Along, Layout, Pose, Rows
+from dalembert.core.linear import generalized_inverse
+
+LOOSE = 1e-6
+"""Part of a wheel's shift along its line that the constraints leave, above which it can be held."""
+
+
+class WheelPlaces(NamedTuple):
+    """Coordinates of wheels' centres along their lines, the joints they are of, and the values they are held at."""
+
+    along: Along
+    joint: Ints
+    value: Array
+
+    def at(self, which: Index) -> WheelPlaces:
+        parts = {name: value[which] for name, value in vars(self.along).items()}
+        return WheelPlaces(Along(**parts), self.joint[which], self.value[which])
+
+    def of(self, layout: Layout) -> WheelPlaces:
+        """The same wheels with the geometry of another layout of the same joints, which may be of symbols."""
+        found = [f for f in layout.constraints.families if isinstance(f, Along)]
+        masks: list[Flags] = [np.asarray(np.isin(f.row, self.along.row)) for f in found]
+        of_wheels = zip(found, masks, strict=True)
+        parts = [{name: value[mask] for name, value in vars(f).items()} for f, mask in of_wheels]
+        along = Along(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+        return self._replace(along=replace(along, pitch=np.zeros(len(along.row))))
+
+    def renumbered(self, first: int) -> Along:
+        """The rows numbered from ``first``."""
+        return replace(self.along, row=np.arange(first, first + len(self.value)))
+
+
+def loose_places(layout: Layout, free: Layout, pose: Pose, turn: Array, point: Array) -> WheelPlaces | None:
+    """The wheels of a layout that the free one lets shift at a pose (1, L+1, ...), each held at 0, or at the place
+    that is given: angles (L+1,) and points (L+1, 2), NaN where none is."""
+    places = _rolling(layout, turn, point)
+    if places is None:
+        return None
+    rows = _scaled(free, free.constraints, pose)
+    idle = np.eye(layout.unknowns) - generalized_inverse(rows, rcond=1e-7) @ np.nan_to_num(rows)
+    count = len(places.value)
+    alone = Rows(
+        count, layout.constraints.links, (places.renumbered(0),), places.joint, np.zeros(count, bool)
+    )
+    held: list[int] = []
+    for k, row in enumerate(_scaled(replace(free, driven=np.zeros(0, np.intp)), alone, pose)):
+        shift = idle @ row
+        if shift @ shift > LOOSE * (row @ row):
+            held.append(k)
+            idle = idle - np.outer(shift, shift) / (shift @ shift)
+    return places.at(np.array(held, np.intp)) if held else None
+
+
+def _scaled(layout: Layout, rows: Rows, pose: Pose) -> Array:
+    at = replace(layout, constraints=rows)
+    return np.asarray(dense(at, stack_rows(at, pose))[0] * at.row_scale[:, None] * at.column_scale)
+
+
+def _rolling(layout: Layout, turn: Array, point: Array) -> WheelPlaces | None:
+    """The wheels on lines, but for those on a line that moves where the place of the wheel or of the line is given."""
+    found: list[tuple[Along, Flags]] = [
+        (f, np.asarray(f.pitch != 0)) for f in layout.constraints.families if isinstance(f, Along)
+    ]
+    parts = [{name: value[mask] for name, value in vars(f).items()} for f, mask in found if mask.any()]
+    if not parts:
+        return None
+    f = Along(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+    given = np.isfinite(point[f.j]).all(axis=1)
+    arm = plane.rotate(plane.rotation(np.where(given, turn[f.j], 0.0)), f.uj)
+    there = plane.dot(f.axis, np.nan_to_num(point[f.j]) + arm - f.ui)
+    joint = layout.constraints.joint[f.row]
+    whole = WheelPlaces(replace(f, pitch=np.zeros(len(f.row))), joint, np.where(given, there, 0.0))
+    placed = given | np.isfinite(point[f.i]).all(
+        axis=1
+    )  # a line that moves may be placed as well as its wheel
+    return whole.at(np.flatnonzero(~placed | (f.i == layout.links)))

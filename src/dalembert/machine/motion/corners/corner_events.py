@@ -1,0 +1,149 @@
+"""Switches of loads and efforts along a motion: their sides at the start, going over, and jumps that hold the machine.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.machine.motion.actuation import Actuation
+from dalembert.machine.motion.corners.one_sided import Sided, has_corners
+from dalembert.machine.motion.equation import LoadChannel, StoppedError
+from dalembert.machine.motion.occurrences import Guard, Value
+from dalembert.machine.motion.rest.standstill import ContactState
+from dalembert.model import Mechanism
+
+AHEAD = 1e-7
+"""Part of the time in which the machine moves by its natural size, after which it is asked which way a switch goes."""
+OFTEN, SOONER, LATER = 1e-3, 0.97, 41
+"""A switch that goes to and fro in less than this part of that time, and by this factor sooner than so many times
+before, is a jump at which the machine comes to rest."""
+HOLDS = (
+    "jumps there and pushes back from both sides: it holds the machine, and is itself between its two values"
+)
+DRY = (
+    "jumps with a speed and pushes back from both sides, as dry friction does: write it as `brake:` of the drive, or "
+    "as friction of its joint, which hold at rest"
+)
+
+
+@dataclass
+class Switch:
+    """Something of a load or effort (``what``) that switches where a value passes zero."""
+
+    what: str
+    value: Value
+    side: Callable[[], float]
+    flip: Callable[[float], None]
+    passed: list[float] = field(default_factory=list)
+
+
+class CornerState(ContactState):
+    """A motion whose loads and efforts have corners, each ``switching`` on one side."""
+
+    def __init__(self, m: Mechanism, actuation: Actuation) -> None:
+        super().__init__(m, actuation)
+        self.switching: list[Switch] = []
+        loads = [n for n, x in m.loads.items() if any(map(has_corners, getattr(x, "varying", ())))]
+        self._loads = f"load {' or '.join(map(repr, loads))}"
+
+    def _own_sides(self) -> Iterator[tuple[Sided, Callable[[float, Array], dict[str, float]]]]:
+        """Loads and efforts that follow from drives, speeds and time, with what they go by at a state."""
+        d = self.d
+        for channel in self.equation.channels:
+            if isinstance(channel, LoadChannel) and channel.sided is not None:
+                yield channel.sided, partial(self._known_of, channel)
+        for sided in getattr(self.acting, "own", self.acting).sided.values():
+            yield sided, lambda t, y: self.acting.known(t, y[:d], y[d : 2 * d])
+
+    def _known_of(self, channel: LoadChannel, t: float, y: Array) -> dict[str, float]:
+        return channel.known(t, y[: self.d])
+
+    def _traced_sides(self) -> Iterator[Switch]:
+        """Loads in machine code, whose sides are numbers of the equation."""
+        d, values = self.d, self.equation.values
+
+        def value(j: int) -> Value:
+            return lambda t, y: float(self.equation(t, y[:d], y[d : 2 * d]).corners[j])
+
+        for j, place in enumerate(self.equation.sides):
+            yield Switch(
+                self._loads, value(j), partial(values.item, place), partial(values.__setitem__, place)
+            )
+
+    def _switches_of(
+        self, sided: Sided, known: Callable[[float, Array], dict[str, float]]
+    ) -> Iterator[Switch]:
+        """Switches of a load or effort that has been evaluated."""
+
+        def value(k: int) -> Value:
+            return lambda t, y: sided.switch(k, known(t, y))
+
+        for k in range(len(sided.switches)):
+            yield Switch(sided.what, value(k), partial(sided.side, k), partial(sided.flip, k))
+
+    def take_sides(self, t: float, y: Array) -> None:
+        """The sides on which all switches are at a state."""
+        own, traced = list(self._own_sides()), list(self._traced_sides())
+        for sided, known in own:
+            sided.sides.clear()
+            sided.at(known(t, y))
+        for switch in traced:  # the inner ones of an expression first
+            switch.flip(float(np.sign(switch.value(t, y))))
+        self.switching = [*(s for each in own for s in self._switches_of(*each)), *traced]
+
+    def _yields(self, t: float, y: Array) -> bool:
+        self.take_sides(t, y)  # of what goes by time, while all rests
+        return super()._yields(t, y)
+
+    def find_sides(self, t: float, y: Array) -> None:
+        """Sides at the start; where something is right at its corner, those that the motion goes to."""
+        self.take_sides(t, y)
+        for switch in self.switching:
+            if switch.side() == 0:
+                ahead = self._ahead(switch, t, y)
+                switch.flip(float(np.sign(ahead)))
+                if self._ahead(switch, t, y) * ahead < 0:
+                    raise StoppedError(f"{switch.what} {HOLDS}")
+
+    def _ahead(self, switch: Switch, t: float, y: Array) -> float:
+        """How a switch changes over a short time, all sides as they are."""
+        return switch.value(*self.soon(t, y)) - switch.value(t, y)
+
+    def soon(self, t: float, y: Array) -> tuple[float, Array]:
+        """A time shortly behind a state, and the state then."""
+        rate, short, d = np.nan_to_num(self.rate(t, y)), AHEAD / self.pace(t, y), self.d
+        later = y + short * rate
+        later[:d] += short**2 / 2 * rate[d : 2 * d]
+        return t + short, later
+
+    def pace(self, t: float, y: Array) -> float:
+        """Natural pace at a state, 1/s."""
+        raise NotImplementedError
+
+    def corner_guards(self) -> list[Guard]:
+        """Switches whose going over ends a segment."""
+        return [Guard("corner", j, s.value, s.side()) for j, s in enumerate(self.switching)]
+
+    def go_over(self, g: Guard, t: float, y: Array) -> None:
+        """Take a switch to its other side; StoppedError where its jump pushes back at once."""
+        switch = self.switching[g.which]
+        switch.flip(-g.side)
+        faster = y.copy()
+        faster[self.d : 2 * self.d] *= 1 + AHEAD
+        faster[self.d : 2 * self.d] += AHEAD * self.pace(t, y)
+        if switch.value(t, faster) != switch.value(t, y) and self._ahead(switch, t, y) * g.side > 0:
+            raise StoppedError(f"{switch.what} {DRY}")
+        switch.passed.append(t)
+        one, other = (
+            switch.passed[k] - switch.passed[k - 2] if len(switch.passed) > -k + 1 else np.inf
+            for k in (-1, -LATER)
+        )
+        if one * self.pace(t, y) < OFTEN and one < SOONER * other < np.inf:
+            raise StoppedError(f"{switch.what} {HOLDS}; it passes the jump ever sooner")

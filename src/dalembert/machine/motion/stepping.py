@@ -1,0 +1,235 @@
+"""Steps of a motion: by which solver and of which size, the instants that are kept, and what may end a segment.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from dalembert.arrays import Array, Flags
+from dalembert.machine.motion.actuation import Actuation, drive_lengths
+from dalembert.machine.motion.coordinates.dead_centres import LeadState
+from dalembert.machine.motion.equation import StoppedError
+from dalembert.machine.motion.occurrences import Condition, Guard, Value, Words
+from dalembert.machine.motion.steps import (
+    Between,
+    Integrator,
+    MachineSteps,
+    Steps,
+    between,
+    state_sizes,
+)
+from dalembert.model import Mechanism
+from dalembert.model.drives.motors import Switch
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Where a motion that only conditions end is given up: so many steps of the integration, and so long, s."""
+
+    steps: int = 10_000
+    time: float = 1e5
+
+
+NO_TIME = Limits()
+
+
+class StepState(LeadState):
+    """A motion's steps: their solvers, the instants that are kept, and what may end a segment."""
+
+    def __init__(
+        self,
+        m: Mechanism,
+        actuation: Actuation,
+        end: float,
+        times: Array | None,
+        conditions: Sequence[Condition],
+        tolerance: float,
+        limits: Limits = NO_TIME,
+    ) -> None:
+        super().__init__(m, actuation)
+        self.limits, self.taken, self.status = limits, 0, "ended"
+        self.end, self.conditions, self.tolerance = end, conditions, tolerance
+        self.lengths, self.natural = drive_lengths(m), (np.ones((1, 1)), np.ones(1))
+        self.waiting = None if times is None else list(times)
+        self.ended: Words = ()
+        self.samples: list[tuple[float, Array]] = []
+        self.parts: list[Array] = []
+        self.ends: list[float] = []
+
+    def keep(self, t: float, y: Array) -> None:
+        """Keep an instant; in machine code together with those of its segment."""
+        if self.samples or self._machine(t, y) is not None:
+            self.samples.append((t, Between.standing(t, y).record))
+            return
+        d = self.d
+        found, effort, _ = self.solved(t, y)
+        self.parts.append(np.where(self._told, found.part, np.nan))
+        q, u = y[:d].copy(), y[d : 2 * d].copy()
+        on_stop = np.where(self.on_stop != 0, self.acting.effort(t, q, u), np.nan)
+        self.rows.append((t, q, u, found.a, effort, y[2 * d :].copy(), on_stop, self.joint_forces(t, y)))
+
+    @property
+    def _told(self) -> Flags:
+        """Contacts (E,) whose friction the motion tells where they have no rate: not those that rest by a range."""
+        told = self.stuck.copy()
+        if self.equation.dry and not self.locked.any():
+            told[self.equation.dry.own] = True
+        return told
+
+    def keep_samples(self) -> None:
+        """Keep the instants of the segment that wait, all at once, before anything else happens."""
+        if self.samples:
+            t, records = (np.array(x) for x in zip(*self.samples, strict=True))
+            self.samples, y = [], between(records, t)
+            code = self._machine(t[0], y[0])
+            assert code is not None
+            self._keep_rates(*code, t, y)
+
+    def _keep_rates(self, code: Integrator, values: Array, t: Array, y: Array) -> None:
+        """Keep instants (M,) with the accelerations of the machine code; efforts that are asked for come later: NaN."""
+        d = self.d
+        a, (first, slope, brake, _) = code.rates(values, t, y)[:, d : 2 * d], values[-4 * d :].reshape(4, d)
+        applied = np.where(self.acting.free & ~self.locked, first + slope * y[:, d : 2 * d] + brake, np.nan)
+        on_stop = np.where(self.on_stop != 0, first + slope * y[:, d : 2 * d], np.nan)
+        works = y[:, 2 * d :].copy()
+        stops = np.repeat(self.joint_forces(t[0], y[0])[None], len(t), axis=0)
+        self.rows += zip(
+            t.tolist(), y[:, :d], y[:, d : 2 * d], a, applied, works, on_stop, stops, strict=True
+        )
+
+    def _keep_within(self, records: Array, solver: MachineSteps) -> None:
+        """Keep the instants that wait, within steps up to the solver's time."""
+        assert self.waiting is not None
+        count = bisect_right(self.waiting, solver.t)
+        t, self.waiting = self.waiting[:count], self.waiting[count:]
+        places = (np.searchsorted(records[:, 0], t) - 1).tolist()
+        self.samples += [(x, records[k]) for x, k in zip(t, places, strict=True) if k >= 0 and x < solver.t]
+        if t and t[-1] == solver.t:
+            self.keep(solver.t, solver.y)
+
+    def _solver(self, t: float, y: Array, end: float) -> Steps | MachineSteps:
+        code, natural = self._machine(t, y), self._natural(t, y)
+        if code is not None:
+            more = bool(self.waiting and len(self.waiting) > 1)
+            return MachineSteps(*code, t, y, end, self.tolerance, natural, more)
+        return Steps(self.rate, t, y, end, self.tolerance, natural)
+
+    def _natural(self, t: float, y: Array) -> tuple[Array, Array]:
+        """Natural sizes (1, n) of the state's numbers, and pace (1,)."""
+        with suppress(StoppedError):  # else those of before
+            a, _, terms = self.at(t, y)
+            u = np.maximum(np.abs(y[self.d : 2 * self.d]), self.fastest)
+            self.natural = state_sizes(u[None], a[None], self.lengths, terms.mass.diagonal()[None])
+        return self.natural
+
+    def _machine(self, t: float, y: Array) -> tuple[Integrator, Array] | None:
+        """Machine code and its values, where the efforts are straight lines of the speeds until the next event."""
+        free = self.acting.free & ~self.locked
+        if self.pressed:
+            return None
+        ahead = self.at(t, y)[0] if self.acting.motors else np.zeros(self.d)
+        lines = self.acting.lines(y[self.d : 2 * self.d], ahead)
+        code = None if lines is None else self.equation.steps(free)
+        if code is None or lines is None:
+            return None
+        brake = -self.acting.brake * self.toward * free
+        given = np.where(self.acting.free, 0.0, self.acting.acceleration)
+        return code, np.concatenate([self.equation.values, *lines, brake, given])
+
+    def pace(self, t: float, y: Array) -> float:
+        """Natural pace at a state, 1/s."""
+        return float(self._natural(t, y)[1][0])
+
+    def _exactly(self, t: float, y: Array, when: float) -> Array:
+        """The state at an instant within a step, integrated and not interpolated."""
+        solver = self._solver(t, y, when)
+        while solver.status == "running":
+            solver.step()
+        return np.asarray(solver.y).copy()
+
+    def _keep_until(self, dense: Callable[[float], Array], before: float, end: float) -> None:
+        while self.waiting and self.waiting[0] <= end:
+            when = self.waiting.pop(0)
+            if when > before and isinstance(dense, Between):
+                self.samples.append((when, dense.record))
+            elif when > before:
+                self.keep(when, dense(when))
+
+    # events
+
+    def _guards(self, t: float, y: Array) -> list[Guard]:
+        """What may end the segment that begins: each a quantity whose sign is watched."""
+        d, acting = self.d, self.acting
+
+        def speed(k: int, less: float = 0.0) -> Value:
+            return lambda t, y: float(y[d + k] - less)
+
+        def rate(c: int) -> Value:
+            return lambda t, y: float(self.rubbing_rates(t, y)[c])
+
+        def room(c: int) -> Value:
+            return lambda t, y: float(self.own(self.solved(t, y)[0].room)[c])
+
+        def switch(k: int, of: Switch) -> Value:
+            return lambda t, y: acting.switched(of, k, t, y[:d], y[d:])
+
+        rubbing = np.flatnonzero(self.rubs & ~self.locked & ~self.bound).tolist()
+        out = [Guard("rest", k, speed(k), float(self.toward[k])) for k in rubbing]
+        out += [Guard("contact", c, rate(c), float(s)) for c, s in enumerate(self.sense) if not self.tied[c]]
+        out += [Guard("slip", c, room(c), 1.0) for c in np.flatnonzero(self.own(self.stuck)).tolist()]
+        for k, motor in acting.motors.items():
+            out += [Guard(key, k, switch(k, of)) for key, of in self._switches(k)]
+            out += [Guard("kink", k, speed(k, w)) for w in motor.kinks]
+        out += self.corner_guards()
+        out += self.stop_guards()
+        out += [Guard("condition", n, c.value_at(d)) for n, c in enumerate(self.conditions)]
+        for g in out:
+            g.side = g.side or (0.0 if g.at_zero(t, y, d) else float(np.sign(g.value(t, y))))
+        return out
+
+    def _crosses(self, g: Guard, t: float, y: Array) -> bool:
+        value = g.value(t, y)
+        if not g.side:
+            g.side = float(np.sign(value))
+            return False
+        return value * g.side < 0
+
+    def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
+        """Whether a corner or a condition is passed within the last step, which ends on the same side as it began."""
+        if g.kind not in ("corner", "condition") or not g.side:
+            return False
+        t, y, h = solver.t, solver.y, solver.t - before
+        short = 1e-6 * h
+        came, g.trend = g.trend, (g.value(t, y) - g.value(t - short, y - short * solver.ahead_rate)) * g.side
+        if not came < 0 < g.trend:
+            return False
+        dense = solver.dense_output()
+        low = minimize_scalar(
+            lambda t: g.value(t, dense(t)) * g.side,
+            bounds=(before, t),
+            method="bounded",
+            options={"xatol": short},
+        )
+        g.turned = float(low.x) if low.fun < 0 else np.inf
+        return bool(low.fun < 0)
+
+    def _root(self, g: Guard, dense: Callable[[float], Array], before: float, after: float) -> float:
+        if g.kind == "stop":
+            when = self.strikes(g, dense, before, after)
+            return np.inf if when is None else when
+
+        def value(t: float) -> float:
+            return g.value(t, dense(t)) * g.side
+
+        after = min(after, g.turned)
+        if value(before) <= 0:
+            return before
+        return float(brentq(value, before, after, xtol=1e-15 * max(after, 1e-300) + 1e-300, rtol=1e-15))

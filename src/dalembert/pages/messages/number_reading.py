@@ -1,0 +1,157 @@
+"""How a page reads a typed number: with the units, bounds and messages of the model itself.
+
+No message is written here: each is that of the error which the model raises for an example, with its values left open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from typing import Any, get_args
+
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
+from dalembert.arrays import Tree
+from dalembert.errors import ModelError
+from dalembert.kernel.graph import Node
+from dalembert.model import Mechanism
+from dalembert.model.part import Part
+from dalembert.model.paths import dependents
+from dalembert.model.quantities.dependent_numbers import Dependent, with_new
+from dalembert.model.quantities.parameters import values_of
+from dalembert.model.quantities.values import check_sign
+from dalembert.pages.rows import Rows
+from dalembert.unit_names import SYMBOLS
+from dalembert.units import KINDS, PER_RADIAN, quantity
+
+
+def sign_of(m: Mechanism, path: str) -> str:
+    """`positive`, `not negative` or empty: what the field of a path's number demands.
+
+    >>> from dalembert.model.library import four_bar
+    >>> sign_of(four_bar(), "links.crank.mass"), sign_of(four_bar(), "links.crank.points.A.0")
+    ('not negative', '')
+    """
+    part: Any = m
+    keys = path.split(".")
+    for place, key in enumerate(keys):
+        if isinstance(part, Part):
+            name = next((n for n, f in type(part).model_fields.items() if (f.alias or n) == key), "")
+            part, field = getattr(part, name), type(part).model_fields[name]
+            if _is_number(part, keys[place + 1 :]):
+                found = (getattr(x, "sign", "") for x in _inside([*field.metadata, field.annotation]))
+                return next((sign for sign in found if sign), "")
+        elif isinstance(part, Mapping):
+            part = part[key]
+        elif isinstance(part, tuple):
+            part = part[int(key)]
+        else:
+            return ""  # keys of a value with messages of its own: a motor, a start, a section
+    return ""
+
+
+def _is_number(value: object, rest: list[str]) -> bool:
+    """True for a number, and for one of a list of numbers; False where the path goes on to another part."""
+    if isinstance(value, tuple):
+        return len(rest) == 1 and isinstance(value[0], float)
+    return isinstance(value, float) and not rest
+
+
+def _inside(annotations: Iterable[Any]) -> Iterator[Any]:
+    """Annotations, with those inside unions."""
+    for one in annotations:
+        yield one
+        yield from _inside(get_args(one))
+
+
+def limits(m: Mechanism, k: Kernel, rows: Rows) -> list[Tree]:
+    """Bounds of what follows from parameters: the row of its value, its path and its sign."""
+    parameters = {
+        n.path: node for n, node in zip(k.trace.numbers, k.number_nodes, strict=True) if n.parameter
+    }
+    functions = symbol_functions(k.trace.catalogue.graph)
+    new, out = values_of(m.parameters, parameters, functions), list[Tree]()
+    for keys, leaf in dependents(m):
+        sign = sign_of(m, path := ".".join(keys)) if isinstance(leaf, Dependent) else ""
+        value = with_new(leaf, new, functions) if sign else None
+        if isinstance(value, Node):
+            out.append({"row": rows.of(value), "path": path, "sign": sign})
+    return out
+
+
+@cache
+def reading() -> Tree:
+    """Units by name, kinds with their words, and the sentences of what cannot be read."""
+    return {
+        "units": {name: [u.numerator, u.denominator, *u.dimension] for name, u in SYMBOLS.items()},
+        "kinds": {kind: _kind(kind) for kind in KINDS},
+        "sentences": {name: _left_open(*example) for name, example in EXAMPLES.items()} | {"range": RANGE},
+    }
+
+
+def _kind(kind: str) -> Tree:
+    of = KINDS[kind]
+    said: Tree = {
+        "phrase": of.phrase,
+        "dimension": list(of.dimension),
+        "remedy": _said("#", kind).split("; ")[1],
+        "units": _said(UNKNOWN, kind).split("; ")[1],
+    }
+    return (
+        said
+        | ({"per_radian": True} if kind in PER_RADIAN else {})
+        | ({"force": True} if "force" in of.file else {})
+    )
+
+
+RANGE = "{text} is outside its range; write one from {low} to {high}"
+"""Of a parameter that is given a `range`; a file may give it other values, so that the model has no such message."""
+
+UNKNOWN = "7 qqq"
+"""A number with a unit that does not exist."""
+
+EXAMPLES: dict[str, tuple[str, str, dict[str, str]]] = {
+    "number": ("#", "length", {"a length": "{phrase}", "write one, for example '127 mm'": "{remedy}"}),
+    "comma": ("7,2", "length", {"7.2": "{point}"}),
+    "thousands": ("7,250", "length", {"7.250": "{point}", "7250": "{plain}"}),
+    "several": ("7/2", "length", {}),
+    "finite": ("1e999", "number", {}),
+    "no_unit": (UNKNOWN, "number", {"'qqq'": "{unit}", "write one, for example 0.15": "{units}"}),
+    "form": ("7 m*", "length", {"'m*'": "{unit}", "nothing stands where a name is needed": "{why}"}),
+    "power": ("7 m^9", "length", {"'m^9'": "{unit}"}),
+    "dimension": (
+        "7 s",
+        "length",
+        {"a time": "{given}", "a length": "{phrase}", "write one, for example '127 mm'": "{remedy}"},
+    ),
+    "pounds": ("7 lb", "force", {"say lbf ": "say {unit} "}),
+    "hertz": ("7 Hz", "angular_speed", {}),
+}
+"""What is typed wrongly, as what kind of quantity, and what of the sentence is other words each time."""
+
+
+def _left_open(text: str, kind: str, places: dict[str, str]) -> str:
+    said = _said(text, kind)
+    for word, place in ({repr(text): "{text}"} | places).items():
+        said = said.replace(word, place)
+    return said
+
+
+def _said(text: str, kind: str) -> str:
+    try:
+        quantity(text, kind)
+    except ModelError as error:
+        return str(error)
+    raise AssertionError(f"{text} can be read")
+
+
+@cache
+def sign_sentences() -> Tree:
+    """What is said of a number without the sign its field demands."""
+    out: Tree = {}
+    for sign in ("positive", "not negative"):
+        try:
+            check_sign(-1.0, "#", sign)
+        except ModelError as error:
+            out[sign] = str(error).replace("'#'", "{text}")
+    return out

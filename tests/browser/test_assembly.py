@@ -1,0 +1,158 @@
+"""The page saves the assembly that it shows: dragged far, off change points, to where nothing closes and back."""
+
+from __future__ import annotations
+
+import math
+import random
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.errors import NUMBERED
+from dalembert.pages.with_changes import with_changed_numbers
+from tests.browser.opened import FILES
+from tests.browser.test_page import FOUR_BAR
+
+CHANGE_POINT = "seed-002-4-four-link-two-couples"
+PAGES = [
+    FOUR_BAR,
+    "quick_return",
+    "scissor_lift",
+    "toggle_press",
+    "bucket",
+    "gear_train",
+    "rssr",
+    CHANGE_POINT,
+]
+HANDLES = """[...document.querySelectorAll('.stage .handle.joint, .stage .handle.point, .stage .handle.direction')]
+.map(e => [e.dataset.kind, e.dataset.name])"""
+CURVES = """(() => { const k = page.kernel, all = [...Array(k.count).keys()];
+return {good: all.map(p => !!k.good[p]), noise: page.data.noise, curves: page.data.views.charts.flatMap(c => c.curves)
+  .map(c => [c.of, all.map(p => k.good[p] ? k.value(c.row, p) : 0)])}; })()"""
+FAR = """page.data.numbers.forEach((n, k) => { if (/points.J/.test(n.path)) page.kernel.values[k] += 30; })"""
+"""The joint J by 30 m."""
+FINITE = """[...page.kernel.values, ...page.kernel.motion.assembly()].every(Number.isFinite)
+&& !document.querySelector('.dalembert').innerHTML.includes('NaN')"""
+
+
+def same_as(page: Any, m: da.Mechanism) -> None:
+    """Every curve is that of an analysis of the file, at the same positions; with none the page has no answer."""
+    shown = page.run(CURVES)
+    r = da.dynamics(m) if m.has_speeds else da.statics(m)
+    good = np.array(shown["good"])
+    if not good.any():
+        return
+    assert good.tolist() == [s in NUMBERED for s in r.status]
+    for of, found in shown["curves"]:
+        kind, name, *_ = of.split(".")
+        exact = {
+            "effort": lambda n=name: r.effort(n),
+            "load": lambda n=name: r.unknown_load(n),
+            "reaction": lambda n=name: np.linalg.norm(r.reaction(n), axis=-1),
+        }[kind]()[good]
+        largest = max(np.abs(exact).max(), 1e12 * shown["noise"]["force"], 1e12 * shown["noise"]["moment"])
+        assert np.array(found)[good] == pytest.approx(exact, rel=1e-9, abs=1e-9 * largest)
+
+
+def agrees(page: Any) -> None:
+    same_as(page, da.loads(page.run("page.text()")))
+    assert page.run(FINITE)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", PAGES)
+def test_far_drags_are_saved_as_they_are_shown(opened: Any, name: str) -> None:
+    page, draw = opened(name), random.Random(name)
+    handles = page.run(HANDLES)
+    for _ in range(6):
+        page.page.get_by_text("Reset").click()
+        page.run(f"page.show({draw.choice([0, draw.random()])} * page.kernel.end)")
+        kind, joint = draw.choice(handles)
+        far, way = draw.uniform(180, 300), draw.uniform(0, 2 * math.pi)
+        page.drag(f'.stage .handle.{kind}[data-name="{joint}"]', far * math.cos(way), far * math.sin(way), 8)
+        agrees(page)
+
+
+def test_off_a_change_point_the_motion_is_continuous(opened: Any) -> None:
+    page = opened(CHANGE_POINT)
+    page.drag('.handle[data-name="B"]', -8, 6)
+    values, good = page.curve("effort.A")
+    assert all(good)
+    assert -4 < values[25] < -2  # 8.08 where it leaps
+    assert np.abs(np.diff(values)).max() < 4.5
+    agrees(page)
+
+
+@pytest.mark.long
+def test_dragged_to_where_nothing_closes_and_taken_hold_of_again(opened: Any) -> None:
+    page = opened("bucket")
+    before = page.run("[...page.kernel.motion.held.pose.turn]")
+    for far in (300, -300):
+        page.run(FAR)
+        page.run("page.show(3)")
+        page.drag('.stage .handle.joint[data-name="Q"]', far, 200)
+        page.drag('.stage .handle.joint[data-name="Q"]', far, 200)
+        assert page.run(FINITE)
+    page.page.get_by_text("Reset").click()
+    page.run("page.show(0)")
+    assert page.run("[...page.kernel.motion.held.pose.turn]") == pytest.approx(before, abs=1e-9)
+    agrees(page)
+
+
+@pytest.mark.long
+def test_where_nothing_closes_it_says_how_far_it_misses(opened: Any) -> None:
+    page = opened(FOUR_BAR)
+    page.drag('.handle[data-name="A"]', 250, 100)
+    _, good = page.curve("effort.O2")
+    page.run(f"page.show({good.index(False)})")
+    assert re.fullmatch(r"B misses by [\d.]+ in", page.page.locator(".gaps text").text_content())
+    page.drag('.stage .handle[data-name="B"]', 30, -30)
+    assert page.run("page.kernel.solved")
+    assert page.page.locator(".gaps text").count() == 0
+    agrees(page)
+
+
+@pytest.mark.long
+def test_a_planet_goes_round_its_sun(opened: Any) -> None:
+    page = opened("gear_train")
+    before = page.value("links.carrier.points.P.0")
+    page.drag('.handle[data-name="P"]', -40, -90)
+    at = page.value("links.carrier.points.P.0"), page.value("links.carrier.points.P.1")
+    assert at[1] != 0
+    assert math.hypot(*at) == pytest.approx(before, rel=1e-12)
+    agrees(page)
+
+
+@pytest.mark.long
+def test_undo_the_address_and_a_widget_keep_the_assembly(opened: Any) -> None:
+    page = opened(FOUR_BAR)
+    page.drag('.handle[data-name="A"]', 250, 100)
+    page.drag('.handle[data-name="B"]', -200, 150)
+    second = page.run("page.text()")
+    page.page.keyboard.press("Control+z")
+    page.frame()
+    agrees(page)
+    page.page.keyboard.press("Control+y")
+    page.frame()
+    assert page.run("page.text()") == second
+    said = page.run("Object.fromEntries(new URLSearchParams(location.hash.slice(1)))")
+    changes = {path: float(x) for path, x in said.items() if path != "t"}
+    assert "assembly.rocker" in changes
+    page.page.reload()
+    page.until("window.page !== undefined")
+    page.requests[1:] = []
+    agrees(page)
+    same_as(page, with_changed_numbers(da.loads(second), changes))
+
+
+def test_the_saved_file_is_its_authors_own(opened: Any) -> None:
+    page = opened(FOUR_BAR)
+    own = FILES[FOUR_BAR].read_text(encoding="utf-8").splitlines()
+    page.drag('.handle[data-name="B"]', 25, -18)
+    saved = page.run("page.text()").splitlines()
+    other = [b for a, b in zip(own, saved, strict=True) if a != b]
+    assert [line.split(":")[0].strip() for line in other] == ["points", "rocker", "O2", "assembly"]
+    assert "weight: 5.8, center: 5 @ 0" in other[1]

@@ -1,0 +1,449 @@
+/** The motion of the linkage that the reader holds: the pose in hand is closed again after each change of numbers, and
+ * followed from there over the whole cycle; so the assembly is known, and stays the same as in the hand. */
+
+import type { Data, SketchData } from "./data";
+import type { Program } from "./program";
+import { copied, type Pose, Sketch, Trail } from "./sketch";
+
+/** What the motion asks of the kernel. */
+export interface Closing {
+  /** The drives at a place of the cycle. */
+  drives(t: number): number[];
+  /** Sets the inputs of the known motion at every position, and runs over all; true where it closes. */
+  closes(): Uint8Array;
+  /** Whether it closes at one place, on the branches of where nothing is reached. */
+  closesAt(t: number): boolean;
+  /** The links' poses at a position as the kernel has them: rows of `sketch.poses`. */
+  posed(k: number): number[][];
+}
+
+/** A pose with what it belongs to. */
+interface Held { values: Float64Array; t: number; pose: Pose }
+
+/** Parts of the way between two positions at which a gap is looked for. */
+const BETWEEN = 8;
+/** Positions that are followed one by one; of more only some, and those between are in between. */
+const STATIONS = 120;
+/** Largest move of a link from frame to frame that is taken at once; parts of a change that are tried. */
+const REACH = 0.3, SMALLEST = 2 ** -7;
+
+export class Motion {
+  readonly sketch: Sketch;
+  readonly data: SketchData;
+  /** Poses of the positions that are reached, null of others. */
+  poses: (Pose | null)[];
+  /** Of each branch 1 or -1 at every position; the branches where nothing is reached. */
+  readonly branches: Float64Array[];
+  private readonly count: number;
+  private readonly first: Held;
+  private held: Held;
+  private base: { place: number; pose: Pose };
+  private loose: { t: number; pose: Pose } | null = null;
+  /** The numbers that were last settled. */
+  private seen: Float64Array | null = null;
+  private model: Float64Array;
+  private readonly phases: number[];
+  private readonly phasesAtFirst: number[];
+  private readonly weakest: string;
+  private readonly channels: { kind: "pose" | "position" | "branch" | "given"; part: keyof Pose; k: number; given: Float64Array }[];
+
+  constructor(data: Data, private readonly kernel: Closing, closure: Program, private readonly shown: Program, private readonly values: Float64Array, private readonly inputs: (name: string) => Float64Array) {
+    const s = (this.data = data.sketch);
+    this.sketch = new Sketch(s, closure);
+    this.count = data.kernel.count;
+    this.poses = Array<Pose | null>(this.count).fill(null);
+    this.branches = s.branches.map(() => new Float64Array(this.count).fill(1));
+    this.model = new Float64Array(s.branches.length).fill(1);
+    this.phases = s.rows.flatMap((r, k) => (r.kind === "phase" ? [k] : []));
+    const [point, rotation, turn] = [s.pose.point, s.pose.rotation, s.pose.turn].map((x) => Float64Array.from(x));
+    this.first = { values: Float64Array.from(data.numbers, (n) => n.value), t: s.place, pose: { point, rotation, turn } };
+    this.sketch.values = this.first.values;
+    this.phasesAtFirst = this.phases.map((row) => this.sketch.measure(row, this.first.pose));
+    this.held = this.first;
+    this.base = { place: s.place, pose: this.first.pose };
+    this.weakest = weakest(s);
+    const drives = data.drives.map((d) => d.name);
+    this.channels = shown.module.channels.map((name) => {
+      const [kind, part, k] = name.split(" "), branch = s.branches.indexOf(name);
+      if (kind === "pose") return { kind, part: part as keyof Pose, k: +k, given: this.values };
+      if (kind === "position") return { kind, part: "turn", k: drives.indexOf(name.slice(9)), given: this.values };
+      return { kind: branch < 0 ? "given" : "branch", part: "turn", k: branch, given: branch < 0 ? inputs(name) : this.values };
+    });
+    this.home();
+  }
+
+  /** The file's own pose and numbers. */
+  private home(): void {
+    this.hold(this.phasesAtFirst);
+    this.held = this.first;
+    this.base = { place: this.first.t, pose: this.first.pose };
+    [this.seen, this.loose] = [null, null];
+  }
+
+  private hold(phases: number[]): void {
+    this.phases.forEach((row, k) => this.inputs(`phase ${row}`).fill((this.sketch.hold[row] = phases[k])));
+  }
+
+  /** The numbers have been set to others at once: the pose is the file's, or what the numbers of an assembly say. */
+  assume(assembly: number[] | null): void {
+    this.home();
+    if (!assembly) return;
+    const stated = posed(this.data, this.held.pose, assembly), { sketch } = this;
+    sketch.values = this.values;
+    sketch.count(this.phases, false);
+    for (const place of [...this.data.places, ...Array(this.count).keys()]) {
+      const guess = this.wound(stated, this.kernel.drives(place));
+      const pose = sketch.close(guess, this.kernel.drives(place));
+      if (!pose || this.turned(pose, guess) > 1e-6) continue;
+      this.held = { values: this.values.slice(), t: place, pose };
+      this.hold(this.phases.map((row) => sketch.measure(row, pose)));
+      break;
+    }
+    sketch.count(this.phases, true);
+  }
+
+  private turned(a: Pose, b: Pose): number {
+    const [p, q] = this.data.dimension === 2 ? [a.turn, b.turn] : [a.rotation, b.rotation];
+    return p.reduce((most, x, k) => Math.max(most, Math.abs(x - q[k])), 0);
+  }
+
+  /** Closes the pose in hand for the numbers as they are, and follows the motion from there. */
+  update(): void {
+    if (this.seen?.every((x, k) => x === this.values[k])) return;
+    this.seen = this.values.slice();
+    const closed = this.reclose();
+    this.poses.fill(null);
+    if (closed) this.follow(this.held.t, this.held.pose);
+    this.settle(closed);
+  }
+
+  /** The pose in hand for other numbers: at once, else in small parts of the change; false where it does not close. */
+  private reclose(): boolean {
+    const to = this.values, drives = this.kernel.drives(this.held.t), { sketch } = this;
+    if (this.loose) {
+      sketch.values = to;
+      const pose = sketch.close(this.loose.pose, this.kernel.drives(this.loose.t), REACH);
+      if (pose) this.held = { values: to.slice(), t: this.loose.t, pose };
+      this.loose = null;
+      if (pose) return true;
+    }
+    const from = this.held.values;
+    let part = 1, done = 0;
+    while (done < 1) {
+      const next = Math.min(1, done + part), mixed = to.map((x, k) => (next === 1 ? x : from[k] + next * (x - from[k])));
+      sketch.values = mixed;
+      const pose = sketch.close(this.held.pose, drives, REACH);
+      if (pose) {
+        this.held = { values: mixed, t: this.held.t, pose };
+        [done, part] = [next, Math.min(1, 2 * part)];
+      } else if ((part /= 2) < SMALLEST) return false;
+    }
+    return true;
+  }
+
+  /** Fills in the positions that the motion from a pose reaches, both ways, and around where the list is a cycle. */
+  private follow(t: number, pose: Pose): void {
+    const { course, cycle } = this.data, n = this.count;
+    this.sketch.values = this.values;
+    const start = this.along(t), from = this.kernel.drives(t);
+    const [up, down] = [Math.ceil(start), Math.floor(start)].map((k, i) => this.march(new Trail(pose, from), k, i ? -1 : 1, null));
+    if (!cycle || this.phases.length) return;
+    if (up && this.poses[course[n - 1]]) this.march(up, 0, 1, cycle);
+    if (down && this.poses[course[0]]) this.march(down, n - 1, -1, cycle);
+  }
+
+  /** Where a place of the cycle is along the course: a whole number at a listed position, else one and a half. */
+  private along(t: number): number {
+    const { course } = this.data;
+    if (Number.isInteger(t) && t < this.count) return course.indexOf(t);
+    const ordered = course.every((k, i) => k === i), x = this.kernel.drives(t)[0];
+    return (ordered ? Math.ceil(t) : course.findIndex((k) => this.kernel.drives(k)[0] > x)) - 0.5;
+  }
+
+  /** From position to position of the course; the trail at its end, null at a dead centre. */
+  private march(trail: Trail, from: number, sign: number, cycle: number[] | null): Trail | null {
+    const { course } = this.data, n = this.count, skip = this.data.dimension === 2 ? Math.ceil(n / STATIONS) : 1;
+    const more = (cycle ?? []).map((c) => sign * (cycle!.length > 1 ? c : Math.abs(c))), turns = this.counts((row) => more[this.data.drives.indexOf(row)] ?? 0);
+    const drives = (k: number): number[] => this.kernel.drives(course[k]).map((x, d) => x + (more[d] ?? 0));
+    const put = (k: number, pose: Pose): void => {
+      if (!cycle) this.poses[course[k]] = pose;
+      else this.poses[course[k]] = { ...pose, turn: pose.turn.map((x, link) => x - turns[link]) };
+    };
+    for (let k = from; k >= 0 && k < n; ) {
+      if (cycle && this.poses[course[k]]) return null;
+      const before = trail.pose, had = trail.drives;
+      let next = Math.min(Math.max(k + sign * (skip - 1), 0), n - 1);
+      if (next !== k && !this.sketch.walk(trail, drives(next))) {
+        trail = new Trail(before, had);
+        next = k;
+      }
+      if (next === k && !this.sketch.walk(trail, drives(k))) return null;
+      for (let m = k; m !== next; m += sign) put(m, between(before, trail.pose, had, trail.drives, drives(m)));
+      put(next, trail.pose);
+      k = next + sign;
+    }
+    return trail;
+  }
+
+  /** What links have turned more, radians, so that rows that keep an angle go up by what they are asked to; in space
+   * turns count themselves. */
+  private counts(more: (row: number) => number): Float64Array {
+    const { data } = this, out = new Float64Array(this.held.pose.turn.length), known = new Set([data.links.length]);
+    if (data.dimension !== 2) return out;
+    const left = new Set(data.rows.flatMap((r, k) => (r.angular && (r.kind === "constraint" || data.drives.includes(k)) ? [k] : [])));
+    while (left.size) {
+      const next = [...left].find((k) => data.rows[k].ends.some((link) => known.has(link)));
+      if (next === undefined) {
+        known.add(data.rows[[...left][0]].ends[0]);
+        continue;
+      }
+      const [i, j] = data.rows[next].ends;
+      if (!known.has(j)) out[j] = (out[i] ?? 0) + more(next);
+      else if (!known.has(i)) out[i] = (out[j] ?? 0) - more(next);
+      known.add(i).add(j);
+      left.delete(next);
+    }
+    return out;
+  }
+
+  /** Branches everywhere, the pose that the file is to begin with, and what lies behind gaps. */
+  private settle(closed: boolean): void {
+    const { t, pose } = closed ? this.held : { t: this.base.place, pose: this.base.pose };
+    this.spread(this.read(pose, t));
+    let closes = this.kernel.closes();
+    const first = this.firstOf(closes), begin = first < 0 ? null : this.poses[first] ?? this.enter(first, pose);
+    if (begin) {
+      if (!this.poses[first]) this.follow(first, begin);
+      this.base = { place: first, pose: this.exact(first) ?? begin };
+      this.spread(this.read(begin, first));
+      closes = this.kernel.closes();
+      this.behind(closes);
+    }
+    this.spread(this.model);
+    this.kernel.closes();
+  }
+
+  /** The pose of a position to rounding: of many positions those between stations are near it only. */
+  private exact(k: number): Pose | null {
+    this.sketch.values = this.values;
+    return this.poses[k] && this.sketch.close(this.poses[k], this.kernel.drives(k), 0.05);
+  }
+
+  private firstOf(closes: Uint8Array): number {
+    const good = (k: number): boolean => this.poses[k] !== null || closes[k] > 0;
+    return this.data.places.find(good) ?? closes.findIndex((_, k) => good(k));
+  }
+
+  /** The kernel's pose at a position, closed to rounding; turns counted near another pose's. */
+  private enter(k: number, near: Pose): Pose | null {
+    const d = this.data.dimension, q = copied(near);
+    this.kernel.posed(k).forEach((rows, link) => {
+      for (let c = 0; c < d; c++) q.point[d * link + c] = rows[c];
+      if (d === 2) {
+        q.turn[link] += wrap(Math.atan2(rows[3], rows[2]) - q.turn[link]);
+        [q.rotation[2 * link], q.rotation[2 * link + 1]] = [rows[2], rows[3]];
+      } else for (let i = 0; i < 3; i++) for (let j = 0; j < 3; j++) q.rotation[9 * link + 3 * i + j] = rows[3 + 3 * j + i];
+    });
+    if (![...q.point, ...q.rotation, ...q.turn].every(Number.isFinite)) return null;
+    this.sketch.values = this.values;
+    return this.sketch.close(this.wound(q, this.kernel.drives(k)), this.kernel.drives(k), 0.1);
+  }
+
+  /** The pose with the whole turns that its drives ask for, and with those that slides keep. */
+  private wound(q: Pose, drives: number[]): Pose {
+    const { data, sketch } = this, whole = (x: number): number => 2 * Math.PI * Math.round(x / (2 * Math.PI));
+    const more = data.drives.map((row, d) => (data.rows[row].angular ? whole(drives[d] - sketch.measure(row, q)) : 0)), turns = this.counts((row) => more[this.data.drives.indexOf(row)] ?? 0);
+    return { ...q, turn: q.turn.map((x, k) => x + turns[k]) };
+  }
+
+  /** Ranges that no motion reaches, behind a gap, where every group of links closes on its branch as before. */
+  private behind(closes: Uint8Array): void {
+    const { course } = this.data, reached = (k: number): boolean => this.poses[course[k]] !== null;
+    for (let k = 0; k < this.count; k++) {
+      if (reached(k) || !closes[course[k]]) continue;
+      let end = k;
+      while (end + 1 < this.count && !reached(end + 1) && closes[course[end + 1]] && !this.gapBetween(end)) end++;
+      const low = k === 0 || !closes[course[k - 1]] && !reached(k - 1) || this.gapBetween(k - 1);
+      const high = end === this.count - 1 || !reached(end + 1) || this.gapBetween(end);
+      if (low && high) {
+        const middle = course[(k + end) >> 1], pose = this.enter(middle, this.base.pose);
+        if (pose) this.follow(middle, pose);
+      }
+      k = end;
+    }
+  }
+
+  private gapBetween(k: number): boolean {
+    const [a, b] = [this.data.course[k], this.data.course[k + 1]];
+    for (let i = 1; i < BETWEEN; i++) if (!this.kernel.closesAt(a + (i / BETWEEN) * (b - a))) return true;
+    return false;
+  }
+
+  /** The branches of a pose at a place of the cycle, each by those before it. */
+  read(pose: Pose, t: number): Float64Array {
+    const out = new Float64Array(this.branches.length).fill(1);
+    for (let n = 0; n < out.length; n++) out[n] = this.look(pose, t, out).at(n) < 0 ? -1 : 1;
+    return out;
+  }
+
+  /** Runs the program of what is known of a pose. */
+  look(pose: Pose, t: number, branch: Float64Array): Program {
+    const p = this.shown, drives = this.kernel.drives(t);
+    p.values.set(this.values);
+    this.channels.forEach((c, n) =>
+      p.put(n, c.kind === "pose" ? pose[c.part][c.k] : c.kind === "position" ? drives[c.k] : c.kind === "branch" ? branch[c.k] : c.given[0]));
+    p.call(1);
+    return p;
+  }
+
+  /** Branches where nothing is reached. */
+  get otherwise(): Float64Array {
+    return this.model;
+  }
+
+  /** The kernel's inputs over all positions: branches and known motion of the reached poses, the model's elsewhere. */
+  private spread(model: Float64Array): void {
+    const p = this.shown, { row } = p, n = this.count, spare = this.base.pose;
+    this.model = model;
+    p.values.set(this.values);
+    this.channels.forEach((c, at) => {
+      for (let k = 0; k < n; k++)
+        p.path[at * row + k] = c.kind === "pose" ? (this.poses[k] ?? spare)[c.part][c.k] : c.kind === "position" ? this.kernel.drives(k)[c.k] : c.kind === "given" ? c.given[k] : 1;
+    });
+    this.branches.forEach((of, b) => {
+      p.call(n);
+      for (let k = 0; k < n; k++) of[k] = !this.poses[k] ? model[b] : p.at(b, k) < 0 ? -1 : 1;
+      this.channels.forEach((c, at) => c.kind === "branch" && c.k === b && p.path.set(of, at * row));
+      this.inputs(this.data.branches[b]).set(of);
+    });
+    if (this.data.known.length) p.call(n);
+    this.data.known.forEach((name, i) => {
+      const of = this.inputs(name);
+      for (let k = 0; k < n; k++) of[k] = this.poses[k] ? p.at(this.branches.length + i, k) : NaN;
+    });
+  }
+
+  /** The pose at any place of the cycle, null where the motion does not come. */
+  at(t: number): Pose | null {
+    this.update();
+    const low = Math.floor(t) % this.count, part = t - Math.floor(t);
+    const exact = part === 0 && this.count <= STATIONS ? this.poses[low] : null;
+    let pose = exact;
+    this.sketch.values = this.values;
+    for (const k of [low, (low + 1) % this.count]) {
+      const from = this.poses[k];
+      if (pose || !from) continue;
+      const near = this.sketch.close(from, this.kernel.drives(k), 0.05);
+      const drives = this.nearDrives(k, t);
+      pose = near && this.sketch.walk(new Trail(near, this.kernel.drives(k)), drives);
+    }
+    if (pose) [this.held, this.loose] = [{ values: this.values.slice(), t, pose }, null];
+    return pose;
+  }
+
+  /** The drives at a place, counted as they are at a position next to it. */
+  private nearDrives(k: number, t: number): number[] {
+    const at = this.kernel.drives(t), from = this.kernel.drives(k);
+    return at.map((x, d) => (this.data.cycle?.[d] ? from[d] + wrap(x - from[d]) : x));
+  }
+
+  /** What is drawn at a place where nothing closes: the pose in hand, open at one joint. */
+  stretched(t: number): Pose {
+    this.sketch.values = this.values;
+    const from = this.loose?.t === t ? this.loose.pose : this.nearest(t);
+    this.loose = { t, pose: this.sketch.loosen(from, this.kernel.drives(t), this.weakest) };
+    return this.loose.pose;
+  }
+
+  /** The pose with the least gaps of its joints at a place where nothing closes, and these. */
+  open(t: number): ReturnType<Sketch["open"]> {
+    this.sketch.values = this.values;
+    return this.sketch.open(this.nearest(t), this.kernel.drives(t));
+  }
+
+  private nearest(t: number): Pose {
+    let best = this.held.pose, away = Infinity;
+    this.poses.forEach((pose, k) => {
+      if (pose && Math.abs(k - t) < away) [best, away] = [pose, Math.abs(k - t)];
+    });
+    return best;
+  }
+
+  /** What the file is to say of the first position: numbers in the order of `assembly`. */
+  assembly(): number[] {
+    this.update();
+    const { links, dimension: d, counted } = this.data, { pose } = this.base;
+    return links.flatMap((name, k) =>
+      d === 2 ? [pose.turn[k] + (counted[name] ?? 0)]
+        : [...pose.point.subarray(3 * k, 3 * k + 3), ...turnOf(pose.rotation.subarray(9 * k, 9 * k + 9))]);
+  }
+
+  /** All that is to be kept of the pose in hand. */
+  state(): number[] {
+    this.update();
+    const { t, pose } = this.held;
+    return [t, ...pose.point, ...pose.rotation, ...pose.turn, ...this.phases.map((row) => this.sketch.hold[row])];
+  }
+
+  /** The pose as it was kept, with the numbers as they are. */
+  restore(state: number[]): void {
+    const [t, ...rest] = state, pose = copied(this.held.pose);
+    for (const part of ["point", "rotation", "turn"] as const) pose[part].set(rest.splice(0, pose[part].length));
+    this.hold(rest);
+    this.held = { values: this.values.slice(), t, pose };
+    [this.seen, this.loose] = [null, null];
+  }
+}
+
+const wrap = (x: number): number => x - 2 * Math.PI * Math.round(x / (2 * Math.PI));
+
+/** A pose on the way from one to another, in proportion to the drives; of links in the plane. */
+function between(a: Pose, b: Pose, from: number[], to: number[], at: number[]): Pose {
+  const d = to.findIndex((x, k) => x !== from[k]), part = d < 0 ? 1 : (at[d] - from[d]) / (to[d] - from[d]);
+  const mixed = (p: Float64Array, q: Float64Array) => p.map((x, k) => x + part * (q[k] - x));
+  const turn = mixed(a.turn, b.turn), rotation = a.rotation.slice();
+  turn.forEach((t, k) => ([rotation[2 * k], rotation[2 * k + 1]] = [Math.cos(t), Math.sin(t)]));
+  return { point: mixed(a.point, b.point), turn, rotation };
+}
+
+/** The joint that is let open where nothing closes: between two links that move, none of them driven if there is one. */
+function weakest(s: SketchData): string {
+  const moving = (row: { ends: readonly number[] }): number[] => row.ends.filter((link) => link < s.links.length);
+  const driven = new Set(s.drives.flatMap((row) => moving(s.rows[row])));
+  const rank = (name: string): number => {
+    const links = moving(s.rows.find((r) => r.kind === "constraint" && r.joint === name) ?? { ends: [] });
+    return links.length - (links.some((link) => driven.has(link)) ? 0.5 : 0);
+  };
+  return s.gaps.map((g) => g.joint).reduce((best, name) => (best && rank(best) >= rank(name) ? best : name), "");
+}
+
+/** Links turned as the numbers of an assembly say; in space they are placed too. */
+function posed(s: SketchData, like: Pose, assembly: number[]): Pose {
+  const q = copied(like);
+  s.links.forEach((name, k) => {
+    if (s.dimension === 2) {
+      const t = (q.turn[k] = assembly[k] - (s.counted[name] ?? 0));
+      [q.rotation[2 * k], q.rotation[2 * k + 1]] = [Math.cos(t), Math.sin(t)];
+      return;
+    }
+    const [x, y, z, a, b, c, angle] = assembly.slice(7 * k, 7 * k + 7), one = Math.hypot(a, b, c) || 1;
+    q.point.set([x, y, z], 3 * k);
+    q.rotation.set(matrixOf([a / one, b / one, c / one], angle), 9 * k);
+  });
+  return q;
+}
+
+function matrixOf([x, y, z]: number[], angle: number): number[] {
+  const c = Math.cos(angle), s = Math.sin(angle), v = 1 - c;
+  return [c + v * x * x, v * x * y - s * z, v * x * z + s * y, v * x * y + s * z, c + v * y * y, v * y * z - s * x, v * x * z - s * y, v * y * z + s * x, c + v * z * z];
+}
+
+/** Axis and angle of a rotation matrix. */
+function turnOf(r: Float64Array): number[] {
+  const v = [r[7] - r[5], r[2] - r[6], r[3] - r[1]], sin = Math.hypot(...v), cos = r[0] + r[4] + r[8] - 1;
+  if (sin > 1e-6) return [...v.map((x) => x / sin), Math.atan2(sin, cos)];
+  if (cos > 0) return [0, 0, 1, 0];
+  const k = [0, 1, 2].reduce((a, b) => (r[4 * b] > r[4 * a] ? b : a)), column = [0, 1, 2].map((i) => r[3 * i + k] + (i === k ? 1 : 0));
+  const size = Math.hypot(...column);
+  return [...column.map((x) => x / size), Math.PI];
+}
