@@ -18,7 +18,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.over_positions import PARTS, reduce_positions
-from dalembert.kernel import parallel_runs
+from dalembert.kernel import memory, parallel_runs
 from dalembert.kernel.emit import cuda, llvm_text
 from dalembert.kernel.emit.machine_code import compile_module, host_lanes
 from dalembert.kernel.emit.reductions import width
@@ -207,7 +207,8 @@ def test_changing_numbers_does_not_compile_again(monkeypatch: pytest.MonkeyPatch
     assert not compilations
 
 
-def test_results_in_memory_used_again_are_the_same() -> None:
+def test_results_in_memory_used_again_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(memory._Pages, "waiting", {})  # that of other tests' results
     k = da.compile(four_bar(33), vary=VARY, outputs=OUTPUTS)
     few = designs(k, 22)
     expected, values = k(few), np.tile(few, (200, 1))

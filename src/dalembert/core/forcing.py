@@ -16,7 +16,7 @@ import numpy as np
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import gear_rows
-from dalembert.core.branchless import any_traced
+from dalembert.core.branchless import any_traced, sign
 from dalembert.core.constraints import measure, rates, system
 from dalembert.core.geometry import arm, span
 from dalembert.core.layout import Gearing, Layout, Mesh, Pose, System
@@ -288,7 +288,7 @@ def separation(
             continue
         line = span(g, f, pose)
         length = np.sqrt((line * line).sum(axis=-1))
-        tan = tan * np.sign(f.ri * f.rj) * np.abs(f.ri + f.rj)
+        tan = tan * sign(f.ri * f.rj) * np.abs(f.ri + f.rj)
         pushed = (np.abs(multiplier[..., f.row]) * tan / length**2)[..., None] * line
         out.append((f, pushed, pose.point[..., f.i, :] + arm(g, pose, f.i, f.ui)))
     return out

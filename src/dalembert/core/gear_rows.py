@@ -17,6 +17,7 @@ import numpy as np
 
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Index, Ints
+from dalembert.core.branchless import sign
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Family, Gearing, Layout, Pose
 
@@ -90,7 +91,7 @@ def _mesh(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> _Mesh:
     cos, sin = np.cos(f.helix)[:, None], np.sin(f.helix)[:, None]
     trace = [f.cone[:, :1] * a[k] + f.cone[:, 1:] * e[k] for k in (0, 1)]
     n = _Vector(cos * t.at - sin * trace[0], cos * t.rate - sin * trace[1])
-    normal = (f.cone[:, :1] * e.at - f.cone[:, 1:] * a.at) * np.sign(f.ri)[:, None]
+    normal = (f.cone[:, :1] * e.at - f.cone[:, 1:] * a.at) * sign(f.ri)[:, None]
     center = _center(g, pose, twist, f.i, f.ui)
     contact = _Vector(center.at + f.ri[:, None] * e.at, center.rate + f.ri[:, None] * e.rate)
     return _Mesh(e, n, normal, contact)
@@ -148,7 +149,7 @@ def own_axes(g: Algebra, f: Gearing, pose: Pose) -> Array:
     """Axes of the meshes (..., k, 3, 3), a row each: radial, from the axis of wheel i to C; tangential, the way its
     teeth go there when it turns; and that axis. They go with the line of centres, not with the wheels."""
     a, e, _, _ = _axes(g, f, pose, _still(pose))
-    radial = e.at * np.sign(f.ri)[:, None]
+    radial = e.at * sign(f.ri)[:, None]
     return np.stack([radial, g.cross(a.at, radial), a.at], axis=-2)
 
 

@@ -189,6 +189,7 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
             *_short(p, layout, pose),
             *_turn_count_doubt(p, layout, pose),
             *_unheld(p.graph, layout, spins, friction.total),
+            *(n for n in g.decisions if n.level != CONSTANT),
         ],
         friction=friction,
         flips=placed.flips,
