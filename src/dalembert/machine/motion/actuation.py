@@ -91,6 +91,9 @@ class Actuation:
                 out[k] += self.motors[k].at(u[k])
         return out
 
+    def set_anchor(self) -> None:
+        """Keep the last state as the one at which a step begins: nothing depends on it here."""
+
     def powers(self, t: float, q: Array, u: Array, effort: Array) -> Array:
         """Powers (D,) of the drives, that have these efforts."""
         return effort * u

@@ -99,13 +99,23 @@ class LoadChannel:
 
 @dataclass
 class LastPose:
-    """The pose of the last state, where whole turns are counted from and Newton's steps begin; a course of one.
-    ``anchor``: that where a step begins, for what its trials lead too far from."""
+    """Pose of the last state, from which whole turns are counted and Newton's steps begin; a course of one.
+    ``anchor``: the pose at which a step of the integration begins; states ``at`` nearer to that one start from it, as
+    a trial that was refused may have led to another branch."""
 
     pose: Pose
     followed: Any
     layout: Layout
-    anchor: Pose | None = None
+    at: Array | None = None
+    anchor: tuple[Pose, Array] | None = None
+
+    def start(self, q: Array) -> None:
+        """Begin a state from the nearer one of the last state and the anchor."""
+        if self.anchor is not None and self.at is not None:
+            pose, at = self.anchor
+            if np.abs(q - at).max() <= np.abs(q - self.at).max():
+                self.pose = pose
+        self.at = q.copy()
 
     def follow(self, values: Array) -> float:
         """Take another pose, all its numbers in a row; how far it is, in m or rad."""
@@ -179,6 +189,8 @@ class Equation:
     def __call__(self, t: float, q: Array, u: Array) -> Terms:
         """The terms at a state, at no accelerations and without dry friction."""
         d, state = len(u), (*q, t)
+        if self.known:
+            self.known.start(q)
         pose: Any = self.known and self.known.pose
         self.values[self.rates] = [*u, *np.zeros(d)]
         for _ in range(STEPS):
@@ -190,8 +202,9 @@ class Equation:
             out[: self.ends[-1]], self.ends[:-1]
         )
         if self.known and not np.isfinite(effort).all():
-            self.known.pose = self.known.anchor or pose  # no state goes on from where the loops do not close
-            if self.known.pose is not pose:
+            self.known.pose = pose  # no state goes on from where the loops do not close
+            if self.known.anchor is not None and self.known.anchor[0] is not pose:
+                self.known.pose, self.known.at = self.known.anchor
                 return self(t, q, u)
         linear = None
         if self.dry:
@@ -201,6 +214,11 @@ class Equation:
         return Terms(
             effort, mass.reshape(d, d), power, rates, closure, freedoms.reshape(-1, 3 + d), corners, linear
         )
+
+    def set_anchor(self) -> None:
+        """Keep the last state as the one at which a step begins."""
+        if self.known and self.known.at is not None:
+            self.known.anchor = self.known.pose, self.known.at
 
     def steps(
         self, free: Flags, lanes: int = 1, works: bool = True, corners: Mapping[int, Corners] = NO_CORNERS

@@ -259,8 +259,10 @@ def _motion(
         motion = (measure(g, freedoms, pose), rates(rows, traced.twist), second)
         out.extend(trace_array(graph, np.array([x[..., row][()] for x in motion], object)))
         out.extend(gradients(graph, out[-1:], list(accelerations))[0])
-    turns = [n.index for n in graph.order(out) if WHOLE_TURN.fullmatch(graph.names.get(n.index, ""))]
-    return graph.substitute(out, dict.fromkeys(turns, graph.zero))
+    known = {i: x for n in graph.order(out) if (x := graph.names.get(i := n.index, "")).startswith("known ")}
+    if not all(WHOLE_TURN.fullmatch(x) for x in known.values()):
+        return out  # Newton's steps begin at these angles
+    return graph.substitute(out, dict.fromkeys(known, graph.zero))
 
 
 def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:

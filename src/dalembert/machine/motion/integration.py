@@ -118,8 +118,8 @@ class Integration(StepState):
         while solver.status == "running":
             before, from_ = self.reached = solver.t, solver.y
             steps, self.taken = steps + 1, self.taken + 1
-            if self.equation.known:
-                self.equation.known.anchor = self.equation.known.pose
+            self.equation.set_anchor()
+            self.acting.set_anchor()
             if self.end == np.inf and self.taken > self.limits.steps:
                 self.taken -= 1
                 self._give_up(before, from_)

@@ -135,6 +135,9 @@ class Led(Actuation):
         self.last = q + np.where(turns, 2 * np.pi * np.round((self.last - q) / (2 * np.pi)), 0.0)
         return self.last, found[:, 3:]
 
+    def set_anchor(self) -> None:
+        self.equation.set_anchor()
+
     def known(self, t: float, q: Array, u: Array) -> dict[str, float]:
         at, rate = self.follow(t, q)
         return self.own.known(t, at, rate @ u)
