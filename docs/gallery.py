@@ -74,8 +74,8 @@ def gallery() -> None:
 
 JOINTS = """# Joints in space
 
-What each joint leaves free of link j in link i, and the reactions it carries along its local axes. `dalembert joints`
-prints this table, `dalembert joints -o pictures` draws it. What belongs to i is blue, to j
+Freedoms of link j relative to link i for each joint, and the reactions it carries along its local axes.
+`dalembert joints` prints this table, `dalembert joints -o pictures` draws it. The part on i is blue, the part on j
 yellow; forces have one head, moments two.
 [Space](space.md) says how the axes are given and which freedoms can be driven.
 

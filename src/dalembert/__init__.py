@@ -1,4 +1,4 @@
-"""Force analysis of mechanisms: motion, reactions, driving efforts, and how they were found.
+"""Force analysis of mechanisms: motion, reactions and driving efforts, with the methods behind them.
 
 >>> import dalembert as da
 >>> m = da.slider_crank(crank=0.05, rod=0.2)
@@ -12,8 +12,8 @@ from __future__ import annotations
 from importlib import import_module
 
 TYPE_CHECKING = False
-"""Here and in `cli` not typing's own: importing `typing` would be a third of the time of `dalembert --version`.
-Names imported as themselves are public to type checkers (PEP 484)."""
+"""Defined here and in `cli` instead of imported: importing `typing` would be a third of the time of `dalembert
+--version`. Names imported as themselves are public to type checkers (PEP 484)."""
 if TYPE_CHECKING:
     from typing import Any
 

@@ -1,4 +1,4 @@
-"""What is passed about, by name; the shapes of arrays stand in each docstring."""
+"""Array type aliases; each docstring states the shapes of its arrays."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Flags = NDArray[np.bool_]
 """Yes or no."""
 
 Index = int | slice | Ints | Flags | None
-"""What picks items along one axis; None adds one."""
+"""Selection of items along one axis; None adds an axis."""
 
 Numeric = Any
 """One number or an array of them; while an analysis is traced, symbols in their place."""

@@ -1,4 +1,4 @@
-"""Bounds of the numbers that functions and options take: each said once, for Python and for the command line."""
+"""Bounds of the numbers that functions and options accept: each defined once, for Python and for the command line."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MILLION = 1_000_000
 
 
 class Bound(NamedTuple):
-    """What a number may be: from ``low`` to ``high``, the ends themselves or not, whole or not."""
+    """Allowed range of a number: from ``low`` to ``high``, including the ends or not, integers only or not."""
 
     remedy: str
     low: float
@@ -34,7 +34,7 @@ class Bound(NamedTuple):
         return above and below and (x == 0 or abs(x) >= SMALLEST)
 
     def remedy_for(self, value: object) -> str:
-        """What would be right instead of a value."""
+        """Remedy for a value outside the bounds."""
         if self.whole or not isinstance(value, Real):
             return self.remedy
         size = abs(float(value))

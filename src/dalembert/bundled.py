@@ -1,4 +1,4 @@
-"""Where the examples and the published cases are: beside the sources in a checkout, inside the package in a wheel."""
+"""Location of the examples and the published cases: beside the sources in a checkout, inside the package in a wheel."""
 
 from __future__ import annotations
 

@@ -74,7 +74,7 @@ class MissingFileError(ModelError, FileNotFoundError):
 
 @contextmanager
 def errors_at(*path: str | int, file: str = "", line: int = 0) -> Iterator[None]:
-    """Errors of a description in here are said with the keys, and if there is one the file and line, that they are at.
+    """Adds the keys, and the file and line if any, to errors of a description that are raised inside.
 
     >>> with errors_at("answers", 2):
     ...     raise ModelError("this is wrong")
@@ -92,7 +92,7 @@ class AnalysisError(DalembertError):
 
 
 class Status(NamedTuple):
-    """What a status code means, and what a person can do about it."""
+    """Meaning of a status code, and the remedy."""
 
     sentence: str
     remedy: str
@@ -101,7 +101,7 @@ class Status(NamedTuple):
 STATUSES: dict[str, Status] = {
     "ok": Status("Solved.", ""),
     "not_assembled": Status(
-        "The linkage does not close at this position, or no pose was found that does.",
+        "The linkage does not close at this position, or the solver did not reach a closed pose.",
         "Change a length, the assembly or the range of the drive.",
     ),
     "singular": Status(
@@ -110,15 +110,15 @@ STATUSES: dict[str, Status] = {
     ),
     "redundant": Status(
         "More constraints than needed: some reactions depend on the elasticity of the links.",
-        "Read the unique components; free a constraint, or give the joints a stiffness, to have the others.",
+        "Read the unique components; free a constraint, or give the joints a stiffness, to get the others.",
     ),
     "undefined_load": Status(
-        "A preloaded spring, or one of constant force, has length zero here: its force has no direction.",
+        "A preloaded spring, or one of constant force, has zero length here: its force has no direction.",
         "Step over this position, move an end of the spring, or give a preloaded one no free length.",
     ),
     "overflow": Status(
         "A number is too large for the arithmetic: beyond 1.8e308 in SI, or joints of a link more than 1e150 m apart.",
-        "Correct the speed, mass, length or load, or its unit, that is wrong by many powers of ten.",
+        "Check units: some speed, mass, length or load is wrong by many orders of magnitude.",
     ),
     "no_balance": Status(
         "No equilibrium with the known efforts and loads.",

@@ -11,7 +11,7 @@ GAP = 2
 
 
 def number(value: float, digits: int = 6) -> str:
-    """A number as a person reads it; `-` where there is none.
+    """Printed form of a number; `-` for NaN.
 
     >>> number(243.237591), number(-0.0), number(1e-17), number(float("nan")), number(1.5e7)
     ('243.238', '0', '1e-17', '-', '1.5e+07')
@@ -36,7 +36,7 @@ def with_unit(value: float, unit: str, digits: int = 6) -> str:
 
 
 def remainder(value: float, decimals: int = 0) -> str:
-    """What rounding leaves of a sum that should be 0, as its power of ten.
+    """Power of ten of the rounding error in a sum that should be 0.
 
     >>> remainder(2.3e-16), remainder(2.3e-16, 1), remainder(0.0)
     ('2e-16', '2.3e-16', '0')

@@ -1,4 +1,4 @@
-"""Writing files: what exists is kept unless told otherwise, and a file appears whole or not at all."""
+"""Writing files: existing files are kept unless ``overwrite`` is true, and a file appears complete or not at all."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from typing import IO
 from dalembert.errors import DalembertError, ModelError
 
 DATA_FOLDER: ContextVar[str] = ContextVar("DATA_FOLDER", default="")
-"""A folder besides a model file's own that its tables may be read from; empty is none."""
+"""Folder, besides that of a model file, from which its tables may be read; empty for none."""
 
 
 def check_installed(package: str, what: str, extra: str = "results") -> None:
@@ -36,7 +36,9 @@ def check_new(path: Path, overwrite: bool) -> None:
     if kind:
         raise ModelError(f"{path} is {kind}", "name a file" + (" in it" if kind == "a folder" else ""))
     if not os.path.isdir(path.parent):
-        raise ModelError(f"cannot write {path}: there is no folder {path.parent}", "make it, or name another")
+        raise ModelError(
+            f"cannot write {path}: folder {path.parent} does not exist", "make it, or name another"
+        )
     if os.path.exists(path) and not overwrite:
         raise ModelError(
             f"{path} exists", "name another file, or overwrite it: --force, in Python overwrite=True"
@@ -51,11 +53,11 @@ KINDS = {
     stat.S_IFSOCK: "a socket",
 }
 STREAMS = ("a pipe", "a device")
-"""What is written into and stays what it is: a named pipe, `>(...)`, /dev/null."""
+"""Special targets that are written into and not replaced: a named pipe, `>(...)`, /dev/null."""
 
 
 def _kind(path: Path) -> str:
-    """What stands at a path, if it is no ordinary file."""
+    """Kind of the object at a path, if it is not an ordinary file."""
     try:
         return KINDS.get(stat.S_IFMT(os.stat(path).st_mode), "")
     except (OSError, ValueError):
@@ -126,7 +128,7 @@ def check_new_folder(folder: Path, overwrite: bool) -> bool:
     """Raise where a folder cannot be written: before the work; whether it has files, which ``overwrite`` allows."""
     if not folder.parent.is_dir():
         raise ModelError(
-            f"cannot write {folder}: there is no folder {folder.parent}", "make it, or name another"
+            f"cannot write {folder}: folder {folder.parent} does not exist", "make it, or name another"
         )
     if folder.exists() and not folder.is_dir():
         raise ModelError(f"{folder} is a file", "name a folder")

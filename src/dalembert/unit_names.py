@@ -1,8 +1,8 @@
 """Units by name, and the products of them that a text such as `lbf*in*s^2` names.
 
-The vocabulary of the model file stands in `SYMBOLS` with exact factors (a test holds each of them against
-pint); any other name is asked of pint, imported only then. An angle counts as a dimension of its own, so that
-`Hz` is no shaft speed and `N*m/rad` is no couple.
+The vocabulary of the model file is in `SYMBOLS` with exact factors (a test compares each of them with pint); any other
+name is looked up in pint, imported only then. An angle counts as a separate dimension, so that `Hz` is not a shaft
+speed and `N*m/rad` is not a couple.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "·": "*", "⋅": "*", "�
 
 @lru_cache(maxsize=1024)
 def unit(text: str) -> Unit:
-    """The unit that a text names: names, products `*` or `N-m`, quotients, whole powers, brackets.
+    """The unit that a text names: names, products `*` or `N-m`, quotients, integer powers, brackets.
 
     >>> unit("N-m") == unit("N*m")
     True
@@ -125,10 +125,10 @@ def unit(text: str) -> Unit:
     (-1, 2, -3, 0)
     """
     if len(text) > 60:
-        raise ModelError(f"{quote_value(text)} is no unit", EXAMPLE)
+        raise ModelError(f"{quote_value(text)} is not a unit", EXAMPLE)
     product, rest = _product(_tokens(text), text, 1)
     if rest:
-        raise ModelError(f"{quote_value(text)} is no unit: {rest[0]!r} is too much", EXAMPLE)
+        raise ModelError(f"{quote_value(text)} is not a unit: unexpected {rest[0]!r}", EXAMPLE)
     return product
 
 
@@ -141,7 +141,7 @@ def _tokens(text: str) -> list[str]:
         match = _TOKEN.match(plain, place)
         if match is None:
             raise ModelError(
-                f"{quote_value(text)} is no unit: {plain[place:].strip()[:1]!r} has no place in one",
+                f"{quote_value(text)} is not a unit: unexpected {plain[place:].strip()[:1]!r}",
                 EXAMPLE,
             )
         tokens.append(match[1])
@@ -164,13 +164,13 @@ def _factor(tokens: list[str], text: str, sign: int, product: Unit, depth: int) 
     if tokens[:1] == ["("] and depth < 5:
         inner, tokens = _product(tokens[1:], text, depth + 1)
         if not tokens:
-            raise ModelError(f"{quote_value(text)} is no unit: a bracket is not closed", EXAMPLE)
+            raise ModelError(f"{quote_value(text)} is not a unit: a bracket is not closed", EXAMPLE)
         tokens = tokens[1:]
     elif tokens and (tokens[0][0].isalpha() or tokens[0] in "°%_"):
         inner, tokens = _by_name(tokens[0], text), tokens[1:]
     else:
-        found = f"{tokens[0]!r} stands" if tokens else "nothing stands"
-        raise ModelError(f"{quote_value(text)} is no unit: {found} where a name is needed", EXAMPLE)
+        missing = f"expected a name, not {tokens[0]!r}" if tokens else "a name is missing"
+        raise ModelError(f"{quote_value(text)} is not a unit: {missing}", EXAMPLE)
     power, tokens = _exponent(tokens, text)
     return product.times(inner, sign * power), tokens
 
@@ -182,7 +182,7 @@ def _exponent(tokens: list[str], text: str) -> tuple[int, list[str]]:
     digits = tokens[1 + minus : 2 + minus]
     if not digits or not re.fullmatch(r"[1-6]", digits[0]):
         raise ModelError(
-            f"{quote_value(text)} is no unit: a power is a whole number from -6 to 6", "write s^2, s^-1"
+            f"{quote_value(text)} is not a unit: a power must be an integer from -6 to 6", "write s^2, s^-1"
         )
     return (-1 if minus else 1) * int(digits[0]), tokens[2 + minus :]
 
@@ -191,7 +191,7 @@ def _by_name(name: str, text: str) -> Unit:
     known = SYMBOLS.get(name) or _from_pint(name)
     if known is None:
         whole = f" in {quote_value(text)}" if name != text.strip() else ""
-        raise ModelError(f"there is no unit {quote_value(name)}{whole}", closest(name, list(SYMBOLS), 8))
+        raise ModelError(f"unknown unit {quote_value(name)}{whole}", closest(name, list(SYMBOLS), 8))
     return known
 
 

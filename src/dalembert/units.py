@@ -31,7 +31,7 @@ from dalembert.wording import closest, quote_value
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """What a number can be: its SI unit, and the powers of the file's units that a bare number takes."""
+    """Kind of a number: its SI unit, and the powers of the file's units that apply to a bare number."""
 
     phrase: str
     si: str
@@ -101,10 +101,10 @@ class Units:
     time: str = "s"
     angle: str = "deg"
     derived: tuple[tuple[str, str], ...] = ()
-    """Kinds that have a unit of their own, and which; the others have the product of the five."""
+    """Kinds with a unit of their own, and that unit; the others have products of the five."""
 
     def own(self, kind: str) -> str:
-        """The unit that the file gives this kind itself; a torsional stiffness or damping goes by the moment's."""
+        """The unit that the file gives for this kind; torsional stiffness and damping follow the moment's unit."""
         given = dict(self.derived)
         if kind in given or kind not in PER_RADIAN or "moment" not in given:
             return given.get(kind, "")
@@ -119,7 +119,7 @@ class Units:
         return _file_unit(self, kind)
 
     def text(self, kind: str) -> str:
-        """The same unit as text, as it may stand behind a number."""
+        """The same unit as text, to print after a number."""
         if self.own(kind):
             return self.own(kind)
         powers = KINDS[kind].file
@@ -128,7 +128,7 @@ class Units:
         return "/".join(["*".join(up), *down]) if up else ""
 
     def refuses_bare(self, kind: str) -> bool:
-        """Whether a bare number of this kind would not say what it is."""
+        """True if a bare number of this kind would be ambiguous."""
         return kind in REFUSED_BARE and not self.own(kind)
 
     def tree(self) -> dict[str, str]:
@@ -194,7 +194,7 @@ def _check_file_unit(name: object, kind: str, text: object, names: list[str]) ->
         raise ModelError(f"units has no key {quote_value(name)}", closest(str(name), names), (str(name),))
     if not isinstance(text, str):
         raise ModelError(
-            f"{quote_value(text)} is no unit", f"write {KINDS[kind].si}, for example", (str(name),)
+            f"{quote_value(text)} is not a unit", f"write {KINDS[kind].si}, for example", (str(name),)
         )
     try:
         check_unit(text, kind)
@@ -275,7 +275,7 @@ def _bare(number: float, kind: str, units: Units | None, value: object) -> float
 
 def _finite(number: float, value: object) -> float:
     if not math.isfinite(number):
-        raise ModelError(f"{quote_value(value)} is no finite number", "write a finite one")
+        raise ModelError(f"{quote_value(value)} is not a finite number", "write a finite one")
     return number
 
 

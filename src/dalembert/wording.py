@@ -1,4 +1,4 @@
-"""How messages quote a value and propose a name."""
+"""Helpers for messages: quoting a value and proposing a name."""
 
 from __future__ import annotations
 

@@ -196,7 +196,7 @@ def test_an_emptied_number_comes_back(opened: Any) -> None:
 
 def test_the_slider_and_a_curve_move_the_drive(opened: Any) -> None:
     page = opened(FOUR_BAR)
-    page.page.get_by_label("place of the cycle").fill("10")
+    page.page.get_by_label("position in the cycle").fill("10")
     page.frame()
     assert page.page.locator(".readout").inner_text() == "O2 = 110°"
     x, y = page.place(".chart svg")

@@ -231,7 +231,7 @@ def test_a_folder_that_is_not_there(run: Run) -> None:
     assert ran == (
         2,
         "",
-        "cannot write nowhere/out.csv: there is no folder nowhere; make it, or name another\n",
+        "cannot write nowhere/out.csv: folder nowhere does not exist; make it, or name another\n",
     )
 
 

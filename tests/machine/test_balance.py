@@ -314,7 +314,7 @@ def test_an_rssr_is_balanced_by_its_crank_and_rocker(
     assert main(["balance", file, *on, "--drawing", str(drawing), "--report", str(tmp_path / "b.txt")]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert "The force is balanced completely: the moment is the same about every point" in said
-    assert "Size of the shaking force" in drawing.read_text()
+    assert "Magnitude of the shaking force" in drawing.read_text()
     at = ["--on", "rod:place=10mm/0/-60mm,mass=0.1kg", "crank:x=-0.01kg*m/0,y=0/0,mass=1kg", "--of", "moment"]
     assert main(["balance", file, *at, "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)["balance"]["counterweights"]

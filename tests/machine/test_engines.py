@@ -139,7 +139,7 @@ def test_the_command_balances_four_masses_in_two_planes(
     assert found["corrections"]["angle"] == pytest.approx(np.angle(exact), abs=1e-12)
     assert [found["unbalance"][name] for name in ("force", "couple")] == pytest.approx([abs(s), abs(t)])
     assert found["after"]["force"]["max"] < 1e-9 * found["before"]["force"]["max"]
-    assert "Size of the shaking force" in drawing.read_text()
+    assert "Magnitude of the shaking force" in drawing.read_text()
     assert da.shaking(da.dynamics(da.load(balanced)), about="S").moment.max() < 1e-6
     assert main([*asked, "--report", str(tmp_path / "r.txt")]) == 0
     said = " ".join(capsys.readouterr().out.split())

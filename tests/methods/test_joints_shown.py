@@ -55,9 +55,7 @@ def test_one_picture_or_many(tmp_path: Path) -> None:
 
 
 def test_no_such_joint() -> None:
-    with pytest.raises(
-        da.ModelError, match="there is no joint 'sperical' in space; did you mean 'spherical'"
-    ):
+    with pytest.raises(da.ModelError, match="unknown joint 'sperical' in space; did you mean 'spherical'"):
         da.draw.joint("sperical")
 
 

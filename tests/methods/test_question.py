@@ -68,7 +68,7 @@ def test_equilibria_are_not_drawn_where_they_are() -> None:
     scene = da.draw.question(r)
     assert scene.title == r.mechanism.title
     words = " ".join(t.text for t in scene.texts())
-    assert "another position than those asked for" in words
+    assert "Not drawn at an equilibrium position" in words
     assert "position unknown, effort 0" in words
     assert not any(f"{np.degrees(x):.1f}"[:4] in words for x in r.drive_position("O"))
     assert scene.to_dict()["items"] != da.draw.mechanism(r).to_dict()["items"]
@@ -123,10 +123,10 @@ def test_a_question_states_every_number_that_is_given() -> None:
         "Joint F: slider, along 11°; μ = 0.13, half height = 0.026 m, guide 0.41 m behind and 0.33 m ahead.",
     ]
     links = [
-        "2 crank, own axes, in m: O (0, 0); A (0.1, 0); mass 1.2 kg, centre (0.05, 0); inertia 0.01 kg·m².",
-        "3 rod, own axes, in m: A (0, 0); B (0.3, 0).",
-        "4 block, own axes, in m: B (0, 0); mass 3 kg, centre (0, 0).",
-        "1 ground, own axes, in m: O (0, 0).",
+        "2 crank, local axes, in m: O (0, 0); A (0.1, 0); mass 1.2 kg, centre (0.05, 0); inertia 0.01 kg·m².",
+        "3 rod, local axes, in m: A (0, 0); B (0.3, 0).",
+        "4 block, local axes, in m: B (0, 0); mass 3 kg, centre (0, 0).",
+        "1 ground, local axes, in m: O (0, 0).",
     ]
     loads = [
         "P: 50 N ∠ −126.87° on 4 block at B.",

@@ -153,7 +153,7 @@ def test_a_kind_with_a_unit_of_its_own() -> None:
         ("{pressure: N*m}", "'N*m' is a moment, and a pressure is needed; write one, for example '6 N/mm^2'"),
         ("{momentt: N*m}", "units has no key 'momentt'; did you mean 'moment'?"),
         ("{number: m}", "units has no key 'number'"),
-        ("{stiffness: 3}", "3 is no unit; write N/m, for example"),
+        ("{stiffness: 3}", "3 is not a unit; write N/m, for example"),
     ],
 )
 def test_units_that_contradict_or_do_not_fit(units: str, says: str) -> None:

@@ -88,7 +88,7 @@ REFUSED = {
     "angle [deg],pressure [bar]\n0,1\n90,5\n80,6\n": "p.csv:4: x of a table does not increase from its item 2 to 3",
     "angle [deg],pressure [mm]\n0,1\n90,5\n": "p.csv:1: '50 cm^2' is an area, and a stiffness is needed",
     "angle [mm],pressure [bar]\n0,1\n90,5\n": "p.csv:1: 'mm' is a length, and an angle is needed",
-    "angle [deg],pressure [baz]\n0,1\n90,5\n": "p.csv:1: there is no unit 'baz'",
+    "angle [deg],pressure [baz]\n0,1\n90,5\n": "p.csv:1: unknown unit 'baz'",
     "angle,p\n0,1\n90,5\n": "p.csv:1: the column 'pressure' is not in its head",
     "angle,pressure,pressure\n0,1,1\n90,5,5\n": "p.csv:1: the column 'pressure' is twice in its head",
     'angle,pressure\n0,"1\n90,5\n': "p.csv:2: it cannot be read: unexpected end of data",

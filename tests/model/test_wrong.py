@@ -97,14 +97,14 @@ FILES = {
     "comma.json": (b'{"links": {},\n}', "comma.json:2: it is not JSON here: "),
     "huge.json": (
         b'{"links": {"a": {"mass": 1' + b"0" * 5000 + b"}}}",
-        "huge.json:1: mass of link 'a': inf is no finite",
+        "huge.json:1: mass of link 'a': inf is not a finite",
     ),
     "value.json": (
         b'{"links": {\n"a":\n{"points": {"P": [1,\n"2 N"]}}}}',
         "value.json:4: item 2 of point 'P' of link 'a'",
     ),
     "twice.toml": (b'title = "a"\ntitle = "b"\n', "twice.toml:2: it is not TOML here: "),
-    "nan.toml": (b"[links.a]\nmass = nan\n", "nan.toml:2: mass of link 'a': nan is no finite number"),
+    "nan.toml": (b"[links.a]\nmass = nan\n", "nan.toml:2: mass of link 'a': nan is not a finite number"),
     "date.toml": (
         b"[links.a]\nmass = 1979-05-27\n",
         "date.toml:2: mass of link 'a': 1979-05-27 is not a mass",

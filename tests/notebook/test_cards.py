@@ -185,12 +185,12 @@ def test_a_kernels_card_says_how_it_was_compiled() -> None:
     weight, turn = "links.crank.weight", {"drives.O2.position": {"from": 0, "to": 90, "count": 4}}
     static = {"static": True, "reduce": "peak"}
     table: list[tuple[Any, dict[str, Any], str]] = [
-        (FOUR_BAR, {}, "positions: 1; with inertia; every position answered"),
+        (FOUR_BAR, {}, "positions: 1; with inertia; values at every position"),
         (FOUR_BAR.with_values(turn), static, "positions: 4; static; reduced over them: peak"),
         (
             FOUR_BAR,
             {"derivatives": True},
-            "positions: 1; with inertia; every position answered; exact derivatives",
+            "positions: 1; with inertia; values at every position; exact derivatives",
         ),
     ]
     for m, how, text in table:
@@ -397,9 +397,7 @@ def test_plots_on_axes_have_units_and_gaps() -> None:
     theta, size = r.polar("A", ax=round_).lines[0].get_data()
     assert (size * np.exp(1j * np.asarray(theta)))[r.ok] == pytest.approx(r.reaction("A")[r.ok] @ [1, 1j])
     assert isinstance(r.polar("A", "B"), da.Scene)
-    with pytest.raises(
-        da.ModelError, match="moment and force have no unit in common; give each axes of its own"
-    ):
+    with pytest.raises(da.ModelError, match="moment and force have different units; give each separate axes"):
         r.plot("effort.O2", "reaction.A.magnitude", ax=ax)
 
 
@@ -457,10 +455,10 @@ def test_curves_have_their_values_labels_and_titles() -> None:
             "reaction.A has no component 'w'; choose among x, y, magnitude, direction",
         ),
         (lambda: TURN.plot("effort.O3"), "there is no quantity 'effort.O3'; did you mean 'effort.O2'?"),
-        (lambda: TURN.polar("Aa"), "there is no joint 'Aa'; choose among O2, A, B, O4"),
+        (lambda: TURN.polar("Aa"), "unknown joint 'Aa'; choose among O2, A, B, O4"),
         (
             lambda: TURN.plot("rotation.rocker"),
-            "rotation.rocker is a matrix and no curve; plot angles or speeds",
+            "rotation.rocker is a matrix, not a curve; plot angles or speeds",
         ),
         (
             lambda: da.solve(FOUR_BAR).plot(),
@@ -468,7 +466,7 @@ def test_curves_have_their_values_labels_and_titles() -> None:
         ),
         (
             lambda: TURN.plot("effort.O2", against="reaction.A"),
-            "reaction.A is no single number to plot against; name a component: reaction.A.x",
+            "reaction.A is not a single number to plot against; name a component: reaction.A.x",
         ),
     ],
 )

@@ -46,7 +46,7 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"vary": "{drives.O.position: ± 1 deg}"}, 3, "is no single number; leave it out: a single position"),
     ({"vary": "{stroke: ± 0.5 kg}"}, 3, "stroke: '0.5 kg' is a mass, and a length is needed; write one"),
     ({"vary": "{stroke: 50..60 N}"}, 3, "stroke: '50 N' is a force, and a length is needed; write one"),
-    ({"vary": "{stroke: ± 0.5 furl}"}, 3, "stroke: there is no unit 'furl'; units of length: m, meter"),
+    ({"vary": "{stroke: ± 0.5 furl}"}, 3, "stroke: unknown unit 'furl'; units of length: m, meter"),
     ({"vary": "{stroke: ± -0.5 mm}"}, 3, "a tolerance of '-0.5 mm' is not positive; give one above zero"),
     ({"vary": "{stroke: ± 0 mm}"}, 3, "a tolerance of '0 mm' is not positive; give one above zero"),
     ({"vary": "{stroke: ± -5 %}"}, 3, "a tolerance of '-5 %' is not positive; give one above zero"),

@@ -69,7 +69,7 @@ def test_the_resultant_stands_on_its_line(seed: int) -> None:
     s = random_system(seed, 2)
     scene = force_system_scene(s)
     arrows = [a for a in scene.arrows() if a.of == "R"]
-    assert bool(arrows) != any("off this drawing" in t.text for t in scene.texts())
+    assert bool(arrows) != any("outside this drawing" in t.text for t in scene.texts())
     if arrows:
         first = next(a for a in scene.arrows() if a.of == "F0")
         metres = np.subtract(arrows[0].tail, first.tail) * scene.scales["length"] + s.forces[0].at
@@ -106,7 +106,7 @@ def test_space_from_every_side(name: str) -> None:
 
 
 def test_no_such_view() -> None:
-    with pytest.raises(da.ModelError, match="there is no view 'isometrc'; did you mean 'isometric'"):
+    with pytest.raises(da.ModelError, match="unknown view 'isometrc'; did you mean 'isometric'"):
         da.draw.force_system(random_system(1, 3), camera="isometrc")
 
 
@@ -247,7 +247,7 @@ def test_where_everything_of_a_space_system_stands(camera: Camera) -> None:
     notes = " ".join(t.text for t in scene.texts() if t.role == "note")
     assert "The system is a wrench: R = (20.00, 0, 35.00) N, 40.31 N, on the line through " in notes
     short = [float(np.hypot(*camera(e))) for e in np.eye(3)]
-    assert f"along x, y and z they are seen {', '.join(f'{x:.3f}' for x in short)} of it" in notes
+    assert f"foreshortening along x, y and z: {', '.join(f'{x:.3f}' for x in short)}" in notes
     reduced = reduced_scene(s, [1, 2, 0], camera=camera)
     mark = next(i for i in reduced.items if isinstance(i, Circle) and i.role == "mark")
     whole = s.reduced([1, 2, 0])
@@ -292,7 +292,7 @@ def test_what_is_far_off_is_said() -> None:
     """A line of action that passes far from all forces; axes stand in the corner where the origin is far."""
     far = System(Force([0, 1.0], at=[0, 0]), Force([0, -0.99], at=[1, 0]))
     scene = force_system_scene(far)
-    assert any("off this drawing: it passes (" in t.text for t in scene.texts())
+    assert any("outside this drawing: it passes through (" in t.text for t in scene.texts())
     assert not [a for a in scene.arrows() if a.of == "R"]
     shifted = force_system_scene(System(Force([3, 4], at=[500, 500]), Force([1, 0], at=[501, 501])))
     axes = [a for a in shifted.arrows() if a.role == "axis-arrow"]

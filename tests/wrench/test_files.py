@@ -75,7 +75,7 @@ WRONG = [
     (("F2: {size: 50, direction: 90,", "F2: {size: 50, direktion: 90,"),
      "plate.yaml:8: there is no key 'direktion' in force 'F2'; did you mean 'direction'?"),
     (("F2: {size: 50, direction: 90,", "F2: {size: 50,"),
-     "plate.yaml:8: force 'F2': nothing says where it points; "
+     "plate.yaml:8: force 'F2': it has no direction; "
      "give one of value, direction, angles (space), from and to"),
     (("F2: {size: 50, direction: 90,", "F2: {size: 50, value: 30 @ 3, "),
      "plate.yaml:8: force 'F2': size and value are both given; "

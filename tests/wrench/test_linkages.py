@@ -54,7 +54,7 @@ def test_a_reaction_is_the_results() -> None:
 
 def test_what_cannot_be_asked() -> None:
     r = da.dynamics(da.load(examples()["four_bar"]))
-    with pytest.raises(da.ModelError, match="there is no link 'cuopler'; did you mean 'coupler'"):
+    with pytest.raises(da.ModelError, match="unknown link 'cuopler'; did you mean 'coupler'"):
         da.wrench.on(r, "cuopler")
     with pytest.raises(da.ModelError, match="no link is named"):
         da.wrench.on(r)

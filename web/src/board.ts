@@ -1,4 +1,4 @@
-/** The drawing of a mechanism or of a free body: items, arrows at a stated scale, labels that keep out of the way. */
+/** The drawing of a mechanism or of a free body: items, arrows at a stated scale, labels placed without overlaps. */
 
 import type { Data, Drawing, FreeBody, Item, Pair, Rows } from "./data";
 import { action, item, Paper, type Part, type Shown } from "./items";
@@ -6,7 +6,7 @@ import type { Kernel } from "./kernel";
 import { label, type Placed, Placer } from "./labels";
 import { figures, make, path, type Point, set, short, width } from "./svg";
 
-/** ``need``: newtons a mm at which every force finds room; ``fit``: scales anew, with forces to that scale or another. */
+/** ``need``: newtons per mm at which every force fits; ``fit``: new scales, with forces to that scale or another. */
 export interface Board {
   svg: SVGSVGElement; paper: Paper; names: boolean;
   update(cycle: boolean): void; fit(force?: number): void; need(): number; force(): number; resize(w: number, h: number): void;
@@ -27,7 +27,7 @@ function roundDown(x: number): number {
   return power * ([5, 2].find((r) => r * power <= x * (1 + 1e-12)) ?? 1);
 }
 
-/** Low and high ends of some points to the right and up; null where there is none. */
+/** Low and high ends of some points to the right and up; null without points. */
 export function bounds(points: Point[]): { x: Point; y: Point } | null {
   const span = (some: number[]): Point => [Math.min(...some), Math.max(...some)];
   const x = span(points.map((p) => p[0])), y = span(points.map((p) => p[1]));
@@ -36,7 +36,7 @@ export function bounds(points: Point[]): { x: Point; y: Point } | null {
 
 const rowsOf = (i: Item): Rows[] => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" || i.t === "pair" ? [i.p] : []);
 
-/** What a drawing's items span over the cycle, metres seen. */
+/** Extent of a drawing's items over the cycle, in projected metres. */
 function cycleBounds(paper: Paper, d: Drawing): ReturnType<typeof bounds> {
   const k = paper.kernel, step = Math.max(1, Math.floor(k.count / 72)), points: Point[] = [];
   for (const rows of d.items.flatMap(rowsOf))
@@ -46,7 +46,7 @@ function cycleBounds(paper: Paper, d: Drawing): ReturnType<typeof bounds> {
 
 const inSpace = (d: Drawing): boolean => d.items.some((i) => i.t === "pair");
 
-/** A length of paper that stands for a round number of a unit, drawn: true at any zoom and in any print. */
+/** A scale bar for a round number of a unit: true at any zoom and in any print. */
 export class ScaleBar {
   private readonly line: SVGPathElement;
   private readonly text: SVGTextElement;
@@ -55,7 +55,7 @@ export class ScaleBar {
     this.line = make("path", g, { class: "l-axis", style: "fill:none" });
     this.text = make("text", g, { class: "l-note-t", "font-size": 2.8 });
   }
-  /** From the left end at a place: ``size`` of SI a mm, in a unit; gives the right end. */
+  /** Draws from the left end at a place: ``size`` of SI per mm, in a unit; returns the right end. */
   set([x, y]: Point, size: number, unit: { unit: string; size: number }): number {
     const perMm = size / unit.size, known = perMm > 0 && Number.isFinite(perMm);
     this.line.setAttribute("visibility", known ? "visible" : "hidden");
@@ -94,7 +94,7 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
     if (b) paper.middle = [(b.x[0] + b.x[1]) / 2, (b.y[0] + b.y[1]) / 2];
   }
 
-  /** What a free body takes up: its points, those that forces act at, its wheels. */
+  /** Extent of a free body: its points, points of application of forces, its wheels. */
   const corners = about ? [...about, ...d.arrows.map((a) => a.p), ...d.items.flatMap((i) => (i.t === "symbol" ? [i.p] : []))] : [];
   const wheels = d.items.flatMap((i): { p: Rows; reach(value: (row: number) => number): number }[] => {
     if (i.t === "circle") return [{ p: i.p, reach: (value) => Math.abs(value(i.r)) }];
@@ -114,7 +114,7 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
     });
   }
 
-  /** Newtons a mm: the largest force as long as the paper allows; of a free body every arrow ends within it. */
+  /** Newtons per mm: the largest force as long as the paper allows; in a free body every arrow ends within it. */
   function need(): number {
     const largest = kernel.largest((k) => Math.max(0, ...forces.map((a) => Math.hypot(...a.f.map((r) => kernel.value(r, k))))));
     let most = largest / (about ? 26 : Math.min(Math.max(0.18 * Math.min(w, 1.3 * h), 16), 40));
@@ -129,7 +129,7 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
     return most > 0 ? roundUp(most / size.force) * size.force : perMm;
   }
 
-  /** The whole cycle finds room. */
+  /** Fits the full cycle into the drawing. */
   function fit(force?: number): void {
     const spans = about ? poses().map(({ b }) => b) : [cycleBounds(paper, d)].filter((b) => b !== null);
     const room = about ? [46, 40] : [w - Math.max(0.22 * w, 34), h - Math.max(0.22 * h, 30)];

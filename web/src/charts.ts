@@ -9,13 +9,13 @@ import { Arrow, figures, html, letters, make, path, type Point, pointer, set, sh
 
 const LEFT = 16, TOP = 5, LOW = 8, LINE = 4;
 
-/** A round step between numbers, so that about `count` of them lie in a span. */
+/** A round step between numbers, so that about `count` of them are in a span. */
 function step(span: number, count: number): number {
   const raw = span / count || 1, power = 10 ** Math.floor(Math.log10(raw));
   return power * ([1, 2, 5, 10].find((s) => s * power >= raw) ?? 10);
 }
 
-/** The same of degrees: parts of a turn, or turns. */
+/** The same for degrees: fractions of a turn, or turns. */
 function turnStep(span: number, count: number): number {
   return [1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360].find((s) => s >= span / count) ?? 360 * step(span / 360, count);
 }
@@ -56,7 +56,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
   let low = NaN, high = NaN, by = 1;
   const at = (k: number): number => x0 + (k / last) * w, up = (v: number): number => y0 + h - ((v - low) / (high - low)) * h;
 
-  /** From tick to tick, so that the scale stands still while curves move a little; whether it is another. */
+  /** From tick to tick, so that the scale is constant while curves move a little; true if it has changed. */
   function rescale(): boolean {
     let [l, u] = [Infinity, -Infinity];
     for (const x of c.curves)
@@ -133,7 +133,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
   };
 }
 
-/** The force in each joint as a curve about a pole: its tip over the cycle, and where it is now. */
+/** The force in each joint as a curve about a pole: its tip over the cycle, and at the present position. */
 export function polar(parent: Element, kernel: Kernel, c: Curve, unit: { unit: string; size: number }): View {
   const figure = html("figure", parent, { class: "polar" }), size = 66, [fx, fy] = c.f!;
   const caption = html("figcaption", figure), svg = canvas(figure, size, size, `polar diagram of joint ${c.name}`);
@@ -153,7 +153,7 @@ export function polar(parent: Element, kernel: Kernel, c: Curve, unit: { unit: s
   };
 }
 
-/** Forces of links head to tail, a force that two of them share drawn once; the gap left over is drawn. */
+/** Forces of links head to tail, with shared forces drawn once; the remaining gap is drawn. */
 export function polygon(parent: Element, data: Data, kernel: Kernel, title: string, links: Polygon[]): View & { figure: HTMLElement } {
   const figure = html("figure", parent, { class: "polygon" }), w = 110, h = 80, unit = data.units.force;
   html("figcaption", figure, {}, title);

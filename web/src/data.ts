@@ -1,5 +1,5 @@
-/** The data of a page, as `dalembert.pages.page_data` writes it. A row is a place among the kernel's outputs; a number
- * is a place among the numbers of the description. SI and radians. */
+/** The data of a page, as `dalembert.pages.page_data` writes it. A row is an index into the kernel's outputs; a
+ * number is an index into the numbers of the description. SI and radians. */
 
 /** Rows of a point or vector: two in the plane, three in space. */
 export type Rows = number[];
@@ -13,19 +13,19 @@ export interface NumberField {
   path: string; label: string; value: number; unit: string; size: number;
   parameter?: boolean; about?: string; range?: Rows; kind: string; sign?: Sign;
 }
-/** What the model demands of a number. */
+/** Sign that the model requires of a number. */
 export type Sign = "positive" | "not negative";
 /** How numbers are read: units by name (SI value = number * first / second, then powers), kinds, Python's sentences. */
 export interface Reading {
   units: Record<string, number[]>; sentences: Record<string, string>; signs: Record<Sign, string>;
   kinds: Record<string, { phrase: string; dimension: number[]; remedy: string; units: string; per_radian?: boolean; force?: boolean }>;
 }
-/** A place of the saved text: what stood there, the numbers it depends on, and what is there once one has changed: text, or
- * a number with the size of its unit. Those behind the numbers are of the assembly. */
+/** A placeholder in the saved text: the former text, the numbers it depends on, and its replacement once one has
+ * changed: text, or a number with the size of its unit. Those after the numbers belong to the assembly. */
 export interface Place { was?: string; of?: number[]; now: (string | Pair)[] }
 export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; along?: Rows; p: Rows; link: string }
 
-/** Something drawn: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle. */
+/** A drawn item: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle. */
 export type Item =
   | { t: "symbol"; svg: string; p: Rows; e?: Rows; per_mm?: number }
   | { t: "pair"; shape: "round" | "block" | "ball"; p: Rows; e: Rows; fixed: boolean }
@@ -57,10 +57,10 @@ export type Handle =
   | { kind: "load"; name: string; p: Rows; f: Rows; axes: Rows[]; components?: number[]; size?: number; direction?: number }
   | { kind: "direction"; name: string; p: Rows; along: Rows; direction: number; axes: Rows[] };
 
-/** A row that is held, between links i and j (the ground's number is that of the moving links): a constraint, a phase of
- * wheels that mesh, a freedom; outputs of the closure program. */
+/** A row that is held, between links i and j (the ground's number is that of the moving links): a constraint, a
+ * phase of meshing wheels, a freedom; outputs of the closure program. */
 export interface SketchRow { kind: "constraint" | "phase" | "freedom"; joint: string; ends: Pair; angular: boolean; value: number; period?: number }
-/** How the linkage is closed and its motion followed: see `pages/sketch_data.py`. */
+/** Closing of the linkage and its motion: see `pages/sketch_data.py`. */
 export interface SketchData {
   dimension: 2 | 3; length: number; links: string[]; order: number[];
   rows: SketchRow[]; entries: number[]; turns: number[]; drives: number[]; closure: Module;

@@ -1,4 +1,4 @@
-/** How far a linkage that does not close misses: a dashed line between the two places of a joint, with its length. */
+/** Gap of a linkage that does not close: a dashed line between the two places of a joint, with its length. */
 
 import type { Board } from "./board";
 import type { Data } from "./data";

@@ -1,4 +1,4 @@
-/** The one gate of every number, typed, dragged or from an address: finite, within the model's bounds and its range. */
+/** Check of every number, typed, dragged or from an address: finite, within the model's bounds and its range. */
 
 import type { Data, NumberField } from "./data";
 import type { Kernel } from "./kernel";
@@ -6,7 +6,7 @@ import { fill, quoted, read, Refused } from "./reading";
 import { figures } from "./svg";
 
 export class Gate {
-  /** What the last refusal said, with the number's name; empty where nothing was refused. */
+  /** Sentence of the last refusal, with the number's name; empty if nothing was refused. */
   sentence = "";
   private readonly accepted: Float64Array;
   private readonly out: Float64Array;
@@ -16,7 +16,7 @@ export class Gate {
     if (data.limits.length) kernel.at(0);
   }
 
-  /** Puts typed text in the place of a number; the sentence of what is wrong with it, and then it stays as it was. */
+  /** Sets a number from typed text; returns the message if it is invalid, and then the number is unchanged. */
   type(n: number, text: string): string {
     const field = this.data.numbers[n];
     try {
@@ -32,7 +32,7 @@ export class Gate {
     return said;
   }
 
-  /** Takes the numbers as they are, those of a parameter within its range; where some are wrong all go back. */
+  /** Accepts the numbers as they are, those of a parameter within its range; if any is invalid, all are restored. */
   pass(): boolean {
     const { numbers } = this.data, u = this.kernel.values;
     this.sentence = "";
@@ -51,7 +51,8 @@ export class Gate {
     return !this.sentence;
   }
 
-  /** The file's numbers but for some, each by itself, in the assembly that these say; what is refused is left out. */
+  /** The file's numbers with some replaced, one at a time, in the assembly that they give; refused ones are left
+   * out. */
   change(to: Record<string, number>): void {
     const u = this.kernel.values, { numbers } = this.data;
     let said = "";
@@ -66,7 +67,7 @@ export class Gate {
     this.sentence = said;
   }
 
-  /** Takes numbers that were accepted before. */
+  /** Restores numbers that were accepted before. */
   accept(values: Float64Array): void {
     this.kernel.values.set(values);
     this.accepted.set(values);
@@ -81,7 +82,7 @@ export class Gate {
       throw new Refused(fill(sentences.range, { text, low: this.words(field, range[0]), high: this.words(field, range[1]) }));
   }
 
-  /** What is wrong with something that follows from parameters. */
+  /** Message for an invalid value that depends on parameters. */
   private following(): string {
     const { limits, reading } = this.data, u = this.kernel.values;
     if (!limits.length || u.every((x, n) => x === this.accepted[n])) return "";

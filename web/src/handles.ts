@@ -1,4 +1,4 @@
-/** What can be taken hold of: joints, points, mass centres, tips of loads, directions, and the driven link. */
+/** Draggable handles: joints, points, mass centres, tips of loads, directions, and the driven link. */
 
 import type { Board } from "./board";
 import type { Data, End, Handle, Rows } from "./data";
@@ -20,7 +20,7 @@ const dot = (a: readonly number[], b: readonly number[]): number => a.reduce((t,
 /** Unit vectors of a link at a pose, and its origin. */
 interface Held { axes: number[][]; at: number[] }
 
-/** Parameters that bring a joint as near to a place on paper as they can: Gauss and Newton's steps, damped, by differences. */
+/** Parameters that bring a joint as near to a place on paper as possible: damped Gauss-Newton steps, by differences. */
 function follow(kernel: Kernel, paper: Paper, p: Rows, by: number[], [x, y]: Point): void {
   const u = kernel.values, out = new Float64Array(kernel.here.length), trial = u.slice();
   const miss = (): Point | null => {
@@ -77,7 +77,7 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
     [place, from, acting, moving] = [here(h.p), where(), "f" in h ? here(h.f) : [], true];
     middle = "about" in h && h.about ? here(h.about) : [];
   };
-  /** The vector by which it went, in the plane of the paper, metres. */
+  /** Displacement of the handle, in the plane of the paper, metres. */
   const went = (at: Point): number[] => paper.vector([at[0] - from[0], at[1] - from[1]]);
   const to = (at: Point) => {
     if ("by" in h && h.by) follow(kernel, paper, h.p, h.by, paper.metres(at));
@@ -88,13 +88,13 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
     } else turnLoad(h, went(at).map((x, k) => acting[k] + (x / paper.perMm) * b.force()));
     hold.changed();
   };
-  /** By which a wheel's centre goes that has to stay at its distance from another's. */
+  /** Displacement of a wheel's centre that must keep its distance from another's. */
   const round = (by: number[]): number[] => {
     if (!("about" in h) || !h.about) return by;
     const c = middle, arm = place.map((x, k) => x - c[k]), far = arm.map((x, k) => x + by[k]), size = Math.hypot(...arm) / (Math.hypot(...far) || 1);
     return far.map((x, k) => c[k] + size * x - place[k]);
   };
-  /** The point stands elsewhere in each of its links, which stay where they were. */
+  /** Moves the point in each of its links, which stay in place. */
   const move = (ends: End[], by: number[]) =>
     ends.forEach((e, k) => {
       const arm = place.map((x, c) => x + by[c] - held[k].at[c]);
@@ -146,7 +146,7 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
 /** The same angle, within half a turn of another. */
 const near = (angle: number, other: number): number => angle - 2 * Math.PI * Math.round((angle - other) / (2 * Math.PI));
 
-/** Dragging the driven link takes the drive along. */
+/** Dragging the driven link moves the drive. */
 function drive(b: Board, data: Data, kernel: Kernel, hold: Hold): void {
   const d = data.drives[0];
   if (!d || kernel.count < 2 || !(d.turns || d.along) || d.p.length > 2) return;

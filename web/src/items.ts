@@ -7,7 +7,7 @@ import { Arrow, hull, make, path, plain, type Point, set, short } from "./svg";
 
 const along = (axis: number[], rows: Rows, value: (row: number) => number): number => rows.reduce((t, r, k) => t + axis[k] * value(r), 0);
 
-/** From metres to paper, about a middle that may move; in space through a camera that looks from azimuth and elevation. */
+/** From metres to paper, about a movable centre; in space through a camera at an azimuth and an elevation. */
 export class Paper {
   middle: Point = [0, 0];
   /** Unit vectors to the right, up and to the eye. */
@@ -17,18 +17,18 @@ export class Paper {
   constructor(readonly kernel: Kernel, public perMm: number, inSpace: boolean) {
     if (inSpace) this.turn(0, 0);
   }
-  /** Look from elsewhere. */
+  /** Changes the direction of view. */
   turn(across: number, up: number): void {
     this.azimuth += across;
     this.elevation = Math.min(Math.max(this.elevation + up, -1.55), 1.55);
     const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
     this.axes = [[-sa, ca, 0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
   }
-  /** Components of a vector to the right and up, metres or newtons, whatever it is of. */
+  /** Components of any vector to the right and up, in its unit. */
   seen(rows: Rows, value: (row: number) => number): Point {
     return rows.length < 3 ? [value(rows[0]), value(rows[1])] : [along(this.axes[0], rows, value), along(this.axes[1], rows, value)];
   }
-  /** How near to the eye a vector's tip is. */
+  /** Nearness to the eye of a vector's tip. */
   depth(rows: Rows): number {
     return along(this.axes[2], rows, (r) => this.kernel.here[r]);
   }
@@ -38,14 +38,14 @@ export class Paper {
   point(at: Rows): Point {
     return this.of(...this.here(at));
   }
-  /** Where a point is at position k. */
+  /** Place of a point at position k. */
   pointAt(at: Rows, k: number): Point {
     return this.of(...this.seen(at, (r) => this.kernel.value(r, k)));
   }
   of(x: number, y: number): Point {
     return [(x - this.middle[0]) / this.perMm, (this.middle[1] - y) / this.perMm];
   }
-  /** A vector of the machine, seen. */
+  /** Projection of a vector of the machine. */
   project(v: number[]): Point {
     return this.seen(v.map((_, k) => k), (k) => v[k]);
   }
@@ -58,7 +58,7 @@ export class Paper {
   }
 }
 
-/** What brings an element up to date, and what it asks labels to keep free. */
+/** Updates of an element, and the areas that labels must avoid. */
 export interface Part { update(): void; mark?(placer: Placer): void }
 
 export function item(parent: Element, i: Item, paper: Paper): Part {
@@ -144,7 +144,7 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
   };
 }
 
-/** A curve over the cycle, broken where there is no answer; ``closed`` where the cycle goes on from its end. */
+/** A curve over the cycle, with gaps where no answer exists; ``closed`` if the cycle continues from its end. */
 export function curve(k: Kernel, at: (n: number) => Point, closed = false): string {
   const last = closed && k.cyclic ? k.count : k.count - 1;
   let d = "", pen = false;
@@ -163,7 +163,7 @@ export function curve(k: Kernel, at: (n: number) => Point, closed = false): stri
   return d;
 }
 
-/** ``anchor``: places where the label may stand, the best first, and last the way that it had better go. */
+/** ``anchor``: possible places of the label, the best first, then its preferred direction. */
 export interface Shown extends Part { label: Placed; anchor(): Point[] | null }
 
 /** A force as an arrow from its point, or to it where it pushes inwards; a couple as a curved arrow. */
@@ -171,7 +171,7 @@ export function action(parent: Element, a: Action, paper: Paper, perMm: () => nu
   return a.t === "couple" ? couple(parent, a, paper) : arrow(parent, a, paper, perMm, about);
 }
 
-/** Length in mm of the arrow of a moment in space: its size is written, its axis drawn. */
+/** Length in mm of the arrow of a moment in space: its size is printed, its axis drawn. */
 const MOMENT = 13;
 
 function arrow(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Rows[]): Shown {

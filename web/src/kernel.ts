@@ -5,9 +5,9 @@ import { Motion } from "./motion";
 import { Program, series } from "./program";
 import type { Pose } from "./sketch";
 
-/** The mark of a position that does not close, or that the motion does not reach. */
+/** Status code of a position that does not close, or that the motion does not reach. */
 const OPEN = 1;
-/** Numbers beyond this, SI, are taken for the cause where numbers overflow. */
+/** Numbers beyond this, SI, are reported as the cause of an overflow. */
 const ABSURD = 1e60;
 
 /** A table of the file, exact between its points. */
@@ -35,11 +35,11 @@ class Pieces {
 }
 
 export class Kernel {
-  /** Outputs over the positions: number k of row r stands at r * row + k; the marks are the last row. */
+  /** Outputs over the positions: number k of row r is at r * row + k; the status codes are the last row. */
   readonly rows: Float64Array;
   readonly row: number;
   readonly count: number;
-  /** Outputs at one place, by row; the mark last. */
+  /** Outputs at one place, by row; the status code last. */
   readonly here: Float64Array;
   /** The same just after contacts reverse there; elsewhere equal. */
   readonly hereAfter: Float64Array;
@@ -47,19 +47,19 @@ export class Kernel {
   readonly after: Float64Array;
   /** The channel of the side of reversals; -1 without friction. */
   private readonly side: number;
-  /** Whether every output is a number there, right or not. */
+  /** True if every output is a number at the place, right or not. */
   finite = true;
   /** 1 at each position that has numbers. */
   readonly good: Uint8Array;
-  /** Why the analyses refuse the mechanism with these numbers; then no position has numbers. */
+  /** Reason why the analyses refuse the mechanism with these numbers; then no position has numbers. */
   refused = "";
-  /** Whether the cycle goes on from its last position to its first. */
+  /** True if the cycle continues from its last position to its first. */
   readonly cyclic: boolean;
   readonly values: Float64Array;
   readonly positions: Map<string, Float64Array>;
-  /** The pose in hand and the motion from there. */
+  /** The present pose and the motion from it. */
   readonly motion: Motion;
-  /** Where nothing closes: joints whose two points are apart, by these places. */
+  /** For a linkage that does not close: joints whose two points are apart, with these places. */
   open: { joint: string; p: number[]; q: number[] }[] = [];
   private read: Float64Array;
   private later: Float64Array;
@@ -111,7 +111,7 @@ export class Kernel {
     return Math.abs(turn) > 0.5 && Math.abs(turn - Math.round(turn)) < 1e-6;
   }
 
-  /** Largest place of the cycle that can be asked for. */
+  /** Largest place of the cycle that can be requested. */
   get end(): number {
     return this.cyclic ? this.count : this.count - 1;
   }
@@ -137,7 +137,7 @@ export class Kernel {
     return s === 0 ? c.values[k] : c.values[k] + s * (next - c.values[k]);
   }
 
-  /** All positions with the numbers as they are; those that the motion does not reach are marked. */
+  /** All positions with the present numbers; those that the motion does not reach are flagged. */
   cycle(): void {
     this.motion.update();
     this.closes();
@@ -149,14 +149,14 @@ export class Kernel {
     }
   }
 
-  /** Runs over all positions with the inputs of the motion; where it closes. */
+  /** Evaluates all positions with the inputs of the motion; true where it closes. */
   closes(): Uint8Array {
     for (const { name, channel } of this.followed) this.whole.path.set(this.channels.get(name)!.values, channel * this.row);
     this.whole.call(this.count);
     return Uint8Array.from({ length: this.count }, (_, k) => +(this.markAt(k) !== OPEN));
   }
 
-  /** Numbers just after reversals of contacts; the marks of positions where they are not those just before. */
+  /** Numbers just after reversals of contacts; status codes of positions where they differ from those just before. */
   private bothSides(): void {
     const { path, out } = this.whole, from = this.side * this.row, before = out.slice();
     path.fill(1, from, from + this.row);
@@ -168,14 +168,14 @@ export class Kernel {
     for (let k = 0; k < this.count; k++) out[last + k] = this.between(out[last + k], this.after[last + k], (r) => out[r * this.row + k] === this.after[r * this.row + k]);
   }
 
-  /** The mark of a position by its marks just before and just after, and whether a row is the same there. */
+  /** The status code of a position from those just before and just after, and whether a row is equal on both sides. */
   private between(before: number, after: number, same: (row: number) => boolean): number {
     if (before !== after) return this.numbered(before) ? after : before;
     const reverses = this.numbered(before) && !this.here.every((_, r) => r === this.here.length - 1 || same(r));
     return reverses && before === 0 ? this.marked("reversal") : before;
   }
 
-  /** A mark, or that of an overflow, where some row is no finite number because of numbers out of all proportion. */
+  /** A status code, or that of an overflow, where some row is not finite because of extreme numbers. */
   private judged(mark: number, value: (row: number) => number): number {
     if (mark === OPEN || (!this.numbered(mark) && this.data.statuses[mark].status !== "undecided")) return mark;
     const absurd = this.numbered(mark) || this.values.some((x) => Math.abs(x) > ABSURD);
@@ -200,7 +200,8 @@ export class Kernel {
     return this.data.drives.map((d) => this.position(d.name, t));
   }
 
-  /** One place t of the cycle, 0 to `end`; where nothing closes what is drawn is the pose in hand, open at a joint. */
+  /** One place t of the cycle, 0 to `end`; if the linkage does not close, the present pose is drawn, open at a
+   * joint. */
   at(t: number): void {
     const pose = this.motion.at(t), { here } = this;
     this.run(t, pose, pose ? this.motion.read(pose, t) : this.motion.otherwise);
@@ -213,7 +214,7 @@ export class Kernel {
     this.finite = this.data.sketch.drawn.every((r) => Number.isFinite(here[r]));
   }
 
-  /** Rows of what is drawn, of a pose that need not close. */
+  /** Drawn rows of a pose that need not close. */
   private stretch(pose: Pose, t: number): void {
     const { sketch } = this.data, p = this.motion.look(pose, t, this.motion.otherwise), first = sketch.branches.length + sketch.known.length;
     sketch.drawn.forEach((row, k) => (this.here[row] = p.at(first + k)));
@@ -223,7 +224,7 @@ export class Kernel {
     this.open = gaps.filter((_, k) => size[k] > seen);
   }
 
-  /** The one program at a place, with the branches there and what is known of the pose. */
+  /** The single-position program at a place, with its branches and the known quantities of the pose. */
   private run(t: number, pose: Pose | null, branch: Float64Array): void {
     this.feed(this.one, this.data.kernel.channels, t, pose, branch);
     this.one.values.set(this.values);
@@ -246,7 +247,7 @@ export class Kernel {
     for (let r = 0; r < out.length; r++) out[r] = this.one.at(r);
   }
 
-  /** Derivatives of a curve (its place among those of the gradient) by the numbers of the gradient, at a position. */
+  /** Derivatives of a curve (its index among those of the gradient) by the numbers of the gradient, at a position. */
   gradient(curve: number, position: number): Float64Array {
     const g = this.data.gradient!, p = this.slope!;
     const pose = this.motion.poses[position];
@@ -257,12 +258,12 @@ export class Kernel {
     return Float64Array.from({ length: n }, (_, k) => p.at(curve * n + k));
   }
 
-  /** Whether a mark is one of positions that have numbers. */
+  /** True for a status code of positions that have numbers. */
   numbered(mark: number): boolean {
     return !this.refused && this.data.statuses[mark].numbered;
   }
 
-  /** The numbers and the pose in hand, to come back to. */
+  /** The present numbers and pose, for a later restore. */
   state(): Float64Array {
     return Float64Array.from([...this.values, ...this.motion.state()]);
   }
@@ -281,7 +282,7 @@ export class Kernel {
     return this.numbered(this.mark);
   }
 
-  /** The mark of a position. */
+  /** The status code of a position. */
   markAt(k: number): number {
     return this.rows[this.rows.length - this.row + k];
   }
@@ -290,12 +291,12 @@ export class Kernel {
     return this.read[row * this.row + k];
   }
 
-  /** Whether contacts reverse at a position. */
+  /** True if contacts reverse at a position. */
   reverses(k: number): boolean {
     return this.side >= 0 && this.data.statuses[this.markAt(k)].status === "reversal";
   }
 
-  /** Something made of values just after reversals. */
+  /** A value computed just after reversals. */
   onceAfter<T>(of: () => T): T {
     [this.read, this.later] = [this.later, this.read];
     try {
@@ -305,7 +306,7 @@ export class Kernel {
     }
   }
 
-  /** The largest of something over the positions that have numbers, both sides of reversals. */
+  /** The largest value over the positions that have numbers, on both sides of reversals. */
   largest(of: (k: number) => number): number {
     let most = 0;
     for (let k = 0; k < this.count; k++) if (this.good[k]) most = Math.max(most, of(k), this.reverses(k) ? this.onceAfter(() => of(k)) : 0);

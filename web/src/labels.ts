@@ -1,4 +1,4 @@
-/** Places of texts: each takes the best of some places round its anchor, away from texts and lines placed before. */
+/** Places of texts: each takes the best of some places around its anchor, away from texts and lines placed before. */
 
 import { type Point, place, text, width } from "./svg";
 
@@ -13,7 +13,7 @@ export function label(parent: Element, role: string, said: string, size: number)
   return { el: text(parent, role, said, size), text: said, size, bold: role === "title", choice: -1 };
 }
 
-/** Puts texts one after the other; lines and boxes to keep free are told first. */
+/** Places texts one after the other; lines and boxes to avoid are given first. */
 export class Placer {
   private texts: Box[] = [];
   private discs: Box[] = [];
@@ -59,7 +59,7 @@ function overlap(a: Box, b: Box): number {
   return dx > 0 && dy > 0 ? dx * dy : 0;
 }
 
-/** Whether a line goes through a box (Liang and Barsky). */
+/** True if a line crosses a box (Liang and Barsky). */
 function crosses(b: Box, p: Point, q: Point): boolean {
   let t0 = 0, t1 = 1;
   const d = [q[0] - p[0], q[1] - p[1]];

@@ -1,10 +1,10 @@
-/** What a page and a notebook import. */
+/** Entry points that a page and a notebook import. */
 
 import { mount, type Page } from "./page";
 import { inflate } from "./program";
 import { html } from "./svg";
 
-/** The page of compressed data in an element; what goes wrong is said there. */
+/** The page of compressed data in an element; errors are shown in it. */
 export async function open(el: HTMLElement, packed: string): Promise<Page> {
   try {
     const data = JSON.parse(new TextDecoder().decode(await inflate(packed)));
@@ -17,7 +17,7 @@ export async function open(el: HTMLElement, packed: string): Promise<Page> {
 
 interface Model { get(name: string): any; set(name: string, value: unknown): void; save_changes(): void; on(event: string, f: () => void): void; off(event: string, f: () => void): void }
 
-/** What anywidget calls in a notebook. */
+/** Entry point that anywidget calls in a notebook. */
 export default {
   async render({ model, el }: { model: Model; el: HTMLElement }): Promise<() => void> {
     let told = "";

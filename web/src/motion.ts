@@ -1,30 +1,30 @@
-/** The motion of the linkage that the reader holds: the pose in hand is closed again after each change of numbers, and
- * followed from there over the whole cycle; so the assembly is known, and stays the same as in the hand. */
+/** The motion of the linkage from the present pose: that pose is closed again after each change of numbers, and
+ * followed over the full cycle; so the assembly mode is known, and stays that of the present pose. */
 
 import type { Data, SketchData } from "./data";
 import type { Program } from "./program";
 import { copied, type Pose, Sketch, Trail } from "./sketch";
 
-/** What the motion asks of the kernel. */
+/** Functions of the kernel that the motion needs. */
 export interface Closing {
   /** The drives at a place of the cycle. */
   drives(t: number): number[];
-  /** Sets the inputs of the known motion at every position, and runs over all; true where it closes. */
+  /** Sets the inputs of the known motion at every position, and evaluates all; true where it closes. */
   closes(): Uint8Array;
-  /** Whether it closes at one place, on the branches of where nothing is reached. */
+  /** True if it closes at one place, on the branches used where nothing is reached. */
   closesAt(t: number): boolean;
-  /** The links' poses at a position as the kernel has them: rows of `sketch.poses`. */
+  /** The links' poses at a position in the kernel: rows of `sketch.poses`. */
   posed(k: number): number[][];
 }
 
-/** A pose with what it belongs to. */
+/** A pose and the numbers to which it belongs. */
 interface Held { values: Float64Array; t: number; pose: Pose }
 
-/** Parts of the way between two positions at which a gap is looked for. */
+/** Subdivisions of the step between two positions in the search for a gap. */
 const BETWEEN = 8;
-/** Positions that are followed one by one; of more only some, and those between are in between. */
+/** Positions that are followed one by one; of more only some, with interpolation between them. */
 const STATIONS = 120;
-/** Largest move of a link from frame to frame that is taken at once; parts of a change that are tried. */
+/** Largest move of a link from frame to frame that is made at once; fractions of a change that are tried. */
 const REACH = 0.3, SMALLEST = 2 ** -7;
 
 export class Motion {
@@ -32,14 +32,14 @@ export class Motion {
   readonly data: SketchData;
   /** Poses of the positions that are reached, null of others. */
   poses: (Pose | null)[];
-  /** Of each branch 1 or -1 at every position; the branches where nothing is reached. */
+  /** Sign of each branch (1 or -1) at every position; the branches used where nothing is reached. */
   readonly branches: Float64Array[];
   private readonly count: number;
   private readonly first: Held;
   private held: Held;
   private base: { place: number; pose: Pose };
   private loose: { t: number; pose: Pose } | null = null;
-  /** The numbers that were last settled. */
+  /** The numbers of the last accepted pose. */
   private seen: Float64Array | null = null;
   private model: Float64Array;
   private readonly phases: number[];
@@ -72,7 +72,7 @@ export class Motion {
     this.home();
   }
 
-  /** The file's own pose and numbers. */
+  /** The file's pose and numbers. */
   private home(): void {
     this.hold(this.phasesAtFirst);
     this.held = this.first;
@@ -84,7 +84,7 @@ export class Motion {
     this.phases.forEach((row, k) => this.inputs(`phase ${row}`).fill((this.sketch.hold[row] = phases[k])));
   }
 
-  /** The numbers have been set to others at once: the pose is the file's, or what the numbers of an assembly say. */
+  /** After all numbers were replaced at once: the pose is the file's, or that of the numbers of an assembly. */
   assume(assembly: number[] | null): void {
     this.home();
     if (!assembly) return;
@@ -107,7 +107,7 @@ export class Motion {
     return p.reduce((most, x, k) => Math.max(most, Math.abs(x - q[k])), 0);
   }
 
-  /** Closes the pose in hand for the numbers as they are, and follows the motion from there. */
+  /** Closes the present pose for the present numbers, and follows the motion from it. */
   update(): void {
     if (this.seen?.every((x, k) => x === this.values[k])) return;
     this.seen = this.values.slice();
@@ -117,7 +117,7 @@ export class Motion {
     this.settle(closed);
   }
 
-  /** The pose in hand for other numbers: at once, else in small parts of the change; false where it does not close. */
+  /** The present pose for other numbers: at once, else in small steps of the change; false if it does not close. */
   private reclose(): boolean {
     const to = this.values, drives = this.kernel.drives(this.held.t), { sketch } = this;
     if (this.loose) {
@@ -141,7 +141,8 @@ export class Motion {
     return true;
   }
 
-  /** Fills in the positions that the motion from a pose reaches, both ways, and around where the list is a cycle. */
+  /** Fills in the positions that the motion from a pose reaches, in both directions, and around if the list is a
+   * cycle. */
   private follow(t: number, pose: Pose): void {
     const { course, cycle } = this.data, n = this.count;
     this.sketch.values = this.values;
@@ -152,7 +153,7 @@ export class Motion {
     if (down && this.poses[course[0]]) this.march(down, n - 1, -1, cycle);
   }
 
-  /** Where a place of the cycle is along the course: a whole number at a listed position, else one and a half. */
+  /** Place of the cycle along the course: an integer at a listed position, else halfway between two. */
   private along(t: number): number {
     const { course } = this.data;
     if (Number.isInteger(t) && t < this.count) return course.indexOf(t);
@@ -185,8 +186,8 @@ export class Motion {
     return trail;
   }
 
-  /** What links have turned more, radians, so that rows that keep an angle go up by what they are asked to; in space
-   * turns count themselves. */
+  /** Further turns of links, radians, so that rows that hold an angle reach their targets; in space turns are
+   * counted by the rows. */
   private counts(more: (row: number) => number): Float64Array {
     const { data } = this, out = new Float64Array(this.held.pose.turn.length), known = new Set([data.links.length]);
     if (data.dimension !== 2) return out;
@@ -206,7 +207,7 @@ export class Motion {
     return out;
   }
 
-  /** Branches everywhere, the pose that the file is to begin with, and what lies behind gaps. */
+  /** Branches at all positions, the first pose of the file, and the positions behind gaps. */
   private settle(closed: boolean): void {
     const { t, pose } = closed ? this.held : { t: this.base.place, pose: this.base.pose };
     this.spread(this.read(pose, t));
@@ -223,7 +224,7 @@ export class Motion {
     this.kernel.closes();
   }
 
-  /** The pose of a position to rounding: of many positions those between stations are near it only. */
+  /** The pose of a position to rounding; with many positions, those between stations are only near it. */
   private exact(k: number): Pose | null {
     this.sketch.values = this.values;
     return this.poses[k] && this.sketch.close(this.poses[k], this.kernel.drives(k), 0.05);
@@ -249,14 +250,14 @@ export class Motion {
     return this.sketch.close(this.wound(q, this.kernel.drives(k)), this.kernel.drives(k), 0.1);
   }
 
-  /** The pose with the whole turns that its drives ask for, and with those that slides keep. */
+  /** The pose with the whole turns that its drives require, and with those that slides keep. */
   private wound(q: Pose, drives: number[]): Pose {
     const { data, sketch } = this, whole = (x: number): number => 2 * Math.PI * Math.round(x / (2 * Math.PI));
     const more = data.drives.map((row, d) => (data.rows[row].angular ? whole(drives[d] - sketch.measure(row, q)) : 0)), turns = this.counts((row) => more[this.data.drives.indexOf(row)] ?? 0);
     return { ...q, turn: q.turn.map((x, k) => x + turns[k]) };
   }
 
-  /** Ranges that no motion reaches, behind a gap, where every group of links closes on its branch as before. */
+  /** Ranges behind a gap that no motion reaches, where every group of links closes on its former branch. */
   private behind(closes: Uint8Array): void {
     const { course } = this.data, reached = (k: number): boolean => this.poses[course[k]] !== null;
     for (let k = 0; k < this.count; k++) {
@@ -279,14 +280,14 @@ export class Motion {
     return false;
   }
 
-  /** The branches of a pose at a place of the cycle, each by those before it. */
+  /** The branches of a pose at a place of the cycle, each from the previous ones. */
   read(pose: Pose, t: number): Float64Array {
     const out = new Float64Array(this.branches.length).fill(1);
     for (let n = 0; n < out.length; n++) out[n] = this.look(pose, t, out).at(n) < 0 ? -1 : 1;
     return out;
   }
 
-  /** Runs the program of what is known of a pose. */
+  /** Evaluates the program of a pose's known quantities. */
   look(pose: Pose, t: number, branch: Float64Array): Program {
     const p = this.shown, drives = this.kernel.drives(t);
     p.values.set(this.values);
@@ -296,7 +297,7 @@ export class Motion {
     return p;
   }
 
-  /** Branches where nothing is reached. */
+  /** Branches used where nothing is reached. */
   get otherwise(): Float64Array {
     return this.model;
   }
@@ -323,7 +324,7 @@ export class Motion {
     });
   }
 
-  /** The pose at any place of the cycle, null where the motion does not come. */
+  /** The pose at any place of the cycle, null where the motion does not get. */
   at(t: number): Pose | null {
     this.update();
     const low = Math.floor(t) % this.count, part = t - Math.floor(t);
@@ -341,13 +342,13 @@ export class Motion {
     return pose;
   }
 
-  /** The drives at a place, counted as they are at a position next to it. */
+  /** The drives at a place, with turns counted as at a neighbouring position. */
   private nearDrives(k: number, t: number): number[] {
     const at = this.kernel.drives(t), from = this.kernel.drives(k);
     return at.map((x, d) => (this.data.cycle?.[d] ? from[d] + wrap(x - from[d]) : x));
   }
 
-  /** What is drawn at a place where nothing closes: the pose in hand, open at one joint. */
+  /** The pose drawn at a place where the linkage does not close: the present pose, open at one joint. */
   stretched(t: number): Pose {
     this.sketch.values = this.values;
     const from = this.loose?.t === t ? this.loose.pose : this.nearest(t);
@@ -355,7 +356,7 @@ export class Motion {
     return this.loose.pose;
   }
 
-  /** The pose with the least gaps of its joints at a place where nothing closes, and these. */
+  /** The pose with the least gaps of its joints at a place where the linkage does not close, and these gaps. */
   open(t: number): ReturnType<Sketch["open"]> {
     this.sketch.values = this.values;
     return this.sketch.open(this.nearest(t), this.kernel.drives(t));
@@ -369,7 +370,7 @@ export class Motion {
     return best;
   }
 
-  /** What the file is to say of the first position: numbers in the order of `assembly`. */
+  /** Numbers of the first position for the file, in the order of `assembly`. */
   assembly(): number[] {
     this.update();
     const { links, dimension: d, counted } = this.data, { pose } = this.base;
@@ -378,14 +379,14 @@ export class Motion {
         : [...pose.point.subarray(3 * k, 3 * k + 3), ...turnOf(pose.rotation.subarray(9 * k, 9 * k + 9))]);
   }
 
-  /** All that is to be kept of the pose in hand. */
+  /** Complete state of the present pose, for storage. */
   state(): number[] {
     this.update();
     const { t, pose } = this.held;
     return [t, ...pose.point, ...pose.rotation, ...pose.turn, ...this.phases.map((row) => this.sketch.hold[row])];
   }
 
-  /** The pose as it was kept, with the numbers as they are. */
+  /** The stored pose, with the present numbers. */
   restore(state: number[]): void {
     const [t, ...rest] = state, pose = copied(this.held.pose);
     for (const part of ["point", "rotation", "turn"] as const) pose[part].set(rest.splice(0, pose[part].length));
@@ -397,7 +398,7 @@ export class Motion {
 
 const wrap = (x: number): number => x - 2 * Math.PI * Math.round(x / (2 * Math.PI));
 
-/** A pose on the way from one to another, in proportion to the drives; of links in the plane. */
+/** A pose between two others, in proportion to the drives; for planar links. */
 function between(a: Pose, b: Pose, from: number[], to: number[], at: number[]): Pose {
   const d = to.findIndex((x, k) => x !== from[k]), part = d < 0 ? 1 : (at[d] - from[d]) / (to[d] - from[d]);
   const mixed = (p: Float64Array, q: Float64Array) => p.map((x, k) => x + part * (q[k] - x));
@@ -406,7 +407,7 @@ function between(a: Pose, b: Pose, from: number[], to: number[], at: number[]): 
   return { point: mixed(a.point, b.point), turn, rotation };
 }
 
-/** The joint that is let open where nothing closes: between two links that move, none of them driven if there is one. */
+/** The joint that is opened if the linkage does not close: between two moving links, if possible not driven. */
 function weakest(s: SketchData): string {
   const moving = (row: { ends: readonly number[] }): number[] => row.ends.filter((link) => link < s.links.length);
   const driven = new Set(s.drives.flatMap((row) => moving(s.rows[row])));
@@ -417,7 +418,7 @@ function weakest(s: SketchData): string {
   return s.gaps.map((g) => g.joint).reduce((best, name) => (best && rank(best) >= rank(name) ? best : name), "");
 }
 
-/** Links turned as the numbers of an assembly say; in space they are placed too. */
+/** Links rotated by the numbers of an assembly; in space they are also placed. */
 function posed(s: SketchData, like: Pose, assembly: number[]): Pose {
   const q = copied(like);
   s.links.forEach((name, k) => {

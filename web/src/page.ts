@@ -15,23 +15,23 @@ import { toolbar } from "./toolbar";
 import { changes, Cloud, csvText, fileName, fragment, Gradients, History, modelText, restore, save, svgText } from "./tools";
 
 type Changes = Record<string, number>;
-/** ``changes``: to begin with, by path; ``edited`` is told all there are after each. ``address``: they stand there.
- * ``full``: the page is all there is in its window: it fills it, and takes its keys. */
+/** ``changes``: initial ones, by path; ``edited`` receives all changes after each one. ``address``: they are
+ * kept in it. ``full``: the page fills its window and uses its keys. */
 export interface Options { changes?: Changes; edited?: (changes: Changes) => void; address?: boolean; full?: boolean }
 export interface Page {
   kernel: Kernel; data: Data; times: number[]; set(changes: Changes): void; show(t: number): void; text(): string; remove(): void;
 }
 
-/** Pixels of a mm of the drawing, at least and at most: letters are readable in every window. */
+/** Least and greatest number of pixels per mm of the drawing: letters are readable in every window. */
 const LEAST = 3.6, MOST = 5.2;
-/** Where letters are typed, and where a space presses or opens what has the focus. */
+/** Elements in which letters are typed, and those that a space presses or opens. */
 const TYPED = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]";
 const PRESSED = "button,summary,select,a,input[type=checkbox],[role=button]";
-/** Seconds of a cycle that is played. */
+/** Seconds per cycle of the animation. */
 const CYCLE = 6;
 
 export async function mount(el: HTMLElement, data: Data, options: Options = {}): Promise<Page> {
-  if (data.format !== "dalembert-page/1") throw new Error(`this page cannot show data of the form ${data.format}`);
+  if (data.format !== "dalembert-page/1") throw new Error(`this page cannot show data of format ${data.format}`);
   const kernel = await Kernel.create(data), root = document.createElement("div"), times: number[] = [];
   root.className = options.full ? "dalembert full" : "dalembert";
   root.tabIndex = -1;
@@ -71,10 +71,10 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
       check.addEventListener("change", () => (act(check.checked), request(true)));
     };
     toggle("names", "names of joints", m.names, (on) => (m.names = on));
-    if (data.gradient) toggle("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", false, (on) => (gradients.on = on));
-    if (data.handles.some((h) => h.kind === "joint")) toggle("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", false, (on) => (cloud.on = on));
+    if (data.gradient) toggle("what lowers the peak", "arrows: moving a joint in this direction lowers the peak of the chosen curve", false, (on) => (gradients.on = on));
+    if (data.handles.some((h) => h.kind === "joint")) toggle("tolerances", "a thousand machines with points displaced by up to 0.5 % of the drawing's width", false, (on) => (cloud.on = on));
     if (m.paper.axes.length > 2) {
-      html("span", box, {}, "drag to look from elsewhere");
+      html("span", box, {}, "drag to rotate the view");
       orbit([m, ...shown.bodies], () => (fit(), request(true)));
     }
     return html("span", box, { class: "spread" });
@@ -102,7 +102,7 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
     gate.pass();
     request(true);
   }
-  /** After a change that can be undone. */
+  /** Updates after a change that can be undone. */
   function finished(): void {
     const { sentence } = gate;
     if (gate.pass()) gate.sentence = sentence;
@@ -119,13 +119,13 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
     fit();
     tell();
   }
-  /** Scales anew, of the drawing and of the free bodies. */
+  /** New scales for the drawing and the free bodies. */
   function fit(): void {
     kernel.cycle();
     m.fit();
     shown.fit();
   }
-  /** The drawing fills its place, the charts their column. */
+  /** Fits the drawing into its area and the charts into their column. */
   function resize(): void {
     const { width, height } = paper.getBoundingClientRect();
     if (width > 0 && height > 0) {
@@ -232,7 +232,7 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
   };
 }
 
-/** In space the background is dragged to look from elsewhere. */
+/** In space, dragging the background rotates the view. */
 function orbit(boards: Board[], again: () => void): void {
   for (const one of boards) {
     one.svg.style.cursor = "move";

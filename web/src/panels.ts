@@ -1,4 +1,4 @@
-/** Panels beside the drawing: the numbers that can be changed, the answers in numbers, a free body's equations, method. */
+/** Panels beside the drawing: the numbers that can be changed, the results, a free body's equations, the method. */
 
 import type { Data, FreeBody, NumberField, Term } from "./data";
 import type { Gate } from "./gate";
@@ -14,7 +14,7 @@ export function panel(parent: Element, title: string, open = false): HTMLElement
 
 export interface Numbers { update(): void }
 
-/** Parameters with sliders first, then every other number, by what it belongs to. */
+/** Parameters with sliders first, then every other number, grouped by its part. */
 export function numbersPanel(parent: Element, data: Data, kernel: Kernel, gate: Gate, changed: (done: boolean) => void): Numbers {
   const boxes: { box: HTMLInputElement; slide?: HTMLInputElement; n: number; field: NumberField }[] = [];
   const groups = new Map<string, Element>();
@@ -107,7 +107,7 @@ export function answersPanel(parent: Element, data: Data, kernel: Kernel): Numbe
   };
 }
 
-/** Sums of forces and moments on a link, in signs and in numbers. */
+/** Sums of forces and moments on a link, in symbols and in numbers. */
 export function equations(parent: Element, data: Data, kernel: Kernel, b: FreeBody): Numbers {
   const { terms, about } = b.equations, { force, moment } = data.units, d = terms[0]?.f.length ?? 2;
   const sums = ["x", "y", "z"].slice(0, d).map((x, k) => ({ head: `ΣF${x}`, unit: force, sign: (t: Term) => plain(t.name) + x, row: (t: Term) => t.f[k] }));
@@ -132,7 +132,7 @@ export function equations(parent: Element, data: Data, kernel: Kernel, b: FreeBo
 }
 
 export function methodPanel(parent: Element, data: Data): void {
-  html("p", parent, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
+  html("p", parent, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
   const list = html("dl", parent);
   for (const [name, said] of Object.entries(data.assumptions)) {
     html("dt", list, {}, name);

@@ -1,16 +1,16 @@
-/** Typed numbers, read as a model file reads them: a number with or without a unit; or the sentence of what is wrong. */
+/** Typed numbers, read like those of a model file: a number with or without a unit; or the message for an error. */
 
 import type { NumberField, Reading } from "./data";
 
 type Unit = { up: number; down: number; dimension: number[] };
 
-/** What is wrong: Python's sentence, its places filled. */
+/** An error: Python's sentence with its placeholders filled. */
 export class Refused extends Error {}
 
 export const fill = (sentence: string, places: Record<string, string>): string =>
   sentence.replace(/\{(\w+)\}/g, (whole, name) => places[name] ?? whole);
 
-/** A text as messages quote it: a bare number as it is, cut where it is long. */
+/** A text as messages quote it: a bare number unchanged, cut if it is long. */
 export function quoted(text: string): string {
   if (/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text)) return text;
   const mark = text.includes("'") && !text.includes('"') ? '"' : "'", said = mark + text.replace(/\\/g, "\\\\") + mark;
@@ -29,7 +29,7 @@ class UnitText {
   }
   read(): Unit {
     const found = this.product(1);
-    if (this.tokens.length) this.refuse(`${quoted(this.tokens[0])} is too much`);
+    if (this.tokens.length) this.refuse(`unexpected ${quoted(this.tokens[0])}`);
     return found;
   }
   private refuse(why: string): never {
@@ -53,7 +53,7 @@ class UnitText {
       inner = this.product(depth + 1);
       if (this.tokens.shift() !== ")") this.refuse("a bracket is not closed");
     } else if (token !== undefined && /^[a-zµμ_°%]/i.test(token)) inner = this.named(token);
-    else return this.refuse(token === undefined ? "nothing stands where a name is needed" : `${quoted(token)} stands where a name is needed`);
+    else return this.refuse(token === undefined ? "a name is missing" : `expected a name, not ${quoted(token)}`);
     let power = 1;
     if (this.tokens[0] === "^") {
       this.tokens.shift();

@@ -7,10 +7,10 @@ import type { Kernel } from "./kernel";
 import { answersPanel, equations, type Numbers, panel } from "./panels";
 import { html } from "./svg";
 
-/** ``fit``: the free bodies' scales anew; ``resize``: the charts to a width of the column in pixels. */
+/** ``fit``: new scales for the free bodies; ``resize``: the charts to a column width in pixels. */
 export interface Results extends View { bodies: Board[]; choose(link: string | undefined): void; fit(): void; resize(pixels: number): void }
 
-/** Pixels of a mm of a chart: letters stay readable however wide the column is. */
+/** Pixels per mm of a chart: letters stay readable at any width of the column. */
 const PIXELS = 4.6;
 const chartWidth = (pixels: number): number => Math.min(Math.max(pixels / PIXELS, 72), 140);
 

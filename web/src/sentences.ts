@@ -1,4 +1,4 @@
-/** Why a place has no answer, in the sentences of the analyses: where, from where to where, what stays open. */
+/** Reasons why a place has no answer, in the sentences of the analyses: location, range, remaining gap. */
 
 import type { Data, Sentences } from "./data";
 import type { Kernel } from "./kernel";
@@ -17,13 +17,13 @@ const listed = (names: string[]): string => (names.length < 2 ? names.join("") :
 
 export class Reasons {
   private readonly s: Sentences;
-  /** The last sentence, and what it is of: gaps are measured once. */
+  /** The last sentence, and its place: gaps are measured once. */
   private said = { key: "", text: "" };
   constructor(private readonly data: Data, private readonly kernel: Kernel) {
     this.s = data.sentences;
   }
 
-  /** Why the analyses would refuse the mechanism as it is; empty where they do not. */
+  /** Reason why the analyses would refuse the present mechanism; empty if they do not. */
   refusal(): string {
     for (const { sentence, rows, error } of this.s.gears) {
       const [found, ri, rj] = rows.map((r) => this.kernel.here[r]), wanted = ri + rj;
@@ -44,7 +44,8 @@ export class Reasons {
     return this.said.text;
   }
 
-  /** The positions about a place that have its mark, first and last; or the place itself where no position has it. */
+  /** The first and last positions of the run about a place with its status code; or the place itself if no
+   * position has it. */
   private run(t: number): [number, number] {
     const { kernel } = this, same = (k: number): boolean => k >= 0 && k < kernel.count && kernel.markAt(k) === kernel.mark;
     const k = [Math.round(t), Math.floor(t), Math.ceil(t)].find(same);
@@ -68,7 +69,8 @@ export class Reasons {
     return { ...one, joints: status === "reversal" ? listed(joints) : joints.join(", "), verb, values: listed(values), name: names[0] ?? "", names: listed(names) };
   }
 
-  /** The unknowns with friction and without, where they differ most; nothing where coefficients follow from others. */
+  /** The unknowns with and without friction at their largest difference; nothing if coefficients depend on other
+   * numbers. */
   private figures(run: [number, number], t: number): string {
     const { kernel, s, data } = this, bare = kernel.values.slice(), out = new Float64Array(kernel.here.length);
     const coefficients = data.numbers.flatMap((n, k) => (/(^|\.)friction\.coefficient$/.test(n.path) ? [k] : []));
@@ -105,7 +107,7 @@ export class Reasons {
     return ` between ${drives.map((d) => `${this.drive(d, from)} and ${this.drive(d, to)} of ${d.name}`).join(", ")}`;
   }
 
-  /** What stays open at least in the middle of a run; where nothing does, why the motion does not come there. */
+  /** Least remaining gap in the middle of a run; if it is zero, the reason why the motion does not get there. */
   private open(template: string, [from, to]: [number, number]): string {
     const middle = from === to ? from : from + ((to - from + 1) >> 1), { pose, gaps } = this.kernel.motion.open(middle);
     const order = (name: string): number => this.s.joints.indexOf(name), span = this.arc([from, to]).trim() || this.s.words.described;
@@ -117,7 +119,7 @@ export class Reasons {
     return fill(template, { span, gap: `: ${there}${parts.join(" and ")}`, datum: lengths ? "a length" : "a direction" });
   }
 
-  /** What still moves with all drives at rest; empty where nothing does. In the plane. */
+  /** Links that still move with all drives at rest; empty if none. In the plane. */
   private loose(pose: Pose): string {
     const { drives, sketch } = this.data, found = this.kernel.motion.sketch.mobility(pose), missing = found.freedoms - drives.length;
     if (sketch.dimension !== 2 || missing <= 0) return "";
@@ -128,7 +130,7 @@ export class Reasons {
     return `${counts}; ${fill(this.s.words.add, { drives: count(missing, "drive"), where, loose: found.links.join(", ") })}`;
   }
 
-  /** 'the points of joint B stay 12 mm apart', or of several the sum and the widest. */
+  /** 'the points of joint B stay 12 mm apart', or for several the sum and the widest. */
   private most(open: [string, number][], kind: "length" | "angle", size: number): string {
     const { words, limits } = this.s, wide = open.filter(([, x]) => x > limits.shut * size);
     if (!wide.length) return "";
@@ -139,7 +141,7 @@ export class Reasons {
     return fill(words.several, { ...words.kinds[kind], total: this.quantity(open.reduce((t, [, x]) => t + x, 0), kind, 3), where });
   }
 
-  /** What overflows: rates of links, else forces of joints. */
+  /** Quantities that overflow: rates of links, else forces of joints. */
   private whose(): string {
     const { overflow, words } = this.s, value = (r: number): number => this.kernel.here[r];
     let said = "";

@@ -1,5 +1,5 @@
-/** Closes a linkage and follows it: Newton on the rows that the sketch program gives. Nothing here knows a joint.
- * Coordinates of a step: lengths over `length`, and angles (in space turns about the axes). */
+/** Closing and following a linkage: Newton on the rows of the sketch program. This file contains no code for
+ * types of joints. Coordinates of a step: lengths over `length`, and angles (in space turns about the axes). */
 
 import type { SketchData, SketchRow } from "./data";
 import type { Program } from "./program";
@@ -7,15 +7,15 @@ import type { Program } from "./program";
 export interface Pose { point: Float64Array; rotation: Float64Array; turn: Float64Array }
 export interface Step { pose: Pose; first: number; rest: number }
 
-/** What may be missing of a row, over `length`, where a pose closes; and where rounding is all that is left. */
+/** Residual of a row, over `length`, at which a pose closes; and the rounding level. */
 const OPEN = 1e-9, CLOSED = 1e-12;
-/** Longest displacement of one step; damping, which takes the least displacement where rows repeat each other. */
+/** Longest displacement of one step; damping, which gives the least displacement with redundant rows. */
 const LONGEST = 0.25, DAMPING = 1e-13, LEAST = 1e-9;
-/** How stiff other joints are beside the one that is let open. */
+/** Stiffness of the other joints relative to the opened one. */
 const STIFF = 1e5;
-/** Where gaps are measured: how much stiffer drives are than joints, and by how much links are turned first, radians. */
+/** Search for gaps: stiffness of drives relative to joints, and initial rotation of the links, radians. */
 const HELD = 1e3, ASIDE = 0.05;
-/** Pivots below this, of the largest, are none: a pose closed to 1e-12 is off by its root where it is a change point. */
+/** Relative size of pivots that count as zero: a pose closed to 1e-12 has the root of this error at a change point. */
 const FLAT = 1e-5;
 
 type Entry = [column: number, output: number, scale: number];
@@ -23,7 +23,7 @@ type Entry = [column: number, output: number, scale: number];
 export const copied = (q: Pose): Pose => ({ point: q.point.slice(), rotation: q.rotation.slice(), turn: q.turn.slice() });
 
 export class Sketch {
-  /** What each row is held at, and which rows count. */
+  /** Targets of the rows, and the rows in use. */
   readonly hold: Float64Array;
   private readonly active: Uint8Array;
   private readonly weight: Float64Array;
@@ -74,7 +74,7 @@ export class Sketch {
     this.program.values.set(all);
   }
 
-  /** Whether some rows count. */
+  /** True if some rows are in use. */
   count(rows: number[], on: boolean): void {
     for (const row of rows) this.active[row] = +on;
   }
@@ -84,7 +84,7 @@ export class Sketch {
     this.program.call(1);
   }
 
-  /** What is missing in each row, over `length`; the largest of those that count. */
+  /** Residual of each row, over `length`; the largest of those in use. */
   gap(q: Pose): number {
     this.evaluate(q);
     let most = 0;

@@ -19,7 +19,7 @@ export function toolbar(parent: Element, data: Data, kernel: Kernel, reasons: Re
     return b;
   };
   const play = button("▶", "play along the cycle (space)", acts.play);
-  const slider = html("input", bar, { type: "range", min: 0, max: kernel.end, step: data.only_at_positions ? 1 : "any", "aria-label": "place of the cycle" });
+  const slider = html("input", bar, { type: "range", min: 0, max: kernel.end, step: data.only_at_positions ? 1 : "any", "aria-label": "position in the cycle" });
   const readout = html("output", bar, { class: "readout" });
   const undo = button("↶", "undo (Ctrl+Z)", () => acts.go(true)), redo = button("↷", "redo (Ctrl+Y)", () => acts.go(false));
   button("Reset", "all numbers as in the file", acts.reset);

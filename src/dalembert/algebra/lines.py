@@ -1,4 +1,4 @@
-"""Lines given by points and directions: where they meet. Components last, of the plane or of space."""
+"""Lines given by points and directions: their common point. Components last, in the plane or in space."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from dalembert.arrays import Array
 
 PARALLEL = 1e-6
-"""Lines whose least spread of directions is below this part of the largest are parallel."""
+"""Least spread of directions over the largest, below which lines are parallel."""
 
 
 def meeting_point(at: Array, along: Array) -> tuple[Array, float] | None:

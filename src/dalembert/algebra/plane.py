@@ -1,4 +1,4 @@
-"""Rigid-body algebra of the plane: twists (vx, vy, omega), wrenches (fx, fy, m), rotations as (cos, sin).
+"""Planar rigid-body algebra: twists (vx, vy, omega), wrenches (fx, fy, m), rotations as (cos, sin).
 
 Every function takes arrays with any leading axes and the components last. Only arithmetic, ``cos`` and ``sin`` are
 used, so the entries may be floats or traced symbols.
@@ -51,7 +51,7 @@ def unrotate(r: Array, v: Array) -> Array:
 
 
 def across(u: Array) -> Array:
-    """The vector turned by a right angle, counter-clockwise.
+    """The vector turned by 90 degrees, counter-clockwise.
 
     >>> across(np.array([1.0, 0.0]))
     array([-0.,  1.])
@@ -79,7 +79,7 @@ def centripetal(w: Array, r: Array) -> Array:
 
 
 def gyroscopic(r: Array, w: Array, inertia: Array) -> Array:
-    """Moment omega x (I omega): none in the plane. Shape (..., 1)."""
+    """Moment omega x (I omega): zero in the plane. Shape (..., 1)."""
     return np.zeros_like(w)
 
 
@@ -144,6 +144,6 @@ def without_ground(turn: Array) -> Array:
 
 
 def reference_rotation(count: int, links: int) -> tuple[Array, Array]:
-    """Angles and rotations of ``count`` poses of ``links`` links that are not turned."""
+    """Angles and rotations of ``count`` unrotated poses of ``links`` links."""
     turn = np.zeros((count, links))
     return turn, rotation(turn)

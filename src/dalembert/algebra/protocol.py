@@ -1,4 +1,4 @@
-"""What the algebras of plane and space both offer: the functions of `plane` and `space` say what each does."""
+"""Functions common to the algebras of plane and space; `plane` and `space` document each of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rigid-body algebra of space: twists (vx, vy, vz, wx, wy, wz), wrenches (forces, moments), rotations as matrices.
+"""Spatial rigid-body algebra: twists (vx, vy, vz, wx, wy, wz), wrenches (forces, moments), rotations as matrices.
 
 Every function takes arrays with any leading axes and the components last. A rotation (..., 9) is a matrix row by row
 that turns link components into ground components. Only arithmetic, ``cos``, ``sin`` and roots are used.
@@ -18,7 +18,7 @@ n = 6
 """Components of a twist or wrench."""
 
 IDENTITY = np.eye(3).ravel()
-"""The rotation that turns nothing."""
+"""The identity rotation."""
 
 
 FEW = 1200
@@ -75,7 +75,7 @@ def exp(w: Array) -> Array:
 
 
 def cayley(w: Array) -> Array:
-    """Rotation (..., 9) about the vector w (..., 3) by 2 atan(|w| / 2): by its length, but for the cube of it.
+    """Rotation (..., 9) about the vector w (..., 3) by 2 atan(|w| / 2): by its length, up to third order.
 
     >>> cayley(np.array([0.0, 0.0, 2.0])).tolist()
     [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
@@ -227,7 +227,7 @@ def dot(a: Array, b: Array) -> Array:
 
 
 def rotate_links(turn: Array, r: Array, w: Array) -> tuple[Array, Array]:
-    """Followed angles, as they are, and rotations (..., L+1, 9) after the moving links' turns w (..., L, 3)."""
+    """Counted angles, unchanged, and rotations (..., L+1, 9) after the moving links' turns w (..., L, 3)."""
     r = r.copy()
     r[..., :-1, :] = compose(exp(w), r[..., :-1, :])
     return turn, r
@@ -265,15 +265,15 @@ def apart(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
 
 
 def reference_rotation(count: int, links: int) -> tuple[Array, Array]:
-    """Followed angles and rotations of ``count`` poses of ``links`` links that are not turned."""
+    """Counted angles and rotations of ``count`` unrotated poses of ``links`` links."""
     return np.zeros((count, 0)), np.tile(IDENTITY, (count, links, 1))
 
 
 def with_ground(turn: Array, r: Array) -> tuple[Array, Array]:
-    """Followed angles, as they are, and rotations of the moving links and of the ground."""
+    """Counted angles, unchanged, and rotations of the moving links and of the ground."""
     return turn, np.concatenate([r, np.broadcast_to(IDENTITY, (*r.shape[:-2], 1, 9))], axis=-2)
 
 
 def without_ground(turn: Array) -> Array:
-    """Followed angles, as they are: they belong to no link."""
+    """Counted angles, unchanged: they belong to no link."""
     return turn

@@ -1,4 +1,4 @@
-"""What all answers have in common, whatever they are answers to: reading by name, equality, one line for the screen.
+"""Features common to all answers: access by name, equality, a one-line representation.
 
-In: the names, arrays and statuses of a class. Out: its methods. Imports nothing but the files beside the rooms.
+In: the names, arrays and statuses of a class. Out: its methods. Imports only the top-level modules.
 """

@@ -21,7 +21,7 @@ class Compared:
         return equal(self.compared(), other.compared())
 
     def compared(self) -> Tree:
-        """What must be equal, by name."""
+        """Items that must be equal, by name."""
         return _compared_fields(self)
 
 

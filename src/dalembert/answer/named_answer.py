@@ -89,13 +89,13 @@ class NamedAnswer(Compared):
 
     @property
     def subject(self) -> str:
-        """What it is the answer of, for its one line."""
+        """Subject of the answer, for its one-line representation."""
         m = self.mechanism  # type: ignore[attr-defined]
         return repr(m.title or "a mechanism")
 
     @property
     def extent(self) -> str:
-        """How many rows, and positions of each."""
+        """Numbers of rows, and of positions of each."""
         rows, *rest = np.shape(self.codes)
         return " of ".join([counted(rows, self.ROW), *(counted(n, "position") for n in rest)])
 

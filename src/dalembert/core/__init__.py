@@ -2,6 +2,6 @@
 
 Arrays have leading axes (design, position).
 
-In: a ``Layout`` (who touches whom, and the numbers) and poses. Out: velocities, multipliers, residuals as arrays.
-Knows no names, files or units. Imports ``algebra``. docs/theory.md has the mechanics.
+In: a ``Layout`` (the connections of links, and the numbers) and poses. Out: velocities, multipliers, residuals as
+arrays. Knows no names, files or units. Imports ``algebra``. docs/theory.md has the mechanics.
 """

@@ -1,4 +1,4 @@
-"""Matrices of long chains in narrow bands: links that are joined stand near each other (Cuthill and McKee, 1969).
+"""Banded matrices of long chains: joined links are numbered close to each other (Cuthill and McKee, 1969).
 
 Where the bands are narrow, LAPACK eliminates them several times as fast as sparse elimination does.
 
@@ -19,16 +19,16 @@ if TYPE_CHECKING:
     from scipy.sparse import csc_array
 
 WIDEST = 20
-"""Width of the bands up to which they beat sparse elimination."""
+"""Largest width of the bands at which they beat sparse elimination."""
 
 
 class Bands(NamedTuple):
-    """How rows between links lie in bands.
+    """Positions of the rows' entries in a banded matrix.
 
-    entry (K, 2 n): the unknowns that a row's entries on i and on j belong to, in the order of the bands, ground's last;
-    unknown (n L,) and row (K,): where each stands in that order; below, above: how far entries lie from the diagonal.
-    Of J^T J, width: that of its lower bands; low (K, 2 n, 2 n), place: which products of a row's entries belong to
-    them, and where.
+    entry (K, 2 n): unknowns that a row's entries on i and on j belong to, in the order of the bands, ground's last;
+    unknown (n L,) and row (K,): their indices in that order; below, above: numbers of subdiagonals and superdiagonals.
+    For J^T J: width, the number of its lower bands; low (K, 2 n, 2 n), the products of a row's entries that belong to
+    them, and place, their positions.
     """
 
     entry: Ints
@@ -42,7 +42,7 @@ class Bands(NamedTuple):
 
     def least_squares(self, rows: System, scale: Array, column: Array, right: Array, damping: float) -> Array:
         """Solution of (J^T J + damping) x = J^T right at a single position (1, ...), times the columns' scale; NaN
-        where rounding leaves it none."""
+        where rounding makes it singular."""
         from scipy.linalg.lapack import dpbsv
 
         size = len(column)
@@ -91,7 +91,7 @@ def bands_of(rows: System, links: int, n: int) -> Bands | None:
 
 @lru_cache(maxsize=4)
 def _bands(i: bytes, j: bytes, links: int, n: int) -> Bands | None:
-    """By the links i and j (bytes of indices) of the rows."""
+    """Bands from the links i and j (bytes of indices) of the rows."""
     ends = np.stack([np.frombuffer(i, np.intp), np.frombuffer(j, np.intp)], axis=1)
     head, size = _link_order(ends, links), links * n
     entry = (head[ends][..., None] * n + np.arange(n)).reshape(len(ends), 2 * n)
@@ -110,7 +110,7 @@ def _bands(i: bytes, j: bytes, links: int, n: int) -> Bands | None:
 
 
 def _link_order(ends: Ints, links: int) -> Ints:
-    """Places (L+1,) of the links, neighbours near each other; ground is last."""
+    """Indices (L+1,) of the links in an order that keeps neighbours close; ground is last."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 

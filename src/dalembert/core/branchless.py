@@ -1,7 +1,7 @@
 """Choices between values, for numbers and for the traced values of the kernel alike.
 
-A traced value has no truth: a comparison of two is itself a value, 1 where it holds and 0 elsewhere, with ``&`` and
-``~`` as flags have them. Arrays of traced values have the type object.
+A traced value has no truth value: a comparison of two is itself a value, 1 where it holds and 0 elsewhere, with ``&``
+and ``~`` as for flags. Arrays of traced values have the type object.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from dalembert.arrays import Array, Numeric
 
 
 def any_traced(*arrays: Array) -> bool:
-    """Whether some of the arrays hold traced values."""
+    """True if any array holds traced values."""
     return any(np.asarray(a).dtype == object for a in arrays)
 
 
 def above(a: Array, b: Array | float) -> Array:
-    """Where a is larger than b."""
+    """True where a is larger than b."""
     difference = np.subtract(a, b)
     return np.asarray(_POSITIVE(difference) if any_traced(difference) else difference > 0)
 

@@ -1,6 +1,6 @@
 """Motion and equilibrium at known poses: velocities, accelerations, A x + w = 0, residual, virtual work.
 
-x   multipliers of the unknowns: constraints, then drive efforts that are not given, then unknown loads
+x   multipliers of the unknowns: constraints, then unknown drive efforts, then unknown loads
 w   wrenches of everything else on the links (D'Alembert: inertia with the minus sign)
 V   twists of the links per unit speed of each drive, the others held: virtual velocities
 
@@ -28,10 +28,10 @@ from dalembert.core.linear import Factor, PseudoInverse, compliant
 
 @dataclass(frozen=True)
 class Known:
-    """What is given of the drives' efforts and what is asked of loads.
+    """Known efforts of drives and unknown loads.
 
-    effort (P, D), NaN where unknown by ``asked`` (D,); unknown loads: unit force ``direction`` (U, d) at ``at`` on
-    ``link``, in link axes where ``follows``, or a unit couple ``about`` (U, n - d) where ``couple``.
+    effort (P, D), NaN where unknown; ``asked`` (D,) flags the unknown ones; unknown loads: unit force ``direction`` (U,
+    d) at ``at`` on ``link``, in link axes where ``follows``, or a unit couple ``about`` (U, n - d) where ``couple``.
     """
 
     asked: Flags
@@ -54,7 +54,7 @@ class Motion(NamedTuple):
 
 
 class Balance(NamedTuple):
-    """Solved equilibrium: multipliers and what checks them.
+    """Solved equilibrium: multipliers and their checks.
 
     constraint (..., K), effort (..., D), load (..., U), residual and power_balance (...), free (..., X, X) the
     projector on multipliers that load nothing where A has redundant columns, separation: radial tooth
@@ -119,7 +119,8 @@ def known_sources(
 
 
 class Statement(NamedTuple):
-    """What A x + w = 0 is about: the rows asked for, their factored A, and w with the given efforts (..., L, n)."""
+    """Equilibrium system A x + w = 0: the rows with unknown multipliers, A factored, and w with the known efforts (...,
+    L, n)."""
 
     unknown: System
     forces: Factor
@@ -127,7 +128,7 @@ class Statement(NamedTuple):
 
 
 def statement(layout: Layout, known: Known, pose: Pose, rows: System, solver: Factor, w: Array) -> Statement:
-    """The unknowns and what is known, from total wrenches w (..., L, n) of loads."""
+    """Unknowns and known terms, from total wrenches w (..., L, n) of loads."""
     unknown = _unknowns(layout, known, pose, rows)
     if known.asked.all() and not known.link.size:
         return Statement(unknown, _yielding(layout, unknown, solver), w)
@@ -137,7 +138,8 @@ def statement(layout: Layout, known: Known, pose: Pose, rows: System, solver: Fa
 
 
 def _yielding(layout: Layout, unknown: System, forces: Factor) -> Factor:
-    """The factored system with the joints' compliances, where reactions are free and some joint has any."""
+    """The factored system with the joints' compliances, where reactions are not unique and some joint has a
+    compliance."""
     if layout.compliance is None or not isinstance(forces, PseudoInverse):
         return forces
     rigid = np.zeros(len(unknown.i) - len(layout.compliance))
@@ -154,7 +156,7 @@ def balance(
     solver: Factor,
     w: Array,
 ) -> Balance:
-    """Solve A x + w = 0 for total wrenches w (..., L, n)."""
+    """Solution of A x + w = 0 for total wrenches w (..., L, n)."""
     s = statement(layout, known, pose, rows, solver, w)
     x, total = _solve_balance(layout, forcing, pose, s.forces, s.w)
     return check_equilibrium(layout, forcing, known, pose, moving, s, x, total)
@@ -170,7 +172,7 @@ def check_equilibrium(
     x: Array,
     total: Array,
 ) -> Balance:
-    """Multipliers x by what they mean, with the residual and virtual power under total wrenches (..., L, n)."""
+    """Multipliers x by their meaning, with the residual and virtual power under total wrenches (..., L, n)."""
     count, asked = layout.constraints.count, int(known.asked.sum())
     if layout.constraints.idle.size:
         x = x.copy()
@@ -187,7 +189,7 @@ def check_equilibrium(
 
 
 def _unknowns(layout: Layout, known: Known, pose: Pose, rows: System) -> System:
-    """Rows whose multipliers are asked for."""
+    """Rows with unknown multipliers."""
     count = layout.constraints.count
     kept = np.concatenate([np.arange(count), count + np.flatnonzero(known.asked)])
     asked = rows.rows(kept)
@@ -261,7 +263,7 @@ def virtual_power(layout: Layout, v: Array, unknown: System, x: Array, w: Array)
 
 
 def _screw_rows(g: Algebra, constraints: Rows, pose: Pose, rows: System) -> Iterator[tuple[int, Array]]:
-    """Row of each screw and the couple that its force comes with, at j's point."""
+    """Row of each screw, and the couple that accompanies its force, at j's point."""
     for f in constraints.families:
         if isinstance(f, Helix):
             about = g.cross(arm(g, pose, f.j, f.uj), rows.on_j[..., f.row, : g.d])
@@ -288,7 +290,7 @@ def reactions(layout: Layout, pose: Pose, rows: System, found: Balance) -> tuple
 
 
 def unique(shift: Array) -> Array:
-    """Which reaction components (..., joints, n) no free multiplier changes, of their ``shifts``."""
+    """True for reaction components (..., joints, n) that no null vector of A changes, from their ``shifts``."""
     return np.asarray(np.abs(shift).max(axis=-1, initial=0.0) < UNIQUE)
 
 

@@ -1,4 +1,4 @@
-"""Which solver a mechanism's matrix gets: batched inverse, singular values, or banded or sparse LU a position.
+"""Choice of solver for a mechanism's matrix: batched inverse, singular values, or banded or sparse LU per position.
 
 Mechanics: docs/theory.md 1.2.
 """
@@ -31,7 +31,7 @@ def row_scale(layout: Layout, angular: Flags) -> Array:
 
 
 def factor(layout: Layout, rows: System) -> Factor:
-    """Factor J of some rows with the solver that suits it."""
+    """Factors J of some rows with the solver that suits it."""
     if layout.solver is not None:
         found: Factor = layout.solver(layout, rows)
         return found
@@ -95,7 +95,7 @@ def damped_step(layout: Layout, rows: System, weight: Array, scaled_gap: Array, 
         square, right = j.T @ j + damping * np.eye(j.shape[1]), j.T @ right
         try:
             return np.linalg.solve(square, right) * column
-        except np.linalg.LinAlgError:  # the damping is below what rounding leaves of it
+        except np.linalg.LinAlgError:  # the damping is below the rounding error
             return np.asarray(np.linalg.lstsq(square, right)[0] * column)
     bands = bands_of(rows, layout.links, layout.algebra.n)
     if bands is not None:
@@ -110,7 +110,7 @@ def damped_step(layout: Layout, rows: System, weight: Array, scaled_gap: Array, 
 
 @dataclass(frozen=True)
 class Sparse:
-    """Square systems by banded or sparse LU, one a position; cost grows with the number of links."""
+    """Square systems by banded or sparse LU, one per position; cost grows with the number of links."""
 
     solvers: tuple[Any, ...]
     matrices: tuple[csc_array, ...]
@@ -167,8 +167,8 @@ def _sparse_matrices(layout: Layout, rows: System, row: Array, column: Array) ->
 
 @lru_cache(maxsize=4)
 def _columns(i: bytes, j: bytes, links: int, n: int) -> tuple[Ints, Ints, Ints]:
-    """Entries of J by columns, those of ground left out: their rows, their columns, and where they stand among those of
-    all links i (bytes of indices), then of all links j."""
+    """Entries of J by columns, without ground's: their rows, their columns, and their indices among the entries of all
+    links i (bytes of indices) followed by those of all links j."""
     both = np.frombuffer(i + j, np.intp)
     row: Ints = np.repeat(np.tile(np.arange(len(both) // 2, dtype=np.intc), 2), n)
     column: Ints = (both[:, None] * n + np.arange(n)).ravel()

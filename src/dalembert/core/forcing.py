@@ -1,7 +1,7 @@
 """Wrenches on the links that are known once the motion is: loads, weights, springs, dampers, inertia (D'Alembert).
 
-Every function returns a ``Source``: wrenches (..., k, n) about the reference points of the links they act on, one a
-contribution, so that superposition and virtual work can take them apart; ``total_wrench`` adds them up per link.
+Every function returns a ``Source``: wrenches (..., k, n) about the reference points of the links they act on, one per
+contribution, so that superposition and virtual work can separate them; ``total_wrench`` sums them per link.
 
 Mechanics: docs/theory.md 4.
 """
@@ -25,7 +25,7 @@ MANY = 100
 """Contributions above which one indexed addition is faster than a loop over them."""
 
 VANISHED = 1e-9
-"""Length of a spring over the characteristic length below which it has no direction: positions are no better known."""
+"""Spring length over characteristic length below which the spring has no direction; positions are not more accurate."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Springs:
 class Resistances:
     """Springs and dampers in freedoms: -k (q + turns - q0) - c dq/dt along freedom ``row``, on j; the opposite on i.
 
-    ``turns`` (R,), or (P, R): what the count of whole turns adds to the angle (``analysis.compile.torsion_turns``).
+    ``turns`` (R,), or (P, R): angle added by counting whole turns (``analysis.compile.torsion_turns``).
     """
 
     row: Ints
@@ -90,7 +90,7 @@ class Resistances:
 
 @dataclass(frozen=True)
 class Forcing:
-    """All that loads the links, but for the drives' efforts."""
+    """All loads on the links, except the drives' efforts."""
 
     inertia: Inertia
     forces: Forces
@@ -194,7 +194,7 @@ def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) ->
 
 
 def _spans(layout: Layout, springs: Springs, pose: Pose) -> tuple[Array, Array, Array, Array]:
-    """Arms of both ends (..., k, d), the way from a to b (..., k, d), and its square (..., k)."""
+    """Arms of both ends (..., k, d), the vectors from a to b (..., k, d), and their squared lengths (..., k)."""
     g = layout.algebra
     ra, rb = arm(g, pose, springs.a, springs.at_a), arm(g, pose, springs.b, springs.at_b)
     span = pose.point[..., springs.b, :] + rb - pose.point[..., springs.a, :] - ra
@@ -204,8 +204,9 @@ def _spans(layout: Layout, springs: Springs, pose: Pose) -> tuple[Array, Array, 
 def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rate: Array) -> Array:
     """Unit vectors (..., k, d) from a to b.
 
-    Where b passes a, a damper's is that of their relative motion: its force is the same just before and just after. A
-    preloaded spring turns its force round there: no number. One without force at length zero needs none.
+    Where b passes a, a damper takes the direction of their relative motion: its force is the same just before and just
+    after. The force of a preloaded spring reverses there: NaN. A spring without force at zero length needs no
+    direction.
     """
     needed = needs_direction(springs)
     if any_traced(span):  # no number at length zero, where the general executor decides
@@ -235,7 +236,7 @@ def _vanished(layout: Layout) -> float:
 
 
 def away(layout: Layout, springs: Springs, pose: Pose) -> Array:
-    """Square of each length (..., k) less that below which there is no direction: not positive at length zero."""
+    """Squared length (..., k) minus the square of the shortest length with a direction: not positive at zero length."""
     return np.asarray(_spans(layout, springs, pose)[-1] - _vanished(layout))
 
 
@@ -254,7 +255,8 @@ def pair(rows: System, multiplier: Array) -> Source:
 
 
 def separation_wrench(layout: Layout, pose: Pose, tangent: Array, multiplier: Array) -> Source:
-    """Radial tooth forces |F_t| tan(alpha) on both wheels of each mesh, apart whatever the sense of F_t.
+    """Radial tooth forces |F_t| tan(alpha) on both wheels of each mesh; they push the wheels apart for either sense of
+    F_t.
 
     ``tangent`` (k,) holds tan(alpha) of the mesh rows, ``multiplier`` (..., K) all constraints' multipliers.
     """

@@ -1,7 +1,7 @@
-"""Gear meshes in space: wheels on parallel axes, on axes that meet (bevel) and on axes that pass each other (worm).
+"""Gear meshes in space: wheels on parallel axes, on intersecting axes (bevel) and on skew axes (worm).
 
 a, e   axis of a wheel and direction from it to the pitch point C
-t      a_i x e_i, the way the teeth of i go at C
+t      a_i x e_i, direction in which the teeth of i move at C
 n      direction of the force of the teeth in the tangent plane, N the normal of that plane
 
 Mechanics: docs/theory.md 2.2.
@@ -25,7 +25,7 @@ PARALLEL = 1e-9
 """Sine of the angle between two axes below which they are parallel."""
 
 MEETING = 1e-6
-"""Distance of two axes over the sum of the radii below which they meet."""
+"""Distance of two axes over the sum of the radii below which they intersect."""
 
 
 class _Vector(NamedTuple):
@@ -102,7 +102,7 @@ def _still(pose: Pose) -> Array:
 
 
 def angles(g: Algebra, f: Gearing, pose: Pose) -> Array:
-    """psi of both wheels (..., k, 2), whole turns as counted."""
+    """psi of both wheels (..., k, 2), whole turns included."""
     out = []
     ai, ei, aj, ej = _axes(g, f, pose, _still(pose))
     for a, e, link, b, place in ((ai, ei, f.i, f.bi, 0), (aj, ej, f.j, f.bj, 1)):
@@ -146,17 +146,17 @@ def separation(g: Algebra, f: Gearing, pose: Pose) -> tuple[Array, Array]:
 
 
 def own_axes(g: Algebra, f: Gearing, pose: Pose) -> Array:
-    """Axes of the meshes (..., k, 3, 3), a row each: radial, from the axis of wheel i to C; tangential, the way its
-    teeth go there when it turns; and that axis. They go with the line of centres, not with the wheels."""
+    """Axes of the meshes (..., k, 3, 3), one per row: radial, from the axis of wheel i to C; tangential, the direction
+    in which its teeth move at C as it turns; and that axis. They follow the line of centres, not the wheels."""
     a, e, _, _ = _axes(g, f, pose, _still(pose))
     radial = e.at * sign(f.ri)[:, None]
     return np.stack([radial, g.cross(a.at, radial), a.at], axis=-2)
 
 
 class Misfit(NamedTuple):
-    """How far a mesh had to be moved to fit (k,): radii by a factor, less 1; a gap over the radii that is left.
+    """Changes that make a mesh fit (k,): factor on the radii, minus 1; remaining gap over the radii.
 
-    ``inside`` is positive where one wheel lies within the other, 0 where one is flat.
+    ``inside`` is positive where one wheel is within the other, 0 where one is flat.
     """
 
     row: Ints
@@ -174,7 +174,7 @@ def mesh_wheels(layout: Layout, pose: Pose) -> tuple[Layout, list[Misfit]]:
     """The layout with its wheels in mesh at a pose (L+1, ...), and how well they fit.
 
     The centres are moved along their axes and the radii by a common factor so that the pitch points coincide; that
-    stays so while the axes keep their places, as bearings in one carrier make them.
+    holds while the axes keep their relative places, as with bearings in one carrier.
     """
     found = gearings(layout)
     if not found:
@@ -203,7 +203,7 @@ def _fit_mesh(layout: Layout, f: Gearing, pose: Pose) -> tuple[Gearing, Misfit]:
 
 
 def _sides(f: Gearing, mesh: _Mesh, ei: Array, ej: Array) -> tuple[Array, Array]:
-    """Whether separation pushes j along the normal (1) or against it (-1), and whether a wheel lies in the other.
+    """Sign of separation on j, 1 along the normal or -1 against it, and whether one wheel is inside the other.
 
     The smaller wheel is pushed to that side of the tangent plane at C on which its centre lies; the larger may be flat.
     """
@@ -240,7 +240,7 @@ def _one(g: Algebra, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Array], 
         for p, q in product((1.0, -1.0), repeat=2)
     )
     (_, (si, sj, scale), gap), p, q = best
-    gap = gap if ei.any() and ej.any() else radii  # wheels about one centre, whose pitch circles meet nowhere
+    gap = gap if ei.any() and ej.any() else radii  # concentric wheels, whose pitch circles do not meet
     ri, rj = float(f.ri[k]) * scale * p, float(f.rj[k]) * scale * q
     cone = _cone(ai, ei, ri, aj, span + sj * aj - si * ai) if meeting else np.array([1.0, 0.0])
     changed = {
@@ -268,12 +268,12 @@ def _fit(
 
 
 def _cone(ai: Array, ei: Array, ri: float, aj: Array, span: Array) -> Array:
-    """Parts of the pitch cone's generator along the axis of i and e; the axes meet h above the centre of i."""
+    """Parts of the pitch cone's generator along the axis of i and e; the axes intersect h above the centre of i."""
     h = float(np.linalg.lstsq(np.stack([ai, -aj], axis=1), span, rcond=None)[0][0])
     return np.asarray(np.array([h, -ri]) / (np.hypot(h, ri) * (1.0 if h >= 0 else -1.0)))
 
 
 def _unit(v: Array, least: float) -> Array:
-    """Its direction; zeros where it is shorter than ``least``."""
+    """Direction of a vector; zeros where it is shorter than ``least``."""
     size = np.linalg.norm(v)
     return np.asarray(v / size if size > least else np.zeros_like(v))

@@ -1,4 +1,4 @@
-"""What is compiled from a description: integers that never change with a number (Rows), and the numbers (arrays).
+"""Compiled form of a description: integers that no numeric value changes (Rows), and numeric arrays.
 
 L   moving links; ground is link number L, the last
 K   rows (constraints, or freedoms) of a system
@@ -8,7 +8,7 @@ A *row* is one scalar condition between two links i and j: its measure m(q), the
 multiplier, and the drift, the part of the second derivative of m that does not contain accelerations. Constraints keep
 their measure at a target; freedoms are the same thing left free, driven, damped or sprung (docs/theory.md 1).
 
-All arms (``ui``, ``uj``) are in link axes from the link's own reference point. Shapes: (K, d), or (design, 1, K, d).
+All arms (``ui``, ``uj``) are in link axes from the link's reference point. Shapes: (K, d), or (design, 1, K, d).
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from dalembert.arrays import Array, Flags, Index, Ints
 
 
 class Pose(NamedTuple):
-    """Where the links are, ground included as the last one.
+    """Pose of all links, ground last.
 
     point (..., L+1, d) reference points in ground axes. In the plane turn (..., L+1) are the links' angles, not reduced
     to one turn, and rotation (..., L+1, 2) their cosines and sines. In space rotation (..., L+1, 9) are matrices, and
-    turn (..., T) the relative angles of the rows that count whole turns, near enough to know them by.
+    turn (..., T) the relative angles of the rows that count whole turns, accurate enough to identify the turn.
     """
 
     point: Array
@@ -108,7 +108,7 @@ class Distance:
 
 @dataclass(frozen=True)
 class Perpendicular:
-    """In space: a direction of i and one of j at a right angle. Measure a . p; a pure couple along p x a."""
+    """In space: a direction of i perpendicular to one of j. Measure a . p; a pure couple along p x a."""
 
     row: Ints
     i: Ints
@@ -121,14 +121,14 @@ class Perpendicular:
 class Angle:
     """In space: angle of the direction p of j about the axis a of i, from b of i; a pure couple.
 
-    Measure atan2(p . (a x b), p . b), whole turns counted in ``turn`` of the pose at ``count``.
+    Measure atan2(p . (a x b), p . b), with whole turns counted in ``turn`` of the pose at ``count``.
     """
 
     row: Ints
     i: Ints
     j: Ints
     a: Array
-    b: Array  # (k, 3) at a right angle to a
+    b: Array  # (k, 3) perpendicular to a
     p: Array
     count: Ints
 
@@ -151,10 +151,10 @@ class Helix:
 
 @dataclass(frozen=True)
 class Idle:
-    """In space: spin of j about a direction p of its own, set to none.
+    """In space: spin of j about a direction p fixed in j, set to zero.
 
-    Its measure is 0 wherever it stands: the link stands as ``drawn``, turned by the least angle that points p right.
-    Where the line that it may spin about moves in the link (``stands`` is 0), it keeps the spin that it has.
+    Its measure is 0 in every pose: the link is in its ``drawn`` orientation, turned by the smallest angle that aligns
+    p. Where the line of spin moves in the link (``stands`` is 0), the link keeps its present spin.
     """
 
     row: Ints
@@ -171,7 +171,7 @@ class Gearing:
 
     e is the direction from a wheel's axis a to C, across a along
     way[0] (P_j - P_i) + way[1] a_other + way[2] a_i x a_j
-    (one of them, by whether the axes are parallel, meet, or pass each other); a radius is negative where e points away
+    (one of them, for parallel, intersecting, or skew axes); a radius is negative where e points away
     from C. The force of the teeth on j per unit of multiplier is n, across their trace in the tangent plane at C:
     n = cos(helix) a_i x e_i - sin(helix) (cone[0] a_i + cone[1] e_i). Measure ki psi_i - kj psi_j, with psi the angle
     of e in the wheel from its direction b, whole turns counted at ``count``, and k = r (a x e) . n.
@@ -205,7 +205,7 @@ Family = Meet | Along | Turn | Mesh | Distance | Perpendicular | Angle | Helix |
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """The rows of one system by family; ``count`` of them in all, each with the joint it belongs to."""
+    """The rows of one system by family; ``count`` is their number, ``joint`` the joint of each."""
 
     count: int
     links: int
@@ -215,13 +215,14 @@ class Rows:
 
     @cached_property
     def idle(self) -> Ints:
-        """Rows of spins set to none: what they carry, nothing carries."""
+        """Rows of spins set to zero; they carry no load."""
         found = [f.row for f in self.families if isinstance(f, Idle)]
         return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
 
     @cached_property
     def lots(self) -> list[tuple[bool, Ints]]:
-        """Rows of joints in lots, angular ones or not, none with two rows of a joint: a lot is summed at once."""
+        """Rows of joints in batches, angular ones or not, no two rows of a joint in one batch, so that a batch is
+        summed at once."""
         found = []
         for turns in (False, True):
             left = np.flatnonzero((self.joint >= 0) & (self.angular == turns))
@@ -301,7 +302,7 @@ def _concatenate(kind: type, group: list[Family]) -> Family:
 
 @dataclass(frozen=True)
 class Layout:
-    """A compiled mechanism: who touches whom.
+    """A compiled mechanism: the connections of its links.
 
     constraints, freedoms   the rows of A and of the joints' freedoms
     driven (D,)             the freedom each drive prescribes
@@ -317,14 +318,14 @@ class Layout:
     driven: Ints
     length: float
     redundant: bool
-    reference: Array = field(repr=False)  # (L+1, d) reference point of each link in its own axes
+    reference: Array = field(repr=False)  # (L+1, d) reference point of each link in its axes
     compliance: Array | None = field(repr=False, default=None)  # (K,) of each constraint, 0 where it is rigid
     solver: Callable[[Layout, System], Any] | None = field(
         repr=False, default=None
     )  # factors systems that are not made of numbers (the kernel's)
 
     def __getstate__(self) -> dict[str, Any]:
-        """A module cannot be pickled: the algebra goes by its name."""
+        """Pickles the algebra by its name, since a module cannot be pickled."""
         return {f.name: getattr(self, f.name) for f in fields(self)} | {"algebra": self.algebra.name}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -348,7 +349,7 @@ class Layout:
 
     @cached_property
     def counted(self) -> tuple[Angle | Helix | Gearing, ...]:
-        """Families of freedoms and constraints whose relative angles are counted in whole turns."""
+        """Families of freedoms and constraints that count whole turns of their relative angles."""
         families = (*self.freedoms.families, *self.constraints.families)
         return tuple(f for f in families if isinstance(f, Angle | Helix | Gearing))
 
@@ -375,5 +376,5 @@ class Layout:
 
     @property
     def square(self) -> bool:
-        """As many rows as unknowns, none repeated: J has a determinant."""
+        """True with as many rows as unknowns and no redundant row: J has a determinant."""
         return self.constraints.count + len(self.driven) == self.unknowns and not self.redundant

@@ -1,4 +1,4 @@
-"""Linear systems of a batch of positions: solved once factored, with A and its transpose, singular ones marked.
+"""Linear systems of a batch of positions: solved once factored, with A and its transpose; singular ones are flagged.
 
 J   rows (velocities of measures), (..., K, n L);  A = J transposed
 r, c scales of rows and columns that make J free of units: angles times the characteristic length
@@ -14,8 +14,8 @@ import numpy as np
 from dalembert.arrays import Array
 
 SINGULAR = 1e-6
-"""A position is singular below this reciprocal condition number (1-norm, scaled): there a rounding error of the pose,
-1e-16 / rcond, shows in the forces as 1e-16 / rcond**2, so what remains is good to about four digits at worst."""
+"""Reciprocal condition number (1-norm, scaled) below which a position is singular: a rounding error of the pose, 1e-16
+/ rcond, appears in the forces as 1e-16 / rcond**2, so that at worst about four digits remain correct."""
 
 
 class Factor(Protocol):
@@ -25,11 +25,11 @@ class Factor(Protocol):
     def rcond(self) -> Array: ...
 
     def motion(self, rates: Array) -> Array:
-        """Solve J v = rates."""
+        """Solution v of J v = rates."""
         ...
 
     def forces(self, wrench: Array) -> Array:
-        """Solve J^T x = wrench."""
+        """Solution x of J^T x = wrench."""
         ...
 
 
@@ -63,7 +63,7 @@ class Inverse:
 
 
 def inverse(j: Array, row: Array, column: Array) -> Inverse:
-    """Factor square systems J (..., m, m). A singular one gets NaN and rcond 0, alone."""
+    """Factors square systems J (..., m, m). Only the singular ones get NaN and rcond 0."""
     matrix = j * row[..., None] * column
     inv = inverses(matrix)
     with np.errstate(all="ignore"):
@@ -72,7 +72,7 @@ def inverse(j: Array, row: Array, column: Array) -> Inverse:
 
 
 def inverses(matrix: Array) -> Array:
-    """numpy's batched inverse raises when one matrix is singular; halve the batch until that one is alone."""
+    """Inverses of a batch. numpy raises when one matrix is singular, so the batch is halved until that one is alone."""
     try:
         return np.linalg.inv(matrix)
     except np.linalg.LinAlgError:
@@ -107,7 +107,7 @@ def solve_square(matrix: Array, right: Array) -> Array:
 class PseudoInverse:
     """Any shape and rank, by singular values: least-norm forces, least-squares motion.
 
-    ``null`` (..., K, K) projects on multipliers that load nothing: a row of zeros marks a unique one.
+    ``null`` (..., K, K) projects on multipliers that load nothing: a row of zeros belongs to a unique one.
     """
 
     pinv: Array
@@ -127,7 +127,8 @@ class PseudoInverse:
 def compliant(found: PseudoInverse, compliance: Array) -> Compliant:
     """The same system, its free multipliers x chosen so that the sum of compliance x^2 is least.
 
-    ``compliance`` (K,) is 0 where a multiplier belongs to something rigid. What it does not settle stays least-norm.
+    ``compliance`` (K,) is 0 where a multiplier belongs to something rigid. Multipliers that this leaves undetermined
+    stay least-norm.
     """
     weight = compliance * found.row**2
     largest = weight.max(initial=0.0)
@@ -142,7 +143,7 @@ def compliant(found: PseudoInverse, compliance: Array) -> Compliant:
 
 @dataclass(frozen=True)
 class Compliant(PseudoInverse):
-    """Multipliers by least energy; ``settled`` (..., K, K) takes what has to go from a least-norm solution."""
+    """Multipliers by least energy; ``settled`` (..., K, K) projects out the correction to a least-norm solution."""
 
     settled: Array
 
@@ -156,7 +157,7 @@ RANK = 1e-9
 
 
 def pseudo_inverse(j: Array, row: Array, column: Array, tolerance: float = RANK) -> PseudoInverse:
-    """Factor systems J (..., K, m) of any rank."""
+    """Factors systems J (..., K, m) of any rank."""
     matrix = j * row[..., None] * column
     bad = ~np.isfinite(matrix).all(axis=(-2, -1))
     u, s, vt = np.linalg.svd(np.where(bad[..., None, None], 0.0, matrix), full_matrices=False)

@@ -14,11 +14,11 @@ from dalembert.core.linear import SINGULAR, pseudo_inverse
 
 
 class Rank(NamedTuple):
-    """What the constraints leave free.
+    """Mobility and redundancy of the constraints.
 
-    freedoms: dimension of the motions they allow; redundant: constraints beyond their rank; repeated (K,) marks the
-    constraints that take part in a redundancy; loose (L,) the links and free (F,) the joint freedoms that still move
-    when all drives stand; fixed (D,) the drives that cannot move.
+    freedoms: dimension of the motions they allow; redundant: number of constraints beyond the rank; repeated (K,) flags
+    the constraints that take part in a redundancy; loose (L,) the links and free (F,) the joint freedoms that still
+    move with all drives at rest; fixed (D,) the drives that cannot move.
     """
 
     freedoms: int
@@ -34,13 +34,13 @@ def singular_below(layout: Layout) -> float:
 
 
 def is_rigid(layout: Layout, pose: Pose) -> bool:
-    """Constraints and drives leave no link free at this pose."""
+    """True if constraints and drives leave no link free at this pose."""
     rcond = factor(layout, stack_rows(layout, pose.at(None))).rcond[0]
     return bool(rcond > singular_below(layout))
 
 
 def well_driven(layout: Layout, pose: Pose) -> bool:
-    """Constraints and drives fix every link once, neither more nor less: the common case, asked cheaply."""
+    """True if constraints and drives fix every link exactly once: the common case, tested cheaply."""
     return layout.stack.count == layout.unknowns and is_rigid(layout, pose)
 
 

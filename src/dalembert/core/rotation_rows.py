@@ -1,4 +1,4 @@
-"""Rows in space that turn: directions held at a right angle, relative angles, screws, and the spin of a link.
+"""Rows in space that turn: perpendicular directions, relative angles, screws, and the spin of a link.
 
 w   angular velocity of j against i
 u, v  p . (a x b) and p . b: sine and cosine of a relative angle, times the length r of p across the axis
@@ -65,14 +65,14 @@ def _axes(g: Algebra, f: Angle | Helix, pose: Pose) -> _Axes:
 
 
 def angle(g: Algebra, f: Angle | Helix, pose: Pose) -> Array:
-    """The relative angle, whole turns as counted."""
+    """The relative angle, with whole turns as counted."""
     x = _axes(g, f, pose)
     raw = np.arctan2(g.dot(x.p, x.c), g.dot(x.p, x.b))
     return np.asarray(raw + 2 * np.pi * np.round((pose.turn[..., f.count] - raw) / (2 * np.pi)))
 
 
 def _angle_couple(g: Algebra, f: Angle | Helix, pose: Pose) -> Array:
-    """p x (v c - u b) / r^2: the axis itself where p stands across it."""
+    """p x (v c - u b) / r^2: the axis itself where p is perpendicular to it."""
     x = _axes(g, f, pose)
     u, v = g.dot(x.p, x.c), g.dot(x.p, x.b)
     across = v[..., None] * x.c - u[..., None] * x.b
@@ -143,7 +143,7 @@ def idle_drift(g: Algebra, f: Idle, pose: Pose, twist: Array) -> Array:
 
 
 def recount_turns(layout: Layout, pose: Pose) -> Pose:
-    """The pose with its relative angles counted anew from near ones, and links that could spin as they are drawn."""
+    """The pose with its relative angles recounted from near ones, and links that could spin as they are drawn."""
     g = layout.algebra
     for f in layout.constraints.families:
         if isinstance(f, Idle):
@@ -156,7 +156,7 @@ def recount_turns(layout: Layout, pose: Pose) -> Pose:
 
 
 def counted_turns(layout: Layout, pose: Pose) -> Array:
-    """The relative angles (..., T) of a pose counted anew from near ones."""
+    """The relative angles (..., T) of a pose, recounted from near ones."""
     g, turn = layout.algebra, pose.turn.copy()
     for f in layout.counted:
         turn[..., f.count] = gear_rows.angles(g, f, pose) if isinstance(f, Gearing) else angle(g, f, pose)

@@ -11,7 +11,7 @@ from dalembert.kernel.graph import Graph, Node, is_zero
 
 
 def gradients(graph: Graph, outputs: Sequence[Node], inputs: Sequence[Node]) -> list[list[Node]]:
-    """d output / d input, one list an output."""
+    """d output / d input, one list per output."""
     if 1.5 * len(outputs) <= len(inputs):
         return [_reverse(graph, node, inputs) for node in outputs]
     return _forward(graph, outputs, inputs)

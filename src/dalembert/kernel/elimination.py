@@ -1,10 +1,10 @@
 """Elimination of traced systems by structure: A and its transpose from one set of factors.
 
 Pivots are the entries that are exactly 1 or -1 first (the force balances: no growth, no division), least fill first.
-What remains falls into blocks, each two-link group one block of 2 x 2 whose determinant is the sine of its
-transmission angle; larger blocks are eliminated entry by entry, with pivots chosen on sampled values. Where rows repeat
-each other, the part with more rows than columns is a block of least squares: none of its rows is left out, so it is
-singular only where the mechanism is.
+The remainder splits into blocks; each two-link group is a 2 x 2 block whose determinant is the sine of its transmission
+angle. Larger blocks are eliminated entry by entry, with pivots chosen at sampled values. Where rows are dependent, the
+part with more rows than columns is a least-squares block that keeps all its rows, so it is singular only where the
+mechanism is.
 
 Mechanics: docs/theory.md 8.
 """
@@ -27,7 +27,7 @@ Matrix = list[list[Scalar]]
 
 @dataclass
 class Step:
-    """Pivot block: rows, columns, its inverse, what stands right of it and below it."""
+    """Pivot block: rows, columns, its inverse, and the blocks to its right and below it."""
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
@@ -58,7 +58,7 @@ class LeastSquares:
     factors: Structural
 
     def motion(self, right: list[Scalar]) -> list[Scalar]:
-        """Solve S v = right, and once more for what is left."""
+        """Solution of S v = right, with one step of refinement."""
         first = self._fit(right)
         left = [
             b - _dot(row.values(), [first[c] for c in row]) for row, b in zip(self.rows, right, strict=True)
@@ -73,7 +73,7 @@ class LeastSquares:
         return list(self.factors.motion(np.array(sums, object)))
 
     def forces(self, right: list[Scalar]) -> list[Scalar]:
-        """Solve S^T x = right."""
+        """Solution of S^T x = right."""
         y = self.factors.forces(np.array(right, object))
         return [
             weight * _dot(row.values(), [y[c] for c in row])
@@ -98,7 +98,7 @@ class Structural:
         return np.array(1.0)
 
     def motion(self, rates: Array) -> Array:
-        """Solve J v = rates."""
+        """Solution of J v = rates."""
         b, v = list(rates), np.full(self.size, 0.0, object)
         kept = []
         for step in self.steps:
@@ -115,7 +115,7 @@ class Structural:
         return v
 
     def forces(self, wrench: Array) -> Array:
-        """Solve J^T x = wrench."""
+        """Solution of J^T x = wrench."""
         c, x = list(wrench), np.full(self.count, 0.0, object)
         kept = []
         for step in self.steps:
@@ -160,7 +160,7 @@ def _transpose(matrix: Matrix) -> Matrix:
 
 
 def structural(graph: Graph, rows: list[Row], size: int, scale: Array | None = None) -> Structural:
-    """Factor a system given by its rows {column: entry}, some of which may repeat others if ``scale`` (K,) makes them
+    """Factors a system given by its rows {column: entry}, some of which may repeat others if ``scale`` (K,) makes them
     comparable; raises ValueError where its structure is singular."""
     if len(rows) != size and (scale is None or len(rows) < size):
         raise ValueError(f"{len(rows)} equations for {size} unknowns")
@@ -193,7 +193,7 @@ class _Work:
         while least:
             fill, r = heappop(least)
             found = best[r] if r in self.rows else None
-            if found is None or found[0] != fill:  # of before: another row was taken out since
+            if found is None or found[0] != fill:  # outdated: another row was removed since
                 continue
             _, c, sign = found
             near = set().union(*(self.columns[other] for other in self.rows[r])) - {r}
@@ -215,7 +215,7 @@ class _Work:
         return best
 
     def repeated_rows(self, scale: Array) -> None:
-        """Take out the part that has more rows than columns (Dulmage and Mendelsohn, 1958), and empty rows."""
+        """Removes the part that has more rows than columns (Dulmage and Mendelsohn, 1958), and empty rows."""
         self.rows = {r: row for r, row in self.rows.items() if row}
         match = maximum_matching({r: set(row) for r, row in self.rows.items()})
         owner = {c: r for r, c in match.items()}
@@ -240,7 +240,7 @@ class _Work:
         self.eliminate(tuple(found), tuple(columns), LeastSquares(block, weights, factors))
 
     def diagonal_pivots(self) -> None:
-        """Those of a positive system, least fill first."""
+        """Diagonal pivots of a positive definite system, least fill first."""
         while self.rows:
             r = min(self.rows, key=lambda row: len(self.rows[row]))
             self.block([r], [r])
@@ -248,7 +248,7 @@ class _Work:
     def eliminate(
         self, rows: tuple[int, ...], columns: tuple[int, ...], inverse: Matrix | LeastSquares
     ) -> None:
-        """Take a pivot block out: Schur complement of the rest."""
+        """Eliminates a pivot block: the remainder is its Schur complement."""
         taken = [self.rows.pop(r) for r in rows]
         right = [{c: x for c, x in row.items() if c not in columns} for row in taken]
         for r, row in zip(rows, taken, strict=True):
@@ -293,7 +293,7 @@ class _Work:
             self.large(rows, columns)
 
     def large(self, rows: list[int], columns: list[int]) -> None:
-        """One scalar pivot after another: of those sampled large enough everywhere, the one of least fill."""
+        """One scalar pivot after another: among those sampled large enough everywhere, the one with least fill."""
         left_rows, left_columns = set(rows), set(columns)
         while left_rows:
             if len(left_rows) == 2:
@@ -355,7 +355,7 @@ def maximum_matching(wants: dict[int, set[int]]) -> dict[int, int]:
 
 
 def components(graph: dict[int, set[int]]) -> list[list[int]]:
-    """Strongly connected parts, those that need nothing else first."""
+    """Strongly connected components, those that depend on nothing else first."""
     names = list(graph)
     place = {name: k for k, name in enumerate(names)}
     found = strong_components([[place[other] for other in sorted(graph[name])] for name in names])

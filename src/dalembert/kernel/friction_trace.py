@@ -45,25 +45,25 @@ from dalembert.kernel.jam_proof import jams, lever
 from dalembert.kernel.program import Marks
 
 FEWEST, MOST = 3, 7
-"""Newton's steps."""
+"""Least and largest number of Newton's steps."""
 
 ENOUGH = 1e-4
-"""Change of a force in a step, relative to the largest, after which one more is taken: everywhere in the file's own
-motion. A kink costs other designs a step: it is worth its time, as one that the general executor redoes costs
-thousands of positions."""
+"""Change of a force in a step, relative to the largest, that requires one more step, checked over the file's motion. A
+kink costs other designs a step; it pays, as each one that the general executor redoes costs as much as thousands of
+positions."""
 
 LAST = 1e-7
-"""Largest change of the last step in any design: what it leaves is its square."""
+"""Largest change of the last step in any design: the remaining error is its square."""
 
 CARRIES = 1e-8
-"""A contact that carries more than this part of the largest force surely carries something."""
+"""Fraction of the largest force above which a contact is surely loaded."""
 
 POWER = 12
 """Power of the fixed point's matrix whose norm bounds its spectral radius."""
 
 
 class Slip(NamedTuple):
-    """What the contacts act along, their senses and rates, the response to c z, and c z (E,)."""
+    """Rows that the contacts act along, their senses and rates, the response to c z, and c z (E,)."""
 
     along: System
     state: SlipState
@@ -73,8 +73,8 @@ class Slip(NamedTuple):
 
 @dataclass(frozen=True)
 class FrictionTrace:
-    """Multipliers x, total wrenches w, friction's and damping's force (joints, 2) and moment (joints,) on j; and where
-    they are in doubt, at rest, jammed, or turn the power of the unknowns round; ``slip``: each contact's."""
+    """Multipliers x, total wrenches w, friction's and damping's force (joints, 2) and moment (joints,) on j; and flags
+    for doubt, rest, jams, and reversed power of the unknowns; ``slip`` of each contact."""
 
     x: Array
     total: Array
@@ -97,12 +97,11 @@ def trace_friction(
     side: Node | None = None,
     given: Array | None = None,
 ) -> FrictionTrace:
-    """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none.
+    """Multipliers with friction; ``still``: wrenches on the links without inertia, None if the same.
 
-    ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too, and
-    ``reversals`` has the sense of contacts that reverse there, else 0.
-    ``side``: -1 just before reversals, 1 just after.
-    ``given``: c z of each contact, whatever its law; then there are no verdicts either.
+    ``slips``: z of each contact where the solution is known; then no verdicts are computed, as they are known too, and
+    ``reversals`` has the sense of contacts that reverse, else 0. ``side``: -1 just before reversals, 1 just after.
+    ``given``: c z of each contact, whatever its law; then no verdicts are computed either.
     """
     contacts = _trace_contacts(graph, contacts)
     twist = trace_array(graph, moving.twist)  # without motion they are numbers
@@ -126,7 +125,7 @@ def trace_friction(
     unknown = layout.constraints.count < len(x) and slips is None
 
     def turning(problem: Response, x: Array, w: Array) -> Node:
-        bare = problem.x  # what keeps teeth apart has no power: their centres keep their distance
+        bare = problem.x  # separating forces of teeth have no power: the centres keep their distance
         flag: Node = -trace_array(graph, power_reversed(layout, s.unknown, moving.twist, w, x, bare)).item()
         return flag
 
@@ -153,7 +152,7 @@ def trace_friction(
 def _at_side(
     layout: Layout, contacts: Contacts, along: System, pose: Pose, moving: Motion, now: SlipState, side: Node
 ) -> SlipState:
-    """Senses just before or just after; open where the second rates do not tell them either."""
+    """Senses just before or just after; open where the second rates do not determine them either."""
     found = crossing(layout, contacts, along, pose, moving, now, np.ones(contacts.count, bool))
     sense = where(np.array(side.positive(), object), found.after, found.before)
     unknown = ~found.here & ~found.slow
@@ -171,7 +170,8 @@ def _nonzero(*nodes: Node) -> tuple[Node, ...]:
 
 
 def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[tuple[Node, ...], ...]:
-    """Below zero where a contact without a rate surely carries something, and where such contacts may carry nothing."""
+    """Nodes that are negative where a contact without a rate is surely loaded, and where such contacts may
+    be unloaded."""
     carries = above(np.abs(bears), CARRIES * largest)
     rest, idle = (
         trace_array(graph, (open_ & carries).sum()).item(),
@@ -183,8 +183,8 @@ def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[
 def trace_slip(
     graph: Graph, contacts: Contacts, r: Response, sense: Array, slips: Array | None = None
 ) -> tuple[Array, Array, Marks]:
-    """z and S of each contact (E,) for known senses, from the response with H after z, and where they are in doubt or
-    jam; ``slips`` are z where it is known."""
+    """z and S of each contact (E,) for known senses, from the response with H after z, and flags for doubt and jams;
+    ``slips`` are z where it is known."""
     count, largest = contacts.count, trace_array(graph, top(np.abs(r.y), 2))
     z, bears = trace_array(graph, np.zeros(count)), trace_array(graph, np.zeros(count))
     acts = [b for b in range(count) if not is_zero(sense[b])]
@@ -229,7 +229,8 @@ def _varying(nodes: list[Node]) -> tuple[Node, ...]:
 
 
 def _contraction(graph: Graph, bound: Array, sense: Array) -> tuple[Node, Node]:
-    """Above zero where the fixed point is surely a contraction: then it is the only one, at any smaller scale too.
+    """Positive where the fixed-point map is proved to be a contraction: then its solution is unique, at any smaller
+    scale too.
 
     First by the sums of the rows of its matrix, without signs, then by those of a power of it.
     """
@@ -251,11 +252,9 @@ def _newton(
     sure: Node,
     known: Array | None,
 ) -> tuple[Array, Array, Node]:
-    """z and S of one block, and what is below zero where the last step is not small.
-
-    The steps start from no friction; from what is known only the last one is taken, and has to be felt little: a
-    contact without strength may not be known. All but the last are constants to
-    derivatives: it carries them exactly.
+    """z and S of one block, and nodes that are negative where the last step is not small. The steps start from no
+    friction; from a known solution only the last step is taken, and it must be small: the solution may be unknown for a
+    contact without strength. All but the last are constants to derivatives: it carries them exactly.
     """
     detached: Any = np.frompyfunc(graph.without_gradient, 1, 1)
     fixed, scale, z = detached(r.h), np.asarray(detached(largest)), known
@@ -282,7 +281,7 @@ def _newton(
 
 
 def _small(graph: Graph, change: Array, scale: Array, sure: Node) -> bool:
-    """Whether a change is small everywhere in the file's own motion."""
+    """True if a change is small everywhere in the file's motion."""
     found = graph.evaluate([change.item(), scale.item(), sure], {})
     size, force, single = np.broadcast_arrays(*found)
     with np.errstate(all="ignore"):

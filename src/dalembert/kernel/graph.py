@@ -1,8 +1,7 @@
-"""Scalars that remember how they came about: what the core computes with when it is traced.
+"""Scalars that record the operations behind them; the core computes with them when it is traced.
 
-Every operation is entered once (equal operations are one node), constants fold, and what is exactly zero stays a
-constant, so the sparsity of A survives by itself. numpy arrays of such scalars (``dtype=object``) run through the
-core unchanged.
+Every operation is entered once (equal operations are one node), constants fold, and exact zeros stay constants, so the
+sparsity of A is preserved. numpy arrays of such scalars (``dtype=object``) run through the core unchanged.
 """
 
 from __future__ import annotations
@@ -19,12 +18,12 @@ from dalembert.kernel.operations import EVALUATE, not_negative
 
 INPUTS = ("number", "common", "channel")
 CONSTANT, DESIGN, POSITION = 0, 1, 2
-"""What a node depends on, as bits: nothing, the design's numbers, the position of the drives."""
+"""Bits for the dependence of a node: constant, the design's numbers, the position of the drives."""
 
 
 def _comparison(compare: Callable[[float, float], bool]) -> Callable[[Node, Scalar], bool]:
     def decided(self: Node, other: Scalar) -> bool:
-        """The answer, remembered with what is below zero where other numbers would give another one."""
+        """The decision, recorded with nodes that are negative where other numbers would reverse it."""
         answer = compare(self._decision(), other._decision() if type(other) is Node else float(other))
         margin = self - other if answer == (compare in (operator.gt, operator.ge)) else other - self
         if margin.level != CONSTANT:
@@ -38,7 +37,7 @@ def _operation(
     name: str, neutral: int, absorbing: int | None = None
 ) -> Callable[[Node, Scalar | Array], Node]:
     def of(self: Node, other: Scalar | Array) -> Node:
-        """What the graph makes of two values; numpy takes an array apart."""
+        """The node of an operation on two values; numpy applies it to arrays element by element."""
         if type(other) is not Node:
             if isinstance(other, np.ndarray):
                 return NotImplemented  # type: ignore[no-any-return]
@@ -54,7 +53,7 @@ def _operation(
 
 
 class Node:
-    """One operation. ``value`` is the number of a constant, or the place of an input."""
+    """One operation. ``value`` is the number of a constant, or the index of an input."""
 
     __slots__ = ("a", "b", "graph", "index", "level", "op", "value")
 
@@ -112,14 +111,14 @@ class Node:
         return self.graph.unary("sign", self)
 
     def positive(self) -> Node:
-        """1 where above zero, else 0."""
+        """1 where positive, else 0."""
         return self.graph.unary("positive", self)
 
     def larger(self, other: Scalar) -> Node:
         return self.graph.binary("max", self, other if type(other) is Node else self.graph.constant(other))
 
     def __and__(self, other: Scalar | Array) -> Node:
-        """Both of two flags, which are 0 or 1."""
+        """Logical and of two flags, which are 0 or 1."""
         if isinstance(other, np.ndarray):
             return NotImplemented
         return self * (other if type(other) is Node else float(other))
@@ -138,7 +137,7 @@ class Node:
         return self
 
     def _decision(self) -> float:
-        """Decisions of structure (which wheel is larger) are taken at the file's own numbers."""
+        """Sampled value for decisions on structure (which wheel is larger), taken at the file's numbers."""
         if self.level & POSITION:
             raise TypeError(f"a traced value that changes along the motion has no truth: {self!r}")
         return float(self.graph.evaluate([self], {})[0])
@@ -147,12 +146,12 @@ class Node:
     __le__, __ge__ = _comparison(operator.le), _comparison(operator.ge)
 
     def __bool__(self) -> bool:
-        """Not zero whatever the numbers."""
+        """True if not identically zero."""
         return self.op != "const" or self.value != 0
 
     def __float__(self) -> float:
         if self.op != "const":
-            raise TypeError("a traced value is no number")
+            raise TypeError("a traced value is not a number")
         return float(self.value)
 
     __hash__ = object.__hash__
@@ -287,7 +286,7 @@ class Graph:
         return self.make("neg", a)
 
     def assume_equal(self, node: object, same: object) -> None:
-        """From now on the operation that made ``node`` gives ``same``, which is equal to it by what is known."""
+        """Makes later uses of the operation of ``node`` give ``same``, which is known to be equal."""
         if type(node) is Node and node.a is not None and type(same) is Node and node is not same:
             key = (node.op, node.a.index) if node.b is None else (node.op, node.a.index, node.b.index)
             self.table[key] = same
@@ -318,7 +317,7 @@ class Graph:
         return a if a.level == CONSTANT else self.make("detach", a)
 
     def substitute(self, outputs: Iterable[Node], places: Mapping[int, Node]) -> list[Node]:
-        """The outputs with other nodes in the places of some (by their index)."""
+        """The outputs with some nodes replaced by others (by their index)."""
         outputs = list(outputs)
         done = dict(places)
         for node in self.order(outputs, places):
@@ -330,7 +329,7 @@ class Graph:
         return [done[node.index] for node in outputs]
 
     def again(self, op: str, a: Node, b: Node | None) -> Node:
-        """An operation by its name, folded where it can be."""
+        """A new operation by its name, folded where possible."""
         if b is not None:
             two = {"add": self.add, "sub": self.sub, "mul": self.mul}
             return two[op](a, b) if op in two else self.binary(op, a, b)
@@ -357,7 +356,7 @@ class Graph:
                 done[node.index] = EVALUATE[node.op](*args)
 
     def order(self, outputs: Iterable[Node], known: Mapping[int, Numeric] | None = None) -> list[Node]:
-        """Every node the outputs need, arguments first; those known already left out."""
+        """Every node that the outputs need, arguments first, without those already known."""
         needed: dict[int, Node] = {}
         known = known or {}
         stack = list(outputs)
@@ -373,7 +372,7 @@ class Graph:
 
 
 def is_zero(x: Scalar) -> bool:
-    """Exactly zero, whatever the design and the position."""
+    """True if identically zero, for every design and position."""
     return x.op == "const" and x.value == 0 if type(x) is Node else x == 0
 
 

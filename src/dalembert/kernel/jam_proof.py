@@ -1,13 +1,13 @@
-"""A certificate that friction jams, as Farkas' lemma gives one: weights that show the equations to have no solution.
+"""A certificate of jamming by Farkas' lemma: weights that prove the equations unsolvable.
 
 Friction of known senses z = -s S has S = S(y0 + K S) >= 0 with K = -H s. S(y) >= e . y for every slope e of S, so any
-weights w >= 0 ask of a solution
+weights w >= 0 require of a solution
 
     sum_a w_a e_a . y0_a + sum_b d_b S_b <= 0    with d_b = sum_a w_a e_a . K_ab - w_b
 
-Where no d_b is negative and the first sum is above zero there is none. What is negative is first taken to the other
-contacts by S_b <= |y0_b| + sum_c |K_bc| S_c. Slopes and weights are those along which friction would grow without end:
-S and w after a few multiplications by K and its transpose. Whatever they are, what they prove is proved.
+Where no d_b is negative and the first sum is positive, no solution exists. A negative d_b is first transferred to the
+other contacts by S_b <= |y0_b| + sum_c |K_bc| S_c. Slopes and weights are those along which friction would grow without
+bound: S and w after a few multiplications by K and its transpose. The proof is valid for any choice of them.
 
 Mechanics: docs/theory.md 6.3.
 """
@@ -28,10 +28,10 @@ TIMES = 3
 """Multiplications by K and by its transpose; twelve prove hardly more."""
 
 MARGIN = 1e-9
-"""By how much a sum has to be above zero, relative to its terms."""
+"""Margin by which a sum must be positive, relative to its terms."""
 
 LEAST = 1e-30
-"""In place of 1 - |K_bb| where that is not above zero."""
+"""Replacement for 1 - |K_bb| where that is not positive."""
 
 
 def lever(h: Array, ball: Flags) -> Array:
@@ -48,7 +48,7 @@ def _length(a: Array, b: Array) -> Array:
 
 
 def jams(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Node:
-    """Below zero where a block of contacts surely has no solution; from the response with H after z."""
+    """Negative where a block of contacts is proved to have no solution; from the response with H after z."""
     contacts, y0, k = _without_signed(graph, contacts, r.y, -r.h * sense)
     s: Array = trace_array(graph, np.ones(y0.shape[1]))
     for _ in range(TIMES):
@@ -62,7 +62,7 @@ def jams(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Node:
 
 
 def _without_signed(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tuple[Contacts, Array, Array]:
-    """Without the contacts whose S has a sign: S = y of them is linear, and is put in its place."""
+    """The problem without the contacts whose S has a sign: their S = y is linear and is substituted."""
     signed = contacts.signed
     y, k = trace_array(graph, y), trace_array(graph, k)
     for a in np.flatnonzero(signed):
@@ -78,8 +78,8 @@ def _without_signed(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tup
 
 
 def _prove(graph: Graph, w: Array, pulled: Array, loads: Array, size: Array, bound: Array) -> Node:
-    """Below zero where the inequality of the weights has no solution. What is no number proves nothing: the larger of
-    zero and that is none either."""
+    """Negative where the inequality of the weights has no solution. NaN proves nothing: the maximum of zero and NaN is
+    NaN."""
     zero = trace_array(graph, np.zeros(len(w)))
     d = trace_array(graph, pulled - (1 + MARGIN) * w)
     own = np.diag(bound)

@@ -1,4 +1,4 @@
-"""Memory of results: it begins at a line of the cache, that of large ones is used again, and how much there is."""
+"""Memory of results: aligned with cache lines, reused if large, and limited by the available memory."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from dalembert.arrays import Array
 LINE = 64
 """Bytes of a line of the cache."""
 FRESH = 1 << 17
-"""Bytes of a result from which its memory comes from the system page by page."""
+"""Bytes of a result above which its memory comes from the system page by page."""
 LARGE = 1 << 22
-"""Bytes of a result that no cache holds."""
+"""Bytes of a result that does not fit into any cache."""
 KEPT = 1 << 28
-"""Most bytes that wait for the next results."""
+"""Largest number of bytes kept for the next results."""
 
 
 class _Pages:
-    """Memory of a result. When nobody holds that any more it waits for the next one of about its size: to get fresh
-    pages takes three times as long as to compute what stands in them."""
+    """Memory of a result. When released, it is kept for the next result of about its size: getting fresh pages takes
+    three times as long as computing their contents."""
 
     waiting: ClassVar[dict[int, Array]] = {}
 
@@ -42,8 +42,8 @@ class _Pages:
 
 
 def result_array(shape: tuple[int, ...]) -> tuple[Array, bool]:
-    """An array whose values do not matter, beginning at a line of the cache: a register's worth stored across two
-    takes twice as long. And whether it is large and its pages have been used before."""
+    """An uninitialized array, aligned with a cache line: a register stored across two lines takes twice as long; and a
+    flag for large arrays whose pages have been used before."""
     count = math.prod(shape)
     size, again = count + LINE // 8, False
     if 8 * count < FRESH:
@@ -56,12 +56,12 @@ def result_array(shape: tuple[int, ...]) -> tuple[Array, bool]:
 
 
 def aligned_array(shape: tuple[int, ...]) -> Array:
-    """An array whose values do not matter, beginning at a line of the cache."""
+    """An uninitialized array, aligned with a cache line."""
     return result_array(shape)[0]
 
 
 def address(array: Any) -> int:
-    """Where an array begins."""
+    """Address of an array's first byte."""
     try:  # several times as fast
         return ctypes.addressof(ctypes.c_char.from_buffer(array))
     except (TypeError, ValueError):  # not to be written to, or empty
@@ -70,8 +70,8 @@ def address(array: Any) -> int:
 
 
 def available() -> float:
-    """Bytes that a result may take: what is free or can be freed, on Linux, within a container's limit; elsewhere all
-    there are, infinite where the system does not say."""
+    """Bytes that a result may take: free or reclaimable memory, on Linux, within a container's limit; elsewhere the
+    total, infinite where the system does not report it."""
     found = math.inf
     with suppress(AttributeError, ValueError, OSError):  # not on Windows; not every system knows the names
         found = float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
@@ -84,7 +84,7 @@ def available() -> float:
 
 
 def _read(path: str, name: str = "") -> dict[str, int]:
-    """Numbers by name of a file of lines; of one number alone by the name given."""
+    """Numbers by name in a file of lines; a single number gets the given name."""
     try:
         with open(path, encoding="ascii") as file:
             rows = [f"{name} {line}".split() for line in file]

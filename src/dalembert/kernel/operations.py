@@ -1,4 +1,4 @@
-"""What each operation of a trace computes, with numpy."""
+"""Operations of a trace, evaluated with numpy."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ EVALUATE: dict[str, Callable[..., Numeric]] = {
 
 
 def not_negative(x: Any, depth: int = 4) -> bool:
-    """Surely not below zero, unless no number; no more than some operations are looked at."""
+    """True if surely not negative, unless NaN; examines a limited number of operations."""
     if x.op == "mul" and x.a is x.b:
         return True
     if x.op == "max" and depth:

@@ -1,4 +1,4 @@
-"""Running a machine over many designs: in parts, on several threads, with progress, and stopping when asked to."""
+"""Running a machine over many designs: in parts, on several threads, with progress and interruption."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from dalembert.kernel.memory import aligned_array
 Progress = Callable[[int, int], object]
 
 Store = Callable[[slice, Array], object]
-"""Takes the results of some of the designs."""
+"""Receiver of the results of some of the designs."""
 
 WORK = 400_000
-"""Positions of one part: about two milliseconds, long against a call, short against a person's patience."""
+"""Positions of one part: about two milliseconds, long compared with a call, short for a user."""
 LEAST = 40_000
-"""Positions below which a part is not worth its call."""
+"""Positions below which a separate part does not pay."""
 
 
 def part_size(count: int, positions: int, threads: int | None) -> int:
@@ -34,8 +34,8 @@ def part_size(count: int, positions: int, threads: int | None) -> int:
 
 
 def path_array(columns: Array, common: Array, lanes: int, weighted: bool) -> tuple[Array, int]:
-    """Channels (P, C) in blocks, with a last one that is 0 beyond the last position, and the common inputs behind
-    them; and the number of blocks."""
+    """Channels (P, C) in blocks, the last one padded with 0, followed by the common inputs; and the number of
+    blocks."""
     count = len(columns)
     blocks = -(-count // lanes)
     out = to_blocks(columns, lanes).reshape(blocks, columns.shape[1], lanes)
@@ -48,7 +48,7 @@ def path_array(columns: Array, common: Array, lanes: int, weighted: bool) -> tup
 
 
 def row_length(blocks: int, lanes: int) -> int:
-    """Numbers from one output to the next in the results of a grid: an odd number of vectors."""
+    """Numbers between the results of consecutive outputs of a grid: an odd number of vectors."""
     return (blocks | 1) * lanes
 
 
@@ -66,8 +66,8 @@ def run_grid(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> None:
-    """Fill ``into`` and ``code`` (design, ...), design by design over all blocks of positions. In place of an array the
-    shape of one design's results and what takes them: then they pass through the cache, a few designs at a time."""
+    """Fills ``into`` and ``code`` (design, ...), design by design over all blocks of positions. ``into`` may also be
+    the shape of one design's results and their receiver: they then pass through the cache, a few designs at a time."""
     data, blocks = path
 
     def run(which: slice, out: Array) -> None:
@@ -88,7 +88,7 @@ def run_grid(
 
 
 PAIR = 16
-"""What a pair costs in positions of a grid: its numbers and its results are put in order around the call."""
+"""Cost of a pair in positions of a grid: its numbers and results are reordered around the call."""
 
 
 def run_pairs(
@@ -101,7 +101,7 @@ def run_pairs(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> None:
-    """Fill ``out`` (pair, output) and ``code`` (pair,) from values (pair, number) and channels (pair, channel)."""
+    """Fills ``out`` (pair, output) and ``code`` (pair,) from values (pair, number) and channels (pair, channel)."""
     lanes = machine.lanes
 
     def part(which: slice) -> None:
@@ -155,8 +155,8 @@ def run_designs(
 def in_parts(
     part: Callable[[slice], None], count: int, step: int, threads: int | None, progress: Progress | None
 ) -> None:
-    """Call ``part`` on slices of ``count`` things, here and on other threads, and ``progress`` here; an interruption
-    or an error leaves after the parts under way."""
+    """Calls ``part`` on slices of ``count`` items, in this thread and in others, and ``progress`` in this thread; on an
+    interruption or an error it returns after the parts under way."""
     if 0 < count <= step:
         part(slice(0, count))
         if progress is not None:

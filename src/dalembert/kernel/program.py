@@ -1,4 +1,4 @@
-"""A traced analysis as a list of instructions: what is computed once a design, what at every position."""
+"""A traced analysis as a list of instructions: those computed once per design, and those at every position."""
 
 from __future__ import annotations
 
@@ -9,31 +9,31 @@ from functools import cached_property
 from dalembert.kernel.graph import CONSTANT, INPUTS, POSITION, Graph, Node
 
 SLOW = {"inv": 6, "rsqrt": 7, "sqrt": 8, "sin": 15, "cos": 15, "atan2": 30, "neg": 0, "detach": 0}
-"""How long operations take that are no addition or product, in additions."""
+"""Cost of operations other than additions and products, in additions."""
 
 SMALL = 2000
-"""Operations below which the results of two registers side by side still find room in the first cache."""
+"""Operations below which the results of two registers side by side still fit into the first-level cache."""
 ABREAST = 8
-"""Operations that could be under way at once, below which two registers side by side are faster than one: the waiting
-of one fills the other. Two units with four cycles each ask for eight."""
+"""Number of independent operations below which two registers side by side are faster than one: one computes while the
+other waits. Two units with a latency of four cycles each need eight."""
 STORED = 32
-"""Outputs beyond which there must be PER_STORE operations for each, or two registers side by side take up to a quarter
-longer: it is the stores that are waited for then."""
+"""Outputs beyond which each needs PER_STORE operations; otherwise two registers side by side take up to a quarter
+longer, since stores then limit the speed."""
 PER_STORE = 12
 
 CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "slope": 12}
-"""The mark of a position, the first of these that applies, else 0; of many positions the first too."""
+"""Status code of a position: the first of these that applies, else 0; of many positions the first too."""
 
 
 @dataclass(frozen=True)
 class Marks:
-    """Nodes that say whether the outputs are right, each below zero where it has something to say.
+    """Nodes that decide whether the outputs are valid, each negative where it applies.
 
-    open: the linkage does not close. doubt (below zero, or no number): the general executor decides. rest: friction
-    has no rate to tell its sense. Elsewhere ``slips``, as doubt, and so where both ``unsure`` and ``sure`` are, but for
-    ``jam``, which is asked there: it surely jams. turned: friction turns the power of the unknowns round; there
-    ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
-    slope (below zero, or no number): the outputs are right, but some derivative has no value.
+    open: the linkage does not close. doubt (negative or NaN): the general executor decides. rest: no rate gives
+    friction its sense. Elsewhere ``slips`` acts as doubt, and so do ``unsure`` and ``sure`` where both are negative,
+    unless ``jam`` is negative there: then the position is proved jammed. turned: friction reverses the power of the
+    unknowns; there ``still`` acts as doubt, and ``locked``: the reversal occurs without inertia too. Without
+    ``locked``, turned is enough. slope (negative or NaN): the outputs are right, but some derivative does not exist.
     """
 
     open: tuple[Node, ...] = ()
@@ -50,17 +50,17 @@ class Marks:
 
     @property
     def always(self) -> list[Node]:
-        """Those asked at every position."""
+        """Flags evaluated at every position."""
         return [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned, *self.slope]
 
     @property
     def seldom(self) -> list[Node]:
-        """Those asked only where something is unsure, or power turned round."""
+        """Flags evaluated only where something is unsure, or power is reversed."""
         return [*self.sure, *self.still, *self.locked]
 
     @property
     def names(self) -> list[str]:
-        """Marks that can occur, the first counts."""
+        """Flags that can occur; the first takes precedence."""
         there: dict[str, Sequence[Node]] = {
             "open": self.open,
             "doubt": [*self.doubt, *self.slips, *self.sure, *self.still],
@@ -74,7 +74,7 @@ class Marks:
 
 @dataclass(frozen=True)
 class Program:
-    """Outputs as nodes of a graph, and the marks that say whether they are right."""
+    """Outputs as nodes of a graph, and the flags that decide whether they are valid."""
 
     graph: Graph
     outputs: tuple[Node, ...]
@@ -98,7 +98,7 @@ class Program:
 
     @cached_property
     def seldom(self) -> list[Node]:
-        """Operations of the marks that are seldom asked."""
+        """Operations of the rarely evaluated flags."""
         return self._beyond(self.marks.seldom, self.position)
 
     @cached_property
@@ -107,7 +107,7 @@ class Program:
         return self._beyond(self.marks.jam, [*self.position, *self.seldom])
 
     def _beyond(self, nodes: Sequence[Node], done: list[Node]) -> list[Node]:
-        """Operations of every position that some nodes need besides those done."""
+        """Operations of every position that some nodes need in addition to those done."""
         known = {n.index for n in done}
         needed = self.graph.order(nodes)
         return [n for n in needed if n.a is not None and n.level & POSITION and n.index not in known]
@@ -123,7 +123,7 @@ class Program:
 
     @cached_property
     def places(self) -> dict[int, int]:
-        """Where each input stands: numbers in the order of the values, the others packed."""
+        """Index of each input: numbers in the order of the values, the others packed."""
         packed = {
             n.index: k for kind in ("channel", "common") for k, n in enumerate(self.inputs_in_use(kind))
         }
@@ -136,7 +136,7 @@ class Program:
 
     @property
     def depth(self) -> int:
-        """Operations one after the other on the longest way to a result, inverses and roots counted as several."""
+        """Operations on the longest dependent chain to a result, inverses and roots counted as several."""
         ends: dict[int, int] = {}
         for n in self.position:
             before = max(ends.get(x.index, 0) for x in (n.a, n.b) if x is not None)
@@ -145,11 +145,11 @@ class Program:
 
     @property
     def size(self) -> int:
-        """Scalar operations a position."""
+        """Scalar operations per position."""
         return sum(1 for n in self.position if n.op not in ("neg", "detach"))
 
     @property
     def waits(self) -> bool:
-        """Whether a program in one register would wait for its own results."""
+        """True if a program in one register would wait for its results."""
         size, stores = self.size, len(self.outputs)
         return size < min(SMALL, ABREAST * self.depth) and (stores <= STORED or size > PER_STORE * stores)

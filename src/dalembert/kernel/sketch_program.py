@@ -1,7 +1,7 @@
-"""The joints of a mechanism as a program of the poses: what each constraint misses, and its derivatives.
+"""The joints of a mechanism as a program of the poses: the residual of each constraint, and its derivatives.
 
-The core's own rows run once on nodes with the poses as inputs, so that whoever holds the program can close a linkage
-and follow its motion without any mechanics of its own. Poses are those of the links' own axes, in ground axes.
+The core's rows are run once on nodes with the poses as inputs, so that a user of the program can close a linkage and
+follow its motion without code for mechanics. Poses are those of the links' local axes, in ground axes.
 
 Mechanics: docs/theory.md 1, 8.
 """
@@ -65,8 +65,9 @@ def pose_inputs(graph: Graph, layout: Layout, like: Layout, known: Pose) -> Pose
 
 @dataclass(frozen=True)
 class SketchRow:
-    """A row: what it misses is its hold less ``value``; the hold is 0 of a constraint, of a ``phase`` what it was when
-    the wheels met, of a freedom what is asked. ``period``: by whole multiples of it the measure may differ."""
+    """A row: its residual is its target minus ``value``. The target is 0 for a constraint, the value at which the
+    wheels met for a ``phase``, and the requested value for a freedom. ``period``: the measure is defined up to integer
+    multiples of it."""
 
     kind: str  # "constraint" | "phase" | "freedom"
     joint: int
@@ -82,7 +83,7 @@ class Sketch:
     """Rows, the entries (row, column, output) of the Jacobian that are not always zero, and outputs as nodes.
 
     Column n k + c is component c of link k's displacement: of the origin of its axes, then its turn. ``turns``: outputs
-    that count the relative turns anew, in space.
+    that recount the relative turns, in space.
     """
 
     rows: list[SketchRow] = field(default_factory=list)
@@ -91,7 +92,7 @@ class Sketch:
     outputs: list[Node] = field(default_factory=list)
 
     def output(self, graph: Graph, x: object) -> int:
-        """The place of a number or node among the outputs."""
+        """Index of a number or node among the outputs."""
         self.outputs.append(trace_array(graph, x).item())
         return len(self.outputs) - 1
 
@@ -133,14 +134,14 @@ def _add_rows(
 
 
 def _periods(rows: Rows) -> Iterator[tuple[int, object]]:
-    """What a whole turn of the line of centres adds to the measure of a mesh."""
+    """Change of the measure of a mesh over a full turn of the line of centres."""
     for f in rows.families:
         if isinstance(f, Mesh):
             yield from ((int(row), 2 * np.pi * (f.ri[k] + f.rj[k])) for k, row in enumerate(f.row))
 
 
 def _entries(graph: Graph, layout: Layout, rows: Rows, pose: Pose) -> list[list[tuple[int, Node]]]:
-    """Of each row the columns and entries that are not always zero: wrenches about the origins of the links' axes."""
+    """For each row the columns and entries that are not always zero: wrenches about the origins of the links' axes."""
     g, found = layout.algebra, list[list[tuple[int, Node]]]([] for _ in range(rows.count))
     arms = g.rotate(pose.rotation, trace_array(graph, layout.reference))
     for links, on in zip(rows.ends, wrenches(g, rows, pose), strict=True):

@@ -44,7 +44,7 @@ from dalembert.kernel.position.unrolled_newton import solver
 from dalembert.kernel.program import Marks
 
 PASSES = 40
-"""Most repetitions for tooth forces that push centres which may move."""
+"""Largest number of repetitions for tooth forces that push movable centres."""
 
 
 @dataclass(frozen=True)
@@ -61,11 +61,11 @@ class Drives:
 @dataclass(frozen=True)
 class Problem:
     """A compiled mechanism whose numbers are nodes; ``like`` is the same with the file's numbers, ``like_target`` its
-    stacked targets at the first position. Where there are ``slips`` the known motion is the solution, and they are the
-    friction of each contact in it (``reversals`` its sense where that reverses): then one step of Newton is left, which
-    carries the derivatives. ``margins`` are, by
-    freedom, how far the turns of springs may be from the known motion's for the same count of whole turns. ``moves``:
-    the drives go on from where the known motion is, and friction of each contact is an input, not yet known."""
+    stacked targets at the first position. With ``slips``, the friction of each contact, the known motion is the
+    solution (``reversals`` is the sense of a contact where it reverses); one step of Newton remains, which carries the
+    derivatives. ``margins`` are, by freedom, the differences between the turns of springs and those of the known motion
+    within which the count of whole turns is the same. ``moves``: the drives move on from the known motion, and the
+    friction of each contact is an input, not yet known."""
 
     graph: Graph
     layout: Layout
@@ -85,22 +85,22 @@ class Problem:
     slips: Array | None
     reversals: Array | None
     margins: dict[int, Node]
-    at_pose: Callable[[Forcing, Pose], Forcing] | None = None  # of loads that go by the pose
+    at_pose: Callable[[Forcing, Pose], Forcing] | None = None  # of loads that depend on the pose
     moves: bool = False
     side: Node | None = None  # -1 just before reversals, 1 just after
     redundant: bool = False  # some rows repeat others
     whole: bool = False  # and where closed forms need a choice of these, Newton's steps take all
-    phased: bool = False  # the phases of wheels stand in the target
+    phased: bool = False  # the phases of wheels are in the target
 
 
 @dataclass(frozen=True)
 class Traced:
-    """Everything that can be asked for, as nodes: arrays as in a ``Result`` without the position axis.
+    """All possible outputs as nodes: arrays as in a ``Result`` without the position axis.
 
-    closure: those doubts that are squares of what vanishes at a dead centre, or its fourth powers where constraints
-    repeat each other. unbalanced and loads (L, n): what is left
-    of all wrenches on a link, and those that are no reactions; virtual (D, L+1, n) twists at unit speed of each drive,
-    power (D,) of loads and efforts there. sources: wrenches of loads by kind, one by one, `asked` the unknown ones.
+    closure: the doubts that are squares of quantities that vanish at a dead centre, or fourth powers where constraints
+    are redundant. unbalanced and loads (L, n): the residual of all wrenches on a link, and the sum of those that are
+    not reactions; virtual (D, L+1, n) twists at unit speed of each drive, power (D,) of loads and efforts there.
+    sources: wrenches of loads by kind, one by one, `asked` the unknown ones.
     """
 
     pose: Pose
@@ -208,7 +208,7 @@ def _trace_equilibrium(
     factors: Factor,
     sources: dict[str, Source],
 ) -> tuple[Statement, FrictionTrace]:
-    """What is asked of the equilibrium, and its multipliers, with friction where there is any."""
+    """Equilibrium system, and its multipliers, with friction where contacts have any."""
 
     def statement_of(*kinds: str) -> Statement:
         loads = total_wrench(layout, *(sources[kind] for kind in kinds))
@@ -249,7 +249,7 @@ def _trace_pose(
 
 
 def _closed(p: Problem, layout: Layout, pose: Pose, target: Array) -> Node:
-    """Below zero where some constraint is not met: those that repeat others may have been left out."""
+    """Nodes that are negative where some constraint is not met: redundant ones may have been left out."""
     rest = replace(layout, driven=np.zeros(0, np.intp))
     off = np.delete(gap(rest, pose, trace_array(p.graph, target)), layout.constraints.idle)
     margin: Node = (CLOSED * layout.length) ** 2 - (off * off).sum()
@@ -265,8 +265,8 @@ def _sin(angle: Scalar) -> Scalar:
 
 
 def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
-    """Targets of meshes and rolling wheels: their measures at the first position, of each design its own; and what
-    is negative where wheels do not meet there."""
+    """Targets of meshes and rolling wheels, their measures at the first position of each design; and nodes that are
+    negative where wheels do not meet."""
     rows = phase_rows(layout.constraints)
     if not rows.size or p.phased:
         return p.target, []
@@ -289,12 +289,12 @@ def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
 
 
 def _apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
-    """Wheels in mesh stand at the sum of their pitch radii, and the first position must be right itself."""
+    """Conditions that meshing wheels are at the sum of their pitch radii and that the first position is valid."""
     return [n for n in (*first.doubt, *first.open) if n.level != CONSTANT] + _centres_apart(p, layout, first)
 
 
 def _centres_apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
-    """Below zero where the distance of two centres is not the sum of the pitch radii."""
+    """Negative where the distance of two centres is not the sum of the pitch radii."""
     out: list[Node] = []
     for f in fc.meshes(layout):
         line = span(layout.algebra, f, first.pose)
@@ -306,7 +306,7 @@ def _centres_apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
 
 
 MESH = 1e-3
-"""Relative error of a centre distance that a mesh forgives, as the general executor has it."""
+"""Relative error of a centre distance that a mesh tolerates, as in the general executor."""
 
 
 def _multipliers(p: Problem, layout: Layout, pose: Pose, s: Statement) -> tuple[Array, Array]:
@@ -333,11 +333,11 @@ def _largest(graph: Graph, array: Array) -> Node:
 
 
 NEAR = 1e-5
-"""Square of a pivot over its size in the file's own motion, below which a position is left to the general executor."""
+"""Squared pivot over its size in the file's motion below which a position is left to the general executor."""
 
 
 def _singular(p: Problem, *factors: object) -> list[Node]:
-    """Below zero near where the system is singular; known solutions are not."""
+    """Nodes that are negative near a singular configuration; known solutions are exempt."""
     if p.slips is not None:
         return []
     pivots = [x for f in {id(f): f for f in factors}.values() for x in _pivots(f)]
@@ -350,7 +350,8 @@ def _singular(p: Problem, *factors: object) -> list[Node]:
 
 
 def _turn_count_doubt(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
-    """Below zero where a design turns a spring so far from the known motion that its whole turns may be others."""
+    """Nodes that are negative where a design turns a spring so far from the known motion that its whole turns may
+    differ."""
     if p.slips is not None or not p.margins:
         return []
     if layout.algebra.d == 2:
@@ -369,11 +370,11 @@ def _turn_count_doubt(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
 
 HELD = 1e-7
 """Couple about a line that nothing holds a link about, over its length and the largest load, above which the general
-executor says whether it is none."""
+executor decides whether it is zero."""
 
 
 def _unheld(graph: Graph, layout: Layout, spins: Array, w: Array) -> list[Node]:
-    """Below zero where loads turn a link about the line of its two ball joints, which nothing holds."""
+    """Nodes that are negative where loads turn a link about the line of its two ball joints, which nothing holds."""
     if not spins.size:
         return []
     size = HELD * layout.length * _largest(graph, trace_array(graph, w * layout.wrench_scale))
@@ -381,7 +382,7 @@ def _unheld(graph: Graph, layout: Layout, spins: Array, w: Array) -> list[Node]:
 
 
 def _short(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
-    """Not positive where a spring or damper whose direction matters has length zero."""
+    """Not positive where a spring or damper whose direction matters has zero length."""
     springs = p.forcing.springs
     nodes = trace_array(p.graph, fc.away(layout, springs, pose))[fc.needs_direction(springs)]
     return [n for n in nodes if n.level != CONSTANT]

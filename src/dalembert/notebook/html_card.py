@@ -17,9 +17,9 @@ from dalembert.views.formats.themes import BACKGROUND, THEMES
 from dalembert.views.paper.scene import Scene
 
 ROWS, COLUMNS, LETTERS = 24, 16, 400
-"""Largest table and longest sentence that are shown whole."""
+"""Largest table and longest sentence that are shown in full."""
 LARGEST_DRAWING = 150_000
-"""Characters of an SVG; a larger one is left to `draw`."""
+"""Largest number of characters of an SVG; a larger one is left to `draw`."""
 
 STYLE = (
     ".da-card{max-width:64em;line-height:1.4}.da-card p{margin:.3em 0}.da-card .da-title{font-weight:bold}"
@@ -37,7 +37,7 @@ SYSTEM = ':root:not([data-theme="light"]) body:not([data-jp-theme-light="true"],
 
 
 def card(title: str, *parts: Part | Scene | Callable[[], Scene]) -> str:
-    """A title and what stands under it: sentences, tables, a drawing or a function that makes one.
+    """A title and its content: sentences, tables, a drawing or a function that makes one.
 
     >>> "<b>" in card("<b>", "one sentence")
     False
@@ -60,7 +60,7 @@ def _cut(text: str) -> str:
 
 
 def _table(t: Table) -> str:
-    """Its first rows and the last; of very many columns the first."""
+    """First rows of a table and the last one; if it has very many columns, the first ones."""
     rows = list(t.rows)
     if len(rows) > ROWS:
         rows = [*rows[: ROWS - 5], ["..."] * len(t.heads), *rows[-4:]]
@@ -82,7 +82,7 @@ def _row(kind: str, cells: Sequence[str], left: int) -> str:
 
 
 def _drawing(made: Scene | Callable[[], Scene]) -> str:
-    """The drawing; or the sentence why there is none."""
+    """The drawing, or the sentence why it does not exist."""
     try:
         scene = made if isinstance(made, Scene) else made()
     except DalembertError as error:

@@ -1,4 +1,4 @@
-"""What a notebook shows of each thing: tables with units, what became of the positions, a drawing."""
+"""Notebook displays: tables with units, the status of the positions, a drawing."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from dalembert.wrench import System
 
 MOST_DRAWN = 60
-"""Links of a mechanism that is drawn beside its tables; a larger one is drawn when asked."""
+"""Links of a mechanism that is drawn beside its tables; a larger one is drawn on request."""
 MOST_POSITIONS = 2000
 """Positions along which a card's drawing traces points."""
 MOST_SAID = 8
-"""Problems of a sweep that are said one by one."""
+"""Problems of a sweep that are listed individually."""
 
 
 def result_html(r: Result) -> str:
@@ -92,14 +92,14 @@ def first_pose(m: Mechanism, positions: AtPositions = None) -> Scene:
 
 
 def kernel_html(k: Kernel) -> str:
-    """The numbers that vary with their values in the description, the outputs, what is asked of them."""
+    """The varied numbers with their values in the description, the outputs, and the requests for them."""
     numbers = Table(
         ["number", "as described, SI"], [[p, number(v)] for p, v in zip(k.numbers, k.nominal, strict=True)]
     )
     about = [
         f"positions: {len(k.trace.course.schedule.position)}",
         "with inertia" if k.trace.inertia else "static",
-        f"reduced over them: {k.reduce}" if k.reduce else "every position answered",
+        f"reduced over them: {k.reduce}" if k.reduce else "values at every position",
         *(["exact derivatives"] if k.derivatives else []),
         f"{k.lanes} values side by side",
     ]
@@ -140,7 +140,7 @@ def _cells(vector: Array) -> list[str]:
 
 
 def sweep_html(s: Sweep) -> str:
-    """A row a design: what was varied, the positions solved, the largest size of each quantity over the positions."""
+    """One row per design: varied numbers, solved positions, largest magnitude of each quantity over the positions."""
     named = [name for name, a in s.answers.arrays.items() if a.ndim - len(s.shape) < 3]
     peaks = {name: s.over(name).reshape(-1) for name in named}
     most = {s.kinds[name]: 0.0 for name in named}

@@ -36,7 +36,7 @@ class Curves(NamedTuple):
     title: str
 
     def draw(self, ax: Any = None) -> Any:
-        """A Scene; on axes of matplotlib these axes. Where there is no value the curve has a gap."""
+        """Draws a Scene, or on given axes of matplotlib and returns them. Curves have gaps where values are missing."""
         if ax is None:
             return curves_scene(self.x, self.series, self.x_label, self.y_label, self.title, self.angle)
         for name, curve in self.series.items():
@@ -65,14 +65,14 @@ def plot(r: Result, names: Sequence[str], ax: Any, against: str | None, notation
         scenes = [one.draw() for one in curves]
         return scenes[0] if len(scenes) == 1 else stack_scenes(scenes, title=r.mechanism.title, width=0.0)
     if len(curves) > 1:
-        raise ModelError(f"{' and '.join(panels)} have no unit in common", "give each axes of its own")
+        raise ModelError(f"{' and '.join(panels)} have different units", "give each separate axes")
     return curves[0].draw(ax)
 
 
 def _against(r: Result, name: str, shown: Shown) -> tuple[Array, str, bool]:
     kind, values = quantity(r, name)
     if values.ndim > 1:
-        raise ModelError(f"{name} is no single number to plot against", f"name a component: {name}.x")
+        raise ModelError(f"{name} is not a single number to plot against", f"name a component: {name}.x")
     stepped = stepped_series(r, methodcaller("__getitem__", name))
     unit = shown.unit(kind)
     return stepped * shown.value(kind, 1.0), f"{name} in {unit}", unit == "°"
@@ -85,11 +85,11 @@ def label(kind: str, unit: str) -> str:
 
 
 def _parts(name: str, values: Array) -> dict[str, Array]:
-    """Curves of a number, or of a vector's components and its size."""
+    """Curves of a number, or of a vector's components and its magnitude."""
     if values.ndim == 1:
         return {name: values}
     if values.ndim > 2:
-        raise ModelError(f"{name} is a matrix and no curve", "plot angles or speeds")
+        raise ModelError(f"{name} is a matrix, not a curve", "plot angles or speeds")
     parts = dict(zip("xyz", values.T, strict=False)) | {"magnitude": np.linalg.norm(values, axis=-1)}
     return {f"{name}.{part}": curve for part, curve in parts.items()}
 
@@ -106,7 +106,7 @@ def polar(r: Result, joints: Sequence[str], axes: Axes, ax: Any, notation: Notat
     refuse_still(r, "a polar diagram")
     for joint in joints:
         if joint not in r.joints:
-            raise ModelError(f"there is no joint {joint!r}", closest(joint, list(r.joints)))
+            raise ModelError(f"unknown joint {joint!r}", closest(joint, list(r.joints)))
     chosen = list(joints) or [j for j in r.joints if r.mechanism.joints[j].hinge][:6]
     if ax is None:
         return polar_chart(r, chosen, axes, notation)
@@ -125,13 +125,14 @@ def polar(r: Result, joints: Sequence[str], axes: Axes, ax: Any, notation: Notat
 
 
 MOST_CURVES = 6
-"""Curves of one plot: as many as have a line of their own."""
+"""Curves of one plot: as many as have distinct line styles."""
 REDUCED = ("peak", "mean", "rms", "norm8")
 """Reductions over the positions that are one number."""
 
 
 def plot_sweep(s: Sweep, name: str, reduce: str | None, ax: Any) -> Any:
-    """Curves over the cycle, some of many designs; or a reduction against the values of the first path."""
+    """Curves over the cycle, for some designs if there are many; or a reduction against the values of the
+    first path."""
     if reduce not in (None, *REDUCED):
         raise ModelError(f"no curve is drawn of {reduce!r}", f"there are: {', '.join(REDUCED)}")
     shown, kind = Shown(s.nominal, Notation()), s.kinds.get(name, "")
@@ -147,7 +148,7 @@ def plot_sweep(s: Sweep, name: str, reduce: str | None, ax: Any) -> Any:
 
 
 def _over_cycle(s: Sweep, name: str) -> tuple[Array, list[str]]:
-    """A curve and a name for each design; of a vector its size."""
+    """A curve and a name for each design; for a vector its magnitude."""
     values = s[name]
     values = np.linalg.norm(values, axis=-1) if values.ndim > len(s.shape) + 1 else values
     return values.reshape(-1, values.shape[-1]), [", ".join(of) for of in s.designs]
@@ -161,7 +162,7 @@ def _over_values(s: Sweep, name: str, reduce: str) -> tuple[Array, list[str]]:
 
 
 def _positions(s: Sweep, shown: Shown) -> tuple[Array, str, bool]:
-    """The first drive where it has the same positions in every design, else their numbers."""
+    """Positions of the first drive if they are the same in every design, else their numbers."""
     drives = s.answers.drives.reshape(-1, *s.answers.drives.shape[-2:])
     if (drives == drives[0]).all():
         return along(s.nominal.before, shown)
@@ -169,7 +170,7 @@ def _positions(s: Sweep, shown: Shown) -> tuple[Array, str, bool]:
 
 
 def _values(s: Sweep, shown: Shown) -> tuple[Array, str, bool]:
-    """The values of the first path in the reader's unit; their numbers where they are texts."""
+    """Values of the first path in the reader's unit, or their numbers where they are texts."""
     path, of = s.paths[0], s.labels[s.paths[0]]
     if not all(isinstance(v, float) for v in of.values):
         return np.arange(1.0, len(of.values) + 1), path, False

@@ -1,4 +1,4 @@
-"""Aims and conditions in words, `peak effort.O2` and `transmission.B >= 33 deg`, for many designs at once."""
+"""Aims and conditions as texts, `peak effort.O2` and `transmission.B >= 33 deg`, for many designs at once."""
 
 from __future__ import annotations
 
@@ -18,45 +18,46 @@ from dalembert.optimization.optimizers import DEFAULT
 from dalembert.wording import closest
 
 WORDS = ("peak", "mean", "rms", "norm8")
-"""What is made of a quantity over the cycle: its largest magnitude, its mean, root mean square, a smooth peak."""
+"""Reductions of a quantity over the cycle: its largest magnitude, its mean, root mean square, a smooth peak."""
 
 WEIGHT = 100.0
-"""Of the mean square of a broken condition, over its usual size, against the aim over its value before."""
+"""Weight of the mean square of a violated condition, over its usual size, relative to the aim over its
+initial value."""
 
 
 class Aim(NamedTuple):
-    """What is to be least: a reduction of an expression of outputs."""
+    """Objective to minimize: a reduction of an expression of outputs."""
 
     word: str
     of: str
 
 
 class Condition(NamedTuple):
-    """What has to hold at every position: an expression, not negative where it does."""
+    """Constraint at every position: an expression that must not be negative."""
 
     text: str
     margin: str
 
 
 def parse_aim(text: str) -> Aim:
-    """An aim from its words; without one of them the peak is meant.
+    """An aim from its text; without a word for the reduction, the peak is meant.
 
     >>> parse_aim("rms shaking_force.x"), parse_aim("effort.O2").word
     (Aim(word='rms', of='shaking_force.x'), 'peak')
     """
     word, of = _first_word(text)
     if not of:
-        raise ModelError(f"{text!r} names nothing that could be least", "write one like peak effort.O2")
+        raise ModelError(f"{text!r} is not an aim", "write one like peak effort.O2")
     return Aim(word or "peak", of)
 
 
 def _first_word(text: str) -> tuple[str, str]:
-    """The word of ``WORDS`` that a text begins with, empty where it has none, and the expression behind it."""
+    """The word of ``WORDS`` at the beginning of a text, empty if none, and the expression after it."""
     word, _, rest = text.strip().partition(" ")
     if word in WORDS:
         return word, rest.strip()
     if re.fullmatch(r"[a-z]\w*", word) and re.match(r"[a-z]+\.", rest.strip()):
-        raise ModelError(f"{text!r} begins with {word!r}, which is no aim", closest(word, list(WORDS)))
+        raise ModelError(f"{text!r} begins with {word!r}, which is not an aim", closest(word, list(WORDS)))
     return "", text.strip()
 
 
@@ -71,12 +72,12 @@ def parse_condition(text: str) -> Condition:
     parts = re.split(r"\s*(>=|<=|>|<|=)\s*", text.strip())
     if len(parts) != 3 or parts[1] == "=" or not (parts[0] and parts[2]):
         raise ModelError(
-            f"{text!r} is no condition", "write one with a single >= or <=, like transmission.B >= 33 deg"
+            f"{text!r} is not a condition", "write one with a single >= or <=, like transmission.B >= 33 deg"
         )
     left, sign, right = parts
     big, small = map(_first_word, (left, right) if sign[0] == ">" else (right, left))
     if big[0] == "peak":
-        raise ModelError(f"{text!r} bounds a peak from below", "bound it from above, or leave peak out")
+        raise ModelError(f"{text!r}: a peak can only have an upper bound", "use <=, or leave peak out")
     word = next((word for word, _ in (big, small) if word not in ("", "peak")), "")
     if word:
         raise ModelError(
@@ -87,14 +88,15 @@ def parse_condition(text: str) -> Condition:
 
 
 class Value(NamedTuple):
-    """Of many designs the aim over its value before with its gradient, and what broken conditions add to both."""
+    """Aim of many designs over its initial value with its gradient, and the penalties of violated
+    conditions on both."""
 
     value: Array  # (design,), infinite where there is no answer
     slope: Array  # (design, number)
 
 
 class Rows(NamedTuple):
-    """Of one design the aim's quantity (P,) and margins (condition, P), with their gradients in a last axis."""
+    """Aim's quantity (P,) and margins (condition, P) of one design, with their gradients in a last axis."""
 
     aim: Array
     aim_slope: Array
@@ -104,7 +106,7 @@ class Rows(NamedTuple):
 
 @dataclass(frozen=True)
 class Problem:
-    """An aim and conditions of a mechanism over numbers in a box; its designs are places u in the unit box."""
+    """An aim and conditions of a mechanism over numbers in a box; its designs are points u of the unit box."""
 
     mechanism: Mechanism
     vary: tuple[str, ...]
@@ -118,14 +120,14 @@ class Problem:
     requested: AtPositions = None
 
     def check(self) -> None:
-        """Raise ModelError, with the key that it is about, where the aim or a condition is none of this mechanism."""
+        """Raises ModelError, with its key, where the aim or a condition is not valid for this mechanism."""
         with errors_at("least"):
             rates = self.smooth.rates[self.aim.of]
             if len(rates) > 1:
                 raise ModelError(f"{self.aim.of} is a vector", f"write {self.aim.of}.x or .magnitude")
             if all(rate is rate.graph.zero for rate in rates[0]):
-                what = f"{self.aim.of} is the same whatever the numbers that vary"
-                raise ModelError(what, "let others vary, or name another output")
+                what = f"{self.aim.of} does not depend on the varied numbers"
+                raise ModelError(what, "vary others, or name another output")
         for k, condition in enumerate(self.conditions):
             with errors_at("where", k):
                 self.smooth.trace.catalogue.nodes(condition.margin)
@@ -135,17 +137,17 @@ class Problem:
 
     @cached_property
     def smooth(self) -> Kernel:
-        """The aim, of a peak its smooth stand-in."""
+        """Kernel of the aim, with a peak replaced by a smooth approximation."""
         return self.kernel([self.aim.of], "norm8" if self.aim.word == "peak" else self.aim.word)
 
     @cached_property
     def broken(self) -> Kernel:
-        """Mean squares of what conditions lack."""
+        """Mean squares of the violations of conditions."""
         return self.kernel([f"max(0, -({c.margin}))^2" for c in self.conditions], "mean")
 
     @cached_property
     def rows(self) -> Kernel:
-        """Everything at every position."""
+        """All quantities at every position."""
         return self.kernel(list(dict.fromkeys([self.aim.of, *self.margins])), None)
 
     @property
@@ -158,7 +160,7 @@ class Problem:
 
     @cached_property
     def nominal(self) -> Array:
-        """The description's own numbers as a place, in the box."""
+        """Numbers of the description as a point of the unit box."""
         wide = np.where(self.span > 0, self.span, 1.0)
         return np.clip((self.smooth.nominal - self.low) / wide, 0.0, 1.0)
 
@@ -167,18 +169,18 @@ class Problem:
 
     @cached_property
     def scale(self) -> float:
-        """Usual size of the aim's quantity: its root mean square, of the description's own numbers."""
+        """Usual size of the aim's quantity: its root mean square at the description's numbers."""
         found = self.at(self.nominal).aim
         return (float(np.sqrt(np.nanmean(found**2))) or 1.0) if np.isfinite(found).any() else 1.0
 
     @cached_property
     def sizes(self) -> Array:
-        """Usual size of each margin, of the description's own numbers."""
+        """Usual size of each margin, at the description's numbers."""
         found = self.at(self.nominal).margin
         return np.array([np.nanmax(np.abs(m), initial=0.0) or 1.0 for m in found])
 
     def __call__(self, u: Array) -> Value:
-        """The aim and what broken conditions cost, of many places (design, number)."""
+        """The aim and the penalties of violated conditions, for many points (design, number)."""
         values = self.numbers(u)
         r = self.smooth(values, self.positions, redo=False)
         value, slope = r.value(self.aim.of) / self.scale, r.gradient(self.aim.of) / self.scale
@@ -192,7 +194,7 @@ class Problem:
         return Value(np.where(ok, value, np.inf), np.where(ok[:, None], slope, 0.0))
 
     def at(self, u: Array) -> Rows:
-        """Every position of one place; NaN where there is no answer."""
+        """Quantity and margins at every position of one design; NaN where unsolved."""
         r = self.rows(self.numbers(u[None]), self.positions, threads=1)
         margin = [r.value(m)[0] for m in self.margins]
         slope = [r.gradient(m)[0] * self.span for m in self.margins]
@@ -205,7 +207,7 @@ class Problem:
         )
 
     def sharp(self, u: Array) -> tuple[float, Array]:
-        """The aim itself of one place, with the gradient of where a peak stands; infinite where there is none."""
+        """Exact aim of one design, with the gradient at the position of its peak; infinite where unsolved."""
         from dalembert.analysis.batch.over_positions import reduce_positions, slope
 
         rows = self.at(u)

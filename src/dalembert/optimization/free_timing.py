@@ -1,7 +1,7 @@
-"""Targets that a mechanism passes in their order, wherever its drive stands then: its positions are unknown too.
+"""Targets that a mechanism passes in order at unknown positions of its drive.
 
-They are numbers beside the others in one problem of least squares, each moved by less than half of what parts it from
-the next, so that the order stays; they begin where a design comes nearest to the targets (dynamic programming).
+The positions join the other numbers in one least-squares problem. Each moves by less than half its distance to the
+next, so that the order is kept; they start where a design is nearest to the targets (dynamic programming).
 
 Mechanics: docs/theory.md 11.
 """
@@ -24,33 +24,35 @@ from dalembert.optimization.least_squares import Errors, Misfit, wanted
 
 TURN = 2 * np.pi
 STATIONS = 72
-"""Positions at which designs are tried, and have to close; or six to a target where that is more."""
+"""Positions at which designs are tried, and must close; or six per target if that is more."""
 NEARER = 0.45
-"""Part of the way to the next target's position that a position may move at once."""
+"""Fraction of the distance to the next target's position that a position may move in one step."""
 FIRST = 12
-"""Of the stations nearest to the first target, how many are tried for it where the drive goes round."""
+"""Number of the stations nearest to the first target that are tried for it where the drive turns fully."""
 BLOCK = 1000
-"""Designs that are timed at once."""
+"""Number of designs timed at once."""
 
 
 @dataclass(frozen=True)
 class FreeTiming(Misfit):
-    """A misfit whose places have behind the numbers the drive's positions, increasing along ``sense``."""
+    """A least-squares problem whose unknowns include the drive's positions, after the numbers, increasing along
+    ``sense``."""
 
     own: OwnPositions
     sense: float
     whole: bool
-    """Whether the drive goes round, so that after the last target the first one follows."""
+    """True if the drive turns fully, so that the first target follows the last one."""
 
     @classmethod
     def of(
         cls, k: Kernel, low: Array, span: Array, targets: Mapping[str, ArrayLike], given: ArrayLike | None
     ) -> FreeTiming:
-        """Of targets between the first and the last of some positions, default the file's or a turn."""
+        """Timing of targets between the first and last of the given positions; default: those of the file,
+        or a turn."""
         m, drives = k.mechanism, k.trace.course.schedule.names
         if len(drives) != 1:
             raise ModelError(
-                f"timing is free of one drive, and there are {len(drives)}", 'give timing="given"'
+                f"free timing needs one drive, and the mechanism has {len(drives)}", 'give timing="given"'
             )
         q = m.schedule(over_a_turn(m)).position if given is None else drive_values(m, given)
         q = k.course(q).schedule.position[:, 0]
@@ -85,7 +87,8 @@ class FreeTiming(Misfit):
         return np.hstack([u, np.concatenate([self._timing(block) for block in blocks])])
 
     def _timing(self, u: Array) -> Array:
-        """Where designs come nearest to the targets, one after the other (design, P), along the sense."""
+        """Positions where designs are nearest to the targets, one after the other (design, P), in the sense of the
+        drive."""
         r, count = self._at(u, self.positions), len(self.own.stations)
         value = np.concatenate([r.value(n).reshape(len(u), count, -1) for n in self.kernel.outputs], axis=2)
         cost = (((value[:, None] - self.target[:, None]) / self.spread[:, None]) ** 2).sum(axis=3)
@@ -121,7 +124,7 @@ class FreeTiming(Misfit):
 
 
 def _in_order(cost: Array) -> tuple[Array, Ints]:
-    """Least sums (design,) of costs (design, P, S), and the stations (design, P), each behind the one before.
+    """Least sums (design,) of costs (design, P, S), and the stations (design, P), each after the previous one.
 
     Bellman's dynamic programming: the least sum up to a target at a station follows from those of the target before.
     """

@@ -20,15 +20,16 @@ from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 
 STEPS = 100
-"""Most iterations."""
+"""Largest number of iterations."""
 SMALLEST = 1e-13
 """A gain below this part of the error, and a damping of the step above its inverse, end a start."""
 BETWEEN = 8
-"""Parts of the way between two positions at whose ends a design has to close."""
+"""Subdivisions of the step between two positions at whose ends a design has to close."""
 
 
 def wanted(k: Kernel, targets: Mapping[str, ArrayLike], count: int | None) -> tuple[Array, Array]:
-    """Targets (P, component) side by side, and the spread of each; as many as of the first where no count is given."""
+    """Targets (P, component) side by side, and the spread of each; as many as for the first one if no count is
+    given."""
     columns, spreads = list[Array](), list[Array]()
     for name, given in targets.items():
         value, width = checked(f"targets of {name}", given), len(k.nodes[name])
@@ -47,7 +48,7 @@ def wanted(k: Kernel, targets: Mapping[str, ArrayLike], count: int | None) -> tu
 
 
 class Errors(NamedTuple):
-    """Of many places: half the sum of squares, infinite where there is no answer; errors; their derivatives."""
+    """Half the sum of squares of many designs, infinite where unsolved; their errors; the derivatives of these."""
 
     cost: Array
     error: Array
@@ -56,7 +57,7 @@ class Errors(NamedTuple):
 
 @dataclass(frozen=True)
 class Misfit:
-    """Errors over the spread of the targets, as a function of places in the unit box."""
+    """Errors over the spread of the targets, as a function of points in the unit box."""
 
     kernel: Kernel
     low: Array
@@ -73,7 +74,7 @@ class Misfit:
         return self.errors(value, slope * self.span)
 
     def errors(self, value: Array, slope: Array) -> Errors:
-        """Of outputs (design, P, component) and their derivatives by what is sought in a last axis."""
+        """Errors of outputs (design, P, component), with derivatives by the unknowns in a last axis."""
         error, slope = (value - self.target) / self.spread, slope / self.spread[..., None]
         error, slope = error.reshape(len(error), -1), slope.reshape(len(error), -1, slope.shape[-1])
         ok: Flags = np.asarray(np.isfinite(error).all(axis=1) & np.isfinite(slope).all(axis=(1, 2)))
@@ -84,15 +85,15 @@ class Misfit:
         return self.kernel(self.low + x[:, : len(self.low)] * self.span, positions, redo=False)
 
     def answers(self, u: Array) -> Flags:
-        """Which places serve as starts."""
+        """True for points that can serve as starts."""
         return np.isfinite(self(u).cost)
 
     def begin(self, u: Array) -> Array:
-        """What is sought, from places in the box."""
+        """Unknowns of points in the box."""
         return u
 
     def held(self, x: Array, down: Array) -> Flags:
-        """What stands at a bound that the slope ``down`` pushes against."""
+        """True for unknowns at a bound that the slope ``down`` pushes against."""
         return np.asarray(((x <= 0) & (down > 0)) | ((x >= 1) & (down < 0)))
 
     def moved(self, x: Array, step: Array) -> Array:
@@ -104,10 +105,10 @@ class Misfit:
         return self.positions
 
     def moves(self, x: Array) -> Flags:
-        """Which designs close between the positions too."""
+        """True for designs that also close between the positions."""
         schedule = self.kernel.course(self.positions).schedule
         if any(np.ptp(rate, axis=0).any() for rate in (schedule.speed, schedule.acceleration)):
-            return np.ones(len(x), bool)  # laws of motion: only at their own positions
+            return np.ones(len(x), bool)  # laws of motion: only at their positions
         q, part = schedule.position, np.arange(1, BETWEEN)[:, None] / BETWEEN
         if len(q) < 2:
             return np.ones(len(x), bool)
@@ -116,7 +117,7 @@ class Misfit:
 
 
 def least_squares(f: Misfit, x: Array) -> tuple[Array, Array]:
-    """Places (start, number) and costs from starts that have an answer; damped steps within the bounds."""
+    """Points (start, number) and costs from solvable starts; damped steps within the bounds."""
     x, (cost, error, slope) = x.copy(), f(x)
     damping, going = np.full(len(x), 1e-2), np.ones(len(x), bool)
     for _ in range(STEPS):

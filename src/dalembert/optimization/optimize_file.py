@@ -1,4 +1,4 @@
-"""optimize.yaml: an aim, bounds and conditions beside a model file, in the words and units of that file."""
+"""optimize.yaml: an aim, bounds and conditions for a model file, with the names and units of that file."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ KEYS = {
     "model": "the model file, beside this file",
     "title": "what it is about",
     "vary": "path or parameter -> [low, high], or [low, high, step]",
-    "least": "the aim, as peak effort.O2",
-    "where": "conditions at every position, as transmission.B >= 33 deg",
-    "starts": "designs drawn at random, 1000",
-    "seed": "a whole number that draws the same designs again",
-    "positions": "number of positions in place of the file's",
+    "least": "the aim, such as peak effort.O2",
+    "where": "conditions at every position, such as transmission.B >= 33 deg",
+    "starts": "number of random designs, such as 1000",
+    "seed": "an integer; repeats the same random designs",
+    "positions": "number of positions instead of the file's",
     "static": "true leaves inertia out",
-    "method": "an optimizer by name, as nlopt.slsqp or pymoo.de",
+    "method": "an optimizer by name, such as nlopt.slsqp or pymoo.de",
 }
 
 
@@ -33,16 +33,14 @@ def optimize_file(path: str | os.PathLike[str]) -> Optimum:
 
 
 def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
-    """The arguments of `optimize` that stand in a file."""
+    """Arguments of `optimize` that a file specifies."""
     vary, least = tree.get("vary"), tree.get("least")
     if not isinstance(vary, Mapping) or not vary:
         raise ModelError(
-            "nothing varies", "write vary: {stroke: [80 mm, 120 mm]}", ("vary",) * ("vary" in tree)
+            "no number varies", "write vary: {stroke: [80 mm, 120 mm]}", ("vary",) * ("vary" in tree)
         )
     if not isinstance(least, str):
-        raise ModelError(
-            "nothing is to be least", "write least: peak effort.O2", ("least",) * ("least" in tree)
-        )
+        raise ModelError("no aim to minimize", "write least: peak effort.O2", ("least",) * ("least" in tree))
     where = tree.get("where", [])
     where = [where] if isinstance(where, str) else where
     if not isinstance(where, list):
@@ -61,7 +59,7 @@ def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _bounds(name: str, given: object) -> list[str]:
-    """Texts, as the model file reads them: of vectors [x, y]."""
+    """Texts, read as in the model file: for vectors [x, y]."""
     if not isinstance(given, list) or len(given) not in (2, 3):
         raise ModelError(
             f"the bounds of {name!r} are {quote_value(given)}", "write [low, high]", ("vary", name)

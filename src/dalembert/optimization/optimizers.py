@@ -1,6 +1,6 @@
 """Optimizers by name, of scipy, nlopt and pymoo: a row of a table each, behind a thin adapter.
 
-To ``polish`` is to better one design under conditions; to ``search`` to better many by the aim and its penalties,
+To ``polish`` is to improve one design under conditions; to ``search`` is to improve many by the aim and its penalties,
 before the best are polished; a ``front`` is between two aims.
 """
 
@@ -33,25 +33,26 @@ METHODS = {
     "pymoo.nsga2": ("front", "moo.nsga2.NSGA2"),
     "pymoo.spea2": ("front", "moo.spea2.SPEA2"),
 }
-"""Name -> what it does here, and what it is called in its package."""
+"""Name -> its role, and its name in its package."""
 DEFAULT = "scipy.slsqp"
 STEPS, EVALUATIONS, GENERATIONS, POPULATION = 100, 10_000, 200, 100
-"""Most iterations of a polish, evaluations of a search of nlopt, and generations of pymoo and designs in each."""
+"""Largest numbers of iterations of a polish, of evaluations of a search of nlopt, and of generations of pymoo and
+designs in each."""
 OPEN = 1e3
-"""What is lacked where there is no answer, over the usual size."""
+"""Violation assigned to an unsolved design, over the usual size."""
 
 Valued = Callable[[Array], tuple[float, Array]]
 Rules = tuple[Callable[[Array], Array], Callable[[Array], Array]]
-"""What has to be at least zero, and its slopes."""
+"""Functions that must not be negative, and their gradients."""
 
 
 def find_method(name: object, *does: str) -> str:
-    """The full name of a method that does one of some things; of a package by itself its first. Raises ModelError where
-    there is none, or its package is not installed."""
+    """The full name of a method for one of some roles; for a package name, its first method. Raises ModelError if it is
+    unknown, or its package is not installed."""
     there = [n for n, (what, _) in METHODS.items() if what in does]
     found = next((n for n in there if name in (n, n.partition(".")[0])), "")
     if not found:
-        raise ModelError(f"there is no method {name!r} for this", closest(str(name), there), ("method",))
+        raise ModelError(f"unknown method {name!r} for this problem", closest(str(name), there), ("method",))
     package = found.partition(".")[0]
     if find_spec(package) is None:
         raise ModelError(f"method {found!r} needs {package}", f"pip install {package}", ("method",))
@@ -59,7 +60,7 @@ def find_method(name: object, *does: str) -> str:
 
 
 def polish_by(name: str, aim: Valued, rules: Rules | None, start: Array, high: Array) -> Array:
-    """A better x, between zero and ``high``, by a method that polishes, or the default beside one that does not."""
+    """A better x, between zero and ``high``, by a method that polishes, or by the default if the method does not."""
     name = name if METHODS[name][0] == "polish" else DEFAULT
     if name != DEFAULT:
         return _nlopt(name, aim, rules, start, high, 10 * STEPS)
@@ -70,7 +71,7 @@ def polish_by(name: str, aim: Valued, rules: Rules | None, start: Array, high: A
     options = {"maxiter": STEPS, "ftol": 1e-10}
     bounds = [(0.0, float(end)) for end in high]
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # scipy says where a step leaves the bounds by rounding
+        warnings.simplefilter("ignore")  # scipy warns where a step leaves the bounds by rounding
         found = solver(
             aim, start, jac=True, method="SLSQP", bounds=bounds, constraints=given, options=options
         )
@@ -117,15 +118,15 @@ def _nlopt(name: str, aim: Valued, rules: Rules | None, start: Array, high: Arra
     solver.set_ftol_rel(1e-10)
     try:
         return np.asarray(solver.optimize(np.minimum(start, high)))
-    except (RuntimeError, nlopt.RoundoffLimited):  # no further step is to be had
+    except (RuntimeError, nlopt.RoundoffLimited):  # no further step is possible
         return last[0]
 
 
 def evolve(
     name: str, of: Callable[[Array], dict[str, Array]], aims: int, rules: int, starts: Array, seed: int
 ) -> Array:
-    """The last designs (design, number) of a method of pymoo, of two aims its front: ``of`` gives aims F (design, aim)
-    and what rules lack, G (design, rule)."""
+    """The last designs (design, number) of a method of pymoo, for two aims its front: ``of`` gives aims F (design, aim)
+    and violations G (design, rule)."""
     path, _, made = METHODS[name][1].rpartition(".")
     algorithm = getattr(import_module(f"pymoo.algorithms.{path}"), made)
     kind = import_module("pymoo.core.problem").Problem

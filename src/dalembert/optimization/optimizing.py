@@ -1,4 +1,4 @@
-"""``da.optimize``: the design that is best by an aim, within bounds and conditions.
+"""``da.optimize``: the optimal design for an aim, within bounds and conditions.
 
 Mechanics: docs/theory.md 11.
 """
@@ -27,15 +27,15 @@ from dalembert.progress import progress
 from dalembert.wording import quote_value
 
 POLISHED = 10
-"""Of the best starts, how many are polished."""
+"""Number of the best starts that are polished."""
 MOST_DRAWN = 100
-"""Designs drawn at random for each start, where few of them have an answer."""
+"""Random designs for each start, where few of them can be solved."""
 KEPT = 1e-6
-"""Part of its usual size by which a condition may be missed, from rounding."""
+"""Violation of a condition, over its usual size, that counts as rounding error."""
 SAME = 1e-3
-"""Part of the aim within which two designs are said to be equally good."""
+"""Fraction of the aim within which two designs count as equally good."""
 CORNERS = 10
-"""Stepped numbers of which all neighbours are looked at together; of more, the nearest steps alone."""
+"""Largest number of stepped numbers whose neighbours are all examined together; with more, the nearest steps alone."""
 
 Bounds = Mapping[str, Sequence[object]]
 
@@ -51,15 +51,15 @@ def optimize(
     static: bool = False,
     method: str = DEFAULT,
 ) -> Optimum:
-    """The best of a mechanism's designs: numbers within bounds, an aim that is least, conditions at every position.
+    """Optimal design of a mechanism: numbers within bounds, an aim to minimize, conditions at every position.
 
-    vary: path -> (low, high), or (low, high, step) where only whole steps from low can be made; texts are read as
-    in the file ("13 in"), plain numbers are SI; of a vector the bounds hold for each component. least: ``peak``,
-    ``mean``, ``rms`` or ``norm8`` of an output or an expression of outputs (`da.compile`). where: conditions such as
-    ``transmission.B >= 33 deg`` or ``peak effort.O2 <= 2 N*m``. starts: designs drawn at random from the bounds,
-    beside the mechanism's own, all improved side by side with exact gradients; the best ten are polished one by one.
-    method: another that polishes or searches (``METHODS``), as ``nlopt.slsqp`` or ``pymoo.de``, where it is installed.
-    Raises ModelError for unknown names, empty bounds, and where no design in the bounds has an answer.
+    vary: path -> (low, high), or (low, high, step) for values in steps from low; texts are read as in the file
+    ("13 in"), plain numbers are SI; for a vector the bounds apply to each component. least: ``peak``, ``mean``, ``rms``
+    or ``norm8`` of an output or an expression of outputs (`da.compile`). where: conditions such as
+    ``transmission.B >= 33 deg`` or ``peak effort.O2 <= 2 N*m``. starts: random designs within the bounds, besides the
+    mechanism's, all improved side by side with exact gradients; the best ten are polished one by one. method: another
+    local or global optimizer (``METHODS``), such as ``nlopt.slsqp`` or ``pymoo.de``, if installed.
+    Raises ModelError for unknown names, empty bounds, and where no design within the bounds can be solved.
 
     >>> import dalembert as da
     >>> best = da.optimize(
@@ -78,7 +78,7 @@ def optimize(
 def problem_of(
     m: Mechanism, vary: Bounds, least: str, where: str | Sequence[str], positions: AtPositions, static: bool
 ) -> tuple[Problem, Array, tuple[Number, ...]]:
-    """The problem, the steps of its numbers (NaN where there are none), and the numbers."""
+    """The problem, the steps of its numbers (NaN for none), and the numbers."""
     found, low, high, steps = bounds_of(m, vary)
     texts = [where] if isinstance(where, str) else where
     with errors_at("positions"):
@@ -96,15 +96,15 @@ def problem_of(
 
 
 def bounds_of(m: Mechanism, vary: Bounds) -> tuple[tuple[Number, ...], Array, Array, Array]:
-    """The numbers that vary, their low and high ends, and their steps, NaN where there are none."""
+    """The varied numbers, their low and high ends, and their steps (NaN for none)."""
     if not vary:
-        raise ModelError("nothing varies", 'give vary={"links.crank.points.A.0": (0.1, 0.15)}')
+        raise ModelError("no number varies", 'give vary={"links.crank.points.A.0": (0.1, 0.15)}')
     found, ends = list[Number](), list[tuple[Array, Array, Array]]()
     for path, given in vary.items():
         try:
             known, found = len(found), list(numbers(m, list(vary)[: len(ends) + 1]))
             ends.append(_ends(m, path, given, len(found) - known))
-        except ModelError as error:  # of the line that asks for it, not of the model file's
+        except ModelError as error:  # with the line of the request, not the model file's
             raise ModelError(error.what, error.remedy, ("vary", path)) from None
     low, high, steps = (np.concatenate(of) for of in zip(*ends, strict=True))
     return tuple(found), low, high, steps
@@ -127,7 +127,7 @@ def _ends(m: Mechanism, path: str, given: Sequence[object], count: int) -> tuple
     if not np.isfinite([low, high]).all() or (low > high).any() or (step <= 0).any():
         raise ModelError(
             f"the bounds of {path!r} go from {quote_value(given[0])} to {quote_value(given[1])}",
-            "give a low one, a high one that is not below it, and a step above zero",
+            "use (low, high, step) with low <= high and step > 0",
         )
     return low, high, step
 
@@ -154,12 +154,12 @@ def _best(p: Problem, steps: Array, found: tuple[Number, ...], starts: int, seed
 
 
 def starts_of(p: Problem, count: int, seed: int) -> Array:
-    """Places that have an answer: the description's own, then random ones."""
+    """Solvable points: the description's, then random ones."""
     return random_places(lambda u: np.isfinite(p(u).value), p.nominal, count, seed)
 
 
 def random_places(answers: Callable[[Array], Flags], own: Array, count: int, seed: int) -> Array:
-    """Places (start, number) in the unit box that have an answer: a given one, then random ones."""
+    """Solvable points (start, number) in the unit box: a given one, then random ones."""
     require("starts", count, path=("starts",))
     require("seed", seed, path=("seed",))
     draw, got, drawn = np.random.default_rng(seed), 0, 0
@@ -173,7 +173,7 @@ def random_places(answers: Callable[[Array], Flags], own: Array, count: int, see
     places = np.concatenate(found)
     if not len(places):
         raise ModelError(
-            f"none of {drawn:,} designs drawn from the bounds has an answer at every position",
+            f"none of {drawn:,} random designs within the bounds can be solved at every position",
             "narrow the bounds, or the range of the drive",
             ("vary",),
         )
@@ -181,14 +181,14 @@ def random_places(answers: Callable[[Array], Flags], own: Array, count: int, see
 
 
 def judge(p: Problem, u: Array) -> tuple[float, float]:
-    """What a place lacks of its conditions, zero where it keeps them, and its aim; the smaller the better."""
+    """Largest violation of a condition, zero if all hold, and the aim; the smaller the pair, the better."""
     r = p.at(u)
     lacks = float(-(r.margin / p.sizes[:, None]).min(initial=0.0)) if np.isfinite(r.margin).all() else np.inf
     return (lacks if lacks > KEPT else 0.0), p.sharp(u)[0]
 
 
 def _stepped(p: Problem, u: Array, steps: Array) -> Array:
-    """The place on whole steps, its other numbers polished again."""
+    """The point with stepped numbers on their steps, its other numbers polished again."""
     free = np.isnan(steps)
     if free.all():
         return u

@@ -1,4 +1,4 @@
-"""What an optimisation found, before and after, as a person reads it and as a model file."""
+"""Result of an optimization, before and after, as printed text and as a model file."""
 
 from __future__ import annotations
 
@@ -19,10 +19,11 @@ from dalembert.printing import number, table, wrap
 
 @dataclass(frozen=True, eq=False)
 class Optimum(Compared):
-    """The best design that was found; ``values`` (number,) in SI in the order of ``numbers``.
+    """The best design; ``values`` (number,) in SI in the order of ``numbers``.
 
-    before, after: the analyses of the description as it was and of ``mechanism``. value: the aim, SI. found: how many
-    of the polished starts came within a thousandth of the best, of ``polished``; started: those that had an answer.
+    before, after: the analyses of the original description and of ``mechanism``. value: the aim, SI. found: how many
+    of the polished starts came within a thousandth of the best, of ``polished``; started: number of starts that could
+    be solved.
     """
 
     mechanism: Mechanism
@@ -42,27 +43,27 @@ class Optimum(Compared):
 
     @property
     def value(self) -> float:
-        """The aim of the design found, SI."""
+        """Aim of the best design, SI."""
         return self._sizes(self.after)[0]
 
     @property
     def value_before(self) -> float:
-        """The aim of the description as it was, SI; NaN where some position has no answer."""
+        """The aim of the original description, SI; NaN where some position has no answer."""
         return self._sizes(self.before)[0]
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Write the mechanism found as a model file, in the author's text where it came from one."""
+        """Writes the best mechanism as a model file, in the author's text if it came from a file."""
         self.mechanism.save(path, overwrite)
 
     def size_of(self, aim: Aim, r: Result | None = None) -> float:
-        """Any aim of the design found, or of another result, SI."""
+        """Any aim of the best design, or of another result, SI."""
         from dalembert.analysis.batch.over_positions import reduce_positions
 
         values = (self.after if r is None else r)[aim.of]
         return float(reduce_positions(aim.word, values)) if len(values) else np.nan
 
     def aim_text(self, text: str) -> str:
-        """An aim of the design found, in words, in the unit of the file."""
+        """An aim of the best design as text, in the unit of the file."""
         aim, to = parse_aim(text), Printed(self.mechanism.units)
         return to.quantity(quantity(self.after, aim.of).kind, self.size_of(aim))
 
@@ -75,8 +76,8 @@ class Optimum(Compared):
         return [self._row(name, kind, *values) for name, kind, *values in columns]
 
     def aim_rows(self) -> list[list[str]]:
-        """The aim, and the room that each condition has left, before and after."""
-        names = [f"{self.aim.word} {self.aim.of}", *(f"room of {c.text}" for c in self.conditions)]
+        """The aim, and the margin of each condition, before and after."""
+        names = [f"{self.aim.word} {self.aim.of}", *(f"margin of {c.text}" for c in self.conditions)]
         kinds = [quantity(self.after, e).kind for e in (self.aim.of, *(c.margin for c in self.conditions))]
         both = zip(names, kinds, self._sizes(self.before), self._sizes(self.after), strict=True)
         return [self._row(*each) for each in both]
@@ -89,10 +90,10 @@ class Optimum(Compared):
 
     @property
     def words(self) -> str:
-        """How sure it is."""
+        """Sentence on the reliability of the result."""
         if not self.feasible:
-            return "No design was found that keeps every condition; this one lacks least."
-        return f"{self.found} of the {self.polished} best of {self.started} starts came to this design."
+            return "No design meets every condition; this one violates them least."
+        return f"{self.found} of the {self.polished} best of {self.started} starts converged to this design."
 
     def __str__(self) -> str:
         """Before and after, in the units of the file."""

@@ -1,7 +1,7 @@
 """``da.pareto``: designs of which none is better by one aim without being worse by the other.
 
-The epsilon-constraint method (Haimes, Lasdon and Wismer, 1971): the first aim is made least while the second stays
-below a bound, for some bounds between what the best designs by each aim alone have.
+The epsilon-constraint method (Haimes, Lasdon and Wismer, 1971): the first aim is minimized while the second stays below
+a bound, for some bounds between what the best designs by each aim alone have.
 
 Mechanics: docs/theory.md 11.
 """
@@ -27,14 +27,14 @@ from dalembert.optimization.optimum import Optimum
 from dalembert.printing import table
 
 DEFAULTS = {"starts": 1000, "seed": 0, "positions": None, "static": False}
-"""Of `da.optimize`."""
+"""Defaults of `da.optimize`."""
 AS_GOOD = 1e-6
-"""Part of an aim within which a design counts as no better."""
+"""Relative difference of an aim within which a design counts as equally good."""
 
 
 @dataclass(frozen=True, eq=False)
 class Front(Compared):
-    """Designs from the best by the first aim to the best by the second; ``values`` (design, aim), SI."""
+    """Designs from the best for the first aim to the best for the second; ``values`` (design, aim), SI."""
 
     aims: tuple[str, str]
     designs: tuple[Optimum, ...]
@@ -57,10 +57,10 @@ def pareto(
     method: str = DEFAULT,
     **options: Any,
 ) -> Front:
-    """A front of some points between two aims, of which the second is a peak; all else as in `da.optimize`. A method
-    that makes fronts itself, such as ``pymoo.nsga2``, takes any two aims; its designs are not polished.
+    """A Pareto front between two aims, of which the second is a peak; all else as in `da.optimize`. A method that
+    computes fronts itself, such as ``pymoo.nsga2``, takes any two aims; its designs are not polished.
 
-    Raises ModelError where the second aim is no peak, or where no design keeps the conditions.
+    Raises ModelError where the second aim is not a peak, or where no design meets the conditions.
 
     >>> import dalembert as da
     >>> front = da.pareto(
@@ -82,7 +82,9 @@ def pareto(
     if METHODS[name][0] == "front":
         return _front(least, _evolved(mechanism, vary, least, where, points, {**DEFAULTS, **options}))
     if second.word != "peak":
-        raise ModelError(f"{least[1]!r} is no peak, which alone can be bounded", "name the peak second")
+        raise ModelError(
+            f"{least[1]!r} is not a peak, and only a peak can be bounded", "name the peak second"
+        )
     rules = [where] if isinstance(where, str) else list(where)
     ends = [optimize(mechanism, vary, aim, rules, **options) for aim in least]
     high, low = (end.size_of(second) for end in ends)
@@ -96,7 +98,7 @@ def pareto(
 
 def _front(least: Sequence[str], found: Sequence[Optimum]) -> Front:
     if not found:
-        raise ModelError("no design keeps every condition", "widen the bounds, or leave a condition out")
+        raise ModelError("no design meets every condition", "widen the bounds, or leave a condition out")
     values = np.array([[o.size_of(parse_aim(aim)) for aim in least] for o in found])
     kept = _undominated(values)
     return Front((least[0], least[1]), tuple(found[k] for k in kept), values[kept])
@@ -105,7 +107,7 @@ def _front(least: Sequence[str], found: Sequence[Optimum]) -> Front:
 def _evolved(
     m: Mechanism, vary: Bounds, least: Sequence[str], where: str | Sequence[str], points: int, options: Any
 ) -> list[Optimum]:
-    """Designs taken evenly from the front of a method that makes one, those that keep every condition."""
+    """Designs at even spacing from a computed front, those that meet every condition."""
     method, positions, static = (options[key] for key in ("method", "positions", "static"))
     p, steps, numbers = problem_of(m, vary, least[0], where, positions, static)
     if not np.isnan(steps).all():
@@ -132,7 +134,7 @@ def _evolved(
 
 
 def _undominated(values: Array) -> list[int]:
-    """Rows, by the first column, that no other one betters in one column and equals in the other."""
+    """Non-dominated rows, in the order of the first column."""
     out = list[int]()
     for k in np.lexsort((values[:, 1], values[:, 0])).tolist():
         if not out or values[k, 1] < values[out[-1], 1] * (1 - AS_GOOD):

@@ -1,6 +1,6 @@
-"""One design at a time by sequential quadratic programming (SLSQP), with every position a row of its own.
+"""One design at a time by sequential quadratic programming (SLSQP), with a constraint row for every position.
 
-A peak is no smooth function, but its least value is that of t under -t <= T_k <= t at all positions k.
+A peak is not a smooth function, but its minimum is the least t with -t <= T_k <= t at all positions k.
 
 Mechanics: docs/theory.md 11.
 """
@@ -18,7 +18,8 @@ from dalembert.optimization.optimizers import OPEN, polish_by
 
 @dataclass
 class _Design:
-    """One design as SLSQP moves it: x are its free numbers u in the unit box, and of a peak t over its usual size."""
+    """One design as an SLSQP problem: x are its free numbers u in the unit box, and for a peak t over its
+    usual size."""
 
     p: Problem
     u: Array
@@ -36,14 +37,15 @@ class _Design:
         return place
 
     def rows(self, x: Array) -> Rows:
-        """Every position; those of the last x are kept, as values and slopes are asked for one after the other."""
+        """Quantity and margins at every position, cached for the last x, since values and slopes are
+        evaluated in turn."""
         place = self.place(x)
         if self.last is None or self.last[0] != place.tobytes():
             self.last = place.tobytes(), self.p.at(place)
         return self.last[1]
 
     def room(self, x: Array) -> Array:
-        """What has to be at least zero: margins, and t with either sign of the aim's quantity."""
+        """Functions that must not be negative: margins, and t plus and minus the aim's quantity."""
         r = self.rows(x)
         parts = [(r.margin / self.p.sizes[:, None]).ravel()]
         if self.peak:
@@ -61,7 +63,7 @@ class _Design:
         return np.nan_to_num(part)
 
     def aim(self, x: Array) -> tuple[float, Array]:
-        """The aim and its slope: of a peak t itself."""
+        """The aim and its gradient: for a peak, of t itself."""
         if self.peak:
             return float(x[-1]), np.eye(len(x))[-1]
         value, slope = self.p.sharp(self.place(x))
@@ -71,8 +73,8 @@ class _Design:
 
 
 def polish(p: Problem, u: Array, free: Flags | None = None) -> Array:
-    """A better place from a place u (number,) in the unit box; numbers that are not free stay. u itself where none is
-    found."""
+    """A better point than u (number,) in the unit box; numbers that are not free stay. Returns u itself if none is
+    better."""
     d = _Design(p, u, np.ones(len(u), bool) if free is None else free)
     if not d.free.any():
         return u

@@ -1,4 +1,4 @@
-"""Quasi-Newton steps (BFGS) of many starts in a box at once: one call of the function for a step of all of them.
+"""Quasi-Newton steps (BFGS) of many starts in a box at once: one call of the function per step of all of them.
 
 Nocedal and Wright, Numerical Optimization, chapter 6; at its bounds a start moves along them, by projection.
 
@@ -15,9 +15,9 @@ from dalembert.arrays import Array
 from dalembert.optimization.aims import Value
 
 ENOUGH = 1e-4
-"""Share of the decrease that the slope promises which a step has to bring."""
+"""Fraction of the decrease predicted by the slope that a step must achieve."""
 FIRST = 0.1
-"""Longest first step, of the box."""
+"""Longest first step, as a fraction of the box."""
 SMALLEST = 1e-9
 """A step below this part of the box ends a start; so does a gain below it."""
 
@@ -25,7 +25,7 @@ SMALLEST = 1e-9
 def minimize(
     of: Callable[[Array], Value], u: Array, steps: int = 150, progress: Callable[[int], object] | None = None
 ) -> tuple[Array, Array]:
-    """Places (start, number) and values, from starts in the unit box of which all have a value."""
+    """Points (start, number) and values, from solvable starts in the unit box."""
     u, found = u.copy(), of(u)
     value, slope = found.value.copy(), found.slope.copy()
     n = u.shape[1]
@@ -60,7 +60,7 @@ def minimize(
 
 
 def _direction(u: Array, slope: Array, inverse: Array) -> Array:
-    """Downhill (start, number), none through a bound where the slope pushes against it."""
+    """Descent directions (start, number), zero through a bound where the slope pushes against it."""
     held = ((u <= 0) & (slope > 0)) | ((u >= 1) & (slope < 0))
     free = np.where(held, 0.0, slope)
     way = -np.einsum("sij,sj->si", inverse, free)
@@ -70,7 +70,7 @@ def _direction(u: Array, slope: Array, inverse: Array) -> Array:
 
 
 def _update(inverse: Array, fresh: Array, k: Array, s: Array, y: Array) -> None:
-    """The inverses of the curvature after steps s with changes y of the slope, where these curve upwards."""
+    """The inverse Hessians after steps s with changes y of the gradient, where the curvature is positive."""
     sy = (s * y).sum(axis=1)
     good = sy > 1e-12 * np.linalg.norm(s, axis=1) * np.linalg.norm(y, axis=1)
     k, s, y, sy = k[good], s[good], y[good], sy[good]

@@ -1,4 +1,4 @@
-"""``da.synthesize``: dimensions with which outputs take given values at given positions of the drives.
+"""``da.synthesize``: dimensions with which outputs reach given values at given positions of the drives.
 
 A point's path with given or free timing, a function (angle against angle), a motion (a point and an angle): one
 problem of least squares. All starts go side by side by Levenberg's and Marquardt's method, with exact derivatives.
@@ -27,14 +27,14 @@ from dalembert.optimization.optimizing import Bounds, bounds_of, random_places
 from dalembert.printing import number, table
 
 EXACT = 1e-6
-"""Rms error over the spread of the targets below which a design is said to meet them."""
+"""Rms error over the spread of the targets below which a design counts as meeting them."""
 
 
 @dataclass(frozen=True, eq=False)
 class Synthesis(Compared):
-    """The mechanism found; ``error`` its rms error over the spread of the targets, ``exact`` how many of ``started``
+    """The best mechanism; ``error`` its rms error over the spread of the targets, ``exact`` how many of ``started``
     designs meet them to a millionth. ``values`` (number,) in SI in the order of ``numbers``; ``positions`` (P, D) are
-    those of the drives at the targets, found where the timing is free."""
+    those of the drives at the targets, computed where the timing is free."""
 
     mechanism: Mechanism
     numbers: tuple[str, ...]
@@ -47,7 +47,7 @@ class Synthesis(Compared):
     found: dict[str, Array] = field(repr=False)  # outputs of the design at the targets' positions
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Write the mechanism found as a model file."""
+        """Writes the best mechanism as a model file."""
         self.mechanism.save(path, overwrite)
 
     def __str__(self) -> str:
@@ -68,13 +68,13 @@ def synthesize(
     seed: int = 0,
     timing: str = "given",
 ) -> Synthesis:
-    """Numbers within bounds with which outputs come nearest to targets, by least squares over the targets' spread.
+    """Numbers within bounds that bring outputs nearest to targets, by least squares over the targets' spread.
 
     targets: output or expression (`da.compile`) -> its values (P,), of a vector (P, 2), SI and radians, at the
     ``positions`` of the drives (P,) or (P, D), default the file's. With ``timing="free"`` they are unknown too, between
     the first and last of those given, in the order of the targets. The assembly mode is that of the mechanism, and each
-    design closes all the way from the first target to the last.
-    Raises ModelError where shapes do not fit, and where no design in the bounds closes at all positions.
+    design closes over the full range from the first target to the last. Raises ModelError where shapes do not fit, and
+    where no design in the bounds closes at all positions.
 
     >>> import dalembert as da
     >>> m, turned = da.four_bar(), [0.2, 0.9, 1.7, 2.5]
@@ -88,9 +88,9 @@ def synthesize(
     if not np.isnan(steps).all():
         raise ModelError("a synthesis takes no steps", "give (low, high)")
     if not targets:
-        raise ModelError("there are no targets", 'give targets={"point.coupler.P": [[x, y], ...]}')
+        raise ModelError("no targets are given", 'give targets={"point.coupler.P": [[x, y], ...]}')
     if timing not in ("given", "free"):
-        raise ModelError(f"timing={timing!r} is none", 'give "given" or "free"')
+        raise ModelError(f"timing is {timing!r}", 'give "given" or "free"')
     k = compile(mechanism, tuple(vary), list(targets), derivatives=True, static=True)
     f = _misfit(k, low, high - low, targets, positions, timing == "free")
     own = np.clip((k.nominal - low) / np.where(high > low, high - low, 1.0), 0, 1)
@@ -99,7 +99,7 @@ def synthesize(
     best = int(np.argmin(cost))
     if not np.isfinite(cost[best]):
         raise ModelError(
-            f"none of {len(x):,} designs closes all the way from the first target to the last",
+            f"none of {len(x):,} designs closes over the full range from the first target to the last",
             "widen the bounds",
         )
     values, place = low + x[best, : len(low)] * (high - low), f.places(x[best])
@@ -126,7 +126,7 @@ def _misfit(
     positions: ArrayLike | None,
     free: bool,
 ) -> Misfit:
-    """What is to be small, with the drives' positions given or free."""
+    """Least-squares problem, with the drives' positions given or free."""
     if free:
         return FreeTiming.of(k, low, size, targets, positions)
     place = None if positions is None else drive_values(k.mechanism, positions)

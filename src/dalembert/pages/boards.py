@@ -1,7 +1,7 @@
-"""What a page shows, as data: the mechanism, free bodies with their equations, polygons, charts, a table.
+"""Contents of a page as data: the mechanism, free bodies with their equations, polygons, charts, a table.
 
-A row is a place among the kernel's outputs. An arrow is a force (two rows) at a point (two rows) with its sign, a
-couple a row at a point. The page draws them to the scale that stands beside them.
+A row is an index into the kernel's outputs. An arrow is a force (two rows) at a point (two rows) with its symbol; a
+couple is one row at a point. The page draws them to the scale printed beside them.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ CURVES = 6
 
 
 class Boards:
-    """All that is shown of one mechanism; ``actions`` in nodes."""
+    """Complete contents for one mechanism; ``actions`` in nodes."""
 
     def __init__(
         self, known: Result, rows: Rows, actions: Sequence[Action], items: Items | None = None
@@ -45,7 +45,7 @@ class Boards:
         self.kinds = {link: member.kind for link, member in members(known).items()} if self.d == 2 else {}
 
     def mechanism(self) -> Tree:
-        """The whole mechanism: loads, efforts, and the force of each joint on its j."""
+        """The complete mechanism: loads, efforts, and the force of each joint on its j."""
         d, m = self.items, self.known.mechanism
         parts = [*d.traces(), *(x for n in self.known.links for x in d.link(n)), *d.spans()]
         parts += [x for n in sorted(self.known.joints, key=lambda n: m.joints[n].hinge) for x in d.joint(n)]
@@ -82,7 +82,7 @@ class Boards:
         return out
 
     def free_bodies(self) -> list[Tree]:
-        """Every link by itself, with what acts on it and its three equations."""
+        """Every link separately, with all actions on it and its three equations."""
         return [self._free_body(link) for link in self.known.links]
 
     def _free_body(self, link: str) -> Tree:
@@ -109,7 +109,7 @@ class Boards:
         }
 
     def _size(self, link: str) -> float:
-        """Metres a millimetre of a free body, round in the reader's unit."""
+        """Metres per millimetre of a free body, a round number in the reader's unit."""
         k = int(np.argmax(self.known.ok))
         places = [*link_points(self.known, link, k).values(), tuple(self.known.center(link)[k])]
         span = float(np.ptp(np.array(places), axis=0).max())
@@ -137,7 +137,7 @@ class Boards:
         return {"about": own[0] if own else "G", "terms": terms}
 
     def _has(self, values: Iterable[Numeric]) -> bool:
-        """Whether something is not exactly zero, whatever the numbers."""
+        """True if any node is not identically zero."""
         return any((x.level != CONSTANT or x.value != 0) if isinstance(x, Node) else x != 0 for x in values)
 
     def arrows(self, k: int, tangent: bool = False) -> list[Tree]:
@@ -168,7 +168,7 @@ class Boards:
             return [_largest(magnitude(a.force)) for a in self.numbered]
 
     def scale(self, longest: float, some: Sequence[int] | None = None) -> float:
-        """Newtons a millimetre over the whole cycle, round in the reader's unit."""
+        """Newtons per millimetre over the full cycle, a round number in the reader's unit."""
         sizes = self._sizes if some is None else [self._sizes[k] for k in some]
         return force_scale(sizes, longest, unit_size(self.known, "force"))
 
@@ -183,7 +183,8 @@ class Boards:
         return {"links": out, "chain": [self.known.links.index(link) for link in chain_order(self.known)]}
 
     def charts(self) -> list[Tree]:
-        """Efforts and loads asked for, joint forces; each curve a row, of a joint force in the plane its vector too."""
+        """Efforts and unknown loads, joint forces; each curve is a row, for a joint force in the plane with
+        its vector."""
         r, s, out = self.known, self.rows.r, list[Tree]()
 
         def one(of: str, name: str, kind: str, role: str, title: str, value: Numeric) -> None:
@@ -212,7 +213,7 @@ class Boards:
         return out
 
     def table(self) -> list[Tree]:
-        """Numbers of a position: what is driven, efforts, loads asked for, joint forces, links' motion."""
+        """Numbers of a position: drives, efforts, unknown loads, joint forces, motion of the links."""
         s, r, out = self.rows.r, self.known, list[Tree]()
 
         def add(name: str, kind: str, value: Numeric) -> None:
@@ -238,7 +239,7 @@ class Boards:
 
 
 def _numbered(known: Result, actions: Sequence[Action]) -> list[Action]:
-    """The action of the result beside each of the nodes; what has no number in the file is nothing there."""
+    """The action of the result for each traced one; zero where it does not exist at the file's numbers."""
     there = {_key(a): a for a in whole_actions(known)}
     count = len(known.status)
     d = known._d

@@ -1,4 +1,4 @@
-"""One self-contained HTML file: the front end and the data of one mechanism; it asks for nothing else."""
+"""One self-contained HTML file: the front end and the data of one mechanism; it loads nothing else."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
     "img-src data: blob:; base-uri 'none'; form-action 'none'"
 )
-"""Nothing may be loaded from anywhere, whatever stands in the data."""
+"""Policy that forbids loading from anywhere, whatever the data contains."""
 
 
 def page(
@@ -28,8 +28,8 @@ def page(
     """The HTML of a live page of a mechanism; written to ``path`` where that is given.
 
     Every drawn number is computed by the kernel's WebAssembly in the page: joints, loads and every number of the file
-    can be changed, and all forces follow. static: leave inertia out. overwrite: replace a file that is there.
-    Raises ModelError for what only the analyses can do (redundant mechanisms, positions that are asked for).
+    can be changed, and all forces follow. static: leave inertia out. overwrite: replace an existing file. Raises
+    ModelError for features of the analyses alone (redundant mechanisms, unknown positions).
 
     >>> import dalembert as da
     >>> html = da.page(da.four_bar())
@@ -45,7 +45,7 @@ def page(
 
 
 def html_text(data: Tree) -> str:
-    """A page with its data, compressed; no text of a model file can end the script or be taken for markup."""
+    """A page with its data, compressed; no text of a model file can end the script or act as markup."""
     script = (BUNDLE / "page.js").read_text(encoding="utf-8").replace("</script", "<\\/script")
     packed = base64.b64encode(zlib.compress(json.dumps(data, separators=(",", ":")).encode(), 9)).decode()
     return (

@@ -1,4 +1,4 @@
-"""What a reader of the page may change: the drive, every number of the description, and what is dragged."""
+"""Inputs that a reader of the page may change: the drive, every number of the description, and draggable points."""
 
 from __future__ import annotations
 
@@ -68,14 +68,14 @@ def _candidates(m: Mechanism) -> Iterator[tuple[str, object]]:
 
 
 def _plain(value: object) -> bool:
-    """A number or vector that no parameter sets."""
+    """True for a number or vector that no parameter sets."""
     if isinstance(value, tuple):
         return bool(value) and all(map(_plain, value))
     return isinstance(value, float) and not isinstance(value, Dependent)
 
 
 def _sources(m: Mechanism, values: Iterable[object]) -> list[str]:
-    """The parameters, none of them an expression of others, that some values follow from."""
+    """The parameters, none of them an expression of others, on which some values depend."""
     out: list[str] = []
     for value in values:
         for name in sorted(value.names) if isinstance(value, Dependent) else ():
@@ -85,7 +85,8 @@ def _sources(m: Mechanism, values: Iterable[object]) -> list[str]:
 
 
 def _follows(m: Mechanism, path: str) -> bool:
-    """Whether another number says it: weight beside mass, a point from another, a shape's inertia."""
+    """True if another number determines this one: weight beside mass, a point relative to another, a
+    shape's inertia."""
     keys = path.split(".")
     if keys[0] != "links":
         return False
@@ -99,7 +100,7 @@ AXES, WORDS = ("x", "y", "z"), {"center": "mass centre"}
 
 
 def label(path: str) -> str:
-    """A path as a reader says it: 'crank: point A, x'."""
+    """A path as text for the reader: 'crank: point A, x'."""
     group, name, *rest = path.split(".")
     words = [AXES[int(w)] if w.isdigit() else WORDS.get(w, w.replace("_", " ")) for w in rest]
     if words[:1] == ["points"]:
@@ -110,7 +111,7 @@ def label(path: str) -> str:
 
 
 def number_fields(b: Boards, k: Kernel) -> list[Tree]:
-    """Every number with its path, words, SI value, unit and size of that unit."""
+    """Every number with its path, label, SI value, unit and size of that unit."""
     out, m = list[Tree](), b.known.mechanism
     for n, kind in zip(k.trace.numbers, number_kinds(m, k.trace.numbers), strict=True):
         if n.path in m.parameters:
@@ -131,7 +132,7 @@ def number_fields(b: Boards, k: Kernel) -> list[Tree]:
 
 
 def _parameter_field(name: str, value: float, p: Parameter) -> Tree:
-    """A parameter, in the unit that its file writes it in."""
+    """A parameter, in the unit of its file."""
     size = value / p.in_unit() if p.in_unit() else 1.0 / p.in_unit(1.0)
     field: Tree = {"path": name, "label": name, "value": value, "unit": pretty(p.unit), "size": size}
     field["kind"] = p.kind or ("" if any(p.dimension) else "number")
@@ -140,7 +141,7 @@ def _parameter_field(name: str, value: float, p: Parameter) -> Tree:
 
 
 def drive_fields(b: Boards) -> list[Tree]:
-    """Each drive with its positions and where its joint stands."""
+    """Each drive with its positions and the place of its joint."""
     out = []
     for name in b.known.drives:
         kind = drive_kinds(b.known, name)["position"]
@@ -162,9 +163,9 @@ def drive_fields(b: Boards) -> list[Tree]:
 
 
 def handles(b: Boards, k: Kernel) -> list[Tree]:
-    """What can be dragged: joints, mass centres, other points of links, tips of loads, directions of slides.
+    """Draggable places: joints, mass centres, other points of links, tips of loads, directions of slides.
 
-    ``n``: the places of the numbers that change. ``at``, ``axes``: rows of the origin and unit vectors of their axes.
+    ``n``: the indices of the numbers that change. ``at``, ``axes``: rows of the origin and unit vectors of their axes.
     """
     found = _Handles(b, {n.path: i for i, n in enumerate(k.trace.numbers)})
     return [*found.joints(), *found.points(), *found.loads(), *found.directions()]
@@ -187,7 +188,7 @@ class _Handles:
         return {"n": n, "at": self.b.rows.place(link, np.zeros(self.b.d)), "axes": self.b.rows.axes(link)}
 
     def joints(self) -> Iterator[Tree]:
-        """What only turns is drawn elsewhere at the same pose: its points in both links change.
+        """A joint that only turns is moved without changing the pose: its points in both links change.
 
         A link that otherwise only slides, as a piston, keeps its point, so that its pin stays where it was in it.
         """
@@ -219,7 +220,7 @@ class _Handles:
                 yield found | ({"about": next(iter(about.values()))} if about else {})
 
     def _wheels_about(self, link: str, point: str) -> dict[tuple[float, ...], list[int]]:
-        """Rows of the places about which a point of a link goes round, by where they are: where it is the centre of a
+        """Rows of the centres about which a point of a link moves, by their place: where it is the centre of a
         wheel, and the link holds the centre of another one in mesh with it, their distance stays."""
         out: dict[tuple[float, ...], list[int]] = {}
         mine = self._place(link, self.m_known.point(link, point))
@@ -240,7 +241,7 @@ class _Handles:
         return self.b.known.mechanism
 
     def _place(self, link: str, u: ArrayLike) -> Array:
-        """Where a point of a link is over the positions (P, d)."""
+        """Positions of a point of a link (P, d)."""
         with np.errstate(invalid="ignore"):
             return np.nan_to_num(link_place(self.b.known, link, np.asarray(u)))
 
@@ -296,8 +297,8 @@ class _Handles:
 
 
 def channel_fields(k: Kernel, names: dict[int, str], channels: list[Node]) -> list[Tree]:
-    """What the kernel is given along the positions: values, and tables by their pieces, so that the page has them
-    exactly between the positions too."""
+    """Inputs of the kernel along the positions: values, and the segments of tables, so that the page also has exact
+    values between the positions."""
     course, inputs = k.trace.course, k.trace.inputs
     count, out = len(course.schedule.position), []
     for n in channels:
@@ -318,11 +319,11 @@ def channel_fields(k: Kernel, names: dict[int, str], channels: list[Node]) -> li
 
 
 JUMPS = ("counted", "speed", "acceleration", "known reversal")
-"""Beginnings of channels that are right at the listed positions only, where they change."""
+"""Prefixes of channels that are valid at the listed positions only, where they jump."""
 
 
 def only_at_positions(k: Kernel, names: dict[int, str], channels: list[Node]) -> bool:
-    """Whether the page may stop only at the listed positions: some input is not known in between."""
+    """True if the page may stop only at the listed positions, as some input is unknown in between."""
     course, found = k.trace.course, k.trace.inputs.found
     return any(
         names[n.index].startswith(JUMPS) and float(np.ptp(np.asarray(found[n](course), float))) > 0
@@ -331,7 +332,7 @@ def only_at_positions(k: Kernel, names: dict[int, str], channels: list[Node]) ->
 
 
 def series(values: Array) -> Tree | str:
-    """Numbers along the positions: first, step and count where they are even, else their bytes."""
+    """Numbers along the positions: first, step and count if evenly spaced, else their bytes."""
     even = np.linspace(values[0], values[-1], len(values))
     if len(values) > 3 and np.abs(values - even).max() <= 4 * np.spacing(np.abs(values).max()):
         return {"from": float(values[0]), "to": float(values[-1]), "count": len(values)}

@@ -1,7 +1,7 @@
-"""Links, joints, springs, mass centres and traces of the plane as items of a drawing that follow the kernel's rows.
+"""Links, joints, springs, mass centres and traces of planar mechanisms as items that follow the kernel's rows.
 
-What is rigid is drawn once by the views' symbols about the origin, and put in place by the rows of a point (``p``) and
-of a direction (``e``); a hull follows several points, a span two.
+Rigid items are drawn once by the views' symbols about the origin, and placed by the rows of a point (``p``) and of a
+direction (``e``); a hull follows several points, a span two.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Items:
         return {"t": kind, "role": role, "p": points} | more
 
     def corners(self, link: str) -> list[list[int]]:
-        """Rows of the points that a link's shape spans, each once."""
+        """Rows of the points that a link's shape connects, each once."""
         paths = [self.rows.vector(path[0]) for path in link_paths(self.r, link).values()]
         return [list(p) for p in dict.fromkeys(map(tuple, paths))]
 
@@ -102,7 +102,7 @@ class Items:
         ]
 
     def joint(self, name: str, link: str | None = None) -> list[Tree]:
-        """A joint's symbol; with ``link`` on that link's free body, where there is no ground."""
+        """A joint's symbol; with ``link``, on that link's free body, without the ground."""
         joint = self.mechanism.joints[name]
         if link is not None and joint.apart and link != joint.links[1]:
             return []
@@ -160,7 +160,7 @@ def _slider(d: Items, name: str, link: str | None) -> list[Tree]:
 
 
 def _slot(d: Items, name: str, link: str | None) -> list[Tree]:
-    """As long as its slide over the file's cycle, with a little room."""
+    """A slot as long as its slide over the file's cycle, with a little clearance."""
     joint, pin = d.mechanism.joints[name], d.symbol(plane_symbols.pin((0, 0)), d.at(name))
     if link is not None:
         return [pin]
@@ -179,7 +179,7 @@ def _span(values: Array) -> tuple[float, float]:
 
 
 def _circular_slot(d: Items, name: str, link: str | None) -> list[Tree]:
-    """As long as the way of its pin over the file's cycle, in the axes of the link it is in."""
+    """A slot as long as the path of its pin over the file's cycle, in the axes of its link."""
     pin = d.symbol(plane_symbols.pin((0, 0)), d.at(name))
     if link is not None:
         return [pin]

@@ -1,4 +1,4 @@
-"""A program as WebAssembly with what the page needs to call it."""
+"""A program as WebAssembly, with the data that the page needs to call it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from dalembert.kernel.program import Program
 
 
 def module(program: Program, count: int) -> Tree:
-    """The module of a program for so many positions."""
+    """Module of a program for a number of positions."""
     row = count + count % LANES
     code, heap = emit_wasm(program, row)
     names = program.graph.names

@@ -44,8 +44,10 @@ from dalembert.views.formats.themes import THEMES
 
 FORMAT = "dalembert-page/1"
 OPERATIONS = 3000
-"""Most operations of all derivatives; some 10 kB of page."""
-UNDECIDED = "The numbers may be poor here: near a dead centre, or friction may jam. Ask dalembert solve."
+"""Largest number of operations of all derivatives; about 10 kB of page."""
+UNDECIDED = (
+    "The numbers may be inaccurate: a dead centre is near, or friction may jam. Check with dalembert solve."
+)
 ALWAYS = (
     "text",
     "note",
@@ -60,11 +62,11 @@ ALWAYS = (
     "faint",
     "acceleration",
 )
-"""Roles that the page itself draws with."""
+"""Roles that the page itself draws."""
 
 
 def page_data(m: Mechanism, static: bool = False) -> Tree:
-    """The data of a page; raises ModelError for what only the analyses can do.
+    """The data of a page; raises ModelError for features of the analyses alone.
 
     static: leave inertia out.
     """
@@ -78,7 +80,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
     b, views, dragged, drives = _shown(known, rows, k)
     _shown(known, shown, k)
     names, channels = k.trace.catalogue.graph.names, []
-    beside = Rows(rows.graph, r, rows.nodes, rows.places)  # of the same rows, of which nothing is drawn
+    beside = Rows(rows.graph, r, rows.nodes, rows.places)  # the same rows, without drawings
     limited, said = limits(m, k, beside), position_sentences(known, k, beside)
     program = plain(k, rows.nodes)
     data: Tree = {
@@ -117,7 +119,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
 
 
 def _shown(known: Result, rows: Rows, k: Kernel) -> tuple[Boards, Tree, list[Tree], list[Tree]]:
-    """All that is shown, with the handles and the drives."""
+    """Complete contents, with the handles and the drives."""
     m = known.mechanism
     b = (SpaceBoards if m.dimension == 3 else Boards)(known, rows, symbolic_actions(rows.r, k))
     views: Tree = {
@@ -131,7 +133,7 @@ def _shown(known: Result, rows: Rows, k: Kernel) -> tuple[Boards, Tree, list[Tre
 
 
 def _kernel(m: Mechanism, inertia: bool) -> Kernel:
-    """The kernel with every number free that the trace takes as such; no machine code is made."""
+    """The kernel with every number free that can be traced; no machine code is compiled."""
     free = numbers_of(m)
     sided = friction_on(m) and bool(m.schedule().moves.any())
     try:
@@ -148,7 +150,7 @@ def _kernel(m: Mechanism, inertia: bool) -> Kernel:
 
 
 def _gradient(k: Kernel, b: Boards, dragged: Sequence[Tree], charts: Sequence[Tree]) -> Tree | None:
-    """Derivatives of the curves by the numbers that are dragged, at one position; as many as find room."""
+    """Derivatives of the curves by the draggable numbers, at one position; as many as fit."""
     wanted = sorted({n for h in dragged for end in h.get("ends", ()) for n in end["n"]})
     curves = [curve["row"] for chart in charts for curve in chart["curves"]]
     inputs = [k.number_nodes[n] for n in wanted]
@@ -166,7 +168,7 @@ def _gradient(k: Kernel, b: Boards, dragged: Sequence[Tree], charts: Sequence[Tr
 
 
 def _noise(b: Boards) -> Tree:
-    """Forces and moments that are nothing but rounding beside the largest force of the cycle."""
+    """Forces and moments at rounding level next to the largest force of the cycle."""
     with np.errstate(all="ignore"):
         sizes = [np.nan_to_num(np.abs(a.force)).max(initial=0.0) for a in b.numbered]
     force = 1e-12 * float(max(sizes, default=0.0))
@@ -174,13 +176,13 @@ def _noise(b: Boards) -> Tree:
 
 
 def _units(b: Boards, views: Tree) -> Tree:
-    """Unit, and its size, of each kind that is shown."""
+    """Unit of each displayed kind, and its size."""
     kinds = {"length", "force", "moment", *(x["kind"] for x in (*views["charts"], *views["table"]))}
     return {kind: {"unit": b.shown.unit(kind), "size": b.shown.size(kind)} for kind in sorted(kinds)}
 
 
 def _statuses() -> list[Tree]:
-    """Of each mark of a position its status, sentence and remedy, and whether there are numbers."""
+    """For each status code its status, sentence and remedy, and whether the position has numbers."""
     out = list[Tree]()
     for mark, status in enumerate(CODES):
         known = STATUSES.get(status)

@@ -1,4 +1,4 @@
-"""The numbers that a page shows, each a row of the kernel's outputs."""
+"""Numbers that a page shows, each a row of the kernel's outputs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dalembert.pages.symbolic_result import SymbolicResult
 
 @dataclass
 class Rows:
-    """Nodes in the order in which they were asked for, each once; ``asked``: the row of each time."""
+    """Nodes in the order of their first request, each once; ``asked``: the row of each request."""
 
     graph: Graph
     r: SymbolicResult

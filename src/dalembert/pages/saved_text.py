@@ -1,8 +1,8 @@
-"""The text of the model file that the page saves: its author's own, with places for the numbers that the page changes.
+"""Text of the model file that the page saves: the author's text, with placeholders for the numbers that change.
 
-A part is text, or a place: what the author wrote there (``was``), the numbers on which it depends (``of``), and what
-is to stand there once one of them has changed (``now``): text and pairs of a number and the size of its unit. Numbers
-of the assembly come after the others; they have changed where any other has.
+A part is text, or a placeholder: the author's text (``was``), the numbers on which it depends (``of``), and its
+replacement once one of them has changed (``now``): text and pairs of a number and the size of its unit. Numbers of the
+assembly come after the others; they have changed where any other has.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ from dalembert.units import KINDS, NUMBER, quantity
 Part = str | Tree
 
 ROUNDS = 2
-"""Times that numbers are drawn: again those whose text in the file's units is not short."""
+"""Number of attempts at random numbers: those whose text in the file's units is not short are drawn again."""
 
 SAME = 1e-9
-"""Relative difference below which two ratios are of the same number."""
+"""Relative difference below which two ratios belong to the same number."""
 
 
 def template(m: Mechanism, k: Kernel) -> list[Part]:
@@ -39,9 +39,9 @@ def template(m: Mechanism, k: Kernel) -> list[Part]:
 
 
 def _own_template(m: Mechanism, k: Kernel) -> list[Part] | None:
-    """The author's text with places; None where it cannot be told where the numbers stand in it.
+    """The author's text with placeholders; None where the places of the numbers cannot be determined.
 
-    Two mechanisms with other numbers are written, and what differs between the texts tells which number stands where.
+    Two mechanisms with other numbers are written, and the differences between the texts show the place of each number.
     """
     if m.source is None or m.source.form != "yaml" or not m.source.text or m.source.copied:
         return None
@@ -59,7 +59,7 @@ def _own_template(m: Mechanism, k: Kernel) -> list[Part] | None:
 
 
 def _written(m: Mechanism, k: Kernel, text: str, values: list[float]) -> list[Change] | None:
-    """What changes in the text with other numbers; None where it is not read as the same mechanism."""
+    """Changes in the text with other numbers; None where it is not read as the same mechanism."""
     paths = [*(n.path for n in k.trace.numbers), *assembly_paths(k)]
     try:
         other = with_changed_numbers(m, dict(zip(paths, values, strict=True)))
@@ -71,8 +71,8 @@ def _written(m: Mechanism, k: Kernel, text: str, values: list[float]) -> list[Ch
 
 
 def _other_numbers(m: Mechanism, k: Kernel, rough: set[int]) -> tuple[list[float], list[float]]:
-    """Two lists of numbers near the file's, with a ratio of its own for each; short in the file's units, those that are
-    ``rough`` there in SI."""
+    """Two lists of numbers near the file's, each number with a different ratio; short in the file's units, the
+    ``rough`` ones in SI."""
     own = [n.value for n in k.trace.numbers]
     kinds = [*number_kinds(m, k.trace.numbers), *(_pose_kind(path) for path in assembly_paths(k))]
     draw, ratios, out = random.Random(1), set[float](), list[tuple[float, float]]()
@@ -97,14 +97,14 @@ def _pose_kind(path: str) -> str:
 def _parts(
     text: str, first: list[Change], second: list[Change], a: list[float], b: list[float]
 ) -> tuple[list[Part] | None, set[int]]:
-    """Text and places by turns, None where the changes are not the same; numbers that are not found in them."""
+    """Text and placeholders in turn, None where the changes are not the same; numbers that do not appear in them."""
     if [c[:2] for c in first] != [c[:2] for c in second]:
         return None, set()
     out, end, seen = list[Part](), 0, set[int]()
     for one, two in zip(first, second, strict=True):
         now = _pieces(one.text, two.text, a, b)
         of = [piece[0] for piece in now if not isinstance(piece, str)]
-        was: Tree = {"was": text[one.start : one.end], "of": of} if of else {}  # else the page's own cycle
+        was: Tree = {"was": text[one.start : one.end], "of": of} if of else {}  # else the page's cycle
         out += [text[end : one.start], was | {"now": now}]
         seen.update(of)
         end = one.end
@@ -112,8 +112,8 @@ def _parts(
 
 
 def _pieces(one: str, two: str, a: list[float], b: list[float]) -> list[Any]:
-    """A text by pieces: characters, and the places of numbers with the sizes of their units; empty where not all of
-    what differs between the two is found."""
+    """Pieces of a text: characters, and indices of numbers with the sizes of their units; empty where some difference
+    between the two is not explained by a number."""
     tokens = [re.split(rf"({NUMBER})", text) for text in (one, two)]
     out = list[Any]()
     for x, y in zip(*tokens, strict=False):
@@ -128,7 +128,7 @@ def _pieces(one: str, two: str, a: list[float], b: list[float]) -> list[Any]:
 
 
 def _number(x: str, y: str, a: list[float], b: list[float]) -> int | None:
-    """The number that two texts are, by their ratio."""
+    """The number that two texts represent, by their ratio."""
     try:
         ratio = float(x) / float(y)
     except (ValueError, ZeroDivisionError):
@@ -138,7 +138,7 @@ def _number(x: str, y: str, a: list[float], b: list[float]) -> int | None:
 
 
 def _si_template(m: Mechanism, k: Kernel) -> list[Part]:
-    """The text of a model file that nobody has written, in SI."""
+    """The text of a model file for a mechanism without one, in SI."""
     tree, kinds = m.to_tree(), number_kinds(m, k.trace.numbers)
     for i, n in enumerate(k.trace.numbers):
         if n.path in m.parameters:

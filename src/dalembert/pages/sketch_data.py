@@ -1,8 +1,8 @@
-"""How the page closes the linkage and follows its motion: the sketch program, and what is known of a pose by it.
+"""Data for closing the linkage and following its motion on the page: the sketch program, and quantities of a pose.
 
 The page keeps the pose that the reader sees. After each change it closes the linkage near that pose, follows the motion
-from there, and tells the kernel at each position which branch its closed forms take: ``branches`` are above zero on the
-first, ``known`` are the kernel's inputs of the known motion, ``drawn`` what is drawn where nothing closes.
+from there, and gives the kernel the branch of its closed forms at each position: ``branches`` are positive on the first
+one, ``known`` are the kernel's inputs of the known motion, ``drawn`` is drawn where the linkage does not close.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from dalembert.pages.symbolic_result import SymbolicResult
 
 
 def pose_result(r: SymbolicResult, pose: PoseInputs) -> SymbolicResult:
-    """The result with the poses that are given from outside in place of those of the closed forms."""
+    """The result with externally given poses instead of those of the closed forms."""
     links = slice(0, len(r.links))
     turn = pose.core.turn[links] if r._d == 2 else pose.core.turn
     return replace(
@@ -48,7 +48,7 @@ def page_pose(k: Kernel) -> PoseInputs:
 
 
 def sketch_data(k: Kernel, rows: Rows, shown: Rows, pose: PoseInputs, used: set[str]) -> Tree:
-    """Programs and data; ``shown`` has asked for the same numbers as ``rows``, at the poses that are inputs.
+    """Programs and data; ``shown`` contains the same numbers as ``rows``, at the poses that are inputs.
 
     used: names of the channels of the page's other programs.
     """
@@ -89,7 +89,7 @@ def sketch_data(k: Kernel, rows: Rows, shown: Rows, pose: PoseInputs, used: set[
 
 
 def _constraints(k: Kernel) -> tuple[Layout, Array, set[int]]:
-    """Layout and targets (K,) on nodes, and the rows whose phase is an input; in space meshes are as they were."""
+    """Layout and targets (K,) on nodes, and the rows whose phase is an input; in space meshes are unchanged."""
     c, like = k.trace.catalogue.compiled, k.trace.course.followed.compiled
     layout, target = with_meshes(c.layout, like.layout), np.array(c.target, object)
     rows = phase_rows(layout.constraints)
@@ -117,7 +117,7 @@ def _known(k: Kernel, layout: Layout, pose: PoseInputs) -> Iterator[tuple[str, N
 
 
 def _line_angle(k: Kernel, layout: Layout, pose: PoseInputs, row: int) -> Node:
-    """Angle of the line of centres of a mesh, counted as the mesh counts the turns of its wheels."""
+    """Angle of the line of centres of a mesh, counted like the turns of its wheels."""
     graph, inputs = k.trace.catalogue.graph, k.trace.inputs.named
     f = next(f for f in layout.constraints.families if isinstance(f, Mesh) and row in f.row)
     n = int(np.flatnonzero(f.row == row)[0])
@@ -128,7 +128,7 @@ def _line_angle(k: Kernel, layout: Layout, pose: PoseInputs, row: int) -> Node:
 
 
 def _drawn(rows: Rows, shown: Rows, pose: PoseInputs) -> dict[int, Node]:
-    """Rows that follow from the pose and the numbers alone, each by the pose that is given from outside."""
+    """Rows that depend on the pose and the numbers alone, each at the external pose."""
     graph, given = rows.graph, {n.index for n in pose.nodes}
     fit = dict[int, bool]()
     for n in graph.order(shown.nodes):
@@ -137,7 +137,7 @@ def _drawn(rows: Rows, shown: Rows, pose: PoseInputs) -> dict[int, Node]:
         else:
             fit[n.index] = all(fit[x.index] for x in (n.a, n.b) if x is not None)
     if len(rows.asked) != len(shown.asked):
-        raise ValueError("what is drawn of a pose is not what is drawn of the closed forms")
+        raise ValueError("the items drawn at a pose differ from those of the closed forms")
     pairs = dict(zip(reversed(rows.asked), reversed(shown.asked), strict=True))
     return {row: shown.nodes[other] for row, other in sorted(pairs.items()) if fit[shown.nodes[other].index]}
 
@@ -153,7 +153,7 @@ def _ends(shown: Rows) -> dict[str, list[Node]]:
 
 
 def _structure(k: Kernel, layout: Layout, s: Sketch) -> Tree:
-    """Rows and entries by the places of their outputs; the freedom of each drive."""
+    """Rows and entries by the indices of their outputs; the freedom of each drive."""
     c = k.trace.catalogue.compiled
     freedoms = {row.freedom: n for n, row in enumerate(s.rows) if row.freedom is not None}
     rows = [
@@ -175,14 +175,14 @@ def _structure(k: Kernel, layout: Layout, s: Sketch) -> Tree:
 
 
 def assembly_paths(k: Kernel) -> list[str]:
-    """Paths of the numbers that say where the links are at the first position: angles, in space poses."""
+    """Paths of the numbers that give the links' pose at the first position: angles, in space poses."""
     parts = ("", ".position.0", ".position.1", ".position.2", ".axis.0", ".axis.1", ".axis.2", ".angle")
     every = parts[:1] if k.mechanism.dimension == 2 else parts[1:]
     return [f"assembly.{link}{part}" for link in k.trace.catalogue.compiled.links for part in every]
 
 
 def _first(k: Kernel, layout: Layout, pose: PoseInputs) -> Tree:
-    """The file's own pose at its first position that closes, and the order in which an analysis looks for one."""
+    """The file's pose at its first position that closes, and the order in which an analysis searches for one."""
     motion, graph = k.trace.course, k.trace.catalogue.graph
     c = motion.followed.compiled
     at = {
@@ -202,7 +202,7 @@ def _first(k: Kernel, layout: Layout, pose: PoseInputs) -> Tree:
 
 
 def _counted(motion: Course) -> Iterator[tuple[str, float]]:
-    """Whole turns, in radians, that a torsion spring counts beyond its links' angles, by the link to name them."""
+    """Whole turns, in radians, that a torsion spring counts beyond its links' angles, by the link that names them."""
     c = motion.counted
     turns = np.atleast_2d(c.forcing.resistances.turns)
     for n in c.counts:

@@ -1,4 +1,4 @@
-"""What a page shows of a mechanism in space: the same as of one in the plane, seen through a camera that turns."""
+"""Contents of a page on a mechanism in space: as in the plane, seen through a rotatable camera."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class SpaceItems(Items):
 
 
 class SpaceBoards(Boards):
-    """All that is shown of one mechanism in space; points, forces and couples have three rows.
+    """Complete contents for one mechanism in space; points, forces and couples have three rows.
 
     A couple is an arrow with two heads along its axis.
     """
@@ -68,5 +68,5 @@ class SpaceBoards(Boards):
         return self.frame.per_mm
 
     def polygons(self) -> Tree:
-        """None: forces in space do not lie in a paper."""
+        """None: forces in space are not in one plane of paper."""
         return {"links": [], "chain": []}

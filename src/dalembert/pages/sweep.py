@@ -1,4 +1,4 @@
-"""A cycle for a mechanism whose file has one position: its first drive goes as far as the linkage closes."""
+"""A cycle for a mechanism whose file has one position: its first drive moves as far as the linkage closes."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from dalembert.model.drives.drives import Range
 TURN, STROKE = 72, 40
 """Steps of a full turn and of a slide."""
 NEAR = 1e-4
-"""Part of the way at which the motion beside the file's position is traced."""
+"""Fraction of the range at which the motion next to the file's position is traced."""
 
 
 def with_cycle(m: Mechanism) -> Mechanism:
-    """The mechanism with its first drive going a turn, or its slide to both sides, where the file has one position.
+    """The mechanism with its first drive moved over a turn, or its slide to both sides, if the file has one position.
 
-    Where the linkage does not close all the way, as far as it does; the file's own position is one of those taken.
+    Where the linkage does not close over the full range, as far as it closes; the file's position is included.
     """
     single = {name: d for name, d in m.drives.items() if isinstance(d.position, float)}
     steady = all(isinstance(d.speed, float) and isinstance(d.acceleration, float) for d in single.values())
@@ -49,7 +49,7 @@ def _over(m: Mechanism, drive: str, low: float, high: float, count: int) -> Mech
 
 
 def _closing(m: Mechanism, drive: str, ways: Array, own: int) -> Flags:
-    """Where the linkage closes on the file's own way; everywhere where only its following can tell."""
+    """True where the linkage closes on the file's branch; True everywhere if only following the motion can decide."""
     step = NEAR * (ways[-1] - ways[0])
     try:
         trace = trace_analysis(_over(m, drive, ways[own] - step, ways[own] + step, 3), (), False)

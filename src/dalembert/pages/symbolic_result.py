@@ -1,4 +1,4 @@
-"""A result of one position whose numbers are nodes of a trace: what reads a result gives formulas, not figures."""
+"""A result of one position whose numbers are nodes of a trace: functions of a result then give formulas."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from dalembert.core.layout import Pose
 
 
 class SymbolicResult(Result):
-    """What a kernel computes, as a result: (1, ...) arrays of nodes. Dry friction stands in the reactions."""
+    """Outputs of a kernel as a result: (1, ...) arrays of nodes. Reactions include dry friction."""
 
     def friction_force(self, joint: str, on: str | None = None) -> Array:
         return np.zeros((1, self._d))
@@ -36,7 +36,7 @@ def symbolic_result(k: Kernel) -> SymbolicResult:
     """The result of a kernel's trace."""
     c, t = k.trace.catalogue.compiled, k.trace.catalogue.traced
     moving = slice(0, len(c.links))
-    rub: Any = object()  # only its being there is asked
+    rub: Any = object()  # only its presence matters
     friction: Friction | None = rub if c.contacts is not None else None
     return SymbolicResult(
         compiled=c,
@@ -61,12 +61,12 @@ def symbolic_result(k: Kernel) -> SymbolicResult:
 
 
 def symbolic_actions(r: SymbolicResult, k: Kernel) -> tuple[Action, ...]:
-    """Everything on every link, in nodes, as ``whole_actions`` of a result."""
+    """All actions on every link, in nodes, like ``whole_actions`` of a result."""
     t = k.trace.catalogue.traced
     g = r.compiled.layout.algebra
     point = np.concatenate([r.point_array, t.pose.point[None, -1:]], axis=1)
     pose = Pose(point, *g.with_ground(r.turn_array, r.rotation_array))
-    nothing: Any = None  # virtual velocities, rows and factors are not asked
+    nothing: Any = None  # virtual velocities, rows and factors are not needed
     moving = Motion(t.twist[None], t.acceleration[None], nothing, nothing)
     known = known_actions(r, State(pose, moving, nothing, nothing))
     return (*joint_actions(r, split=False), *effort_actions(r), *known, *unknown_load_actions(r))

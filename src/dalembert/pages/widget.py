@@ -45,10 +45,8 @@ def _in_notebook() -> bool:
 
 
 def show_live(m: Mechanism) -> None:
-    """Show a mechanism's live page in a notebook.
-
-    Raises NotImplementedError, on which IPython shows what else there is, in a terminal, without anywidget, and for
-    what only the analyses can do.
+    """Shows a mechanism's live page in a notebook. Raises NotImplementedError in a terminal, without anywidget, and for
+    features of the analyses alone; IPython then shows another representation.
     """
     if not _in_notebook() or find_spec("anywidget") is None:
         raise NotImplementedError
@@ -70,7 +68,7 @@ def saved_html(m: Mechanism, static: bool, name: str) -> str:
 
 @cache
 def _kind() -> type:
-    """The class, made when it is first needed: what it is built on is an extra."""
+    """The widget's class, created on first use, since its base class is in an optional package."""
     import anywidget
     import traitlets
 

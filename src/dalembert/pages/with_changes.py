@@ -1,4 +1,4 @@
-"""A mechanism with what a page has changed."""
+"""A mechanism with the changes made on a page."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dalembert.model import Mechanism
 
 
 def with_changed_numbers(m: Mechanism, changes: Mapping[str, float]) -> Mechanism:
-    """The mechanism with the numbers that a page has changed, and in the assembly that it shows.
+    """The mechanism with the numbers that a page has changed, and in the assembly mode that it shows.
 
     >>> import dalembert as da
     >>> with_changed_numbers(da.four_bar(), {"assembly.rocker": 1.8}).assembly

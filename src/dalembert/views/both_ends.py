@@ -1,4 +1,4 @@
-"""Drawings where friction has two answers, one under the other: both impending motions at rest, and what holds just
+"""Drawings where friction has two answers, one under the other: both impending motions at rest, and the states just
 before and just after contacts reverse."""
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 WIDTH = 180.0
-"""Room for a heading, mm."""
+"""Width available for a heading, mm."""
 
 
 def end_words(r: Result, name: str, end: Result, which: str, k: int, shown: Shown) -> str:
-    """'Low end of O, −7304 N·m: friction is at its limit in O, A, B, guide'; or that there is no value."""
+    """Sentence such as 'Low end of O, −7304 N·m: friction is at its limit in O, A', or that no value exists."""
     value = float((end.effort(name) if name in r.drives else end.unknown_load(name))[k])
     if not math.isfinite(value):
         return f"{which} end of {name}: no value is large enough to move the mechanism in this sense"
@@ -33,7 +33,7 @@ def end_words(r: Result, name: str, end: Result, which: str, k: int, shown: Show
 
 
 def ends(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
-    """Both ends of every unknown at a position: in words, the result there, and whether it has a value."""
+    """Both ends of every unknown at a position: a sentence, the result there, and whether it has a value."""
     out = []
     for name, pair in zip(unknown_names(r), r.ends, strict=True):
         for which, end in zip(("Low", "High"), pair, strict=True):
@@ -43,7 +43,7 @@ def ends(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
 
 
 def sides(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
-    """Both sides of a reversal: in words, the result there, and whether it has numbers."""
+    """Both sides of a reversal: a sentence, the result there, and whether its forces are known."""
     joints, out = " and ".join(reversing_joints(r, k)), []
     for word, side in zip(("before", "after"), r.sides, strict=True):
         parts = []
@@ -57,12 +57,13 @@ def sides(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
 
 
 def open_at(r: Result, k: int) -> bool:
-    """Whether friction leaves the forces open at a position, with ends to show."""
+    """True if friction leaves the forces undetermined at a position and both ends are available."""
     return r.status[k] == "at_rest" and bool(r.ends)
 
 
 def at_both_ends(r: Result, k: int, shown: Shown, drawn: Callable[[Result], Scene], title: str) -> Scene:
-    """What ``render`` makes of the result, of its ends where friction leaves it open, or of a reversal's sides."""
+    """Drawing of the result by ``drawn``; of both ends where friction leaves the forces undetermined, or of both sides
+    of a reversal."""
     if not open_at(r, k) and not r.reverses[k]:
         return drawn(r)
     scenes = []

@@ -26,16 +26,16 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 MOST = 6
-"""Curves of one chart that can be told apart."""
+"""Largest number of curves of one chart that remain distinguishable."""
 
 
 READS = {"force": "reaction", "moment": "reaction_moment"}
-"""How a result is asked what a joint exerts."""
+"""Methods of a result that return a joint's force and moment."""
 
 
 def stepped_series(r: Result, read: Callable[[Result], Array]) -> Array:
-    """What is read of a result, position by position, twice where contacts reverse: just before and just after, in the
-    order in which the list passes them."""
+    """Values of ``read`` at every position, twice where contacts reverse: just before and just after, in the order of
+    the list."""
     values = read(r.before)
     if r.after is None:
         return values
@@ -48,7 +48,7 @@ def stepped_series(r: Result, read: Callable[[Result], Array]) -> Array:
 
 
 def _backwards(r: Result) -> Flags:
-    """Where the list of positions goes against the motion of the first drive."""
+    """True where the list of positions runs against the motion of the first drive."""
     if not r.drives or len(r.status) < 2 or r.schedule.time is not None:
         return np.zeros(len(r.status), bool)
     step = np.diff(r.drive_position(r.drives[0]))
@@ -56,7 +56,7 @@ def _backwards(r: Result) -> Flags:
 
 
 def along(r: Result, shown: Shown) -> tuple[Array, str, bool]:
-    """What charts are drawn against: the first drive, or the number of the position."""
+    """Abscissa of charts: the first drive, or the number of the position."""
     if not r.drives:
         return stepped_series(r, lambda side: np.arange(1.0, len(side.status) + 1)), "position", False
     kind = drive_kinds(r, r.drives[0])["position"]
@@ -67,7 +67,7 @@ def along(r: Result, shown: Shown) -> tuple[Array, str, bool]:
 
 
 def effort_chart(r: Result, notation: Notation | None = None) -> list[Scene]:
-    """Efforts over the cycle with the mean of each, torques and forces apart."""
+    """Efforts over the cycle with the mean of each, torques and forces in separate charts."""
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
     out = []
@@ -85,8 +85,8 @@ def effort_chart(r: Result, notation: Notation | None = None) -> list[Scene]:
 
 
 def mean_effort(r: Result, drive: str) -> float | None:
-    """Work of a drive's effort over its travel, trapezoid by trapezoid (N m or N); None where an effort is not known,
-    or the drive comes back to where it was. Over whole turns the last piece leads to the first position again."""
+    """Work of a drive's effort over its travel, by the trapezoidal rule (N m or N); None where an effort is unknown, or
+    the drive returns to its first position. For full turns, a last step closes the cycle."""
     effort = stepped_series(r, methodcaller("effort", drive))
     place = stepped_series(r, methodcaller("drive_position", drive))
     if len(place) > 2 and drive_kinds(r, drive)["effort"] == "moment":
@@ -103,7 +103,7 @@ def mean_effort(r: Result, drive: str) -> float | None:
 
 
 def reaction_charts(r: Result, notation: Notation | None = None, joints: Sequence[str] = ()) -> list[Scene]:
-    """Magnitudes of joint forces over the cycle, six joints a chart."""
+    """Magnitudes of joint forces over the cycle, six joints per chart."""
     return _size_charts(r, "force", joints or r.joints, notation)
 
 
@@ -126,7 +126,7 @@ def _size_charts(r: Result, kind: str, joints: Sequence[str], notation: Notation
 def components_chart(
     r: Result, joint: str, notation: Notation | None = None, kind: Literal["force", "moment"] = "force"
 ) -> Scene:
-    """Components and magnitude of one joint's force or moment over the cycle; in space in the joint's own axes."""
+    """Components and magnitude of one joint's force or moment over the cycle; in space in the joint's axes."""
     shown = Shown(r, notation or Notation())
     space = r.mechanism.dimension == 3
     axes: Axes = "joint" if space else "ground"
@@ -137,7 +137,7 @@ def components_chart(
 
 
 def vector_chart(r: Result, vectors: Array, kind: str, title: str, shown: Shown) -> Scene:
-    """Components and magnitude of vectors in the reader's unit, over the cycle: ``stepped_series`` as they are."""
+    """Components and magnitude of vectors in the reader's unit over the cycle, given as by ``stepped_series``."""
     x, label, angle = along(r, shown)
     series = dict(zip("xyz", vectors.T, strict=False)) | {"magnitude": magnitude(vectors)}
     return curves_scene(x, series, label, f"{kind.capitalize()} in {shown.unit(kind)}", title, angle)
@@ -158,8 +158,8 @@ def crank_marks(r: Result, shown: Shown) -> Marks:
 
 
 def polar_path(r: Result, joint: str, axes: str, shown: Shown) -> tuple[str, Array]:
-    """The link that a joint's force is drawn on, j unless that is the ground and link axes are asked for, and the
-    forces in the reader's unit (P, 2)."""
+    """Link that a joint's force is drawn on (j, unless that is the ground and link axes are requested), and the forces
+    in the reader's unit (P, 2)."""
     i, j = r.mechanism.joints[joint].links
     on, seen = j if axes == "ground" or j != GROUND else i, "link" if axes == "link" else "ground"
     path = stepped_series(r, methodcaller("reaction", joint, on=on, axes=seen))
@@ -204,7 +204,7 @@ def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
 
 
 def _space_charts(r: Result, notation: Notation) -> list[Scene]:
-    """Sizes of all forces and moments, then components joint by joint; what is rounding is left out."""
+    """Magnitudes of all forces and moments, then components joint by joint; without those that are rounding errors."""
     forces, moments = ({j: _largest(getattr(r, read)(j)) for j in r.joints} for read in READS.values())
     length = r.compiled.layout.length
     force, moment = (max(sizes.values(), default=0.0) for sizes in (forces, moments))

@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from dalembert.wrench.reading import Vector
 
 FREE_BODIES = "draw its free bodies"
-"""What there is in space in place of drawings of the plane."""
+"""Alternative in space to drawings that exist only in the plane."""
 
 View = Literal[
     "mechanism", "free-bodies", "friction", "teeth", "force-polygons", "charts", "motion", "question", "all"
@@ -86,16 +86,14 @@ def mechanism(
 def question(
     r: Result, at: PositionChoice = None, notation: Notation | None = None, camera: Sighted = None
 ) -> Scene:
-    """The figure of a question: what is given, by name and value, and nothing that was computed. Efforts and unknown
-    loads are arrows without a number, of one length, in their positive sense; no reactions, no equilibrium positions.
-    """
+    """The figure of a question: the given data, by name and value, without computed results."""
     return question_scene(r, position_at(r, at), notation, _camera(r, camera))
 
 
 def free_body(
     r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None, camera: Sighted = None
 ) -> Scene:
-    """One link with everything that acts on it, to scale; in space reactions are in their joints' own axes."""
+    """One link with everything that acts on it, to scale; in space, reactions are in their joints' axes."""
     seen = _camera(r, camera)
 
     def render(end: Result, k: int) -> Scene:
@@ -131,7 +129,7 @@ def force_chain(
 def lines_of_action(
     r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
-    """Where the lines of a link's forces meet."""
+    """Concurrency of a link's forces: their lines of action meet in one point."""
     refuse_space(r.mechanism, "a drawing of lines of action", FREE_BODIES)
     return _whole(
         r, at, notation, lambda end, k: lines_of_action_scene(end, _link(r, link), k, notation, case)
@@ -141,7 +139,7 @@ def lines_of_action(
 def velocity_polygon(
     r: Result, at: PositionChoice = None, notation: Notation | None = None, drive: str | None = None
 ) -> Scene:
-    """Velocities from one pole, with the links' images; of a ``drive`` at unit speed if named or none moves."""
+    """Velocities from one pole, with the links' images; of a ``drive`` at unit speed if one is named or none moves."""
     refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
     refuse_structure(r, "a velocity polygon")
     which = None if drive is None else r.drives.index(_known(drive, r.drives, "drive"))
@@ -195,7 +193,7 @@ def force_polygons(r: Result, at: PositionChoice = None, notation: Notation | No
 
 
 def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Scene:
-    """Drawings as panels in rows no wider than ``width`` mm."""
+    """Drawings as panels in rows at most ``width`` mm wide."""
     return stack_scenes(scenes, title=title, width=width)
 
 
@@ -244,7 +242,7 @@ def force_system(
 
 
 def machine(answer: Any, notation: Notation | None = None) -> Scene:
-    """What an answer of machine design shows over the cycle: of `da.shaking`, `da.balance` or `da.flywheel`."""
+    """Curves of a machine-design answer over the cycle: `da.shaking`, `da.balance` or `da.flywheel`."""
     from dalembert.views.machine import scenes_of
 
     return stack_scenes(scenes_of(answer, notation), title=answer.result.mechanism.title, width=270.0)
@@ -293,7 +291,7 @@ def view(
     notation: Notation | None = None,
     camera: Sighted = None,
 ) -> Scene:
-    """What `dalembert draw --view` writes."""
+    """Drawings as `dalembert draw --view` writes them."""
     seen = {"question": question, "free-bodies": free_bodies, "friction": friction}
     plane = {
         "force-polygons": force_polygons,
@@ -313,7 +311,7 @@ def view(
 
 
 def together(r: Result) -> list[View]:
-    """The views that `all` shows of a result, the first first."""
+    """The views that `all` shows of a result, in order."""
     out: list[View] = ["mechanism", "free-bodies"]
     out += ["force-polygons"] if r.mechanism.dimension == 2 else []
     return out + (["charts"] if len(r.status) > 2 and r.drives and r.stability is None else [])
@@ -350,9 +348,9 @@ def _camera(r: Result, camera: Sighted) -> Camera | None:
 
 
 def _known(name: str, names: Sequence[str], what: str) -> str:
-    """A name that is there."""
+    """The name, if it exists."""
     if name not in names:
-        raise ModelError(f"there is no {what} {name!r}", closest(name, list(names)))
+        raise ModelError(f"unknown {what} {name!r}", closest(name, list(names)))
     return name
 
 
@@ -367,7 +365,8 @@ def _whole(
     render: Callable[[Result, int], Scene],
     heading: str = "",
 ) -> Scene:
-    """A drawing of the result, or of both ends where friction leaves it open; a heading says the position too."""
+    """A drawing of the result, or of both ends where friction leaves it undetermined; the heading also gives the
+    position."""
     k = position_at(r, at)
     title = _title(r, k, heading, notation) if heading else r.mechanism.title
     return at_both_ends(r, k, Shown(r, notation or Notation(), k), lambda end: render(end, k), title)

@@ -25,7 +25,7 @@ WIDTH, HEIGHT = 84.0, 62.0
 """Space in mm for the points of a system."""
 
 NEAR = 1.5
-"""The origin and the central axis are drawn where they are no farther than this many lengths of the system."""
+"""Distance, in lengths of the system, up to which the origin and the central axis are drawn."""
 
 
 def force_system_scene(s: System, notation: Notation | None = None, camera: Camera | None = None) -> Scene:
@@ -36,7 +36,7 @@ def force_system_scene(s: System, notation: Notation | None = None, camera: Came
     d.given()
     notes = [d.describe_result(), *d.resultant()]
     d.couples(s.couples, [n for n, p in zip(s.names, s.parts, strict=True) if isinstance(p, Couple)])
-    notes += ["Couples are free vectors: they stand below."] if s.couples else []
+    notes += ["Couples are free vectors, drawn below."] if s.couples else []
     return d.scene(s.title or "Force system", notes)
 
 
@@ -82,12 +82,12 @@ def force_system_polygon_scene(s: System, notation: Notation | None = None) -> S
 
 
 def _action(name: str, f: Force) -> Action:
-    """A force as an action at one position, which the drawings of results know."""
+    """A force as an action at one position, as drawings of results use it."""
     return Action(name, f.kind, "", "", None, f.at[None], f.vector[None], np.zeros(1))  # type: ignore[arg-type]
 
 
 class Drawing:
-    """One drawing of a system in the making: from places and vectors of the plane or of space to paper."""
+    """One drawing of a system under construction: maps places and vectors, planar or spatial, to paper."""
 
     def __init__(self, s: System, shown: Figures, camera: Camera | None, more: Sequence[Array] = ()) -> None:
         self.s, self.shown = s, shown
@@ -119,11 +119,11 @@ class Drawing:
     # from the system to paper
 
     def near(self, p: Array) -> bool:
-        """Whether a place is near enough to be drawn."""
+        """True if a place is near enough to be drawn."""
         return float(np.linalg.norm(p - self.s.middle)) <= NEAR * self.s.length or not self.s.forces
 
     def project(self, v: Array) -> Array:
-        """A vector as it is seen, in its own unit."""
+        """Projection of a vector, in its unit."""
         return v if self.camera is None else self.camera(v)
 
     def place(self, p: Array) -> Point:
@@ -136,13 +136,13 @@ class Drawing:
         return (start[0] + float(dx), start[1] + float(dy))
 
     def coordinates(self, p: Array) -> str:
-        """A place in words."""
+        """Coordinates of a place as text."""
         floor = 1e-9 * max(self.s.length, float(np.abs(p).max()))
         numbers = ", ".join(self.shown.number("length", float(x), floor) for x in p)
         return f"({numbers}) {self.shown.unit('length')}"
 
     def place_name(self, p: Array) -> str:
-        """A place in words, by its name where it has one."""
+        """Text for a place: its name, if it has one, else coordinates."""
         name = self.s.point_name(p, "")
         return f"{name} {self.coordinates(p)}".strip()
 
@@ -163,7 +163,7 @@ class Drawing:
                 self.canvas.label(name, head, size=2.6, role="note", leads=False)
 
     def _floor(self) -> None:
-        """The rectangle below all places and lines from the places down to it: where things stand in depth."""
+        """Rectangle below all places, with lines from the places down to it, which show their depth."""
         low, high = self.places.min(axis=0), self.places.max(axis=0)
         z = min(0.0, low[2]) if self.origin is not None else low[2]
         corners = [
@@ -210,7 +210,7 @@ class Drawing:
         self.canvas.label(text, *spots, prefer=away, size=2.8, role=role)
 
     def _components(self, tail: Point, vector: Array) -> None:
-        """The way to the head along x, y and z."""
+        """Path to the head along x, y and z."""
         if np.count_nonzero(np.abs(vector) > 1e-9 * np.abs(vector).max()) < 2:
             return
         steps, at = [tail], tail
@@ -221,7 +221,7 @@ class Drawing:
         self.canvas.add(Line(tuple(steps), "construction"))
 
     def couples(self, couples: Sequence[Couple], names: Sequence[str]) -> None:
-        """Couples in a row below: as free vectors they stand anywhere."""
+        """Couples in a row below the drawing; as free vectors they may be placed anywhere."""
         left, bottom, _, _ = Scene(tuple(self.canvas.items)).bounds
         x = left + 8.0
         for name, c in zip(names, couples, strict=True):
@@ -253,12 +253,12 @@ class Drawing:
         self.canvas.add(*plane_symbols.two_heads(tail, head, role, name, "moment-seen", seen))
 
     def resultant(self) -> list[str]:
-        """The resultant on its line of action, in space with the couple along it; what to say where it is far."""
+        """The resultant on its line of action, in space with the couple along it; a note where it is too far away."""
         if self.central is None or len(self.s.forces) + len(self.s.couples) < 2:
             return []
         axis = self.central.axis
         if not self.near(axis.point):
-            return [f"Its line is off this drawing: it passes {self.coordinates(axis.point)}."]
+            return [f"Its line is outside this drawing: it passes through {self.coordinates(axis.point)}."]
         at, ahead = self.place(axis.point), self.ahead((0.0, 0.0), axis.direction, 1.0)
         line = clip_line(at, ahead, self._room())
         if line is not None:
@@ -271,7 +271,7 @@ class Drawing:
         return []
 
     def _couple_on_axis(self, at: Point) -> None:
-        """The couple along the force, in front of it or, where it turns the other way, behind it."""
+        """The couple along the force, in front of it or, if opposite, behind it."""
         assert self.central is not None
         along, moment = self.central.axis.direction, self.central.moment
         head = self.ahead(at, self.central.force, self.per_mm)
@@ -282,7 +282,7 @@ class Drawing:
         self.couple("M", Couple(moment * along), tail, "resultant-force")
 
     def _distance(self, origin: Point) -> None:
-        """How far the resultant passes from the origin."""
+        """Distance of the resultant from the origin."""
         assert self.central is not None
         foot = self.central.axis.foot(np.zeros(2))
         length = float(np.linalg.norm(foot))
@@ -298,7 +298,7 @@ class Drawing:
     # what is said
 
     def describe_result(self) -> str:
-        """What the system comes to, in words."""
+        """Sentence on the resultant of the system."""
         text, s = self.shown.text, self.s
         if self.kind == "zero":
             return (
@@ -320,7 +320,7 @@ class Drawing:
         return f"The system is a wrench: {words}, {through}; M = {text('moment', self.central.moment)}, pitch {pitch}."
 
     def reduction(self, found: ForceCouple) -> str:
-        """A force and couple at a point, in words."""
+        """A force and couple at a point, as text."""
         return f"R = {self.vector(found.force, 'force')}, M = {self.vector(found.vector, 'moment')}."
 
     def vector(self, v: Array, kind: str) -> str:
@@ -341,10 +341,10 @@ class Drawing:
         return self.canvas.scene(title, notes=[*notes, *texts], scales=scales, numbers=numbers)
 
     def _scale_notes(self, text: str, scales: dict[str, float]) -> tuple[list[str], dict[str, float]]:
-        """Scales of true sizes, and how much shorter each axis is seen."""
+        """Scales of true lengths, and the foreshortening of each axis."""
         assert self.camera is not None
         short = np.linalg.norm(self.camera(np.eye(3)), axis=-1)
-        seen = f"along x, y and z they are seen {', '.join(f'{x:.3f}' for x in short)} of it"
+        seen = f"foreshortening along x, y and z: {', '.join(f'{x:.3f}' for x in short)}"
         turning = any(isinstance(i, Arrow) and i.kind == "moment-seen" for i in self.canvas.items)
         moments = f"; moments: 1 mm = {self.shown.plain('moment', self.moment_per_mm)}" if turning else ""
         out = {"length": scales["length"], "force-seen": self.per_mm, "moment-seen": self.moment_per_mm}
@@ -352,7 +352,7 @@ class Drawing:
 
 
 def clip_line(at: Point, along: Point, room: tuple[float, float, float, float]) -> tuple[Point, Point] | None:
-    """The part inside a box of a line through a place on paper; None where it passes by.
+    """Part of a line through a place on paper that is inside a box; None where it misses the box.
 
     >>> clip_line((0, 5), (1, 0), (-10, 0, 10, 8))
     ((-10.0, 5.0), (10.0, 5.0))

@@ -1,4 +1,4 @@
-"""What a drawing cannot show: a motion where nothing moves; forces that are not unique, or not known."""
+"""Limits of drawings: motion without a moving drive; forces that are not unique, or unknown."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ STILL = "draw the mechanism, its free bodies or force polygons"
 
 
 def refuse_structure(r: Result, what: str) -> None:
-    """Raise ModelError for a structure."""
+    """Raises ModelError for a structure."""
     if not r.drives:
         raise ModelError(f"{what} shows a motion, and a structure has none", STILL)
 
 
 def refuse_still(r: Result, what: str) -> None:
-    """Raise ModelError for a structure, equilibria or a single position, with what was asked for in the message."""
+    """Raises ModelError for a structure, equilibria or a single position, with the requested drawing in the message."""
     refuse_structure(r, what)
     if r.stability is not None:
         raise ModelError(f"{what} shows a motion, and here are equilibrium positions", STILL)
@@ -47,10 +47,10 @@ def doubts(r: Result, k: int, joints: Iterable[str]) -> list[str]:
 
 
 def has_reactions(r: Result, link: str, k: int) -> bool:
-    """Whether a link's reactions have numbers at a position, be it those of least norm."""
+    """True if a link's reactions have values at a position, unique or of least norm."""
     return all(bool(np.isfinite(r.least_norm(n)[k]).all()) for n in on_one(r, link))
 
 
 def on_one(r: Result, link: str) -> list[str]:
-    """The joints of a link."""
+    """Joints of a link."""
     return [name for name in r.joints if link in r.mechanism.joints[name].links]

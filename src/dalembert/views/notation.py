@@ -1,4 +1,4 @@
-"""How the reader writes: names of links and forces, units, figures."""
+"""Notation of the reader: names of links and forces, units, figures."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ class Notation:
 
     ``links``: by number (ground is 1) or name. ``order``: F_ij by i on j (`by-on`), or on i by j (`on-by`).
     ``letter``: F, or G as METU writes joint forces. ``units``: those of the file, or SI. ``figures``: significant
-    figures; ``decimals`` in their place where given. ``torque``: 1 where counter-clockwise is positive, -1 where
-    clockwise is. ``axes``: components in ground axes, or in each link's own (LRCS).
+    figures; ``decimals`` instead where given. ``torque``: 1 where counter-clockwise is positive, -1 where
+    clockwise is. ``axes``: components in ground axes, or in each link's local axes (LRCS).
     """
 
     links: Literal["number", "name"] = "number"
@@ -41,10 +41,10 @@ class Notation:
     torque: int = 1
     axes: Literal["ground", "link"] = "ground"
     scaled: ClassVar[bool] = True
-    """Whether the largest number of the answer decides a unit's power of ten: kN for N."""
+    """True if the largest number of the answer decides a unit's power of ten: kN for N."""
 
     def number(self, value: float) -> str:
-        """A number for show.
+        """A number as text.
 
         >>> Notation().number(243.23759), Notation(decimals=2).number(243.23759), Notation().number(-0.0)
         ('243.2', '243.24', '0')
@@ -61,12 +61,12 @@ class Notation:
         return f"{value:.{max(self.figures - 1 - power, 0)}f}".replace("-", "−")
 
     def _power(self, value: float) -> int:
-        """The power of ten of a number's first figure, as it is rounded."""
+        """Power of ten of a number's leading digit after rounding."""
         return math.floor(math.log10(abs(float(f"{value:.{self.figures}g}"))))
 
     def degrees(self, angle: float) -> str:
-        """An angle (rad) in degrees: as many decimals as make it as good as a length of the same figures, and never
-        fewer figures than were asked for; rounding beside a radian is 0.
+        """An angle (rad) in degrees, with as many decimals as make it as accurate as a length with the same figures,
+        and never fewer figures than requested; rounding errors next to a radian become 0.
 
         >>> [Notation().degrees(x) for x in (2.4011, 0.0015, -1e-16)], Notation(figures=7).degrees(2.4011)
         (['137.57', '0.08594', '0'], '137.57290')
@@ -84,7 +84,7 @@ class Notation:
         return f"{degrees:.{max(self.figures - 2, self.figures - 1 - power)}f}".replace("-", "−")
 
     def direction(self, x: float, y: float) -> str:
-        """The direction of a vector in degrees; a component that is rounding beside the other counts as none.
+        """Direction of a vector in degrees; a component at rounding level next to the other counts as zero.
 
         >>> Notation().direction(-3.0, -1e-16), Notation().direction(0.0, -2.0)
         ('180.00', '−90.00')
@@ -94,7 +94,7 @@ class Notation:
         return self.degrees(math.atan2(y, x))
 
     def given(self, value: float) -> str:
-        """A plain number of the file, with all its figures up to six, or up to those asked for.
+        """A plain number of the file, with all its figures up to six, or up to the requested number.
 
         >>> Notation().given(0.15), Notation().given(1.0015)
         ('0.15', '1.0015')
@@ -111,7 +111,7 @@ class Notation:
 
 
 class Figures:
-    """Numbers and units in a notation; ``units`` are the reader's own. ``least``: by kind, what is rounding (SI)."""
+    """Numbers and units in a notation; ``units`` are the reader's. ``least``: rounding level by kind (SI)."""
 
     def __init__(self, units: object, notation: Notation) -> None:
         self.notation = notation
@@ -140,12 +140,12 @@ class Figures:
 
     @property
     def arm(self) -> float:
-        """Size in SI of the length that times a force is a moment, all in the reader's units."""
+        """SI size of the length that multiplies a force to give a moment, all in the reader's units."""
         return self.size("moment") / self.size("force")
 
     @property
     def arm_unit(self) -> str:
-        """Its unit: that of lengths, unless moments have a unit of their own."""
+        """Unit of lever arms: that of lengths, unless moments have a separate unit."""
         if math.isclose(self.arm, self.size("length"), rel_tol=1e-9):
             return self.unit("length")
         names = ("m", "mm", "cm", "in", "ft")
@@ -153,7 +153,8 @@ class Figures:
         return next(known, f"{self.unit('moment')}/{self.unit('force')}")
 
     def factor(self, kind: str, *of: str) -> float:
-        """What a product of numbers in the reader's units is multiplied with to be one of a kind; 1 where they agree.
+        """Factor that converts a product of numbers in the reader's units into the reader's unit of a kind; 1 where
+        they agree.
 
         With mm, kg and N it is 0.001 from a mass times an acceleration to a force, as 1 N = 1000 kg mm/s2.
         """
@@ -161,7 +162,7 @@ class Figures:
         return 1.0 if math.isclose(found, 1.0, rel_tol=1e-9) else found
 
     def with_factor(self, numbers: str, kind: str, *of: str) -> str:
-        """A product in the reader's units, with that factor behind it where there is one: '−2 (−10, 4) / 1000'."""
+        """A product in the reader's units, followed by the conversion factor if needed: '−2 (−10, 4) / 1000'."""
         return self._with_factor(numbers, self.factor(kind, *of))
 
     def _with_factor(self, numbers: str, factor: float) -> str:
@@ -172,7 +173,7 @@ class Figures:
         return f"{numbers} cdot {self.conversion(factor)}"
 
     def conversion(self, factor: float) -> str:
-        """A factor between units as a formula has it: 1000, 32.17, 10^{9}."""
+        """A factor between units as printed in a formula: 1000, 32.17, 10^{9}."""
         whole, power = round(factor), round(math.log10(factor))
         if power > 5 and math.isclose(factor, 10.0**power, rel_tol=1e-9):
             return f"10^{{{power}}}"
@@ -184,16 +185,16 @@ class Figures:
         return _with_gap(number, self._unit_behind(number, kind))
 
     def with_unit(self, number: str, kind: str, behind: str = "") -> str:
-        """A number with its unit as a formula has it."""
+        """A number with its unit as printed in a formula."""
         return f'{number} "{self._unit_behind(number, kind)}{behind}"'
 
     def _unit_behind(self, number: str, kind: str) -> str:
-        """The unit of a number; behind a 0 without a power of ten."""
+        """Unit after a number; after 0 without a power of ten."""
         unit = self.unit(kind)
         return unit.partition(" ")[2] if number == "0" and unit.startswith("10") else unit
 
     def plain(self, kind: str, value: float) -> str:
-        """A round number with its unit, as a scale has."""
+        """A round number with its unit, as on a scale."""
         return _with_gap(f"{self.value(kind, value):.6g}", self.unit(kind))
 
     def polar(self, vector: tuple[float, float], kind: str = "force") -> str:
@@ -201,7 +202,7 @@ class Figures:
         return f"{self.text(kind, math.hypot(*vector))} ∠ {self.notation.direction(*vector)}°"
 
     def symbol(self, a: Action) -> str:
-        """Sign of an action: its own name."""
+        """Symbol of an action: its name."""
         return own_name(a.of)
 
 
@@ -210,7 +211,7 @@ def _with_gap(number: str, unit: str) -> str:
 
 
 class Shown(Figures):
-    """Numbers, units and symbols of one result in a notation; at position k rounding is told from numbers."""
+    """Numbers, units and symbols of one result in a notation; at position k, values below rounding level are 0."""
 
     def __init__(self, r: Result, notation: Notation, k: int | None = None) -> None:
         super().__init__(r.mechanism.units, notation)
@@ -244,7 +245,7 @@ class Shown(Figures):
         return f"{self.notation.letter}_{{{self.between(joint, on)}}}"
 
     def between(self, joint: str, on: str) -> str:
-        """Index of what a joint does to a link, with its name where that alone would be another joint's or a load's."""
+        """Index of a joint's action on a link, with the joint's name where another joint or load has the same index."""
         i, j = self.r.mechanism.joints[joint].links
         twin = [n for n, d in self.r.mechanism.joints.items() if set(d.links) == {i, j}]
         pair = self.pair(i if on == j else j, on)
@@ -254,7 +255,7 @@ class Shown(Figures):
         return pair + (f",{joint}" if len(twin) > 1 or loads else "")
 
     def symbol(self, a: Action) -> str:
-        """Sign of an action: F_{12}, T_{12}, W_{3}, F_{I3}, T_{I3}, D_{A} of damping, or the load's own name."""
+        """Symbol of an action: F_{12}, T_{12}, W_{3}, F_{I3}, T_{I3}, D_{A} of damping, or the load's name."""
         turning = not np.nan_to_num(a.force).any()
         if a.kind == "joint":
             return self._part(self.reaction(a.of, a.link), a.part)
@@ -283,7 +284,7 @@ class Shown(Figures):
         return self.symbol(replace(a, force=np.full_like(a.force, kind == "force")))
 
     def _drive(self, a: Action) -> str:
-        """The name of a drive where another one acts in the same way between the same links."""
+        """Name of a drive, where another drive acts in the same direction between the same links."""
         links = {a.link, a.by or GROUND}
         kind = drive_kinds(self.r, a.of)["effort"]
         m = self.r.mechanism
@@ -318,7 +319,7 @@ def along(sign: str, axis: str) -> str:
 
 
 def own_name(name: str) -> str:
-    """A load's own name as a sign: F_P gives F_{P}, T4 gives T_{4}.
+    """A load's name as a symbol: F_P gives F_{P}, T4 gives T_{4}.
 
     >>> own_name("F_P"), own_name("T_4"), own_name("F2"), own_name("gas")
     ('F_{P}', 'T_{4}', 'F_{2}', 'gas')

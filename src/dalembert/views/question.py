@@ -1,4 +1,4 @@
-"""The figure of a question: the mechanism with what is given, and nothing that would give an answer away."""
+"""The figure of a question: the mechanism with the given data, without anything that reveals an answer."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 ASKED = 14.0
-"""Length in mm of the arrow of what is asked for, whatever its value."""
+"""Length in mm of the arrow of an unknown, whatever its value."""
 
-UNNUMBERED = "Arrows without a number are asked for, drawn in their positive sense."
-ELSEWHERE = "Drawn at another position than those asked for."
+UNNUMBERED = "Arrows without a number are unknowns, drawn in their positive sense."
+ELSEWHERE = "Not drawn at an equilibrium position."
 
 
 def question_scene(
@@ -46,10 +46,10 @@ def question_scene(
     camera: Camera | None = None,
     data: bool = True,
 ) -> Scene:
-    """The mechanism to scale with known loads by name and value, and asked ones by name alone.
+    """The mechanism to scale with known loads by name and value, and unknown ones by name alone.
 
-    Efforts, reactions, speeds and angles that are computed are left out, and of efforts and unknown loads the sense;
-    ``data`` writes what is given below it. Equilibrium positions, which are asked for, are not drawn.
+    Computed efforts, reactions, speeds and angles are left out, and so are the senses of efforts and unknown loads;
+    ``data`` lists the given data below. Equilibrium positions are unknowns and are not drawn.
     """
     title, notation = r.mechanism.title or "Mechanism", as_given(notation)
     stated = [f"Drive {d}: {drive_text(Shown(r, notation), k, d)}." for d in r.drives]
@@ -70,7 +70,7 @@ def question_scene(
 
 
 def _elsewhere(r: Result) -> Result:
-    """The mechanism at another position of the range in which its own is asked for."""
+    """The mechanism at another position of the range in which its equilibrium is sought."""
     from dalembert.analysis.solution import kinematics
 
     values: dict[str, object] = {}
@@ -85,7 +85,7 @@ def _elsewhere(r: Result) -> Result:
 
 
 def _sort(r: Result, without: Sequence[str]) -> tuple[list[Action], list[Action]]:
-    """Loads and efforts that are given, and those that are asked for, each with the value 1; not of some drives."""
+    """Known and unknown loads and efforts, the unknown ones with the value 1; without those of some drives."""
     ones = replace(r, effort_array=np.ones_like(r.effort_array), load_array=np.ones_like(r.load_array))
     given: list[Action] = []
     asked: list[Action] = []

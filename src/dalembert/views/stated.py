@@ -1,4 +1,4 @@
-"""What a problem states, in words: drives, links and loads, with nothing of what was computed."""
+"""Data of a problem as sentences: drives, links and loads, without computed values."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from dalembert.views.notation import Notation, Shown, own_name
 
 
 class AsGiven(Notation):
-    """A notation that writes numbers with the figures they were given with, up to six, and in the units of the file
-    itself: a power of ten with a unit would tell how large the answer is.
+    """A notation that writes numbers with the figures of the file, up to six, and in the file's units: a unit scaled by
+    a power of ten would reveal the size of the answer.
 
     >>> AsGiven().number(80.0), AsGiven().degrees(math.radians(60.0))
     ('80', '60')
@@ -31,7 +31,7 @@ class AsGiven(Notation):
     scaled = False
 
     def number(self, value: float) -> str:
-        """A number for show."""
+        """A number as text."""
         return self.given(value + 0.0) if math.isfinite(value) else "-"
 
     def degrees(self, angle: float) -> str:
@@ -45,7 +45,7 @@ def as_given(notation: Notation | None) -> AsGiven:
 
 
 def stated_numbers(part: Part, shown: Shown) -> list[str]:
-    """The numbers that a part of the description gives itself: 'stiffness 200 N/m', 'free length 0.1 m'."""
+    """The numbers that a part of the description states: 'stiffness 200 N/m', 'free length 0.1 m'."""
     out = []
     for name, field in type(part).model_fields.items():
         value = getattr(part, name)
@@ -56,7 +56,7 @@ def stated_numbers(part: Part, shown: Shown) -> list[str]:
 
 
 def _scalars(marks: tuple[object, ...]) -> Iterator[str]:
-    """Kinds of the numbers that the marks of a field speak of."""
+    """Kinds of the numbers in a field, from its annotations."""
     for mark in marks:
         if isinstance(mark, Scalar):
             yield mark.kind
@@ -67,7 +67,7 @@ def _scalars(marks: tuple[object, ...]) -> Iterator[str]:
 
 
 def drive_text(shown: Shown, k: int, drive: str) -> str:
-    """A drive's position, speed and acceleration, those rates that it has; an unknown position stays unknown."""
+    """A drive's position, speed and acceleration, the latter two if given; an unknown position stays unknown."""
     r, kinds = shown.r, drive_kinds(shown.r, drive)
     described = r.mechanism.drives[drive]
     position = (
@@ -83,7 +83,7 @@ def drive_text(shown: Shown, k: int, drive: str) -> str:
 
 
 def load_text(shown: Shown, k: int, name: str) -> str:
-    """A load as it is stated; a force or couple at position k, in ground axes; of what is asked for where it acts."""
+    """Given data of a load; a force or couple at position k, in ground axes; of an unknown load, its place."""
     r = shown.r
     load: Any = r.mechanism.loads[name]
     if load.ON == "span":
@@ -106,7 +106,7 @@ def _spot(shown: Shown, at: str | Iterable[float] | None) -> str:
 
 
 def _along(shown: Shown, load: Any) -> str:
-    """The direction in which a load that is asked for counts."""
+    """Positive direction of an unknown load."""
     direction = getattr(load, "direction", None)
     if direction is None:
         return ""
@@ -122,7 +122,7 @@ def place_text(shown: Shown, p: Iterable[float]) -> str:
 
 
 def vector_text(shown: Shown, kind: str, v: Array) -> str:
-    """A force or couple as the reader writes it: in the plane by size and angle, in space by components."""
+    """A force or couple in the reader's units: in the plane by magnitude and angle, in space by components."""
     if not np.isfinite(v).all():
         return "no value"
     if np.ndim(v) == 0:
@@ -134,7 +134,7 @@ def vector_text(shown: Shown, kind: str, v: Array) -> str:
 
 
 def mass_text(shown: Shown, link: str, named: bool = False) -> str:
-    """The mass of a link, or its weight where that is what the file gives."""
+    """The mass of a link, or its weight where the file gives that."""
     m = shown.r.mechanism
     weight = m.links[link].weight
     if weight is None:
@@ -143,14 +143,14 @@ def mass_text(shown: Shown, link: str, named: bool = False) -> str:
 
 
 def weights_text(shown: Shown) -> str:
-    """What weights are divided by, where a file gives weights and its own g."""
+    """Note on the divisor of weights, where a file gives weights and its g."""
     m = shown.r.mechanism
     given = m.g_override is not None and any(link.weight is not None for link in m.links.values())
     return f"Weights are divided by g = {shown.text('acceleration', m.g)}" if given else ""
 
 
 def joint_text(shown: Shown, joint: str) -> str:
-    """What a joint has of its own besides its points: ', pitch radii 80 mm and 40 mm; μ = 0.4, R = 0.07 m'."""
+    """Data of a joint besides its points: ', pitch radii 80 mm and 40 mm; μ = 0.4, R = 0.07 m'."""
     described = shown.r.mechanism.joints[joint]
     return joint_measures(shown, described) + _friction(shown, described)
 
@@ -191,11 +191,11 @@ OWN_MEASURES = (
     ("helix_angle", "helix angle", "angle"),
     ("lead", "lead", "length"),
 )
-"""Keys of joints, what they are called and of which kind."""
+"""Keys of joints, with their names and kinds."""
 
 
 def _friction(shown: Shown, joint: Joint) -> str:
-    """The friction of a joint as it was given: '; μ = 0.4, R = 0.07 m'."""
+    """The friction of a joint as given: '; μ = 0.4, R = 0.07 m'."""
     r, f, given = shown.r, getattr(joint, "friction", None), shown.notation.given
     if f is None or r.friction is None:
         return ""
@@ -211,7 +211,7 @@ def _friction(shown: Shown, joint: Joint) -> str:
 
 
 def given_lines(shown: Shown, k: int) -> list[str]:
-    """Everything that is stated but the drives, a line a part: links, joints, loads."""
+    """All given data except the drives, one line per part: links, joints, loads."""
     r, m = shown.r, shown.r.mechanism
     lines = []
     for link in (*r.links, GROUND):
@@ -221,7 +221,9 @@ def given_lines(shown: Shown, k: int) -> list[str]:
             if m.dimension == 2 and m.inertia(link):
                 points += [f"inertia {shown.text('inertia', m.inertia(link))}"]
         if points:
-            lines.append(f"{shown.heading(link)}, own axes, in {shown.unit('length')}: {'; '.join(points)}.")
+            lines.append(
+                f"{shown.heading(link)}, local axes, in {shown.unit('length')}: {'; '.join(points)}."
+            )
     for name, joint in m.joints.items():
         own = joint_text(shown, name) + axes_text(joint)
         lines += [f"Joint {name}: {joint.type.replace('_', ' ')}{own}."] if own else []

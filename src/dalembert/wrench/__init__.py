@@ -1,8 +1,8 @@
-"""Force systems as a tool of their own, in the plane and in space: ``da.wrench``.
+"""Force systems without a mechanism, in the plane and in space: ``da.wrench``.
 
-Forces at points and couples make a `System`; ask it for its resultant, its moment about a point or an axis, the force
-and couple at any point, its central axis, and whether it is in equilibrium. Numbers are SI and radians, texts carry
-their units.
+Forces at points and couples form a `System`. It gives its resultant, its moment about a point or an axis, the force and
+couple at any point, its central axis, and whether it is in equilibrium. Numbers are SI and radians, texts carry their
+units.
 
 In: forces and couples at points. Out: sums, axes, verdicts. Imports ``algebra``, ``model``, ``analysis``.
 

@@ -1,4 +1,4 @@
-"""How the forces of a system lie: on one line, through one point, parallel, in one plane."""
+"""Arrangement of the forces of a system: collinear, concurrent, parallel, coplanar."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dalembert.wrench.system import EXACT, System
 
 
 def arrangement(system: System, tolerance: float = EXACT) -> str:
-    """How the lines of action lie, the most special word first that holds.
+    """Arrangement of the lines of action: the most special term that holds.
 
     `no forces`, `collinear`, `concurrent`, `parallel`, `coplanar` (in space), `general`. Couples do not count.
 
@@ -84,7 +84,7 @@ def _parallel(lines: list[Axis], tolerance: float) -> bool:
 
 
 def _coplanar(lines: list[Axis], tolerance: float) -> bool:
-    """Whether one plane holds all points and directions: the least spread of both together is zero."""
+    """True if one plane contains all points and directions: the least spread of both together is zero."""
     places = np.array([line.point for line in lines])
     away = places - places.mean(axis=0)
     reach = float(np.abs(away).max(initial=0.0)) or 1.0

@@ -1,4 +1,4 @@
-"""Is a force system in equilibrium, and what is missing where it is not."""
+"""Equilibrium check of a force system, and the missing forces if it fails."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from dalembert.wrench.reading import read_only
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """Sums of forces (N) and of moments (N m) about ``at`` (m), and their largest part of what acts.
+    """Sums of forces (N) and of moments (N m) about ``at`` (m), and their largest ratio to the applied forces.
 
     ``residual`` is the larger of |sum of forces| / largest force and |sum of moments| / (largest force x length).
     """
@@ -40,7 +40,7 @@ def balance(
 ) -> Balance:
     """The check of equilibrium of a system with these sums of forces, and of moments about ``at``.
 
-    ``scales``: the largest force and moment; ``missing``: what would bring it to equilibrium.
+    ``scales``: the largest force and moment; ``missing``: the parts that would bring it to equilibrium.
 
     >>> from dalembert.wrench import Force, System
     >>> System(Force([0, 10]), Force([0, -10], at=[2, 0])).equilibrium().sentence
@@ -84,7 +84,7 @@ def _describe(part: Force | Couple, units: Units) -> str:
 
 
 def list_components(values: Array, kind: str, units: Units) -> str:
-    """Components with their unit, five figures: `[3, 4] N`; large ones in the unit that tables have them in.
+    """Components with their unit, five figures: `[3, 4] N`; large ones in the unit used in tables.
 
     >>> list_components(np.array([3.0, 4.0]), "force", Units(force="kN"))
     '[0.003, 0.004] kN'

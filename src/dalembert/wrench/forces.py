@@ -1,4 +1,4 @@
-"""Force, couple and axis: what a force system is made of, in the plane (2 components) and in space (3)."""
+"""Force, couple and axis: the parts of a force system, in the plane (2 components) and in space (3)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ALGEBRA: dict[int, Algebra] = {2: plane, 3: space}
 
 
 def value_of(moment: Array) -> Numeric:
-    """A moment as it is handed out: a number in the plane, a vector (3,) in space."""
+    """A moment as users see it: a number in the plane, a vector (3,) in space."""
     return float(moment[0]) if moment.shape == (1,) else moment
 
 
@@ -53,7 +53,7 @@ class Axis:
         return read_only(self.point + (arm @ self.direction) * self.direction)
 
     def crossing(self, **plane: Number) -> Array:
-        """Where the line meets a plane x = value, y = value or z = value (m).
+        """Intersection of the line with a plane x = value, y = value or z = value (m).
 
         >>> Axis([0, 0, 4], [1, 0, 1]).crossing(z=6)
         array([2., 0., 6.])
@@ -115,7 +115,7 @@ class Force:
         units: UnitNames = None,
         kind: str = "load",
     ) -> Self:
-        """A force of a size at ``start``, directed from there towards ``end``.
+        """A force of a given size at ``start``, directed towards ``end``.
 
         >>> Force.along("90 N", [0, 0, 0], [2, 1, 2]).vector
         array([60., 30., 60.])
@@ -199,14 +199,14 @@ class Force:
 
     @property
     def angle(self) -> float:
-        """In the plane, the direction from the x axis (radians, counter-clockwise)."""
+        """Direction from the x axis in the plane (radians, counter-clockwise)."""
         if self.dimension == 3:
             raise ModelError("a force in space has no single angle", "ask for its angles, one to each axis")
         return math.atan2(float(self.vector[1]), float(self.vector[0]))
 
     @property
     def line(self) -> Axis:
-        """Its line of action."""
+        """Line of action."""
         return Axis(self.at, self.vector)
 
     def components(self, *axes: Vector | Number) -> Array:
@@ -237,7 +237,7 @@ class Force:
         return self.line.distance(about)
 
     def moved(self, at: Vector) -> tuple[Force, Couple]:
-        """The same force at another point, and the couple that makes up for it: its moment about that point.
+        """The same force at another point, and the couple that compensates: its moment about that point.
 
         >>> force, couple = Force([0, 5], at=[2, 0]).moved([0, 0])
         >>> force.at, couple.moment
@@ -287,7 +287,7 @@ class Couple:
 
     @property
     def moment(self) -> Numeric:
-        """Its moment, about any point: a number in the plane, a vector (3,) in space."""
+        """Moment about any point: a number in the plane, a vector (3,) in space."""
         return value_of(self.vector)
 
     @property
@@ -311,11 +311,13 @@ def moment_components(moment: Numeric, units: UnitNames = None) -> list[float]:
 
 
 def moment_about(part: Any, about: Vector | Axis | None) -> Numeric:
-    """Moment of whatever has `dimension` and `_moment(point)` about a point or an axis, as it is handed out."""
+    """Moment of an object with `dimension` and `_moment(point)` about a point or an axis, as users see it."""
     d = part.dimension
     if isinstance(about, Axis):
         if d == 2:
-            raise ModelError("in the plane moments are about points", "name the point where the axis stands")
+            raise ModelError(
+                "in the plane moments are about points", "name the point that the axis passes through"
+            )
         return float(part._moment(about.point) @ about.direction)
     return value_of(
         part._moment(np.zeros(d) if about is None else reading.vector(about, "length", dimension=d))
@@ -325,7 +327,7 @@ def moment_about(part: Any, about: Vector | Axis | None) -> Numeric:
 def components(force: Vector, *axes: Vector | Number) -> Array:
     """Components (N) of a force along axes, so that the sum of component times unit vector is the force.
 
-    The axes need not be square to each other. Raises ModelError where they are dependent, or where the force does not
+    The axes need not be perpendicular. Raises ModelError where they are dependent, or where the force does not
     lie in their plane.
 
     >>> components([100, 0], "30 deg", "-45 deg").round(2)

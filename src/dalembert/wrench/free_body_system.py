@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 
 def on(r: Result, *links: str, at: PositionChoice = None) -> System:
-    """Everything that acts on a link at a position, or on some links taken as one: N, N m, m, ground axes.
+    """Everything that acts on a link at a position, or on several links as one body: N, N m, m, ground axes.
 
     Reactions (F_A and M_A in joint A), loads, weights, efforts and, in dynamics, D'Alembert's inertia forces: a system
     in equilibrium, its joints as points. Joints between the links named are inside and left out. ``at`` is a position
     by its number from 1, or a value of the first drive; by default the first solved one. Where reactions are not
-    unique the least-norm ones stand, and where contacts reverse those just before (just after: give ``r.after``); the
-    title says so. Raises AnalysisError where the position has no answer.
+    unique, the system has the least-norm ones, and where contacts reverse, those just before (for just after, give
+    ``r.after``); the title says so. Raises AnalysisError where the position has no answer.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
@@ -34,7 +34,7 @@ def on(r: Result, *links: str, at: PositionChoice = None) -> System:
     """
     for link in links:
         if link not in r.links:
-            raise ModelError(f"there is no link {link!r}", closest(link, list(r.links)))
+            raise ModelError(f"unknown link {link!r}", closest(link, list(r.links)))
     if not links:
         raise ModelError("no link is named", f"name some of {', '.join(r.links)}")
     k = position_at(r, at)

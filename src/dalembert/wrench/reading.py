@@ -1,4 +1,4 @@
-"""Numbers, vectors and directions as a person writes them: SI numbers, or texts with units as in a model file."""
+"""Numbers, vectors and directions as users write them: SI numbers, or texts with units as in a model file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ UnitNames = Units | dict[str, str] | None
 
 
 LARGEST = 1e60
-"""Largest number in SI, of a moment its square: products of a few stay finite."""
+"""Largest number in SI, for a moment its square: products of a few stay finite."""
 
 
 def number(value: object, kind: str, units: UnitNames = None) -> float:
@@ -58,7 +58,7 @@ def vector(value: Vector, kind: str, units: UnitNames = None, dimension: int | N
 
 
 def direction(value: Vector | Number, dimension: int | None = None) -> Array:
-    """A unit vector along a vector of any length; in the plane an angle from the x axis says the same.
+    """A unit vector along a vector of any length; in the plane also an angle from the x axis.
 
     >>> direction([0, 0, 2]), direction("90 deg")
     (array([0., 0., 1.]), array([0., 1.]))
@@ -69,7 +69,7 @@ def direction(value: Vector | Number, dimension: int | None = None) -> Array:
     if one and dimension in (None, 2):
         return read_only(unit_vector(number(value, "angle")))
     if one:
-        raise ModelError(f"{quote_value(value)} is no direction in space", "write [x, y, z]")
+        raise ModelError(f"{quote_value(value)} is not a direction in space", "write [x, y, z]")
     along = vector(value, "number", dimension=dimension)  # type: ignore[arg-type]
     length = math.hypot(*along)
     if length == 0:
@@ -78,7 +78,7 @@ def direction(value: Vector | Number, dimension: int | None = None) -> Array:
 
 
 def read_only(values: ArrayLike) -> Array:
-    """An array that nobody changes, without negative zeros."""
+    """A read-only array without negative zeros."""
     out = np.array(values, float) + 0.0
     out.setflags(write=False)
     return out
@@ -93,13 +93,13 @@ def _rules(value: object, units: UnitNames) -> Units | None:
 def _items(text: str) -> list[str]:
     inside = text.strip()
     if not (inside.startswith("[") and inside.endswith("]")):
-        raise ModelError(f"{quote_value(text)} is no vector", "write [x, y] or polar text r @ angle")
+        raise ModelError(f"{quote_value(text)} is not a vector", "write [x, y] or polar text r @ angle")
     return [item.strip() for item in inside[1:-1].split(",")]
 
 
 def _count(items: object, dimension: int | None) -> None:
     if not isinstance(items, Sequence):
-        raise ModelError(f"{quote_value(items)} is no vector", "write [x, y] or [x, y, z]")
+        raise ModelError(f"{quote_value(items)} is not a vector", "write [x, y] or [x, y, z]")
     wanted = (2, 3) if dimension is None else (dimension,)
     if len(items) not in wanted:
         places = "2 or 3" if dimension is None else str(dimension)

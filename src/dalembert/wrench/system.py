@@ -1,4 +1,4 @@
-"""A force system: forces and couples on one link, or on anything taken as rigid (docs/theory.md 4)."""
+"""A force system: forces and couples on one link, or on any rigid body (docs/theory.md 4)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from dalembert.wrench.forces import ALGEBRA, Axis, Couple, Force, moment_about, 
 from dalembert.wrench.reading import UnitNames, Vector, read_only
 
 EXACT = 1e-9
-"""Below this part of the largest force (of force times length) a force (a moment) counts as zero."""
+"""Fraction of the largest force (of force times length) below which a force (a moment) counts as zero."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +64,7 @@ class CentralAxis:
 
 
 class System:
-    """Forces and couples, all of the plane or all of space; ``units`` are those it is shown in (default SI).
+    """Forces and couples, all planar or all spatial; ``units`` are the display units (default SI).
 
     ``points`` names places (m), for drawings and as points to take moments about.
 
@@ -101,17 +101,17 @@ class System:
 
     @property
     def forces(self) -> tuple[Force, ...]:
-        """Its forces."""
+        """Forces of the system."""
         return tuple(part for part in self.parts if isinstance(part, Force))
 
     @property
     def couples(self) -> tuple[Couple, ...]:
-        """Its couples."""
+        """Couples of the system."""
         return tuple(part for part in self.parts if isinstance(part, Couple))
 
     @property
     def names(self) -> tuple[str, ...]:
-        """A name for each part: its own, else F1, F2, ... and M1, M2, ... in their order."""
+        """A name for each part: the given one, else F1, F2, ... and M1, M2, ... in order."""
         counts, out = {"F": 0, "M": 0}, []
         for part in self.parts:
             letter = "F" if isinstance(part, Force) else "M"
@@ -167,7 +167,7 @@ class System:
         return math.hypot(*np.ptp(points, axis=0)) if points else 0.0
 
     def scales(self, length: float | None = None) -> tuple[float, float]:
-        """Largest force and largest moment (N, N m) that zero is judged against.
+        """Largest force and largest moment (N, N m) relative to which values count as zero.
 
         The force is the largest of all forces and of couples over the length; the moment is that force times the
         length. At one point, without a length: the largest force and the largest couple.
@@ -200,7 +200,7 @@ class System:
         return reading.vector(at, "length", units, self.dimension)
 
     def point_name(self, at: Vector | None, other: str = "O", taken: str | None = None) -> str:
-        """The name of a point among the system's; else one that no point has, and that is not taken."""
+        """Name of a point among the system's; else a name that no point has."""
         place = self.point(at)
         for name, p in self.points.items():
             if bool((p == place).all()):
@@ -242,7 +242,7 @@ class System:
         if size <= tolerance * self.scales(length)[0]:
             what = {"couple": "a couple", "zero": "in equilibrium"}[self.kind(tolerance, length)]
             raise AnalysisError(
-                f"The resultant force is zero, so there is no central axis: the system is {what}."
+                f"The resultant force is zero, so a central axis does not exist: the system is {what}."
             )
         moment = self._moment(at)
         unit = force / size
@@ -251,7 +251,7 @@ class System:
         return CentralAxis(Axis(point, force), force, along, along / size)
 
     def kind(self, tolerance: float = EXACT, length: float | None = None) -> str:
-        """What it reduces to: `zero`, `couple`, `single force`, or in space `wrench` (force and couple along it)."""
+        """Simplest equivalent: `zero`, `couple`, `single force`, or in space `wrench` (force and couple along it)."""
         require("tolerance", tolerance)
         largest, moment_scale = self.scales(length)
         size = math.hypot(*self.resultant)
@@ -264,7 +264,7 @@ class System:
     def equilibrant(
         self, tolerance: float = EXACT, length: float | None = None
     ) -> tuple[Force | Couple, ...]:
-        """What brings it to equilibrium: nothing, a couple, a force on its line, or a force and a couple along it."""
+        """Parts that bring it to equilibrium: none, a couple, a force on its line, or a force and a couple along it."""
         kind = self.kind(tolerance, length)
         if kind == "zero":
             return ()
@@ -277,10 +277,10 @@ class System:
         )
 
     def equilibrium(self, tolerance: float = EXACT, length: float | None = None) -> Balance:
-        """Whether it is in equilibrium, how far from it, and what is missing.
+        """Equilibrium check: the verdict, the residual force and moment, and the missing parts.
 
-        ``tolerance`` is the part of the largest force that may be left, of a moment the part of force times ``length``
-        (m, default the system's own); about 1e-3 suits printed figures.
+        ``tolerance`` is the residual allowed, as a fraction of the largest force, and for moments of that force times
+        ``length`` (m, default: that of the system); about 1e-3 suits printed figures.
         """
         at = self.middle
         sums, scales = (self.resultant, self._moment(at)), self.scales(length)

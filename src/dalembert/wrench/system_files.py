@@ -42,7 +42,7 @@ class Along(Value):
             return tuple(unit_along(vector(value, "number", rules)))
         if rules.dimension == 3:
             raise ModelError(
-                f"{quote_value(value)} is no direction in space", "write [x, y, z], or angles: [a, b, c]"
+                f"{quote_value(value)} is not a direction in space", "write [x, y, z], or angles: [a, b, c]"
             )
         return tuple(unit_along(quantity(value, "angle", rules.units)))
 
@@ -94,7 +94,7 @@ class GivenForce(Part):
         }
         given = [way for way, found in ways.items() if found is not None]
         if len(given) != 1:
-            found = f"{' and '.join(given)} are given" if given else "nothing says where it points"
+            found = f"{' and '.join(given)} are given" if given else "it has no direction"
             raise ModelError(found, "give one of value, direction, angles (space), from and to")
         if (self.value is None) == (self.size is None):
             raise ModelError(
@@ -128,7 +128,7 @@ class GivenSystem(Part):
         return self.points[at]
 
     def force(self, name: str, given: GivenForce) -> Force:
-        """One of its forces; a force along a line stands at the line's first point where no `at` is given."""
+        """One of its forces; a force along a line is at the line's first point where no `at` is given."""
         here: Any = given.at if given.at is not None else given.start
         at = (
             None
@@ -150,7 +150,7 @@ class GivenSystem(Part):
             raise ModelError(f"force {name!r}: {error.what}", error.remedy, ("forces", name)) from None
 
     def system(self) -> System:
-        """The system it describes."""
+        """The system described by the file."""
         forces = [self.force(name, given) for name, given in self.forces.items()]
         couples = [Couple(list(value), name) for name, value in self.couples.items()]
         about = {"title": self.title, "source": self.source}
@@ -168,7 +168,7 @@ def load(path: FilePath) -> System:
 
 
 def loads(text: str, form: str = "yaml", name: str = "text") -> System:
-    """The force system of a text; `name` stands for the file in messages.
+    """The force system of a text; messages name `name` as the file.
 
     >>> s = loads("{units: {length: mm}, points: {A: [200, 0]}, forces: {F: {value: 600 @ 90, at: A}}}")
     >>> s["F"].at, s.moment([0, 0])
@@ -180,7 +180,7 @@ def loads(text: str, form: str = "yaml", name: str = "text") -> System:
 def _system(tree: object, source: Source) -> System:
     try:
         if not isinstance(tree, Mapping):
-            raise ModelError(f"{quote_value(tree)} stands where a mapping is needed", "write forces: ...")
+            raise ModelError(f"{quote_value(tree)} is not a mapping", "write forces: ...")
         refuse_empty(tree)
         if "links" in tree:
             raise ModelError(

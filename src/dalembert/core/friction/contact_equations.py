@@ -37,17 +37,17 @@ STILL = 1e-9
 
 
 NOTHING = 1e-14
-"""A force below this part of the largest is rounding: its direction means nothing."""
+"""A force below this fraction of the largest is rounding error; its direction is meaningless."""
 
 TINY = 1e-150
-"""Added to what may be zero; its square is a number."""
+"""Offset added to values that may be zero; its square is representable."""
 
 
 @dataclass(frozen=True)
 class Contacts:
-    """The contacts of a mechanism of the plane or in space, E of them.
+    """The E contacts of a planar or spatial mechanism.
 
-    rows        what each acts along: a turn, a slide, the line of centres of two wheels
+    rows        freedom that each acts along: a turn, a slide, the line of centres of two wheels
     kind (E,)   pin, guide, faces, mesh, separation, collar, ball, thread
     joint (E,)  the joint it belongs to
     read (3, E, K)  Y: its arguments of the constraints' multipliers
@@ -57,13 +57,13 @@ class Contacts:
     signed (E,) S is the first force with its sign: the couple of the two faces of a guide
     ball (E,)   its three arguments are the components of one force
     fixed (E,)  not friction: strength is the lever whatever the scale, sense -1
-    led (E,)    contact whose rate tells its sense: itself, or the slide to which a couple of faces belongs
+    led (E,)    contact whose rate gives its sense: itself, or the slide to which a couple of faces belongs
     reach (E,)  where positive: its first force holds at this distance of the centres and falls as it grows
-    group (E,)  contacts of one number share a slip: each has its part of the direction of it, by ``reckoned`` (E,),
-                the length that turns its rate into a speed
-    around (E,) it is of a group that goes along and around an axis with friction circles of R sin(phi)
-    carried (E,)  contact whose friction it carries too, as its second force: the slide of a block on a pin; -1 none
-    viscous (E,)  damping of that slide, whose force it carries with it
+    group (E,)  contacts with the same number share a slip vector; each takes its component of it, with ``reckoned``
+                (E,), the length that turns its rate into a speed
+    around (E,) true in a group that slips along and around an axis, with friction circles of R sin(phi)
+    carried (E,)  contact whose friction it also carries, as its second force: the slide of a block on a pin; -1 for
+    none viscous (E,)  damping of that slide, whose force it carries with it
     link, at (joints,), (joints, d)  link j of each joint of the mechanism, and the arm of the joint's point on it
     damping     viscous friction of the joints beside
     """
@@ -92,17 +92,17 @@ class Contacts:
 
     @property
     def count(self) -> int:
-        """E."""
+        """Number of contacts, E."""
         return len(self.joint)
 
     @cached_property
     def grouped(self) -> bool:
-        """Whether some contacts share a slip."""
+        """True if some contacts share a slip vector."""
         return len(np.unique(self.group)) < self.count
 
 
 class SlipState(NamedTuple):
-    """Sense of each contact, 0 where ``open``: there is no relative rate to tell it; rate (..., E) of each."""
+    """Sense of each contact, 0 where ``open`` (no relative rate determines it); rate (..., E) of each."""
 
     sense: Array
     open: Flags
@@ -135,8 +135,8 @@ def next_senses(
 
 
 def zero_crossings(layout: Layout, contacts: Contacts, twist: Array, rate: Array, second: Array) -> Flags:
-    """Contacts (..., E) whose rate passes through zero here: within ``STILL`` of the time in which the fastest link
-    moves by the characteristic length."""
+    """Contacts (..., E) whose rate passes through zero at the position: within ``STILL`` of the time in which the
+    fastest link moves by the characteristic length."""
     speed, size = fastest(layout, twist) / (STILL * layout.length), np.abs(second)
     if contacts.grouped:
         return ~above(speed * _slip(contacts, rate), _slip(contacts, second))
@@ -165,19 +165,19 @@ def _senses(contacts: Contacts, rate: Array, still: Flags) -> SlipState:
 
 
 def _along_slip(contacts: Contacts, rate: Array, still: Flags) -> tuple[Array, Flags]:
-    """Part of each contact in the direction of its group's slip, and the groups that do not slip at all."""
+    """Component of each contact in the direction of its group's slip, and the groups that do not slip at all."""
     part = sign(contacts, rate * contacts.reckoned, still)
     return part, ~group_moves(contacts, ~still)
 
 
 def _slip(contacts: Contacts, rate: Array) -> Array:
-    """Speed (..., E) of the slip that each contact has a part of."""
+    """Speed (..., E) of the slip vector of each contact's group."""
     value = rate * contacts.reckoned
     return np.asarray(np.sqrt((value * value) @ _together(contacts)))
 
 
 def sign(contacts: Contacts, value: Array, none: Flags) -> Array:
-    """Sign of each value (..., E), 0 where ``none``; of a group of contacts its direction, a unit vector."""
+    """Sign of each value (..., E), 0 where ``none``; for a group of contacts its direction, a unit vector."""
     value = where(none, 0.0, value)
     if not contacts.grouped:
         return branchless.sign(value)
@@ -186,7 +186,7 @@ def sign(contacts: Contacts, value: Array, none: Flags) -> Array:
 
 
 def group_moves(contacts: Contacts, moves: Flags) -> Flags:
-    """Whether a contact (..., E), or another of its group, moves."""
+    """True where a contact (..., E), or another of its group, moves."""
     if not contacts.grouped:
         return moves
     return above(moves @ _together(contacts), 0.0)
@@ -223,9 +223,9 @@ def strength(
 def response(
     layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, twist: Array
 ) -> tuple[System, Response]:
-    """What the contacts act along; x and y without contacts and per unit of each, from the factored A.
+    """Rows that the contacts act along; x and y without contacts and per unit of each, from the factored A.
 
-    twist (..., L+1, n) tells the viscous forces that some contacts carry.
+    twist (..., L+1, n) gives the viscous forces that some contacts carry.
     """
     along = system(layout.algebra, contacts.rows, pose)
     change = [_multipliers(forces, _unit(layout, along, e)) for e in range(contacts.count)]
@@ -249,7 +249,7 @@ def under(
 
 
 def repeat(r: Response, count: int) -> Response:
-    """The response at so many positions, of one given for all of them."""
+    """A response common to all positions, repeated ``count`` times."""
     return Response(*(np.broadcast_to(a, (count, *a.shape[1:])) for a in r))
 
 
@@ -307,7 +307,7 @@ def bearing(contacts: Contacts, y: Array) -> Array:
 def slope(contacts: Contacts, y: Array, largest: Array) -> tuple[Array, Array]:
     """Derivative of S after y (..., 3, E), one of its branches where two meet, and S (..., E).
 
-    Almost 0 where a contact carries nothing beside the ``largest`` (...) of all arguments.
+    Almost 0 where a contact's load is negligible next to the ``largest`` (...) of all arguments.
     """
     least = NOTHING * largest[..., None] + TINY
     if contacts.ball.any():

@@ -1,7 +1,7 @@
 """Friction forces for known senses of slip: semi-smooth Newton (Qi and Sun, 1993), all positions at once.
 
 Newton starts from no friction. Where the map from bearing forces to friction to bearing forces is a contraction
-(``spectral_bound`` below 1) there is one solution. Elsewhere there may be several; the physical one is found by
+(``spectral_bound`` below 1) there is one solution. Elsewhere there may be several; the physical one is computed by
 continuation (Allgower and Georg, 1990): the scale of all coefficients goes from 0 to 1 in steps, with the determinant
 of the equations kept positive. Where that branch ends, at the critical scale, the mechanism jams.
 
@@ -33,33 +33,33 @@ from dalembert.core.friction.contact_equations import (
 from dalembert.core.linear import solve_square
 
 NEWTON = 25
-"""Steps after which Newton has not arrived."""
+"""Steps after which Newton has failed."""
 
 ARRIVED = 1e-13
-"""Change of a force, relative to the largest, below which it has."""
+"""Change of a force, relative to the largest, at which Newton has converged."""
 
 ROUNDING = 1e-15
-"""So has it where what is left of the equations, relative to the largest force and by contact, is rounding: where the
-branch ends the changes do not get smaller than that times the condition."""
+"""Convergence also holds where the residual, relative to the largest force and by contact, is rounding error: at the
+end of the branch the changes do not fall below it times the condition number."""
 
 LONGEST = 0.1
 """Largest step of the friction scale."""
 
 BENT = 0.2
-"""How far Newton may end from where its first step led, by the length of that step."""
+"""Largest distance between Newton's solution and the landing point of its first step, over the length of that step."""
 
 SHORT = 1e-3
-"""A change below this part of the largest friction force may bend: the branch has a kink there."""
+"""Changes below this fraction of the largest friction force may exceed it: the branch has a kink there."""
 
 SMALLEST = 1e-10
 """Step of the friction scale below which the branch has ended."""
 
 
 class FrictionSolution(NamedTuple):
-    """Friction in one state of the contacts: z (P, E), c (P, E), the multipliers x (P, X), what came of it.
+    """Friction in one state of the contacts: z (P, E), c (P, E), the multipliers x (P, X), and the outcome.
 
     determinant: det(A + J) / det(A); critical: friction scale where the branch ends, NaN where it does not before 1;
-    single: proved to be the only solution; locked: it turns the power of the unknowns round.
+    single: proved to be the only solution; locked: friction reverses the power of the unknowns.
     """
 
     state: SlipState
@@ -73,7 +73,8 @@ class FrictionSolution(NamedTuple):
 
 
 class NewtonResult(NamedTuple):
-    """Newton's answer; near: it ended almost where its first step led, and that step passed no singular point."""
+    """Result of Newton's method; near: it ended close to where its first step landed, and that step passed no singular
+    point."""
 
     z: Array
     arrived: Flags
@@ -111,7 +112,7 @@ def solve_friction(contacts: Contacts, r: Response, state: SlipState) -> Frictio
 
 
 def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
-    """Where Newton arrives from many starts (P, E): c z, multipliers and determinants of those that do."""
+    """Limits of Newton's method from many starts (P, E): c z, multipliers and determinants of those that converge."""
     c = np.broadcast_to(strength(contacts, 1.0, sense=sense), sense.shape)
     found = newton(contacts, r, sense, c, starts, most=4 * NEWTON)
     cz = (c * found.z)[found.arrived]
@@ -129,8 +130,8 @@ def newton(
 ) -> NewtonResult:
     """Newton on z + s S(y0 + H c z) = 0 from z, all positions together.
 
-    S is homogeneous: S = slope . y. The first step takes the slope at ``before``, the arguments of a solution close
-    by, rather than at the start, which may lie behind a kink.
+    S is homogeneous: S = slope . y. The first step takes the slope at ``before``, the arguments of a nearby solution,
+    rather than at the start, which may be beyond a kink.
     """
     arrived = np.zeros(len(sense), bool)
     r = with_strength(r, c)
@@ -190,6 +191,6 @@ def _follow_branch(
 
 
 def _goes_on(start: Array, landing: Array, end: Array) -> Flags:
-    """Whether Newton went almost where its first step led, or went hardly anywhere."""
+    """True where Newton ended close to where its first step landed, or hardly moved."""
     first, more, size = (np.abs(a).max(axis=-1, initial=0.0) for a in (landing - start, end - landing, end))
     return np.asarray((more <= BENT * first) | (first + more <= SHORT * size))

@@ -1,16 +1,16 @@
 """The range of an effort that friction can hold at rest, whatever the history: successive linear programming.
 
-At rest friction may have any value within its limits, which follow the reactions; the efforts between them are the
-range. The limits are not convex, so each step maximizes the effort in a convex part of them about the last state
-(inner approximation: Marks and Wright, 1978).
+At rest friction may have any value within its limits, which depend on the reactions; the range consists of the efforts
+that it can balance. The limits are not convex, so each step maximizes the effort in a convex part of them about the
+last state (inner approximation: Marks and Wright, 1978).
 
 A state of rest is t = c z with |t_e| <= c_e S_e(y0 + H t) for every contact. S is convex: with its slope s at a state
-y, s . y0 + s H t is never more than S, and is S there. So |t_e| <= c_e s_e . (y0 + H t) allows only such states, the
-one it was made at among them, and the furthest of those is a linear programme. Taking the slope anew there goes on to
-the next, as long as the unknown gains; every state on the way can be reached from the one without friction through
-states of rest. A programme without a furthest state shows a wedge: friction holds any value.
+y, s . y0 + s H t is never more than S, and is S there. So |t_e| <= c_e s_e . (y0 + H t) allows only states of rest,
+including y itself, and the one with the largest effort solves a linear programme. The next programme takes the slope at
+that state; the iteration ends when the effort no longer increases. Every iterate can be reached from the frictionless
+state through states of rest. An unbounded programme shows a wedge: friction holds any value.
 
-t   friction forces and couples (..., E), taken by a unit of each that makes numbers around one
+t   friction forces and couples (..., E), in units of each that make values near one
 
 Mechanics: docs/theory.md 6.3.
 """
@@ -38,27 +38,27 @@ from dalembert.core.friction.linear_programmes import furthest
 from dalembert.core.linear import inverses
 
 ROUNDS = 40
-"""Linear programmes after which the state reached is taken."""
+"""Linear programmes after which the current state is accepted."""
 
 GAIN = 1e-12
-"""Rise of the unknown, by its own size and that of what friction can change in it, that is none."""
+"""Relative increase of the unknown, by its size and by the change that friction can make in it, that counts as zero."""
 
 SAME = 1e-9
-"""A part of the unknown at which motion impends; what is held beyond it by less is the rounding of the search."""
+"""Relative distance from the effort at which motion impends; a smaller excess is the rounding error of the search."""
 
 UNLOADED = 1e-9
-"""A contact that bears less than this part of the largest force may change its side."""
+"""Bearing force over the largest force below which a contact may change sides."""
 
 SINGLE = 16
 """Contacts up to which the search also starts from the extremes of each."""
 
 MOST = 10**6
-"""Numbers in the tables of the positions at once."""
+"""Numbers in the tableaux of the positions solved at once."""
 
 
 class _Rest(NamedTuple):
-    """The contacts and a response whose t are of numbers around one; c (E,) in the same; the contacts of their own
-    friction (F,)."""
+    """Contacts, and a response whose t are scaled to values near one; c (E,) on the same scale; contacts with friction
+    of their own (F,)."""
 
     contacts: Contacts
     r: Response
@@ -72,8 +72,8 @@ class _Rest(NamedTuple):
 def holding(contacts: Contacts, r: Response, known: SlipState, ends: Array) -> Array:
     """Low and high (P, U, 2) of the last U multipliers, whose ``ends`` (P, U, 2) at impending motion are known.
 
-    Infinite where there is no bound. NaN where a contact moves: its friction is at its limit, whatever its history; and
-    where friction of one contact has several directions.
+    Infinite where unbounded. NaN where a contact moves (its friction is at its limit, whatever its history), and where
+    the friction of one contact has several directions.
     """
     own = np.asarray(~contacts.fixed & (strength(contacts, 1.0, True) > 0))
     if len(np.unique(contacts.group[own])) < own.sum():
@@ -96,11 +96,11 @@ def holding(contacts: Contacts, r: Response, known: SlipState, ends: Array) -> A
 
 
 def _monotonic(rest: _Rest, gains: Array) -> Flags:
-    """Where (P,) it is proved that every unknown rises or falls with each contact's part of its limit, whatever the
-    others': then the extremes are the ends at which motion impends.
+    """True where (P,) every unknown is proved to be monotonic in each contact's fraction of its limit, whatever the
+    others are: then the extremes are the ends at which motion impends.
 
     The change a of an unknown with t, the other contacts following, is a = g - (f S' H)^T a for parts f. With a bound M
-    of the size of S' H:  |a - g| <= M^T (1 - M^T)^-1 |g|,  where the inverse has no negative number.
+    of the size of S' H:  |a - g| <= M^T (1 - M^T)^-1 |g|,  where the inverse has no negative entry.
     """
     contacts, h = rest.contacts, rest.r.h
     lever = np.where(rest.c[:, None] != 0, levers(contacts, h), 0.0)
@@ -115,7 +115,7 @@ def _monotonic(rest: _Rest, gains: Array) -> Flags:
 
 
 def _best(rest: _Rest, ends: Array, outward: Array) -> Array:
-    """The largest q . t (P, Q) of the states found, of the gains q (P, Q, E)."""
+    """Largest q . t (P, Q) over the computed states, for gains q (P, Q, E)."""
     count, many = ends.shape[:2]
     seen = _extreme_states(
         rest, np.concatenate([np.broadcast_to(outward, (count, *outward.shape)), ends], axis=1)
@@ -140,26 +140,26 @@ def _scale(contacts: Contacts, r: Response) -> _Rest:
 
 
 def _bare(rest: _Rest) -> Array:
-    """t (P, E) without friction: what keeps gears' teeth apart alone."""
+    """t (P, E) without friction: the separation of gear teeth alone."""
     c = np.where(rest.contacts.fixed, rest.c, 0.0)
     return _at_parts(rest, np.where(rest.contacts.fixed, -1.0, 0.0), c, np.zeros(rest.r.y.shape[::2]))[0]
 
 
 def _at_parts(rest: _Rest, part: Array, c: Array, t: Array) -> tuple[Array, Flags]:
-    """The state near t (B, E) in which every contact has a part of its limit, and where there is one."""
+    """State near t (B, E) in which every contact has the same fraction of its limit, and a flag where it exists."""
     part, c = np.broadcast_to(part, t.shape), np.broadcast_to(c, t.shape)
     found = newton(rest.contacts, rest.r, part, c, c * t)
     return np.where(found.arrived[:, None], c * found.z, t), found.arrived
 
 
 def _outward(rest: _Rest) -> Array:
-    """Gains (K, E) whose furthest states the search also starts from: each contact's friction, in both senses."""
+    """Gains (K, E) from whose extreme states the search also starts: each contact's friction, in both senses."""
     unit = np.eye(rest.contacts.count)[rest.own if len(rest.own) <= SINGLE else []]
     return np.concatenate([unit, -unit])
 
 
 def _extreme_states(rest: _Rest, q: Array) -> Array:
-    """States (P, K + 1, E): without friction, and the furthest from there of gains q (P, K, E)."""
+    """States (P, K + 1, E): the frictionless one, and the one of largest gain q (P, K, E) reached from it."""
     bare = _bare(rest)
     every = np.repeat(np.arange(len(bare)), q.shape[1])
     t, _ = _furthest(rest.at(every), q.reshape(len(every), -1), bare[every])
@@ -167,7 +167,7 @@ def _extreme_states(rest: _Rest, q: Array) -> Array:
 
 
 def _furthest(rest: _Rest, q: Array, t: Array) -> tuple[Array, Flags]:
-    """The states with the largest q . t that are reached from t (B, E), and where there is no furthest one (B,)."""
+    """States with the largest q . t reached from t (B, E), and a flag where q . t is unbounded (B,)."""
     t, open_ = t.copy(), np.zeros(len(t), bool)
     on, idle, sides = np.arange(len(t)), np.zeros(len(t), int), None
     size = np.abs(q).sum(axis=-1)
@@ -190,7 +190,7 @@ def _furthest(rest: _Rest, q: Array, t: Array) -> tuple[Array, Flags]:
 
 
 def _slopes(rest: _Rest, t: Array, before: Array | None) -> Array:
-    """Slope (B, 3, E) of the bearing forces; of a contact that bears nothing the other side of what it was."""
+    """Slope (B, 3, E) of the bearing forces; for an unloaded contact, of the side opposite to the previous one."""
     y = argument(rest.r, t)
     largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
     steep, size = slope(rest.contacts, y, largest)
@@ -202,7 +202,7 @@ def _slopes(rest: _Rest, t: Array, before: Array | None) -> Array:
 
 
 def _exact(rest: _Rest, t: Array) -> Array:
-    """t with the couples of guides' faces as the parts of friction in the guides make them."""
+    """t with the couples of guides' faces corrected to the fractions of friction in the guides."""
     contacts = rest.contacts
     if not contacts.signed.any():
         return t
@@ -213,8 +213,8 @@ def _exact(rest: _Rest, t: Array) -> Array:
 
 
 def _limits(rest: _Rest, t: Array, steep: Array) -> tuple[Array, Array, Array]:
-    """What changes of t the contacts allow, their bearing forces taken along the slopes: ways (B, E, F) of t with those
-    of the own contacts; g (B, M, F) times a change of these is at most h (B, M)."""
+    """Linear limits on changes of t, with the bearing forces linearized: directions (B, E, F) of t with those of the
+    contacts' own friction; g (B, M, F) times a change of these is at most h (B, M)."""
     contacts, own, c = rest.contacts, rest.own, rest.c
     count, each = t.shape
     bears = (steep * argument(rest.r, t)).sum(axis=-2)

@@ -1,8 +1,9 @@
 """Impending motion: the lowest and the highest effort at which friction at its limit still holds a machine at rest.
 
-Contacts have no relative rate to tell their sense there. One that would move with the effort has the sense of that
+At rest no relative rate gives the contacts their senses. One that would move with the effort has the sense of that
 motion, by virtual work: g, the change of the effort with a unit of friction, is minus the rate of the contact per unit
-of the effort's own. One that would not move only loads the others; it takes the sense that carries the effort furthest.
+of the effort's rate. One that would not move only loads the others; it takes the sense that carries the effort
+furthest.
 
 g   change of the unknown with a unit of each contact (..., E)
 
@@ -33,7 +34,7 @@ from dalembert.core.layout import Layout
 from dalembert.core.linear import solve_square
 
 ROUNDS = 12
-"""Changes of the senses of contacts without impending motion after which the last is taken."""
+"""Changes of the senses of contacts without impending motion after which the last senses are accepted."""
 
 
 def extreme(
@@ -45,8 +46,8 @@ def extreme(
     end: float,
     rods: SpinningRods | None = None,
 ) -> FrictionSolution:
-    """The solution with the lowest (end -1) or highest (end 1) value of one of the multipliers, and its senses: 0 where
-    friction plays no part. Rods between balls spin as they must."""
+    """Solution with the lowest (end -1) or highest (end 1) value of one of the multipliers, and its senses: 0 where
+    friction has no effect. Rods between balls take the spin that equilibrium requires."""
     g = np.broadcast_to(r.change[..., unknown, :], known.sense.shape)
     row = np.zeros(0, np.intp) if rods is None else rods.row
     held = np.zeros(known.sense.shape)
@@ -77,7 +78,7 @@ def extreme(
 
 
 def _influence(contacts: Contacts, r: Response, found: FrictionSolution, g: Array) -> Array:
-    """Sign of the change of the unknown with each friction force, the other contacts following."""
+    """Sign of the change of the unknown with each friction force, with the other contacts following."""
     y = argument(r, found.c * np.nan_to_num(found.z))
     largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
     j = jacobian(with_strength(r, found.c), slope(contacts, y, largest)[0], found.state.sense)

@@ -1,10 +1,10 @@
 """Linear programmes of a batch by the simplex method (Dantzig): the largest q . d where G d <= h, with h >= 0.
 
-All programmes of a batch are solved together, on whole tables: every basic variable is b - M n of the variables n that
+All programmes of a batch are solved together, on full tableaux: every basic variable is b - M n of the variables n that
 are zero. The d themselves have no bounds: each enters once, with the sense that raises q . d, and then stays.
 
-Friction at rest asks for hundreds of programmes of ten unknowns a position; ``scipy.optimize.linprog`` solves the same
-ones one by one, in fifty times the time.
+Friction at rest needs hundreds of programmes with ten unknowns per position; ``scipy.optimize.linprog`` solves them one
+by one and takes fifty times as long.
 
 Mechanics: docs/theory.md 6.3.
 """
@@ -16,19 +16,20 @@ import numpy as np
 from dalembert.arrays import Array, Flags
 
 ZERO = 1e-11
-"""Entries of a table, made of numbers around one, that count as zero."""
+"""Entries of a tableau, scaled near one, that count as zero."""
 
 PIVOTS = 8
-"""Exchanges of variables by rows of the table after which the point reached is taken: allowed, if not the furthest."""
+"""Exchanges of variables, per row of the tableau, after which the current point is accepted: feasible, if
+not optimal."""
 
 
 FAR = 1e3
-"""How far along a way without an end."""
+"""Step along an unbounded direction."""
 
 
 def furthest(g: Array, h: Array, q: Array) -> tuple[Array, Flags]:
-    """d (B, n) with the largest q . d where G (B, m, n) d <= h (B, m), and where there is no largest (B,): there a d
-    far out on the way that has no end."""
+    """d (B, n) with the largest q . d where G (B, m, n) d <= h (B, m), and a flag where q . d is unbounded (B,); d is
+    then a point far out along an unbounded direction."""
     count, m, n = g.shape
     whole = np.concatenate([np.concatenate([g, h[..., None]], 2), np.pad(-q, ((0, 0), (0, 1)))[:, None]], 1)
     names = np.tile(np.arange(n + m), (count, 1))
@@ -52,8 +53,8 @@ def furthest(g: Array, h: Array, q: Array) -> tuple[Array, Flags]:
 
 
 class _Tables:
-    """Tables (B, m + 1, n + 1), the last column b and the last row minus the gain; names of the variables of the rows
-    (B, m) and columns (B, n): below n those of d; beyond (B, n): what d has as a column, far out."""
+    """Tableaux (B, m + 1, n + 1), the last column b and the last row minus the gain; names of the variables of the rows
+    (B, m) and columns (B, n): below n those of d; beyond (B, n): value of d's variables while nonbasic and far out."""
 
     def __init__(self, table: Array, rows: Array, columns: Array, beyond: Array) -> None:
         self.table, self.rows, self.columns, self.beyond = table, rows, columns, beyond
@@ -66,21 +67,21 @@ class _Tables:
             whole[which] = getattr(part, name)
 
     def entering(self) -> tuple[Array, Flags]:
-        """The column that gains most, those of d first; whether one gains."""
+        """Column that gains most, those of d first, and a flag if one gains."""
         gain, free = -self.table[:, -1, :-1], self.columns < self.columns.shape[1]
         gain = np.where(free & (np.abs(gain) > ZERO), 1e30 * np.abs(gain), np.where(free, 0.0, gain))
         column = gain.argmax(axis=1)
         return column, gain.max(axis=1) > ZERO
 
     def towards_gain(self, column: Array, on: Array, sign: Array) -> None:
-        """A d that gains by falling is counted the other way."""
+        """Reverses the sign of each d that gains by falling."""
         every = np.arange(len(column))
         down = self.table[every, -1, column] > 0
         self.table[every[down], :, column[down]] *= -1
         sign[on[down], self.columns[every[down], column[down]]] *= -1
 
     def leaving(self, column: Array) -> tuple[Array, Flags]:
-        """The row whose variable first comes to zero; whether there is one."""
+        """Row whose variable reaches zero first, and a flag if one does."""
         every = np.arange(len(column))
         steep = self.table[every, :-1, column]
         falls = (steep > ZERO) & (self.rows >= self.columns.shape[1])
@@ -90,14 +91,14 @@ class _Tables:
         return row, np.isfinite(least[:, 0])
 
     def go_far(self, column: Array, which: Flags) -> None:
-        """Raise the variable of a column, which nothing ends."""
+        """Raises the variable of a column that no limit bounds."""
         some = np.flatnonzero(which)
         self.table[some, :, -1] -= FAR * self.table[some, :, column[some]]
         own = some[self.columns[some, column[some]] < self.columns.shape[1]]
         self.beyond[own, self.columns[own, column[own]]] = FAR
 
     def exchange(self, row: Array, column: Array) -> None:
-        """Exchange the variables of a row and a column of each table."""
+        """Exchanges the variables of a row and a column of each tableau."""
         every = np.arange(len(row))
         pivot = self.table[every, row, column]
         line = self.table[every, row, :] / pivot[:, None]
@@ -112,7 +113,7 @@ class _Tables:
         )
 
     def free(self, n: int) -> Array:
-        """d: of a row its b, of a column 0."""
+        """d: b of its row where basic, 0 in a column."""
         out = np.zeros((len(self.rows), n))
         table, row = np.nonzero(self.rows < n)
         out[table, self.rows[table, row]] = self.table[table, row, -1]

@@ -1,4 +1,4 @@
-"""Wrenches and power of the joints' friction, dry and viscous; where friction turns the efforts' power round.
+"""Wrenches and power of the joints' friction, dry and viscous; reversal of the efforts' power by friction.
 
 Mechanics: docs/theory.md 6.3.
 """
@@ -29,7 +29,7 @@ def dry_wrenches(
 def viscous_wrenches(
     layout: Layout, contacts: Contacts, pose: Pose, twist: Array
 ) -> tuple[Array, Array, Array]:
-    """Force, moment and lost power of the joints' own damping."""
+    """Force, moment and lost power of the joints' viscous damping."""
     own = contacts.damping
     rows = system(layout.algebra, layout.freedoms, pose).rows(own.row)
     joint, rate = layout.freedoms.joint[own.row], rates(rows, twist)
@@ -65,9 +65,9 @@ def by_joint(joint: Ints, joints: int, values: Array) -> Array:
 
 
 def power_reversed(layout: Layout, unknown: System, twist: Array, w: Array, x: Array, bare: Array) -> Array:
-    """Where the power (...) of the unknown efforts and loads has another sign with friction than without.
+    """True where the power (...) of the unknown efforts and loads changes sign with friction.
 
-    x, bare: multipliers with and without friction; w (..., L, n) what loads the links; ``unknown`` the rows of x.
+    x, bare: multipliers with and without friction; w (..., L, n) wrenches on the links; ``unknown`` the rows of x.
     """
     count = layout.constraints.count
     rate = rates(unknown.rows(slice(count, None)), twist)

@@ -1,8 +1,8 @@
 """Dead centres: senses of friction just before and just after a position where a contact's rate passes through zero.
 
-The slide of an engine stands still for an instant while the crank goes on. Its friction has one sense before and the
-other after: that of its second rate, and against it. Where that is zero too the sense is looked up at positions a
-little before and after; a contact that has none there stays at rest.
+The slider of an engine is at rest for an instant while the crank turns on. Its rate is opposite to its second rate
+before the instant and along it afterwards, and friction changes sense. Where the second rate is zero too, positions
+slightly before and after give the sense; a contact at rest there too stays at rest.
 
 Mechanics: docs/theory.md 6.3.
 """
@@ -29,12 +29,12 @@ from dalembert.core.layout import Layout, Pose, System
 from dalembert.core.position.newton import CLOSED, close_loops, displace
 
 ASIDE = 0.01
-"""How far before and after: radians, or characteristic lengths, of the fastest link."""
+"""Offset before and after a reversal: radians, or characteristic lengths, of the fastest link."""
 
 
 class Crossing(NamedTuple):
-    """Contacts (..., E) whose rates pass through zero ``here``, and those that hardly move but do, ``slow``: their
-    senses just before and just after; ``turning``: those of the second rates."""
+    """Contacts (..., E) whose rates pass through zero ``here``, and slow ones that do not, ``slow``, with their senses
+    just before and just after; ``turning``: senses of the second rates."""
 
     here: Flags
     slow: Flags
@@ -44,7 +44,7 @@ class Crossing(NamedTuple):
 
 
 class Driven(NamedTuple):
-    """What the drives ask for at each position: stacked targets (P, K + D), speeds and accelerations (P, D)."""
+    """Targets (P, K + D), and speeds and accelerations of the drives (P, D), at each position."""
 
     target: Array
     speed: Array
@@ -61,8 +61,8 @@ def sides(
     now: SlipState,
     spun: Flags,
 ) -> tuple[SlipState, SlipState]:
-    """Senses just before and just after positions where some contact is open: of it, and of all that pass through zero
-    with it; the others are open.
+    """Senses just before and just after positions where some contact is open: for it, and for all contacts that pass
+    through zero with it; the others are open.
 
     spun (E,): contacts of rods that spin, whose second rates are not those of the motion.
     """
@@ -88,25 +88,26 @@ def crossing(
     now: SlipState,
     follows: Flags,
 ) -> Crossing:
-    """What passes through zero, by the second rates; follows (E,): contacts whose second rates are the motion's."""
+    """Contacts whose rates pass through zero, by the second rates; follows (E,): contacts whose second rates are the
+    motion's."""
     turning = next_senses(layout, contacts, along, pose, moving.twist, moving.acceleration)
     passes = zero_crossings(layout, contacts, moving.twist, now.rate, turning.rate) & ~turning.open
     here = passes & ~(~now.open & ~follows)
-    slow = now.open & ~here & ~turning.open  # it hardly moves, but it does, and on for a while
+    slow = now.open & ~here & ~turning.open  # slow, but moving, and for some time
     slowly = _sign(contacts, now.rate)
     before, after = (where(slow, slowly, side) for side in (-turning.sense, turning.sense))
     return Crossing(here, slow, before, after, turning)
 
 
 def _sign(contacts: Contacts, rate: Array) -> Array:
-    """Senses of rates that tell them, however small."""
+    """Senses of rates that determine them, however small."""
     return sign(contacts, rate * contacts.reckoned, rate == 0)[..., contacts.led]
 
 
 def _aside(
     layout: Layout, contacts: Contacts, pose: Pose, moving: Motion, driven: Driven, sign: float
 ) -> SlipState:
-    """Senses a little before (sign -1) or after the positions; open where the linkage does not close there."""
+    """Senses slightly before (sign -1) or after the positions; open where the linkage does not close there."""
     dt = _moment(layout, moving)[:, None]
     ahead, bent = sign * dt, dt * dt / 2
     target = driven.target.copy()

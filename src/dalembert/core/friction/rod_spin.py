@@ -1,10 +1,10 @@
 """Spin of rods between two ball joints with friction: the root of the balls' moment about the rod's line.
 
-A rod that could spin about the line of its two ball joints is set to no spin. Friction in the balls decides it: their
-couples, against the relative angular velocities, must leave nothing about the line, which nothing else holds. That
-moment falls as the spin grows, so there is one spin, or none where the loads turn the rod more than friction holds.
-It is found by secants and bisection, of several rods in turn and then by Newton; where friction has several solutions,
-by continuation from no friction. The spin's own inertia about the line is left out.
+A rod that could spin about the line of its two ball joints is first given zero spin. Friction in the balls determines
+it: their couples, against the relative angular velocities, must have zero moment about the line, since nothing else
+resists there. That moment decreases as the spin grows, so there is one spin, or none where the loads' moment exceeds
+friction. It is computed by secants and bisection, for several rods in turn and then by Newton; where friction has
+several solutions, by continuation from no friction. Inertia of the spin about the line is neglected.
 
 s   spin, tan(phi) times the fastest rate of the rod's balls
 
@@ -27,27 +27,28 @@ from dalembert.core.layout import Idle, Layout, Pose, System
 from dalembert.core.linear import solve_square
 
 STEPS = 60
-"""Halvings and secants after which the last spin is taken."""
+"""Bisections and secants after which the last spin is accepted."""
 
 STEEPEST = 1.56
-"""Largest phi: a spin 90 times faster than the balls, where their couples have all but turned into it."""
+"""Largest phi: a spin 90 times faster than the balls, where their couples are almost opposite to the spin."""
 
 SETTLED = 1e-14
-"""Change of phi at which it has arrived."""
+"""Change of phi at which the search has converged."""
 
 SWEEPS = 8
-"""Times that every rod is settled while the others spin as they do: its couples change the others' forces little."""
+"""Sweeps in which each rod is solved with the spins of the others fixed: its couples change the others'
+forces little."""
 
 FIRST, ENDED = 0.01, 1e-8
 """First step of the scale of friction of a branch with spinning rods, and the one below which it has ended."""
 
 SPUN, FAR, ALMOST, CLOSE = 8, 0.3, 1e-9, 1e-7
-"""Newton's steps on the spins, their largest change, when they have arrived, and the step of their differences."""
+"""Newton's steps on the spins, their largest change, the change at convergence, and the step of the differences."""
 
 
 class SpinningRods(NamedTuple):
     """Rods that spin in balls with friction: rows, directions (P, k, 3), whose contacts (k, E), rates (P, k) of the
-    fastest of the rod's balls, and the state of the contacts where they spin at phi (P, k)."""
+    fastest of the rod's balls, and the state of the contacts for spins phi (P, k)."""
 
     row: Ints
     line: Array
@@ -56,7 +57,7 @@ class SpinningRods(NamedTuple):
     senses: Callable[[Array], SlipState]
 
     def at(self, some: Ints) -> SpinningRods:
-        """Of some positions."""
+        """The same rods at some of the positions."""
 
         def senses(phi: Array) -> SlipState:
             return at(self.senses(put(np.zeros(self.rate.shape), some, phi)), some)
@@ -64,21 +65,21 @@ class SpinningRods(NamedTuple):
         return self._replace(line=self.line[some], rate=self.rate[some], senses=senses)
 
     def spin_rates(self, r: Response, rate: Array, phi: Array) -> Array:
-        """What spins at phi add to the rates (P, E) of an impending motion: a unit of spin turns each contact as far
-        as the contact's couple turns the rod."""
+        """Rates (P, E) that spins at phi add to an impending motion: a unit of spin turns each contact as far as the
+        contact's couple turns the rod."""
         unit = r.change[..., self.row, :]
         return np.asarray(((_fastest(self.touched, rate) * np.tan(phi))[..., None] * unit).sum(axis=-2))
 
 
 def _fastest(touched: Flags, rate: Array) -> Array:
-    """The fastest (..., k) of the contacts that each rod touches (k, E), of rates (..., E)."""
+    """The fastest rate (..., k) of the contacts of each rod (k, E), from rates (..., E)."""
     return np.asarray(np.where(touched, np.abs(rate)[..., None, :], 0.0).max(axis=-1))
 
 
 def spinning_rods(
     layout: Layout, pose: Pose, along: System, twist: Array, senses: Callable[[Array], SlipState]
 ) -> SpinningRods | None:
-    """The rods whose balls rub; None without any. ``senses``: of the contacts at a twist of the links."""
+    """The rods whose balls have friction; None without any. ``senses``: of the contacts at a twist of the links."""
     idle = [f for f in layout.constraints.families if isinstance(f, Idle)]
     if not idle:
         return None
@@ -91,7 +92,7 @@ def spinning_rods(
     rate = _fastest(touched[which], senses(twist).rate)
 
     def spun(phi: Array) -> SlipState:
-        """Of the rods spinning at phi."""
+        """Slip state with the rods spinning at phi."""
         turning = twist.copy()
         turning[..., f.j[which], 3:] += (rate * np.tan(phi))[..., None] * line
         return senses(turning)
@@ -113,14 +114,14 @@ def solve_spins(shape: tuple[int, ...], moment: Callable[[Array], Array]) -> Arr
 
 
 def _together(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Flags]:
-    """All rods at once by Newton from close by, and the positions where they arrive; elsewhere what was given."""
+    """All rods at once by Newton from a nearby start, and a flag where it converges; elsewhere the start."""
     new, change, _ = _newton(moment, phi)
     arrived = np.asarray(((np.abs(change) < ALMOST) & (np.abs(new) < STEEPEST)).all(axis=-1))
     return np.where(arrived[..., None], new, phi), arrived
 
 
 def _newton(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Array, Array]:
-    """Spins by Newton on their moments, the last change, and the derivatives (..., k, k), which are differences."""
+    """Spins by Newton on their moments, the last change, and the derivatives (..., k, k), by finite differences."""
     for _ in range(SPUN):
         here = moment(phi)
         steep = np.stack([(moment(phi + CLOSE * e) - here) / CLOSE for e in np.eye(phi.shape[-1])], axis=-1)
@@ -132,7 +133,7 @@ def _newton(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Array,
 
 
 def _of_one(moment: Callable[[Array], Array], phi: Array, n: int) -> Callable[[Array], Array]:
-    """The moment about the line of rod n with its own phi, the others' as they are."""
+    """Moment about the line of rod n as a function of its phi, with the others' fixed."""
 
     def own(value: Array) -> Array:
         tried = phi.copy()
@@ -143,7 +144,7 @@ def _of_one(moment: Callable[[Array], Array], phi: Array, n: int) -> Callable[[A
 
 
 def _bracket_root(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> Array:
-    """phi at which a moment vanishes, by secants and halvings of a bracket; 0 where it does not change its sign."""
+    """phi at which a moment vanishes, by secants and bisection of a bracket; 0 where it does not change sign."""
     low, high = np.full(shape, -STEEPEST), np.full(shape, STEEPEST)
     at_low, at_high = moment(low), moment(high)
     none = ~(at_low * at_high < 0)
@@ -165,10 +166,8 @@ def _bracket_root(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> A
 def follow_branch_with_spin(
     contacts: Contacts, r: Response, resting: Flags, rods: SpinningRods
 ) -> FrictionSolution:
-    """The branch from no friction, the rods spinning all along as the balls let them.
-
-    It is followed as that without spin: where no step of the scale of friction goes further it ends, at a critical
-    scale of 0 where there is none.
+    """The branch from no friction, with the rods at their equilibrium spin throughout. It is followed like the one
+    without spin: it ends where no step of the friction scale succeeds, at a critical scale of 0 where none does.
     """
 
     def moment(scale: Array, z: Array, phi: Array) -> tuple[NewtonResult, Array]:
@@ -202,7 +201,8 @@ def follow_branch_with_spin(
 def _nested_newton(
     moment: Callable[[Array], tuple[NewtonResult, Array]], phi: Array, largest: Array
 ) -> tuple[NewtonResult, Array, Array]:
-    """Newton on friction within Newton on the spins, whose derivatives are differences; sign of their determinant."""
+    """Newton on friction within Newton on the spins, whose derivatives are finite differences; sign of their
+    determinant."""
     phi, change, steep = _newton(lambda phi: moment(phi)[1], phi)
     found, left = moment(phi)
     balanced = np.abs(left).max(axis=-1) <= ALMOST * largest

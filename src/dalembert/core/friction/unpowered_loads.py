@@ -1,4 +1,4 @@
-"""Unknown loads without virtual power: what friction they cause has to balance the given efforts.
+"""Unknown loads without virtual power: the friction they cause must balance the given efforts.
 
 Without friction the columns of such loads depend on those of the constraints, A is singular, and the response that
 friction is solved with does not exist. With every drive's effort unknown and the loads u known it does: friction is
@@ -40,18 +40,18 @@ from dalembert.core.layout import Layout, Pose, System
 from dalembert.core.linear import Factor, solve_square
 
 NEWTON = 30
-"""Steps after which Newton has not arrived."""
+"""Steps after which Newton has failed."""
 
 ARRIVED = 1e-13
-"""Change of a load, relative to its size, below which it has."""
+"""Change of a load, relative to its size, at which Newton has converged."""
 
 STARTS = (1.0, 1e3)
 """Sizes of the loads at which Newton starts, over those of the known loads and efforts."""
 
 
 class ThroughFriction(NamedTuple):
-    """Positions whose unknown loads friction alone settles: the response at these loads (P, ...), the loads (P, U),
-    the smallest singular value of the scaled de/du (P,), the positions that are solved, and those that jam."""
+    """Positions whose unknown loads are determined by friction alone: the response at these loads (P, ...), the loads
+    (P, U), the smallest singular value of the scaled de/du (P,), the positions that are solved, and those that jam."""
 
     response: Response
     load: Array
@@ -61,7 +61,7 @@ class ThroughFriction(NamedTuple):
 
 
 class _Loaded(NamedTuple):
-    """The response with every effort unknown, its x and y by load, and what is given."""
+    """The response with every effort unknown, its x and y by load, and the given efforts."""
 
     layout: Layout
     contacts: Contacts
@@ -88,7 +88,7 @@ class _Loaded(NamedTuple):
 
     @property
     def load_scale(self) -> Array:
-        """The same of each unknown load (U,)."""
+        """Characteristic length of each unknown load (U,) that is a couple, else 1."""
         return row_scale(self.layout, self.known.couple)
 
     def at_loads(self, u: Array) -> Response:
@@ -107,7 +107,7 @@ def solve_unpowered(
     twist: Array,
     state: SlipState,
 ) -> ThroughFriction:
-    """Loads at which friction lets the given efforts balance; w (P, L, n) without these efforts, ``state`` without open
+    """Loads at which friction balances the given efforts; w (P, L, n) without these efforts, ``state`` without open
     contacts."""
     p = _loaded(layout, contacts, known, pose, solver, w, rows, twist, state)
     size = _size(p, w)
@@ -156,8 +156,8 @@ def _size(p: _Loaded, w: Array) -> Array:
 
 
 def _newton(p: _Loaded, u: Array) -> tuple[Array, Flags, Array, Flags]:
-    """Loads (P, U) from a start, where it arrived, the least singular value of the scaled de/du, and where the start
-    jams."""
+    """Loads (P, U) from a start, convergence flags, the least singular value of the scaled de/du, and flags where the
+    start jams."""
     arrived, least, jams = np.zeros(len(u), bool), np.zeros(len(u)), np.zeros(len(u), bool)
     for k in range(NEWTON):
         found, here = _friction(p, u)
@@ -193,12 +193,12 @@ def _effort_rate(p: _Loaded, found: FrictionSolution, here: Response) -> Array:
 
 
 def _scaled(p: _Loaded, rate: Array) -> Array:
-    """de/du without units."""
+    """Dimensionless de/du."""
     return np.asarray(rate / p.effort_scale[:, None] * p.load_scale)
 
 
 def _arranged(p: _Loaded, u: Array) -> Response:
-    """The response at loads u by the unknowns that were asked for: constraints, other efforts, loads, which friction
+    """The response at loads u, in the order of the original unknowns: constraints, other efforts, loads, which friction
     does not change."""
     r, none = p.at_loads(u), np.zeros((*u.shape, p.contacts.count))
     kept = np.setdiff1d(np.arange(r.x.shape[-1]), p.given)

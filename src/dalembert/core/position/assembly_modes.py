@@ -1,7 +1,7 @@
-"""The ways a linkage of the plane closes: enumerated, told apart, and put in the order in which they are taken.
+"""Assembly modes of a planar linkage: enumerated, distinguished and ordered by preference.
 
-First come those with every group on the side that the given angles state, then the nearest to the given angles. Where
-nothing is given, sliders farthest along their directions come first, then the highest links.
+Modes with every group on the side that the given angles imply come first, then the nearest to the given angles. Without
+given angles, modes with sliders farthest along their directions come first, then those with the highest links.
 
 Mechanics: docs/theory.md 3.1.
 """
@@ -19,22 +19,22 @@ from dalembert.core.position.assur_plan import Plan
 from dalembert.core.position.dyads import Laid, offsets, place_ground, place_group, sides
 
 MOST = 64
-"""Ways that are kept while links are laid down: all there are of six groups, of more the first in order."""
+"""Modes that are kept while links are placed: all modes of six groups, the first in order of more groups."""
 
 NEAR = 0.35
-"""How far given angles may be off, radians. A way this close to them is taken without a look for others; two that both
-are stand near a dead centre, where Newton from the given angles goes to the nearer one."""
+"""Largest error of given angles, radians. A mode within this distance is accepted without a search for others; where
+two modes are, both are near a dead centre, and Newton from the given angles converges to the nearer one."""
 
 TRIALS = 16
-"""In how many cases of being off given angles have to state the same side."""
+"""Number of perturbations of the given angles that must all imply the same side."""
 
 SAME = 1e-4
-"""Two poses this close to each other, radians or characteristic lengths, are the same way."""
+"""Distance between poses, radians or characteristic lengths, below which they are the same mode."""
 
 
 class Wanted(NamedTuple):
-    """What is given of the pose: angles (L+1,) and places (L+1, 2), NaN where nothing is; the pose that Newton finds
-    from there, which settles what they leave open, None where it finds none."""
+    """Given part of the pose: angles (L+1,) and places (L+1, 2), NaN where unknown; the pose that Newton computes from
+    them, which settles the rest, None where Newton fails."""
 
     turn: Array
     point: Array
@@ -42,12 +42,12 @@ class Wanted(NamedTuple):
 
     @property
     def given(self) -> bool:
-        """Whether there is an angle."""
+        """True if any angle is given."""
         return bool(np.isfinite(self.turn[:-1]).any())
 
 
 def enumerate_modes(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
-    """The ways (M, L+1, ...) that a linkage closes at a target (K + D,), group by group, the first one first."""
+    """Modes (M, L+1, ...) in which a linkage closes at a target (K + D,), group by group, in order of preference."""
     with np.errstate(all="ignore"):
         return _enumerate_modes(layout, plan, target, wanted)
 
@@ -68,10 +68,10 @@ def _enumerate_modes(layout: Layout, plan: Plan, target: Array, wanted: Wanted) 
 
 
 def on_sides(layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array) -> tuple[Ints, Pose]:
-    """Which of the targets (P, K + D) a linkage reaches with every group on its side of a pose (L+1, ...), and how.
+    """Indices of the targets (P, K + D) at which a linkage closes with every group on its side of a pose (L+1, ...),
+    and the poses.
 
-    ``turn`` (L+1,) are given angles, NaN where there is none. Where a group has several ways on that side,
-    none is taken.
+    ``turn`` (L+1,) are given angles, NaN where unknown. Where a group has several modes on that side, none is used.
     """
     with np.errstate(all="ignore"):
         here = np.full((1, targets.shape[1]), np.nan)
@@ -88,7 +88,7 @@ def on_sides(layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array
 
 
 def closing(plan: Plan, targets: Array) -> Ints:
-    """Which of the targets (P, K + D) a linkage closes at, in whatever way, ascending."""
+    """Indices of the targets (P, K + D) at which a linkage closes in any mode, ascending."""
     with np.errstate(all="ignore"):
         off, laid, places = offsets(plan, targets), place_ground(plan, targets), np.arange(len(targets))
         for group in plan.groups:
@@ -98,12 +98,12 @@ def closing(plan: Plan, targets: Array) -> Ints:
 
 
 def to_pose(layout: Layout, laid: Laid) -> Pose:
-    """Links laid down as a pose."""
+    """Placed links as a pose."""
     return Pose(laid.point, laid.turn, layout.algebra.rotation(laid.turn))
 
 
 def _wind(turn: Array, links: Ints, given: Array) -> None:
-    """Whole turns of links that turn together: the nearest to the angle that one of them is given, else the least."""
+    """Whole turns of links that turn together: nearest to the given angle of one of them, else the fewest."""
     known = links[np.isfinite(given[links])]
     head = known[0] if known.size else links[0]
     wanted = given[head] if known.size else 0.0
@@ -111,9 +111,8 @@ def _wind(turn: Array, links: Ints, given: Array) -> None:
 
 
 def stated_sides(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Array:
-    """The side (G,) of each group that the given angles state, were each of them ``NEAR`` off; 0 where they do not.
-
-    The drives' positions are not taken: the angles may have been read off at others.
+    """The side (G,) of each group that the given angles imply even if each is wrong by ``NEAR``; 0 where they imply
+    none. The drives' positions are not used: the angles may have been measured at others.
     """
     if not wanted.given:
         return np.zeros(len(plan.groups))
@@ -135,7 +134,7 @@ def stated_sides(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> A
 
 
 def _order(layout: Layout, laid: Laid, stated: Array, wanted: Wanted) -> Ints:
-    """The order in which ways are taken, which may be laid down in part."""
+    """Order of preference of modes, some of them only partly placed."""
     wrong = (laid.side * stated[: laid.side.shape[1]] < 0).sum(axis=1)
     off = np.nansum(wrap_angle(laid.turn - wanted.turn)[:, :-1] ** 2, axis=1)
     shift = np.nansum((laid.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length / layout.length
@@ -149,7 +148,7 @@ def _order(layout: Layout, laid: Laid, stated: Array, wanted: Wanted) -> Ints:
     if wanted.given:
         order = np.lexsort([key.round(9) for key in reversed(keys)])
         if np.any([np.diff(key[order].round(9)) for key in keys], axis=0).all():
-            return order  # no two alike: how far sliders stand decides nothing
+            return order  # all different: the sliders' positions do not decide
     along, height = measures(layout, to_pose(layout, laid))
     keys[len(keys) if wanted.given else 3 : 0] = [-along, -height]
     return np.lexsort([key.round(9) for key in reversed(keys)])
@@ -161,7 +160,7 @@ def wrap_angle(angle: Array) -> Array:
 
 
 def remove_whole_turns(layout: Layout, pose: Pose) -> Pose:
-    """Whole turns taken off links whose angle no row of the system counts."""
+    """Angles without whole turns, for links whose turns no row of the system counts."""
     turn = pose.turn.copy()
     free = np.flatnonzero(~counted_links(layout))
     turn[..., free] = wrap_angle(turn[..., free])
@@ -169,7 +168,7 @@ def remove_whole_turns(layout: Layout, pose: Pose) -> Pose:
 
 
 def counted_links(layout: Layout) -> Flags:
-    """Links (L,) whose whole turns some row of the system counts."""
+    """True for links (L,) whose whole turns some row of the system counts."""
     counted = np.zeros(layout.links + 1, bool)
     for f in layout.stack.families:
         if isinstance(f, Turn):
@@ -178,7 +177,7 @@ def counted_links(layout: Layout) -> Flags:
 
 
 def distinct(layout: Layout, pose: Pose) -> Pose:
-    """The first of each of the ways."""
+    """Poses without repetitions: the first of each mode."""
     kept: list[int] = []
     for k in range(len(pose.turn)):
         others = np.array(kept, np.intp)
@@ -190,7 +189,7 @@ def distinct(layout: Layout, pose: Pose) -> Pose:
 
 
 def sort_modes(layout: Layout, pose: Pose, wanted: Wanted) -> Ints:
-    """The order of ways whose groups are not known: the nearest to given angles, else as they are preferred."""
+    """Order of modes whose groups are unknown: by distance from given angles, else by preference."""
     if wanted.given:
         off = np.nansum(wrap_angle(pose.turn - wanted.turn)[:, :-1] ** 2, axis=1).round(9)
         return np.argsort(off, kind="stable")
@@ -199,7 +198,7 @@ def sort_modes(layout: Layout, pose: Pose, wanted: Wanted) -> Ints:
 
 
 def measures(layout: Layout, pose: Pose) -> tuple[Array, Array]:
-    """How far sliders stand along their directions, and how high the links, of those that are laid down (M,)."""
+    """Positions of sliders along their directions, and heights of the links, of the placed ones (M,)."""
     slides = np.setdiff1d(np.flatnonzero(~layout.freedoms.angular), layout.driven)
     along = np.nansum(measure(layout.algebra, layout.freedoms, pose)[:, slides], axis=1)
     height = np.nansum(pose.point[:, :-1, 1], axis=1)

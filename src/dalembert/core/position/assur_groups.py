@@ -1,8 +1,8 @@
-"""Groups of links that are solved one after another, and which way each of them is assembled.
+"""Groups of links that are solved one after another, and the assembly mode of each.
 
-Rows and unknowns of a square J are put in block triangular form (Dulmage and Mendelsohn, 1958): a group of links that
-only closes as a whole (Assur) has a diagonal block of its own. J becomes singular where one block does, so along a
-motion no block's determinant changes its sign, while det J, their product, keeps its own where two of them do.
+Rows and unknowns of a square J are put in block triangular form (Dulmage and Mendelsohn, 1958): each Assur group, which
+closes only as a unit, is a diagonal block. J becomes singular where one block does, so between singular poses no
+block's determinant changes sign, while det J, their product, keeps its sign where two of them change theirs.
 
 Mechanics: docs/theory.md 3.1.
 """
@@ -24,14 +24,14 @@ NOTHING = 1e-9
 """Part of the largest entry of J below which an entry counts as 0: cosines of right angles, rounded."""
 
 DEPENDENT = 1e-6
-"""Part of a row of J that rows before it have to leave of it for it to say something new."""
+"""Part of a row of J that must remain after elimination by earlier rows for it to count as independent."""
 
 LARGEST = 600
-"""Unknowns above which J is not asked."""
+"""Unknowns above which J is not examined."""
 
 TOLD_APART = 3
-"""Links up to which a group closes in two ways, of opposite signs: two, and one that a drive holds to one of them.
-Larger ones close in more ways, several of the same sign."""
+"""Links of the largest group with two assembly modes of opposite signs: two, and one that a drive holds to one of them.
+Larger groups have more modes, several of the same sign."""
 
 
 class Group(NamedTuple):
@@ -46,8 +46,8 @@ def groups(layout: Layout, pose: Pose) -> list[Group]:
 
     Where rows repeat each other, those of two choices of independent ones, the first and the last: a sign that changes
     because a choice fails, not the linkage, would have to change in both. None where J is too large, has too few rows
-    or is singular by its zeros alone, where a group has too many links for its sign to tell all its ways apart, and
-    where a choice fails already at one of the poses.
+    or is structurally singular, where a group has too many links for its sign to distinguish all its modes, and where a
+    choice already fails at one of the poses.
     """
     if layout.stack.count < layout.unknowns or layout.unknowns > LARGEST:
         return []
@@ -86,7 +86,7 @@ class Chosen:
 def on_independent_rows(layout: Layout, pose: Pose) -> Layout:
     """The layout with a solver by the first rows of J that do not depend on those before, at a pose (L+1, ...).
 
-    It takes a fraction of the time of singular values; whether the other rows hold too is seen by the gap.
+    It takes a fraction of the time of singular values; the gap shows whether the other rows hold too.
     """
     if layout.square:
         return layout
@@ -113,7 +113,7 @@ def independent_rows(j: Array, order: Ints) -> Ints:
 
 
 def senses(layout: Layout, found: list[Group], pose: Pose) -> Array:
-    """Signs (P, G) of the groups' determinants: each tells the two sides of a dead centre of its group apart."""
+    """Signs (P, G) of the groups' determinants; each distinguishes the two sides of a dead centre of its group."""
     j = _scaled_jacobian(layout, pose)
     return np.stack([np.linalg.slogdet(j[:, g.row[:, None], g.column])[0] for g in found], axis=1)
 
@@ -126,8 +126,8 @@ def _scaled_jacobian(layout: Layout, pose: Pose) -> Array:
 def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int], list[int]]] | None:
     """Rows and columns of the diagonal blocks of a square pattern, in the order in which they can be solved.
 
-    A pattern is the columns that each row has; None where rows and columns cannot be paired. Rows are paired with
-    columns, then those that need each other are found by depth-first search (Tarjan, 1972).
+    The pattern lists the columns of each row; None where rows and columns cannot be paired. Rows are paired with
+    columns, then depth-first search (Tarjan, 1972) detects the rows that depend on each other.
 
     >>> block_triangular([[0], [0, 1, 2], [1, 2]], 3)
     [([0], [0]), ([1, 2], [1, 2])]
@@ -141,7 +141,7 @@ def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int
 
 
 def match_columns(rows: list[list[int]]) -> list[int]:
-    """A column of its own for each row, by augmenting paths, for as many rows as can have one; -1 for the others."""
+    """Distinct column for each row, by augmenting paths, for as many rows as possible; -1 for the others."""
     own: list[int] = [-1] * len(rows)
     owner: dict[int, int] = {}
     for start in range(len(rows)):
@@ -161,7 +161,7 @@ def match_columns(rows: list[list[int]]) -> list[int]:
 
 
 def strong_components(needed: list[list[int]]) -> list[list[int]]:
-    """Strongly connected components of a graph, each behind those that it needs."""
+    """Strongly connected components of a graph, each after those that it depends on."""
     order: dict[int, int] = {}
     low: dict[int, int] = {}
     found, stack, done = [], [], set()

@@ -1,11 +1,11 @@
-"""The groups of links of a plane linkage, found from its joints alone, in the order in which they are laid down.
+"""Groups of links of a planar linkage, from its joints alone, in the order in which they are placed.
 
 With the drives known, the conditions split into groups that are solved one after another (Assur, 1916; the block
 triangular form of ``core.position.assur_groups``). Each condition between two links i and j is
 
     n . (P_j + R_j u_j - P_i - R_i u_i) = target
 
-with n ground's x and y for points that coincide, an axis of i for a slide. Links whose relative angle is held turn
+with n ground's x and y for points that coincide, an axis of i for a slide. Links with a prescribed relative angle turn
 together: all of them follow a leader's angle.
 
 Mechanics: docs/theory.md 3.1.
@@ -49,7 +49,7 @@ class Conditions(NamedTuple):
 class Group:
     """A group: its conditions, the unknown coordinates of its links, the links that turn with each unknown angle.
 
-    ``links`` are all that it touches; everything else counts them by their places there.
+    ``links`` are all links that it involves; the other fields index into this list.
     """
 
     links: Ints
@@ -57,7 +57,7 @@ class Group:
     link: Ints  # (p,)
     axis: Ints  # (p,)
     turning: tuple[Ints, ...]
-    apart: bool  # each condition decides its own coordinate, along an axis of ground
+    apart: bool  # each condition determines one coordinate, along an axis of ground
 
     @cached_property
     def incidence(self) -> Array:
@@ -67,7 +67,7 @@ class Group:
 
     @cached_property
     def own(self) -> list[tuple[Flags, ...]]:
-        """Of each unknown angle, the conditions (K, 1) whose link i, whose link j and whose axis turn with it."""
+        """For each unknown angle, the conditions (K, 1) whose link i, whose link j and whose axis turn with it."""
         c = self.conditions
         ends = np.stack([c.i, c.j, c.frame])[..., None]
         return [tuple((ends == links).any(axis=-1, keepdims=True)) for links in self.turning]
@@ -85,14 +85,14 @@ class Group:
 
     @cached_property
     def closed(self) -> bool:
-        """Whether there is a closed form (``core.position.dyads``)."""
+        """True if the group has a closed form (``core.position.dyads``)."""
         count = len(self.turning)
         return not self.conditions.far.any() and (count < 2 or (count == 2 and not self.sliding))
 
 
 @dataclass(frozen=True)
 class Plan:
-    """How the links are laid down: angles that follow from others, then group after group.
+    """Order in which links are placed: angles that follow from others, then group after group.
 
     turns   a link, the one it turns with, sign and row of the angle between them, in an order that starts from leaders
     """
@@ -103,7 +103,7 @@ class Plan:
 
     @cached_property
     def closed(self) -> bool:
-        """Whether every group has a closed form."""
+        """True if every group has a closed form."""
         return all(group.closed for group in self.groups)
 
 
@@ -131,14 +131,14 @@ def plan(layout: Layout) -> Plan | None:
 
 
 Block = tuple[list[int], list[int]]
-"""Conditions, and the unknowns that they decide."""
+"""Conditions, and the unknowns that they determine."""
 
 
 def _side_by_side(
     blocks: list[Block], entries: list[list[int]], c: Conditions, ground: int
 ) -> list[tuple[Block, bool]]:
-    """Coordinates that one condition each decides, along ground's axes, joined where none needs another (True): those
-    of long chains are then laid down at once. The other blocks stay in their order."""
+    """Coordinates that one condition each determines, along ground's axes, joined where none depends on another (True):
+    those of long chains are then placed at once. The other blocks stay in their order."""
     place: dict[int, tuple[int, int]] = {}
     joined: dict[tuple[int, int], Block] = {}
     count = 0
@@ -159,7 +159,7 @@ def _side_by_side(
 
 
 def _group(c: Conditions, link: Ints, axis: Ints, turning: list[Ints], apart: bool) -> Group:
-    """A group by the links it touches."""
+    """The group of the links involved in some conditions."""
     links = np.unique(np.concatenate([c.i, c.j, c.frame, link, *turning]))
     i, j, frame, place, *turns = (
         np.searchsorted(links, part) for part in (c.i, c.j, c.frame, link, *turning)

@@ -1,11 +1,11 @@
 """Predictor-corrector continuation of the closure equations along the course of the drives, on one branch.
 
 After Allgower and Georg, Numerical Continuation Methods (1990): a Hermite predictor through the last stations, a Newton
-corrector, and step halving where the corrector moves far or the rates at the two ends of a step do not fit the way
-between them. Singular poses (dead centres, change points) show by the sign of det J and by its least singular value.
-Where J tends to become singular ahead, branches may cross there or only come near: the steps close in on the place, so
-that near branches are told apart at their own scale, and go straight through only where J is singular as far as
-``through_singular`` can tell. Where no step is small enough it has come to a dead centre, and ends.
+corrector, and step halving where the corrector moves far or the rates at the two ends of a step do not fit the
+displacement between them. Singular poses (dead centres, change points) show by the sign of det J and by its least
+singular value. Where J tends to become singular ahead, branches may cross or only come close: the steps shrink towards
+that pose, so that close branches are resolved, and pass straight through only where J is singular within the accuracy
+of ``through_singular``. Where no step is small enough, the march has reached a dead centre and ends.
 
 s  parameter of the course
 
@@ -32,38 +32,38 @@ class StepControl(NamedTuple):
     """Limits of the continuation. Lengths are in radians of a drive, or slides over the characteristic length."""
 
     step: float = 0.43
-    """Between stations; no divisor of a quarter turn, so that stations miss the dead centres of round angles."""
+    """Step between stations; not a divisor of a quarter turn, so that stations miss dead centres at round angles."""
     min_step: float = 2.0**-20
-    """Part of ``step`` at which the continuation gives up: a dead centre lies within."""
+    """Fraction of ``step`` at which the continuation stops: a dead centre is within."""
     short_step: float = 1e-3
-    """Part of ``step`` that counts as short."""
+    """Fraction of ``step`` that counts as short."""
     max_short_steps: int = 500
-    """Short steps that may follow each other: a sharp turn takes some fifty."""
+    """Consecutive short steps allowed: a sharp turn takes about fifty."""
     predictor_stations: int = 3
     """Stations that the predictor extrapolates from."""
     max_corrections: int = 5
-    """Steps of the corrector."""
+    """Largest number of corrector steps."""
     corrected: float = 0.01
     """Newton's step over the travel at which the corrector may stop."""
     max_correction: float = 0.1
-    """Whole correction over the travel that refuses a step."""
+    """Total correction over the travel above which a step is rejected."""
     max_direction_change: float = 0.15
-    """Difference of the way between two stations from the mean of their rates, over it, that refuses a step: a branch
-    that crosses has another direction, however near it is."""
+    """Relative difference between the displacement over a step and the mean of its end rates above which the step is
+    rejected: a crossing branch has another direction, however near it is."""
     max_travel: float = 4 * 0.43
     """Longest travel of a link between stations: radians, or lengths over the machine's reach."""
     towards_singular: float = 0.75
-    """Part of the way to a singular pose ahead that a step may take."""
+    """Fraction of the distance to a singular pose ahead that a step may cover."""
     away_from_singular: float = 3.0
-    """Step over the way since a singular pose behind."""
+    """Step over the distance from a singular pose behind."""
     through_singular: float = 1e-5
-    """Way to a singular pose from which a step goes through it: branches nearer to each other count as crossing."""
+    """Distance to a singular pose from which a step passes through it: closer branches count as crossing."""
     singular_log_determinant: float = -25.0
-    """Logarithm of the determinant between two stations below which J is singular at both: its sign says nothing."""
+    """Logarithm of the determinant between two stations below which J is singular at both: its sign is meaningless."""
     interpolation_stations: int = 5
     """Stations in an interpolation, each with pose and rate."""
     crowded: float = 0.3
-    """Interpolation in an interval reaches no farther than to stations nearer to each other than this part of it."""
+    """Stations nearer to each other than this fraction of an interval end the reach of its interpolation."""
 
 
 STEP = StepControl()
@@ -88,10 +88,10 @@ class Nodes(NamedTuple):
 class Station(NamedTuple):
     """One pose (L+1, ...) of a march and the links' twists (L+1, n) per unit of s there.
 
-    ``clear`` tells how far the pose is from a singular one, like the least singular value of J; its sign changes
-    where the march goes through one. ``side`` changes its sign where J (``matrix``) became singular since the station
-    before: it is the sign of det J, or of det(J+ J) with the pseudo-inverse of the station before where J is not
-    square; 0 where J is too large to ask.
+    ``clear`` measures the distance from a singular pose, like the smallest singular value of J; its sign changes where
+    the march passes through one. ``side`` changes its sign where J (``matrix``) became singular since the previous
+    station: it is the sign of det J, or of det(J+ J) with the pseudo-inverse of the previous station where J is not
+    square; 0 where J is too large to factor.
     """
 
     s: float
@@ -121,7 +121,7 @@ def interpolate(layout: Layout, s: Array, nodes: Nodes) -> Pose:
 def _around(s: Array, k: int) -> list[int]:
     """Stations around the interval from s[k] to s[k + 1], the nearest first, to where they crowd.
 
-    They crowd where the motion bends sharply: a polynomial that reaches over such a place is of no use here.
+    They crowd where the motion bends sharply: a polynomial across such a place is inaccurate.
     """
     if len(s) == 1:
         return [0]
@@ -162,7 +162,7 @@ def _hermite(s: Array, nodes: Array) -> tuple[Array, Array]:
 
 
 def march(layout: Layout, first: Pose, along: Course, start: float, backward: bool = False) -> March:
-    """Stations from parameter ``start`` to the end of the course (or its beginning), from the pose there."""
+    """Stations from parameter ``start`` to the end of the course (or its beginning), starting from the given pose."""
     end, sign = (0.0, -1.0) if backward else (along.end, 1.0)
     if start == end:
         return March(np.array([start]), stack([first]), True)
@@ -174,7 +174,7 @@ def march(layout: Layout, first: Pose, along: Course, start: float, backward: bo
         step = min(size * STEP.step, _safe(recent), ahead)
         new = _station(at, recent, last.s + sign * step)
         if new is None:
-            if not exact:  # what the corrector left of this station may be large beside a shorter step
+            if not exact:  # the corrector's error at this station may be large next to a shorter step
                 found[-1] = _exact(at, last, sign)
                 exact = True
             size = step / STEP.step / 2
@@ -213,7 +213,7 @@ def stack(poses: list[Pose]) -> Pose:
 
 
 class _Setting(NamedTuple):
-    """What a march works with: ``probes`` (2, K + D), arbitrary right sides of unit size, whose solutions grow where J
+    """Data of a march: ``probes`` (2, K + D), arbitrary right-hand sides of unit size, whose solutions grow where J
     becomes singular, and ``turned`` (L+1,), the links whose rotation follows from their twists.
     """
 
@@ -228,15 +228,13 @@ def _setting(layout: Layout, along: Course) -> _Setting:
     probes = np.stack([np.cos(1.0 + 2.7 * count), np.cos(2.0 + 1.9 * count)]) * layout.length
     turned = np.ones(layout.links + 1, bool)
     for family in layout.constraints.families:
-        if isinstance(
-            family, Idle
-        ):  # such a link stands as it is drawn: its spin has nothing to do with its rate
+        if isinstance(family, Idle):  # such a link is as drawn: its spin is independent of its rate
             turned[family.j] = False
     return _Setting(layout, along, probes, turned)
 
 
 def _standing(at: _Setting, s: float, pose: Pose, sign: float, before: Station | None = None) -> Station:
-    """A station at a known pose, its rate taken on one side of s."""
+    """A station at a known pose, with its rate on one side of s."""
     (rate,), clear, matrix = _rates(at, pose.at(None), at.along.slope(s, sign) * at.layout.row_scale)
     return Station(s, pose, rate, clear, matrix, _side(at.layout, matrix, before))
 
@@ -279,10 +277,10 @@ def twists(layout: Layout, dq: Array) -> Array:
 
 
 def _station(at: _Setting, recent: list[Station], ahead: float) -> Station | None:
-    """The station at ``ahead``, predicted from the last ones and corrected; None where that cannot be trusted.
+    """The station at ``ahead``, predicted from the last ones and corrected; None where that is not reliable.
 
-    Newton stops when its step is small next to the travel: what it leaves is the square of that, and the whole march
-    is polished later. The matrix of the last step gives the rate as well.
+    Newton stops when its step is small next to the travel: its error is the square of that, and all stations are
+    polished later. The matrix of the last step gives the rate as well.
     """
     layout, along, last = at.layout, at.along, recent[-1]
     there, slope = along.target(ahead), along.slope(ahead, last.s - ahead) * layout.row_scale
@@ -301,14 +299,14 @@ def _station(at: _Setting, recent: list[Station], ahead: float) -> Station | Non
                 not layout.square
                 and np.abs(gap(layout, pose, there)).max() > STEP.corrected * travel * layout.length
             ):
-                return None  # more constraints than unknowns, and no pose meets them all
+                return None  # more constraints than unknowns, and no pose satisfies them all
             side = _side(layout, matrix, last)
             return _next_station(at, recent, Station(ahead, pose.at(0), rate, clear, matrix, side))
     return None
 
 
 def _next_station(at: _Setting, recent: list[Station], new: Station) -> Station | None:
-    """The new station as the next one of the march; None where it seems to be on another branch."""
+    """The new station as the next one of the march; None where it seems to belong to another branch."""
     last, step = recent[-1], abs(new.s - recent[-1].s)
     changed = last.side * new.side < 0
     if (changed and step > 4 * STEP.through_singular) or _bend(at, last, new) > STEP.max_direction_change:
@@ -318,14 +316,14 @@ def _next_station(at: _Setting, recent: list[Station], new: Station) -> Station 
 
 
 def _passes(recent: list[Station], step: float) -> bool:
-    """Whether a step goes through a singular pose, as ``_safe`` foresees it."""
+    """True if a step passes through a singular pose, as ``_safe`` predicts it."""
     (before, last), way = recent, abs(recent[1].s - recent[0].s)
     change = (before.clear - last.clear) * np.sign(last.clear)
     return bool(step * change > way * abs(last.clear))
 
 
 def _bend(at: _Setting, a: Station, b: Station) -> float:
-    """How far the way between two stations is from the mean of their rates, over the faster of them."""
+    """Difference of the displacement between two stations from the mean of their rates, over the larger rate."""
     g, step = at.layout.algebra, b.s - a.s
     way = g.coordinates(*b.pose) - g.coordinates(*a.pose)
     first = step * g.coordinate_rates(a.pose.rotation, a.rate)
@@ -337,10 +335,10 @@ def _bend(at: _Setting, a: Station, b: Station) -> float:
 
 
 def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
-    """Whether a link travelled too far between two poses (L+1, ...) for all branches to be told apart.
+    """True if a link travelled too far between two poses (L+1, ...) to distinguish all branches.
 
-    Shifts are compared with the reach of the moving links, not with one link's length: what stands at the end of a
-    long chain goes far by the chain's turns alone.
+    Shifts are compared with the reach of the moving links, not with one link's length: the end of a long chain travels
+    far by the turns of the chain alone.
     """
     reach = max(np.ptp(before.point[:-1], axis=0).max(initial=0.0), layout.length)
     shift = np.abs(after.point - before.point).max() / reach

@@ -1,12 +1,12 @@
-"""Links of the plane laid down group after group (``assur_plan``), two-link groups (dyads) in closed form.
+"""Closed-form placement of planar linkages group by group (``assur_plan``): two-link groups (dyads).
 
-At given angles the conditions of a group are linear in the places of its links, so that what it has to find is its
-angles. Links that slide on each other share one. There is none in PRP and RPP dyads; one in RRP, RPR and for a pin in
-a slot, where the determinant of the conditions is a trigonometric polynomial of it; two in RRR, where two circles cut
-and one angle follows from the other. Larger groups (triads) are sought by Newton from many angles.
+At known angles the conditions of a group are linear in the places of its links, so that only its angles are unknown.
+Links that slide on each other share an angle. PRP and RPP dyads have no unknown angle; RRP, RPR and a pin in a slot
+have one, where the determinant of the conditions is a trigonometric polynomial of it; RRR has two, where two circles
+intersect and one angle follows from the other. Larger groups (triads) are solved by Newton from many angles.
 
-S  poses that are laid down together
-side  sign of the determinant of a group's Jacobian, which tells its two ways apart
+S  poses that are placed together
+side  sign of the determinant of a group's Jacobian, which distinguishes its two branches
 
 Mechanics: docs/theory.md 3.1.
 """
@@ -24,7 +24,7 @@ from dalembert.core.position.assur_plan import Group, Plan
 from dalembert.core.position.newton import LONGEST_TURN
 
 TOUCHING = 1e-8
-"""How far the cosine of an angle may be beyond 1 where circles just touch; Newton decides then."""
+"""Excess of a cosine over 1 up to which circles are treated as touching; Newton then decides."""
 
 NEGLIGIBLE = 1e-9
 """Part of the largest coefficient of a trigonometric polynomial that counts as 0."""
@@ -37,7 +37,7 @@ CLOSE = 1e-9
 
 
 class Laid(NamedTuple):
-    """Poses (S, L+1, ...) as far as laid down, NaN where not yet; the sides of their groups (S, G), 0 if not known."""
+    """Partly placed poses (S, L+1, ...), NaN where not yet placed; the sides of their groups (S, G), 0 if unknown."""
 
     point: Array
     turn: Array
@@ -48,8 +48,8 @@ class Laid(NamedTuple):
 
 
 class Part(NamedTuple):
-    """What a group touches of the poses (S,): places and angles of its links, how much further than their leaders they
-    are turned (S, n), and the targets of its conditions (S, K)."""
+    """Part of the poses (S,) that a group involves: places and angles of its links, their angles relative to their
+    leaders (S, n), and the targets of its conditions (S, K)."""
 
     point: Array
     turn: Array
@@ -61,7 +61,7 @@ class Part(NamedTuple):
 
 
 def place_ground(p: Plan, target: Array) -> Laid:
-    """Ground, and the links whose angles follow from its own, at targets (S, K + D)."""
+    """Places the ground and the links whose angles follow from it, at targets (S, K + D)."""
     count = len(target)
     turn = np.full((count, p.links + 1), np.nan)
     point = np.full((count, p.links + 1, 2), np.nan)
@@ -72,7 +72,7 @@ def place_ground(p: Plan, target: Array) -> Laid:
 
 
 def offsets(p: Plan, target: Array) -> Array:
-    """How much further than their leaders the links are turned (S, L+1)."""
+    """Angles of the links relative to their leaders (S, L+1)."""
     off = np.zeros((len(target), p.links + 1))
     for new, known, sign, row in p.turns:
         off[:, new] = off[:, known] + sign * target[:, row]
@@ -80,7 +80,7 @@ def offsets(p: Plan, target: Array) -> Array:
 
 
 def place_group(group: Group, laid: Laid, target: Array, off: Array) -> tuple[Ints, Laid]:
-    """All ways to lay a group down: which of the poses (S,) each starts from, and what has become of it."""
+    """All branches of a group: the index of the pose (S,) that each starts from, and the poses with it placed."""
     part = _part(group, laid, target, off)
     if group.apart:
         laid.point[:, group.links[group.link], group.axis] = _places(group, part)
@@ -107,7 +107,8 @@ def _part(group: Group, laid: Laid, target: Array, off: Array) -> Part:
 
 
 def _ways(group: Group, part: Part) -> Array:
-    """Unknown angles (S, ways, angles) of a group, NaN where there are fewer ways; starts where it has no formula."""
+    """Unknown angles (S, branches, angles) of a group, NaN beyond its last branch; starting angles where it has no
+    formula."""
     count = len(group.turning)
     if not group.closed:
         steps = np.modf(np.sqrt(np.arange(2, 2 + count) + 0.5) * 1.6180339887)[0]
@@ -124,7 +125,7 @@ def _ways(group: Group, part: Part) -> Array:
 
 
 def _determinant(group: Group, part: Part, angle: float) -> Array:
-    """Determinant (S,) of the conditions at an angle: 0 where places exist that meet them all."""
+    """Determinant (S,) of the conditions at an angle: 0 where they have a common solution."""
     part = part._replace(turn=part.turn.copy())
     _turn(group, part, np.full((len(part.turn), 1), angle))
     matrix, constant = _system(group, part, plane.rotation(part.turn))
@@ -132,7 +133,7 @@ def _determinant(group: Group, part: Part, angle: float) -> Array:
 
 
 def _circles(group: Group, part: Part) -> Array:
-    """Two angles: what the places leave of the conditions is w + M1 u1 + M2 u2 = 0 with unit vectors u."""
+    """Two angles: after elimination of the places the conditions are w + M1 u1 + M2 u2 = 0 with unit vectors u."""
     none = plane.rotation(part.turn)
     for links in group.turning:
         none[:, links] = 0.0
@@ -184,7 +185,7 @@ def _roots(samples: Array) -> Array:
 
 
 def _turn(group: Group, part: Part, angle: Array) -> None:
-    """Set the angles (S, angles) of a group's links."""
+    """Sets the angles (S, angles) of a group's links."""
     for k, links in enumerate(group.turning):
         part.turn[:, links] = angle[:, k, None] + part.off[:, links]
 
@@ -204,7 +205,7 @@ def _arms(group: Group, rotation: Array) -> tuple[Array, Array, Array]:
 
 
 def _turned_arms(own: tuple[Flags, ...], ri: Array, rj: Array) -> Array:
-    """Arms (S, K, 2) of an unknown angle's own links, of those on i with the other sign."""
+    """Arms (S, K, 2) of the links that turn with an unknown angle, those on i with the opposite sign."""
     return np.where(own[1], rj, 0.0) - np.where(own[0], ri, 0.0)
 
 
@@ -220,7 +221,7 @@ def _matrix(group: Group, n: Array) -> Array:
 
 
 def _constant(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
-    """The axes (S, K, 2) of the conditions, and what they are where the places are 0 (S, K)."""
+    """The axes (S, K, 2) of the conditions, and their values with all places at 0 (S, K)."""
     c = group.conditions
     point = part.point.copy()
     point[:, group.link, group.axis] = 0.0
@@ -230,12 +231,12 @@ def _constant(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
 
 
 def _where(factor: Array, value: Array) -> Array:
-    """The value where its factor is not 0: what is not known does not matter elsewhere."""
+    """The value where its factor is not 0: unknown values do not matter elsewhere."""
     return np.where(factor == 0, 0.0, value)
 
 
 def _places(group: Group, part: Part) -> Array:
-    """Places (S, p) at known angles, those of least squares where the conditions are more than the places."""
+    """Places (S, p) at known angles, by least squares where there are more conditions than places."""
     if not group.link.size:
         return np.zeros((len(part.turn), 0))
     if group.apart:
@@ -251,7 +252,7 @@ def _places(group: Group, part: Part) -> Array:
 
 
 def _lines(group: Group, part: Part) -> tuple[Array, Array, Array, Array]:
-    """Arms on i and j, the axes n and the ways from point to point of the conditions (S, K, 2)."""
+    """Arms on i and j, the axes n and the vectors between the points of the conditions (S, K, 2)."""
     c = group.conditions
     ri, rj, n = _arms(group, plane.rotation(part.turn))
     span = part.point[:, c.j] + rj - part.point[:, c.i] - ri
@@ -275,7 +276,7 @@ def jacobian(group: Group, part: Part) -> Array:
 
 
 def _newton(group: Group, part: Part) -> Flags:
-    """Newton for a group without a closed form; which of the poses (S,), changed in place, close."""
+    """Newton for a group without a closed form; flags for the poses (S,), changed in place, that close."""
     count, heads = len(group.turning), [links[0] for links in group.turning]
     for _ in range(STEPS):
         step = np.nan_to_num(-solve_square(jacobian(group, part), _gap(group, part)))
@@ -287,13 +288,13 @@ def _newton(group: Group, part: Part) -> Flags:
 
 
 def _gap(group: Group, part: Part) -> Array:
-    """What is missing of the conditions (S, K)."""
+    """Residuals of the conditions (S, K)."""
     _, _, n, span = _lines(group, part)
     return np.asarray((n * span).sum(axis=-1) - part.target)
 
 
 def _distinct(group: Group, which: Ints, part: Part) -> Ints:
-    """The first of each of the ways that several starts have led to."""
+    """Indices of distinct branches, where several starts have converged to the same one."""
     places = part.point[:, group.link, group.axis]
     turned = plane.rotation(part.turn[:, [links[0] for links in group.turning]])
     size = max(float(np.abs(places).max(initial=0.0)), 1e-300)
@@ -306,7 +307,7 @@ def _distinct(group: Group, which: Ints, part: Part) -> Ints:
 def sides(p: Plan, turn: Array, point: Array, target: Array) -> Array:
     """The side (S, G) of each group at given angles (S, L+1) and places, which need not close; 0 where not known.
 
-    What is not given is NaN: it does not matter where a side does not depend on it, as that of an RRR dyad does on its
+    Unknown values are NaN; they do not matter where a side does not depend on them: that of an RRR dyad depends on its
     two angles alone.
     """
     point, found = point.copy(), np.zeros((len(turn), len(p.groups)))

@@ -1,7 +1,7 @@
-"""The first pose: links laid down joint by joint, Newton from many starts at once, the modes told apart.
+"""First pose in the plane: links placed joint by joint, Newton from many starts at once, modes distinguished.
 
-Each link's angle is given, follows from a joint that fixes it (slider, weld, driven pin), or is free: free ones are
-zero in the first start ("as drawn") and spread evenly over the turn in the others, always in the same way.
+Each link's angle is given, follows from a joint that fixes it (slider, weld, driven pin), or is free. Free angles
+are zero in the first start (as drawn) and spread evenly over the turn in the others, in a fixed sequence.
 
 Mechanics: docs/theory.md 3.1.
 """
@@ -36,25 +36,25 @@ from dalembert.core.position.wheel_places import WheelPlaces, loose_places
 
 STARTS = 64
 FEW = 40
-"""Links up to which every start is worth its cost; of more, starts are few and laid down link by link only."""
+"""Largest number of links for which every start is used; beyond it, starts are few and links only placed."""
 
 LOOSE = 1e-6
-"""Part of a link's turn that the constraints leave, above which it can be held."""
+"""Part of a link's turn left by the constraints above which it can be held."""
 
 
 @dataclass(frozen=True)
 class Guess:
-    """What is given of the first pose: angles (L+1,) and reference points (L+1, d), NaN where nothing is."""
+    """Given part of the first pose: angles (L+1,) and reference points (L+1, d), NaN where unknown."""
 
     turn: Array
     point: Array
 
     def modes(self, layout: Layout, target: Array) -> Modes | None:
-        """The ways the linkage closes at a target (K + D,); None if no start closes."""
+        """Assembly modes of the linkage at a target (K + D,); None if no start closes."""
         return modes(layout, target, self)
 
     def every(self, layout: Layout, target: Array) -> Modes | None:
-        """All the ways found, of a layout without phases."""
+        """All modes of a layout without phases."""
         return _search_modes(layout, layout, target, Wanted(self.turn, self.point, None), self)
 
     @property
@@ -63,7 +63,7 @@ class Guess:
         return self.turn
 
     def start(self, layout: Layout, target: Array) -> Pose:
-        """The links laid down joint by joint (L+1, ...): before any correction."""
+        """Links placed joint by joint (L+1, ...), before any correction."""
         return tree_pose(layout, target, self)
 
     def angles(self, layout: Layout, target: Array) -> Array:
@@ -79,7 +79,7 @@ class Guess:
 
 
 class Modes(NamedTuple):
-    """The ways the linkage closes at the first position: poses (M, L+1, ...), the chosen one first."""
+    """Assembly modes at the first position: poses (M, L+1, ...), the chosen one first."""
 
     pose: Pose
     chosen_by: str  # "given" | "drawn" | "search" | "nearest"
@@ -117,14 +117,14 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
 
 
 def tree_pose(layout: Layout, target: Array, guess: Guess) -> Pose:
-    """The links laid down joint by joint (L+1, ...): the first start, before any correction."""
+    """Links placed joint by joint (L+1, ...): the first start, before any correction."""
     one = np.zeros((1, layout.links + 1))
     return _starting_poses(layout, target, guess, one, slides_ahead(layout, layout)).at(0)
 
 
 def slides_ahead(layout: Layout, free: Layout) -> Array:
-    """How far along its axis each row of the free layout lays a point down (1, K): the characteristic length, but
-    wheels that roll on a line over the point that says where they are."""
+    """Distance along its axis at which each row of the free layout places a point (1, K): the characteristic length;
+    for wheels that roll on a line, over the line's reference point."""
     rolling = [f.row[f.pitch != 0] for f in layout.constraints.families if isinstance(f, Along)]
     joints = layout.constraints.joint[np.concatenate([*rolling, np.zeros(0, np.intp)]).astype(np.intp)]
     return np.where(np.isin(free.constraints.joint, joints), 0.0, layout.length)[None]
@@ -182,7 +182,7 @@ def with_rows(layout: Layout, kept: Ints, held: list[int], places: WheelPlaces |
 
 
 def held_wheels(layout: Layout, free: Layout, target: Array, phased: Ints, guess: Guess) -> list[int]:
-    """A link for each phase row that still turns where it is laid down: j, else i, else any; given angles first."""
+    """A link for each phase row that can still turn: j, else i, else any; links with given angles first."""
     one = np.zeros((1, layout.links + 1))
     pose = _starting_poses(free, target, guess, one, slides_ahead(layout, free))
     rows = stack_rows(free, pose)
@@ -223,7 +223,7 @@ def _search_modes(layout: Layout, free: Layout, target: Array, wanted: Wanted, g
 
 
 def _closing(layout: Layout, start: Pose, target: Array) -> Pose | None:
-    """Starts (S, ...) corrected, those that close; None where none does."""
+    """Corrected starts (S, ...) that close; None where none does."""
     wanted = np.broadcast_to(target, (len(start.turn), len(target))).copy()
     pose, missing = close_loops(layout, start, wanted, iterations=60)
     good = np.flatnonzero(missing <= CLOSED * layout.length)
@@ -239,7 +239,7 @@ def _spread(starts: int, links: int, rows: int) -> tuple[Array, Array]:
 
 
 def _starting_poses(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Array) -> Pose:
-    """Starting poses (S, L+1, ...): links laid joint by joint from the ground."""
+    """Starting poses (S, L+1, ...): links placed joint by joint from the ground."""
     g = layout.algebra
     edges = _edges(layout)
     turn = _turns(layout, target, guess, angles, edges)
@@ -264,7 +264,7 @@ def _starting_poses(layout: Layout, target: Array, guess: Guess, angles: Array, 
 
 
 def _fit_translations(layout: Layout, target: Array, pose: Pose) -> Pose:
-    """Links shifted, not turned, to where their points and slides fit best: at given angles that is linear."""
+    """Links translated, not turned, to the best fit of their points and slides: a linear problem at given angles."""
     linear = [f.row.ravel() for f in layout.stack.families if isinstance(f, Meet | Along)]
     if not linear or layout.links > FEW:
         return pose
@@ -282,7 +282,7 @@ def _fit_translations(layout: Layout, target: Array, pose: Pose) -> Pose:
 def _extend_tree(
     placed: set[int], edges: list[_PointEdge], place: Callable[[_PointEdge], None], one: bool = False
 ) -> bool:
-    """Lay links across edges that have one end placed; whether there was any."""
+    """Places links across edges with one placed end; True if any was placed."""
     any_ = False
     for edge in edges:
         if (edge.i in placed) != (edge.j in placed):
@@ -301,7 +301,7 @@ class _PointEdge(NamedTuple):
     uj: Array
     axis: Array | None  # in i's axes, of a coordinate kept at its target
     row: int
-    far: float = 0.0  # distance of the points, where that is what the row keeps
+    far: float = 0.0  # distance of the points, where the row holds it
 
 
 class _Edges(NamedTuple):
@@ -339,7 +339,7 @@ def _edges(layout: Layout) -> _Edges:
 def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _Edges) -> Array:
     """Angles (S, L+1): ground and given ones, spread over the joints that fix relative angles, then the free ones.
 
-    Later starts stray further and further from the given angles.
+    Later starts deviate more and more from the given angles.
     """
     turn = np.full(angles.shape, np.nan)
     turn[:, -1] = 0.0
@@ -381,7 +381,7 @@ def _arms(layout: Layout, edges: _Edges, rotation: Array) -> tuple[Array, Array]
 
 
 def _offset(g: Algebra, edge: _PointEdge, target: Array, rotation: Array, slides: Array) -> Array | float:
-    """From the point of i to that of j (S, 2): along a slide, or at a distance."""
+    """Vector from the point of i to that of j (S, 2): along a slide, or at a distance."""
     if edge.axis is not None:
         across = g.rotate(rotation[:, edge.i], edge.axis)
         along = -plane.across(across)
@@ -393,7 +393,7 @@ def _offset(g: Algebra, edge: _PointEdge, target: Array, rotation: Array, slides
 
 
 def _place(edge: _PointEdge, offset: Array | float, point: Array, ri: Array, rj: Array) -> None:
-    """Lay one of the two links of an edge by the other."""
+    """Places one of the two links of an edge from the other."""
     if np.isnan(point[0, edge.j, 0]):
         point[:, edge.j] = point[:, edge.i] + ri[:, edge.row] + offset - rj[:, edge.row]
     else:

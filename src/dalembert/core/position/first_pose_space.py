@@ -1,8 +1,8 @@
 """The first pose in space: as drawn and followed from there, or near the given poses, or from many starts at once.
 
-Drawn means: every link's axes parallel to the ground's, its points laid joint by joint, the drives at 0. From there
-the motion is followed to the first position. Where that fails, links are laid by random values of their joints'
-freedoms, always the same ones.
+As drawn, every link's axes are parallel to the ground's, its points are placed joint by joint, and the drives are at 0.
+The motion is followed from there to the first position. Where that fails, links are placed with random values of their
+joint coordinates, from a fixed seed.
 
 Mechanics: docs/theory.md 3.1.
 """
@@ -28,14 +28,15 @@ from dalembert.core.position.path_parameter import course
 from dalembert.core.rotation_rows import along_axis
 
 FEW = 16
-"""Starts behind a gap, where the group that is asked closes in two ways."""
+"""Starts behind a gap, where the affected group has two assembly modes."""
 
 ALONG = 1e-9
-"""How far the cosine between two shared axes may be from 1 to count as parallel."""
+"""Largest deviation from 1 of the cosine between shared axes that count as parallel."""
 
 
 class Hinge(NamedTuple):
-    """How a joint lets j be laid by i: local axes on both links (9,), and the axes of its slides and turns in order.
+    """Placement of link j from link i by their joint: local axes on both (9,), and the axes of its slides and turns in
+    order.
 
     The local axes of j are those of i turned about ``turns`` one after the other; ``drives`` (slides, then turns) are
     the drives that prescribe them, -1 where none does; ``parallel`` is the axis that both links share, -1 for none.
@@ -58,9 +59,10 @@ class Hinge(NamedTuple):
 
 @dataclass(frozen=True)
 class Drawing:
-    """What is given of the first pose: rotations (L+1, 9) and reference points (L+1, 3), NaN where nothing is.
+    """Given part of the first pose: rotations (L+1, 9) and reference points (L+1, 3), NaN where unknown.
 
-    The rotations are by ``angle`` (L+1,), whole turns and all, about unit vectors ``axis`` (L+1, 3); 0 of the ground.
+    The rotations are by ``angle`` (L+1,), including whole turns, about unit vectors ``axis`` (L+1, 3); 0 for the
+    ground.
     """
 
     rotation: Array
@@ -71,11 +73,11 @@ class Drawing:
 
     @property
     def given(self) -> Flags:
-        """Which links have a given pose (L+1,)."""
+        """True for links with a given pose (L+1,)."""
         return np.asarray(np.isfinite(self.rotation).all(axis=-1))
 
     def modes(self, layout: Layout, target: Array) -> Modes | None:
-        """The way the linkage closes at a target (K + D,); None if no start closes."""
+        """The assembly mode at a target (K + D,); None if no start closes."""
         if self.given.any():
             return self._near(layout, target) or self._search_modes(layout, target)
         return (
@@ -83,16 +85,16 @@ class Drawing:
         )
 
     def every(self, layout: Layout, target: Array) -> Modes | None:
-        """The ways found from a few random starts."""
+        """Assembly modes reached from a few random starts."""
         return self._search_modes(layout, target, FEW)
 
     @property
     def stated(self) -> None:
-        """No angles in space."""
+        """None: angles are not given in space."""
         return None
 
     def start(self, layout: Layout, target: Array) -> Pose:
-        """The links laid down as drawn, given or driven (L+1, ...): before any correction."""
+        """Links placed as drawn, given or driven (L+1, ...), before any correction."""
         return self._starting_poses(
             layout, target, np.zeros((1, self._values)), driven=bool(self.given.any())
         ).at(0)
@@ -106,7 +108,7 @@ class Drawing:
         return sum(len(h.drives) for h in self.hinges)
 
     def _as_drawn(self, layout: Layout, target: Array) -> Modes | None:
-        """From the drawing at drives 0 to the target."""
+        """Poses followed from the drawing at drives 0 to the target."""
         zero = target.copy()
         zero[layout.constraints.count :] = 0.0
         pose = self._close_starts(
@@ -141,7 +143,8 @@ class Drawing:
         return pose.at(np.flatnonzero(good)) if good.any() else None
 
     def _search_modes(self, layout: Layout, target: Array, starts: int = STARTS) -> Modes | None:
-        """Every mode that random starts find, the one that is turned least from the drawn or given poses first."""
+        """Every mode reached from random starts, the one with the smallest rotations from the drawn or given poses
+        first."""
         steps = np.modf(np.sqrt(np.arange(2, 2 + self._values) + 0.5) * 1.6180339887)[0]
         values = np.modf(0.5 + np.arange(starts)[:, None] * steps)[0] * 2 * np.pi - np.pi
         free = replace(
@@ -162,8 +165,8 @@ class Drawing:
         return Modes(pose.at(np.array(kept)), "nearest" if self.given.any() else "search")
 
     def _upright(self, layout: Layout, pose: Pose) -> Flags:
-        """Poses whose shared axes point the same way on both links: three right angles between axes of j and other axes
-        of i hold where an axis points against its own, and where each lies along another's."""
+        """True for poses whose shared axes have the same direction on both links: three right angles between axes of j
+        and axes of i also hold where an axis is reversed, and where the axes are interchanged."""
         g, good = layout.algebra, np.ones(len(pose.point), bool)
         for h in self.hinges:
             for axis in range(3) if not h.turns else [h.parallel] * (h.parallel >= 0):
@@ -221,7 +224,7 @@ def _without_phase(layout: Layout, target: Array) -> tuple[Layout, Array]:
 
 
 def _counters(layout: Layout, count: int, drives: Array) -> Array:
-    """Followed angles (count, T): the drives' positions, 0 of the others."""
+    """Values of the counted angles (count, T): the drives' positions, 0 for the others."""
     turn = np.zeros((count, max((int(f.count.max()) + 1 for f in layout.counted), default=0)))
     for f in layout.counted:
         if isinstance(f, Angle):
@@ -231,7 +234,7 @@ def _counters(layout: Layout, count: int, drives: Array) -> Array:
 
 
 def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, by_values: bool) -> None:
-    """Lay one link of a hinge by the other; as drawn where the joint allows it and no values are asked for."""
+    """Places one link of a joint from the other; as drawn where the joint allows it, unless ``by_values``."""
     g, size = layout.algebra, layout.length / np.pi
     known, new = (h.i, h.j) if forward else (h.j, h.i)
     if by_values or not _as_drawn(g, h, pose):
@@ -257,7 +260,7 @@ def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, b
 
 
 def _as_drawn(g: Algebra, h: Hinge, pose: Pose) -> bool:
-    """Whether the joint lets its links stand as they are drawn, as far as its axes say."""
+    """True if the joint's axes allow its links to be as drawn."""
     axes = [h.parallel] * (h.parallel >= 0) if h.turns else [0, 1, 2]
     on_i, on_j = (
         [g.rotate(pose.rotation[0, link], space.matrix(frame)[:, axis]) for axis in axes]

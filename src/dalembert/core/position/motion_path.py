@@ -1,7 +1,7 @@
 """A motion followed from its first pose: marched from station to station, then all positions corrected at once.
 
-Between stations the poses are interpolated and corrected together; a position whose correction is not small next to
-the spacing of the stations is not trusted.
+Between stations the poses are interpolated and corrected together; a position whose correction is not small next to the
+spacing of the stations is rejected.
 
 s  parameter of the course
 
@@ -28,7 +28,7 @@ BLOCK = 2048
 """Positions corrected at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
 
 TRUSTED = 1e-6
-"""Correction of an interpolated pose, radians or characteristic lengths, that is never suspicious."""
+"""Correction of an interpolated pose, radians or characteristic lengths, that is always accepted."""
 
 SAME = 1e-6
 """Distance over characteristic length, or change of a rotation, below which two poses are the same."""
@@ -55,11 +55,11 @@ def path(
     period: Array | None = None,
     ways: Ways | None = None,
 ) -> Path:
-    """Poses at every position of the list, followed both ways from the pose (L+1, ...) at parameter ``start``.
+    """Poses at every position of the list, followed in both directions from the pose (L+1, ...) at parameter ``start``.
 
-    ``period`` (K + D) is what a whole cycle adds to the targets, if the list is one: then what lies behind a dead
-    centre is also reached around the other way. What is still missing is looked for from the poses already known,
-    on the first one's side of every group's dead centres (``core.position.assur_groups``).
+    ``period`` (K + D) is the increment of the targets over a full cycle, if the list is one: positions behind a dead
+    centre are then also approached from the other direction. Positions still missing are sought from the known poses,
+    on the first pose's side of every group's dead centres (``core.position.assur_groups``).
     """
     result = _both_ways(layout, first, along, start, len(along.s))
     if len(along.s) == 1 or result.reached.all():
@@ -73,7 +73,7 @@ def path(
 def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:
     """The first ``count`` positions of the list, from the pose at ``start``.
 
-    Positions passed but not trusted, near dead centres, are marched to once more, each made a station of its own.
+    Positions passed near dead centres, where interpolation is not reliable, are marched to again, each as a station.
     """
     result, passed = _march_both_ways(layout, first, along, start, count)
     lost = passed & (along.order < count)
@@ -87,7 +87,8 @@ def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: 
 def _march_both_ways(
     layout: Layout, first: Pose, along: Course, start: float, count: int
 ) -> tuple[Path, Flags]:
-    """Positions reached by marching both ways, and which places of the course the marches passed."""
+    """Positions reached by marching in both directions, and a flag for each place of the course that the marches
+    passed."""
     ways = [False] * (start < along.end or start <= 0) + [True] * (start > 0)
     pieces = [march(layout, first, along, start, back) for back in ways]
     found = [_interpolate_list(layout, along, piece, count) for piece in pieces]
@@ -96,8 +97,8 @@ def _march_both_ways(
 
 
 def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
-    """Positions of the cycle before and after this one, from the first and last of the list, where the motion itself
-    has come there: what it reached around the other way goes on into the motion that is known."""
+    """Positions of the cycle before and after this one, from the first and last of the list where the motion has
+    reached them: the motion continues from there into the known part."""
     count, listed, followed = len(along.s), np.empty_like(along.targets), known.reached
     listed[along.order] = along.targets
     for sign, place in ((-1, 0), (1, count - 1)):
@@ -109,7 +110,7 @@ def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
 
 
 def _same(layout: Layout, found: Path, targets: Array, more: Array) -> Path:
-    """What was reached a cycle away, as poses of this cycle; not where wheels stand in another phase there."""
+    """Poses reached one cycle away, as poses of this cycle; without those whose wheels have another phase."""
     there = np.flatnonzero(found.reached)
     counted = _add_turns(layout, found.pose.at(there), more)
     pose, missing = close_loops(layout, Pose(*(part.copy() for part in counted)), targets[there])
@@ -123,9 +124,9 @@ def _same(layout: Layout, found: Path, targets: Array, more: Array) -> Path:
 
 
 def _add_turns(layout: Layout, pose: Pose, more: Array) -> Pose:
-    """The pose with its whole turns counted further by ``more`` (K + D) in the relative turns that have a target.
+    """The pose with ``more`` (K + D) added to the whole turns of the relative turns that have a target.
 
-    Wheels that mesh with a link so turned are turned back by the ratio of their radii, where that is whole turns.
+    Wheels in mesh with such a link are turned back by the ratio of their radii, where that gives whole turns.
     """
     turn, known = pose.turn.copy(), {layout.links: 0.0}
     rows: list[tuple[int, int, float]] = []
@@ -181,7 +182,7 @@ def _correct_stations(layout: Layout, along: Course, s: Array, pose: Pose, insid
 
 
 def _fill(layout: Layout, along: Course, nodes: Nodes, places: Ints, found: Path) -> None:
-    """Put corrected poses at some places of the course into the list."""
+    """Puts corrected poses at some places of the course into the list."""
     guess = interpolate(layout, along.s[places], nodes)
     part, missing = close_loops(layout, guess, along.targets[places])
     near = distance(layout, part, guess) <= TRUSTED + STEP.max_correction * _travel(
@@ -194,7 +195,7 @@ def _fill(layout: Layout, along: Course, nodes: Nodes, places: Ints, found: Path
 
 
 def _travel(layout: Layout, s: Array, nodes: Nodes) -> Array:
-    """How far the links go between the stations on both sides of s."""
+    """Travel of the links between the stations on both sides of s."""
     if len(nodes.s) == 1:
         return np.zeros(len(s))
     between = distance(layout, nodes.pose.at(slice(1, None)), nodes.pose.at(slice(None, -1)))
@@ -202,7 +203,7 @@ def _travel(layout: Layout, s: Array, nodes: Nodes) -> Array:
 
 
 def _first_reached(a: Path, b: Path) -> Path:
-    """The first where it reached, else the second."""
+    """The first path's pose where it reached the position, else the second's."""
     if a.reached.all():
         return a
     take = a.reached
@@ -211,7 +212,7 @@ def _first_reached(a: Path, b: Path) -> Path:
 
 
 def _apart(new: Path, known: Path) -> Path:
-    """The path as a stretch of its own."""
+    """The path as a separate stretch."""
     return new._replace(stretch=np.full_like(new.stretch, known.stretch.max() + 1))
 
 
@@ -220,9 +221,10 @@ def _over(mask: Flags, array: Array) -> Flags:
 
 
 def _enter_behind_gap(layout: Layout, first: Pose, along: Course, known: Path, ways: Ways | None) -> Path:
-    """Positions behind a gap: entered at some of them, on the first one's side of every group, then followed both ways.
+    """Positions behind a gap: entered at some of them, on the first pose's side of every group, then followed in both
+    directions.
 
-    Where no sides tell the branches apart there, what lies behind a gap counts as not reached.
+    Where no signs distinguish the branches, positions behind a gap count as not reached.
     """
     entered: list[int] = []
 

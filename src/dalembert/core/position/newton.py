@@ -18,18 +18,18 @@ CLOSED = 1e-9
 """Gap over characteristic length above which a pose does not close."""
 
 FINE = 3e-8
-"""A step below this, radians or characteristic lengths, is the last: what it leaves is its square. At a dead centre
-the gap vanishes long before the error of the pose, so it is the step that decides."""
+"""A step below this, radians or characteristic lengths, is the last: the remaining error is its square. At a dead
+centre the gap vanishes long before the error of the pose, so the step decides."""
 
 HELD = 1e3
-"""How much stiffer drives are than constraints where the least gap is looked for."""
+"""Stiffness of drives over that of constraints in the search for the least gap."""
 
 LONGEST_TURN = 0.5
 """No step turns a link further than this, radians, or moves it further than the characteristic length times this."""
 
 
 def gap(layout: Layout, pose: Pose, target: Array) -> Array:
-    """What is missing to the targets (..., K + D)."""
+    """Residual of the targets (..., K + D)."""
     missing: Array = target - measure(layout.algebra, layout.stack, pose)
     for family in layout.stack.families:
         if isinstance(family, Mesh):  # the angle of the line of centres is known but for whole turns
@@ -77,8 +77,8 @@ def close_loops(
 ) -> tuple[Pose, Array]:
     """Poses (P, L+1, ...) that reach the targets (P, K + D) from the guesses, and their remaining gaps (P,).
 
-    A gap above ``CLOSED * length`` means: not reached from here. Elements are independent of each other. Without
-    ``polish`` that is where an element stops, with it a last step follows, to rounding.
+    A gap above ``CLOSED * length`` means that the target is not reached. Elements are independent. Without ``polish``
+    an element stops at that gap; with it a last step follows, to rounding.
     """
     with np.errstate(all="ignore"):
         return _close_loops(layout, guess, target, iterations, polish)
@@ -117,8 +117,8 @@ def _replace_poses(pose: Pose, where: Ints, part: Pose) -> None:
 
 
 LEAST, STILL = 1e-10, 1e-12
-"""Damping of least squares below which a singular matrix could no longer be solved; change of the gap's size, over the
-gap, below which it is the least."""
+"""Least damping with which a singular least-squares matrix can be solved; relative change of the gap below which it
+counts as minimal."""
 
 
 def least_gap(layout: Layout, start: Pose, target: Array, steps: int = 200) -> Array:

@@ -1,6 +1,6 @@
-"""The course of a motion: the list of positions laid out along one parameter, smooth but for its breaks.
+"""Course of a motion: the list of positions along one parameter, smooth except at its breaks.
 
-s  how far the drives have moved, the fastest of them, in radians or characteristic lengths
+s  travel of the fastest drive, in radians or characteristic lengths
 
 With one drive the course runs through its positions in order of value, whatever their order in the list: the pose
 depends on the value only. With several it follows the list, and breaks where their common direction turns.
@@ -19,11 +19,11 @@ from dalembert.arrays import Array, Ints
 from dalembert.core.layout import Layout
 
 STRAIGHT = 0.999
-"""Cosine of the largest change of direction between two positions that is not a break: a few hundredths of the
-travel, which the march's predictor may be off by."""
+"""Cosine of the largest change of direction between two positions that is not a break: an error of a few hundredths of
+the travel, which the march's predictor tolerates."""
 
 NEAR = 1e-12
-"""Parameters less apart are the same."""
+"""Parameters closer than this are equal."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Course:
         return np.asarray(low + (place - math.floor(place)) * (high - low))[None]
 
     def slope(self, s: float, side: float) -> Array:
-        """Derivative (1, K + D) of the targets by s, on the side of a position that ``side`` has the sign of."""
+        """Derivative (1, K + D) of the targets by s, on the side of a position given by the sign of ``side``."""
         if self.end <= NEAR:
             return np.zeros_like(self.targets[:1])
         after = s < self.end - NEAR if side > 0 else s < NEAR
@@ -80,7 +80,7 @@ def course(layout: Layout, targets: Array) -> Course:
 
 
 def walk(layout: Layout, drives: Array) -> tuple[Ints, Array, Array]:
-    """The order (P,) in which positions (P, D) of the drives are met, the moves (P - 1, D) from one to the next in
+    """The order (P,) in which positions (P, D) of the drives are passed, the moves (P - 1, D) from one to the next in
     radians and characteristic lengths, and the parameters s (P,)."""
     order = np.arange(len(drives))
     if drives.shape[1] == 1:

@@ -1,6 +1,6 @@
-"""Where a motion is taken up again behind a gap: by closed forms, else by Newton and a search.
+"""Entries into ranges behind a gap: by closed forms, else by Newton and a search.
 
-Wheels in mesh and rolling ones are held while closed forms lay the links down, then turned into their phase.
+Meshing and rolling wheels are held while closed forms place the links, then turned into their phase.
 
 Mechanics: docs/theory.md 3.2.
 """
@@ -25,33 +25,33 @@ from dalembert.core.position.newton import CLOSED, close_loops, displace, distan
 from dalembert.core.position.path_parameter import Course
 
 SAME = 1e-6
-"""Distance over characteristic length, or turn, below which two ways are the same."""
+"""Distance over characteristic length, or turn, below which two modes are the same."""
 
 BETWEEN = 8
-"""Parts of the way between two positions at which a gap between them is looked for."""
+"""Subdivisions of the step between two positions in the search for a gap."""
 
 STEADY = 1e-6
 """Change of a wheel's turn per turn of a drive, from pose to pose, below which its train is driven."""
 
 MOST_GAPS = 64
-"""Times a motion is taken up again behind a gap where no closed form says where."""
+"""Largest number of entries behind gaps that no closed form locates."""
 
 Entry = tuple[int, Pose]
-"""A position of the list and the pose there."""
+"""Index of a position in the list, and the pose there."""
 
 Known = Callable[[], tuple[Pose, Flags]]
-"""Poses (P, L+1, ...) of the positions, and which are reached (P,), as far as known now."""
+"""Poses (P, L+1, ...) of the positions, and flags (P,) for those reached so far."""
 
 
 class Ways(Protocol):
-    """What knows the ways that a linkage closes (``Guess``, ``Drawing``)."""
+    """Source of a linkage's assembly modes (``Guess``, ``Drawing``)."""
 
     @property
     def stated(self) -> Array | None:
-        """Given angles of the links (L+1,), NaN where there is none; None in space."""
+        """Given angles of the links (L+1,), NaN where unknown; None in space."""
 
     def every(self, layout: Layout, target: Array) -> Any:
-        """All ways found at a target (K + D,), poses (M, L+1, ...) in ``pose``; None where there is none."""
+        """All modes at a target (K + D,), poses (M, L+1, ...) in ``pose``; None where the linkage does not close."""
 
 
 def entries(layout: Layout, first: Pose, along: Course, now: Known, ways: Ways | None) -> Iterator[Entry]:
@@ -64,10 +64,11 @@ def entries(layout: Layout, first: Pose, along: Course, now: Known, ways: Ways |
 
 
 class Held(NamedTuple):
-    """A layout without phases: rows (K',) that are kept of it, and wheels (H,) held in place of the others.
+    """A layout without phases: its remaining rows (K',), and wheels (H,) held instead of the others.
 
-    A wheel is held where the drives turn it by its rates (H, D) from a known pose, where they stand at ``drives`` (D,).
-    The rates are those of a train that is driven, the same at all known poses; 0 where its phase has to turn it on.
+    A wheel is held at the angle to which the drives turn it, by its rates (H, D), from a known pose with the drives at
+    ``drives`` (D,). The rates are those of a driven train, constant over all known poses; 0 where only its phase turns
+    it.
     """
 
     layout: Layout
@@ -84,7 +85,7 @@ class Held(NamedTuple):
 
 
 def _hold_wheels(layout: Layout, poses: Pose) -> Held:
-    """The layout with wheels held in place of their phases, where it has any; in space none is."""
+    """The layout with wheels held instead of their phases, where it has any; never in space."""
     count, phased = layout.constraints.count, phase_rows(layout.constraints)
     kept = np.setdiff1d(np.arange(count), phased)
     here = measure(layout.algebra, layout.stack, poses.at(0))
@@ -106,16 +107,16 @@ def _hold_wheels(layout: Layout, poses: Pose) -> Held:
 def _closed_form_entries(
     layout: Layout, held: Held, way: Plan, first: Pose, along: Course, known: Flags, ways: Ways | None
 ) -> Iterator[Entry]:
-    """Where groups in closed form close on the first pose's sides: the middle of each range that nothing has reached.
+    """Entries where groups in closed form close on the first pose's sides: the middle of each range not yet reached.
 
-    A gap that is seen lies between: where none does, the march has stopped at a place that it could not follow.
+    Each range is behind a detected gap; where no gap is, the march stopped at a place that it could not pass.
     """
     turn = np.full(layout.links + 1, np.nan) if ways is None or ways.stated is None else ways.stated
     reached = known[along.order]
     part = np.arange(BETWEEN) / BETWEEN
     s = np.append((along.s[:-1, None] + np.diff(along.s)[:, None] * part).ravel(), along.s[-1])
     listed = np.arange(len(s)) % BETWEEN == 0
-    there = np.zeros(len(s), bool)  # reached, or between two that are: what lies there bounds no range
+    there = np.zeros(len(s), bool)  # reached, or between two that are: no range ends there
     there[:-1] = np.repeat(reached[:-1] & reached[1:], BETWEEN)
     there[listed] = reached
     asked = np.flatnonzero(~there)
@@ -135,7 +136,8 @@ def _closed_form_entries(
 
 
 def _turn_wheels(layout: Layout, way: Plan, held: Pose, targets: Array) -> tuple[Ints, Pose]:
-    """Which poses (P, L+1, ...) with held wheels close, every group on its side, once these are in their phase."""
+    """Indices of the poses (P, L+1, ...) with held wheels that close, every group on its side, once the wheels are in
+    phase, and the poses."""
     missing = gap(layout, held, targets)
     with np.errstate(all="ignore"):  # at once, however far: a phase is linear in its wheel's angle
         dq = displacement(layout, stack_rows(layout, held), missing)
@@ -149,7 +151,7 @@ def _turn_wheels(layout: Layout, way: Plan, held: Pose, targets: Array) -> tuple
 
 
 class Fast(NamedTuple):
-    """What entries are sought with: the layout with a fast solver, without phases, its groups and their senses (G,)."""
+    """Data for the search of entries: a layout with a fast solver, without phases, its groups and their senses (G,)."""
 
     layout: Layout
     held: Held
@@ -160,7 +162,7 @@ class Fast(NamedTuple):
 def _sought(
     layout: Layout, held: Held, first: Pose, along: Course, now: Known, ways: Ways | None
 ) -> Iterator[Entry]:
-    """Entries found by Newton from the poses known so far, or by a search, on the first pose's sides."""
+    """Entries computed by Newton from the known poses, or by a search, on the first pose's sides."""
     kinds = groups(layout, _spread(along, *now()))
     if not kinds:
         return
@@ -182,14 +184,14 @@ def _sought(
 
 
 def _spread(along: Course, pose: Pose, reached: Flags) -> Pose:
-    """A few of the known poses, spread over all of them along the course."""
+    """A few of the known poses, spread over the course."""
     good = along.order[reached[along.order]]
     return pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
 
 
 def _entry(layout: Layout, fast: Fast, target: Array, guess: Pose, ways: Ways | None) -> Pose | None:
-    """A pose at one target with the groups' given senses: from the nearest of the known poses that leads there, else
-    the only one of the ways that a search finds. In space it does not know how often wheels in mesh have turned."""
+    """A pose at one target with the groups' given senses: from the nearest known pose that converges, else the only
+    mode that a search finds. In space the number of turns of meshing wheels is unknown."""
     pose, _ = close_loops(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
     fits = _fitting(layout, fast, pose, target, 0.0)
     if fits.any():

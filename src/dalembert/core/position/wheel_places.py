@@ -1,4 +1,4 @@
-"""Where a wheel that rolls on a line is at the first position, if nothing else says so: over the line's point.
+"""First position of a wheel that rolls on a line, where nothing else gives it: over the line's point.
 
 Mechanics: docs/theory.md 3.1.
 """
@@ -17,7 +17,7 @@ from dalembert.core.layout import Along, Layout, Pose, Rows
 from dalembert.core.linear import generalized_inverse
 
 LOOSE = 1e-6
-"""Part of a wheel's shift along its line that the constraints leave, above which it can be held."""
+"""Part of a wheel's shift along its line left by the constraints above which it can be held."""
 
 
 class WheelPlaces(NamedTuple):
@@ -46,8 +46,8 @@ class WheelPlaces(NamedTuple):
 
 
 def loose_places(layout: Layout, free: Layout, pose: Pose, turn: Array, point: Array) -> WheelPlaces | None:
-    """The wheels of a layout that the free one lets shift at a pose (1, L+1, ...), each held at 0, or at the place
-    that is given: angles (L+1,) and points (L+1, 2), NaN where none is."""
+    """The wheels of a layout that the free one lets shift at a pose (1, L+1, ...), each held at 0, or at its given
+    place: angles (L+1,) and points (L+1, 2), NaN where unknown."""
     places = _rolling(layout, turn, point)
     if places is None:
         return None
@@ -72,7 +72,7 @@ def _scaled(layout: Layout, rows: Rows, pose: Pose) -> Array:
 
 
 def _rolling(layout: Layout, turn: Array, point: Array) -> WheelPlaces | None:
-    """The wheels on lines, but for those on a line that moves where the place of the wheel or of the line is given."""
+    """The wheels on lines, except those on a moving line with the place of the wheel or of the line given."""
     found: list[tuple[Along, Flags]] = [
         (f, np.asarray(f.pitch != 0)) for f in layout.constraints.families if isinstance(f, Along)
     ]

@@ -1,4 +1,4 @@
-"""Whole turns of relative angles, counted at a place of the motion that does not depend on the list of positions.
+"""Whole turns of relative angles, counted at a pose of the motion that does not depend on the list of positions.
 
 phi  a relative angle, followed through whole turns along the motion
 
@@ -20,22 +20,24 @@ from dalembert.core.position.first_pose_plane import phase_rows
 from dalembert.core.position.path_parameter import course
 
 EDGE = 1e-7
-"""Radians beyond half a turn that rounding may bring about."""
+"""Radians beyond half a turn that rounding may cause."""
 
 INWARD = 1e-3
-"""Radians by which an angle is taken back from the end of a motion, which two marches do not meet at the same point."""
+"""Radians by which an angle is moved back from the end of a motion, since two marches do not end at exactly the same
+point."""
 
 MOVES = 1e-9
-"""Radians of a relative turn over those of a wheel's phase, below which it does not depend on the phase."""
+"""Rate of a relative turn over that of a wheel's phase below which the turn does not depend on the phase."""
 
 
 def whole_turns(phi: Array, near: Array) -> Array:
-    """How many turns an angle is beyond half a turn of another; half a turn ahead is within."""
+    """Number of turns by which an angle differs from another by more than half a turn; exactly half a turn ahead counts
+    as zero."""
     return np.asarray(np.ceil((phi - near - EDGE) / (2 * np.pi) - 0.5))
 
 
 class Way(NamedTuple):
-    """Where a motion towards given positions of the drives ends: angles of the freedoms (F,), whether it got there."""
+    """End of a motion towards given positions of the drives: angles of the freedoms (F,), and whether it got there."""
 
     pose: Pose
     phi: Array
@@ -58,7 +60,7 @@ def way(layout: Layout, pose: Pose, here: Array, there: Array) -> Way:
 
 
 def rigid_turns(layout: Layout) -> Ints:
-    """A number of each link (L+1,), the same for links whose relative angle constraints and drives give."""
+    """A number for each link (L+1,), equal for links whose relative angle is fixed by constraints and drives."""
     group = np.arange(layout.links + 1)
     for family in layout.stack.families:
         if isinstance(family, Turn):
@@ -76,7 +78,7 @@ def phase_freedoms(layout: Layout, pose: Pose) -> Flags:
 
 
 def phase_links(layout: Layout, pose: Pose) -> Flags:
-    """Links of the plane (L,) that the phases of meshing or rolling wheels turn."""
+    """Planar links (L,) that the phases of meshing or rolling wheels turn."""
     turns = _with_phase(layout, pose)[:, :-1, -1] * layout.length
     return np.asarray((np.abs(turns) > MOVES).any(axis=0))
 

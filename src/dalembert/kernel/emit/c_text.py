@@ -1,6 +1,7 @@
-"""A program as C text: for the CUDA compiler (one thread a design and position, or a design) and for any C compiler.
+"""A program as C text: for the CUDA compiler (one thread per design and position, or per design) and for any C
+compiler.
 
-The text is the same for both; where there is no ``__CUDACC__`` a loop takes the place of the threads.
+The text is the same for both; without ``__CUDACC__`` a loop replaces the threads.
 """
 
 from __future__ import annotations
@@ -62,7 +63,7 @@ def statement(node: Node, name: Callable[[Node], str]) -> str:
 
 
 def names(program: Program) -> Callable[[Node], str]:
-    """How each node is written: constants in brackets, inputs by their arrays, the rest by number."""
+    """Expression of each node: constants in brackets, inputs by their arrays, the others by number."""
 
     def name(node: Node) -> str:
         if node.op == "const":
@@ -83,7 +84,7 @@ def lines(nodes: list[Node], name: Callable[[Node], str], indent: str) -> str:
 
 
 def marks(program: Program, name: Callable[[Node], str], indent: str) -> str:
-    """Declaration of ``here``, the mark of this position."""
+    """Declaration of ``here``, the status code of this position."""
     m, code = program.marks, CODES
 
     def below(nodes: tuple[Node, ...], numbers: bool = True) -> str:
@@ -148,7 +149,7 @@ ENTRY void grid({ARGUMENTS})
 
 
 def emit_reduced(program: Program, slots: Slots) -> str:
-    """Entry ``reduced`` of the C text: one design after the other, out (design, slot) as in ``emit_reduce``."""
+    """Entry ``reduced`` of the C text: one design after the other, out (design, slot)."""
     name = names(program)
     starts, updates, stores, slot = [], [], [], 0
     for s, (k, p) in enumerate(slots):
@@ -200,7 +201,7 @@ def _start(primitive: str) -> str:
 
 
 def function(program: Program, name: str, comment: str) -> str:
-    """A self-contained C function of one position: values, drives' quantities, outputs; returns the mark."""
+    """A self-contained C function of one position: values, drives' quantities, outputs; returns the status code."""
     write = names(program)
     comment = "\n".join(f" * {line}".rstrip() for line in comment.splitlines())
     body = lines([*program.design, *program.position], write, "  ")

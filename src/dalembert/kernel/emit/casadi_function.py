@@ -10,11 +10,11 @@ from dalembert.kernel.graph import Node
 from dalembert.kernel.program import CODES, Program
 
 Expression = Any
-"""What casadi computes with; the package says no types."""
+"""Symbolic expression of casadi; the package has no type annotations."""
 
 
 def function(program: Program, name: str, numbers: int, outputs: list[tuple[str, int]]) -> Expression:
-    """Function of (values, inputs) to the named outputs and ``mark`` (0, or one of ``CODES``)."""
+    """Function of (values, inputs) to the named outputs and ``mark``: 0, or one of the status ``CODES``."""
     import casadi as ca
 
     v, c = ca.SX.sym("values", numbers), ca.SX.sym("inputs", len(program.inputs_in_use("channel")))

@@ -1,4 +1,4 @@
-"""The same program on an NVIDIA graphics card, through cupy: one thread a design and position, or a design."""
+"""The same program on an NVIDIA graphics card, through cupy: one thread per design and position, or per design."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ THREADS = 128
 
 
 def card() -> Any:
-    """cupy, with a card to run on; raises RuntimeError with the reason where there is none."""
+    """cupy, with a CUDA device; raises RuntimeError with the reason if none is available."""
     try:
         import cupy
     except ImportError:
@@ -27,9 +27,9 @@ def card() -> Any:
     try:
         count = cupy.cuda.runtime.getDeviceCount()
     except cupy.cuda.runtime.CUDARuntimeError as error:
-        raise RuntimeError(f"there is no CUDA device ({error})") from None
+        raise RuntimeError(f"no CUDA device is available ({error})") from None
     if not count:
-        raise RuntimeError("there is no CUDA device")
+        raise RuntimeError("no CUDA device is available")
     return cupy
 
 
@@ -46,7 +46,7 @@ def run(
     common: Array,
     progress: Progress | None = None,
 ) -> tuple[Array, NDArray[np.uint8]]:
-    """Results (design, output, position) or (design, slot), and marks, from channels (position, channel)."""
+    """Results (design, output, position) or (design, slot), and status codes, from channels (position, channel)."""
     cupy = card()
     entry = cupy.RawModule(code=source(program, slots)).get_function("reduced" if slots else "grid")
     designs, positions = len(values), len(columns)

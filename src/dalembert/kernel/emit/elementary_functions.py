@@ -45,7 +45,7 @@ ATAN_Q = (
 
 
 def elementary(lanes: int, used: set[str]) -> list[str]:
-    """Definitions of those functions that are used."""
+    """Definitions of the functions in use."""
     lines: list[str] = []
     for op, name, odd in (("sin", "sine", 0), ("cos", "cosine", 1)):
         if op in used:
@@ -62,7 +62,7 @@ def elementary(lanes: int, used: set[str]) -> list[str]:
 
 
 def _emit_division(lanes: int, name: str) -> list[str]:
-    """1/x or 1/sqrt(x) as the processor divides."""
+    """1/x or 1/sqrt(x) by the processor's division."""
     t = Text(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
     below = "%x" if name == "reciprocal" else t.intrinsic("sqrt", "%x")
@@ -105,7 +105,7 @@ def _estimate(t: Text, kind: str, x: str) -> str:
 
 
 def _circular(lanes: int, name: str, shift: int) -> list[str]:
-    """sin(x), or cos(x) = sin(x + pi/2): the quadrant is counted one further."""
+    """sin(x), or cos(x) = sin(x + pi/2): the quadrant is increased by one."""
     t = Text(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
     n = t.intrinsic("rint", t.exact("fmul", "%x", t.splat(0.6366197723675814)))

@@ -1,4 +1,4 @@
-"""Dormand and Prince's method of order 8 with its step control, as LLVM text: one motion a lane, with steps of its own.
+"""Dormand and Prince's method of order 8 with step control, as LLVM text: one motion per lane, each with its own steps.
 
 The rates are a program of the state and of numbers. Hairer, Norsett, Wanner, Solving ODEs I, II.5 (DOP853).
 """
@@ -12,35 +12,37 @@ from dalembert.kernel.emit.llvm_text import WIDE, head, module
 from dalembert.kernel.program import Program
 
 STAGES, EXTRA, WIDTH = 12, 3, 17
-"""Stages of a step, those more for what lies between its ends, and the columns of the table of weights: of the rates
-before each stage, and its place in the step. Rows: 0 nothing, then the stages, the two errors, four for between."""
+"""Stages of a step, additional stages for interpolation, and the columns of the table of weights: for the rates before
+each stage, and its place in the step. Rows: 0 unused, then the stages, the two errors, four for interpolation."""
 SELDOM = "noinline optnone"
-"""What runs a few times a step: LLVM would take longer to improve it than all else together."""
+"""Attributes of functions called a few times per step: optimizing them would take LLVM longer than all else together.
+"""
 ERRORS = STAGES + EXTRA + 1
 SAFETY, LEAST, MOST, STILL = 0.9, 0.2, 10.0, 2e-15
-"""Of the step's control: its factors; and a refused step below this part of the time ends a motion: its next is 0."""
+"""Factors of the step control; a rejected step below ``STILL`` times the duration ends the motion: its next step is 0.
+"""
 
 
 def state_size(n: int) -> int:
-    """Numbers of a motion: state, its rates, least errors that count, time, next step, end, relative tolerance, most
-    growth, attempts made."""
+    """Size of a motion: state, its rates, smallest relevant errors, time, next step, end, relative tolerance, largest
+    growth of steps, attempts made."""
     return 3 * n + 6
 
 
 def record_size(n: int) -> int:
-    """Numbers of an attempt: time, step (0 if refused), state before and behind, rates there, four for between."""
+    """Size of an attempt: time, step (0 if rejected), states before and after, their rates, four to interpolate."""
     return 2 + 8 * n
 
 
 class _Integrator(Text):
-    """The text of steps for a state of n numbers; of memory an offset counts in lanes' vectors."""
+    """LLVM text of the steps for a state of n numbers; offsets into memory count vectors."""
 
     def __init__(self, lanes: int, n: int) -> None:
         super().__init__(lanes)
         self.n = n
 
     def at(self, base: str, offset: str | int) -> str:
-        """Where one vector stands."""
+        """Address of one vector."""
         return self.let(f"getelementptr inbounds {self.kind}, ptr {base}, i64 {offset}")
 
     def get(self, base: str, offset: str | int) -> str:
@@ -58,7 +60,7 @@ class _Integrator(Text):
     def loop(
         self, count: str | int, turn: Callable[..., list[str]], start: tuple[str, ...] = (), go: str = ""
     ) -> list[str]:
-        """Repeat what a function of a counter, and of values handed on, writes; until ``go`` is 0, too."""
+        """Loop around code that depends on a counter and on values handed on, until ``go`` is 0, too."""
         self.count += 1
         name, i = f"l{self.count}", f"%i{self.count}"
         self.put(f"br label %{name}pre")
@@ -81,7 +83,7 @@ class _Integrator(Text):
         return new
 
     def combined(self, row: str, rows: str | int, i: str) -> str:
-        """The rates found so far, of number i, by the weights of a row."""
+        """Component i of the rates computed so far, combined with the weights of a row."""
         weights = self.let(f"getelementptr inbounds double, ptr %table, i64 {self.product(row, WIDTH)}")
         return self.let(f"call {self.kind} @combined(ptr %k, ptr {weights}, i64 {rows}, i64 {i})")
 
@@ -92,7 +94,7 @@ class _Integrator(Text):
         return []
 
     def error(self, h: str, tolerance: str) -> str:
-        """The estimated error of a step over what is allowed."""
+        """Estimated error of a step over the tolerance."""
 
         def one(i: str, fifth: str, third: str) -> list[str]:
             off = [self.combined(str(ERRORS + k), STAGES + 1, i) for k in range(2)]
@@ -118,8 +120,8 @@ class _Integrator(Text):
 
 def integrator(rate: Program, n: int, lanes: int) -> str:
     """Function of values (block, numbers, lane), motions (block, ``state_size``, lane), records (block, most,
-    ``record_size``, lane), the table of weights; then how many numbers, attempts at most, whether with what lies
-    between the ends of steps, blocks. Of no attempts it gives the rates at the states."""
+    ``record_size``, lane), the table of weights; then the count of numbers, the largest count of attempts, a flag for
+    interpolation, the count of blocks. With no attempts it gives the rates at the states."""
     t = _Integrator(lanes, n)
     names = head(t, rate)
     t.lines.append(
@@ -146,7 +148,7 @@ def integrator(rate: Program, n: int, lanes: int) -> str:
 
 
 def _combined(t: _Integrator) -> None:
-    """The sum of so many rates of number i by weights."""
+    """Function for the weighted sum of component i of several rates."""
     given = "ptr noalias readonly %k, ptr noalias readonly %weights, i64 %rows, i64 %i"
     t.lines.append(f"define internal {t.kind} @combined({given}) {WIDE} {{")
 
@@ -176,7 +178,7 @@ def _next(t: _Integrator) -> None:
 
 
 def _motion(t: _Integrator, b: str) -> list[str]:
-    """The motions of a block: rates where they stand, then attempts of steps until all have ended."""
+    """Integration of a block of motions: rates at the start, then attempted steps until all have ended."""
     n = t.n
     t.put(f"%given = getelementptr inbounds {t.kind}, ptr %values, i64 {t.product(b, '%numbers')}")
     t.put(f"%y = getelementptr inbounds {t.kind}, ptr %state, i64 {t.product(b, state_size(n))}")
@@ -196,7 +198,7 @@ def _motion(t: _Integrator, b: str) -> list[str]:
 
 
 def _copy(t: _Integrator, *ways: tuple[str, str | int, str]) -> None:
-    """Copy vectors of n, from an offset of one place to another place."""
+    """Copies vectors of n, from an offset at one place to another place."""
 
     def one(i: str) -> list[str]:
         for source, offset, goal in ways:
@@ -207,7 +209,7 @@ def _copy(t: _Integrator, *ways: tuple[str, str | int, str]) -> None:
 
 
 def _attempt(t: _Integrator, j: str) -> list[str]:
-    """One attempt of a step of every lane: those that have ended, or go nowhere, stay."""
+    """One attempt of a step of every lane: those that have ended, or cannot advance, stay."""
     n, zero = t.n, t.splat(0.0)
     time, wish, end, tolerance, growth, made = (t.get("%y", 3 * n + k) for k in range(6))
     room = t.let(f"fsub {t.kind} {end}, {time}")
@@ -268,7 +270,7 @@ def _attempt(t: _Integrator, j: str) -> list[str]:
 
 
 def _between(t: _Integrator, time: str, h: str) -> None:
-    """The stages more, and what they say of the state between the ends of the step."""
+    """Additional stages, and their interpolant of the state within the step."""
     n = t.n
 
     t.loop(EXTRA, lambda s: t.stage(t.sum(s, STAGES + 1), time, h))

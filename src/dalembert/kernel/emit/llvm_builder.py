@@ -1,6 +1,6 @@
 """LLVM text line by line: values, vectors, operations of a trace.
 
-A ``Text`` spells one module; its lanes are the places of a vector.
+A ``Text`` writes one module; its lanes are the elements of a vector.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class Text:
         return self.let(f"{op} {FAST} {self.kind} {a}, {b}")
 
     def exact(self, op: str, a: str, b: str) -> str:
-        """Rounded as written, whatever stands beside it."""
+        """An operation rounded as written, whatever its neighbours."""
         return self.let(f"{op} {self.kind} {a}, {b}")
 
     def fma(self, a: str, b: str, c: str) -> str:
@@ -85,7 +85,7 @@ class Text:
         return total
 
     def integer(self, op: str, a: str, b: str | int) -> str:
-        """Of whole numbers of 64 bits, or one of them the same in every lane."""
+        """An operation on 64-bit integers, one of which may be the same in every lane."""
         if isinstance(b, int):
             b = str(b) if self.lanes == 1 else "<" + ", ".join([f"i64 {b}"] * self.lanes) + ">"
         return self.let(f"{op} {self.whole} {a}, {b}")
@@ -98,7 +98,7 @@ class Text:
         return self.call(f"llvm.{name}.{self.suffix}", *arguments)
 
     def declare(self, name: str, arguments: int = 1) -> str:
-        """The line that an intrinsic needs."""
+        """Declaration of an intrinsic."""
         return f"declare {self.kind} @llvm.{name}.{self.suffix}({', '.join([self.kind] * arguments)})"
 
     def select(self, test: str, a: str, b: str) -> str:
@@ -134,7 +134,7 @@ _OPERATIONS: dict[str, Callable[[Text, str, str], str]] = {
 
 
 def operations(t: Text, nodes: list[Node], names: dict[int, str]) -> None:
-    """Emit nodes in order; ``names`` holds the value of each by its index."""
+    """Emits nodes in order; ``names`` holds the value of each by its index."""
     for node in nodes:
         assert node.a is not None
         b = None if node.b is None else names[node.b.index]

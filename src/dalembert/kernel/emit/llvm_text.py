@@ -1,6 +1,6 @@
 """A program as LLVM text: one vector instruction each, several positions (or designs) side by side.
 
-Two forms. ``grid``: lanes are neighbouring positions of one design, what does not change with the position is
+Two forms. ``grid``: lanes are neighbouring positions of one design, values that do not change with the position are
 computed before the loop. ``pairs``: lanes are unrelated (design, position) pairs.
 """
 
@@ -14,7 +14,7 @@ from dalembert.kernel.graph import POSITION
 from dalembert.kernel.program import Program
 
 WIDE = '"min-legal-vector-width"="512" "prefer-vector-width"="512" alignstack(64) "stackrealign"'
-"""Whole registers on processors that LLVM would rather use by halves."""
+"""Attribute for full registers on processors where LLVM would use only half of them."""
 
 
 def head(t: Text, program: Program) -> dict[int, str]:
@@ -23,7 +23,8 @@ def head(t: Text, program: Program) -> dict[int, str]:
 
 
 def _design(t: Text, program: Program, names: dict[int, str], reductions: Reductions | None) -> None:
-    """Everything up to the loop over the positions: one turn a design, with what does not change along them."""
+    """Everything up to the loop over the positions: one iteration per design, with the values common to its
+    positions."""
     lanes = t.lanes
     t.lines.append(
         "define void @run(ptr noalias readonly %values, ptr noalias readonly %path, ptr noalias %out, "
@@ -58,8 +59,8 @@ def _design(t: Text, program: Program, names: dict[int, str], reductions: Reduct
 
 
 def grid(program: Program, lanes: int, reduce: Slots = (), past_cache: bool = False) -> str:
-    """Function over designs and blocks of positions: see ``Machine``. ``past_cache``: results go to memory at once,
-    which for large ones takes half the time, as no line of it is fetched before it is overwritten."""
+    """Function over designs and blocks of positions: see ``Machine``. ``past_cache``: results bypass the cache; large
+    ones then take half the time, as memory is not read before it is overwritten."""
     t = Text(lanes)
     names = head(t, program)
     channels = [n for n in program.inputs if n.level & POSITION]

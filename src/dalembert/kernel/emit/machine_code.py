@@ -1,4 +1,4 @@
-"""Machine code for the processor at hand: LLVM text compiled in memory, called without Python's lock."""
+"""Machine code for this processor: LLVM text compiled in memory, called without Python's lock."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ def host_lanes() -> int:
 
 @dataclass(frozen=True)
 class Machine:
-    """A compiled function; ``lanes`` values side by side.
+    """A compiled function that evaluates ``lanes`` values side by side.
 
-    The function takes pointers to values, path, results and marks, then the counts of numbers, channels, designs
+    The function takes pointers to values, path, results and status codes, then the counts of numbers, channels, designs
     and blocks. grid: values (design, numbers), path (block, channel, lane), results (design, output, position).
     pairs: values (block, numbers, lane), path (block, channel, lane), results (block, output, lane).
     """
@@ -63,13 +63,14 @@ class Machine:
 
 
 PASSES = ("always_inliner", "instruction_combine", "reassociate", "new_gvn", "instruction_combine")
-"""What of LLVM's level 3 changes one straight list of instructions: a third of its time, and code as fast to 2 %."""
+"""LLVM passes of level 3 that affect one straight list of instructions: a third of the time, code as fast within 2 %.
+"""
 
 
 @lru_cache(16)
 def compile_module(text: str, lanes: int) -> Machine:
-    """Machine code of one module, of the last ones kept. A target machine passes into its engine and dies with it, so
-    each has its own."""
+    """Machine code of one module, cached for the latest modules. An engine takes ownership of its target machine and
+    destroys it, so each engine gets a separate one."""
     llvm = _binding()
     module = llvm.parse_assembly(text)
     module.triple = llvm.get_process_triple()
@@ -91,7 +92,7 @@ def compile_module(text: str, lanes: int) -> Machine:
 
 
 def to_blocks(array: Array, lanes: int) -> Array:
-    """(count, quantity) as (block, quantity, lane); the last block filled up with the last row."""
+    """(count, quantity) as (block, quantity, lane); the last block padded with the last row."""
     count = len(array)
     blocks = -(-count // lanes)
     padded = array[np.minimum(np.arange(blocks * lanes), count - 1)]

@@ -1,4 +1,4 @@
-"""Marks of a program as LLVM text: which lanes do not close, are in doubt, at rest, self-locking."""
+"""Flags of a program as LLVM text: lanes that do not close, are in doubt, at rest, or self-locking."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from dalembert.kernel.program import CODES, Program
 
 def latch(program: Program) -> str:
     """The last block of the loop over the positions."""
-    return "%told" if program.marks.seldom else "%loop"
+    return "%settled" if program.marks.seldom else "%loop"
 
 
 def bits(t: Text, program: Program, names: dict[int, str]) -> dict[str, str]:
-    """Lanes of each mark that can occur."""
+    """Lane masks of each flag that can occur."""
     marks = program.marks
     asked = (
         ("open", marks.open, "olt"),
@@ -35,7 +35,7 @@ def bits(t: Text, program: Program, names: dict[int, str]) -> dict[str, str]:
 
 
 def _but(t: Text, a: str, b: str) -> str:
-    """Lanes of a that are not of b."""
+    """Lanes of a without those of b."""
     every = "true" if t.lanes == 1 else "<" + ", ".join(["i1 true"] * t.lanes) + ">"
     return t.let(f"and {t.bit} {a}, {t.let(f'xor {t.bit} {b}, {every}')}")
 
@@ -43,13 +43,13 @@ def _but(t: Text, a: str, b: str) -> str:
 def _seldom(
     t: Text, program: Program, names: dict[int, str], slips: str, turned: str, rest: str
 ) -> tuple[str, str, str]:
-    """Lanes in doubt, jammed and self-locking. What is seldom asked stands in a block of its own, jumped over where no
-    lane asks for it: none that is at rest does; and so does the proof of a jam behind it."""
+    """Lanes in doubt, jammed and self-locking. Rarely needed flags are in a separate block, skipped where no lane needs
+    them (no lane at rest does); the proof of a jam is in another block behind it."""
     marks, none = program.marks, _none(t)
     unsure = _any(t, marks.unsure, names, "ult")
     asking = t.let(f"or {t.bit} {unsure}, {turned if marks.locked else none}")
     asks = some(t, _but(t, asking, rest) if marks.rest else asking)
-    t.put(f"br i1 {asks}, label %ask, label %told")
+    t.put(f"br i1 {asks}, label %ask, label %settled")
     t.lines.append("ask:")
     inside = dict(names)
     operations(t, program.seldom, inside)
@@ -59,12 +59,12 @@ def _seldom(
     if marks.locked:
         locked = t.let(f"and {t.bit} {turned}, {_any(t, marks.locked, inside, 'olt')}")
     more = t.let(f"or {t.bit} {single}, {still}")
-    t.put(f"br i1 {some(t, single)}, label %prove, label %told")
+    t.put(f"br i1 {some(t, single)}, label %prove, label %settled")
     t.lines.append("prove:")
     operations(t, program.rare, inside)
     jam = t.let(f"and {t.bit} {single}, {_any(t, marks.jam, inside, 'olt')}")
-    t.put("br label %told")
-    t.lines.append("told:")
+    t.put("br label %settled")
+    t.lines.append("settled:")
     before = none if marks.locked else turned
 
     def joined(loop: str, ask: str, prove: str) -> str:
@@ -87,14 +87,14 @@ def _any(t: Text, nodes: tuple[Node, ...], names: dict[int, str], how: str) -> s
 
 
 def some(t: Text, bit: str) -> str:
-    """Whether some lane has it."""
+    """True if any lane has the bit."""
     if t.lanes == 1:
         return bit
     return t.let(f"call i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit} {bit})")
 
 
 def store_code(t: Text, program: Program, names: dict[int, str], place: str) -> None:
-    """Store the mark of each lane."""
+    """Stores the status code of each lane."""
     kind = "i8" if t.lanes == 1 else f"<{t.lanes} x i8>"
 
     def spelled(k: int) -> str:

@@ -1,4 +1,4 @@
-"""A traced program evaluated with numpy, one operation after the other: no compiler is needed, and nothing compiled."""
+"""A traced program evaluated with numpy, one operation after the other, without a compiler."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ SINGLE: dict[str, Callable[..., Numeric]] = EVALUATE | {
 class NumpyProgram:
     """Outputs as a function of inputs, each a number or an array along the positions.
 
-    What does not change along the positions is computed as single numbers, unless ``many`` inputs are arrays; of
-    one position everything is.
+    Values that do not change along the positions are computed as single numbers, unless ``many`` inputs are arrays;
+    with one position all are.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class NumpyProgram:
             wanted.setdefault(node.index, []).append(k)
         steps: list[tuple[Callable[..., Numeric], int, int, int]] = []
         free: list[int] = []
-        passing: set[int] = set()  # what is computed and no output: its place is taken again
+        passing: set[int] = set()  # computed values that are not outputs: their places are reused
         for n in order:
             if n.op == "const":
                 place[n.index] = len(start)
@@ -75,7 +75,8 @@ class NumpyProgram:
         return [(single.get(f, f), a, b, c) for f, a, b, c in self.steps]
 
     def __call__(self, given: Sequence[Numeric], out: Array, one: bool = False) -> None:
-        """Put outputs (outputs, ...) for values of the inputs into an array; of ``one`` position all are floats."""
+        """Fills an array with the outputs (outputs, ...) for values of the inputs; with ``one`` position all are
+        floats."""
         v = self.start.copy()
         v[: len(given)] = given
         for operation, a, b, c in self.single_steps if one else self.steps:

@@ -29,17 +29,17 @@ def table(text: str) -> tuple[float, ...]:
 
 
 WORDS = 4
-"""Numbers that Philox makes a count."""
+"""Numbers that Philox makes per count."""
 MULTIPLIERS = (0xD2E7470EE14C6C93, 0xCA5A826395121157)
 STEPS = (0x9E3779B97F4A7C15, 0xBB67AE8584CAA73B)
-"""By which Philox's two keys grow from round to round."""
+"""Increments of Philox's two keys from round to round."""
 ROUNDS = 10
 HALF = 2**32 - 1
 """The lower half of a word."""
 ROOT = 0x3FE6A09E667F3BCD
 """The bits of sqrt(1/2)."""
 EDGE = 5.5
-"""w from which the outer fractions are taken."""
+"""Value of w from which the outer fractions are used."""
 MIDDLE = table(
     """
     -1.0572923247016331e-19 -2.2651388454304477e-19 1.1099401124039523e-17 -1.5745388091383548e-17
@@ -64,7 +64,8 @@ OUTER = table(
     """
 )
 FRACTIONS = (1.6, OUTER[:8], OUTER[8:16]), (5.0, OUTER[16:24], OUTER[24:])
-"""Numerator and denominator in powers of sqrt(-log p) less a number, p the smaller share; the second from 5 on."""
+"""Numerator and denominator in powers of sqrt(-log p) minus a number, with p the smaller of u and 1 - u; the second
+from 5 on."""
 LOGARITHM = table(
     """
     1.479819860511658591e-01 1.531383769920937332e-01 1.818357216161805012e-01 2.222219843214978396e-01
@@ -73,14 +74,15 @@ LOGARITHM = table(
 )
 """fdlibm's, of log((1 + s)/(1 - s))/s - 2 in powers of s^2."""
 FIELDS = 8
-"""Words of 64 bits of a row, which says how one number is drawn: two keys of Philox; low, width, a, b and whether
-normal, of a value a + b x, where x is low + width u, u a share, or the normal score of that; one word is free."""
+"""64-bit words of a row, which defines the distribution of one number: two keys of Philox; low, width, a, b and a
+normal flag, for a value a + b x, where x is low + width u with u uniform, or the normal score of that; one word is
+unused."""
 
 
 def draw(rows: Array, start: int, stop: int, lanes: int | None = None) -> Array:
-    """Values (design, number) of designs ``start`` to ``stop``: u is in each number's own row of Philox.
+    """Values (design, number) of designs ``start`` to ``stop``; each number takes u from its own row of Philox.
 
-    It is (r + 1/2)/2^53 of the first 53 bits r of a word, between 0 and 1 and never either.
+    It is (r + 1/2)/2^53 of the first 53 bits r of a word, strictly between 0 and 1.
     """
     machine = _machine(True, lanes or 2 * host_lanes())
     first, tile = start // WORDS, WORDS * machine.lanes
@@ -91,7 +93,7 @@ def draw(rows: Array, start: int, stop: int, lanes: int | None = None) -> Array:
 
 
 def quantiles(rows: Array, shares: Array, lanes: int | None = None) -> Array:
-    """Values (design, number) below which shares u (number, design) of all designs lie."""
+    """Quantiles (design, number) at probabilities u (number, design) of all designs."""
     machine = _machine(False, lanes or 2 * host_lanes())
     count, tile = shares.shape[1], WORDS * machine.lanes
     tiles = max(1, -(-count // tile))
@@ -107,7 +109,8 @@ def _machine(drawn: bool, lanes: int) -> Machine:
 
 
 def _module(drawn: bool, lanes: int) -> str:
-    """Tile by tile of designs, and there number by number: Philox's four words, or four vectors of shares given."""
+    """Fills the designs tile by tile, and each tile number by number: from Philox's four words, or from four vectors of
+    given u."""
     t = Text(lanes)
     t.lines += [
         "define void @run(ptr noalias readonly %rows, ptr noalias readonly %shares, ptr noalias %out, ptr %none, "
@@ -203,7 +206,7 @@ def _philox(t: Text) -> list[str]:
 
 
 def _product(t: Text, x: str, by: int) -> tuple[str, str]:
-    """High and low word of a product, from those of half words."""
+    """High and low word of a product, from products of half words."""
     low, high = t.integer("and", x, HALF), t.integer("lshr", x, 32)
     a, b = by & HALF, by >> 32
     first = t.integer("mul", low, a)
@@ -215,7 +218,7 @@ def _product(t: Text, x: str, by: int) -> tuple[str, str]:
 
 
 def _share(t: Text, word: str) -> str:
-    """A number between 0 and 1 and never either, from the first 53 bits of a word."""
+    """A number strictly between 0 and 1, from the first 53 bits of a word."""
     whole = t.let(f"uitofp {t.whole} {t.integer('lshr', word, 11)} to {t.kind}")
     share = t.exact("fmul", t.exact("fadd", whole, t.splat(0.5)), t.splat(2.0**-53))
     return t.intrinsic("minnum", share, t.splat(1 - 2.0**-53))
@@ -234,7 +237,8 @@ def _logarithm(t: Text, y: str) -> str:
 
 
 def _score(lanes: int) -> list[str]:
-    """The function from shares to normal scores; where no lane is near 0 or 1 the outer fractions are jumped over."""
+    """The function from probabilities to normal scores; where no lane is near 0 or 1 the outer fractions are
+    skipped."""
     t = Text(lanes)
     t.lines += [f"define internal {t.kind} @score({t.kind} %u) noinline {WIDE} {{", "entry:"]
     one, four, half = (t.splat(x) for x in (1.0, 4.0, 0.5))
@@ -243,7 +247,7 @@ def _score(lanes: int) -> list[str]:
         "fmul", t.exact("fsub", "%u", half), t.horner(MIDDLE, t.exact("fsub", w, t.splat(EDGE / 2)))
     )
     far = t.compare("ogt", w, t.splat(EDGE))
-    t.put(f"br i1 {some(t, far)}, label %outer, label %told")
+    t.put(f"br i1 {some(t, far)}, label %outer, label %merged")
     t.lines.append("outer:")
     upper = t.compare("ogt", "%u", half)
     p = t.select(upper, t.exact("fsub", one, "%u"), "%u")
@@ -255,6 +259,6 @@ def _score(lanes: int) -> list[str]:
     size = t.select(t.compare("ogt", r, t.splat(FRACTIONS[1][0])), away, near)
     size = t.select(t.compare("ogt", p, t.splat(0.0)), size, t.splat(math.inf))
     outer = t.select(far, t.select(upper, size, t.let(f"fneg {t.kind} {size}")), middle)
-    t.lines += ["  br label %told", "told:"]
+    t.lines += ["  br label %merged", "merged:"]
     found = _phi(t, (middle, "entry"), (outer, "outer"))
     return [*t.lines, f"  ret {t.kind} {found}", "}"]

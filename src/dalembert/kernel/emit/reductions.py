@@ -1,4 +1,4 @@
-"""Reductions over the positions inside the kernel: one number a design instead of one a position."""
+"""Reductions over the positions inside the kernel: one number per design instead of one per position."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from dalembert.kernel.emit.marks import bits, latch, some
 from dalembert.kernel.program import CODES, Program
 
 PLACED = ("argpeak", "argmin", "argmax")
-"""With the place, which follows as a second number."""
+"""Reductions with the position, which follows as a second number."""
 
 SUMS = {"sum": 0, "square": 1, "power8": 3}
-"""Sums of the values to the powers 1, 2, 8: how often each is squared."""
+"""Sums of the values to the powers 1, 2, 8: number of squarings for each."""
 
 _START = {"min": float("inf"), "max": float("-inf"), "peak": -1.0}
 
 Slots = tuple[tuple[int, str], ...]
-"""Which output is reduced how: peak, min, max, with arg before them, or a sum."""
+"""Output index and reduction of each slot: peak, min, max, with arg before them, or a sum."""
 
 
 def width(slots: Slots) -> int:
-    """Numbers stored a design."""
+    """Numbers stored per design."""
     return sum(2 if p in PLACED else 1 for _, p in slots)
 
 
 class Reductions:
-    """Accumulators of every output, one vector each, and of the marks; combined across the lanes at the end."""
+    """Accumulators of every output, one vector each, and of the status codes; combined across the lanes at the end."""
 
     def __init__(self, t: Text, program: Program, slots: Slots) -> None:
         self.t, self.program, self.slots = t, program, slots
@@ -107,7 +107,7 @@ class Reductions:
         return t.let(f"call reassoc nsz double @llvm.vector.reduce.{how}.{t.suffix}({start}{t.kind} {x})")
 
     def first(self, value: str, place: str, largest: str) -> str:
-        """The first position at which the largest value stands."""
+        """The first position at which the largest value occurs."""
         t = self.t
         if t.lanes == 1:
             return place
@@ -115,7 +115,7 @@ class Reductions:
         return self.across(t.select(test, place, t.splat(1e300)), "fmin")
 
     def mark(self) -> str:
-        """The first mark that some position has."""
+        """The first status code that is not 0."""
         t, code = self.t, "0"
         for name in reversed(self.program.marks.names):
             code = t.let(f"select i1 {some(t, f'%new{name}')}, i8 {CODES[name]}, i8 {code}")

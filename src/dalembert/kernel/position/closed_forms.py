@@ -1,8 +1,8 @@
-"""Positions of traced mechanisms: rigid parts joined one after the other in closed form, Newton for what is left.
+"""Positions of traced mechanisms: rigid parts joined one after the other in closed form, Newton for the rest.
 
 A *part* is a set of links whose relative positions are known. Two parts with three conditions between them, or three
-parts joined pairwise by pins and sliders (all five kinds of two-link groups), become one part, until all are one with
-the ground. Of the two ways such a group closes the one of the mechanism's own motion is taken.
+parts joined pairwise by pins and sliders (all five kinds of two-link groups), become one part, until all are joined to
+the ground. Such a group has two branches; the one of the mechanism's known motion is used.
 
 Mechanics: docs/theory.md 8.
 """
@@ -26,7 +26,7 @@ class Groups(Parts):
     """Parts that are joined group by group."""
 
     def grow(self) -> Placed:
-        """Join parts until one is left."""
+        """Joins parts until one is left."""
         while len(self.part) > 1:
             if not (self.pairs() or self.triples() or self.pinned_twice()):
                 self.general()
@@ -175,7 +175,7 @@ class Groups(Parts):
         self.join(x, (z, (rz, v.minus(at, v.rotate(rz, b)))), (y, (ry, v.minus(a, v.rotate(ry, ya)))))
 
     def two_slides(self, slides: list[tuple[int, int]], pin: tuple[int, int]) -> None:
-        """Part x slides on y and on z, which are pinned together: all turns are known, the rest is linear."""
+        """Part x slides on y and on z, which are pinned together: all angles are known, the rest is linear."""
         x = next(k for k in slides[0] if k in slides[1])
         y, z = (next(k for k in pair if k != x) for pair in slides)
         rotations, lines = [], []
@@ -196,7 +196,7 @@ class Groups(Parts):
         self.join(x, (y, first), (z, second))
 
     def pinned_twice(self) -> bool:
-        """A part with two pins on the ground's, of which others repeat a condition."""
+        """Joins a part with two pins on the ground's part, other joints of which repeat a condition."""
         ground = self.owner[self.ground]
         for y in self.part.keys() - {ground} if self.m.dependent else ():
             pins = [
@@ -208,7 +208,7 @@ class Groups(Parts):
             line, way = v.minus(yb, ya), v.minus(b, a)
             length2 = v.dot(line, line)
             if self.longer(length2, 0.0):
-                # whether both are of one length is still to be seen
+                # equality of their lengths is not yet checked
                 size: Any = np.sqrt(length2 * v.dot(way, way))  # type: ignore[arg-type]  # of nodes too
                 rotation = v.rotate_back(v.times(1.0 / size, line), way)
                 self.merge(ground, y, (rotation, v.minus(a, v.rotate(rotation, ya))))
@@ -237,7 +237,7 @@ class Groups(Parts):
 
 
 def _kind(found: list[Relation]) -> str | None:
-    """pin, slide, or None where the two parts are joined otherwise."""
+    """pin, slide, or None for any other connection of the two parts."""
     kinds = sorted(r.kind for r in found)
     if "meet" in kinds:
         return "pin"

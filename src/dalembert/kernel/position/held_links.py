@@ -1,7 +1,7 @@
-"""Links in space placed by themselves in closed form, from those that stand already.
+"""Links in space placed one at a time in closed form, from links already placed.
 
-A link that one joint holds with all its freedoms driven; one that turns about an axis, or slides along a line, and has
-a point at a known distance from another: of the two ways it closes, the one of the known motion.
+Two cases: a link on one joint with all its freedoms driven; and a link that turns about an axis, or slides along a
+line, with a point at a known distance from another: of its two branches, the one of the known motion.
 
 e   axis of the turn or slide, unit vector;  L  the distance;  A, B  its ends on the placed link and on this one
 """
@@ -19,13 +19,13 @@ from dalembert.kernel.graph import CONSTANT, Node, Scalar
 from dalembert.kernel.position.rigid_parts import DEAD, Motion, Placed
 
 Held = list[tuple[Any, int]]
-"""Rows between a link and placed ones: family and place in it."""
+"""Rows between a link and placed ones: family and index in it."""
 Place = tuple[Array, Array]
 """Point and rotation of a link."""
 
 
 def held_rows(m: Motion, link: int) -> Held:
-    """The rows between a link and those that stand."""
+    """The rows between a link and those already placed."""
     return [
         (f, k)
         for f in m.layout.stack.families
@@ -45,7 +45,7 @@ def _one_joint(rows: Held) -> bool:
 
 
 def _arms(row: tuple[Any, int], link: int) -> tuple[Array, int, Array]:
-    """Arm of a row on a link, the other link, and the arm on that."""
+    """Arm of a row on a link, the other link, and the arm on the other."""
     f, k = row
     i, j = int(f.i[k]), int(f.j[k])
     return (f.uj[k], i, f.ui[k]) if j == link else (f.ui[k], j, f.uj[k])
@@ -70,7 +70,7 @@ def direct(m: Motion, pose: Pose, link: int, rows: Held) -> Place | None:
 
 
 def _rotation(m: Motion, pose: Pose, link: int, rows: Held) -> Array | None:
-    """Rotation of a link that these rows of one joint fix: three right angles, or two and a driven turn."""
+    """Rotation of a link that these rows of one joint fix: three perpendicularities, or two and a driven turn."""
     square, turn = _of(rows, Perpendicular), _of(rows, Angle)
     if len(square) == 3 and not turn:  # as ``pair_table`` writes those about x, y and z
         (x, xk), (y, yk), (z, zk) = square
@@ -110,7 +110,7 @@ def _shifted(m: Motion, rows: Held) -> tuple[Array, Array] | None:
 
 
 def closed_form(m: Motion, out: Placed, link: int, rows: Held) -> Place | None:
-    """A link that one joint lets turn or slide, with a point of it at a distance from a placed one."""
+    """A link that one joint allows to turn or slide, with a point of it at a distance from a placed one."""
     distance, joint = _of(rows, Distance), [row for row in rows if not isinstance(row[0], Distance)]
     if len(distance) != 1 or not _one_joint(joint) or _of(joint, Angle, Helix):
         return None

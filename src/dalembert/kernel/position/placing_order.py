@@ -1,4 +1,4 @@
-"""The order in which links can be placed, and what repeated rows change in it.
+"""Order in which links can be placed, and the effect of redundant rows on it.
 
 Mechanics: docs/theory.md 8.
 """
@@ -17,7 +17,7 @@ UNDETERMINED = "the positions are not determined by the drives"
 
 
 def dependent_rows(graph: Graph, layout: Layout, known: Pose) -> frozenset[int]:
-    """Stacked rows that follow from those before them, in the file's own motion."""
+    """Stacked rows that are dependent on previous ones, in the file's motion."""
     s = layout.stack
     rows = stack_rows(layout, known)
     ends = np.stack([rows.on_i, rows.on_j])
@@ -36,11 +36,11 @@ def dependent_rows(graph: Graph, layout: Layout, known: Pose) -> frozenset[int]:
 
 
 def blocks(ends: dict[int, set[int]], n: int, dependent: frozenset[int]) -> list[list[int]]:
-    """Parts that can only be placed together, those that need nothing unplaced first, from the parts ``ends`` of each
-    row, -1 the ground.
+    """Parts that can only be placed together, those without unplaced dependencies first, from the parts ``ends`` of
+    each row, -1 the ground.
 
-    All that a repeated row could hold in the place of others is placed at once by all of its rows, but for what one
-    joint holds, which never fails.
+    Links that a redundant row could hold instead of others are placed at once with all their rows, except links held by
+    one joint, which never fails.
     """
     free = {row: of - {-1} for row, of in ends.items()}
     wants = {

@@ -1,4 +1,4 @@
-"""The rows of a layout as relations between two links: what the closed forms of positions recognise."""
+"""Rows of a layout as relations between two links, as the closed forms of positions need them."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def relations(layout: Layout, target: Array, turns: dict[int, Pair]) -> list[Rel
 
 
 def _driven_slides(found: list[Relation]) -> list[Relation]:
-    """Two slides of one point hold it where they meet: that of a slot along its line, and across it."""
+    """Replaces two driven slides of one point by the conditions that hold it: along its slot's line, and across it."""
     out: dict[object, Relation] = {}
     for k, r in enumerate(found):
         key = (r.i, r.j, *map(_same, (*r.ui, *r.uj))) if r.kind == "along" else k
@@ -68,5 +68,5 @@ def _driven_slides(found: list[Relation]) -> list[Relation]:
 
 
 def _same(x: Scalar) -> object:
-    """What two values have in common that are the same, whatever the numbers."""
+    """A key that is equal for two values if they are identical whatever the numbers."""
     return x.index if isinstance(x, Node) and x.op != "const" else ("number", float(x))

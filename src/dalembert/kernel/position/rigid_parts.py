@@ -1,4 +1,4 @@
-"""Parts: sets of links whose relative positions are known, with what their closed forms are made of."""
+"""Parts: sets of links whose relative positions are known, and the operations for their closed forms."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ DEAD = 1e-5
 
 @dataclass
 class Placed:
-    """Poses of all links as nodes, and what must hold for them to be right.
+    """Poses of all links as nodes, and conditions for their validity.
 
-    ``open``: below zero the linkage does not close; ``doubt``: below zero the general executor must look; ``flips``:
-    a group changes its way of closing along the motion.
+    ``open``: below zero the linkage does not close; ``doubt``: below zero the general executor decides; ``flips``:
+    a group changes its branch along the motion.
     """
 
     pose: Pose
@@ -36,7 +36,7 @@ class Placed:
     flips: bool = False
 
     def root(self, graph: Graph, square: Scalar, scale: Scalar) -> Scalar:
-        """Square root of what is negative where the linkage does not close; its inverse is computed with it."""
+        """Square root of a node that is negative where the linkage does not close; its inverse is computed with it."""
         if not isinstance(square, Node):
             square = graph.constant(square)
         if square.level == CONSTANT:
@@ -53,13 +53,13 @@ class Placed:
 
 @dataclass
 class Motion:
-    """What positions are traced from: targets (K + D,) with their cosines and sines, and the known motion.
+    """Data from which positions are traced: targets (K + D,) with their cosines and sines, and the known motion.
 
     ``path`` gives one quantity of the known motion, that of the mechanism with the file's numbers, as an input;
-    ``signs`` says which of two relative rotations of two links it has; in space which of two rotations, or points, of
-    the second, in ground axes. ``moves``: the drives' positions differ from the known motion's. ``redundant``: some
-    rows, the ``dependent``, repeat others; in the plane links that these hold are placed by all rows at once if
-    ``whole``.
+    ``signs`` gives which of two relative rotations of two links that motion has; in space, which of two rotations, or
+    points, of the second link, in ground axes. ``moves``: the drives' positions differ from the known motion's.
+    ``redundant``: some rows, the ``dependent``, repeat others; in the plane, if ``whole``, links held by these are
+    placed with all rows at once.
     """
 
     graph: Graph
@@ -76,7 +76,7 @@ class Motion:
 
 
 class Parts:
-    """The parts as they grow together."""
+    """The parts during assembly."""
 
     def __init__(self, motion: Motion) -> None:
         self.m, self.graph = motion, motion.graph
@@ -96,7 +96,7 @@ class Parts:
         self.out = Placed(Pose(np.zeros(0), np.zeros(0), np.zeros(0)))
 
     def blocks(self) -> list[list[int]]:
-        """Parts that can only be placed together, those that need nothing unplaced first."""
+        """Parts that can only be placed together, those without unplaced dependencies first."""
         name = {part: -1 if part == self.owner[self.ground] else part for part in self.part}
         ends = {row: {name[self.owner[r.i]], name[self.owner[r.j]]} for r in self.todo for row in r.rows}
         found = {row: parts for row, parts in ends.items() if len(parts) > 1}
@@ -105,8 +105,8 @@ class Parts:
         return blocks(found, 3, self.m.dependent)
 
     def find_between(self) -> None:
-        """Conditions ``between`` each two parts, in their order, and the parts ``near`` each; none that others repeat,
-        nor those of links to be placed as a whole."""
+        """Collects the conditions ``between`` each two parts, in order, and the parts ``near`` each; without conditions
+        that others repeat, and without those of links placed all at once."""
         later = {k for k in self.tied if self.owner[k] != self.owner[self.ground]}
         self.between: dict[tuple[int, int], list[Relation]] = {}
         self.near: dict[int, set[int]] = {part: set() for part in self.part}
@@ -143,7 +143,7 @@ class Parts:
             self.owner[link] = x
 
     def join(self, x: int, *others: tuple[int, Place]) -> None:
-        """Parts with their poses in the axes of x become one with it; with the ground, if it is among them."""
+        """Merges parts, with their poses in the axes of x, into one; into the ground's part, if it is among them."""
         ground = self.owner[self.ground]
         at = next((pose for part, pose in others if part == ground), None)
         if at is None:
@@ -206,21 +206,21 @@ class Parts:
         return r
 
     def root(self, square: Scalar, scale: Scalar) -> Scalar:
-        """Square root of what is negative where the linkage does not close."""
+        """Square root of a node that is negative where the linkage does not close."""
         return self.out.root(self.graph, square, scale)
 
     def add_doubt(self, margin: Scalar) -> None:
-        """Below zero the general executor must look."""
+        """Adds a node that is negative where the general executor must decide."""
         if isinstance(margin, Node) and margin.level != CONSTANT:
             self.out.doubt.append(margin)
 
     def set_cross_product(self, a: Pair, b: Pair, product: Scalar) -> None:
-        """What the products a x b and b x a are: determinants of the group, which need not be computed again."""
+        """Stores the products a x b and b x a, determinants of the group, which need not be computed again."""
         self.graph.assume_equal(v.cross(a, b), product)
         self.graph.assume_equal(v.cross(b, a), -product)
 
     def longer(self, a: Scalar, b: Scalar) -> bool:
-        """Whether one square is larger than another at the file's numbers; no, where they change along the motion."""
+        """True if one square is larger than another at the file's numbers; False where they change along the motion."""
         moving = any(type(x) is Node and x.level & POSITION for x in (a, b))
         return not moving and bool(a > b)
 
@@ -228,7 +228,8 @@ class Parts:
         self.add_doubt(det * det - DEAD)
 
     def choose_rotation(self, rotation: Callable[[Scalar], Pair], x: int, y: int) -> Pair:
-        """The rotation of y in x of the two, that the known motion has; ``sign`` is kept for the other parts."""
+        """The rotation of y in x, of two candidates, that the known motion has; ``sign`` is kept for the
+        other parts."""
         lx = self.ground if self.ground in self.part[x] else min(self.part[x])
         ly = min(self.part[y])
         rx, ry = self.part[x][lx][0], self.part[y][ly][0]
@@ -241,7 +242,7 @@ class Parts:
         return rotation(self.sign)
 
     def angle_near(self, line: Pair, what: str, which: int) -> Node:
-        """Angle of a line, whole turns counted along the known motion."""
+        """Angle of a line, with whole turns counted along the known motion."""
         c, s = self.m.path(what + " cos", which), self.m.path(what + " sin", which)
         off = self.graph.binary(
             "atan2", _node(self.graph, c * line[1] - s * line[0]), _node(self.graph, v.dot((c, s), line))
@@ -249,7 +250,7 @@ class Parts:
         return self.m.path(what, which) + off
 
     def turn_of(self, link: int) -> Node:
-        """Angle of a link of the ground's part, whole turns counted."""
+        """Angle of a link of the ground's part, with whole turns."""
         if link not in self.turn:
             self.turn[link] = self.angle_near(self.part[self.owner[self.ground]][link][0], "turn", link)
         return self.turn[link]

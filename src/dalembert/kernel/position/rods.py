@@ -1,6 +1,6 @@
-"""Rods between two balls: a distance between the balls' centres, on which the rod stands as it is drawn.
+"""Rods between two balls: a distance between the balls' centres, along which the rod is placed as drawn.
 
-was, now   the line of the rod as drawn and where it stands, unit vectors
+was, now   unit vectors along the rod as drawn and as placed
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from dalembert.kernel.graph import Node, Scalar, trace_array
 from dalembert.kernel.position.rigid_parts import Motion
 
 OPPOSITE = 1e-4
-"""One and the cosine between where a line was drawn and where it stands, below which the general executor decides how
-the rod is spun about it."""
+"""One plus the cosine between the drawn and the present direction below which the general executor decides the spin of
+the rod."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def _rods(layout: Layout, f: Idle) -> list[Rod]:
 
 
 def _ball(s: Rows, rows: Ints, link: int) -> tuple[Array, int, Array] | None:
-    """Where rows of one joint hold a point of a link to a point of another, and nothing else."""
+    """Rows of one joint that hold a point of a link to a point of another, and nothing else; None otherwise."""
     families: list[Family] = select_rows(s, rows)
     f: Any = families[0]
     if len(rows) != 3 or len(families) > 1 or not isinstance(f, Meet | Along):
@@ -88,7 +88,7 @@ def _ball(s: Rows, rows: Ints, link: int) -> tuple[Array, int, Array] | None:
 
 
 def place_rod(rod: Rod, pose: Pose) -> Node:
-    """Put a rod where its balls are; below zero where it is turned nearly round from how it is drawn."""
+    """Places a rod on its balls; negative where it is turned by nearly half a turn from its drawn direction."""
     (ua, x, ux), (ub, y, uy) = rod.balls
     a, b = (pose.point[k] + space.rotate(pose.rotation[k], u) for k, u in ((x, ux), (y, uy)))
     was, now = space.rotate(rod.drawn, (ub - ua) / rod.length), (b - a) / rod.length

@@ -1,9 +1,9 @@
-"""Positions of traced mechanisms in space: link after link from the drives, Newton for what closes in loops.
+"""Positions of traced mechanisms in space: link after link from the drives, Newton for closed loops.
 
-A rod between two balls is a distance between their centres, and stands where they do. The other links fall into blocks,
-each placed once those before it are: one that its joint and its drives hold directly, one that turns or slides and is
-held at a distance in closed form, the rest by unrolled Newton steps from the known motion. That is the solution where
-neither a number of the geometry varies nor a drive moves on: then it stands in place of any steps.
+A rod between two balls is a distance between their centres, and is placed on them. The other links form blocks,
+each placed after the previous ones: links that their joints and drives hold directly, links that turn or slide and are
+held at a distance in closed form, the rest by unrolled Newton steps from the known motion. Where neither a number of
+the geometry nor a drive's position varies, the known motion is the solution and no steps are needed.
 
 Mechanics: docs/theory.md 8.
 """
@@ -28,7 +28,7 @@ STEPS = 4
 
 
 def known_pose(m: Motion) -> Pose:
-    """The known motion's poses of all links, with its followed angles."""
+    """Poses of all links in the known motion, with its counted angles."""
     count = m.layout.links + 1
     counted = max((int(np.max(f.count)) + 1 for f in m.layout.counted), default=0)
     point = [[m.path(f"point {c}", k) for c in range(3)] for k in range(count - 1)]
@@ -41,7 +41,7 @@ def known_pose(m: Motion) -> Pose:
 
 
 def varies(layout: Layout, target: Array) -> bool:
-    """Whether some number that places joints is a symbol."""
+    """True if any number that places joints is a symbol."""
     numbers = [a for f in layout.stack.families for a in vars(f).values()]
     return any_traced(*numbers) or any(x.op != "const" for x in target[: layout.constraints.count])
 

@@ -1,4 +1,4 @@
-"""Newton for links without a closed form, unrolled: the core's own closure equations, from the known motion.
+"""Newton for links without a closed form, unrolled: the core's closure equations, from the known motion.
 
 Mechanics: docs/theory.md 8.
 """
@@ -28,22 +28,22 @@ STEPS = 6
 """Iterations before the last; from a guess within a few tenths of a radian four are enough."""
 
 LAST = 1e-7
-"""Largest turn, or shift over characteristic length, of the last step: what it leaves is its square."""
+"""Largest turn, or shift over characteristic length, of the last step: the remaining error is its square."""
 
 FAR = 1.0
-"""A solution further than this from the known motion may be another way of closing: the general executor decides."""
+"""Distance from the known motion beyond which a solution may be another branch: the general executor decides."""
 
 
 @dataclass
 class Found:
-    """Poses of all links, those asked for placed, and what must not be negative."""
+    """Poses of all links, the requested ones placed, and nodes that must not be negative."""
 
     pose: Pose
     doubt: list[Node]
 
 
 def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Found:
-    """Place some links in so many steps and one; all others stand where the guess has them."""
+    """Places some links in ``steps`` + 1 steps; all others stay as in the guess."""
     m, pose = _block(m, links), guess
     for _ in range(steps):
         pose = _displace(m, pose, _step(m, pose, links), links)
@@ -56,7 +56,7 @@ def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Foun
 
 
 def _block(m: Motion, links: list[int]) -> Motion:
-    """The conditions of some links among themselves and with those placed already, alone."""
+    """The conditions among some links and those already placed."""
     stack, moving = m.layout.stack, set(links)
     i, j = stack.ends
     kept = [
@@ -97,7 +97,7 @@ def factor_rows(graph: Graph, layout: Layout, rows: System, links: list[int]) ->
 
 
 def solver(graph: Graph) -> Callable[[Layout, System], Structural]:
-    """What the core factors its systems with while it is traced."""
+    """Factorization that the core uses while it is traced."""
 
     def factor(layout: Layout, rows: System) -> Structural:
         return factor_rows(graph, layout, rows, list(range(layout.links)))

@@ -616,7 +616,7 @@ var K = {
 	}
 	read() {
 		let e = this.product(1);
-		return this.tokens.length && this.refuse(`${G(this.tokens[0])} is too much`), e;
+		return this.tokens.length && this.refuse(`unexpected ${G(this.tokens[0])}`), e;
 	}
 	refuse(e) {
 		throw new U(W(this.reading.sentences.form, {
@@ -645,7 +645,7 @@ var K = {
 		let r = this.tokens.shift(), i;
 		if (r === "(" && n < 5) i = this.product(n + 1), this.tokens.shift() !== ")" && this.refuse("a bracket is not closed");
 		else if (r !== void 0 && /^[a-zµμ_°%]/i.test(r)) i = this.named(r);
-		else return this.refuse(r === void 0 ? "nothing stands where a name is needed" : `${G(r)} stands where a name is needed`);
+		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${G(r)}`);
 		let a = 1;
 		if (this.tokens[0] === "^") {
 			this.tokens.shift();
@@ -2011,7 +2011,7 @@ function Ue(e, t, r, a) {
 	} };
 }
 function We(e, t) {
-	n("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
+	n("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
 	let r = n("dl", e);
 	for (let [e, i] of Object.entries(t.assumptions)) n("dt", r, {}, e), n("dd", r, {}, i);
 	t.source && n("p", e, {}, `Source: ${t.source}`), n("p", e, {}, `Made with dalembert ${t.version}.`);
@@ -2604,7 +2604,7 @@ function yt(e, t, r, i, a) {
 		min: 0,
 		max: r.end,
 		step: t.only_at_positions ? 1 : "any",
-		"aria-label": "place of the cycle"
+		"aria-label": "position in the cycle"
 	}), d = n("output", s, { class: "readout" }), f = c("↶", "undo (Ctrl+Z)", () => a.go(!0)), p = c("↷", "redo (Ctrl+Y)", () => a.go(!1));
 	c("Reset", "all numbers as in the file", a.reset);
 	let m = n("p", o, {
@@ -2628,7 +2628,7 @@ function yt(e, t, r, i, a) {
 // src/page.ts
 var bt = 3.6, xt = 5.2, St = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Ct = "button,summary,select,a,input[type=checkbox],[role=button]", wt = 6;
 async function Tt(e, t, r = {}) {
-	if (t.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${t.format}`);
+	if (t.format !== "dalembert-page/1") throw Error(`this page cannot show data of format ${t.format}`);
 	let a = await Le.create(t), o = document.createElement("div"), s = [];
 	o.className = r.full ? "dalembert full" : "dalembert", o.tabIndex = -1;
 	let c = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
@@ -2668,7 +2668,7 @@ async function Tt(e, t, r = {}) {
 			let o = n("label", e, { title: r }), s = n("input", o, { type: "checkbox" });
 			s.checked = i, o.append(t), s.addEventListener("change", () => (a(s.checked), K(!0)));
 		};
-		return r("names", "names of joints", C.names, (e) => C.names = e), t.gradient && r("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => w.on = e), t.handles.some((e) => e.kind === "joint") && r("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => T.on = e), C.paper.axes.length > 2 && (n("span", e, {}, "drag to look from elsewhere"), Et([C, ...k.bodies], () => (z(), K(!0)))), n("span", e, { class: "spread" });
+		return r("names", "names of joints", C.names, (e) => C.names = e), t.gradient && r("what lowers the peak", "arrows: moving a joint in this direction lowers the peak of the chosen curve", !1, (e) => w.on = e), t.handles.some((e) => e.kind === "joint") && r("tolerances", "a thousand machines with points displaced by up to 0.5 % of the drawing's width", !1, (e) => T.on = e), C.paper.axes.length > 2 && (n("span", e, {}, "drag to rotate the view"), Et([C, ...k.bodies], () => (z(), K(!0)))), n("span", e, { class: "spread" });
 	}
 	function N() {
 		let e = Q(O, "Save and share"), i = vt(t.title), o = (t, r) => n("button", e, { type: "button" }, t).addEventListener("click", r);

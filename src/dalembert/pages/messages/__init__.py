@@ -1,5 +1,5 @@
-"""What a page says: which numbers it takes and why not others, and why a position has no answer.
+"""Messages of a page: on the numbers that it accepts or rejects, and on positions without an answer.
 
-In: a description, its kernel and result. Out: the messages of the model and of the analyses, with places to fill.
+In: a description, its kernel and result. Out: the messages of the model and of the analyses, with placeholders.
 Imports ``pages.rows``, ``analysis``, ``model``.
 """

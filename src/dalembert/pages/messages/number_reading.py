@@ -1,6 +1,7 @@
-"""How a page reads a typed number: with the units, bounds and messages of the model itself.
+"""Reading of typed numbers on a page, with the units, bounds and messages of the model.
 
-No message is written here: each is that of the error which the model raises for an example, with its values left open.
+No message is written in this module: each is the one that the model raises for an example, with placeholders for its
+values.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from dalembert.units import KINDS, PER_RADIAN, quantity
 
 
 def sign_of(m: Mechanism, path: str) -> str:
-    """`positive`, `not negative` or empty: what the field of a path's number demands.
+    """Sign required by the field of a path's number: `positive`, `not negative` or empty.
 
     >>> from dalembert.model.library import four_bar
     >>> sign_of(four_bar(), "links.crank.mass"), sign_of(four_bar(), "links.crank.points.A.0")
@@ -51,7 +52,7 @@ def sign_of(m: Mechanism, path: str) -> str:
 
 
 def _is_number(value: object, rest: list[str]) -> bool:
-    """True for a number, and for one of a list of numbers; False where the path goes on to another part."""
+    """True for a number, and for an item of a list of numbers; False where the path leads to another part."""
     if isinstance(value, tuple):
         return len(rest) == 1 and isinstance(value[0], float)
     return isinstance(value, float) and not rest
@@ -65,7 +66,7 @@ def _inside(annotations: Iterable[Any]) -> Iterator[Any]:
 
 
 def limits(m: Mechanism, k: Kernel, rows: Rows) -> list[Tree]:
-    """Bounds of what follows from parameters: the row of its value, its path and its sign."""
+    """Bounds of values that depend on parameters: the row of the value, its path and its sign."""
     parameters = {
         n.path: node for n, node in zip(k.trace.numbers, k.number_nodes, strict=True) if n.parameter
     }
@@ -81,7 +82,7 @@ def limits(m: Mechanism, k: Kernel, rows: Rows) -> list[Tree]:
 
 @cache
 def reading() -> Tree:
-    """Units by name, kinds with their words, and the sentences of what cannot be read."""
+    """Units by name, kinds with their names, and the messages for unreadable input."""
     return {
         "units": {name: [u.numerator, u.denominator, *u.dimension] for name, u in SYMBOLS.items()},
         "kinds": {kind: _kind(kind) for kind in KINDS},
@@ -105,7 +106,7 @@ def _kind(kind: str) -> Tree:
 
 
 RANGE = "{text} is outside its range; write one from {low} to {high}"
-"""Of a parameter that is given a `range`; a file may give it other values, so that the model has no such message."""
+"""Message for a parameter with a `range`; a file may give other values, so the model has no such message."""
 
 UNKNOWN = "7 qqq"
 """A number with a unit that does not exist."""
@@ -117,7 +118,7 @@ EXAMPLES: dict[str, tuple[str, str, dict[str, str]]] = {
     "several": ("7/2", "length", {}),
     "finite": ("1e999", "number", {}),
     "no_unit": (UNKNOWN, "number", {"'qqq'": "{unit}", "write one, for example 0.15": "{units}"}),
-    "form": ("7 m*", "length", {"'m*'": "{unit}", "nothing stands where a name is needed": "{why}"}),
+    "form": ("7 m*", "length", {"'m*'": "{unit}", "a name is missing": "{why}"}),
     "power": ("7 m^9", "length", {"'m^9'": "{unit}"}),
     "dimension": (
         "7 s",
@@ -127,7 +128,7 @@ EXAMPLES: dict[str, tuple[str, str, dict[str, str]]] = {
     "pounds": ("7 lb", "force", {"say lbf ": "say {unit} "}),
     "hertz": ("7 Hz", "angular_speed", {}),
 }
-"""What is typed wrongly, as what kind of quantity, and what of the sentence is other words each time."""
+"""Wrong input, the quantity that it is read as, and the parts of the message that vary."""
 
 
 def _left_open(text: str, kind: str, places: dict[str, str]) -> str:
@@ -147,7 +148,7 @@ def _said(text: str, kind: str) -> str:
 
 @cache
 def sign_sentences() -> Tree:
-    """What is said of a number without the sign its field demands."""
+    """Messages for a number with the wrong sign for its field."""
     out: Tree = {}
     for sign in ("positive", "not negative"):
         try:

@@ -1,6 +1,6 @@
-"""What a page says of a position without an answer: the sentences of the analyses, with the rows that fill them.
+"""Sentences of a page on a position without an answer: those of the analyses, with the rows that fill them.
 
-``{arc}``, ``{span}`` and ``{at}`` are where, in the words of the analyses; ``{gap}`` what stays open.
+``{arc}``, ``{span}`` and ``{at}`` are the location, worded as in the analyses; ``{gap}`` is the remaining gap.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def _unit(known: Result, kind: str) -> Tree:
 
 
 def _unknowns(known: Result, rows: Rows) -> list[Tree]:
-    """Efforts and loads that are asked for, in the order of the analyses."""
+    """Unknown efforts and loads, in the order of the analyses."""
     c, s = known.compiled, rows.r
     asked = [
         (name, "moment" if c.layout.freedoms.angular[c.layout.driven[n]] else "force", s.effort(name)[0])
@@ -111,7 +111,7 @@ def _contacts(known: Result, k: Kernel, rows: Rows) -> list[Tree]:
 
 
 def _gears(k: Kernel, rows: Rows) -> list[Tree]:
-    """Of wheels in mesh in the plane the distance of their centres, their radii and what these need."""
+    """Centre distances of planar meshing wheels, their radii, and the distances that these need."""
     c, pose = k.trace.catalogue.compiled, k.trace.catalogue.traced.pose
     g, out = c.layout.algebra, list[Tree]()
     for f in c.layout.constraints.families:

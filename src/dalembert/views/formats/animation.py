@@ -45,7 +45,7 @@ LONGEST = 28.0
 
 @dataclass(frozen=True)
 class Animation:
-    """Scenes one after the other over what stays still, shown in some seconds, again and again."""
+    """Successive scenes over a static background, shown in a loop of a given duration."""
 
     still: tuple[Item, ...]
     frames: tuple[Scene, ...]
@@ -55,7 +55,7 @@ class Animation:
 
     @property
     def bounds(self) -> Box:
-        """What all frames cover together."""
+        """Bounding box of all frames."""
         boxes = np.array([Scene((*self.still, *f.items)).bounds for f in self.frames])
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
@@ -76,7 +76,7 @@ class Animation:
         return out
 
     def save(self, path: str | Path, overwrite: bool = False, theme: str = "light") -> None:
-        """Write .svg, .gif or .webp."""
+        """Writes .svg, .gif or .webp."""
         target = Path(path)
         kind = target.suffix.lower()
         if kind not in (".svg", ".gif", ".webp"):
@@ -124,7 +124,7 @@ def _frame_timing(n: int, count: int, seconds: float) -> str:
 
 
 class _Film(NamedTuple):
-    """What stays still, the frames with their positions, what is said and the scales."""
+    """Static items, the frames with their positions, the text and the scales."""
 
     still: Canvas
     frames: list[tuple[int, Scene]]
@@ -205,7 +205,7 @@ def _fixed_texts(r: Result, bounds: Box, notes: Sequence[str]) -> list[Item]:
 
 
 def _frame_heading(r: Result, k: int, scene: Scene, bounds: Box, shown: Shown) -> Scene:
-    """The position and the efforts of a frame, in words above it."""
+    """The position and the efforts of a frame, as text above it."""
     found = all(np.isfinite(r.least_norm(joint)[k]).all() for joint in r.joints)
     said = "not unique: those of least norm" if found else "not known: left out"
     answered = r.status[k] in SOLVED or (r.reverses[k] and found)

@@ -1,4 +1,4 @@
-"""A scene as DXF in millimetres, one layer a role."""
+"""A scene as DXF in millimetres, one layer per role."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ANCHORS = {"start": "MIDDLE_LEFT", "middle": "MIDDLE_CENTER", "end": "MIDDLE_RIG
 
 
 def write_dxf(scene: Scene, path: str | Path) -> None:
-    """Write the drawing for CAD programs."""
+    """Writes the drawing for CAD programs."""
     import ezdxf
     from ezdxf import units
 

@@ -1,7 +1,7 @@
-"""A mechanism in motion as a glTF 2.0 binary (.glb): a node a link, its solids as meshes, its poses as an animation.
+"""A mechanism in motion as a glTF 2.0 binary (.glb): a node per link, its solids as meshes, its poses as an animation.
 
-Metres; in space the machine's z is glTF's y, by a root node that turns it; of the plane y is up already. Written from
-the standard (Khronos 2021) without a library: a header, a chunk of JSON and a chunk of numbers.
+Lengths are in metres. In space a root node turns the machine's z into glTF's y; planar mechanisms have y up already.
+Written from the standard (Khronos 2021) without a library: a header, a chunk of JSON and a chunk of numbers.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ if TYPE_CHECKING:
 
 
 FRAMES = 30
-"""Positions a second where no speed says how long the motion takes."""
+"""Positions per second where no speed gives the duration of the motion."""
 
 SIZE = 110.0
-"""Millimetres of symbols that the machine is long: they are as large beside it as in pictures."""
+"""Length of the machine in millimetres of symbols: they have the same relative size as in pictures."""
 
 FLOAT, SHORT, INTEGER = 5126, 5123, 5125
 DTYPES = {FLOAT: "<f4", SHORT: "<u2", INTEGER: "<u4"}
@@ -49,7 +49,7 @@ class SolidModel:
     numbers: bytes = field(repr=False)
 
     def to_glb(self) -> bytes:
-        """The file."""
+        """Bytes of the file."""
         text = json.dumps(self.document, separators=(",", ":"), ensure_ascii=False).encode("utf-8")
         text += b" " * (-len(text) % 4)
         chunks = struct.pack("<I4s", len(text), b"JSON") + text
@@ -57,7 +57,7 @@ class SolidModel:
         return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
     def save(self, path: str | Path, overwrite: bool = False) -> None:
-        """Write .glb."""
+        """Writes .glb."""
         target = Path(path)
         if target.suffix.lower() != ".glb":
             raise ModelError(f"{target.name}: solid models are not written as that", "use .glb")
@@ -66,10 +66,10 @@ class SolidModel:
 
 
 def solid_model(r: Result) -> SolidModel:
-    """Links as solids, moving through all positions that have a pose; loads and springs are not in it."""
+    """Links as solids, moving through all positions that have a pose; without loads and springs."""
     k = np.flatnonzero(np.isfinite(r.point_array).all(axis=(1, 2)))
     if not len(k):
-        raise ModelError("no position has a pose to be shown", "look at the reasons: dalembert solve")
+        raise ModelError("no position has a pose to show", "see the reasons: dalembert solve")
     size = _extent(r, k) / SIZE
     w = _Writer()
     materials = {role: n for n, role in enumerate(MATERIALS)}
@@ -114,7 +114,7 @@ def solid_model(r: Result) -> SolidModel:
 
 
 def times(r: Result, k: Array) -> Array:
-    """Seconds of some positions: of a law, from the first drive's positions and speeds, else evenly."""
+    """Times of some positions, s: from a law, from the first drive's positions and speeds, else evenly spaced."""
     if r.schedule.time is not None:
         return np.asarray(r.schedule.time[k] - r.schedule.time[k[0]])
     if r.drives:
@@ -126,7 +126,7 @@ def times(r: Result, k: Array) -> Array:
 
 
 def _animation(r: Result, k: Array, links: list[str], w: _Writer) -> Tree:
-    """Translation and rotation of every moving link; a motion that comes round to its start is closed."""
+    """Translation and rotation of every moving link; a motion that returns to its start is closed."""
     moving = [link for link in links if link != GROUND]
     t = times(r, k)
     poses = {link: [pose(r, link, int(n)) for n in k] for link in moving}
@@ -148,7 +148,7 @@ def _animation(r: Result, k: Array, links: list[str], w: _Writer) -> Tree:
 
 
 def _comes_round(r: Result, places: dict[str, Array], turns: dict[str, Array]) -> bool:
-    """Whether the step from the last position to the first is like the others: a whole turn that fits."""
+    """True if the step from the last position to the first is like the others and completes a full turn."""
     if not r.drives or len(r.status) < 8:
         return False
     angle = r.drive_position(r.drives[0])
@@ -166,7 +166,7 @@ def _comes_round(r: Result, places: dict[str, Array], turns: dict[str, Array]) -
 
 
 def _quaternions(turns: Array) -> Array:
-    """Unit quaternions (n, 4) of matrices (n, 3, 3), each on the side of the one before."""
+    """Unit quaternions (n, 4) of matrices (n, 3, 3), each with the sign nearest to the previous one."""
     return _smooth(space.quaternion(turns.reshape(-1, 9)))
 
 
@@ -176,7 +176,7 @@ def _smooth(q: Array) -> Array:
 
 
 def _extent(r: Result, k: Array) -> float:
-    """The longer side of the box in which all nodes are at all times."""
+    """Longer side of the box that contains all nodes at all times."""
     some = k[np.unique(np.linspace(0, len(k) - 1, 24).astype(int))]
     places = []
     for link in (GROUND, *r.links):
@@ -187,7 +187,7 @@ def _extent(r: Result, k: Array) -> float:
 
 
 class _Writer:
-    """Numbers in one buffer, with what glTF says about each part of it."""
+    """Numbers in one buffer, with glTF's description of each part of it."""
 
     def __init__(self) -> None:
         self.numbers = bytearray()
@@ -195,7 +195,7 @@ class _Writer:
         self.accessors: list[Tree] = []
 
     def accessor(self, values: Array, target: int | None, kind: int = FLOAT, limits: bool = False) -> int:
-        """The number of a new accessor of values (n, c)."""
+        """Index of a new accessor of values (n, c)."""
         written = np.ascontiguousarray(values, DTYPES[kind])
         view: Tree = {"buffer": 0, "byteOffset": len(self.numbers), "byteLength": written.nbytes}
         self.views.append(view | ({"target": target} if target else {}))

@@ -21,17 +21,17 @@ if TYPE_CHECKING:
     from PIL import Image
 
 POINT = 72 / 25.4
-"""Points in a millimetre."""
+"""Points per millimetre."""
 
 
 SETTINGS = {"pdf.fonttype": 42, "text.hinting": "none"}
-"""Fonts as such in a PDF; letters as wide in a PNG as they are, for what stands behind others is placed by that."""
+"""Fonts embedded in a PDF as fonts; unhinted letter widths in a PNG, since later text is placed by them."""
 
 
 def write_figure(
     scene: Scene, path: str | Path, theme: str = "light", dpi: int = 200, paper: str | None = None
 ) -> None:
-    """Write a PDF or a PNG, to scale; with ``paper`` a PDF in pages."""
+    """Writes a PDF or a PNG, to scale; with ``paper`` a PDF in pages."""
     import matplotlib
 
     if paper is not None:
@@ -64,7 +64,7 @@ def _write_pages(scene: Scene, path: str | Path, theme: str, dpi: int, paper: st
 def pictures(
     still: Sequence[Item], frames: Iterable[Sequence[Item]], bounds: Box, theme: str = "light", dpi: int = 90
 ) -> list[Image.Image]:
-    """Pictures of PIL: the items of each frame over those that stay still, drawn once; ``bounds`` in mm."""
+    """Pictures of PIL: the items of each frame over the static ones, drawn once; ``bounds`` in mm."""
     import matplotlib
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL import Image
@@ -85,7 +85,8 @@ def pictures(
 
 
 class _Painter:
-    """Primitives to artists of a figure, in drawing order; without axes, which would cost more than what is drawn."""
+    """Primitives to artists of a figure, in drawing order; without axes, which would take longer than the drawing
+    itself."""
 
     def __init__(self, bounds: Box, theme: str, dpi: int) -> None:
         from matplotlib.figure import Figure
@@ -101,7 +102,7 @@ class _Painter:
         self._out: list[Artist] = []
 
     def artists(self, items: Iterable[Item]) -> list[Artist]:
-        """What the items look like."""
+        """Matplotlib artists of the items."""
         self._out = []
         for item in items:
             self.item(item)

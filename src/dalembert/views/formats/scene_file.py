@@ -1,4 +1,4 @@
-"""A scene to a file; the ending names the format."""
+"""A scene written to a file; the extension names the format."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 def save(
     scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "light", paper: str | None = None
 ) -> None:
-    """Write .svg, .pdf, .png or .dxf; with ``paper`` a PDF in pages."""
+    """Writes .svg, .pdf, .png or .dxf; with ``paper`` a PDF in pages."""
     from dalembert.views.formats.themes import THEMES
     from dalembert.views.paper.pages import PAPERS
 
     target = Path(path)
     if theme not in THEMES:
-        raise ModelError(f"there is no theme {theme!r}", f"there is {', '.join(THEMES)}")
+        raise ModelError(f"unknown theme {theme!r}", f"choose {' or '.join(THEMES)}")
     kind = target.suffix.lower()
     if kind not in (".svg", ".pdf", ".png", ".dxf"):
         what = f"{target.name}: drawings are not written as {kind or 'that'}"

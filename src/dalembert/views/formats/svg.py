@@ -21,7 +21,7 @@ def svg_text(scene: Scene, theme: str = "light") -> str:
 
 
 def page(bounds: Box, title: str, theme: str, drawn: Callable[[Writer], str]) -> str:
-    """An SVG that shows some bounds, filled by what is drawn with the writer."""
+    """An SVG that shows some bounds, filled by ``drawn`` with the writer."""
     left, bottom, right, top = bounds
     width, height = right - left + 2 * MARGIN, top - bottom + 2 * MARGIN
     prefix = theme[0]
@@ -38,7 +38,7 @@ def page(bounds: Box, title: str, theme: str, drawn: Callable[[Writer], str]) ->
 
 
 def rule(prefix: str, role: str, look: Look) -> str:
-    """How a role looks: its lines, letters and heads."""
+    """CSS rule of a role: its lines, letters and heads."""
     bold = ";font-weight:bold" if look.weight != "normal" else ""
     dash = f";stroke-dasharray:{' '.join(f'{d:g}' for d in look.dash)}" if look.dash else ""
     stroke = f".{prefix}-{role}{{stroke:{look.stroke};stroke-width:{look.width:g};fill:{look.fill}{dash}"

@@ -1,4 +1,4 @@
-"""How each role looks: stroke, width in mm, dashes in mm, fill. Themes: light, dark, print (black and white)."""
+"""Look of each role: stroke, width in mm, dashes in mm, fill. Themes: light, dark, print (black and white)."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ SOLIDS: dict[str, tuple[str, str, str]] = {
 
 
 def _solid_looks(tones: tuple[str, str, str]) -> dict[str, Look]:
-    """Looks by ending: whole faces with an outline, `-fill` the same without one, edges, the light on a ball."""
+    """Looks by ending: faces with an outline, `-fill` the same without one, edges, the highlight on a ball."""
     named = dict(zip(("-top", "-front", "-side"), tones, strict=True)) | {"": tones[1]}
     out = {end: Look(INK, 0.2, (), fill) for end, fill in named.items()}
     out |= {f"{end}-fill": Look(fill, 0.15, (), fill) for end, fill in named.items()}
@@ -144,7 +144,7 @@ def _print(role: str, look: Look) -> Look:
 
 
 def _print_fill(fill: str) -> str:
-    """Greys for areas, three tones for solids; black for what is filled with ink."""
+    """Greys for areas, three tones for solids; black for inked areas."""
     tones = {
         tone: ("#f7f7f7", "#e8e8e8", "#cfcfcf")[k] for some in SOLIDS.values() for k, tone in enumerate(some)
     }
@@ -159,6 +159,6 @@ THEMES: dict[str, dict[str, Look]] = {
 """Theme -> role -> look."""
 
 BACKGROUND = {"light": PAPER, "dark": _DARK["paper"], "print": PAPER}
-"""Colour of the paper, so that a drawing reads on any page."""
+"""Colour of the paper, so that a drawing is legible on any page."""
 
 FONT = "'DejaVu Sans', 'Helvetica Neue', Arial, sans-serif"

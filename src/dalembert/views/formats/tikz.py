@@ -10,13 +10,13 @@ from dalembert.views.paper.lettering import pieces
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Point, Polygon, Scene, Text
 
 POINT = 72.27 / 25.4
-"""TeX points in a millimetre."""
+"""TeX points per millimetre."""
 
 ANCHORS = {"start": "base west", "middle": "base", "end": "base east"}
 
 
 def tikz_picture(scene: Scene, words: Callable[[str], str], theme: str = "light") -> str:
-    r"""The drawing as a tikzpicture; ``words`` escapes what LaTeX takes as its own. Each node stands on its own line.
+    r"""The drawing as a tikzpicture; ``words`` escapes LaTeX's special characters. Each node is on a separate line.
 
     >>> print(tikz_picture(Scene((Line(((0, 0), (10, 5)), "ground"),)), str).splitlines()[2])
     \draw[draw={rgb,255:red,107;green,119;blue,133},line width=0.4mm] (0,0)--(10,5);
@@ -55,7 +55,7 @@ def _head(points: tuple[Point, ...], look: Look) -> Iterator[str]:
 
 
 def _node(t: Text, look: Look, words: Callable[[str], str]) -> str:
-    """Letters with their base where other formats have it; raised and lowered ones as LaTeX does."""
+    """Letters on the same baseline as in other formats; superscripts and subscripts by LaTeX."""
     levels = {1: r"\textsuperscript", -1: r"\textsubscript"}
     text = "".join(
         f"{levels[p.level]}{{{words(p.text)}}}" if p.level else words(p.text) for p in pieces(t.text)

@@ -12,7 +12,7 @@ from dalembert.views.notation import Notation
 from dalembert.views.paper.scene import Scene
 
 OWN = {"member": "member_views", "shaking": "shaking_views"}
-"""Answers with a file of their own; the others are charts over the cycle."""
+"""Modules of the answers that do not show charts over the cycle."""
 
 
 def scenes_of(answer: Answer, notation: Notation | None = None) -> list[Scene]:

@@ -29,12 +29,12 @@ if TYPE_CHECKING:
     from dalembert.machine.motors.motor_choice import MotorChoice
 
 NOTHING = 1e-6
-"""A trade-off that gains or costs less, in per cent, is none."""
+"""Gain or cost of a trade-off, in per cent, below which it is ignored."""
 
 
 @dataclass(frozen=True)
 class Axis:
-    """What charts are drawn against: values in the reader's unit with their label, and whether they are degrees."""
+    """Abscissa of charts: values in the reader's unit, their label, and whether they are degrees."""
 
     shown: Shown
     values: Array
@@ -42,13 +42,13 @@ class Axis:
     degrees: bool = False
 
     def chart(self, kind: str, curves: Mapping[str, Array], title: str, said: str = "") -> Scene:
-        """Curves, SI, of one kind of number, of which something is said on the axis."""
+        """Chart of curves, SI, of one kind of number, with an optional remark on the axis."""
         series = {name: values / self.shown.size(kind) for name, values in curves.items()}
         label = f"{(said or kind).capitalize()} in {self.shown.unit(kind)}"
         return curves_scene(self.values, series, self.label, label, title, self.degrees)
 
     def percents(self, curves: Mapping[str, Array], title: str, said: str) -> Scene:
-        """The same of numbers in per cent."""
+        """Chart of numbers in per cent."""
         return curves_scene(self.values, curves, self.label, f"{said} in %", title, self.degrees)
 
 
@@ -59,18 +59,18 @@ def cycle_axis(r: Result, notation: Notation) -> Axis:
 
 
 def balance_scenes(b: Balance, notation: Notation) -> list[Scene]:
-    """Force (in the plane a polar diagram, in space its size), moment and torque over the cycle, the trade-off."""
+    """Force (in the plane a polar diagram, in space its magnitude), moment and torque over the cycle, the trade-off."""
     axis = cycle_axis(b.result, notation)
     return [*comparison_scenes(b, axis), *_trade_off(b, axis)]
 
 
 def rotor_scenes(b: RotorBalance, notation: Notation) -> list[Scene]:
-    """Sizes of force and moment over the cycle, and the torque."""
+    """Magnitudes of force and moment over the cycle, and the torque."""
     return comparison_scenes(b, cycle_axis(b.result, notation))
 
 
 def comparison_scenes(b: Comparison, axis: Axis) -> list[Scene]:
-    """Force (in the plane a polar diagram, in space its size), moment and torque, before and after."""
+    """Force (in the plane a polar diagram, in space its magnitude), moment and torque, before and after."""
     sides, plane = {"before": b.before, "after": b.after}, b.result.mechanism.dimension == 2
     found = {name: {side: values_of(s)[name] for side, s in sides.items()} for name in values_of(b.before)}
     out = []
@@ -84,14 +84,14 @@ def comparison_scenes(b: Comparison, axis: Axis) -> list[Scene]:
         kind = "force" if name == "force" else "moment"
         sizes = {side: v if v.ndim == 1 else magnitude(v) for side, v in both.items()}
         title = titles.get(name, f"torque of {b.result.drives[0]}")
-        title = f"Size of the {title}" if not plane and name in titles else title[0].upper() + title[1:]
+        title = f"Magnitude of the {title}" if not plane and name in titles else title[0].upper() + title[1:]
         if max(np.abs(v).max() for v in sizes.values()) > b.before.floor(kind):
             out.append(axis.chart(kind, sizes, title))
     return out
 
 
 def _trade_off(b: Balance, axis: Axis) -> list[Scene]:
-    """What is made least against the first that is not, where one costs the other."""
+    """The minimized quantity against the first one that is not, where one increases as the other decreases."""
     if len(b.result.status) < 3 or not b.result.drives:
         return []
     other = next((n for n in ("torque", "force", "moment") if n not in b.of), None)

@@ -29,15 +29,15 @@ if TYPE_CHECKING:
 
 LETTERS = {of: f"{sign[0]}_{{{sign[2:]}}}" if sign[1:] else sign for of, sign in SIGNS.items()}
 ORDINATE = 18.0
-"""Millimetres that the largest inner force is drawn, at most."""
+"""Largest ordinate of an internal force, mm."""
 SEEN = 0.2
-"""Millimetres below which a diagram is left out: the charts have it."""
+"""Ordinate below which a diagram is left out, mm: the charts contain it."""
 PLACES = 61
-"""Along a member, beside both sides of every force."""
+"""Number of places along a member, in addition to both sides of every force."""
 
 
 def member_scenes(t: MemberTable, notation: Notation) -> list[Scene]:
-    """Each inner force on the links where it is largest; a chart of each over every member's length."""
+    """Each internal force on the links at its largest value; a chart of each over every member's length."""
     shown, out = Shown(t.result, notation), []
     for of in next(iter(t.links.values())).names:
         kind = kind_of(of)
@@ -58,8 +58,8 @@ def member_scenes(t: MemberTable, notation: Notation) -> list[Scene]:
 
 
 class Paper:
-    """A position of a machine drawn as it stands, in space so that two vectors (2, 3) are seen well, with the ways of
-    places and of vectors in millimetres onto it."""
+    """A position of a machine as drawn, in space turned so that two vectors (2, 3) are clearly visible, with functions
+    that map places and vectors to millimetres on the paper."""
 
     place: Callable[[Array], Point]
     vector: Callable[[Array], Array]
@@ -83,7 +83,8 @@ class Paper:
 
 
 def _on_links(some: dict[str, MemberForces], of: str, size: float, paper: Paper) -> Scene:
-    """The mechanism where an inner force is largest, its diagram on every member, + along the member's y or z."""
+    """The mechanism at the position where an internal force is largest, with its diagram on every member, + along the
+    member's y or z."""
     r, k, shown, canvas = paper.r, paper.k, paper.shown, paper.canvas
     kind, row, plane = kind_of(of), ORDER.index(of), r.mechanism.dimension == 2
     per_mm = round_up(size / shown.size(kind) / ORDINATE) * shown.size(kind)
@@ -113,7 +114,7 @@ def _on_links(some: dict[str, MemberForces], of: str, size: float, paper: Paper)
 
 
 def _across(of: str) -> int:
-    """The member's axis that a diagram stands along: z, as number 2, of what bends in that plane."""
+    """Index of the member's axis along which a diagram is plotted: z (2) for bending in the plane that contains it."""
     return 2 if of in ("shear z", "bending y") else 1
 
 
@@ -123,7 +124,7 @@ def _turn(r: Result, link: str, k: int) -> Array:
 
 
 def _diagram(forces: MemberForces, curve: MemberCurve, of: str, shown: Shown) -> Scene:
-    """One inner force over the distance along the member."""
+    """One internal force over the distance along the member."""
     kind, row = kind_of(of), ORDER.index(of)
     places, values = sampled(curve)
     values = values[:, :, row] / shown.size(kind)
@@ -140,7 +141,7 @@ def _diagram(forces: MemberForces, curve: MemberCurve, of: str, shown: Shown) ->
 
 
 def sampled(curve: MemberCurve) -> tuple[Array, Array]:
-    """Distances (S,) and inner forces (P, S, 6) there, on both sides of every force that keeps its place."""
+    """Distances (S,) and the internal forces (P, S, 6) at them, on both sides of every force with a fixed place."""
     length = curve.member.length
     even, jumps = np.linspace(0.0, length, PLACES), curve.jumps
     before, behind = np.union1d(jumps[jumps > 0], even[1:]), np.union1d(jumps[jumps < length], even[:-1])

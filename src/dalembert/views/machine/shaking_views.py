@@ -47,11 +47,11 @@ def shaking_scenes(s: Shaking, notation: Notation) -> list[Scene]:
 
 
 WIDTH, HEIGHT = 84.0, 40.0
-"""Of a chart of harmonics, mm."""
+"""Size of a chart of harmonics, mm."""
 
 
 def harmonics_scene(h: Harmonics, factor: float, unit: str, title: str) -> Scene:
-    """Amplitudes as bars, one a component, order by order; the mean is left out."""
+    """Amplitudes as bars, one per component, order by order; without the mean."""
     canvas, kept = Canvas(), h.order > 0
     sizes: Array = np.reshape(h.amplitude[kept] * factor, (int(kept.sum()), -1))
     step = round_up(float(sizes.max(initial=0.0)) / 4 or 1.0)

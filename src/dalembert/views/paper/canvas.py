@@ -1,4 +1,5 @@
-"""A drawing in the making: primitives now, labels at the end, each where it covers neither a line nor another text."""
+"""A drawing under construction: primitives first, labels at the end, each where it covers neither a line nor another
+text."""
 
 from __future__ import annotations
 
@@ -27,17 +28,17 @@ from dalembert.views.paper.scene import (
 )
 
 STAGES = ((0.9, 1.6), (2.6, 4.0), (6.0, 8.5), (12.0, 17.0), (24.0, 34.0, 48.0))
-"""Distances in mm at which a label is tried, some at a time: a free place near ends the search."""
+"""Distances in mm at which a label is tried, in batches: a free place nearby ends the search."""
 
 CHEAPEST = (0, 12, 60, None)
-"""Candidates in the order of their cost are looked at some at a time: mostly one of the first dozen is free."""
+"""Candidates are examined in batches in order of cost: usually one of the first dozen is free."""
 
 LEADER = 5.0
-"""Distance in mm beyond which a thin line leads from the label to its place."""
+"""Distance in mm beyond which a leader connects the label to its place."""
 
 
 NO_ROOM = "Without room"
-"""What the note on labels that cover something everywhere begins with."""
+"""Beginning of the note on labels that would cover something everywhere."""
 
 
 @dataclass(frozen=True)
@@ -62,11 +63,11 @@ class Canvas:
         self._below: list[str] = []
 
     def add(self, *items: Item) -> None:
-        """Primitives."""
+        """Adds primitives."""
         self.items += items
 
     def keep_clear(self, *items: Item) -> None:
-        """Lines that are not drawn, on which no label stands."""
+        """Reserves the space of undrawn lines, so that labels avoid it."""
         self._clear += items
 
     def label(
@@ -78,12 +79,12 @@ class Canvas:
         role: str = "text",
         leads: bool = True,
     ) -> None:
-        """A text near one of some points, placed at the end."""
+        """Adds a text near one of some points, placed at the end."""
         if text:
             self._labels.append(Label(text, near, prefer, size, role, leads))
 
     def label_below(self, text: str) -> None:
-        """A text that stands in a note: what it belongs to is too short to be pointed at."""
+        """Adds a text to the note below, where its object is too short for a label."""
         self._below.append(text)
 
     def scene(
@@ -94,7 +95,7 @@ class Canvas:
         least: float = 80.0,
         **given: Any,
     ) -> Scene:
-        """The finished drawing, with its title above and notes below, at least so wide (mm)."""
+        """The finished drawing, with its title above and notes below, and a minimum width (mm)."""
         placer = _Placer([*self.items, *self._clear])
         left_over = []
         for label in self._labels:
@@ -143,7 +144,7 @@ def _outline(item: Item) -> Sequence[Point]:
 
 
 def crossings(box: Array, pieces: Array) -> Flags:
-    """Which straight pieces (S, 2, 2) touch each of some boxes (B, 4): (B, S), by separating axes."""
+    """True where straight pieces (S, 2, 2) touch boxes (B, 4): (B, S), by separating axes."""
     start, end = pieces[:, 0], pieces[:, 1]
     low, high = np.minimum(start, end).T, np.maximum(start, end).T
     left, bottom, right, top = box.T[:, :, None]
@@ -157,7 +158,7 @@ def crossings(box: Array, pieces: Array) -> Flags:
 
 
 def overlapping(a: Array, b: Array) -> Flags:
-    """Which of boxes a (A, 4) and b (B, 4) overlap."""
+    """True where boxes a (A, 4) and b (B, 4) overlap."""
     (left, bottom, right, top), (lefts, bottoms, rights, tops) = a.T[:, :, None], b.T[:, None, :]
     across = np.minimum(right, rights) > np.maximum(left, lefts)
     return across & (np.minimum(top, tops) > np.maximum(bottom, bottoms))  # type: ignore[no-any-return]
@@ -184,7 +185,7 @@ class _Placer:
         self.boxes = np.array([item_box(i) for i in items if isinstance(i, Text)], float).reshape(-1, 4)
 
     def place_text(self, label: Label) -> list[Item]:
-        """The text at its best place, with a leader where that is far; nothing where every place is taken."""
+        """The text at its best place, with a leader where that is far; None where every place is occupied."""
         bold = BOLD if label.role == "title" else 1.0
         room = (bold * text_width(label.text, label.size) / 2 + 0.25, 0.65 * label.size + 0.25)
         best = NOWHERE
@@ -204,7 +205,7 @@ class _Placer:
         return items
 
     def _best(self, label: Label, room: tuple[float, float], gaps: tuple[float, ...]) -> _Place:
-        """The cheapest free candidate at some distances: near, in the preferred direction, over nothing."""
+        """The cheapest free candidate at some distances: near, in the preferred direction, covering nothing."""
         at, near, gap = _candidates(label, room[0] - 0.25, room[1] - 0.25, gaps)
         box = np.concatenate([at - room, at + room], axis=1)
         cost = gap + self._preference(label, at, near)
@@ -228,7 +229,7 @@ class _Placer:
         return np.asarray(self.strokes[kept[:, 0] & kept[:, 1]])
 
     def _is_blocked(self, near: Array, box: Array) -> Flags:
-        """Whether the straight way to a candidate crosses a text."""
+        """True where the straight line to a candidate crosses a text."""
         if not len(self.boxes):
             return np.zeros(len(box), bool)
         edge = np.clip(near, box[:, :2], box[:, 2:])
@@ -259,6 +260,6 @@ def _candidates(
 
 
 def _leader(near: Array, box: Array) -> Line:
-    """From the nearest point of the box to the place."""
+    """Leader from the nearest point of the box to the place."""
     edge = np.clip(near, box[:2], box[2:])
     return Line(((float(edge[0]), float(edge[1])), (float(near[0]), float(near[1]))), "leader")

@@ -1,4 +1,4 @@
-"""A drawing with its details: what is too small to be seen, beside it at a larger scale."""
+"""A drawing with its details: parts that are too small, drawn beside it at a larger scale."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def detail_scenes(
 ) -> list[Scene]:
     """Pins whose friction circle is too small in a frame, and guides with friction; of one link, or of all.
 
-    Without words only what is too small is drawn; with them, or without a frame, every pin.
+    Without words only pins that are too small are drawn; with them, or without a frame, every pin.
     """
     joints = [n for n in r.joints if link is None or link in r.mechanism.joints[n].links]
     out = []
@@ -48,7 +48,7 @@ def _own(r: Result, joint: str) -> str:
 
 
 def with_details(main: Scene, details: Sequence[Scene]) -> Scene:
-    """A drawing and its details as one: beside it where there is room, else below."""
+    """A drawing and its details as one: side by side where they fit, else below."""
     if not details:
         return main
     whole = stack_scenes([main, stack_scenes(details, width=ROW)], width=ROW, title=main.title)

@@ -18,10 +18,10 @@ from dalembert.views.paper.lettering import Box
 from dalembert.views.paper.scene import Circle, Line, Point, Polygon, Scene, Text
 
 SIZE = (84.0, 52.0)
-"""Of the field of a chart, mm."""
+"""Size of the plotting area of a chart, mm."""
 
 Marks = Sequence[tuple[int, str]]
-"""Numbers of positions, and what stands beside them."""
+"""Indices of positions, and the labels beside them."""
 
 
 def ticks(low: float, high: float, most: int = 6, angle: bool = False) -> list[float]:
@@ -61,7 +61,7 @@ def curves_scene(
     angle: bool = False,
     levels: Mapping[str, float] | None = None,
 ) -> Scene:
-    """Curves against one axis with a legend; ``levels`` are lines across. Where none has a value it is grey."""
+    """Curves against one axis with a legend; ``levels`` are horizontal lines. Ranges without any value are grey."""
     canvas, levels = Canvas(), levels or {}
     places, curves = _whole_cycle(np.asarray(x, float), series) if angle else (np.asarray(x, float), series)
     low, high = _reach(np.concatenate([*curves.values(), [*levels.values()]]))
@@ -89,7 +89,7 @@ def curves_scene(
 
 
 def _whole_cycle(x: Array, series: Mapping[str, Array]) -> tuple[Array, Mapping[str, Array]]:
-    """Angles (degrees) that cover whole turns with their beginning once more at the end."""
+    """Angles (degrees) that cover full turns, with the start repeated at the end."""
     try:
         turns = whole_turns(np.radians(x))
     except ModelError:
@@ -99,8 +99,8 @@ def _whole_cycle(x: Array, series: Mapping[str, Array]) -> tuple[Array, Mapping[
 
 
 def _reach(values: Array) -> tuple[float, float]:
-    """The range of an axis: that of its values, with zero where they come near it beside how far they spread, or hardly
-    spread at all.
+    """Range of an axis: that of its values, including zero where they come close to it compared with their spread, or
+    hardly vary.
 
     >>> _reach(np.array([10500.0, 12500.0])), _reach(np.array([800.0, 2500.0]))
     ((10500.0, 12500.0), (0.0, 2500.0))
@@ -112,7 +112,7 @@ def _reach(values: Array) -> tuple[float, float]:
 
 
 def _missing(x: Array, known: Flags) -> list[tuple[float, float]]:
-    """Parts of the axis between places that are known, in which some are not."""
+    """Parts of the axis between known places in which some values are missing."""
     there = np.flatnonzero(known)
     if not there.size:
         return [(float(np.nanmin(x)), float(np.nanmax(x)))] if np.isfinite(x).any() else []
@@ -123,16 +123,16 @@ def _missing(x: Array, known: Flags) -> list[tuple[float, float]]:
 
 @dataclass
 class Field:
-    """The field of a chart: from values to its millimetres; ``y``: the values with a line across."""
+    """Plotting area of a chart: maps values to millimetres; ``y``: the values with a horizontal line."""
 
     x: tuple[float, float]
     y: list[float]
     listed: int = 0
-    """Lines of the legend so far."""
+    """Number of legend lines so far."""
 
     @classmethod
     def around(cls, x: Array, y: Array) -> Field:
-        """A field that holds some values."""
+        """A plotting area that contains some values."""
         low, high = float(x.min()), float(x.max())
         return cls((low, high) if high > low else (low - 1.0, high + 1.0), ticks(*_reach(y)))
 
@@ -141,7 +141,7 @@ class Field:
         return SIZE[0] * (float(a) - left) / (right - left), SIZE[1] * (float(b) - low) / (high - low)
 
     def holds(self, p: Point, edge: float = 0.0) -> bool:
-        """Whether a place of the paper lies in it, so far from its edges (mm)."""
+        """True if a point of the paper is inside, at least ``edge`` (mm) from the border."""
         return edge <= p[0] <= SIZE[0] - edge and edge <= p[1] <= SIZE[1] - edge
 
     def draw_axes(self, canvas: Canvas, xs: list[float], x_label: str, y_label: str) -> None:
@@ -159,7 +159,7 @@ class Field:
         canvas.add(Text((-1.5, height + 4.2), y_label, 2.8, "note", "start"))
 
     def draw_legend(self, canvas: Canvas, name: str, role: str) -> None:
-        """One more line of the legend."""
+        """Adds a line to the legend."""
         y, left, right = SIZE[1] - 2.0 - 4.6 * self.listed, SIZE[0] + 3.0, SIZE[0] + 10.0
         self.listed += 1
         if role.endswith("-fill"):
@@ -189,8 +189,7 @@ def polar_scene(
     paths: Mapping[str, Array], unit: str, title: str, size: float = 62.0, marks: Marks = ()
 ) -> Scene:
     """Hodographs: ends of force vectors over the cycle around the pole, with circles of equal magnitude as far as the
-    paths reach; ``marks`` of some positions. A path is joined to its beginning only where its ends are as near as its
-    steps."""
+    paths extend; ``marks`` label some positions. A path is closed only where its ends are as close as its steps."""
     canvas, everything = Canvas(), np.concatenate([*paths.values(), np.zeros((1, 2))])
     known = everything[np.isfinite(everything).all(axis=1)]
     low, high = known.min(axis=0), known.max(axis=0)
@@ -220,7 +219,7 @@ def polar_scene(
 
 
 def _ring(radius: float, window: Box) -> list[tuple[Point, ...]]:
-    """The parts of a circle about the pole that are in a window."""
+    """Arcs of a circle about the pole within a window."""
     turn = np.linspace(0.0, 2 * math.pi, 145)
     x, y = radius * np.cos(turn), radius * np.sin(turn)
     inside = (x >= window[0]) & (y >= window[1]) & (x <= window[2]) & (y <= window[3])
@@ -231,7 +230,7 @@ def _ring(radius: float, window: Box) -> list[tuple[Point, ...]]:
 
 
 def _draw_path(canvas: Canvas, path: Array, role: str, marks: Marks) -> None:
-    """A path in mm in pieces without gaps, with marks that stand apart from one another."""
+    """A path in mm in pieces without gaps, with labels at a distance from one another."""
     runs = _runs(*path.T)
     steps = np.hypot(*np.diff(path, axis=0).T)
     whole = len(runs) == 1 and len(runs[0]) == len(path) > 2

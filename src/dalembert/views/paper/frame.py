@@ -1,4 +1,4 @@
-"""From metres of the machine to millimetres of paper, and scales a person can read off."""
+"""From metres of the machine to millimetres of paper, and round scales."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FINE = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 @dataclass(frozen=True)
 class Frame:
-    """Metres a millimetre of paper, about a middle."""
+    """Metres per millimetre of paper, about a centre."""
 
     per_mm: float
     middle: Point = (0.0, 0.0)
@@ -67,6 +67,6 @@ def round_up(value: float, steps: Sequence[float] = STEPS) -> float:
 
 
 def force_scale(sizes: Sequence[float], longest: float, factor: float = 1.0) -> float:
-    """SI units a millimetre so that the largest is no longer than ``longest`` mm, in round numbers."""
+    """SI units per millimetre so that the largest arrow is at most ``longest`` mm, in round numbers."""
     largest = max((s for s in sizes if math.isfinite(s)), default=0.0)
     return round_up(largest / longest / factor, FINE) * factor if largest > 0 else factor

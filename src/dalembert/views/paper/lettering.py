@@ -1,6 +1,6 @@
-"""How wide a text is: advance widths of DejaVu Sans, the widest of the common sans-serif fonts.
+"""Width of a text: advance widths of DejaVu Sans, the widest of the common sans-serif fonts.
 
-Boxes measured with them hold the text in any of the fonts that a browser, a PDF or matplotlib may take instead.
+Boxes measured with them also hold the text in the fonts that a browser, a PDF or matplotlib may substitute.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import NamedTuple
 Box = tuple[float, float, float, float]
 
 SMALL = 0.72
-"""Size of raised and lowered letters."""
+"""Relative size of superscripts and subscripts."""
 
 _ASCII = (
     "318 401 460 838 636 950 780 275 390 390 500 838 318 361 318 337 636 636 636 636 636 636 636 636 636 636 337 337 "
@@ -35,7 +35,7 @@ class Piece(NamedTuple):
 
 
 def pieces(text: str) -> list[Piece]:
-    """A text taken apart at `_{...}` and `^{...}`.
+    """A text split at `_{...}` and `^{...}`.
 
     >>> pieces("F_{12} = 3")
     [Piece(text='F', level=0), Piece(text='12', level=-1), Piece(text=' = 3', level=0)]
@@ -52,12 +52,12 @@ def pieces(text: str) -> list[Piece]:
 
 
 def plain(text: str) -> str:
-    """The text without marks: F_12."""
+    """The text without markup: F_12."""
     return re.sub(r"([_^])\{([^}]*)\}", r"\1\2", text)
 
 
 def letters_width(letters: str) -> float:
-    """Width of letters over the size."""
+    """Width of letters over their size."""
     return sum(_WIDTHS.get(c) or _BEYOND.get(c, _OTHER) for c in letters)
 
 
@@ -79,7 +79,7 @@ def text_box(at: tuple[float, float], text: str, size: float, anchor: str, bold:
 
 
 FIXED = "\u00a0"
-"""A space at which no line ends."""
+"""A non-breaking space."""
 
 
 def unbroken(text: str) -> str:
@@ -88,7 +88,7 @@ def unbroken(text: str) -> str:
 
 
 def break_lines(text: str, size: float, width: float) -> list[str]:
-    """A text in lines no wider than a width in mm; fixed spaces hold words together.
+    """A text in lines no wider than a width in mm; non-breaking spaces keep words together.
 
     >>> break_lines("one two", 1.0, 3.0), break_lines(unbroken("one two"), 1.0, 3.0)
     (['one', 'two'], ['one two'])

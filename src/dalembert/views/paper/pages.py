@@ -1,4 +1,4 @@
-"""A drawing broken into pages of paper, in its true size: whole panels, in the rows they stand in."""
+"""A drawing split into pages of paper at true size: complete panels, in their rows."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ HEADING = 20.0
 
 
 class Page(NamedTuple):
-    """A page in mm, with its drawing where it stands from the lower left corner."""
+    """A page in mm, with its drawing placed from the lower left corner."""
 
     width: float
     height: float
@@ -28,19 +28,19 @@ class Page(NamedTuple):
 
 
 def room(paper: str = "a4") -> tuple[float, float]:
-    """Width and height that a drawing may have on one page."""
+    """Width and height available for a drawing on one page."""
     width, height = PAPERS[paper]
     return width - 2 * MARGIN, height - 2 * MARGIN
 
 
 def fits(scene: Scene, paper: str = "a4") -> bool:
-    """Whether a drawing has room on one page."""
+    """True if a drawing fits on one page."""
     width, height = _size(scene)
     return width <= room(paper)[0] and height <= room(paper)[1]
 
 
 def break_pages(scene: Scene, paper: str = "a4") -> list[Page]:
-    """Pages that hold all panels; one that is larger than a page has a page to its size, along if it fits so.
+    """Pages that contain all panels; a panel larger than a page gets a page of its size, in landscape if it fits so.
 
     >>> from dalembert.views.paper.scene import Line, stack_scenes
     >>> panel = Scene((Line(((0, 0), (100, 100))),))
@@ -65,7 +65,7 @@ def _height(line: Sequence[Scene]) -> float:
 
 
 def _rows(scene: Scene, wide: float, high: float) -> Iterator[list[Scene]]:
-    """Panels that stand side by side, as many as there is room for; stacks that are too large are opened."""
+    """Panels side by side, as many as fit; stacks that are too large are unpacked."""
     line: list[Scene] = []
     for panel in _panels(scene, wide, high):
         same = bool(line) and abs(panel.bounds[3] - line[0].bounds[3]) < 1e-6
@@ -78,7 +78,7 @@ def _rows(scene: Scene, wide: float, high: float) -> Iterator[list[Scene]]:
 
 
 def _panels(scene: Scene, wide: float, high: float) -> Iterator[Scene]:
-    """What a stack of drawings consists of, or the drawing itself."""
+    """Panels of a stack of drawings, or the drawing itself."""
     if len(scene.items) < 2 or not all(isinstance(item, Group) for item in scene.items):
         yield scene
         return
@@ -95,7 +95,7 @@ def _panels(scene: Scene, wide: float, high: float) -> Iterator[Scene]:
 
 
 def _with_headings(rows: Iterator[list[Scene]]) -> Iterator[list[list[Scene]]]:
-    """Rows with the lines of text alone that stand before them."""
+    """Rows with the headings (lines of text alone) that precede them."""
     kept: list[list[Scene]] = []
     for row in rows:
         kept.append(row)
@@ -107,20 +107,21 @@ def _with_headings(rows: Iterator[list[Scene]]) -> Iterator[list[list[Scene]]]:
 
 
 def _need(lines: Sequence[Sequence[Scene]]) -> tuple[float, float]:
-    """Width and height of a page that just holds some rows."""
+    """Width and height of a page that just contains some rows."""
     wide = max((sum(_size(p)[0] + GAP for p in line) - GAP for line in lines), default=0.0)
     return wide + 2 * MARGIN, sum(_height(line) + GAP for line in lines) - GAP + 2 * MARGIN
 
 
 def _sheet(lines: Sequence[Sequence[Scene]], paper: str) -> tuple[float, float] | None:
-    """The paper upright, or along, whichever first holds some rows; a wide row leaves only the height of one along."""
+    """The paper in portrait or landscape, whichever first contains some rows; a wide row leaves only the height of
+    landscape."""
     wide, high = _need(lines)
     ways = (PAPERS[paper], PAPERS[paper][::-1])
     return next((way for way in ways if wide <= way[0] + 1e-6 and high <= way[1] + 1e-6), None)
 
 
 def _page(lines: Sequence[Sequence[Scene]], paper: str) -> Page:
-    """The page that holds some rows: upright, along, or as large as they are."""
+    """The page for some rows: portrait, landscape, or of their size."""
     width, height = _sheet(lines, paper) or _need(lines)
     items: list[Item] = []
     y = height - MARGIN

@@ -1,7 +1,7 @@
-"""A drawing as data: a few primitives in millimetres of paper, x right, y up. It knows no mechanics.
+"""A drawing as data: a few primitives in millimetres of paper, x right, y up. It contains no mechanics.
 
-A role (`link`, `joint-force`, `dimension`, ...) says what a primitive is; a theme says how a role looks. An arrow keeps
-the number it stands for, so that its length can be checked against the stated scale.
+A role (`link`, `joint-force`, `dimension`, ...) classifies a primitive; a theme gives a role its look. An arrow keeps
+the value that it represents, so that its length can be checked against the stated scale.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Arc:
     value: float | None = None
 
     def at(self, angle: float) -> Point:
-        """A point of it."""
+        """A point of the arc."""
         return (
             self.center[0] + self.radius * math.cos(angle),
             self.center[1] + self.radius * math.sin(angle),
@@ -64,7 +64,7 @@ class Arc:
 
     @property
     def points(self) -> tuple[Point, ...]:
-        """Straight pieces close enough to it."""
+        """Polyline close to the arc."""
         count = max(2, math.ceil(abs(self.end - self.start) / 0.15) + 1)
         step = (self.end - self.start) / (count - 1)
         return tuple(self.at(self.start + k * step) for k in range(count))
@@ -72,7 +72,7 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """From tail to head; ``value`` in SI is what its length stands for, by the scale of its ``kind``."""
+    """Arrow from tail to head; its length represents ``value`` (SI) at the scale of its ``kind``."""
 
     tail: Point
     head: Point
@@ -99,7 +99,7 @@ class Text:
 
     @property
     def box(self) -> Box:
-        """What it covers: (left, bottom, right, top)."""
+        """Bounding box: (left, bottom, right, top)."""
         return text_box(self.at, self.text, self.size, self.anchor, self.role == "title")
 
 
@@ -116,7 +116,7 @@ Item = Line | Polygon | Circle | Arc | Arrow | Text | Group
 
 @dataclass(frozen=True, repr=False)
 class Scene:
-    """Items, a title, scales (kind -> SI units a millimetre) and numbers that belong to the drawing.
+    """Items, a title, scales (kind -> SI units per millimetre) and numbers that belong to the drawing.
 
     >>> scene = Scene((Line(((0, 0), (10, 0))),), "a line")
     >>> scene.bounds
@@ -132,7 +132,7 @@ class Scene:
         return f"<Scene {self.title!r}: {sum(1 for _ in self.flat())} items>"
 
     def flat(self) -> Iterator[Item]:
-        """All primitives, groups opened."""
+        """All primitives, with groups expanded."""
         yield from _flatten(self.items)
 
     def texts(self) -> list[Text]:
@@ -145,7 +145,7 @@ class Scene:
 
     @property
     def bounds(self) -> Box:
-        """What is drawn: (left, bottom, right, top) in mm."""
+        """Bounding box of the drawing: (left, bottom, right, top) in mm."""
         boxes = [item_box(item) for item in self.flat()]
         if not boxes:
             return (0.0, 0.0, 0.0, 0.0)
@@ -153,7 +153,7 @@ class Scene:
         return (float(min(left)), float(min(bottom)), float(max(right)), float(max(top)))
 
     def shift(self, dx: float, dy: float) -> Scene:
-        """The same elsewhere on the paper."""
+        """The scene moved on the paper."""
         return replace(self, items=tuple(shift_item(item, dx, dy) for item in self.items))
 
     def to_dict(self) -> Tree:
@@ -174,7 +174,7 @@ class Scene:
     def save(
         self, path: str | Path, overwrite: bool = False, theme: str = "light", paper: str | None = None
     ) -> None:
-        """Write .svg, .pdf, .png or .dxf; themes: light, dark, print. ``paper``, of a PDF: pages of a4 or letter."""
+        """Writes .svg, .pdf, .png or .dxf; themes: light, dark, print. ``paper``, of a PDF: pages of a4 or letter."""
         from dalembert.views.formats.scene_file import save
 
         save(self, path, overwrite, theme, paper)
@@ -184,7 +184,7 @@ class Scene:
 
 
 def along(tail: Point, head: Point, *parts: float) -> list[Point]:
-    """Places at parts of the way from one point to another."""
+    """Points at fractions of the distance from one point to another."""
     return [(tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in parts]
 
 
@@ -203,7 +203,7 @@ def _flatten(items: Sequence[Item]) -> Iterator[Item]:
 
 
 def item_box(item: Item) -> Box:
-    """What a primitive covers."""
+    """Bounding box of a primitive."""
     if isinstance(item, Text):
         return item.box
     if isinstance(item, Circle):
@@ -215,7 +215,7 @@ def item_box(item: Item) -> Box:
 
 
 def shift_item(item: Item, dx: float, dy: float) -> Item:
-    """A primitive elsewhere."""
+    """A primitive moved on the paper."""
 
     def to(p: Point) -> Point:
         return (p[0] + dx, p[1] + dy)

@@ -1,4 +1,4 @@
-"""Friction circles to scale: the tangent that the reaction takes, those not taken, and a pin at a larger scale."""
+"""Friction circles to scale: the tangent that the reaction takes, the other tangents, and a pin at a larger scale."""
 
 from __future__ import annotations
 
@@ -36,21 +36,21 @@ SEEN = 3.0
 """Radius in mm below which a friction circle is also drawn at a larger scale."""
 
 BEYOND = 9.0
-"""How far lines of action go on behind what they touch, mm."""
+"""Extension of lines of action beyond what they touch, mm."""
 
 WINDOW = 15.0
-"""Radius in mm of what a detail of a pin shows."""
+"""Radius in mm of the area that a detail of a pin shows."""
 
 
 def with_friction_circle(r: Result, joints: Sequence[str]) -> list[str]:
-    """Those of some joints that have a friction circle."""
+    """Joints with a friction circle, among some."""
     return [n for n in joints if friction_circle_radius(r, n)]
 
 
 def draw_circles(
     canvas: Canvas, r: Result, k: int, frame: Frame, joints: Sequence[str], link: str | None = None
 ) -> None:
-    """Circles of some joints to scale, the lines of their reactions, faint the tangents not taken.
+    """Circles of some joints to scale, the lines of their reactions, the other tangents faint.
 
     With ``link`` the tangents are those of that link alone.
     """
@@ -67,14 +67,14 @@ def draw_circles(
 
 
 def draw_circle(canvas: Canvas, found: FrictionCircle, k: int, frame: Frame) -> None:
-    """One friction circle to scale; a dot is left out."""
+    """One friction circle to scale; omitted if too small."""
     radius = frame.length(float(found.radii[k]))
     if radius > 0.4:
         canvas.add(Circle(frame(found.center[k]), radius, "friction-circle"))
 
 
 def _own_line(canvas: Canvas, found: FrictionCircle, k: int, frame: Frame) -> None:
-    """A short line of action where the circle is touched."""
+    """A short line of action at the point of tangency."""
     if np.isfinite(found.taken.direction[k]).all() and found.taken.direction[k].any():
         at, e = frame(found.taken.point[k]), found.taken.direction[k]
         canvas.add(Line((onward(at, e, -BEYOND), onward(at, e, BEYOND)), "line-of-action"))
@@ -101,7 +101,8 @@ def onward(at: Point, e: Array, distance: float) -> Point:
 
 
 def pin_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bool = True) -> Scene:
-    """A pin at a scale at which its friction circle is seen: the reaction on one of its links, and why it lies so.
+    """A pin at a scale at which its friction circle is seen: the reaction on one of its links, and the reason for its
+    line.
 
     Lengths are to the scale stated; the arrow of the reaction shows its line and sense only.
     """
@@ -146,7 +147,7 @@ def _law(r: Result, joint: str, k: int, shown: Shown) -> str:
 
 
 def _journal(r: Result, joint: str) -> float:
-    """Radius of the pin itself, m."""
+    """Radius of the pin, m."""
     f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     return float(f.radius)
 
@@ -166,7 +167,7 @@ def _draw_links(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on:
 
 
 def chord(canvas: Canvas, at: Point, e: Array, role: str) -> None:
-    """A line through a point, as far as the detail reaches."""
+    """Chord of the detail's area through a point."""
     if not np.isfinite([*at, *e]).all() or not np.any(e):
         return
     foot = at[0] * float(e[0]) + at[1] * float(e[1])
@@ -175,7 +176,7 @@ def chord(canvas: Canvas, at: Point, e: Array, role: str) -> None:
 
 
 def _reaction(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: str, touch: Point) -> None:
-    """The reaction on a link: its sense on its line, and its size in words."""
+    """The reaction on a link: its sense on its line, and its magnitude as text."""
     force = r.reaction(joint, on)[k]
     size = float(np.hypot(*force))
     if not friction_circles(r, joint).taken.direction[k].any():
@@ -191,7 +192,7 @@ def _reaction(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: s
 
 
 def _turning(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: str) -> None:
-    """A curved arrow: how the link turns, or is about to turn, against the other one."""
+    """A curved arrow: the actual or impending rotation of the link relative to the other one."""
     sense = friction_sense(r, joint, "pin", k) * (1.0 if on == r.mechanism.joints[joint].links[1] else -1.0)
     if not np.isfinite(sense) or sense == 0:
         return
@@ -210,7 +211,7 @@ def _turning(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: st
 
 
 def _clear(free: float, force: Array) -> float:
-    """A turn that keeps the curved arrow off the line of the reaction."""
+    """A rotation that keeps the curved arrow off the line of the reaction."""
     if not np.isfinite(force).all() or not np.any(force):
         return 0.0
     line = math.atan2(float(force[1]), float(force[0]))

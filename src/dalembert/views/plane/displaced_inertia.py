@@ -1,4 +1,4 @@
-"""The inertia force of a link on its displaced line: one force in place of the force at G and the couple."""
+"""The inertia force of a link on its displaced line: one force instead of the force at G and the couple."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def _arrows(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: S
 
 
 def _has_acceleration(r: Result, link: str, k: int, shown: Shown) -> bool:
-    """Whether the mass centre has an acceleration that is more than rounding."""
+    """True if the acceleration of the mass centre is above rounding level."""
     return math.hypot(*map(float, r.center_acceleration(link)[k])) > shown.least["acceleration"]
 
 

@@ -1,4 +1,4 @@
-"""Force polygons to a stated scale, per link and for the chain; lines of action and where they meet."""
+"""Force polygons to a stated scale, per link and for the chain; lines of action and their common points."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ LONGEST = 36.0
 
 
 SHORT = 0.8
-"""Millimetres below which a side has its value below the drawing."""
+"""Length in mm below which the value of a side is written below the drawing."""
 
 
 def case_actions(r: Result, case: str | None = None) -> tuple[Action, ...]:
-    """All actions, or those of one sub-case of the superposition: one source and what it causes."""
+    """All actions, or those of one case of the superposition: one source and its effects."""
     if case is None:
         return whole_actions(r)
     from dalembert.analysis.methods.superposition import superposition
@@ -57,7 +57,7 @@ def case_actions(r: Result, case: str | None = None) -> tuple[Action, ...]:
     if case not in parts.sources:
         from dalembert.errors import ModelError
 
-        raise ModelError(f"there is no source {case!r}", f"there are: {', '.join(parts.sources)}")
+        raise ModelError(f"unknown source {case!r}", f"choose one of: {', '.join(parts.sources)}")
     part = parts.case(case)
     return (*joint_actions(part), *effort_actions(part), *(a for a in known_actions(r) if a.source == case))
 
@@ -117,7 +117,7 @@ def draw_polygon(
     start: Point,
     skip: str = "",
 ) -> tuple[dict[str, tuple[Point, Point]], float]:
-    """Draw forces head to tail from a start; returns where each lies (by name), and the gap in newtons."""
+    """Draws forces head to tail from a start; returns the place of each (by name), and the gap in newtons."""
     at, edges = start, {}
     outline: list[Point] = [start]
     total = np.zeros(2)
@@ -158,7 +158,7 @@ def _edge_label(
 
 
 CHAINS = (50.0, 80.0, 125.0)
-"""Largest force of a chain, mm: the next where a force finds no room for its label."""
+"""Largest force of a chain, mm: the next value where a force has no room for its label."""
 
 
 def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case: str | None = None) -> Scene:
@@ -222,9 +222,8 @@ def chain_order(r: Result) -> list[str]:
 def lines_of_action_scene(
     r: Result, link: str, k: int, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
-    """A link in the mechanism with the lines its forces act along, and the point where three of them meet.
-
-    Of four forces the lines meet in pairs; the line through the two meeting points carries both resultants.
+    """A link in the mechanism with the lines its forces act along, and the common point of three of them. Four lines
+    meet in pairs; the line through the two meeting points carries both resultants.
     """
     shown = Shown(r, notation or Notation(), k)
     some = acting_lines(r, k) if case is None else case_actions(r, case)
@@ -248,7 +247,7 @@ def lines_of_action_scene(
 def _meeting(
     canvas: Canvas, mine: Sequence[Action], k: int, frame: Frame, span: tuple[float, ...], shown: Shown
 ) -> list[str]:
-    """Marks of concurrency, and what to say of it."""
+    """Concurrency symbols, and the note on them."""
     names = [shown.symbol(a).replace("_{", "").replace("}", "") for a in mine]
     if len(mine) == 2:
         return _arm(canvas, mine, k, frame, shown)
@@ -284,7 +283,7 @@ def _two_meetings(
 
 
 def arm_of_couple(two: Sequence[Action], k: int) -> float:
-    """Distance in metres of the lines of two equal and opposite forces."""
+    """Distance in metres between the lines of two equal and opposite forces."""
     (fx, fy), line = two[0].force[k], two[1].at[k] - two[0].at[k]
     size = float(np.hypot(fx, fy))
     return abs(float(line[0] * fy - line[1] * fx)) / size if size else 0.0

@@ -71,13 +71,13 @@ def free_body_scene(
 def common_scale(
     r: Result, some: tuple[Action, ...], k: int, shown: Shown, longest: float = LONGEST
 ) -> float:
-    """Newtons a millimetre for all links at a position."""
+    """Newtons per millimetre for all links at a position."""
     sizes = [float(np.hypot(*a.force[k])) for a in some]
     return force_scale(sizes, longest, unit_size(r, "force", shown.notation))
 
 
 def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...]) -> Frame:
-    """A frame that holds the link's points, wheels, friction circles and the places of its reactions."""
+    """A frame that contains the link's points, wheels, friction circles and the places of its reactions."""
     places = [*link_points(r, link, k).values()]
     if r.mechanism.mass(link):
         places.append(tuple(r.center(link)[k]))
@@ -130,7 +130,7 @@ def _corners(at: Point) -> list[Point]:
 
 
 def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
-    """Lengths between the link's joints and places, in words."""
+    """Lengths between the link's joints and places, as text."""
     names = [n for n in link_points(r, link, k) if " " not in n]
     places = link_points(r, link, k)
     first = names[0] if names else ""

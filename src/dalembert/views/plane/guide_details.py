@@ -1,4 +1,4 @@
-"""A guide with friction at a larger scale: faces or corners that bear, their forces, the angle of friction."""
+"""A guide with friction at a larger scale: bearing faces or corners, their forces, the angle of friction."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ LONGEST = 20.0
 """Largest force on a guide, mm."""
 
 HALF = 3.2
-"""Half the height of a block whose faces have no distance given, mm."""
+"""Half height of a block without a given distance of its faces, mm."""
 
 
 def with_rough_guide(r: Result, joints: Sequence[str]) -> list[str]:
-    """Those of some joints that slide with dry friction."""
+    """Joints that slide with dry friction, among some."""
     m = r.mechanism.joints
     some = [n for n in joints if m[n].slides]
     return [n for n in some if r.friction is not None and getattr(m[n], "friction", None) is not None]
@@ -81,7 +81,7 @@ def guide_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bo
 
 
 def guide_words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[str]:
-    """Which faces bear with how much, the angle of friction, and why friction points as it does."""
+    """Sentences on the bearing faces and their forces, the angle of friction, and why friction has its sense."""
     mu = friction_coefficient(r, joint, k)
     angle = f"μ = {shown.notation.given(mu)}, φ = {shown.notation.degrees(math.atan(mu))}°"
     sense = friction_sense(r, joint, sliding_contact(r, joint), k)
@@ -112,7 +112,7 @@ def guide_words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[st
 
 
 def guide_block(r: Result, joint: str, k: int, frame: Frame) -> Polygon:
-    """The block of a guide in a drawing: its true length where that is given, at least to where it bears."""
+    """The block of a guide in a drawing: at its given length, at least long enough to reach the bearing places."""
     e = np.asarray(slide_direction(r, joint)[k], float)
     across = np.array([-e[1], e[0]])
     f: Any = getattr(r.mechanism.joints[joint], "friction", None)
@@ -129,7 +129,7 @@ def guide_block(r: Result, joint: str, k: int, frame: Frame) -> Polygon:
 
 
 def guide_corners(r: Result, joint: str, k: int) -> list[Point]:
-    """Corners of a guide whose length is given, metres; none where it is not."""
+    """Corners of a guide of given length, metres; none otherwise."""
     f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     if getattr(f, "guide", None) is None:
         return []
@@ -139,7 +139,7 @@ def guide_corners(r: Result, joint: str, k: int) -> list[Point]:
 
 
 def faces_of(r: Result, joint: str, k: int) -> list[FaceForce]:
-    """Where a joint that slides with friction bears at a position; none where that is not known."""
+    """Bearing forces of a joint that slides with friction at a position; none where they are unknown."""
     if r.mechanism.dimension == 3:
         return ends_on_paper(r, joint)
     faces = bearing_faces(r, joint, k) if bears_on_faces(r, joint) else [slot_face(r, joint)]
@@ -151,7 +151,7 @@ def _point(p: Point | Array) -> Point:
 
 
 def _place(r: Result, joint: str, k: int, shown: Shown) -> str:
-    """Where a face bears: ', 0.1051 m ahead of its point'."""
+    """Place where a face bears: ', 0.1051 m ahead of its point'."""
     along = float(bearing_faces(r, joint, k)[0].along[k])
     if abs(along) < 1e-9 * r.compiled.layout.length:
         return ""
@@ -176,7 +176,7 @@ class _Sketch:
         self.half = self.mm(self.height) if self.height else HALF
 
     def _scale(self) -> float:
-        """Metres a millimetre; 0 where there is no length to draw."""
+        """Metres per millimetre; 0 where no length is to be drawn."""
         behind, ahead = self.ends or (0.0, 0.0)
         low, high = min([-behind, *self.places]), max([ahead, *self.places])
         need = max((high - low) / 34.0, self.height / 8.0)
@@ -258,7 +258,7 @@ class _Sketch:
         self.canvas.label(words, arc.at(start + turn / 2), size=2.6, role="note")
 
     def motion(self, on: str) -> None:
-        """An arrow: how the link slides, or is about to slide, against the other one."""
+        """An arrow: the actual or impending sliding of the link relative to the other one."""
         i, j = self.r.mechanism.joints[self.joint].links
         contact = sliding_contact(self.r, self.joint)
         sense = friction_sense(self.r, self.joint, contact, self.k) * (1.0 if on == j else -1.0)

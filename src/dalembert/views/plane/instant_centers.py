@@ -1,4 +1,4 @@
-"""Instant centres of every two links: in the drawing, beyond it by coordinates, at infinity by their direction."""
+"""Instant centres of every two links: drawn, listed by coordinates beyond the drawing, at infinity by direction."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 FAR = 1e6
-"""Lengths of the machine beyond which a centre is at infinity: rounding alone keeps it from there."""
+"""Distance, in lengths of the machine, beyond which a centre counts as at infinity, within rounding."""
 
 ROOM = 45.0
 """Millimetres around the mechanism in which centres are drawn."""
@@ -30,20 +30,20 @@ MOST = 24
 
 
 class Center(NamedTuple):
-    """Where two links have one velocity (m); at infinity only the angle of the direction there, rad, -90 to 90 deg."""
+    """Point where two links have the same velocity (m); at infinity only the direction's angle, rad, -90 to 90 deg."""
 
     place: tuple[float, float] | None
     direction: float | None = None
 
 
 def instant_centers(r: Result, k: int, drive: int = 0) -> dict[tuple[str, str], tuple[float, float] | None]:
-    """Instant centre (metres) of every two links when one drive moves; None at infinity or where nothing turns."""
+    """Instant centre (metres) of every two links when one drive moves; None at infinity or without relative motion."""
     return {pair: found.place for pair, found in all_centers(r, k, drive).items()}
 
 
 def all_centers(r: Result, k: int, drive: int = 0) -> dict[tuple[str, str], Center]:
-    """The same with directions: of links that only slide on each other across their sliding, and neither place nor
-    direction of links that move as one."""
+    """The same with directions: perpendicular to the sliding for links that only slide on each other; neither place nor
+    direction for links without relative motion."""
     s = state(r)
     names = ("ground", *r.links)
     twist = {"ground": np.zeros(3)} | {n: s.moving.virtual[k, drive, m] for m, n in enumerate(r.links)}
@@ -56,7 +56,7 @@ def all_centers(r: Result, k: int, drive: int = 0) -> dict[tuple[str, str], Cent
 
 
 def _center(ta: Array, pa: Array, tb: Array, pb: Array, length: float) -> Center:
-    """The point that has one velocity on both links."""
+    """Point with the same velocity on both links."""
     w = tb[2] - ta[2]
     va = ta[:2] + ta[2] * np.array([pa[1], -pa[0]]) + ta[2] * np.array([-pb[1], pb[0]])  # of a's point at b's
     x, y = tb[:2] - va
@@ -96,7 +96,7 @@ def instant_centers_scene(r: Result, k: int, notation: Notation | None = None) -
 
 
 def _beyond(far: dict[tuple[str, str], Center], shown: Shown) -> list[str]:
-    """Centres that are not drawn: coordinates, or the direction in which they are at infinity."""
+    """Centres outside the drawing: coordinates, or the direction in which they are at infinity."""
     places, directions, none = [], [], []
     for (a, b), found in far.items():
         sign = _sign(shown, a, b)

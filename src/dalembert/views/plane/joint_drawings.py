@@ -1,4 +1,4 @@
-"""Joints of the plane as symbols on paper, at one position: a row of ``DRAWINGS`` for each type."""
+"""Symbols of planar joints on paper, at one position: a row of ``DRAWINGS`` for each type."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ class Spot(NamedTuple):
 
 
 class Drawing(NamedTuple):
-    """How a type of joint is drawn.
+    """Symbol of a type of joint.
 
-    whole: between its two links; own: at its place in a link's free body; solid: type in space whose solids it has, or
-    solids of its own, each with its link, whose axes it is in, for the metres of a symbol's millimetre.
+    whole: between its two links; own: at its place in a link's free body; solid: type in space whose solids it uses, or
+    a function from the metres per millimetre of a symbol to solids, each with the link whose axes it is in.
     """
 
     whole: Callable[[Spot], list[Item]]
@@ -53,7 +53,7 @@ def draw_joint(canvas: Canvas, r: Result, name: str, k: int, frame: Frame) -> No
 
 
 def own_symbol(joint_type: str, at: Point) -> list[Item]:
-    """What a free body shows of a joint at its place."""
+    """Symbol of a joint at its place in a free body."""
     return DRAWINGS[joint_type].own(at)
 
 
@@ -71,7 +71,7 @@ def _along(s: Spot) -> float:
 
 
 def hydraulic_cylinder(s: Spot) -> list[Item]:
-    """A driven slide between pins of two links, as one finds it in a lift: barrel and rod; nothing where it is none."""
+    """Symbol of a driven slide between pins of two links as a hydraulic cylinder: barrel and rod; None otherwise."""
     m = s.r.mechanism
     joint, driven = m.joints[s.name], {m.drives[d].joint or d for d in s.r.drives}
     if s.name not in driven or _on_ground(s) or not joint.guides:
@@ -106,7 +106,7 @@ def _slider(s: Spot) -> list[Item]:
 
 
 def _slot(s: Spot) -> list[Item]:
-    """As long as its slide over the cycle, with a little room."""
+    """A slot as long as its slide over the cycle, with a little clearance."""
     values, angle = s.r.freedom(s.name, "slide")[0], _along(s)
     room = min(0.08 * s.r.compiled.layout.length, 12.0 * s.frame.per_mm)
     start = np.array(
@@ -122,14 +122,14 @@ def _slot(s: Spot) -> list[Item]:
 
 
 def _arm(r: Result, name: str) -> Array:
-    """From the centre of a circular slot to its pin (P, 2), ground axes."""
+    """Vector from the centre of a circular slot to its pin (P, 2), ground axes."""
     ends = zip(r.mechanism.joints[name].links, r.mechanism.joint_points(name), strict=True)
     center, at = (link_place(r, link, u) for link, u in ends)
     return np.asarray(at - center)
 
 
 def _circular_slot(s: Spot) -> list[Item]:
-    """As long as the way of its pin over the cycle, with a little room."""
+    """A slot as long as the path of its pin over the cycle, with a little clearance."""
     joint: Any = s.r.mechanism.joints[s.name]
     radius, i = s.frame.length(joint.radius), joint.links[0]
     angle = np.arctan2(*_arm(s.r, s.name).T[::-1]) - link_angle(s.r, i)
@@ -179,7 +179,7 @@ def _wheels(s: Spot) -> list[Item]:
 
 
 def _nothing(at: Point) -> list[Item]:
-    """Wheels meet without a pin."""
+    """No symbol: wheels meet without a pin."""
     return []
 
 
@@ -192,4 +192,4 @@ DRAWINGS: dict[str, Drawing] = {
     "gear": Drawing(_wheels, _nothing, wheel_solids),
     "rolling": Drawing(_wheels, _nothing, wheel_solids),
 }
-"""Type of joint -> how it is drawn."""
+"""Type of joint -> its symbols."""

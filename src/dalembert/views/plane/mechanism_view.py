@@ -1,4 +1,4 @@
-"""The mechanism with the field's plane_symbols, its loads, traces and joints' names."""
+"""The mechanism with its symbols, loads, traces and names of joints."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ OWN = "Friction circles to scale; dash-dotted: the line of each reaction."
 TAKEN = f"{OWN[:-1]}, of a two-force link on both circles; faint: the common tangents not taken."
 
 UNLIKE = 0.2
-"""Part of the largest effort below which loads have a scale of their own."""
+"""Ratio of loads to the largest effort below which the loads get a separate scale."""
 
 NOISE = 1e-12
-"""Positions of drives below this, rad or m, are rounding."""
+"""Positions of drives below this, rad or m, are rounding errors."""
 
 ROLES = {"joint": "joint-force", "spring": "load", "damper": "friction"}
 
@@ -62,9 +62,8 @@ def mechanism_scene(
     details: bool = True,
 ) -> Scene:
     """The mechanism at one position: links, joints, mass centres, traces, loads; with ``forces`` the efforts too.
-
-    Lengths and forces are to scale, both stated below. With ``friction`` (where there is some) the friction circles
-    with the lines of the reactions, and with ``details`` pins and guides at a larger scale.
+    Lengths and forces are to scale, both stated below. With ``friction`` (if any) the friction circles with the lines
+    of the reactions, and with ``details`` pins and guides at a larger scale.
     """
     shown = Shown(r, notation or Notation(), k)
     frame = whole_frame(r, k, width, height)
@@ -90,7 +89,7 @@ def mechanism_scene(
 
 
 def _scale_groups(some: list[Action], k: int, all_forces: bool) -> list[tuple[str, list[Action]]]:
-    """What is drawn at one scale: all, or efforts by themselves where loads would be too short beside them."""
+    """Groups of actions drawn at one scale: all, or efforts separately where loads would be too short beside them."""
     largest = {True: 0.0, False: 0.0}
     for a in some:
         size = float(np.hypot(*a.force[k]))
@@ -102,7 +101,7 @@ def _scale_groups(some: list[Action], k: int, all_forces: bool) -> list[tuple[st
 
 
 def is_drawn(r: Result, a: Action) -> bool:
-    """Whether an action is drawn in the whole mechanism: not on the ground, an effort on one of its links."""
+    """True if an action is drawn in the mechanism: not on the ground, an effort on one of its links only."""
     if a.kind != "effort" or a.by == GROUND:
         return a.link != GROUND
     return a.link != GROUND and a.link == r.mechanism.joints[r.mechanism.drives[a.of].joint or a.of].links[1]
@@ -142,7 +141,7 @@ def unit_size(r: Result, kind: str, notation: Notation | None = None) -> float:
 
 
 def whole_frame(r: Result, k: int, width: float, height: float) -> Frame:
-    """A frame that holds all positions where there are traces, else this one."""
+    """A frame for all positions if traces are drawn, else for this one."""
     shown = [k]
     if len(r.status) > 2:
         some = np.unique(np.linspace(0, len(r.status) - 1, 24).astype(int))
@@ -224,8 +223,8 @@ def draw_actions(
     kind: str = "force",
     clear: bool = False,
 ) -> float | None:
-    """Arrows and curved arrows of actions at their places; returns newtons a millimetre, None without forces. ``kind``:
-    of scale; ``clear``: a load's arrow begins or ends at its place where it covers less of what is drawn."""
+    """Arrows and curved arrows of actions at their places; returns newtons per millimetre, None without forces.
+    ``kind``: of scale; ``clear``: a load's arrow begins or ends at its place where it covers less of what is drawn."""
     some = [a for a in some if np.isfinite(a.force[k]).all() and np.isfinite(a.couple[k])]
     sizes = [float(np.hypot(*a.force[k])) for a in some]
     largest = max(sizes, default=0.0)
@@ -282,7 +281,7 @@ def draw_force(
 
 
 def _covered(strokes: Array, start: Point, end: Point) -> int:
-    """How many of twelve places of an arrow, those at its start left out, are on strokes (S, 2, 2)."""
+    """Number of twelve sampled points of an arrow, excluding its start, that are on strokes (S, 2, 2)."""
     places = np.array(along(start, end, *np.linspace(0.25, 1.0, 12)))
     first, span = strokes[:, 0], strokes[:, 1] - strokes[:, 0]
     away = places[:, None] - first
@@ -292,14 +291,14 @@ def _covered(strokes: Array, start: Point, end: Point) -> int:
 
 
 def _pushes(r: Result, a: Action, k: int) -> bool:
-    """Whether a force points from its place towards the middle of its link; what bears on a guide always pushes."""
+    """True if a force points from its place towards the middle of its link; the force on a guide face always does."""
     if a.kind == "joint" and with_rough_guide(r, [a.of]):
         return True
     return points_inwards(a, k, list(link_points(r, a.link, k).values()))
 
 
 def points_inwards(a: Action, k: int, places: Sequence[Point] | Sequence[Array]) -> bool:
-    """Whether a force points from its place towards the middle of others."""
+    """True if a force points from its place towards the mean of other places."""
     if len(places) < 2:
         return False
     return bool(float(np.dot(a.force[k], np.mean(np.array(places), axis=0) - a.at[k])) > 1e-12)
@@ -308,7 +307,7 @@ def points_inwards(a: Action, k: int, places: Sequence[Point] | Sequence[Array])
 def draw_couple(
     canvas: Canvas, r: Result, a: Action, k: int, frame: Frame, shown: Shown, values: bool | None
 ) -> None:
-    """A curved arrow about its place; the sense is drawn, the size written."""
+    """A curved arrow about its place; it shows the sense, and the text the magnitude."""
     at, value = frame(a.at[k]), float(a.couple[k])
     radius = {"inertia": 3.4, "load": 5.8}.get(a.kind, 4.6)
     role = role_of(a.kind)

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 
 class Spot(NamedTuple):
-    """A point of a link: its sign (`B`, `G_{2}`), its letter in a polygon (`b`, `g_{2}`), its place in the link's axes,
-    and whether it is a joint's, which has arrows and sides of its own; ``sliding``: the joint in which another link's
+    """A point of a link: its symbol (`B`, `G_{2}`), its letter in a polygon (`b`, `g_{2}`), its place in the link's
+    axes, and whether it is a joint's, with separate arrows and sides; ``sliding``: the joint in which another link's
     point slides over it."""
 
     sign: str
@@ -44,7 +44,8 @@ def letter(sign: str) -> str:
 
 
 def spots(r: Result, k: int, shown: Shown) -> dict[str, list[Spot]]:
-    """Points of each moving link: joints, points others slide over, points of loads, mass centres; one a place."""
+    """Points of each moving link: joints, points that others slide over, points of loads, mass centres; one
+    per place."""
     m = r.mechanism
     out: dict[str, list[Spot]] = {link: [] for link in r.links}
     for name, joint in sorted(m.joints.items(), key=lambda pair: pair[1].slides):
@@ -71,7 +72,7 @@ def spots(r: Result, k: int, shown: Shown) -> dict[str, list[Spot]]:
 
 
 def _own(joint: Joint) -> str:
-    """The link whose point of a joint slides or is a wheel's centre: j, or i where j is the ground."""
+    """The link whose point of a joint slides or is the centre of a wheel: j, or i where j is the ground."""
     i, j = joint.links
     return j if j != GROUND else i
 
@@ -82,7 +83,7 @@ def _add(some: list[Spot], spot: Spot) -> None:
 
 
 def _pin(some: list[Spot], r: Result, link: str, place: Array, k: int, name: str) -> str:
-    """The sign of the point that slides: that of the pin which is there, or the joint's."""
+    """Symbol of the sliding point: that of a pin at the same place, or the joint's."""
     near = 1e-9 * r.compiled.layout.length
     there = (s.sign for s in some if float(np.abs(link_place(r, link, s.u)[k] - place).max()) < near)
     return next(there, name)
@@ -96,7 +97,7 @@ def _local(r: Result, link: str, place: Array, k: int) -> Array:
 
 
 class Rates(NamedTuple):
-    """Velocity and acceleration of points at one position, of angular rates too; of a drive at unit speed there is no
+    """Velocity and acceleration of points at one position, and angular rates; for a drive at unit speed, no
     acceleration."""
 
     r: Result
@@ -120,5 +121,5 @@ class Rates(NamedTuple):
 
 
 def rates(r: Result, k: int, drive: int | None = None) -> Rates:
-    """The motion of a position; of a drive that moves at 1 rad/s or m/s while the others stand still."""
+    """The motion at a position; for a drive, at 1 rad/s or m/s with the others at rest."""
     return Rates(r, k, r.twist_array[k] if drive is None else state(r).moving.virtual[k, drive])

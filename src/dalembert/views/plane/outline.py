@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def link_paths(r: Result, link: str) -> dict[str, Array]:
-    """Places (P, 2) in metres of what a link's shape spans: joints, then points that carry loads."""
+    """Places (P, 2) in metres that a link's shape connects: joints, then points that carry loads."""
     m = r.mechanism
     own = {name: joint for name, joint in m.joints.items() if link in joint.links}
     places: dict[str, Array] = {}
@@ -43,7 +43,7 @@ def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:
 
 
 def _slides_on(joint: Joint, link: str) -> bool:
-    """Whether the link is what another moves along: its point is not where the other link is."""
+    """True if another link slides along this one, so that its point is not at the other link."""
     return joint.apart and joint.links[0] == link and link == GROUND
 
 
@@ -61,7 +61,7 @@ def load_places(m: Mechanism, link: str) -> Tree:
 
 
 def every_path(r: Result) -> Array:
-    """Where all places of the mechanism are (N, P, 2), metres."""
+    """Positions of all places of the mechanism (N, P, 2), metres."""
     out = [path for link in (*r.links, GROUND) for path in link_paths(r, link).values()]
     out += [joint_place(r, joint) for joint in r.joints]
     out += [r.center(link) for link in r.links if r.mechanism.mass(link)]

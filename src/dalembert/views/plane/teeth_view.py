@@ -29,12 +29,12 @@ LONGEST, REACH = 30.0, 26.0
 
 
 def meshes(r: Result) -> list[str]:
-    """The joints of a mechanism of the plane whose wheels have teeth."""
+    """Joints of a planar mechanism whose wheels have teeth."""
     return [name for name, joint in r.mechanism.joints.items() if joint.TOOTHED]
 
 
 def teeth_scene(r: Result, k: int, shown: Shown) -> Scene:
-    """Every pair of wheels in mesh with the force of its teeth, all forces to one scale."""
+    """Every pair of meshing wheels with the force of its teeth, all forces to one scale."""
     names = meshes(r)
     if not names:
         raise ModelError("this mechanism has no gears to draw", "look at its free bodies: --view free-bodies")
@@ -46,7 +46,8 @@ def teeth_scene(r: Result, k: int, shown: Shown) -> Scene:
 
 def tooth_force(r: Result, joint: str, k: int) -> tuple[str, Array, Array]:
     """The link that a mesh's force is drawn on, j unless that is the ground; the force on it (N); and the unit vector
-    from that wheel's centre towards the pitch point, or for a ring away from it: the side its teeth are pushed from."""
+    from that wheel's centre towards the pitch point, or for a ring away from it: the side from which its teeth are
+    pushed."""
     i, j = r.mechanism.joints[joint].links
     on = j if j != GROUND else i
     place = {link: np.array(center) for link, center, _ in wheels(r, joint, r.mechanism.joints[joint], k)}
@@ -55,7 +56,7 @@ def tooth_force(r: Result, joint: str, k: int) -> tuple[str, Array, Array]:
 
 
 def _mesh_scene(r: Result, joint: str, k: int, shown: Shown, per_mm: float) -> Scene:
-    """Two wheels with the force on one of them, and its components around and along the radius."""
+    """Two wheels with the force on one of them, and its tangential and radial components."""
     described: Any = r.mechanism.joints[joint]
     found = wheels(r, joint, described, k)
     corners = [(c[0] + s * radius, c[1] + s * radius) for _, c, radius in found for s in (-1, 1)]

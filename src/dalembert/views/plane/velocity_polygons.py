@@ -1,4 +1,4 @@
-"""Velocity and acceleration polygons with the images of the links, as the notes letter them."""
+"""Velocity and acceleration polygons with the images of the links, lettered as in the lecture notes."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ LONGEST = 50.0
 """Largest vector from the pole, mm."""
 
 MOST = 14
-"""Joints' points on links up to which vectors have their values beside them."""
+"""Number of joints' points on links up to which vectors have their values beside them."""
 
 
 def stands_still(r: Result, k: int) -> bool:
-    """Whether no drive moves at a position."""
+    """True if no drive moves at a position."""
     return not (r.schedule.speed[k].any() or r.schedule.acceleration[k].any())
 
 
@@ -82,7 +82,7 @@ def kind_of(order: Order) -> str:
 
 @dataclass
 class _Polygon:
-    """A polygon in the making."""
+    """A polygon under construction."""
 
     r: Result
     k: int
@@ -97,7 +97,7 @@ class _Polygon:
     listed: list[str] = field(default_factory=list)
 
     def scene(self, notes: list[str]) -> Scene:
-        """Images, then arrows from the pole, then sides, letters, and what is listed below."""
+        """Images, then arrows from the pole, then sides, letters, and the list below."""
         velocity, kind = self.order == "velocity", kind_of(self.order)
         self._images()
         self._letters()
@@ -115,7 +115,7 @@ class _Polygon:
         )
 
     def head(self, vector: Array) -> Point:
-        """Where a vector from the pole ends, mm."""
+        """Head of a vector from the pole, mm."""
         return float(vector[0]) / self.per_mm, float(vector[1]) / self.per_mm
 
     def _images(self) -> None:
@@ -143,7 +143,7 @@ class _Polygon:
                 self.listed += [] if s.joint else [text]
 
     def _arrow(self, tail: Point, head: Point, of: str, size: float, text: str, role: str = "") -> None:
-        """An arrow with its value beside it, or below where there are too many."""
+        """An arrow with its value beside it, or below if there are too many."""
         self.canvas.add(Arrow(tail, head, self.order + role, of, self.order, size))
         if text and sum(s.joint for some in self.points.values() for s in some) > MOST:
             self.listed += [text] if " = " in text else []
@@ -151,7 +151,7 @@ class _Polygon:
         self.canvas.label(text, *along(tail, head, 0.55, 0.4, 0.7), size=2.6, role=self.order)
 
     def _sides(self, link: str, some: list[Spot]) -> None:
-        """From the link's point that is still, or its first joint, to its others; then over what slides on it."""
+        """Sides from the link's fixed point, or its first joint, to its other points; then across its sliders."""
         if not some:
             return
         still = next((s for s in some if math.hypot(*self.head(self.found[link][s.sign])) < 0.1), None)
@@ -163,7 +163,7 @@ class _Polygon:
                 self._slide(link, s)
 
     def _side(self, link: str, base: Spot, end: Spot, fixed: bool) -> None:
-        """What a point has relative to another of its link, and its normal and tangential parts."""
+        """Velocity or acceleration of a point relative to another of its link, with normal and tangential parts."""
         start, whole = self.found[link][base.sign], self.found[link][end.sign] - self.found[link][base.sign]
         sign = f"{self.order[0]}_{{{flat(end.sign) if fixed else relative(end.sign, base.sign)}}}"
         if not fixed:
@@ -174,7 +174,8 @@ class _Polygon:
             self._parts(start, ((f"{sign}^{{n}}", normal), (f"{sign}^{{t}}", whole - normal)))
 
     def _slide(self, rail: str, s: Spot) -> None:
-        """What slides has relative to the point under it; of accelerations Coriolis' part and that along the slide."""
+        """Velocity or acceleration of the slider relative to the point under it; for accelerations the Coriolis
+        component and the one along the slide."""
         i, j = self.r.mechanism.joints[s.sliding].links
         over = i if rail == j else j
         if over == GROUND:
@@ -199,7 +200,7 @@ class _Polygon:
             self._arrow(self.head(start), self.head(start + vector), sign, size, text)
 
     def _parts(self, start: Array, parts: tuple[tuple[str, Array], ...]) -> None:
-        """Dashed sides one after the other, with their values below; a vector that has one part alone is that part."""
+        """Dashed sides one after the other, with their values below; a vector with a single component equals it."""
         for sign, part in parts:
             self.listed.append(f"{sign} = {self.shown.text(kind_of(self.order), math.hypot(*part))}")
         if all(math.hypot(*part) / self.per_mm > 0.3 for _, part in parts):
@@ -225,12 +226,12 @@ class _Polygon:
             self.canvas.label(", ".join(names), (x, y), prefer=away, size=3.2, role="title")
 
     def _fixed(self, s: Spot) -> bool:
-        """Whether a point is a pin of the ground: the pole."""
+        """True if a point is a pin on the ground: the pole."""
         joint = self.r.mechanism.joints.get(s.sign)
         return joint is not None and joint.hinge and GROUND in joint.links
 
     def _turns(self) -> str:
-        """Angular rates of the links in words."""
+        """Angular rates of the links as text."""
         if self.order == "velocity":
             values = {link: self.motion.spin(link) * self.unit for link in self.r.links}
         else:
@@ -244,13 +245,13 @@ class _Polygon:
 
 
 def add_prime(letter: str, mark: str) -> str:
-    """A letter with its mark before the index: g' of mass centre 2."""
+    """A letter with a prime before the index: g' of mass centre 2."""
     head, index, rest = letter.partition("_{")
     return head + mark + index + rest
 
 
 def flat(sign: str) -> str:
-    """A point's sign as an index.
+    """A point's symbol as an index.
 
     >>> flat("G_{2}")
     'G2'
@@ -259,7 +260,7 @@ def flat(sign: str) -> str:
 
 
 def relative(of: str, to: str) -> str:
-    """The index of what one point has relative to another.
+    """Index of a vector of one point relative to another.
 
     >>> relative("C", "B"), relative("top_pin", "cross_1")
     ('CB', 'top_pin/cross_1')

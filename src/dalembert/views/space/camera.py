@@ -1,4 +1,4 @@
-"""An orthographic camera: points of space on paper, and what stands in front of what."""
+"""An orthographic camera: projection of points in space onto paper, and their depth."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dalembert.arrays import Array
 
 @dataclass(frozen=True)
 class Camera:
-    """Looks at the origin from far away; z is up on paper.
+    """Orthographic view towards the origin; z is up on paper.
 
     ``azimuth`` is the angle of the eye in the xy plane from x towards y, ``elevation`` its angle above that plane
     (radians). Without numbers the view is isometric: x runs to the lower left, y to the lower right.
@@ -52,15 +52,15 @@ class Camera:
         return np.stack([self.right, self.up], axis=-1)
 
     def __call__(self, points: ArrayLike) -> Array:
-        """Places (..., 3) on paper (..., 2); vectors too, for the camera is linear."""
+        """Places (..., 3) on paper (..., 2); vectors too, since the camera is linear."""
         return np.asarray(np.asarray(points, float) @ self._paper)
 
     def depth(self, points: ArrayLike) -> Array:
-        """How near to the eye places (..., 3) are: larger is nearer."""
+        """Nearness to the eye of places (..., 3): larger is nearer."""
         return np.asarray(np.asarray(points, float) @ self.eye)
 
     def order(self, points: Sequence[ArrayLike]) -> list[int]:
-        """Numbers of things at some places, the farthest first: so drawn, near ones cover far ones.
+        """Indices of objects at some places, the farthest first: drawn in this order, near ones cover far ones.
 
         >>> Camera().order([[1, 1, 1], [0, 0, 0], [2, 2, 2]])
         [1, 0, 2]

@@ -1,4 +1,4 @@
-"""Friction in views through a camera: its forces and couples, circles of journals, which way guides slide."""
+"""Friction in views through a camera: its forces and couples, circles of journals, sliding directions of guides."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 SLID = 9.0
-"""Length of the arrow that says which way a link slides, mm."""
+"""Length of the arrow for the sliding direction of a link, mm."""
 
 
 def friction_wrench(r: Result, joint: str, link: str, k: int) -> tuple[Array, Array]:
@@ -34,7 +34,8 @@ def friction_wrench(r: Result, joint: str, link: str, k: int) -> tuple[Array, Ar
 
 
 def draw_friction(arrows: Arrows, joint: str, link: str, k: int) -> None:
-    """A joint's friction on a link: force and couple with their sizes, the circle of a journal, the way of a slide."""
+    """A joint's friction on a link: force and couple with their sizes, the circle of a journal, the direction of a
+    slide."""
     r, shown = arrows.r, arrows.shown
     at, (force, couple) = arrows.s(joint_place(r, joint)[k]), friction_wrench(r, joint, link, k)
     i, j = r.mechanism.joints[joint].links
@@ -52,7 +53,7 @@ def draw_friction(arrows: Arrows, joint: str, link: str, k: int) -> None:
 
 
 def draw_circle(canvas: Canvas, r: Result, s: Sight, joint: str, k: int) -> None:
-    """The friction circle of a journal about its axis, as it is seen; a dot is left out."""
+    """The friction circle of a journal about its axis, as projected; omitted if too small."""
     radius = circle_radius(r, joint, k)
     if radius / s.frame.per_mm < 0.4:
         return
@@ -64,7 +65,7 @@ def draw_circle(canvas: Canvas, r: Result, s: Sight, joint: str, k: int) -> None
 
 
 def _slide(arrows: Arrows, joint: str, link: str, k: int) -> None:
-    """An arrow beside the joint: how the link slides, or is about to slide, against the other one."""
+    """An arrow beside the joint: the actual or impending sliding of the link relative to the other one."""
     r, shown = arrows.r, arrows.shown
     i, j = r.mechanism.joints[joint].links
     sense = friction_sense(r, joint, "guide", k) * (1.0 if link == j else -1.0)
@@ -81,7 +82,7 @@ def _slide(arrows: Arrows, joint: str, link: str, k: int) -> None:
 
 
 def friction_details(r: Result, k: int, shown: Shown, link: str | None = None) -> list[Scene]:
-    """Journals seen along their axes, guides from the side, threads unrolled; of one link, or of all with words."""
+    """Journals seen along their axes, guides from the side, threads unrolled; for one link, or for all with words."""
     joints = [n for n in r.joints if link is None or link in r.mechanism.joints[n].links]
     known = [n for n in with_rough_guide(r, joints) if np.isfinite(r.reaction(n)[k]).all()]
     some = [(n, journal_detail) for n in journals(r, k, joints)] + [(n, guide_detail) for n in known]

@@ -28,38 +28,38 @@ if TYPE_CHECKING:
 
 
 def journals(r: Result, k: int, joints: Sequence[str]) -> list[str]:
-    """Those of some joints whose journal has friction that is known at a position."""
+    """Joints, among some, whose journal has known friction at a position."""
     return [n for n in joints if bearing_ends(r, n, "pin") and circle_radius(r, n, k) > 0]
 
 
 def circle_radius(r: Result, joint: str, k: int) -> float:
-    """Radius of the circle that the forces on a journal touch at a position, m; 0 where nothing bears."""
+    """Radius of the circle that the forces on a journal touch at a position, m; 0 without a bearing force."""
     found = [float(np.linalg.norm(_touch(end, bearing_axis(r, joint), k))) for end in _bearing(r, joint, k)]
     return max(found, default=0.0)
 
 
 def _bearing(r: Result, joint: str, k: int) -> list[BearingEnd]:
-    """The ends of a journal that carry more than rounding."""
+    """Ends of a journal with a force above rounding level."""
     ends = [end for end in bearing_ends(r, joint, "pin") if np.isfinite(end.force[k]).all()]
     largest = max((float(np.linalg.norm(end.force[k])) for end in ends), default=0.0)
     return [end for end in ends if float(np.linalg.norm(end.force[k])) > 1e-9 * largest]
 
 
 def _touch(end: BearingEnd, axis: Array, k: int) -> Array:
-    """From the axis to the line of the force (3,): the force has the moment of friction about the axis there."""
+    """Vector from the axis to the line of the force (3,), where the force has the moment of friction about the axis."""
     force = end.force[k]
     return np.asarray(-end.friction[k] * np.cross(axis[k], force) / (force @ force))
 
 
 def along_axis(axis: Array) -> Camera:
-    """A camera that a direction points to."""
+    """A camera towards which a direction points."""
     flat = math.hypot(float(axis[0]), float(axis[1]))
     azimuth = math.atan2(float(axis[1]), float(axis[0])) if flat > 1e-9 else -math.pi / 2
     return Camera(azimuth, math.atan2(float(axis[2]), flat))
 
 
 def journal_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bool = True) -> Scene:
-    """A journal at a scale at which its friction circle is seen, its axis towards the eye.
+    """A journal at a scale at which its friction circle is visible, its axis towards the eye.
 
     Lengths are to the scale stated; arrows show the lines and senses of the forces on one of its links only.
     """
@@ -91,7 +91,7 @@ def journal_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: 
 
 
 def _draw_link(canvas: Canvas, r: Result, joint: str, k: int, camera: Camera, shown: Shown, on: str) -> None:
-    """The link as lines towards its other points, as far as they are seen beside the axis."""
+    """The link as lines towards its other points, as far as they are visible beside the axis."""
     if on == GROUND:
         return
     away = [link_place(r, on, u)[k] - joint_place(r, joint)[k] for u in nodes(r, on).values()]
@@ -116,7 +116,7 @@ def _force(
 
 
 def _turning(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: str, ways: list[Array]) -> None:
-    """A curved arrow, away from the forces: how the link turns, or is about to turn, against the other one."""
+    """A curved arrow, away from the forces: the actual or impending rotation of the link relative to the other one."""
     i, j = r.mechanism.joints[joint].links
     sense = friction_sense(r, joint, "pin", k) * (1.0 if on == j else -1.0)
     if not np.isfinite(sense) or sense == 0:
@@ -132,7 +132,7 @@ def _turning(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: st
 
 
 def _words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[str]:
-    """The circle's law, which way the link turns, what friction there is about the axis."""
+    """Sentences on the circle's law, the link's sense of rotation, and the friction about the axis."""
     f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     mu = friction_coefficient(r, joint, k)
     kind = "R sin φ" if circle_kind(r.mechanism, r.mechanism.joints[joint]) == "sin" else "μ R"

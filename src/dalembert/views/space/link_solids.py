@@ -1,6 +1,6 @@
-"""The links of a result as solids in their own axes: bars and plates between joints, joints' symbols, feet on ground.
+"""Solids of a result's links in local axes: bars and plates between joints, joint symbols, supports on the ground.
 
-Pictures in space and 3-D files are made of the same solids. A mechanism of the plane has its links in layers along z.
+Pictures in space and 3-D files use the same solids. A planar mechanism has its links in layers along z.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ ROD = 0.8
 
 @dataclass(frozen=True)
 class Mount:
-    """A joint on its two links: points (3,) and axes (3, 3), a row each, in link axes, metres; i's slides' ends."""
+    """A joint on its two links: points (3,) and axes (3, 3), by rows, in link axes, metres; ends of the slides on i."""
 
     kind: str
     links: tuple[str, str]
@@ -88,7 +88,7 @@ def pose(r: Result, link: str, k: int) -> tuple[Array, Array]:
 
 
 def mount(r: Result, name: str) -> Mount:
-    """How a joint is mounted on its links; slides over all positions."""
+    """Mounting of a joint on its links, with the range of its slides over all positions."""
     m = r.mechanism
     joint = m.joints[name]
     points = tuple(lift(r, link, u) for link, u in zip(joint.links, m.joint_points(name), strict=True))
@@ -122,7 +122,7 @@ def _about_z(angle: float) -> Array:
 
 
 def _symbol(r: Result, m: Mount, size: float) -> Symbol:
-    """The joint's symbol, turned to where its links come from; in the plane its parts reach through the layers."""
+    """The joint's symbol, oriented by the directions of its links; in the plane its parts reach through the layers."""
     to = [_towards(r, m, end) for end in (0, 1)]
     low, high = m.low / size, m.high / size
     if m.links[0] != GROUND:
@@ -146,7 +146,8 @@ def _layers(r: Result, m: Mount) -> list[float]:
 
 
 def _towards(r: Result, m: Mount, end: int) -> Array:
-    """Unit vector in the joint's axes to the middle of the rest of a link; away from the other link without one."""
+    """Unit vector in the joint's axes to the middle of the rest of a link; away from the other link where there is no
+    rest."""
     here = m.points[end]
     rest = [p for p in nodes(r, m.links[end]).values() if np.linalg.norm(p - here) > 1e-9]
     if m.links[end] == GROUND or not rest:
@@ -157,7 +158,8 @@ def _towards(r: Result, m: Mount, end: int) -> Array:
 
 
 def nodes(r: Result, link: str) -> dict[str, Array]:
-    """What a link spans, in its axes: joints' points, then points that carry loads; its mass centre where alone."""
+    """Points that a link connects, in its axes: joints' points, then points that carry loads; the mass centre if it has
+    no others."""
     m = r.mechanism
     out: dict[str, Array] = {}
     for name, joint in m.joints.items():
@@ -172,7 +174,7 @@ def nodes(r: Result, link: str) -> dict[str, Array]:
 
 
 def _frame(r: Result, link: str, clear: dict[tuple[str, str], float], size: float) -> list[Solid]:
-    """Bars along the shortest tree between a link's nodes; a plate where they lie in one plane but not on a line."""
+    """Bars along the shortest tree between a link's nodes; a plate where they are coplanar but not collinear."""
     height = lift(r, link, (0.0,) * r.mechanism.dimension, size)
     places: list[Array] = []
     free: list[float] = []
@@ -208,7 +210,7 @@ def _tree(places: list[Array]) -> list[tuple[int, int]]:
 
 
 def _plate(places: Array, height: Array, size: float) -> list[Plate]:
-    """The convex outline of points in one plane, none of more than two on a line."""
+    """Convex outline of coplanar points; none if all are collinear."""
     middle = places.mean(axis=0)
     _, spread, axes = np.linalg.svd(places - middle)
     if spread[1] < 1e-3 * spread[0] or (len(spread) > 2 and spread[2] > 1e-3 * spread[0]):
@@ -219,7 +221,7 @@ def _plate(places: Array, height: Array, size: float) -> list[Plate]:
 
 
 def _feet(r: Result, m: Mount, clear: float, size: float) -> list[Solid]:
-    """What holds a joint to the ground: posts with hatched squares, at the ends of what a slide runs on."""
+    """Supports of a joint on the ground: posts with hatched squares, at the ends of a slide's rail."""
     end = m.links.index(GROUND)
     axes, at = m.axes[end], m.points[end]
     if m.kind in ("plane", "sphere_between_planes", "cylinder_between_planes") and end == 0:
@@ -243,7 +245,7 @@ def _feet(r: Result, m: Mount, clear: float, size: float) -> list[Solid]:
 
 
 def _down(r: Result, m: Mount, rail: Array | None) -> Array:
-    """The direction of a post: down, unless the joint's axis, its slide or the other link are there."""
+    """Direction of a post: down, unless the joint's axis, its slide or the other link is in the way."""
     other = m.links[1 - m.links.index(GROUND)]
     good = np.flatnonzero(r.ok)
     turn, at = pose(r, other, int(good[0]) if len(good) else 0)
@@ -283,7 +285,7 @@ def _foot(at: Array, down: Array, start: float, size: float) -> list[Solid]:
 
 
 def shape_solids(r: Result, link: str, size: float) -> list[Solid]:
-    """The shapes that a link is described by, in link axes; slender bars and meshes from files are left out."""
+    """Shapes in a link's description, in link axes; without slender bars and meshes from files."""
     m = r.mechanism
     height = lift(r, link, (0.0,) * m.dimension, size)
     out: list[Solid] = []

@@ -1,6 +1,6 @@
 """Solids through a camera as items of a Scene: cut into short pieces, the farthest painted first.
 
-Long solids are cut so that what passes in front of them covers only what it passes.
+Long solids are cut so that an object in front of them covers only the part behind it.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ LONGEST = 2.5
 """Length in mm of the pieces that solids are cut into."""
 
 LIGHT = np.array([0.35, 0.2, 0.91])
-"""Where light comes from: from above, a little from the right of the isometric eye."""
+"""Direction of the light: from above, slightly to the right of the isometric eye."""
 
 
 @dataclass(frozen=True)
 class Piece:
-    """Items and how near to the eye they are."""
+    """Items and their nearness to the eye."""
 
     depth: float
     items: tuple[Item, ...]
@@ -76,7 +76,7 @@ def _wire(points: Array, role: str, camera: Camera) -> Iterator[Piece]:
 
 
 def _cylinder(s: Cylinder, camera: Camera, capped: bool = True) -> Iterator[Piece]:
-    """Cut across; the side nearer to the eye shows its round end."""
+    """Pieces of a cylinder cut across; the side nearer to the eye shows its round end."""
     far, near = sorted((s.start, s.end), key=lambda p: float(camera.depth(p)))
     length = float(np.linalg.norm(near - far))
     if length < 1e-9:
@@ -111,7 +111,7 @@ def _cylinder(s: Cylinder, camera: Camera, capped: bool = True) -> Iterator[Piec
 
 
 def _back(s: Cylinder, camera: Camera, far: Array, along: Array) -> Array:
-    """Points of the half of the far end's circle that bounds what is seen."""
+    """Points of the half of the far end's circle that bounds the visible area."""
     u = np.cross(along, camera.eye)
     u = u / np.linalg.norm(u)
     v = np.cross(u, along)
@@ -135,7 +135,7 @@ def _thread(s: Cylinder, camera: Camera, far: Array, along: Array, count: int) -
 
 
 def _depth(camera: Camera, a: Array, b: Array, whole: bool) -> float:
-    """How near a piece between two places is: its middle, of a sleeve its end and a little more."""
+    """Nearness of a piece between two places: its middle, for a sleeve slightly nearer than its nearest end."""
     ends = camera.depth(np.array([a, b]))
     return float(ends.max() + 0.05 if whole else ends.mean())
 
@@ -153,7 +153,7 @@ def _ball(s: Ball, camera: Camera) -> Iterator[Item]:
 
 
 def _block(s: Block, camera: Camera) -> Iterator[Piece]:
-    """Cut across its longest side; the faces towards the eye, toned by the light."""
+    """Pieces of a block cut across its longest side; the faces towards the eye, shaded by the light."""
     axis = int(np.argmax(s.half))
     reach = s.half[axis] * s.axes[axis]
     places = _cuts(s.center - reach, s.center + reach, s.whole)
@@ -172,7 +172,7 @@ def _block(s: Block, camera: Camera) -> Iterator[Piece]:
 def _face(
     s: Block, camera: Camera, ends: tuple[Array, Array], axis: int, k: int, sign: float
 ) -> Iterator[Item]:
-    """One face of a piece of a block, with its own edges but not the cuts."""
+    """One face of a piece of a block, with its edges but without the cuts."""
     role = f"{s.role}-{_tone(sign * s.axes[k])}"
     others = [m for m in range(3) if m != k]
     if k == axis:
@@ -203,7 +203,7 @@ def _tone(normal: Array) -> str:
 
 
 def _plate(s: Plate, camera: Camera) -> Iterator[Piece]:
-    """Cut into small triangles about its middle, those at the rim with their part of the edge."""
+    """A plate cut into small triangles about its middle, those at the rim with their part of the edge."""
     middle, count = s.corners.mean(axis=0), len(s.corners)
     for n, (a, b) in enumerate(pairwise([*s.corners, s.corners[0]])):
         first, last = s.spoke and n == 0, s.spoke and n == count - 1
@@ -220,7 +220,7 @@ Rim = tuple[bool, bool, bool]
 
 
 def _cells(corners: Corners, rim: Rim) -> Iterator[tuple[Corners, Rim]]:
-    """A triangle in pieces no longer than three times the usual ones; which sides of each are at the rim."""
+    """Pieces of a triangle, at most three times as long as usual, and the sides of each that are on the rim."""
     lengths = [float(np.linalg.norm(corners[(k + 1) % 3] - corners[k])) for k in range(3)]
     k = int(np.argmax(lengths))
     if lengths[k] <= 3 * LONGEST:

@@ -1,7 +1,7 @@
-"""Simple solids in space: what pictures in space are painted from and what 3-D files are meshed from.
+"""Simple solids in space, painted in pictures and meshed in 3-D files.
 
-All lengths are in one unit that the maker chooses (millimetres of paper, or metres). A role says what a solid is, as in
-a Scene; what is seen through (a tube around a ball) is a Tube or a Pane.
+All lengths are in one unit, chosen by the caller (millimetres of paper, or metres). A role classifies a solid, as in a
+Scene; transparent solids (a tube around a ball) are a Tube or a Pane.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ Rotation = Array
 
 @dataclass(frozen=True)
 class Cylinder:
-    """A round bar from start to end; ``whole``: a sleeve, painted in one piece over what runs in it.
+    """A round bar from start to end; ``whole``: a sleeve, painted in one piece over the part inside it.
 
-    ``thread``: advance a turn of the thread on it, negative where it is left-handed, 0 where there is none.
+    ``thread``: advance per turn of its thread, negative if left-handed, 0 without a thread.
     """
 
     start: Array
@@ -43,7 +43,7 @@ class Ball:
 
 @dataclass(frozen=True)
 class Block:
-    """A box: axes (3, 3) are unit vectors, a row each, half (3,) its half lengths along them; ``whole`` as above."""
+    """A box: the rows of axes (3, 3) are unit vectors, half (3,) its half lengths along them; ``whole`` as above."""
 
     center: Array
     axes: Array
@@ -54,9 +54,8 @@ class Block:
 
 @dataclass(frozen=True)
 class Plate:
-    """A flat convex polygon of corners (n, 3), in order, with a thickness that pictures leave out.
-
-    ``spoke``: a line from its middle to the first corner shows how it is turned.
+    """A flat convex polygon of corners (n, 3), in order, with a thickness that pictures omit. ``spoke``: a line from
+    its middle to the first corner shows its rotation.
     """
 
     corners: Array
@@ -78,7 +77,7 @@ class Ring:
 
 @dataclass(frozen=True)
 class Tube:
-    """A cylinder that is seen through: its end circles and its outline."""
+    """A transparent cylinder: its end circles and its outline."""
 
     start: Array
     end: Array
@@ -88,7 +87,7 @@ class Tube:
 
 @dataclass(frozen=True)
 class Pane:
-    """A flat polygon that is seen through: its edges."""
+    """A transparent flat polygon: its edges."""
 
     corners: Array
     role: str = "guide"
@@ -134,7 +133,7 @@ def place_solids(solids: Sequence[Solid], turn: Rotation, at: Array, scale: floa
 
 
 def across(direction: Array) -> tuple[Array, Array]:
-    """Two unit vectors at right angles to a unit vector and to each other; the three are right-handed.
+    """Two unit vectors perpendicular to a unit vector and to each other; the three are right-handed.
 
     >>> [v.tolist() for v in across(np.array([0.0, 0.0, 1.0]))]
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
@@ -146,7 +145,7 @@ def across(direction: Array) -> tuple[Array, Array]:
 
 
 def helix(solid: Cylinder, count: int = 24) -> Array:
-    """Points (n, 3) of a cylinder's thread, so many a turn."""
+    """Points (n, 3) of a cylinder's thread, ``count`` per turn."""
     length = float(np.linalg.norm(solid.end - solid.start))
     along = (solid.end - solid.start) / length
     u, v = across(along)
@@ -156,7 +155,7 @@ def helix(solid: Cylinder, count: int = 24) -> Array:
 
 
 def circle(center: Array, axis: Array, radius: float, count: int = 32) -> Array:
-    """Points (count + 1, 3) of a circle about an axis, the first again at the end."""
+    """Points (count + 1, 3) of a circle about an axis, the first repeated at the end."""
     u, v = across(axis / np.linalg.norm(axis))
     t = np.linspace(0.0, 2 * np.pi, count + 1)[:, None]
     return np.asarray(center + radius * (np.cos(t) * u + np.sin(t) * v))

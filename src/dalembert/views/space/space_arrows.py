@@ -63,7 +63,7 @@ class Arrows:
         self.drawn = [False, False]
 
     def action(self, a: Action, k: int) -> None:
-        """The force of an action at its place and its couple; what is nothing beside the largest is left out."""
+        """The force of an action at its place and its couple; omitted where negligible next to the largest."""
         place, role = self.s(a.at[k]), role_of(a.kind)
         force, couple = np.linalg.norm(a.force[k]), np.linalg.norm(a.couple[k])
         if float(force) > self.floor[0]:
@@ -74,7 +74,7 @@ class Arrows:
             self.vector(place, a.couple[k], role, a.of, text, turning=True)
 
     def _text(self, name: str, kind: str, size: float) -> str:
-        """What is written beside an arrow."""
+        """Text beside an arrow."""
         if not self.values:
             return "" if self.values is None else name
         return f"{name} = {self.shown.text(kind, size)}"
@@ -82,7 +82,8 @@ class Arrows:
     def vector(
         self, at: Point, v: Array, role: str, of: str, text: str, turning: bool = False, inward: bool = False
     ) -> None:
-        """One arrow that leaves its place, or ends there where it pushes inwards; a moment stands a little aside."""
+        """One arrow that leaves its place, or ends there where it pushes inwards; a moment is drawn slightly to one
+        side."""
         if not np.isfinite(v).all():
             return
         per_mm, kind = (self.moment_per_mm, "moment-seen") if turning else (self.per_mm, "force-seen")
@@ -107,7 +108,7 @@ class Arrows:
         self.canvas.label(text, *along(at, far, 1.0, 0.8, 0.6), prefer=away, size=2.6, role=role)
 
     def scale_notes(self, everything: bool = False) -> tuple[list[str], dict[str, float]]:
-        """The scales of what was drawn, or of all that there is, as notes and as numbers."""
+        """The scales of the drawn arrows, or of all existing ones, as notes and as numbers."""
         force, moment = (
             [size > least for size, least in zip(self.sizes, self.floor, strict=True)]
             if everything
@@ -119,13 +120,13 @@ class Arrows:
 
 
 def _largest(vectors: list[Array]) -> float:
-    """The largest of vectors (..., 3), those that are not known left out."""
+    """The largest of the known vectors (..., 3)."""
     sizes = np.concatenate([np.zeros(1), *(np.ravel(np.linalg.norm(v, axis=-1)) for v in vectors)])
     return float(sizes[np.isfinite(sizes)].max())
 
 
 def pushes(r: Result, a: Action, k: int) -> bool:
-    """Whether a force points from its place towards the middle of its link."""
+    """True if a force points from its place towards the middle of its link."""
     if a.link == GROUND or a.kind in ("weight", "inertia"):
         return False
     return points_inwards(a, k, [link_place(r, a.link, u)[k] for u in nodes(r, a.link).values()])

@@ -1,4 +1,4 @@
-"""Free bodies in space: a link alone with all that acts on it, reactions in their joints' own axes."""
+"""Free bodies in space: a link alone with everything that acts on it, reactions in their joints' axes."""
 
 from __future__ import annotations
 
@@ -76,12 +76,13 @@ def space_free_body_scene(
 
 
 def joints_on(r: Result, link: str) -> list[str]:
-    """The joints of a link."""
+    """Joints of a link."""
     return [n for n in r.joints if link in r.mechanism.joints[n].links]
 
 
 class Reaction:
-    """A joint's force and moment (6,) on a link in its own axes, which of them are unique, which it can carry."""
+    """A joint's force and moment (6,) on a link in the joint's axes, which components are unique, and which it can
+    carry."""
 
     def __init__(self, joint: str, numbers: Array, unique: Flags, carried: Flags) -> None:
         self.joint, self.numbers, self.unique, self.carried = joint, numbers, unique, carried
@@ -97,7 +98,7 @@ def reaction(r: Result, joint: str, link: str, k: int) -> Reaction:
 
 
 def _friction(r: Result, joint: str, link: str, k: int, axes: list[Array]) -> Reaction:
-    """Friction's part of a reaction, in the joint's own axes."""
+    """Friction's part of a reaction, in the joint's axes."""
     parts = [e @ v for e, v in zip(axes, friction_wrench(r, joint, link, k), strict=True)]
     numbers = np.nan_to_num(np.concatenate(parts))
     least = 1e-12 * max(float(np.abs(numbers).max()), 1e-300)
@@ -120,7 +121,7 @@ def _sight(r: Result, link: str, k: int, camera: Camera) -> Sight:
 
 
 def _components(arrows: Arrows, at: Point, link: str, name: str, axes: list[Array], numbers: Array) -> None:
-    """Arrows along the joint's axes, which a prime marks."""
+    """Arrows along the joint's axes, whose names have a prime."""
     for turning in (False, True):
         part = numbers[3:] if turning else numbers[:3]
         for axis, value, e in zip(AXES, part, axes[turning], strict=True):
@@ -134,14 +135,14 @@ def _describe_rows(rows: list[Reaction]) -> str:
     free = [row.joint for row in rows if not row.unique[row.carried].all()]
     text = "Reactions on this link, along the axes x', y', z' of each joint"
     if any(row.joint == FRICTION for row in rows):
-        text += ", friction in them; its part stands below each, and as arrows of its own"
+        text += ", friction included; friction's part is below each, and has separate arrows"
     if free:
         text += "; in brackets, of " + ", ".join(free) + ": not unique, least-norm values"
     return f"{text}." if rows else ""
 
 
 def _table(rows: list[Reaction], shown: Shown, floor: tuple[float, float], at: Point) -> list[Item]:
-    """The reactions' components, a row a joint; what a joint cannot carry has a stroke."""
+    """Table of the reactions' components, one row per joint; components that a joint cannot carry have a dash."""
     units = [shown.unit("force")] * 3 + [shown.unit("moment")] * 3
     head = ["", *(f"{letter}_{{{axis}'}}" for letter in "FM" for axis in AXES)]
     cells = [head, ["", *units], *([row.joint, *_numbers(row, shown, floor)] for row in rows)]

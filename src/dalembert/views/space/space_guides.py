@@ -1,4 +1,4 @@
-"""Guides and threads of space laid out on paper: which way the slide runs, where its ends bear, in words too."""
+"""Guides and threads in space drawn in a plane: sliding direction and bearing ends, also described in sentences."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ def slide_on_paper(r: Result, joint: str, k: int) -> Array:
 
 
 def guide_layout(r: Result, joint: str) -> str:
-    """How a guide of space is laid on paper."""
+    """Description of the projection in which a spatial guide is drawn."""
     if r.mechanism.joints[joint].pair.threaded:
         return "the thread unrolled at its mean radius, the axis upward"
     return "forces turned about the slide into the paper"
 
 
 def ends_on_paper(r: Result, joint: str) -> list[FaceForce]:
-    """Where a guide bears: behind on the lower face, ahead on the side that it is nearer to; a thread on its flank."""
+    """Bearing forces of a guide: behind on the lower face, ahead on the nearer side; of a thread on its flank."""
     if r.mechanism.joints[joint].pair.threaded:
         return _flank(r, joint)
     ends = [end for end in bearing_ends(r, joint, "guide") if np.isfinite(end.force).all()]
@@ -62,7 +62,7 @@ def _flank(r: Result, joint: str) -> list[FaceForce]:
 
 
 def ends_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
-    """How much each end of a guide bears, and how far one is turned from the other; how steep a thread is."""
+    """Sentences on the force at each end of a guide and the angle between the two; on the lead angle of a thread."""
     if r.mechanism.joints[joint].pair.threaded:
         return _thread_words(r, joint, k, shown)
     ends = [end.force[k] for end in bearing_ends(r, joint, "guide")]
@@ -74,7 +74,7 @@ def ends_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
     words = f"The guide bears with {figures[0]} behind and {figures[1]} ahead"
     if min(size) > 1e-9 * max(size):
         angle = math.acos(np.clip(ends[0] @ ends[1] / (size[0] * size[1]), -1.0, 1.0))
-        words += f", in truth {shown.notation.degrees(angle)}° apart"
+        words += f", actually {shown.notation.degrees(angle)}° apart"
     return [f"{words}.", ahead]
 
 

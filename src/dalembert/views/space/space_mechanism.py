@@ -1,4 +1,4 @@
-"""A mechanism in space through a camera: links, joints' plane_symbols, ground, loads, traces, names; to scale."""
+"""A mechanism in space through a camera: links, joint symbols, ground, loads, traces, names; to scale."""
 
 from __future__ import annotations
 
@@ -45,8 +45,8 @@ def space_mechanism_scene(
 ) -> Scene:
     """The mechanism at one position; with ``forces`` the efforts, weights and inertia forces too.
 
-    Lengths and forces are to scale, both stated below; vectors are seen shorter by their slope to the paper. With
-    ``friction`` (where there is some) the friction circles, and journals and guides at a larger scale.
+    Lengths and forces are to scale, both stated below; vectors are foreshortened by their slope to the paper. With
+    ``friction`` (if any) the friction circles, and journals and guides at a larger scale.
     """
     shown = Shown(r, notation or Notation(), k)
     s = whole_sight(r, k, camera, WIDTH, HEIGHT)
@@ -91,7 +91,7 @@ def rims(r: Result, link: str, k: int) -> list[Array]:
 
 
 def whole_sight(r: Result, k: int, camera: Camera, width: float, height: float) -> Sight:
-    """A view that holds all positions where there are traces, else this one."""
+    """A view for all positions if traces are drawn, else for this one."""
     places = every_place(r, k)
     if len(r.status) > 2:
         some = np.unique(np.linspace(0, len(r.status) - 1, 24).astype(int))
@@ -128,7 +128,7 @@ def draw_machine(canvas: Canvas, r: Result, k: int, s: Sight) -> None:
 
 
 def _turn_symbol(kind: str, at: Point, x: Array, y: Array) -> list[Line]:
-    """The symbol of a load in a joint's turn, seen aslant: ``x`` and ``y`` are the axes of its plane on paper."""
+    """The symbol of a load in a joint's turn, in projection: ``x`` and ``y`` are the axes of its plane on paper."""
     parts = [item.points for item in plane_symbols.TURNS[kind]((0.0, 0.0))]  # type: ignore[union-attr]
     seen = [[np.asarray(at) + a * x + b * y for a, b in points] for points in parts]
     return [Line(tuple((float(px), float(py)) for px, py in points), "spring") for points in seen]

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 NOTHING = 1e-9
-"""A force, or a moment over the machine's length, below this part of the largest of both is rounding."""
+"""A force, or a moment over the machine's length, below this fraction of the largest of both is rounding error."""
 
 View = Camera | str | tuple[float, float] | None
 
@@ -41,13 +41,13 @@ def camera_of(view: View) -> Camera:
     if isinstance(view, tuple):
         return Camera(*(math.radians(angle) for angle in view))
     if view not in CAMERAS:
-        raise ModelError(f"there is no view {view!r}", closest(view, list(CAMERAS)))
+        raise ModelError(f"unknown view {view!r}", closest(view, list(CAMERAS)))
     return CAMERAS[view]
 
 
 @dataclass(frozen=True)
 class Sight:
-    """A camera, and the scale of what it sees."""
+    """A camera with its scale."""
 
     camera: Camera
     frame: Frame
@@ -57,7 +57,7 @@ class Sight:
         return self.frame(self.camera(p))
 
     def ahead(self, start: Point, v: Array, per_mm: float) -> Point:
-        """The head of an arrow that starts at a place on paper and stands for a vector of space."""
+        """Head of an arrow from a point on paper that represents a vector in space."""
         dx, dy = self.camera(v) / per_mm
         return start[0] + float(dx), start[1] + float(dy)
 
@@ -87,7 +87,7 @@ def standing(r: Result, k: int, size: float, links: Iterable[str] | None = None)
 
 
 def triad(canvas: Canvas, camera: Camera, at: Point, length: float = 9.0) -> None:
-    """The ground axes, as long as they are seen; one that is seen from its end is left out."""
+    """The ground axes, foreshortened; an axis along the line of sight is omitted."""
     for name, e in zip("xyz", camera(np.eye(3)), strict=True):
         head = (at[0] + length * float(e[0]), at[1] + length * float(e[1]))
         if math.dist(at, head) > 0.5:
@@ -96,7 +96,7 @@ def triad(canvas: Canvas, camera: Camera, at: Point, length: float = 9.0) -> Non
 
 
 def end_on(at: Point, towards: bool, role: str) -> list[Item]:
-    """A vector seen from its end: a dot in a circle towards the eye, a cross away from it."""
+    """A vector along the line of sight: a dot in a circle towards the eye, a cross away from it."""
     ring: list[Item] = [Circle(at, 1.1, f"{role}-end")]
     if towards:
         return [*ring, Circle(at, 0.3, role)]
@@ -106,15 +106,16 @@ def end_on(at: Point, towards: bool, role: str) -> list[Item]:
 
 
 def foreshortening_note(camera: Camera) -> str:
-    """How much shorter the axes are seen, in words."""
+    """Sentence on the foreshortening of the axes."""
     short = np.linalg.norm(camera(np.eye(3)), axis=-1)
-    return f"along x, y and z they are seen {', '.join(f'{x:.3f}' for x in short)} of it"
+    return f"foreshortening along x, y and z: {', '.join(f'{x:.3f}' for x in short)}"
 
 
 def scale_notes(
     shown: Figures, s: Sight, force: float | None, moment: float | None = None
 ) -> tuple[list[str], dict[str, float]]:
-    """The scales as a note and as numbers: lengths across the view are to scale, others shorter by their slope."""
+    """The scales as a note and as numbers: lengths across the line of sight are to scale, others foreshortened by their
+    slope."""
     parts = [f"lengths across the view: 1 mm = {shown.plain('length', s.frame.per_mm)}"]
     scales = {"length": s.frame.per_mm}
     if force:

@@ -24,7 +24,7 @@ from dalembert.views.space.solids import (
 )
 
 AROUND = 24
-"""Corners of what is round."""
+"""Corners of round outlines."""
 
 WIRE = 0.12
 """Radius of wires over that of a link's bars."""
@@ -39,7 +39,7 @@ class Mesh(NamedTuple):
 
 
 def join_meshes(meshes: Iterable[Mesh]) -> Mesh:
-    """Several as one."""
+    """Several meshes as one."""
     points, normals, triangles, count = [], [], [], 0
     for mesh in meshes:
         points.append(mesh.points)
@@ -74,7 +74,7 @@ def mesh(solid: Solid, rod: float) -> Mesh:
 
 
 def _side(ring: Array, along: Array) -> Mesh:
-    """The round side of a cylinder from its first ring, whose first corner is there again at its end."""
+    """The round side of a cylinder from its first ring, whose first corner is repeated at its end."""
     count = len(ring) - 1
     middle = ring[:-1].mean(axis=0)
     out = (ring - middle) / np.linalg.norm(ring[0] - middle)
@@ -113,7 +113,7 @@ def _ball(s: Ball) -> Mesh:
 
 
 def _grid(rows: int, columns: int) -> Array:
-    """Triangles of a grid of (rows + 1, columns + 1) corners; none of no area at its first and last row."""
+    """Triangles of a grid of (rows + 1, columns + 1) corners; without degenerate ones in its first and last row."""
     r, c = np.meshgrid(np.arange(rows), np.arange(columns), indexing="ij")
     a = (r * (columns + 1) + c).ravel()
     b, d = a + columns + 1, a + 1
@@ -144,7 +144,7 @@ def _block(s: Block) -> Mesh:
 
 
 def _plate(corners: Array, thickness: float) -> Mesh:
-    """A flat polygon made thick to both sides."""
+    """A flat polygon thickened to both sides."""
     normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
     normal = normal / np.linalg.norm(normal)
     up = 0.5 * thickness * normal

@@ -1,4 +1,4 @@
-"""Wheels of joints as solids in their links' axes; a mechanism of the plane has its links in layers along z."""
+"""Wheels of joints as solids in their links' axes; a planar mechanism has its links in layers along z."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 LAYER = 2.2
-"""Distance of the layers of a plane mechanism, mm."""
+"""Distance of the layers of a planar mechanism, mm."""
 
 
 def lift(r: Result, link: str, u: Sequence[float] | Array, size: float = 0.0) -> Array:
@@ -26,7 +26,7 @@ def lift(r: Result, link: str, u: Sequence[float] | Array, size: float = 0.0) ->
 
 
 def wheels(r: Result, name: str, size: float = 0.0) -> list[tuple[str, Array, Array, float]]:
-    """Link, centre, axis, both in link axes, and pitch radius of the wheels of a gear or rolling joint."""
+    """Link, centre and axis in link axes, and pitch radius, of the wheels of a gear or rolling joint."""
     joint: Any = r.mechanism.joints[name]
     axes = [np.array(f[2]) for f in joint.frames] if r.mechanism.dimension == 3 else [np.eye(3)[2]] * 2
     places = zip(joint.links, r.mechanism.joint_points(name), axes, joint.pitch_radii, strict=True)

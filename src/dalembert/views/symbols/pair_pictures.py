@@ -16,13 +16,13 @@ from dalembert.views.symbols.pair_symbols import symbol
 from dalembert.wording import closest
 
 FORCE, MOMENT, END, LARGER = (11.0, 18.5), (20.0, 27.5), 30.0, 1.8
-"""Where along its axis a force, a moment and the end of the axis stand, mm, to no scale; symbols that much larger."""
+"""Distances along an axis of a force, a moment and the end of the axis, mm, not to scale; factor on symbols."""
 
 
 def pair_scene(kind: str, camera: Camera) -> Scene:
-    """One joint: what is on i is blue, what is on j is yellow; forces with one head, moments with two."""
+    """One joint: the part on i is blue, the part on j yellow; forces with one head, moments with two."""
     if kind not in PAIRS:
-        raise ModelError(f"there is no joint {kind!r} in space", closest(kind, list(PAIRS)))
+        raise ModelError(f"unknown joint {kind!r} in space", closest(kind, list(PAIRS)))
     pair, found = PAIRS[kind], symbol(kind)
     canvas = Canvas()
     seen = dict(zip(AXES, camera(np.eye(3)), strict=True))
@@ -62,7 +62,7 @@ def sorted_kinds() -> list[str]:
 
 
 def words(kind: str) -> str:
-    """A joint's name in words.
+    """A joint's name as text.
 
     >>> words("sphere_in_cylinder")
     'Sphere in cylinder'
@@ -71,7 +71,7 @@ def words(kind: str) -> str:
 
 
 def describe_kind(kind: str) -> str:
-    """What a joint leaves free and what it carries.
+    """Freedoms of a joint, and the components of force and moment that it carries.
 
     >>> describe_kind("cylindrical")
     '1 turn, 1 slide; Fy Fz My Mz.'

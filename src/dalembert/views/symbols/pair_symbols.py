@@ -1,6 +1,6 @@
-"""Symbols of the joints in space, as solids in the joint's own axes about its point: what is on i and what is on j.
+"""Symbols of the joints in space, as solids in the joint's axes about its point: the part on i and the part on j.
 
-To add a joint, add its symbol to ``SYMBOLS``. Lengths are in millimetres of paper; ``reach`` says how far a slide goes.
+To add a joint, add its symbol to ``SYMBOLS``. Lengths are in millimetres of paper; ``reach`` is the travel of a slide.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Symbol(NamedTuple):
 
 @dataclass(frozen=True)
 class Setting:
-    """What a symbol depends on: where the links come from (unit vectors in the joint's axes), how far the slides go.
+    """Data of a symbol: directions to the links (unit vectors in the joint's axes), and travel of the slides.
 
     ``low`` and ``high``: ends of each slide along x, y, z from i's point, mm.
     """
@@ -64,7 +64,7 @@ def _block(
 
 
 def _rails(s: Setting, beyond: float = 5.0) -> tuple[float, float]:
-    """Ends of what a slide along x runs on."""
+    """Ends of the rails of a slide along x."""
     return float(s.low[0]) - beyond, float(s.high[0]) + beyond
 
 
@@ -98,7 +98,7 @@ def _screw(s: Setting) -> Symbol:
 
 
 def _fork(pin: Array, to: Array, role: str, half: float, base: float) -> list[Solid]:
-    """A pin with two arms that lead to where its link comes from."""
+    """A pin with two arms that lead towards its link."""
     away = to - (to @ pin) * pin
     size = float(np.linalg.norm(away))
     away = away / size if size > 0.2 else np.cross(pin, X if abs(pin[0]) < 0.9 else Y)

@@ -1,4 +1,4 @@
-"""The field's symbols, each a list of primitives about a place on paper, sizes in mm."""
+"""Symbols of mechanisms, each a list of primitives about a place on paper, sizes in mm."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def spring(a: Point, b: Point) -> list[Item]:
 
 
 def torsion_spring(at: Point) -> list[Item]:
-    """A spiral about a joint, held outside."""
+    """A spiral about a joint, with a fixed outer end."""
     turns, least, most = 2.25, PIN + 0.5, 4.2
     way = [k / 60 for k in range(61)]
     spiral = [
@@ -144,7 +144,7 @@ def strip_spring(a: Point, b: Point, turns: float = 2.5) -> list[Item]:
 def cylinder(base: Point, end: Point, shortest: float, longest: float) -> list[Item]:
     """A hydraulic cylinder between its pins: barrel, piston and rod, for the shortest and longest of its lengths in mm.
 
-    Barrel and rod are as long as the shortest length holds; the piston stays in the barrel.
+    Barrel and rod are as long as the shortest length allows; the piston stays in the barrel.
     """
     length, angle = math.dist(base, end), math.atan2(end[1] - base[1], end[0] - base[0])
     half = min(2.2, 0.16 * shortest)

@@ -33,7 +33,7 @@ from dalembert.kernel.emit.wasm.instructions import (
 )
 
 WHOLE = 2.0**52
-"""Added to a number below it, the sum holds the number as an integer in its low bits."""
+"""Constant that, added to a smaller number, gives a sum with the number as an integer in its low bits."""
 EXP_P = (1.26177193074810590878e-4, 3.02994407707441961300e-2, 9.99999999999999999910e-1)
 EXP_Q = (3.00198505138664455042e-6, 2.52448340349684104192e-3, 2.27265548208155028766e-1, 2.0)
 LN2_HIGH, LN2_LOW = 6.93145751953125e-1, 1.42860682030941723212e-6
@@ -153,7 +153,7 @@ def _logarithm(f: Function, x: bytes) -> bytes:
 
 
 def _sign(f: Function, x: bytes) -> bytes:
-    """1, 0 or -1; no number where x is none."""
+    """1, 0 or -1; NaN for NaN."""
     one = f.number(1.0)
     plus, minus = x + f.number(0.0) + GREATER + one + AND, x + f.number(0.0) + LESS + one + AND
     return f.choose(x + x + EQUAL, plus + minus + SUB, x)
@@ -170,4 +170,4 @@ FUNCTIONS: dict[str, Callable[..., bytes]] = {
     "exp": _exponential,
     "log": _logarithm,
 }
-"""What needs its argument more than once is a function of the module."""
+"""Functions of the module for operations that use their argument more than once."""

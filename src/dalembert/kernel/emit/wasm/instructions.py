@@ -42,17 +42,17 @@ def lanes(opcode: int) -> bytes:
 
 
 def get(local: int) -> bytes:
-    """Put a local on the stack."""
+    """Instruction that pushes a local on the stack."""
     return b"\x20" + unsigned(local)
 
 
 def put(local: int) -> bytes:
-    """Take a local from the stack."""
+    """Instruction that pops a local from the stack."""
     return b"\x21" + unsigned(local)
 
 
 def integer(n: int) -> bytes:
-    """Put an i32 on the stack."""
+    """Instruction that pushes an i32 on the stack."""
     return b"\x41" + signed(n)
 
 
@@ -108,7 +108,7 @@ class Constants:
 
 
 class Function:
-    """A function under way: a value is the code that puts it on the stack; what is kept has a local of its own."""
+    """A function being written: a value is the code that pushes it on the stack; kept values are in locals."""
 
     def __init__(self, parameters: int, constants: Constants) -> None:
         self.first = self.count = parameters
@@ -127,7 +127,7 @@ class Function:
         return get(self.count - 1)
 
     def change(self, kept: bytes, value: bytes) -> None:
-        """Another value for a kept one."""
+        """Assigns a new value to a kept one."""
         self.put(value, b"\x21" + kept[1:])
 
     def choose(self, test: bytes, a: bytes, b: bytes) -> bytes:
@@ -142,7 +142,7 @@ class Function:
         return total
 
     def definition(self) -> bytes:
-        """As a module holds it: its locals, all of two lanes, and its code."""
+        """Definition in the module: its locals, all of two lanes, and its code."""
         kept = self.count - self.first
         held = (b"\x01" + unsigned(kept) + b"\x7b" if kept else b"\x00") + b"".join(self.code) + END
         return unsigned(len(held)) + held

@@ -1,9 +1,9 @@
-"""A program as one module: its function ``run`` goes over blocks of two positions, all in one memory.
+"""A program as one module: its function ``run`` evaluates blocks of two positions, all in one memory.
 
 ``run(values, path, out, blocks)`` takes addresses in bytes of the exported ``memory``: values (number), path (channel,
-row), out (output, row) with the mark of each position (``CODES``) as one more output. ``row`` is fixed when the module
-is made, so that every load and store has its place as an immediate. Constants stand from address 0 on; what is above
-the heap's address is free. Nothing is imported.
+row), out (output, row) with the status code of each position (``CODES``) as one more output. ``row`` is fixed when the
+module is made, so that every load and store has an immediate address. Constants start at address 0; memory above the
+heap's address is free. The module has no imports.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ TWO: dict[str, Callable[[bytes, bytes], bytes]] = {
 
 
 class Module:
-    """One program under way: ``values`` holds the code of each node by its index."""
+    """One program being written: ``values`` holds the code of each node by its index."""
 
     def __init__(self, program: Program, row: int) -> None:
         self.program, self.row = program, row
@@ -89,7 +89,7 @@ class Module:
         self.kept = self._kept()
 
     def _kept(self) -> set[int]:
-        """Nodes that need a local: used more than once, or in another part of the code than their own."""
+        """Nodes that need a local: used more than once, or in another part of the code than where they are computed."""
         p = self.program
         parts = {n.index: k for k, part in enumerate((p.design, p.position, p.seldom, p.rare)) for n in part}
         uses = Counter(x.index for n in p.order for x in (n.a, n.b) if x is not None)
@@ -115,13 +115,13 @@ class Module:
             self.values[n.index] = f.keep(value) if n.index in self.kept else value
 
     def below(self, nodes: Sequence[Node], numbers: bool = True) -> bytes:
-        """Lanes where some node is below zero, or else (``numbers`` False) no number either."""
+        """Lanes where some node is negative, or (``numbers`` False) NaN."""
         zero = self.run.number(0.0)
         tests = [self.values[n.index] + zero + (LESS if numbers else AT_LEAST + NOT) for n in nodes]
         return b"".join(tests) + OR * (len(tests) - 1) if tests else zero
 
     def marks(self) -> bytes:
-        """The mark of each lane, as a number."""
+        """The status code of each lane."""
         f, m = self.run, self.program.marks
         found = {"open": self.below(m.open), "rest": f.keep(self.below(m.rest))}
         found["slope"] = self.below(m.slope, False)
@@ -139,7 +139,7 @@ class Module:
         return code
 
     def _seldom(self, slips: bytes, turned: bytes, rest: bytes) -> tuple[bytes, bytes, bytes]:
-        """Lanes in doubt, jammed and self-locking; what is seldom asked is jumped over where no lane asks."""
+        """Lanes in doubt, jammed and self-locking; rarely needed flags are skipped where no lane needs them."""
         f, m = self.run, self.program.marks
         unsure = f.keep(self.below(m.unsure, False))
         asking = unsure + turned + OR if m.locked else unsure
@@ -202,7 +202,8 @@ class Module:
 
 
 def emit_wasm(program: Program, row: int) -> tuple[bytes, int]:
-    """The module of a program without common inputs, for rows of ``row`` numbers (even), and where its heap begins."""
+    """The module of a program without common inputs, for rows of ``row`` numbers (even), and the address of its
+    heap."""
     if row % LANES or row <= 0:
-        raise ValueError(f"rows of {row} numbers are no whole blocks of {LANES}")
+        raise ValueError(f"a row of {row} numbers is not a multiple of {LANES}")
     return Module(program, row).assemble()
