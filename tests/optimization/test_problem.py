@@ -78,7 +78,9 @@ def test_a_condition_that_is_broken_everywhere_has_a_size_too() -> None:
 
 @pytest.mark.parametrize("text", ["transmission.B", "a.O >=", ">= 3", "a.O = 3", "a.O >= 3 >= 1"])
 def test_a_condition_that_is_none(text: str) -> None:
-    with pytest.raises(ModelError, match=re.escape(f"{text!r} is no condition; write one with a single >=")):
+    with pytest.raises(
+        ModelError, match=re.escape(f"{text!r} is not a condition; write one with a single >=")
+    ):
         parse_condition(text)
 
 
