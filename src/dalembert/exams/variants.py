@@ -1,4 +1,4 @@
-"""Variants of a problem: random values until enough sound problems are found, all different."""
+"""Variants of a problem: random values until enough sound problems exist, all different."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 class LinkAxes:
     """Rotation (P, 3, 3) of a link; ``turning`` (T, 3): its angular speeds and accelerations, and ``rate`` (P, 3, 3):
-    what times an arm is its acceleration, in own axes; both 0 where the analysis is without inertia."""
+    the matrix that gives the acceleration of an arm, in link axes; both 0 where the analysis is without inertia."""
 
     def __init__(self, r: Result, link: str) -> None:
         self.r, self.link = r, link

@@ -327,7 +327,7 @@ class Mechanism(Part):
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
         """Write it to a .yaml, .json or .toml file; raises ModelError if the file exists and not `overwrite`.
 
-        What came from a file is written as its author wrote it: only the characters of changed values change. Tables
+        The text of a file is kept as its author wrote it: only the characters of changed values change. Tables
         whose columns are in a file of the same folder stay there; in another folder they are written out.
         """
         from dalembert.model.files.model_files import format_of, save_text

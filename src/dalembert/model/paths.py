@@ -253,7 +253,7 @@ def _require_known(key: str, choices: list[str], here: tuple[str, ...]) -> None:
 
 
 def _rebuilt(part: Part, name: str, inner: object, rules: Reading, here: tuple[str, ...]) -> Part:
-    """The part with one field replaced; the complete mechanism is rebuilt by its own method, once."""
+    """The part with one field replaced; the complete mechanism is rebuilt once, by its method."""
     if len(here) == 1:
         return part.model_copy(update={name: inner})
     keys = {**fields(part), **dict.fromkeys(part.replaced_by(name, inner)), name: inner}

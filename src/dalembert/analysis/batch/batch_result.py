@@ -80,9 +80,9 @@ def mark_overflow(code: NDArray[np.uint8], arrays: dict[str, Array], rates: dict
 class BatchResult(NamedAnswer):
     """Answer for many designs: arrays (design, position), or (design,) where reduced over the positions.
 
-    SI and radians, vectors in ground axes with their components last. NaN where there is no answer; ``status`` says
-    why. Where contacts reverse the numbers are those just before, and ``after`` is the complete answer with those just
-    after; None where nothing reverses, and where reduced: reductions are over both.
+    SI and radians, vectors in ground axes with their components last. NaN where unsolved; ``status`` gives the reason.
+    Where contacts reverse the numbers are those just before, and ``after`` is the complete answer with those just
+    after; None where no contact reverses, and where reduced: reductions are over both.
     """
 
     kernel: Any = field(compare=False)

@@ -57,9 +57,9 @@ def compile(  # noqa: A001
     outputs: names such as ``effort.O2``, ``reaction.A``, ``angle.coupler``; default all efforts and reactions
     that are unique. reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope`` or others (docs/kernel.md);
     default none. derivatives: exact ones of every output with respect to every number. static: leave inertia out.
-    lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
-    Raises ModelError for what only the analyses can do (unknown positions, what redundant
-    constraints leave undetermined).
+    lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default those of the processor.
+    Raises ModelError for cases that only the analyses support (unknown positions, reactions that
+    redundant constraints leave undetermined).
 
     >>> import dalembert as da
     >>> k = da.compile(da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"])

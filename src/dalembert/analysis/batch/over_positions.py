@@ -25,7 +25,7 @@ PARTS: dict[str, tuple[str, ...]] = {
 """Largest magnitude; mean; root mean square; (least, largest); place of the largest magnitude, from 0; the smooth
 stand-in of the peak, the eighth root of the mean of the eighth powers; and the peak between the positions, by a
 parabola through the largest magnitude and its neighbours, and its place; the sum of squares, of the differences to a
-target where there is one."""
+target if one is given."""
 
 POWER = {"rms": 2, "norm8": 8}
 """Reductions that are means of powers, with their root taken."""
@@ -165,7 +165,7 @@ def reduce_sides(reduce: str, sides: Sequence[Array], cycle: bool = False) -> Ar
 
 
 def larger_side(by: Sequence[Array], sides: Sequence[Array]) -> Array:
-    """Of one or two arrays, the one whose place in ``by`` has the larger magnitude; these may have fewer axes."""
+    """The one of one or two arrays whose place in ``by`` has the larger magnitude; these may have fewer axes."""
     if len(sides) == 1:
         return sides[0]
     second = np.abs(by[1]) > np.abs(by[0])

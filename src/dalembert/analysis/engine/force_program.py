@@ -192,7 +192,7 @@ def _below(k: ForceProgram, name: str, out: Array) -> Flags:
 
 
 def _locked(k: ForceProgram, out: Array) -> tuple[Flags, Flags]:
-    """Where friction reverses the sign of the power of the unknowns, and where that, or friction, is in doubt."""
+    """Flags where friction reverses the sign of the power of the unknowns, and where that, or friction, is in doubt."""
     doubt = _below(k, "unsure", out) & _below(k, "sure", out)
     turned = _below(k, "turned", out)
     locked = turned & _below(k, "locked", out) if k.nodes["mark locked"].size else turned

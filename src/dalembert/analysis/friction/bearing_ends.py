@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 class BearingEnd:
     """An end of a bearing or guide, or the complete one if its lengths are not given, over P positions.
 
-    part: `behind` or `ahead` of j's point along the axis, or empty; along: distance from that point, m force (P, 3):
-    across the axis, on j, ground axes; friction (P,): couple about the axis or force along it, on j
+    part: `behind` or `ahead` of j's point along the axis, or empty; along: distance from that point, m
+    force (P, 3): across the axis, on j, ground axes; friction (P,): couple about the axis or force along it, on j
     """
 
     part: str

@@ -24,12 +24,13 @@ NOTHING = 1e-9
 class Efficiency:
     """Efficiency of a machine with friction.
 
-    At a reversal forward and reverse are those just before it. forward (P,): of the drive against the load, static:
-    effort without friction over effort with it; 0 where it jams reverse (P,): of the load against the drive, static; 0
-    or less where the machine locks itself, or where the drive must help the load against damping at this speed
-    (``damped``) cycle: work that arrives over work put in, all positions together; put_in and lost are those works, J
-    share: part of the work put in that is lost in each joint, by dry and viscous friction by_load: the drives act with
-    known efforts, and the load is unknown
+    At a reversal forward and reverse are those just before it.
+    forward (P,): of the drive against the load, static: effort without friction over effort with it; 0 where it jams
+    reverse (P,): of the load against the drive, static; 0 or less where the machine locks itself, or where the drive
+    must help the load against damping at this speed (``damped``)
+    cycle: work that arrives over work put in, all positions together; put_in and lost are those works, J
+    share: part of the work put in that is lost in each joint, by dry and viscous friction
+    by_load: the drives act with known efforts, and the load is unknown
     """
 
     forward: Array
@@ -62,9 +63,9 @@ def efficiency(r: Result) -> Efficiency:
     Forward is the sense of motion in which the drives (and the unknown loads) put power in: eta = P0 / P; reverse the
     other one, in which they take it out: eta = P / P0, with P0 the power in the same sense with the same loads but
     without the joints' friction, dry and viscous, inertia left out. Where drives act with known efforts, P is the power
-    of the unknown loads alone: they put power in in reverse, so that the two are interchanged. Over the cycle: (W - L)
-    / W, with W the work of the drives, or of the loads where those drive, and L what the joints lose. NaN where nothing
-    moves.
+    of the unknown loads alone: they put power in in reverse, so that the two are interchanged.
+    Over the cycle: (W - L) / W, with W the work of the drives, or of the loads where those drive, and L what the joints
+    lose. NaN where the machine does not move.
 
     >>> import dalembert as da
     >>> r = da.statics(da.mechanism({

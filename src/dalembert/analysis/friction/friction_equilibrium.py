@@ -2,8 +2,8 @@
 
 Where all contacts slip their senses follow from the motion, and friction is the solution of one system of equations per
 position. Where a rate is zero for an instant only (a dead centre) there are two solutions, just before and just after.
-Where a contact stays at rest every unknown lies in an interval; at its ends motion impends. Mechanics: docs/theory.md
-6.2.
+Where a contact stays at rest every unknown lies in an interval; at its ends motion impends.
+Mechanics: docs/theory.md 6.2.
 """
 
 from __future__ import annotations

@@ -134,9 +134,10 @@ class GuideContact:
     """Contact of a guide, over P positions.
 
     normal, couple (P,): resultants of the contact forces about j's point; lower, upper (P,): loads on the two faces,
-    both positive mode: `lower face`, `upper face`, or the diagonals `lower ahead, upper behind` and `lower behind,
-    upper ahead`; empty where no force is known angle (P,): between the reaction and the normal, atan of friction over
-    normal force
+    both positive
+    mode: `lower face`, `upper face`, or the diagonals `lower ahead, upper behind` and `lower behind, upper ahead`;
+    empty where no force is known
+    angle (P,): between the reaction and the normal, atan of friction over normal force
     """
 
     normal: Array

@@ -16,13 +16,15 @@ if TYPE_CHECKING:
 class Friction(NamedTuple):
     """Friction at each position.
 
-    force (P, joints, 2), moment (P, joints): dry friction on j, moment about j's point; viscous beside it dry_loss,
-    viscous_loss (P, joints): power cz, sense, rate (P, E), argument (P, 3, E) of each contact determinant, critical,
-    single (P,): of the solution (core.friction.friction_solver) open (P, E): contacts at rest, whose sense is not
-    known; reversing (P, E): contacts that only reverse here, so that these are the numbers just before, and others hold
-    just after; blocked (P,): their reactions are not unique locked (P,): the unknowns' power has the other sign than
-    without friction, with and without inertia bare_effort (P, D), bare_load (P, U): without friction holding (P,
-    unknowns, 2): low and high that friction can hold at rest for some history (core.friction.holding_range)
+    force (P, joints, 2), moment (P, joints): dry friction on j, moment about j's point; viscous beside it
+    dry_loss, viscous_loss (P, joints): power
+    cz, sense, rate (P, E), argument (P, 3, E) of each contact
+    determinant, critical, single (P,): of the solution (core.friction.friction_solver)
+    open (P, E): contacts at rest, whose sense is not known; reversing (P, E): contacts that only reverse here, so that
+    these are the numbers just before, and others hold just after; blocked (P,): their reactions are not unique
+    locked (P,): the unknowns' power has the opposite sign to that without friction, with and without inertia
+    bare_effort (P, D), bare_load (P, U): without friction
+    holding (P, unknowns, 2): low and high that friction can hold at rest for some history (core.friction.holding_range)
     """
 
     force: Array

@@ -37,7 +37,7 @@ class BearingLoad:
     """Forces (P,) of a joint across its axis and along it, N, and its turning (P,), rad/s, of j against i.
 
     ``couple`` (P,), N m: across the axis, not counted in these loads: it needs two bearings. ``time`` (P,), s: duration
-    represented by each position. ``bearing``: as the file has it, or by its kind alone.
+    represented by each position. ``bearing``: from the file, or by its kind alone.
     """
 
     result: Result = field(repr=False)

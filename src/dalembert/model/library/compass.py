@@ -1,4 +1,4 @@
-"""Closing a linkage by compass and ruler: points of the plane as complex numbers, x + iy in metres.
+"""Closing a linkage by compass and ruler: planar points as complex numbers, x + iy in metres.
 
 Every template places its points for one value of the drive; :func:`start_points` tries that all along the sweep
 and says where it fails, and with which two links.

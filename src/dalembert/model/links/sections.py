@@ -81,7 +81,7 @@ Stress = Annotated[float, Scalar("pressure", "positive")]
 class Section(Part):
     """The section of a member, by one shape or by area, modulus and inertia; and the strength of its material.
 
-    y is transverse to the member in the plane of bending (z the normal of the plane). ``area`` A, ``modulus`` W = I /
+    y is transverse to the member in the plane of bending (z its normal). ``area`` A, ``modulus`` W = I /
     e, ``inertia`` I, second moment of area.
 
     >>> s = Section(rectangle=("20 mm", "40 mm"))

@@ -76,7 +76,7 @@ def trace_analysis(
 ) -> Trace:
     """Everything an analysis computes, as nodes; raises ModelError for cases that only the analyses support.
 
-    With the general executor's answer for the file's own numbers, ``solved``: from a known solution, not from nothing.
+    With the general executor's answer for the numbers of the file, ``solved``: starts from a known solution.
     ``moves``: the drives continue from the known motion, which is that of the previous state. ``sided``: with the side
     of reversals as an input. ``redundant``: constraints may repeat each other; reactions that are not unique are then
     one choice of many; ``whole``: links placed by these are solved with all constraints at once. ``functions_of`` a
