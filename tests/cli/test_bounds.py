@@ -168,7 +168,7 @@ OPTIONS = [
     ("balance --radii 40mm", "planes", "50mm,50mm", "both planes are at 0.05 m; give two planes apart"),
     ("variants --vary loads.F.value=[1,2] -o x", "count", "0", "'0' cannot be; give a whole number from 1 to 1000"),
     ("variants --vary loads.F.value=[1,2] -o x", "seed", "-1", "invalid value for --seed: '-1' cannot be; give a"),
-    ("variants --vary loads.F.value=[1,2] -o x", "tolerance", "-3%", "'-3%' is no tolerance in percent"),
+    ("variants --vary loads.F.value=[1,2] -o x", "tolerance", "-3%", "'-3%' is not a tolerance in percent"),
 ]  # fmt: skip
 
 

@@ -78,7 +78,7 @@ def test_an_exact_value_that_is_missed(run: Run, folder: Path) -> None:
     [
         (
             "{quantity: effort, of: A, value: 1}",
-            "claims.yaml:33: there is no drive 'A'; there is only 'O2'",
+            "claims.yaml:33: unknown drive 'A'; there is only 'O2'",
         ),
         ("{quantity: effort, value: 1}", "claims.yaml:33: effort needs `of`; there is only 'O2'"),
         (
@@ -91,7 +91,7 @@ def test_an_exact_value_that_is_missed(run: Run, folder: Path) -> None:
         ),
         (
             "{quantity: speed, of: crank, at: 2, value: 1 rad/s}",
-            "claims.yaml:33: there is no position 2; they are 1 to 1",
+            "claims.yaml:33: position 2 does not exist; use 1 to 1",
         ),
         (
             "{quantity: point, of: crank, value: [1, 2]}",
@@ -99,7 +99,7 @@ def test_an_exact_value_that_is_missed(run: Run, folder: Path) -> None:
         ),
         (
             "{quantity: effort, of: O2, value: 1, tolerance: x %}",
-            "claims.yaml:33: 'x %' is no tolerance in percent",
+            "claims.yaml:33: 'x %' is not a tolerance in percent",
         ),
         (
             "{quantity: reaction, of: A, by: rocker, value: [1, 2]}",

@@ -89,7 +89,7 @@ def test_standard_gravity_and_the_way_to_another_mode_are_said(run: Run, folder:
     (folder / "heavy.yaml").write_text(text.split("assembly:")[0], encoding="utf-8")
     printed = " ".join(run("solve", "heavy.yaml").out.split())
     assert "gravity standard (9.80665 m/s2 along -y)" in printed
-    assert "(found by search); other modes (the file's `assembly` chooses): coupler" in printed
+    assert "(from a search); other modes (the file's `assembly` chooses): coupler" in printed
 
 
 def test_what_is_only_rounding_is_0_in_the_tables_of_methods(run: Run, folder: Path) -> None:

@@ -25,7 +25,7 @@ from tests.cli.conftest import Run
         *(
             (
                 ["solve", "four_bar.yaml", "--positions", text],
-                f"dalembert: invalid value for --positions: '{text}' is not a whole number of 1 or more; "
+                f"dalembert: invalid value for --positions: '{text}' is not an integer of 1 or more; "
                 "see `dalembert solve --help`",
             )
             for text in ("0", "-3", "2.5", "many")
@@ -33,14 +33,14 @@ from tests.cli.conftest import Run
         *(
             (
                 ["report", "four_bar.yaml", "-o", "a.txt", f"--{option}", text],
-                f"dalembert: invalid value for --{option}: '{text}' is not a whole number from {least} to 15; "
+                f"dalembert: invalid value for --{option}: '{text}' is not an integer from {least} to 15; "
                 "see `dalembert report --help`",
             )
             for option, text, least in (("figures", "0", 1), ("figures", "40", 1), ("decimals", "-1", 0))
         ),
         (
             ["report", "four_bar.yaml", "-o", "a.txt", "--about", "O3"],
-            "there is no joint 'O3' to take moments about; choose among O2, A, B, O4",
+            "unknown joint 'O3' to take moments about; choose among O2, A, B, O4",
         ),
         (
             ["draw", "four_bar.yaml", "-o", "a.svg", "--at", "60", "deg"],
@@ -99,14 +99,14 @@ from tests.cli.conftest import Run
             "a.json is not named like YAML, which this is; end its name with .yaml; `dalembert convert` writes JSON "
             "and TOML",
         ),
-        (["new", "four_bra"], "there is no template 'four_bra'; did you mean 'four_bar'?"),
+        (["new", "four_bra"], "unknown template 'four_bra'; did you mean 'four_bar'?"),
         (
             ["convert", "four_bar.yaml"],
             "dalembert: convert needs --output; see `dalembert convert --help`",
         ),
         (
             ["convert", "four_bar.yaml", "-o", "four_bar.txt"],
-            "four_bar.txt is named like no model file; end its name with .yaml, .json or .toml",
+            "four_bar.txt does not have the name of a model file; end its name with .yaml, .json or .toml",
         ),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
@@ -130,7 +130,7 @@ def test_virtual_work_needs_something_that_moves(run: Run) -> None:
         (
             "weight: 1.5",
             "wieght: 1.5",
-            "10: there is no key 'wieght' in link 'crank'; did you mean 'weight'?",
+            "10: unknown key 'wieght' in link 'crank'; did you mean 'weight'?",
         ),
         (
             "A: [5, 0]",
@@ -141,7 +141,7 @@ def test_virtual_work_needs_something_that_moves(run: Run) -> None:
         (
             "links: [ground, rocker]",
             "links: [ground, rockr]",
-            "22: joint 'O4' names the link 'rockr', which is not there; did you mean 'rocker'?",
+            "22: joint 'O4' names the link 'rockr', which does not exist; did you mean 'rocker'?",
         ),
         (
             "speed: 25 rad/s",
@@ -151,7 +151,7 @@ def test_virtual_work_needs_something_that_moves(run: Run) -> None:
         (
             "  O2: {position: 60 deg",
             "  O3: {position: 60 deg",
-            "25: drive 'O3' drives the joint 'O3', which is not there; choose among O2, A, B, O4",
+            "25: drive 'O3' drives the joint 'O3', which does not exist; choose among O2, A, B, O4",
         ),
         (
             "drives:\n  O2: {position: 60 deg, speed: 25 rad/s, acceleration: -40 rad/s^2}\n",

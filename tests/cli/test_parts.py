@@ -41,7 +41,7 @@ def test_whole_numbers_have_fifteen_digits_at_most() -> None:
 
     assert read("9" * 15) == 10**15 - 1
     for text in ("9" * 16, "-1", "0", "1.0", "²"):
-        with pytest.raises(ValueError, match="is not a whole number of 1 or more"):
+        with pytest.raises(ValueError, match="is not an integer of 1 or more"):
             read(text)
 
 

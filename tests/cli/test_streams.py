@@ -86,7 +86,7 @@ def test_the_format_of_a_stream_is_seen_in_its_text(
     ran = run("solve", "-")
     lines = {"yaml": 3, "json": 5, "toml": 4}
     assert ran.err == (
-        f"standard input:{lines[form]}: there is no key 'mas' in link 'bar'; did you mean 'mass'?\n"
+        f"standard input:{lines[form]}: unknown key 'mas' in link 'bar'; did you mean 'mass'?\n"
     )
     assert ran.status == 2
 

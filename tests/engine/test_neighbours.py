@@ -225,6 +225,6 @@ def test_an_assembly_mode_has_the_names_of_its_own_mechanism() -> None:
     for name in ("rod", "bar", "rod"):
         r = da.dynamics(da.loads(text.replace("rod", name)))
         assert r.mode is not None
-        assert r.mode.startswith(f"assembly mode {name} -33.56 deg (found by search); other modes")
+        assert r.mode.startswith(f"assembly mode {name} -33.56 deg (from a search); other modes")
         assert r.mode.endswith(f": {name} -131.50 deg")
     assert len(structures.STRUCTURES.found) == 1

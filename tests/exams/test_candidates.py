@@ -200,7 +200,7 @@ def test_what_is_asked_for_where_nothing_is_named() -> None:
     one = da.statics(r.mechanism.with_values({"drives.O.position": "20 deg"}))
     assert {a.at for a in asked_quantities(one, [], None)} == {None}
     for ask, said in (
-        ("torque.O", "there is no quantity 'torque'"),
+        ("torque.O", "unknown quantity 'torque'"),
         ("effort", "does not say of what; write"),
     ):
         with pytest.raises(da.ModelError, match=f"--ask {ask}.*{said}"):

@@ -118,7 +118,7 @@ def test_no_usual_mistake_stays_hidden() -> None:
         "70 deg",
     ]
     said = (
-        "4 of 5 variants were found among 5 sets of values tried, of the 5 that there are; left out: 1 where no asked "
+        "4 of 5 variants were drawn from 5 sets of values, of 5 possible ones; rejected: 1 where no asked "
         "figure shows the mistake 'the angle is counted from the other axis: x and y are exchanged'"
     )
     with pytest.raises(da.ModelError, match=re.escape(said)):
@@ -135,7 +135,7 @@ def test_no_figure_is_near_zero_and_none_is_there_twice() -> None:
 
 
 def test_too_few_values() -> None:
-    with pytest.raises(da.ModelError, match="the values allow 15 different problems, and 30 are asked for"):
+    with pytest.raises(da.ModelError, match="the values allow 15 different problems, but 30 are requested"):
         four_bar(count=30)
 
 
@@ -153,7 +153,7 @@ def test_what_is_asked() -> None:
         ("point", "coupler.P", None, None, "in"),
     ]
     with pytest.raises(
-        da.ModelError, match=r"--ask efort.O2: there is no quantity 'efort'; did you mean 'effort'\?"
+        da.ModelError, match=r"--ask efort.O2: unknown quantity 'efort'; did you mean 'effort'\?"
     ):
         four_bar(ask=["efort.O2"])
 

@@ -224,7 +224,7 @@ def test_a_guide_that_reverses_has_two_numbers() -> None:
     assert r.after.effort("O")[0] == pytest.approx(after, rel=1e-10)
     assert r.interval("O")[0].tolist() == sorted([r.effort("O")[0], r.after.effort("O")[0]])
     assert r.reasons[0] == (
-        "guide reverses at O = 0 deg, and friction there changes its sense: "
+        "guide reverses at O = 0 deg, so friction in it changes sense: "
         f"O is {before:.6g} N*m just before and {after:.6g} N*m just after."
     )
 

@@ -13,8 +13,8 @@ def test_equilibrium_positions() -> None:
     with pytest.raises(da.ModelError) as caught:
         da.statics(m)
     assert str(caught.value) == (
-        "a position is asked for and joints have friction: every position of whole arcs is an equilibrium; "
-        "switch friction off, or ask for the interval of efforts at given positions"
+        "an unknown position with friction is not unique: every position of an arc is an equilibrium; "
+        "switch friction off, or give the positions and compute the interval of efforts"
     )
 
 

@@ -267,9 +267,9 @@ def test_each_effort_has_an_interval_of_its_own() -> None:
             room = 1e-9 * np.abs(most)
             assert np.all((least - room <= end.effort(other)) & (end.effort(other) <= most + room))
     assert r.reasons[0] == (
-        "At rest between 120 deg and 95 deg of O2, 60 deg and 50 deg of O5: O2 and O5 each lie in an interval of their "
-        "own. At its ends the machine is about to move with the other drives held, and what else was asked for has the "
-        "value given there; not every combination of values within the intervals holds the machine. For O2, at both "
+        "At rest between 120 deg and 95 deg of O2, 60 deg and 50 deg of O5: O2 and O5 each lie in an interval. At the "
+        "ends of each, the machine is about to move with the other drives held, and the other unknowns have the values "
+        "shown for that end; not every combination of values within the intervals holds the machine. For O2, at both "
         "ends friction is at its limit in O2, A, C, B. For O5, at both ends friction is at its limit in A, C, B, O5."
     )
 
@@ -279,9 +279,9 @@ def test_a_structure_with_friction_says_what_can_be_asked() -> None:
     r = da.statics(m.with_values({"joints.A.friction": {"coefficient": 0.2, "radius": 0.01}}))
     assert r.status == ("at_rest",)
     assert r.reasons[0] == (
-        "Nothing moves in a structure: it holds any load, and friction may take any part of it within its limits. "
-        "Switch it off for the reactions without it. To ask what friction holds, leave out the joint in whose place it "
-        "is to hold, and give the freedom that this leaves a drive without speed."
+        "A structure does not move: it holds any load, and friction may carry any part of it within its limits. "
+        "Switch friction off for the reactions without it. To compute what friction holds, replace the joint held by "
+        "friction by a drive at rest."
     )
     with pytest.raises(da.ModelError, match="a structure holds any load: leave out the joint"):
         da.statics(m.with_values({"loads.at_B": {"type": "couple", "on": "AB", "value": "unknown"}}))

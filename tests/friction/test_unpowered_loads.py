@@ -68,7 +68,7 @@ def test_a_kernel_gives_the_same_load() -> None:
 
 
 def test_there_is_no_iteration_to_show_without_an_answer_without_friction() -> None:
-    with pytest.raises(da.ModelError, match="P: friction alone balances the given effort"):
+    with pytest.raises(da.ModelError, match="P: only friction balances the given effort"):
         da.fixed_point(da.solve(brake(0.385, 83)))
 
 

@@ -122,9 +122,9 @@ def in_link_axes() -> tuple[str, str, str, str]:
 MISTAKES: dict[str, tuple[Callable[[], tuple[str, str, str, str]], str]] = {
     "effort: action for reaction": (
         lambda: (NORTON, "effort", "O2", "-243.2 lbf*in"),
-        "action taken for reaction",
+        "action mistaken for reaction",
     ),
-    "joint: action for reaction": (lambda: turned(NORTON, "A", [[-1, 0], [0, -1]]), "action taken for reaction"),
+    "joint: action for reaction": (lambda: turned(NORTON, "A", [[-1, 0], [0, -1]]), "action mistaken for reaction"),
     "angle from the other axis": (lambda: turned(NORTON, "A", [[0, 1], [1, 0]]), "from the other axis"),
     "angle clockwise": (lambda: turned(NORTON, "A", [[1, 0], [0, -1]]), "clockwise"),
     "wrong joint": (lambda: of_joint_of(NORTON, "A", "B"), "this is joint B"),
@@ -132,7 +132,7 @@ MISTAKES: dict[str, tuple[Callable[[], tuple[str, str, str, str]], str]] = {
     "inertia left out": (lambda: of_effort(NORTON, scaled_inertia(0, 0)), "static answer"),
     "inertia couples left out": (lambda: of_effort(NORTON, scaled_inertia(1, 0)), "inertia couples are left out"),
     "inertia forces left out": (lambda: of_effort(NORTON, scaled_inertia(0, 1)), "inertia forces are left out"),
-    "weight for mass": (lambda: of_effort(NORTON, scaled_inertia(386, 1)), "weight is taken for mass"),
+    "weight for mass": (lambda: of_effort(NORTON, scaled_inertia(386, 1)), "weight is mistaken for mass"),
     "g in feet": (lambda: of_effort(NORTON, scaled_inertia(12, 1)), "g is in ft/s2"),
     "inertia in lb ft s2": (lambda: of_effort(NORTON, scaled_inertia(1, 12)), "moments of inertia are in the wrong"),
     "one inertia couple left out": (
@@ -227,7 +227,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     mine.write_text("{efforts: {O2: -243.2}, reactions: {B: 87.41 @ -89.14}}", encoding="utf-8")
     assert main(["check-answers", str(examples()["four_bar"]), str(mine)]) == 1
     out = capsys.readouterr().out
-    assert "effort of O2: the sense is opposite: action taken for reaction." in out
+    assert "effort of O2: the sense is opposite: action mistaken for reaction." in out
     assert out.endswith("1 of 2 right.\n")
 
 
@@ -289,10 +289,13 @@ def test_a_single_number_for_a_force_is_its_magnitude() -> None:
 @pytest.mark.parametrize(
     ("tree", "said"),
     [
-        ({"effort": 3}, r"effort stands without names of what the figures are of; write effort: \{NAME: 3\}"),
+        (
+            {"effort": 3},
+            r"effort needs names, of the things that the figures belong to; write effort: \{NAME: 3\}",
+        ),
         ([3], "the answers are neither a mapping nor a list of mappings; write efforts: "),
         (None, "the answers are neither a mapping nor a list of mappings"),
-        ({"forces": {"A": 3}}, "there is no quantity 'force'"),
+        ({"forces": {"A": 3}}, "unknown quantity 'force'"),
     ],
 )
 def test_answers_that_cannot_be_read(tree: Any, said: str) -> None:
@@ -324,7 +327,7 @@ def test_every_wrong_part_is_that_part_times_its_factor() -> None:
     whole, rest = efforts[0], float(da.statics(light).effort("O2")[0])
     weights, couples, forces = -np.diff([*efforts, rest])
     g = heavy.g / 0.0254
-    taken = "weight is taken for mass: inertia"
+    taken = "weight is mistaken for mass: inertia"
     factors = {
         "inertia is left out: this is the static answer": (forces + couples, [0.0]),
         "the inertia couples are left out": (couples, [0.0]),

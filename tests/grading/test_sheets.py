@@ -82,7 +82,7 @@ def test_one_mistake_explains_a_whole_sheet_with_a_slip_beside() -> None:
         "reactions": {joint: f"{value:.6g} N" for joint, value in size.items()},
     }
     found = verdicts(ENGINE, sheet)
-    assert [v.mistake for v in found] == ["the sense is opposite: action taken for reaction"] + 3 * [
+    assert [v.mistake for v in found] == ["the sense is opposite: action mistaken for reaction"] + 3 * [
         "friction is left out"
     ]
 
@@ -96,8 +96,16 @@ def test_one_mistake_explains_a_whole_sheet_with_a_slip_beside() -> None:
             "sin",
             "the radius of the friction circles is taken as R sin(phi), not mu R",
         ),
-        (("joints", "A", "friction", "radius"), "120 mm", "the diameter of joint A is taken for the radius"),
-        (("joints", "B", "friction", "radius"), "20 mm", "the radius of joint B is taken for the diameter"),
+        (
+            ("joints", "A", "friction", "radius"),
+            "120 mm",
+            "the diameter of joint A is mistaken for the radius",
+        ),
+        (
+            ("joints", "B", "friction", "radius"),
+            "20 mm",
+            "the radius of joint B is mistaken for the diameter",
+        ),
         (("joints", "O", "friction", "coefficient"), 0, "the friction of joint O is left out"),
     ],
 )
@@ -122,7 +130,7 @@ def test_friction_that_acts_with_the_motion_is_that_of_the_opposite_motion() -> 
     m = da.load(BUNDLED[ENGINE])
     back = float(da.dynamics(m.with_values({"drives.O.speed": -1.0})).effort("O")[0])
     (found,) = verdicts(ENGINE, {"efforts": {"O": f"{back:.6g}"}})
-    assert found.mistake == "all friction acts the wrong way, with the motion"
+    assert found.mistake == "all friction acts in the wrong sense, with the motion"
 
 
 def test_a_machine_at_rest_is_compared_with_its_interval() -> None:
@@ -167,16 +175,16 @@ def test_the_books_g_is_named() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("efforts:\n  Q: 3\n", ":2: there is no drive 'Q'; there is only 'O2'"),
+        ("efforts:\n  Q: 3\n", ":2: unknown drive 'Q'; there is only 'O2'"),
         ("efforts:\n  O2: 1\nreactions:\n  A: =1+1\n", ":4: "),
-        ("efforts:\n  O2: .nan\n", ":2: value: nan is no finite number"),
+        ("efforts:\n  O2: .nan\n", ":2: value: nan is not a finite number"),
         (
             "efforts: {O2: 3}\ntolerance: 3\n",
-            ":2: 3 is no tolerance in percent; write one from 0 to 50 %, for example 3 %",
+            ":2: 3 is not a tolerance in percent; write one from 0 to 50 %, for example 3 %",
         ),
         (
             "- {quantity: effort, of: O2, value: 3}\n- {quantity: effrt, of: O2, value: 3}\n",
-            ":2: there is no quantity",
+            ":2: unknown quantity",
         ),
     ],
 )

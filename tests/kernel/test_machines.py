@@ -153,10 +153,10 @@ def test_other_positions() -> None:
 def test_refusals() -> None:
     m = da.four_bar()
     for text, arguments in (
-        ("there is no output 'torque.O2'", {"outputs": ["torque.O2"]}),
-        ("there is no reduction 'largest'", {"reduce": "largest"}),
-        ("there is no 'masss' in links.crank", {"vary": ["links.crank.masss"]}),
-        ("'title' is 'Four-bar linkage', which is no number", {"vary": ["title"]}),
+        ("unknown output 'torque.O2'", {"outputs": ["torque.O2"]}),
+        ("unknown reduction 'largest'", {"reduce": "largest"}),
+        ("'masss' does not exist in links.crank", {"vary": ["links.crank.masss"]}),
+        ("'title' is 'Four-bar linkage', not a number", {"vary": ["title"]}),
         ("the place of a peak has no derivative", {"reduce": "argpeak", "derivatives": True}),
     ):
         with pytest.raises(da.ModelError, match=text):
@@ -173,8 +173,8 @@ CALLS: list[tuple[str, dict[str, Any]]] = [
     ("positions are text", {"positions": ["half a turn"]}),
     ("positions are not all finite", {"positions": [0.0, np.nan]}),
     ("positions of shape (0, 1) do not fit 1 drive(s)", {"positions": []}),
-    ("threads=0 is no number of threads; give 1 or more", {"threads": 0}),
-    ("there is no device 'gpu'; there are: cpu, cuda", {"device": "gpu"}),
+    ("threads=0 is not a number of threads; give 1 or more", {"threads": 0}),
+    ("unknown device 'gpu'; use cpu or cuda", {"device": "gpu"}),
 ]
 
 
@@ -189,8 +189,8 @@ def test_calls_that_are_refused(sentence: str, arguments: dict[str, Any]) -> Non
 def test_more_refusals() -> None:
     m = da.four_bar()
     for text, arguments in (
-        ("there is no output 'residual.A'", {"outputs": ["residual.A"]}),
-        ("lanes=0 is no number of lanes", {"lanes": 0}),
+        ("unknown output 'residual.A'", {"outputs": ["residual.A"]}),
+        ("lanes=0 is not a number of lanes", {"lanes": 0}),
     ):
         with pytest.raises(da.ModelError, match=text):
             da.compile(m, **arguments)
@@ -200,10 +200,10 @@ def test_more_refusals() -> None:
     with pytest.raises(da.ModelError, match=r"'drives\.O2\.speed' follows from the drive's law of motion"):
         da.compile(da.mechanism(lawful), vary=["drives.O2.speed"])
     k = da.compile(m, outputs=["reaction.A", "angle.coupler"])
-    with pytest.raises(da.ModelError, match="there are no axes 'joint'; there are: ground, link"):
+    with pytest.raises(da.ModelError, match="unknown axes 'joint'; use ground or link"):
         k().reaction("A", axes="joint")
     pytest.importorskip("casadi")
-    with pytest.raises(da.ModelError, match="'1 x' is no name for a casadi Function"):
+    with pytest.raises(da.ModelError, match="'1 x' is not a name for a casadi Function"):
         k.to_casadi("1 x")
 
 
@@ -284,7 +284,7 @@ def test_a_lifted_linkage_is_compiled_as_far_as_it_is_determined() -> None:
     heights, plane = {"coupler": "20 mm"}, da.four_bar(positions=4)
     sentence = (
         "reaction.A and reaction_moment.A cannot be compiled: constraints are redundant, and statics alone does not "
-        "determine it; leave it out, free a constraint, or use da.dynamics, which marks what is unique"
+        "determine it; leave it out, free a constraint, or use da.dynamics, which shows the unique reactions"
     )
     with pytest.raises(da.ModelError) as refused:
         da.compile(da.lifted(plane, heights), outputs=["reaction.A", "reaction_moment.A", "effort.O2"])

@@ -122,12 +122,12 @@ def test_names_with_signs_and_links_with_several_joints() -> None:
 @pytest.mark.parametrize(
     ("output", "message"),
     [
-        ("efort.O2 + 1", "there is no output 'efort.O2'; did you mean 'effort.O2'?"),
+        ("efort.O2 + 1", "unknown output 'efort.O2'; did you mean 'effort.O2'?"),
         ("reaction.A + 3", "write reaction.A.x or reaction.A.magnitude"),
         ("effort.O2 +", "it stops in the middle"),
-        ("foo(effort.O2)", "there is no function 'foo'"),
+        ("foo(effort.O2)", "unknown function 'foo'"),
         ("effort.O2 effort.O2", "'effort.O2 effort.O2' ends with 'effort.O2'"),
-        ("transmission.O2", "there is no output 'transmission.O2'; did you mean 'transmission.B'?"),
+        ("transmission.O2", "unknown output 'transmission.O2'; did you mean 'transmission.B'?"),
         ("effort.O2^0.3", "a traced value to the power 0.3"),
         ("effort.O2 + 3 bananas", "bananas"),
     ],

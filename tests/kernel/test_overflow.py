@@ -136,7 +136,7 @@ def test_a_sweep_over_a_length_that_overflows() -> None:
 
 @pytest.mark.parametrize("value", [np.inf, -np.inf, np.nan])
 def test_a_description_has_no_infinite_numbers(value: float) -> None:
-    with pytest.raises(da.ModelError, match=r"links\.crank: item 1 of point 'A': .* is no finite number"):
+    with pytest.raises(da.ModelError, match=r"links\.crank: item 1 of point 'A': .* is not a finite number"):
         da.four_bar().with_values({CRANK: value})
 
 

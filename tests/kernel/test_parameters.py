@@ -115,7 +115,7 @@ def test_every_place_of_a_parameter() -> None:
             "'links.crank.points.A.0' follows from the parameter 'r', and both vary",
         ),
         (["a", "T", "c", "a"], "'a' is varied twice"),
-        (["x"], "there is no parameter 'x'"),
+        (["x"], "unknown parameter 'x'"),
         (["a"], "exp of a number that varies is not compiled"),
     ],
 )

@@ -268,7 +268,7 @@ WRONG_OUT: list[tuple[Any, str]] = [
     ),
     (
         {"effort.O2": ONE, "reaction.A.magnitude": ONE},
-        "out= has one array for several results; give each its own",
+        "out= uses one array for several results; give a separate array for each",
     ),
     (
         {"effort.O2": ONE[0], "reaction.A.magnitude": ONE},
@@ -276,7 +276,7 @@ WRONG_OUT: list[tuple[Any, str]] = [
     ),
     (
         {"effort.O2": ONE, "reaction.A.magnitude": ONE.astype(np.float32)},
-        "out= of reaction.A.magnitude is no array of floats that can be written; give np.empty((1, 24))",
+        "out= of reaction.A.magnitude is not a writable array of floats; give np.empty((1, 24))",
     ),
 ]
 
@@ -295,7 +295,7 @@ def test_blocks_are_parts_of_the_whole() -> None:
     assert [len(part.values) for part in parts] == [3, 3, 1]
     assert (np.concatenate([part.effort("O2") for part in parts]) == k(values).effort("O2")).all()
     assert len(list(k.blocks(values))) == 1
-    with pytest.raises(da.ModelError, match="size=0 is no number of size"):
+    with pytest.raises(da.ModelError, match="size=0 is not a number of match"):
         k.blocks(values, size=0)
 
 

@@ -358,22 +358,22 @@ def test_whole_turns_of_a_copys_angle_are_the_images_in_every_list_of_positions(
 
 
 WRONG = {
-    "[{of: [rodd]}]": "no moving link 'rodd'; did you mean 'rod'?",
+    "[{of: [rodd]}]": "unknown moving link 'rodd'; did you mean 'rod'?",
     "[{of: [rod, piston]}]": "does not say how many",
     "[{of: [rod, piston], count: 1}]": "does not say how many",
     "[{of: [], count: 2}]": "it says no links",
-    "{of: [rod]}": "a mapping stands where a list is needed",
-    "[{of: [rod, piston], count: 3, phase: {crank: [0, 180]}}]": "3 are asked for, and a list has 2",
+    "{of: [rod]}": "expected a list, not a mapping",
+    "[{of: [rod, piston], count: 3, phase: {crank: [0, 180]}}]": "count is 3, but a list has 2 values",
     "[{of: [rod, piston], phase: {crank: [90, 180]}}]": "a list begins with 90, and the original stays",
-    "[{of: [rod, piston], phase: {rod: [0, 180]}}]": "there is no link 'rod' that stays",
+    "[{of: [rod, piston], phase: {rod: [0, 180]}}]": "'rod' is not a link outside the copies",
     "[{of: [rod, piston], phase: 180, count: 2}]": "180 does not say on which link",
     "[{of: [rod, piston], count: 2, phase: {crank: x}}]": "'x' is not an angle",
     "[{of: [rod, piston], count: 2, names: [b, c]}]": "1 names are needed",
     "[{of: [rod, piston], mirror: 90, phase: {crank: 90}}]": "it is both turned and mirrored",
     "[{of: [rod, piston], mirror: {crank: 90}}]": "'cylinder' does not say how link 'ground' is mirrored",
-    "[{of: [rod], count: 2, shift: 90}]": "none of its loads goes by a drive that stays",
-    "[{of: [piston, rod], count: 2, phases: 1}]": "there is no key 'phases'; did you mean 'phase'?",
-    "[{of: [rod, piston], count: 2}, {of: [rod, piston], count: 2}]": "its link 'rod_2' is there already",
+    "[{of: [rod], count: 2, shift: 90}]": "none of its loads depends on a drive that is not copied",
+    "[{of: [piston, rod], count: 2, phases: 1}]": "unknown key 'phases'; did you mean 'phase'?",
+    "[{of: [rod, piston], count: 2}, {of: [rod, piston], count: 2}]": "its link 'rod_2' already exists",
 }
 
 

@@ -185,13 +185,14 @@ def test_a_load_goes_by_the_time_of_a_law() -> None:
 
 
 REFUSED = {
-    "time": "load 'F' goes by time, and no drive has a law of motion; "
-    "give a drive a law, which says when it is where, or go by the drive",
-    "links.rodd.angle": "load 'F' names the link 'rodd', which is not there; did you mean 'rod'?",
+    "time": "load 'F' depends on time, but no drive has a law of motion; "
+    "give a drive a law of motion, or use the drive instead of time",
+    "links.rodd.angle": "load 'F' names the link 'rodd', which does not exist; did you mean 'rod'?",
     "links.ground.angle": "load 'F' uses 'links.ground.angle', which does not turn; write joints.NAME.turn",
-    "joints.guid.slide": "load 'F' uses the joint 'guid', which is not there; did you mean 'guide'?",
+    "joints.guid.slide": "load 'F' uses the joint 'guid', which does not exist; did you mean 'guide'?",
     "joints.guide.turn": "load 'F' uses 'joints.guide.turn', and the freedoms of that joint are slide; name one",
-    "O.speed": "load 'F' uses 'O.speed', and only efforts of drives go by speed; write it as the effort of drive 'O'",
+    "O.speed": "load 'F' uses 'O.speed', but only efforts of drives may depend on a speed; "
+    "write it as the effort of drive 'O'",
     "links.rod.speed": "uses 'links.rod.speed', and a load cannot depend on the speed of a link or a joint",
 }
 
@@ -205,5 +206,5 @@ def test_what_a_load_cannot_go_by_is_refused(name: str) -> None:
 
 def test_an_effort_goes_by_drives_only() -> None:
     drives = {"O": {**SLIDER["drives"]["O"], "effort": "joints.guide.slide"}}
-    with pytest.raises(da.ModelError, match="an effort goes by drives, their speeds and time"):
+    with pytest.raises(da.ModelError, match="an effort depends on drives, their speeds and time"):
         machine({"F": {**PUSH, "value": "unknown"}}, drives=drives)

@@ -65,7 +65,7 @@ def test_a_four_bar_closes_in_both_its_ranges(seed: int) -> None:
         np.testing.assert_array_equal(r.ok, closes, err_msg=order)
         b = r.point("rocker", "B") @ [1, 1j]
         assert np.abs(b - meeting(a, coupler, ground, rocker, side))[closes].max() < 1e-6, order
-        entered = r.mode is not None and "behind a gap" in r.mode
+        entered = r.mode is not None and "beyond a gap" in r.mode
         assert entered == (order != "one position")
 
 

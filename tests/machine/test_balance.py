@@ -323,17 +323,17 @@ def test_an_rssr_is_balanced_by_its_crank_and_rocker(
     free = ["--on", "rod:radius=60mm,mass=0.1kg", "--of", "moment"]
     assert main(["balance", file, *free]) == 2
     said = " ".join(capsys.readouterr().err.split())
-    assert "its link turns about no one axis; say where it is: place: (x, y, z)" in said
+    assert "its link does not turn about a fixed axis; give its place: place: (x, y, z)" in said
 
 
 WRONG = [
     ({"arm": {}}, {}, "a counterweight cannot be on 'arm'"),
-    ({"crank": {"radios": 1}}, {}, "counterweight on crank: there is no bound 'radios'"),
+    ({"crank": {"radios": 1}}, {}, "counterweight on crank: unknown bound 'radios'"),
     ({"crank": {"radius": -1.0}}, {}, "counterweight on crank: radius is -1; give a number above 0"),
     (
         {"crank": {}, "rocker": {}},
         {"of": "torque"},
-        "its mass and inertia matter here, and its mass has no bound",
+        "its mass and inertia matter here, but its mass has no bound",
     ),
     ({"crank": {}}, {"of": "power"}, "'power' cannot be balanced"),
     ({"crank": {"x": (1.0, 0.0)}}, {}, "the range of x is empty"),

@@ -265,7 +265,7 @@ def test_pressure_is_an_output_of_compiled_analyses() -> None:
     wide, force = k([[0.04]]), np.hypot(*da.dynamics(sized).reaction("A").T)
     assert np.allclose(wide.value("pressure.A")[0], force / 6e-4)
     assert np.allclose(wide.gradient("pressure.A")[0, :, 0], -force / 6e-4 / 0.04)
-    with pytest.raises(ModelError, match=r"there is no output 'pressure.B'; did you mean 'pressure.A'"):
+    with pytest.raises(ModelError, match=r"unknown output 'pressure.B'; did you mean 'pressure.A'"):
         da.compile(sized, outputs=["pressure.B"])
 
 
@@ -429,7 +429,7 @@ def test_a_bearing_without_rating_or_size_has_its_line(bearing: str, said: str, 
     [
         ("7.8, 3.55", "-7.8, 3.55", r"b\.csv:2: C is not positive; give a positive number"),
         ("3.55, 15", "3.55", r"b\.csv:2: 3 columns where the first row has 4"),
-        ("14,", "much,", r"b\.csv:3: 'much' in column 'C' is no finite number"),
+        ("14,", "much,", r"b\.csv:3: 'much' in column 'C' is not a finite number"),
         ("d [mm]", "D [mm]", r"b\.csv:1: the column 'd' is not in its head"),
         ("C [kN]", "C [mm]", r"b\.csv:1: "),
     ],

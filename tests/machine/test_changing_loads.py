@@ -108,7 +108,7 @@ def test_other_analyses_take_one_position_at_time_0_and_refuse_several() -> None
     m = rotor("{position: 0, speed: 1 rad/s}", "5*cos(3*time)")
     assert float(da.statics(m).effort("O")[0]) == pytest.approx(-5)
     with pytest.raises(
-        ModelError, match=r"^text:.*goes by time, and several positions without a law have no times"
+        ModelError, match=r"^text:.*depends on time, but several positions without a law have no times"
     ):
         da.dynamics(m, positions=5)
     with pytest.raises(ModelError, match="time"):
@@ -121,12 +121,12 @@ def test_other_analyses_take_one_position_at_time_0_and_refuse_several() -> None
         (
             "{effort: 3*P.speed}",
             "0",
-            "the effort of drive 'O' uses 'P.speed', which is no drive; there is only 'O'",
+            "the effort of drive 'O' uses 'P.speed', which is not a drive; there is only 'O'",
         ),
         (
             "{position: 0}",
             "3*O.speed",
-            "only efforts of drives go by speed; write it as the effort of drive 'O'",
+            "only efforts of drives may depend on a speed; write it as the effort of drive 'O'",
         ),
         (
             "{motor: {stall: 4 N*m, no_load: 9 rad/s}, effort: 3 N*m}",

@@ -148,7 +148,9 @@ def test_a_jump_that_holds_the_machine_is_named() -> None:
     assert s.status == "stopped"
     assert "jumps with a speed and pushes back from both sides, as dry friction" in s.ended
     assert s.speed("O")[-1] == pytest.approx(0, abs=1e-9)
-    with pytest.raises(da.ModelError, match="load 'f' jumps there and pushes back from both sides: it holds"):
+    with pytest.raises(
+        da.ModelError, match="load 'f' jumps at this state and pushes back from both sides: it holds"
+    ):
         da.simulate(bar("-20*sign(O) N*m", q=0, u=0), "20 s")
 
 
@@ -170,7 +172,7 @@ def test_what_coasts_or_rests_does_not_go_on_for_ever() -> None:
     assert s.position("O")[-1] == pytest.approx(math.radians(-10) + 2 * s.time[-1], rel=1e-12)
     s = da.simulate(bar(drive="effort: 0, brake: 3 N*m"), "O.position = 400 deg")
     assert s.status == "not_met"
-    assert s.ended.endswith("s on, and nothing moves it any more: O.position = 400 deg is not met")
+    assert s.ended.endswith("s on, and no force moves it any more: O.position = 400 deg is not met")
     pulled = bar("30*max(0, time - 9) N*m", drive="effort: 0, brake: 3 N*m")
     s = da.simulate(pulled, "O.position = 400 deg")
     assert s.ended.startswith("O.position = 400 deg at ")

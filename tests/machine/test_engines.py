@@ -69,13 +69,13 @@ def test_the_text_has_both_series() -> None:
 
 def test_a_couple_needs_a_place() -> None:
     with pytest.raises(
-        ModelError, match="there is no shaking couple; ask for force, moment, or couple, for which"
+        ModelError, match="unknown shaking quantity 'couple'; use force, moment, or couple, for which"
     ):
         da.shaking(da.dynamics(da.v_engine(), positions=12)).harmonics(1, "couple")
 
 
 def test_a_place_belongs_to_the_plane() -> None:
-    with pytest.raises(ModelError, match="a place along the normal is for mechanisms of the plane"):
+    with pytest.raises(ModelError, match="a place along the normal is for planar mechanisms only"):
         da.loads("space: space\nlinks: {ground: {}, a: {place: 1}}")
 
 

@@ -62,7 +62,7 @@ def test_a_disc_on_an_arm_precesses_under_its_weight() -> None:
 
 
 def test_what_has_no_gyroscopic_couple_is_refused() -> None:
-    with pytest.raises(ModelError, match="in the plane there is none"):
+    with pytest.raises(ModelError, match="a planar mechanism has none"):
         da.gyroscopic(da.dynamics(da.four_bar()), "crank")
     r = rotor("none", (0, 0), 1, 1, "[0, 0, 1]", 0.1, 0.0)
     with pytest.raises(ModelError, match="rotor does not spin in yoke"):

@@ -262,7 +262,7 @@ def test_the_command_writes_what_it_says(tmp_path: Path, capsys: pytest.CaptureF
         ("rectangle: [20 mm, 40 mm]", "area: 8 cm^2", "the section has no modulus"),
         ("rectangle: [20 mm, 40 mm]", "circle: 20 mm, area: 8 cm^2", "give it twice"),
         ("mass_along: uniform", "mass_along: shape", "mass_along is by a shape, and there is none"),
-        ("mass_along: uniform", "members: [[O, Q]]", "there is no point 'Q'"),
+        ("mass_along: uniform", "members: [[O, Q]]", "unknown point 'Q'"),
         ("mass_along: uniform", "members: [[O, A], [A, O]]", "the members close a ring"),
     ],
 )

@@ -201,11 +201,11 @@ def test_curves_and_rated_torque_judge(tmp_path: Path, capsys: pytest.CaptureFix
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"drive": "P"}, "there is no drive 'P'"),
+        ({"drive": "P"}, "unknown drive 'P'"),
         ({"efficiency": 0.0}, "efficiency is 0; give a number above 0, at most 1"),
         ({"ratio": -2.0}, "ratio is -2"),
-        ({"curve": "twice"}, r"motor\.csv:3: the curve is no function of the speed"),
-        ({"curve": "none"}, r"motor\.csv:2: 'x' in column 'torque' is no finite number"),
+        ({"curve": "twice"}, r"motor\.csv:3: speeds of the curve must increase"),
+        ({"curve": "none"}, r"motor\.csv:2: 'x' in column 'torque' is not a finite number"),
     ],
 )
 def test_what_is_no_motor_is_refused(options: dict[str, Any], said: str, tmp_path: Path) -> None:
@@ -267,14 +267,16 @@ def test_the_rated_torque_is_held_against_the_rms_and_negative_peaks_count() -> 
 
 
 def test_a_drive_without_effort_has_its_own_sentence() -> None:
-    assert "The drive needs no effort; nor does the motor." in " ".join(str(spun(20.0, "0 N*m")).split())
+    assert "The drive needs no effort; the motor needs no torque either." in " ".join(
+        str(spun(20.0, "0 N*m")).split()
+    )
     free = LINE.replace("inertia: 0.5", "inertia: 0").replace(
         "speed: %s", "acceleration: 3 rad/s^2, speed: %s"
     )
     c = da.motor(da.dynamics(da.loads(free % (20.0, "0 N*m"))), inertia=1e-3)
     said = " ".join(str(c).split())
     assert (
-        "The drive needs no effort; only the motor's own acceleration does: the lower the ratio, the less."
+        "The drive needs no effort; only the motor's acceleration needs torque: the lower the ratio, the less."
         in said
     )
-    assert "Torque falls with every higher ratio" not in said
+    assert "Torque falls as the ratio rises" not in said

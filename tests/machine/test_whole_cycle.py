@@ -87,7 +87,7 @@ def test_turns_of_a_period(angle: Any, turns: int) -> None:
         ([0.0, np.nan, 1.0], "a period needs more than 3 known positions"),
         (np.arange(12) * np.pi / 6 + 3 * EVEN * (np.arange(12) == 5), "the positions are not even"),
         (np.zeros(5), "the positions are not even: steps of 0 to 0 deg"),
-        (np.arange(13) * np.pi / 6, "the positions cover 390 deg, no whole number of turns"),
+        (np.arange(13) * np.pi / 6, "the positions cover 390 deg, which is not a whole number of turns"),
         (np.arange(4) * 0.01, "the positions cover 2.29"),
     ],
 )

@@ -313,7 +313,7 @@ def _unknowns(reader: Reader, heads: list[str], rows: Cells) -> None:
 
 
 TABLES: dict[str, Any] = {
-    "Parameter|Value|What it is": _parameters,
+    "Parameter|Value|Meaning": _parameters,
     "Unknown|Value": _unknowns,
     "Link|Points": _links,
     "Link|J_xx": _inertias,

@@ -116,7 +116,7 @@ def test_charts_of_a_machine_in_the_plane() -> None:
 
 
 def test_charts_of_a_machine_in_space() -> None:
-    """Components in the joint's own axes; what is rounding has no chart."""
+    """Components in the joint's axes; what is rounding has no chart."""
     r = result("rssr")
     charts = {s.title: s for s in chart_scenes(r)}
     x = np.degrees(r.drive_position("O"))

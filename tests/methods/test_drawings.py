@@ -484,7 +484,7 @@ def test_charts_are_of_joints_that_carry_something_and_have_one_axis(name: str) 
 
 
 def test_the_image_of_a_wheel_has_no_point_of_the_other() -> None:
-    """The place of a mesh is the centre of its second wheel, which is no point of the first."""
+    """The place of a mesh is the centre of its second wheel, which is not a point of the first."""
     r = da.kinematics(da.load(examples()["gear_train"]))
     found = spots(r, 0, Shown(r, da.Notation()))
     assert {link: [s.sign for s in some] for link, some in found.items()} == {

@@ -75,7 +75,7 @@ def test_the_law_of_a_guide_and_what_friction_costs() -> None:
     assert figures(result)[0] == pytest.approx(0.07 * (hand.lower + hand.upper), rel=1e-3)
     lost = table(sheet, "of the power put in")
     assert lost.total
-    assert lost.caption == "What friction takes at this position"
+    assert lost.caption == "Power lost to friction at this position"
     power = {row[0]: float(row[1]) for row in lost.rows}
     assert power.pop("sum") == pytest.approx(sum(power.values()), rel=2e-3)
     assert power == pytest.approx(

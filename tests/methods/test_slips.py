@@ -22,13 +22,13 @@ def told(slips: Any) -> list[tuple[str, Any]]:
 def test_of_a_force_in_the_plane() -> None:
     degrees = 60.0  # of (1, sqrt 3), size 2
     expected = [
-        ("the sense is opposite: action taken for reaction", [-1, -sqrt(3)]),
+        ("the sense is opposite: action mistaken for reaction", [-1, -sqrt(3)]),
         ("the angle is counted from the other axis: x and y are exchanged", [sqrt(3), 1]),
         ("the angle is counted clockwise: y has the wrong sign", [1, -sqrt(3)]),
         ("x has the wrong sign", [-1, sqrt(3)]),
         ("x and y are exchanged, one with the wrong sign", [-sqrt(3), 1]),
         ("x and y are exchanged, one with the wrong sign", [sqrt(3), -1]),
-        ("degrees are taken for radians in sine and cosine", [2 * cos(degrees), 2 * sin(degrees)]),
+        ("degrees are mismistaken for radians in sine and cosine", [2 * cos(degrees), 2 * sin(degrees)]),
     ]
     found = told(of_value(Series("force", np.zeros(0)), np.array([1.0, sqrt(3)])))
     assert [text for text, _ in found] == [text for text, _ in expected]
@@ -54,7 +54,7 @@ def test_of_a_vector_in_space() -> None:
 def test_of_an_angle_and_of_a_number() -> None:
     found = told(of_value(Series("angle", np.zeros(0)), np.asarray(radians(30))))
     assert [(text, round(float(np.degrees(value)), 9)) for text, value in found] == [
-        ("the sense is opposite: action taken for reaction", 210),
+        ("the sense is opposite: action mistaken for reaction", 210),
         ("the angle is counted from the other axis", 60),
         ("the angle is counted clockwise", -30),
         ("the angle is counted from the negative x axis", 150),

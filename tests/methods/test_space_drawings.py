@@ -293,13 +293,13 @@ PLANE_ONLY = [
 
 @pytest.mark.parametrize("noun", PLANE_ONLY)
 def test_what_is_of_the_plane_is_refused(noun: str) -> None:
-    with pytest.raises(da.ModelError, match="is for mechanisms of the plane, and this one is in space"):
+    with pytest.raises(da.ModelError, match="is for planar mechanisms, but this one is in space"):
         getattr(da.draw, noun)(solved("rssr"))
 
 
 @pytest.mark.parametrize("noun", ["force_polygon", "lines_of_action", "displaced_inertia", "components"])
 def test_what_is_of_plane_links_is_refused(noun: str) -> None:
-    with pytest.raises(da.ModelError, match="is for mechanisms of the plane, and this one is in space"):
+    with pytest.raises(da.ModelError, match="is for planar mechanisms, but this one is in space"):
         getattr(da.draw, noun)(solved("rssr"), "rocker")
 
 

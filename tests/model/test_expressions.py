@@ -319,7 +319,7 @@ def test_the_grammar_is_named() -> None:
     with pytest.raises(ModelError) as caught:
         Expression("O2.real")
     assert str(caught.value) == (
-        "'O2.real' ends with '.real', which has no place there; an expression is made of numbers, names of drives "
+        "'O2.real': unexpected '.real' at the end; an expression is made of numbers, names of drives "
         "and parameters, pi, + - * / ^, brackets, comparisons in brackets and sin cos tan asin acos atan atan2 sqrt "
         "exp log abs sign min max"
     )
@@ -334,5 +334,5 @@ def test_where_it_has_no_value() -> None:
 
 
 def test_an_unknown_drive() -> None:
-    with pytest.raises(ModelError, match="an expression uses 'O3', which is no drive; there is only 'O2'"):
+    with pytest.raises(ModelError, match="an expression uses 'O3', which is not a drive; there is only 'O2'"):
         evaluate(Name("O3"), {"O2": 1.0}, {})

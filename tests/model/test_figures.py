@@ -117,7 +117,7 @@ def spring(between: Any) -> dict[str, Any]:
     return {"loads.T_4": {"type": "spring", "between": between, "stiffness": 1, "free_length": 1}}
 
 
-ENDS = "stands where two ends are needed; write [ground.A, rod.B]"
+ENDS = "write [ground.A, rod.B]"
 EFFORT = {"quantity": "effort", "of": "O2", "value": 1}
 REACTION = {"quantity": "reaction", "of": "A", "on": "cran", "value": [1, 2]}
 
@@ -125,11 +125,14 @@ REACTION = {"quantity": "reaction", "of": "A", "on": "cran", "value": [1, 2]}
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"links.crank.shape": {"type": "box", "size": [1, 2]}}, "a list of 2 stands where 3 are needed; "),
-        (spring("crank.A"), f"'crank.A' {ENDS}"),
-        (spring(["crank.A"]), f"a list {ENDS}"),
-        (spring({"a": "crank.A", "b": "x.y"}), f"a mapping {ENDS}"),
-        ({"answers": [EFFORT, REACTION]}, "answer 2 names the link 'cran', which is not there"),
+        (
+            {"links.crank.shape": {"type": "box", "size": [1, 2]}},
+            "a list of 2 is given; 3 values are needed; ",
+        ),
+        (spring("crank.A"), f"expected two points, not 'crank.A'; {ENDS}"),
+        (spring(["crank.A"]), f"expected two points, not a list; {ENDS}"),
+        (spring({"a": "crank.A", "b": "x.y"}), f"expected two points, not a mapping; {ENDS}"),
+        ({"answers": [EFFORT, REACTION]}, "answer 2 names the link 'cran', which does not exist"),
     ],
     ids=["size", "one end", "one end in a list", "a mapping", "an answer"],
 )

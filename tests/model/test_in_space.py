@@ -63,14 +63,14 @@ def test_values_are_replaced_by_path() -> None:
     [
         (
             "links.rod.shape.size",
-            "there is no 'size' in links.rod.shape, asked for by the path 'links.rod.shape.size'",
+            "path 'links.rod.shape.size': 'size' does not exist in links.rod.shape",
         ),
         (
             "links.rod.shape.0.area",
-            "there is no '0' in links.rod.shape, asked for by the path 'links.rod.shape.0'",
+            "path 'links.rod.shape.0': '0' does not exist in links.rod.shape",
         ),
-        ("links.crank.inertia.3", "there is no '3' in links.crank.inertia"),
-        ("joints.C.axes.j.y", "there is no 'y' in joints.C.axes.j"),
+        ("links.crank.inertia.3", "'3' does not exist in links.crank.inertia"),
+        ("joints.C.axes.j.y", "'y' does not exist in joints.C.axes.j"),
     ],
 )
 def test_paths_that_lead_nowhere(path: str, says: str) -> None:

@@ -342,11 +342,11 @@ BAD: list[tuple[Callable[[], Mechanism], str]] = [
     ),
     (
         lambda: scissor(0),
-        "scissor: stages is 0, and must be a whole number of 1 or more; for example scissor(3)",
+        "scissor: stages is 0; it must be an integer of at least 1; for example scissor(3)",
     ),
     (
         lambda: scissor(2, widths=(1.3, 0.7)),
-        "scissor: the roller is to be 1.3 m from the base pin, and links of 1.2 m lie flat there; "
+        "scissor: with the roller 1.3 m from the base pin, links of 1.2 m lie flat; "
         "give widths below 1.2 m, or longer links",
     ),
     (
@@ -408,9 +408,9 @@ def test_bad_dimensions_are_refused_with_names_numbers_and_a_remedy(
 
 
 def test_unknown_template() -> None:
-    with pytest.raises(ModelError, match=r"there is no template 'fourbar'; did you mean 'four_bar'\?"):
+    with pytest.raises(ModelError, match=r"unknown template 'fourbar'; did you mean 'four_bar'\?"):
         template("fourbar")
-    with pytest.raises(ModelError, match="there is no template 'zzz'; they are four_bar, slider_crank"):
+    with pytest.raises(ModelError, match="unknown template 'zzz'; they are four_bar, slider_crank"):
         template_text("zzz")
 
 

@@ -134,26 +134,27 @@ WRONG = {
     "units of its parameters",
     "a: 2*b|b: a/2|mass: a": "engine.yaml:5: parameter 'a': it follows from itself: a from b from a; give one of them "
     "a value",
-    "q: bor/2|mass: q": "engine.yaml:5: parameter 'q': 'bor/2' uses 'bor', which is no parameter; did you mean 'bore'?",
+    "q: bor/2|mass: q": "engine.yaml:5: parameter 'q': 'bor/2' uses 'bor', which is not a parameter; "
+    "did you mean 'bore'?",
     "O: 2|mass: O": "engine.yaml:5: parameter 'O': its name is that of a drive; call it otherwise, for example O_1",
     "sin: 2|mass: sin": "engine.yaml:5: parameter 'sin': its name is that of a function; call it otherwise, for "
     "example sin_1",
     "kg: 2|mass: kg": "engine.yaml:5: parameter 'kg': its name is that of a unit; call it otherwise, for example kg_1",
     "gravity: 2|mass: gravity": "engine.yaml:5: parameter 'gravity': its name is that of a key of the file; call it "
     "otherwise, for example gravity_1",
-    "q: 2 kg|mass: rho*r": "engine.yaml:5: nothing uses the parameter 'q'; use it in a quantity, or leave it out",
-    "q: 2|mass: rh*r": "engine.yaml:16: mass of link 'crank': 'rh*r' uses 'rh', which is no parameter; did you mean "
+    "q: 2 kg|mass: rho*r": "engine.yaml:5: parameter 'q' is not used; use it in a quantity, or leave it out",
+    "q: 2|mass: rh*r": "engine.yaml:16: mass of link 'crank': 'rh*r' uses 'rh', which is not a parameter; did you mean "
     "'rho'?",
     "q: 2|mass: 2 q": "engine.yaml:16: mass of link 'crank': '2 q' has a number beside 'q'; write 2*q",
     "q: 1/0|mass: q": "engine.yaml:5: parameter 'q': the expression '1/0' has no finite value anywhere; change it, or "
     "what it follows from",
-    "q: {value: 3 kg, ranges: 2}|mass: q": "engine.yaml:5: parameter 'q': there is no key 'ranges'; did you "
+    "q: {value: 3 kg, ranges: 2}|mass: q": "engine.yaml:5: parameter 'q': unknown key 'ranges'; did you "
     "mean 'range'?",
     "q: {value: 3 kg, range: [2 kg, 1 kg]}|mass: q": "engine.yaml:5: parameter 'q': a range is two increasing values; "
     "write range: [1.5 kg, 6 kg]",
     "q: sqrt(r)|mass: rho*q^2": None,
     "q: max(0, rho - 1 kg/m)|mass: q*theta*r": "engine.yaml:16: mass of link 'crank': 'q*theta*r' uses 'theta', which "
-    "is no parameter; choose among r, q, area, bore, l, p, rho, n, tilt",
+    "is not a parameter; choose among r, q, area, bore, l, p, rho, n, tilt",
 }
 
 
@@ -176,7 +177,7 @@ def test_a_wrong_file_is_told_where_and_what(case: str) -> None:
     ("values", "says"),
     [
         ({"r": "3 kg"}, "'3 kg' is a mass, and a length is needed"),
-        ({"rr": 3}, "there is no parameter 'rr'; choose among r, "),
+        ({"rr": 3}, "unknown parameter 'rr'; choose among r, "),
         ({"parameters.x": 3}, "names no parameter's value"),
         ({"rho": -1.0}, "links.crank: mass: -0.045 is negative"),
         ({"r": "l/0"}, "has no finite value"),

@@ -180,10 +180,10 @@ def test_in_python_a_drives_unit_says_its_freedom() -> None:
     ("part", "keys", "says"),
     [
         (Link, {"mass": "3 N"}, "mass: '3 N' is a force, and a mass is needed; write one, for example '1.5 kg'"),
-        (Link, {"mas": 3}, "there is no key 'mas'; did you mean 'mass'?"),
+        (Link, {"mas": 3}, "unknown key 'mas'; did you mean 'mass'?"),
         (Pin, {}, "the key 'links' is missing; name the two links it connects, links: [ground, crank]"),
         (Slider, {"links": ("a", "a")}, "it connects link 'a' with itself; name two different links"),
-        (Drive, {}, "its position is not said; write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law"),
+        (Drive, {}, "its position is missing; write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law"),
         (ForceLoad, {"on": "a", "at": "A", "value": Expression("A", "m"), "direction": 0},
          "value: 'm' is a length, and a force is needed; write one, for example '80 N'"),
     ],

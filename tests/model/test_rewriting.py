@@ -228,10 +228,10 @@ def test_anchors_aliases_and_merged_keys() -> None:
     ("old", "new", "says"),
     [
         ("inertia: 0.2}", "inertia: -1}", "x:7: inertia of link 'second': -1 is negative"),
-        ("{<<: *bar, inertia: 0.2}", "{<<: *baz}", "x:7: there is no anchor 'baz'"),
-        ("{<<: *bar, inertia: 0.2}", "{<<: 3}", "x:7: 3 stands where << takes in a mapping; write <<: *name"),
-        ("{<<: *bar, inertia: 0.2}", "{<<: *bar, <<: *bar}", "x:7: the key '<<' stands twice"),
-        ("{<<: *bar, inertia: 0.2}", '{"<<": *bar}', "x:7: there is no key '<<' in link 'second'"),
+        ("{<<: *bar, inertia: 0.2}", "{<<: *baz}", "x:7: unknown anchor 'baz'"),
+        ("{<<: *bar, inertia: 0.2}", "{<<: 3}", "x:7: 3 cannot be merged: << needs a mapping; write <<: *name"),
+        ("{<<: *bar, inertia: 0.2}", "{<<: *bar, <<: *bar}", "x:7: the key '<<' occurs twice"),
+        ("{<<: *bar, inertia: 0.2}", '{"<<": *bar}', "x:7: unknown key '<<' in link 'second'"),
         (
             "    inertia: 0.1\n", "    inertia: 1 kg\n",
             "x:6: inertia of link 'first': '1 kg' is a mass, and a moment of inertia is needed; write one, for example "

@@ -129,10 +129,10 @@ def test_convert_refuses_what_is_wrong(tmp_path: Path) -> None:
 def test_what_cannot_be_written_is_said_and_leaves_no_file(tmp_path: Path) -> None:
     mechanism = from_tree({"title": "\ud800", "links": {"a": {}}})
     for name, says in {
-        "a.json": r"cannot write .*a\.json: a text in it has '\\ud800', half a character; write that text anew",
+        "a.json": r"cannot write .*a\.json: a text in it has '\\ud800', half a character; write that text again",
         "none/a.yaml": r"cannot write .*a\.yaml: folder .*none does not exist; make it, or name another",
         "a\0.yaml": r"cannot write .*\.yaml: .*null byte; name a file that can be written",
-        "a.txt": "is named like no model file; end its name with .yaml, .json or .toml",
+        "a.txt": "does not have the name of a model file; end its name with .yaml, .json or .toml",
     }.items():
         with pytest.raises(ModelError, match=says):
             mechanism.save(tmp_path / name)

@@ -93,14 +93,15 @@ def test_ranges_advance_together_and_single_values_combine() -> None:
             "position: [1, 2]",
             "position: 3",
             5,
-            "the numbers of positions differ: 2 of drive 'A', and 5 are asked for; "
-            "a list has its own count: leave the number out, or write {from, to, count}",
+            "the numbers of positions differ: 2 of drive 'A', but positions=5; "
+            "the list sets the count: leave the number out, or write {from, to, count}",
         ),
         (
             "position: unknown, effort: 1",
             "position: 1",
             5,
-            "5 positions are asked for, and drive 'A' has all that are found in its range; leave the number out",
+            "positions=5 cannot be used: the positions of drive 'A' are computed within its range; "
+            "leave the number out",
         ),
         (
             "position: unknown, effort: 1",
@@ -108,7 +109,7 @@ def test_ranges_advance_together_and_single_values_combine() -> None:
             None,
             "the positions of 2 drives are unknown: A, B; leave one unknown, give the others",
         ),
-        ("position: 1", "position: 1", 0, "0 positions are asked for; ask for 1 to 10000000"),
+        ("position: 1", "position: 1", 0, "positions=0 is out of range; use 1 to 10000000"),
         (
             "law: {type: harmonic, from: 0, to: 90, duration: 1, count: 5}",
             "law: {type: harmonic, from: 0, to: 90, duration: 2, count: 5}",
@@ -141,9 +142,7 @@ def test_positions_of_a_structure_are_refused() -> None:
     assert schedule({}, 1).count == 1
     with pytest.raises(ModelError) as caught:
         schedule({}, 5)
-    assert str(caught.value) == (
-        "5 positions are asked for, and a structure has no drive; leave the number out"
-    )
+    assert str(caught.value) == ("positions=5 cannot be used: a structure has no drive; leave the number out")
 
 
 def test_positions_without_one_turn_are_refused() -> None:
@@ -151,8 +150,8 @@ def test_positions_without_one_turn_are_refused() -> None:
     with pytest.raises(ModelError) as caught:
         schedule(drives, 5)
     assert str(caught.value) == (
-        "5 positions are asked for, and 2 drives turn (A, B); "
-        "say in the file which one steps: position: {from: 0 deg, to: 360 deg, count: 72}"
+        "positions=5 needs one drive that turns, not 2 (A, B); "
+        "give one drive its steps in the file: position: {from: 0 deg, to: 360 deg, count: 72}"
     )
 
 
@@ -239,7 +238,7 @@ def test_a_number_of_positions_is_one_in_a_kernel_too() -> None:
     k = da.compile(m, ["links.coupler.mass"], ["effort.O2"])
     assert k(positions=12)["effort.O2"][0] == pytest.approx(da.dynamics(m, 12)["effort.O2"], rel=1e-9)
     assert k(positions=[0.1, 0.2])["effort.O2"][0] == pytest.approx(da.dynamics(m, [0.1, 0.2])["effort.O2"])
-    with pytest.raises(da.ModelError, match=r"positions=72\.0 is not a whole number"):
+    with pytest.raises(da.ModelError, match=r"positions=72\.0 is not an integer"):
         k(positions=72.0)
     with pytest.raises(da.ModelError, match=r"positions of shape \(\)"):
         k(positions=np.array(72.0))
@@ -248,8 +247,8 @@ def test_a_number_of_positions_is_one_in_a_kernel_too() -> None:
 @pytest.mark.parametrize(
     ("model", "positions", "says"),
     [
-        (FIVE, 72.0, "positions=72.0 is not a whole number; give a number of positions, or a list of values"),
-        (FIVE, True, "positions=True is not a whole number; give a number of positions, or a list of values"),
+        (FIVE, 72.0, "positions=72.0 is not an integer; give a number of positions, or a list of values"),
+        (FIVE, True, "positions=True is not an integer; give a number of positions, or a list of values"),
         (FIVE, [0.1, 0.2, 0.3], "positions of shape (3,) do not fit 2 drive(s); give (position, drive)"),
         (FIVE, [[0.1], [0.2]], "positions of shape (2, 1) do not fit 2 drive(s); give (position, drive)"),
         (FIVE, [], "positions of shape (0,) do not fit 2 drive(s); give (position, drive)"),

@@ -239,8 +239,8 @@ def test_meshes_that_are_no_solids(tmp_path: Path) -> None:
         "open.stl": "the surface of the mesh 'open.stl' is not closed, so it has no volume; "
         "close its holes, or give mass, center and inertia",
         "text.stl": "the mesh 'text.stl' ",
-        "folder.stl": "the mesh 'folder.stl' is no ordinary file",
-        "none.stl": "there is no file 'none.stl'; check the name; it is relative to the model file",
+        "folder.stl": "the mesh 'folder.stl' is not an ordinary file",
+        "none.stl": "file 'none.stl' does not exist; check the name; it is relative to the model file",
     }.items():
         with pytest.raises(ModelError) as caught:
             StlMesh(file=MeshFile(name, str(tmp_path)), density=1)

@@ -78,10 +78,10 @@ def test_columns_without_a_head_have_numbers_and_their_units_stand_in_the_model(
 REFUSED = {
     "": "p.csv:1: it has no rows",
     "angle [deg],pressure [bar]\n": "p.csv:1: a table has too few points: 0",
-    "angle [deg],pressure [bar]\n0,1\n90,x\n": "p.csv:3: 'x' in column 'pressure' is no finite number",
-    "angle [deg],pressure [bar]\n0,1\n90,nan\n": "p.csv:3: 'nan' in column 'pressure' is no finite number",
-    "angle [deg],pressure [bar]\n0,1\n90,1e999\n": "p.csv:3: '1e999' in column 'pressure' is no finite number",
-    "angle [deg],pressure [bar]\n0,1\n90,\n": "p.csv:3: '' in column 'pressure' is no finite number",
+    "angle [deg],pressure [bar]\n0,1\n90,x\n": "p.csv:3: 'x' in column 'pressure' is not a finite number",
+    "angle [deg],pressure [bar]\n0,1\n90,nan\n": "p.csv:3: 'nan' in column 'pressure' is not a finite number",
+    "angle [deg],pressure [bar]\n0,1\n90,1e999\n": "p.csv:3: '1e999' in column 'pressure' is not a finite number",
+    "angle [deg],pressure [bar]\n0,1\n90,\n": "p.csv:3: '' in column 'pressure' is not a finite number",
     "angle [deg],pressure [bar]\n0,1\n\n90,1,2\n": "p.csv:4: 3 columns where the first row has 2",
     "angle [deg],pressure [bar]\n0,1\n90\n": "p.csv:3: 1 columns where the first row has 2",
     "angle [deg],pressure [bar]\n0,1\n90,5\n90,6\n": "p.csv:4: x of a table does not increase from its item 2 to 3",
@@ -128,7 +128,9 @@ def test_only_files_of_the_models_folder_are_read_unless_another_is_allowed(
     path = model(inner, f"{{file: '{name}', columns: [angle, pressure], times: 50 cm^2, periodic: true}}")
     with pytest.raises(ModelError) as caught:
         load(path)
-    assert "outside the model file's folder; put it there, or allow its folder" in str(caught.value)
+    assert "outside the model file's folder; move it into that folder, or allow its folder" in str(
+        caught.value
+    )
     assert str(caught.value).startswith(f"{path}:15: ")
     m = load(path, data=tmp_path)
     assert m == loads(ENGINE.replace("VALUE", INLINE))

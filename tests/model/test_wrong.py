@@ -52,7 +52,7 @@ def test_all_errors_of_a_file_are_listed_the_most_useful_first() -> None:
     with pytest.raises(ModelErrors) as caught:
         loads(text, name="four.yaml")
     assert str(caught.value).splitlines() == [
-        "four.yaml:25: there is no key 'sped' in drive 'O2'; did you mean 'speed'?",
+        "four.yaml:25: unknown key 'sped' in drive 'O2'; did you mean 'speed'?",
         "four.yaml:10: weight of link 'crank': '1.5 kg' is a mass, and a force is needed; "
         "write one, for example '80 N'",
     ]
@@ -76,23 +76,23 @@ FILES = {
     "empty.json": (b"", "empty.json:1: the file is empty"),
     "list.yaml": (
         b"- 1\n",
-        "list.yaml:1: a list stands where a mapping is needed; write links: and joints: ...",
+        "list.yaml:1: expected a mapping, not a list; write links: and joints: ...",
     ),
-    "word.json": (b'"hello"', "word.json:1: 'hello' stands where a mapping is needed"),
+    "word.json": (b'"hello"', "word.json:1: expected a mapping, not 'hello'"),
     "latin.yaml": (
         b"title: a\n# \xe9",
-        "latin.yaml:2: the file is not UTF-8 text: byte 0xe9 has no meaning there",
+        "latin.yaml:2: the file is not UTF-8 text: invalid byte 0xe9",
     ),
-    "wide.yaml": ("title: a".encode("utf-16"), "wide.yaml:1: the file is not UTF-8 text: byte 0xff"),
+    "wide.yaml": ("title: a".encode("utf-16"), "wide.yaml:1: the file is not UTF-8 text: invalid byte 0xff"),
     "control.yaml": (b"title: a\x07", "control.yaml:1: it is not YAML"),
     "mine.txt": (
         b"title: a",
-        "mine.txt is named like no model file; end its name with .yaml, .json or .toml",
+        "mine.txt does not have the name of a model file; end its name with .yaml, .json or .toml",
     ),
-    "twice.json": (b'{"a": 1,\n"b": {"c": 1,\n"c": 2}}', "twice.json:3: the key 'c' stands twice"),
+    "twice.json": (b'{"a": 1,\n"b": {"c": 1,\n"c": 2}}', "twice.json:3: the key 'c' occurs twice"),
     "nan.json": (
         b'{"links":\n{"a": {"mass": NaN}}}',
-        "nan.json:2: NaN is no number of JSON; write a finite number",
+        "nan.json:2: NaN is not a JSON number; write a finite number",
     ),
     "comma.json": (b'{"links": {},\n}', "comma.json:2: it is not JSON here: "),
     "huge.json": (
@@ -118,24 +118,24 @@ FILES = {
         "inline.toml:3: mass of link 'b': '3 N' is a force",
     ),
     "open.toml": (b"[links.a]\nmass = [1, \n", "open.toml:3: it is not TOML here: "),
-    "anchor.yaml": (b"links: &a {b: *a}", "anchor.yaml:1: there is no anchor 'a'"),
+    "anchor.yaml": (b"links: &a {b: *a}", "anchor.yaml:1: unknown anchor 'a'"),
     "merge.yaml": (
         b"links:\n  a: &a {mass: 1}\n  b:\n    <<: [*a, 2]\n",
-        "merge.yaml:4: 2 stands where << takes in a mapping; write <<: *name",
+        "merge.yaml:4: 2 cannot be merged: << needs a mapping; write <<: *name",
     ),
     "fields.yaml": (
         b"source_text: a\nlinks: {a: {}}",
-        "fields.yaml:1: there is no key 'source_text'; did you mean 'source'?",
+        "fields.yaml:1: unknown key 'source_text'; did you mean 'source'?",
     ),
     "ground.yaml": (
         b"links: {a: {points: {O: [0, 0]}}}\njoints:\n  O: {type: pin, links: [ground, a]}",
-        "ground.yaml:3: joint 'O' needs the fixed link 'ground', which is not there; add ground: {points: ",
+        "ground.yaml:3: joint 'O' needs the fixed link 'ground', which is missing; add ground: {points: ",
     ),
     "heavy.yaml": (
         b"links: {a: {}, ground: {mass: 3}}",
         "heavy.yaml:1: the fixed link 'ground' has mass properties",
     ),
-    "still.yaml": (b"links: {ground: {}}", "still.yaml:1: there is no moving link"),
+    "still.yaml": (b"links: {ground: {}}", "still.yaml:1: the mechanism has no moving link"),
 }
 
 

@@ -449,12 +449,12 @@ def test_curves_have_their_values_labels_and_titles() -> None:
 @pytest.mark.parametrize(
     ("ask", "said"),
     [
-        (lambda: TURN["efort.O2"], "there is no quantity 'efort.O2'; did you mean 'effort.O2'?"),
+        (lambda: TURN["efort.O2"], "unknown quantity 'efort.O2'; did you mean 'effort.O2'?"),
         (
             lambda: TURN.plot("reaction.A.w"),
             "reaction.A has no component 'w'; choose among x, y, magnitude, direction",
         ),
-        (lambda: TURN.plot("effort.O3"), "there is no quantity 'effort.O3'; did you mean 'effort.O2'?"),
+        (lambda: TURN.plot("effort.O3"), "unknown quantity 'effort.O3'; did you mean 'effort.O2'?"),
         (lambda: TURN.polar("Aa"), "unknown joint 'Aa'; choose among O2, A, B, O4"),
         (
             lambda: TURN.plot("rotation.rocker"),

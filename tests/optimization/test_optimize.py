@@ -190,7 +190,7 @@ def test_conditions_that_no_design_keeps() -> None:
         ({"vary": {"links.crank.mass": (1, 2, 0)}}, "step > 0"),
         ({"vary": {"links.crank.mass": 3}}, "give (low, high) or (low, high, step)"),
         ({"least": "peek effort.O2"}, "'peek', which is not an aim; did you mean 'peak'?"),
-        ({"least": "peak efort.O2"}, "there is no output 'efort.O2'; did you mean 'effort.O2'?"),
+        ({"least": "peak efort.O2"}, "unknown output 'efort.O2'; did you mean 'effort.O2'?"),
         ({"where": "transmission.B"}, "'transmission.B' is not a condition"),
         ({"where": "rms effort.O2 <= 3"}, "bounds a rms"),
         (
@@ -243,13 +243,13 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("four_bar.yaml", "none.yaml", "optimize.yaml:2: there is no model file"),
+        ("four_bar.yaml", "none.yaml", "optimize.yaml:2: model file"),
         ("least: peak effort.O2", "least: 3", "optimize.yaml:6: no aim to minimize"),
-        ("least:", "last:", "optimize.yaml:6: there is no key 'last'; did you mean 'least'?"),
+        ("least:", "last:", "optimize.yaml:6: unknown key 'last'; did you mean 'least'?"),
         ("[280 mm, 360 mm]", "280 mm", "optimize.yaml:4: the bounds of 'links.ground.points.O4.0'"),
         ("starts: 5", "starts: many", "optimize.yaml:8: starts is 'many'"),
-        ("optimize: 1", "optimize: 2", "optimize.yaml:1: 2 is no version"),
-        ("effort.O2", "efort.O2", "optimize.yaml:6: there is no output 'efort.O2'"),
+        ("optimize: 1", "optimize: 2", "optimize.yaml:1: unknown format version 2"),
+        ("effort.O2", "efort.O2", "optimize.yaml:6: unknown output 'efort.O2'"),
         ("280 mm,", "280 kg,", "'280 kg' is a mass, and a length is needed"),
     ],
 )

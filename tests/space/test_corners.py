@@ -149,7 +149,7 @@ def door(friction: bool) -> da.Mechanism:
 
 
 def test_what_is_unique_does_not_depend_on_friction_elsewhere() -> None:
-    """In the joint's own axes the hinge's couple about its line is known, in ground's no component is."""
+    """In the joint's axes the hinge's couple about its line is known, in ground's no component is."""
     for friction in (False, True):
         r = da.statics(door(friction))
         assert r.status == ("redundant", "redundant")

@@ -169,8 +169,8 @@ def test_a_crank_pin_beside_its_bearing_bends_it() -> None:
 @pytest.mark.parametrize(
     ("offsets", "become", "says"),
     [
-        ({"nobody": 0.1}, {}, "there is no link or joint 'nobody' to offset"),
-        ({}, {"nobody": "spherical"}, "'nobody' is no pin that could become spherical"),
+        ({"nobody": 0.1}, {}, "unknown link or joint 'nobody' to offset"),
+        ({}, {"nobody": "spherical"}, "'nobody' is not a pin that can become spherical"),
     ],
 )
 def test_what_cannot_be_lifted(offsets: dict[str, float], become: dict[str, Any], says: str) -> None:

@@ -17,9 +17,10 @@ NONE = "all its components are 0; write the direction it points in, for example 
 WRONG: list[tuple[str, Sequence[str], Any, str]] = [
     ("rssr", ["assembly", "rod", "axis"], [0, 0, 0], f"axis of rod of assembly: {NONE}"),
     ("rssr", ["drives", "O", "axis"], [0, 0, 1],
-     "drive 'O' has an axis, and joint 'O', a revolute joint, says itself how it moves; leave it out"),
+     "drive 'O' has an axis, but joint 'O', a revolute joint, defines its axis itself; leave it out"),
     ("rotor", ["drives", "A", "axis"], None,
-     "drive 'A' turns joint 'A', a spherical joint, which turns any way; write axis: [0, 0, 1], in the axes of ground"),
+     "drive 'A' turns joint 'A', a spherical joint, which can turn about any axis; "
+     "write axis: [0, 0, 1], in the axes of ground"),
     ("rotor", ["drives", "A", "axis"], [0, 0, 0], f"axis of drive 'A': {NONE}"),
     ("rotor", ["drives", "A", "axis"], [0, 1],
      "axis of drive 'A': a vector has 2 components where 3 are needed; write [x, y, z]"),

@@ -305,7 +305,7 @@ def test_answers_of_a_file(asked: dict[str, Any]) -> None:
         ),
         (
             {"quantity": "reaction", "of": "A", "at": 1, "component": "direction", "value": 1},
-            "there is no component 'direction'; choose among x, y, z, magnitude",
+            "unknown component 'direction'; choose among x, y, z, magnitude",
         ),
         (
             {"quantity": "rotation", "of": "rod", "at": 1, "component": "x", "value": 1},
@@ -339,7 +339,7 @@ def test_slips_in_a_students_figures_are_named() -> None:
     tree = m.to_tree() | {"units": {}}
     verdicts = [da.check_answers(da.mechanism(tree), [answer])[0] for answer in mine]
     assert [v.mistake for v in verdicts] == [
-        "the sense is opposite: action taken for reaction",
+        "the sense is opposite: action mistaken for reaction",
         "x and y are exchanged",
         "inertia is left out: this is the static answer",
     ]
@@ -353,7 +353,7 @@ def test_slips_in_a_students_figures_are_named() -> None:
     [
         (
             lambda r: da.displaced_inertia(r, "rod"),
-            "the displaced inertia force is for mechanisms of the plane, ",
+            "the displaced inertia force is for planar mechanisms, ",
         ),
         (lambda r: r.angle("rod"), "link 'rod' has no single angle in space; ask its rotation"),
     ],

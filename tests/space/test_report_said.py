@@ -43,12 +43,12 @@ def test_everything_stands_in_the_report_of_the_spatial_four_bar() -> None:
         "  T_I3' = −(J_3 α_3' + ω_3' × J_3 ω_3') = −((−49.97, 19.17, −54.16) + (0, 0, 0)) "
         "= (49.97, −19.17, 54.16) N·mm",
         "5 Free bodies and their equations",
-        "Link 4 rocker, moments about joint C; R from there to each force:",
+        "Link 4 rocker, moments about joint C; R from that point to each force:",
         "  Σ M_Cy: R_Bz F_34x + M_14x' = 0",
         "      (86.99)(−5.418) + 471.3 = 0 N·mm",
         "6 Order of solution",
         "7 Reactions and efforts",
-        "Every reaction is unique: equilibrium alone settles it.",
+        "Every reaction is unique: equilibrium alone determines it.",
         "  T_12 = 1045 N·mm",
         "8 Superposition",
         "9 Virtual work, the independent check",
@@ -84,7 +84,7 @@ def test_what_is_redundant_is_named_and_not_solved_step_by_step() -> None:
     assert "3 of the constraints are redundant, among joints O, A, B, C" in said
     assert "With 3 redundant constraints the links cannot be solved one after the other" in said
     assert "All links: 18 equations with 21 unknowns" in said
-    assert "Not unique, as equilibrium alone leaves them open: O (" in said
+    assert "Not unique, because equilibrium alone does not determine them: O (" in said
     assert not blocks(sheet, Matrix)
 
 
@@ -195,7 +195,7 @@ def test_friction_in_figures(name: str) -> None:
         if line.letters.startswith("sum "):
             adds_up(line.numbers)
     assert "Superposition is refused" in words(sheet)
-    assert "What friction takes at this position" in [b.caption for b in blocks(sheet, Table)]
+    assert "Power lost to friction at this position" in [b.caption for b in blocks(sheet, Table)]
 
 
 def test_at_rest_both_ends_have_their_reactions() -> None:

@@ -86,9 +86,7 @@ def test_it_is_printed(
 def test_what_friction_s_drawings_show_is_for_the_plane(rough: Any) -> None:
     r = da.dynamics(rough)
     for ask in (da.friction_circles, da.guide_contact):
-        with pytest.raises(
-            da.ModelError, match="is for mechanisms of the plane, and this one is in space; ask "
-        ):
+        with pytest.raises(da.ModelError, match="is for planar mechanisms, but this one is in space; ask "):
             ask(r, "C")
     with pytest.raises(da.ModelError, match="superposition is refused: with dry friction"):
         da.superposition(r)

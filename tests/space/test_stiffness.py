@@ -44,7 +44,7 @@ def test_a_table_on_four_legs() -> None:
 
 
 def test_each_axis_has_its_own_stiffness() -> None:
-    """Two guides side by side: a couple is shared by their turning stiffness, in the joint's own axes."""
+    """Two guides side by side: a couple is shared by their turning stiffness, in the joint's axes."""
     joint = {"type": "prismatic", "links": ["ground", "bar"], "axis": [1, 0, 0]}
     tree = {
         "space": "space",

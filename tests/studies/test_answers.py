@@ -90,7 +90,7 @@ loads: {{M: {{type: couple, on: arm, by: ground, value: "{law}"}}}}
     assert found.value == pytest.approx(500 - sum(s * ends[f"q{k}"] for k, s in enumerate(signs)))
     assert found.at == pytest.approx(ends)
     assert ("4096 corners" in found.assumed) == (count == 12)
-    assert ("one corner, by the derivatives' signs" in found.assumed) == (count > 12)
+    assert ("one corner, chosen by the signs of the derivatives" in found.assumed) == (count > 12)
 
 
 def test_the_worst_case_says_which_corners_have_no_value() -> None:
@@ -177,7 +177,7 @@ def test_a_limit_is_kept_up_to_its_ends(limit: str, kept: list[int] | None) -> N
     [
         ("3..2 N*m", r"limit of e: '3..2 N\*m' leaves nothing between; write '< 45 N\*m'"),
         ("2..2 N*m", "leaves nothing between"),
-        ("45 N*m", "limit of e: '45 N\\*m' is no limit"),
+        ("45 N*m", "limit of e: '45 N\\*m' is not a limit"),
         ("< 45 mm", "limit of e: "),
     ],
 )

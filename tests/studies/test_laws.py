@@ -157,14 +157,14 @@ def test_what_a_spread_says(
         ("± 0", "a tolerance of '0' is not positive"),
         ("± -2", "a tolerance of '-2' is not positive"),
         ("9..9", "the range from 9 to 9 is empty; write the smaller end first"),
-        ("1..9 in 1", "1 levels are asked for; ask for 2 to 1000000"),
-        ("1..9 in 1000001", "1000001 levels are asked for"),
+        ("1..9 in 1", "levels=1 is out of range; use 2 to 1000000"),
+        ("1..9 in 1000001", "levels=1000001 is out of range"),
         ("range", "it states no range"),
         ("normal ± 3", "'normal ± 3' says no spread"),
         ("uniform 3", "'uniform 3' says no spread"),
         ("3", "'3' says no spread"),
         ([], "a list of 0 values says no levels"),
-        ([1.0, 2.0, 1.0], "a value stands twice in the list"),
+        ([1.0, 2.0, 1.0], "a value occurs twice in the list"),
     ],
 )
 def test_what_is_no_spread(said: object, what: str) -> None:

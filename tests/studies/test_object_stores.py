@@ -121,7 +121,7 @@ def test_what_is_no_study_is_left_alone(study: Study, address: str) -> None:
     kept = Objects(address).objects
     for key, data in (("s.zarr/mine.txt", b"precious"), ("s.zarr/zarr.json", b'{"attributes": {}}')):
         kept.write(key, data)
-        with pytest.raises(da.ModelError, match=r"s\.zarr is there and is no study; give another name"):
+        with pytest.raises(da.ModelError, match=r"s\.zarr exists and is not a study; give another name"):
             study.run(address)
         assert kept.read(key) == data
 

@@ -110,7 +110,7 @@ def test_a_damaged_chunk_is_not_shown(store: Path, finished: Path, array: str, d
 def test_attributes_that_are_none_of_a_study_are_said(store: Path) -> None:
     group = store / "zarr.json"
     group.write_text(group.read_text().replace('"spreads"', '"spread"'))
-    with pytest.raises(da.ModelError, match=r"s\.zarr is no readable study: 'spreads'; run it anew"):
+    with pytest.raises(da.ModelError, match=r"s\.zarr is not a readable study: 'spreads'; run it again"):
         StudyResult.open(store)
 
 
@@ -207,7 +207,7 @@ def test_a_store_knows_its_study(how: dict[str, object], tmp_path: Path) -> None
         ({"seed": 4}, "what is varied, drawn or asked for has changed since, and results would be mixed"),
         ({"reduce": "rms"}, "what is varied, drawn or asked for has changed since"),
         ({"lanes": 2}, "what is varied, drawn or asked for has changed since"),
-        ({"designs": 100}, "has 20000 designs, and 100 are asked for; ask for as many or more"),
+        ({"designs": 100}, "has 20000 designs, and 100 are asked for; request at least as many"),
     ],
 )
 def test_a_changed_study_is_refused(store: Path, changed: dict[str, object], sentence: str) -> None:
@@ -230,7 +230,7 @@ def test_another_program_is_refused(store: Path) -> None:
     prints = changed.open()["prints"]
     changed.group.attrs["prints"] = {**prints, "program": "0123456789abcdef"}
     with pytest.raises(
-        da.ModelError, match="this version of dalembert, or this kind of processor, computes it in another"
+        da.ModelError, match="this version of dalembert, or this kind of processor, computes it differently"
     ):
         drawn().run(store)
 
@@ -239,14 +239,14 @@ def test_a_worker_of_another_kind_is_refused(study: Study) -> None:
     import pickle
 
     with pytest.raises(
-        da.ModelError, match="a worker's processor or version of dalembert computes this study in another way"
+        da.ModelError, match="a worker's processor or version of dalembert computes this study differently"
     ):
         compute_block(pickle.dumps(study), "0123456789abcdef", 0, 0, 10)
 
 
 def test_what_is_no_study_is_left_alone(study: Study, tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("precious")
-    with pytest.raises(da.ModelError, match="is there and is no study; give another name"):
+    with pytest.raises(da.ModelError, match="exists and is not a study; give another name"):
         study.run(tmp_path)
     with pytest.raises(da.ModelError, match=r"nothing: file not found"):
         StudyResult.open(tmp_path / "nothing")

@@ -73,7 +73,7 @@ WRONG = [
     (("F2: {size: 50, direction: 90,", "F2: {size: 50 kg, direction: 90,"),
      "plate.yaml:8: size of force 'F2': '50 kg' is a mass, and a force is needed; write one, for example '80 N'"),
     (("F2: {size: 50, direction: 90,", "F2: {size: 50, direktion: 90,"),
-     "plate.yaml:8: there is no key 'direktion' in force 'F2'; did you mean 'direction'?"),
+     "plate.yaml:8: unknown key 'direktion' in force 'F2'; did you mean 'direction'?"),
     (("F2: {size: 50, direction: 90,", "F2: {size: 50,"),
      "plate.yaml:8: force 'F2': it has no direction; "
      "give one of value, direction, angles (space), from and to"),

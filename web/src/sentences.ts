@@ -65,7 +65,7 @@ export class Reasons {
     const joints = [...new Set(moved.map((c) => c.joint))];
     const values = s.unknowns.map((u) =>
       fill(s.words.sides, { name: u.name, before: this.quantity(kernel.here[u.row], u.kind), after: this.quantity(kernel.hereAfter[u.row], u.kind) }));
-    const verb = status === "reversal" ? (joints.length === 1 ? "reverses" : "reverse") : names.length === 1 ? "lies in an interval" : "each lie in an interval of their own";
+    const verb = status === "reversal" ? (joints.length === 1 ? "reverses" : "reverse") : names.length === 1 ? "lies in an interval" : "each lie in an interval";
     return { ...one, joints: status === "reversal" ? listed(joints) : joints.join(", "), verb, values: listed(values), name: names[0] ?? "", names: listed(names) };
   }
 

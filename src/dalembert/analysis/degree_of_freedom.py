@@ -87,7 +87,7 @@ def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
 
 
 def check_knowns(c: Compiled) -> None:
-    """Every given effort leaves one load to be found, and every unknown load takes one given effort."""
+    """Checks the given efforts and unknown loads: one given effort for every unknown load."""
     given = int((~c.known.asked).sum())
     unknown = len(c.unknown_loads)
     if given == unknown:

@@ -73,7 +73,7 @@ class _Scan:
         return replace(self.schedule, position=position, speed=rates[0], acceleration=rates[1], time=None)
 
     def excess(self, q: Array) -> tuple[Array, float]:
-        """g at q, NaN where there is no answer, and the largest effort met."""
+        """g at q, NaN where unsolved, and the largest effort met."""
         result, where = self.result(q)
         needed, given = result.effort(self.name), self.given(result)
         forces = np.abs(result.force_array).max(initial=0.0, where=np.isfinite(result.force_array))
@@ -115,8 +115,8 @@ def select_positions(result: Result, where: Ints) -> Result:
 def _crossings(scan: _Scan, q: Array, g: Array, scale: float) -> Array:
     """Roots between neighbours of different sign, all refined together.
 
-    By secants that keep the root between them (Illinois: of an end that stays twice, half the value counts), every
-    fourth step halving the interval, where a pole is no root.
+    By secants that keep the root between them (Illinois: an end that stays twice counts with half its value), every
+    fourth step halving the interval, because a pole is not a root.
     """
     exact = q[g == 0]
     k = np.flatnonzero(g[:-1] * g[1:] < 0)

@@ -1,4 +1,4 @@
-"""A plane mechanism as one in space: every link in a plane of its own, so that bearing moments come out."""
+"""A planar mechanism as one in space: every link in a separate plane, so that bearing moments can be computed."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def lifted(
     offsets: Mapping[str, object] | None = None,
     become: Mapping[str, Freed] | None = None,
 ) -> Mechanism:
-    """The plane mechanism in space, its plane as x and y.
+    """The planar mechanism in space, its plane as x and y.
 
     ``offsets`` are heights z of links (their points and mass centres; default 0) and of joints (the middle of the
     bearing; default halfway between its two links), in metres or as texts with units. Pins become revolutes, sliders
@@ -38,8 +38,8 @@ def lifted(
     damper between two links keeps halfway between their heights, and so its length. A joint's stiffness is the same
     along all its axes.
 
-    Moments of inertia about axes in the plane do no work in a plane motion; half the plane one is written for both.
-    Forces and efforts in the plane are those of the plane mechanism. Raises ModelError for what has no counterpart.
+    Moments of inertia about axes in the plane do no work in a plane motion; half the planar one is written for both.
+    Forces and efforts in the plane are those of the planar mechanism. Raises ModelError for what has no counterpart.
 
     >>> import dalembert as da
     >>> from dalembert.model.library import four_bar
@@ -49,7 +49,7 @@ def lifted(
     """
     m = as_mechanism(m)
     if m.space != "plane":
-        raise ModelError("the mechanism is in space already", "lift one of the plane", ("space",))
+        raise ModelError("the mechanism is already in space", "lift a planar one", ("space",))
     return _Lift(_in_numbers(m), dict(offsets or {}), dict(become or {})).mechanism()
 
 
@@ -69,11 +69,11 @@ class _Lift:
         known = [*m.links, *m.joints]
         for name in offsets:
             if name not in known:
-                raise ModelError(f"there is no link or joint {name!r} to offset", closest(name, known))
+                raise ModelError(f"unknown link or joint {name!r} to offset", closest(name, known))
         for name, kind in become.items():
             if name not in m.joints or not m.joints[name].hinge:
                 pins = [n for n, joint in m.joints.items() if joint.hinge]
-                raise ModelError(f"{name!r} is no pin that could become {kind}", closest(name, pins))
+                raise ModelError(f"{name!r} is not a pin that can become {kind}", closest(name, pins))
             if kind not in ("cylindrical", "spherical"):
                 raise ModelError(f"a pin cannot become {kind!r}", "write cylindrical or spherical")
         heights = {name: quantity(value, "length", None) for name, value in offsets.items()}
@@ -142,7 +142,7 @@ class _Lift:
         return {"links": list(joint.links), "at": at, **stiffness, **made(name, joint)}
 
     def _point(self, link: str, point: str, of: str, height: float) -> str:
-        """A point of the link at the height of a joint or spring: its own, or another one beside it."""
+        """A point of the link at the height of a joint or spring: the same point, or another one beside it."""
         if height == self.link[link]:
             return point
         name = f"{point} in {of}"
@@ -254,8 +254,8 @@ class _Lift:
         return result, int(found[0]) if found.size else -1
 
     def _turn_offset(self, load: str) -> float:
-        """What the plane mechanism's count of whole turns adds to the angle of a torsion spring between the links: in
-        space they are counted where `assembly` has the links, as their angles are written there."""
+        """Contribution of the planar mechanism's count of full turns to the angle of a torsion spring between the
+        links: in space they are counted where `assembly` has the links, as their angles are written in it."""
         result, k = self._closing
         c = result.compiled
         turns = (c.forcing.resistances.turns[k, n.place] for n in c.counts if n.spring == load)

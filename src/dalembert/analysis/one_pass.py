@@ -101,7 +101,7 @@ class _Moved(NamedTuple):
 def _blocks(
     c: Compiled, pose: Pose, inertia: bool, forces: bool, where: Ints | None = None
 ) -> tuple[_Moved, Forces]:
-    """Motion and forces (of some positions), so many positions at a time as the processor's cache holds."""
+    """Motion and forces (of some positions), in blocks of positions that fit the processor's cache."""
     size, count = block_size(c, BLOCK), len(c.targets) if where is None else len(where)
     places = [slice(k, k + size) for k in range(0, count, size)]
     parts = [_block(c, pose, p if where is None else where[p], inertia, forces) for p in places]
@@ -113,7 +113,7 @@ def _concatenate(parts: list[_Moved]) -> _Moved:
 
 
 def _with_careful(c: Compiled, pose: Pose, inertia: bool, program: ForceBlock) -> tuple[_Moved, Forces]:
-    """What a program is sure of, and the careful path's answer elsewhere."""
+    """Answer of a program where it is certain, and of the careful path elsewhere."""
     places = np.ones(len(program.sure))
     moved = _Moved(*_stands(c, pose), program.twist, program.acceleration, places)
     doubt = np.flatnonzero(~program.sure)
@@ -189,7 +189,7 @@ def slice_forcing(c: Compiled, part: Index) -> tuple[Forcing, Known]:
 
 
 def _blank_without_answer(open_: Flags, status: tuple[str, ...], moved: _Moved, f: Forces) -> None:
-    """NaN where there is no pose, no rates or no forces."""
+    """NaN where a position has no pose, no rates or no forces."""
     kinds = [(s not in KEPT, s == "undefined_load", s in ("jammed", "redundant")) for s in status]
     lost, undirected, unsolved = np.array(kinds).T
     _blank(open_, moved.point, moved.turn, moved.rotation)
@@ -216,7 +216,7 @@ def _result(
     status: tuple[str, ...],
     reasons: tuple[str | None, ...],
 ) -> Result:
-    """The answer, with one of its own for either end of an interval and for the other side of reversals."""
+    """The answer, with a separate one for either end of an interval and for the other side of reversals."""
 
     def result_of(e: Forces) -> Result:
         return Result(

@@ -1,4 +1,4 @@
-"""What is for mechanisms of the plane only, refused with a sentence."""
+"""Refuses, with a sentence, what is supported for planar mechanisms only."""
 
 from __future__ import annotations
 
@@ -11,12 +11,10 @@ if TYPE_CHECKING:
 
 
 def refuse_space(m: Mechanism, what: str, instead: str) -> None:
-    """Raise for a mechanism in space: what was asked for, and what to ask for in its place.
+    """Raises for a mechanism in space: the analysis refused, and the one to use instead.
 
     >>> from dalembert.model.library import four_bar
     >>> refuse_space(four_bar(), "a force polygon", "use solve")
     """
     if m.dimension == 3:
-        raise ModelError(
-            f"{what} is for mechanisms of the plane, and this one is in space", instead, ("space",)
-        )
+        raise ModelError(f"{what} is for planar mechanisms, but this one is in space", instead, ("space",))

@@ -1,4 +1,4 @@
-"""Positions of the mechanism over the schedule: first pose, assembly mode, the motion from there, its gaps.
+"""Positions of the mechanism over the schedule: first pose, assembly mode, the motion from it, its gaps.
 
 Mechanics: docs/theory.md 3.
 """
@@ -38,7 +38,7 @@ NAMED = 8
 """Ranges behind gaps that are named, each by a position."""
 
 FARTHEST = 1e4
-"""Longest way between two positions that is followed, in radians or characteristic lengths."""
+"""Longest path between two positions that is followed, in radians or characteristic lengths."""
 
 MESH = 1e-3
 """Relative error of a centre distance that a mesh of gears forgives."""
@@ -84,7 +84,7 @@ def positions(c: Compiled) -> Positions:
 
 
 def _first(c: Compiled) -> tuple[int, Modes] | None:
-    """The first position found that closes on the sides that `assembly` states, else on others, and its modes."""
+    """The first position that closes on the branches that `assembly` gives, else on others, and its modes."""
     other: tuple[int, Modes] | None = None
     for k in _places_to_try(c):
         found = c.first_modes if k == 0 else c.guess.modes(c.layout, c.targets[k])
@@ -135,8 +135,8 @@ def places_to_sample(places: Ints) -> Ints:
 
 
 def _beside(c: Compiled, along: Course, start: float, first: Modes) -> tuple[float, Modes | None]:
-    """The mode nearest to the first pose a little further on: the first may be a change point, which says nothing of
-    the mobility, and from which the motion cannot be taken up."""
+    """The mode nearest to the first pose a little further on: the first may be a change point, where the mobility
+    cannot be determined, and from which the motion cannot be continued."""
     near = c.guess.near(first.pose.at(0))
     if along.end > 0:
         step = min(0.02, along.end / 2)
@@ -178,7 +178,7 @@ GEAR_REMEDY = "change the radii or move a centre"
 
 
 def _check_meshes(c: Compiled, first: Pose) -> None:
-    """Wheels in mesh stand at the sum (internal: difference) of their pitch radii."""
+    """Checks that wheels in mesh are at the sum (internal: difference) of their pitch radii."""
     g, constraints = c.layout.algebra, c.layout.constraints
     for f in constraints.families:
         if not isinstance(f, Mesh):
@@ -240,7 +240,7 @@ def _refuse_far(c: Compiled) -> None:
 
 
 def _refuse_overdriven(c: Compiled) -> None:
-    """Nothing closes: perhaps because there are more drives than freedoms."""
+    """Checks, where no pose closes, whether there are more drives than freedoms."""
     layout = replace(c.layout, driven=np.zeros(0, np.intp))
     found = c.guess.modes(layout, c.target)
     if found is None:
@@ -251,11 +251,11 @@ def _refuse_overdriven(c: Compiled) -> None:
 
 
 def mode_sentence(c: Compiled, found: Modes) -> str | None:
-    """Which assembly mode was taken, and the others; nothing to say where the file chose it and it is the only one."""
+    """Chosen assembly mode, and the others; None where the file chose it and it is the only one."""
     if found.chosen_by in ("given", "drawn"):
         return None
     names = _mode_names(c, found.pose)
-    why = "nearest to the file's assembly" if found.chosen_by == "nearest" else "found by search"
+    why = "nearest to the file's assembly" if found.chosen_by == "nearest" else "from a search"
     others = (
         f"; other modes (the file's `assembly` chooses): {' | '.join(names[1:5])}" if len(names) > 1 else ""
     )
@@ -274,13 +274,13 @@ def _ranges(c: Compiled, found: Path) -> str | None:
     many = "a range is" if len(at) == 1 else f"{len(at)} ranges are"
     at = at[:NAMED] + [f"{len(at) - NAMED} more"] * (len(at) > NAMED)
     return (
-        f"{many} behind a gap, where the linkage does not close, and not reached by the motion from the first pose: "
-        f"there (at {', '.join(at)}) every group of links is on the same side as before"
+        f"{many} beyond a gap in which the linkage does not close, and cannot be reached from the first pose: "
+        f"beyond it (at {', '.join(at)}) every group of links keeps its branch"
     )
 
 
 def _mode_names(c: Compiled, pose: Pose) -> list[str]:
-    """Each mode by the angles that tell it from the others: of links, in space of joints."""
+    """Each mode by the angles that distinguish it from the others: of links, in space of joints."""
     if c.geometries:
         rows = np.setdiff1d(np.flatnonzero(c.layout.freedoms.angular), c.layout.driven)
         names = [" ".join(part for part in c.freedoms[k] if part != "turn") for k in rows]

@@ -29,8 +29,8 @@ def statics(
 ) -> Result:
     """Joint forces and efforts without inertia; springs, weights and, at the drives' speeds, dampers act.
 
-    ``method="careful"`` solves every position by itself, as is done anyway where something is in doubt: slower, and
-    what the usual way is checked against.
+    ``method="careful"`` solves every position separately, as is always done where a position is in doubt: slower, used
+    to check the usual method.
     """
     return _analyse(m, positions, strict, inertia=False, forces=True, method=method)
 
@@ -48,7 +48,7 @@ def dynamics(
 def solve(
     m: ModelOrPath, static: bool = False, positions: AtPositions = None, strict: bool = False
 ) -> Result:
-    """What the command ``dalembert solve`` does: with inertia when the file has speeds, unless ``static``."""
+    """Solution as by the command ``dalembert solve``: with inertia when the file has speeds, unless ``static``."""
     m = as_mechanism(m)
     if static or not m.has_speeds:
         return statics(m, positions, strict)

@@ -168,6 +168,6 @@ The file of answers, or a list as in a model file:
 A rubric changes what it names; here the default shares, all others are 1 or 0:
   marks: {effort: 4, reaction: 2}
   share: {rounding: 0.75, sign: 0.5, unit: 0.5, named: 0.5, part: 0.5}
-  mistakes: {weight is taken for mass: 0.25}""",
+  mistakes: {weight is mistaken for mass: 0.25}""",
 }
 """Function of each command -> the examples under its help."""

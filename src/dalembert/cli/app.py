@@ -33,7 +33,7 @@ EPILOGUE = """Examples:
   dalembert solve --help
   dalembert --version
 
-With --data FOLDER, tables of any command's FILE may be read from there too, not only beside it.
+With --data FOLDER, tables of any command's FILE may be read from FOLDER too, not only from beside FILE.
 
 Exit status: 0 all positions solved; 1 some position is not; 2 the file or the command line is wrong."""
 
@@ -110,7 +110,7 @@ def command_line(asked: str) -> App:
 
 
 def _command(name: str) -> tuple[Any, Any]:
-    """A command's module, and its function, or its App with commands of its own."""
+    """A command's module, and its function, or its App with subcommands."""
     module = import_module(f"dalembert.cli.{MODULES[name]}")
     return module, getattr(module, name.replace("-", "_"))
 

@@ -104,7 +104,7 @@ def _text(rows: Sequence[Row], every: bool) -> str:
 
 
 def _answers_table(rows: Sequence[Row]) -> str:
-    """One line an answer; the names of cases stand above theirs."""
+    """One line per answer; the names of cases are above theirs."""
     cells = []
     for row in rows:
         figures = [row.published, row.exact or "-", row.computed, row.tolerance, row.deviation]

@@ -161,7 +161,7 @@ JOINT_HEADS = ("joint", "turns", "slides", "reactions", "local axes")
 
 
 def joint_rows() -> list[list[str]]:
-    """Type, turns and slides of j in i, reactions, own axes of every joint in space, a row each."""
+    """Type, turns and slides of j in i, reactions, local axes of every joint in space, a row each."""
     from dalembert.model.joints.pairs import PAIRS
     from dalembert.views.symbols.pair_pictures import sorted_kinds
 
@@ -172,7 +172,7 @@ def joint_rows() -> list[list[str]]:
 
 
 def joint_table() -> str:
-    """The joints in space: turns and slides of j in i, and the reactions along the joint's own axes."""
+    """The joints in space: turns and slides of j in i, and the reactions along the joint's local axes."""
     shown = table(JOINT_HEADS, joint_rows(), len(JOINT_HEADS))
     more = (
         "Beside these there are gears in space, and in the plane pin, slider, slot, weld, gear and rolling."

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 OK, SOME_NOT_OK = 0, 1
 MOVING = (None, "animation", "mechanism", "all")
-"""Views that an animation may stand for."""
+"""Views that an animation may show."""
 PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp", ".glb")
 
 
@@ -57,7 +57,7 @@ ViewName = Literal[
     "all",
 ]
 VIEWS = with_help(
-    "What to draw; motion: velocity and acceleration polygons and instant centres; friction: circles, pins and "
+    "Views to draw; motion: velocity and acceleration polygons and instant centres; friction: circles, pins and "
     "guides; teeth: gears in mesh; charts: over a cycle; superposition: one load at a time; all: mechanism, "
     "free bodies, force polygons, charts (default: as many of these as one page holds)."
 )
@@ -145,7 +145,7 @@ def _first_page(r: Result, at: str | None, notation: Notation, camera: Any) -> t
 
 
 def _paper(output: Path, paper: str | None) -> str | None:
-    """The pages of a PDF, A4 unless others are asked for; `fit` is one page as large as the drawing."""
+    """The pages of a PDF, A4 by default; `fit` is one page as large as the drawing."""
     if paper is None and output.suffix.lower() == ".pdf":
         return "a4"
     return None if paper == "fit" else paper
@@ -236,7 +236,7 @@ def _solve_at(m: Mechanism, at: str | None, static: bool, positions: int | None)
 
 
 def _at_last_position(m: Mechanism, values: list[float]) -> Mechanism:
-    """The mechanism at the last of some positions of its drive, in the assembly mode that leads there."""
+    """The mechanism at the last of some positions of its drive, in the assembly mode that leads to it."""
     from dalembert.analysis import kinematics
 
     path = f"drives.{next(iter(m.drives))}.position"
@@ -248,7 +248,7 @@ def _at_last_position(m: Mechanism, values: list[float]) -> Mechanism:
 
 
 def _pose(r: Result, link: str) -> object:
-    """Where a link is at the last position, as an assembly says it."""
+    """Pose of a link at the last position, in the form of an assembly."""
     if r.mechanism.dimension == 2:
         return float(r.angle(link)[-1])
     from dalembert.algebra import space

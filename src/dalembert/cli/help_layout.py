@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Hanging(PlainFormatter):
-    """Plain text; where an option's sentence takes several lines, the others stand under the first."""
+    """Plain text; continuation lines of an option's sentence are aligned under the first."""
 
     def _print_plain(self, console: Console, text: str) -> None:
         if text.startswith(self.indent):

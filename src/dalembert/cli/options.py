@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 def whole(least: int, most: int | None = None) -> Callable[..., int]:
-    """A reader of whole numbers within limits."""
+    """A reader of integers within limits."""
 
     def read(_: Any, tokens: Sequence[Any]) -> int:
         text = tokens[0].value
         number = int(text) if text.isascii() and text.isdigit() and len(text) < 16 else least - 1
         if number < least or (most is not None and number > most):
             limits = f"of {least} or more" if most is None else f"from {least} to {most}"
-            raise ValueError(f"{text!r} is not a whole number {limits}")
+            raise ValueError(f"{text!r} is not an integer {limits}")
         return number
 
     return read

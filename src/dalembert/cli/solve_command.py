@@ -138,8 +138,7 @@ def _check_targets(file: Path, wanted: Wanted) -> None:
 
 
 def check_targets(file: Path, targets: Mapping[str, Path | None], force: bool) -> None:
-    """Raise where two answers go to one place, or one to a file of another kind, that is there, or that needs a
-    package."""
+    """Raises where two answers have one target, or a target has the wrong type, exists, or needs a missing package."""
     if str(targets["json"]) == "-" and str(targets["csv"]) == "-":
         raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
     taken = {os.path.realpath(file): "the model file"}

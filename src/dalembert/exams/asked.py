@@ -1,4 +1,4 @@
-"""What is asked: quantities, their figures in a result, and how a sheet and a key say them."""
+"""Quantities of a question: their figures in a result, and their words in a sheet and a key."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 CHECKS = ("residual", "power_balance")
-"""Quantities that check an answer, and that nobody is asked for."""
+"""Quantities that check an answer, and that are never part of a question."""
 
 NOTHING = 1e-9
 """Part of the largest reaction below which a figure is none."""
@@ -33,16 +33,16 @@ FORMS = "write effort.O2, reaction.A, reaction.A.coupler, reaction.A.magnitude, 
 
 
 class Figure(NamedTuple):
-    """The value of what is asked, SI: a number, a vector or a rotation, of a kind of ``units.KINDS``."""
+    """The value of a required quantity, SI: a number, a vector or a rotation, of a kind of ``units.KINDS``."""
 
     kind: str
     value: Array
 
 
 def asked_quantities(r: Result, ask: Sequence[object], at: int | str | None) -> tuple[Answer, ...]:
-    """What is asked of a problem: what ``ask`` names, else its own ``answers``, else all efforts and reactions.
+    """Required quantities of a problem: those in ``ask``, else its ``answers``, else all efforts and reactions.
 
-    ``at`` is the position of what does not name its own, the first one by default.
+    ``at`` is the position of quantities that do not name one, the first one by default.
     """
     found = [a for one in ask for a in _named(r, one)] or _of_file(r) or _forces(r)
     many = len(r.status) > 1
@@ -63,7 +63,7 @@ def asked_quantities(r: Result, ask: Sequence[object], at: int | str | None) -> 
 
 
 def figure(r: Result, answer: Answer) -> Figure:
-    """The figure that is asked for, just before reversals where there are two; what is rounding is 0."""
+    """The required figure, just before a reversal where two values exist; rounding is 0."""
     side = sides_of(r, answer)[0]
     series = read(side, answer)
     k = position_of(side, answer, series)
@@ -72,13 +72,13 @@ def figure(r: Result, answer: Answer) -> Figure:
 
 
 def place_of_answer(r: Result, answer: Answer) -> int:
-    """The position that is asked about, from 0."""
+    """Position of an answer, from 0."""
     side = sides_of(r, answer)[0]
     return position_of(side, answer, read(side, answer))
 
 
 def _named(r: Result, one: object) -> list[Answer]:
-    """An answer as it stands, a mapping of its keys, or text: effort.O2."""
+    """An answer itself, a mapping of its keys, or text: effort.O2."""
     if isinstance(one, Answer):
         return [one]
     if isinstance(one, Mapping):
@@ -87,14 +87,14 @@ def _named(r: Result, one: object) -> list[Answer]:
     if not words and quantity in ("efforts", "reactions"):
         return [a for a in _forces(r) if a.quantity.startswith(quantity[:-1])]
     if quantity not in QUANTITIES:
-        raise ModelError(f"--ask {one}: there is no quantity {quantity!r}", closest(quantity, [*QUANTITIES]))
+        raise ModelError(f"--ask {one}: unknown quantity {quantity!r}", closest(quantity, [*QUANTITIES]))
     if not words:
         raise ModelError(f"--ask {one} does not say of what", FORMS)
     return [Answer(**named_figure(str(one), None))]
 
 
 def _of_file(r: Result) -> list[Answer]:
-    """The quantities of the file's own answers, without their values."""
+    """Quantities of the file's answers, without their values."""
     some = (a for a in r.mechanism.answers if a.quantity in QUANTITIES and a.quantity not in CHECKS)
     return [without_value(a) for a in some]
 
@@ -121,7 +121,7 @@ def _forces(r: Result) -> list[Answer]:
 
 
 def question_words(shown: Shown, answer: Answer) -> str:
-    """What is asked, with its sign: 'Reaction of A on coupler, $F_{23}$'."""
+    """Question for a quantity, with its sign: 'Reaction of A on coupler, $F_{23}$'."""
     one = len(shown.r.status) == 1
     words = describe_answer(answer.model_copy(update={"component": None, "at": None if one else answer.at}))
     words = words[:1].upper() + words[1:]
@@ -135,7 +135,7 @@ def question_words(shown: Shown, answer: Answer) -> str:
 
 
 def blanks(answer: Answer, found: Figure, units: object) -> tuple[tuple[str, str], ...]:
-    """What is to be filled in: the name of each number and its unit."""
+    """Blanks to fill in: the name of each number and its unit."""
     own = pretty(Printed(units).text(found.kind))
     if found.value.ndim == 0:
         return (("", own),)
@@ -175,7 +175,7 @@ COLUMNS = table_files.COLUMNS[1:]
 
 
 def key_row(answer: Answer, found: Figure, units: object) -> dict[str, object]:
-    """An asked figure as a key has it, what is empty left out."""
+    """A required figure as a row of the key, without empty cells."""
     row = {name: getattr(answer, name) for name in table_files.KEYS}
     row["axes"] = None if answer.axes == "ground" else answer.axes
     row |= {"value": key_value(found, units), "unit": Printed(units).text(found.kind)}

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from dalembert.model import Answer, Mechanism
 
 ASIDE = {"turn": pi / 90, "slide": 0.01}
-"""How far beside its position a drive is looked at, rad or characteristic lengths."""
+"""Distance from its position at which a drive is checked too, rad or characteristic lengths."""
 
 GROWTH = 2.0
 """Ratio of the largest reactions on both sides at which a dead centre is near: forces go as one over its distance."""
@@ -59,14 +59,14 @@ class Candidate:
         return sorted(s for s in usual if self.mistakes.get(s, 0.0) <= 1.0)
 
     def near_zero(self, usual: Sequence[float]) -> int | None:
-        """Which figure is near zero beside its usual size, if one is."""
+        """Index of a figure near zero beside its usual size, if any."""
         for k, (f, size) in enumerate(zip(self.figures, usual, strict=True)):
             if f.kind not in ("angle", "number") and figure_size(f) < SMALL * size:
                 return k
         return None
 
     def same(self, other: Candidate, near: float) -> bool:
-        """Whether all figures are those of another one."""
+        """True if all figures are those of another candidate."""
         pairs = zip(self.figures, other.figures, strict=True)
         return all(difference(a, b.value) <= near for a, b in pairs)
 
@@ -135,7 +135,7 @@ def _check_position(r: Result, k: int, static: bool) -> None:
 
 
 def _beside(r: Result, k: int, drive: str, static: bool) -> list[float]:
-    """The largest reaction with one drive a little before its position, there, and a little behind it."""
+    """The largest reaction with one drive a little before its position, at it, and a little after it."""
     m, values = r.mechanism, Tree()
     if any(d.law is not None or d.unknown for d in m.drives.values()):
         return []
@@ -176,7 +176,7 @@ def _mistakes(
 
 
 def _change(other: Result, answer: Answer, right: Figure, place: int) -> float:
-    """How far the figure of a wrong problem is from the right one."""
+    """Distance of the figure of a wrong problem from the right one."""
     try:
         values, _ = values_of(other, answer, place)
     except (DalembertError, IndexError):

@@ -48,7 +48,7 @@ def read_choices(vary: Mapping[str, object]) -> list[Choices]:
         if len({str(v) for v in values}) < 2:
             raise ModelError(f"--vary {path}: there is one value only, and nothing to draw", FORMS)
     if not found:
-        raise ModelError("nothing is to vary", FORMS)
+        raise ModelError("no number varies", FORMS)
     return found
 
 
@@ -102,7 +102,7 @@ def _round_step(span: Decimal) -> Decimal:
 
 
 def _ratio(path: str, step: str, named: str) -> Decimal:
-    """What a step in its own unit is multiplied with to be in that of the range."""
+    """Factor from the unit of a step to that of the range."""
     if step == named:
         return Decimal(1)
     a, b = unit(step), unit(named)

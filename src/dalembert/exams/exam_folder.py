@@ -1,4 +1,4 @@
-"""Variants on disk: a folder that appears whole or not at all, and that replaces only one made in the same way."""
+"""Variants on disk: a folder that appears complete or not at all, and that replaces only one made in the same way."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from dalembert.model import Answer, Mechanism
 
 RECORD = "variants.json"
-"""The seed, what was asked and the values of each variant: the mark of such a folder."""
+"""The seed, the required quantities and the values of each variant: identifies such a folder."""
 
 PARTS = {
     "problems": (".yaml",),
@@ -69,7 +69,7 @@ def write_folder(
     folder: Path,
     overwrite: bool,
 ) -> None:
-    """Write all sheets beside the folder and put them in its place when all is there."""
+    """Writes all sheets beside the folder and moves them into place when all are complete."""
     check_folder(folder, overwrite)
     with new_folder(folder) as beside, progress("Sheets", len(found)) as step:
         for part in PARTS:
@@ -98,7 +98,7 @@ def _copy_meshes(m: Mechanism, folder: Path) -> None:
             continue
         if ".." in Path(mesh.written).parts:
             what = f"the mesh {mesh.written} lies outside the folder of the problem"
-            raise ModelError(what, "put it beside the model file, or name it by its whole path")
+            raise ModelError(what, "move it beside the model file, or give its absolute path")
         target = folder / mesh.written
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(mesh.path, target)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def question_sheet(
     r: Result, asked: Sequence[Answer], name: str = "", notation: Notation | None = None
 ) -> Report:
-    """What is given, its figure to scale without anything computed, and what is asked, with room for each number."""
+    """Given data, the figure to scale without computed values, and the questions, with space for each number."""
     notation, k = as_given(notation), place_of_answer(r, asked[0])
     c = ReportContext(r, k, Shown(r, notation), METHODS, "", notation, question=True)
     sheet = Sheet(r.mechanism.title or "Force analysis", "", f"Variant {name}" if name else "")
@@ -40,6 +40,6 @@ def question_sheet(
 def solution_sheet(
     r: Result, asked: Sequence[Answer], name: str = "", notation: Notation | None = None
 ) -> Report:
-    """The worked report of the position that is asked about, with the variant's name."""
+    """The worked report of the position of the question, with the variant's name."""
     worked = report(r, place_of_answer(r, asked[0]) + 1, notation=notation).sheet
     return Report(replace(worked, subtitle=f"Variant {name}, solution. {worked.subtitle}"))

@@ -52,7 +52,7 @@ def _unit(name: str) -> Unit | None:
 
 
 def _size(m: Mechanism, path: str) -> tuple[float, tuple[float | None, ...]] | None:
-    """The SI number at a path, of a vector its length, and its dimension; None of what is no number."""
+    """The SI number at a path, of a vector its length, and its dimension; None if it is not a number."""
     if path in m.parameters:
         return float(m.parameters[path].value), tuple(m.parameters[path].dimension)
     tree: Any = m.to_tree()

@@ -1,4 +1,4 @@
-"""Variants of a problem: values drawn by chance until enough sound problems are found, all different."""
+"""Variants of a problem: random values until enough sound problems exist, all different."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from dalembert.model import Answer, Mechanism
 
 TRIES = 20
-"""Sets of values tried for each variant that is asked for."""
+"""Sets of values tried for each requested variant."""
 
 
 @dataclass(frozen=True)
 class Variants(Sequence[Variant]):
-    """Variants of a problem, what is asked of each, and the seed that draws the same ones again."""
+    """Variants of a problem, their required quantities, and the seed that repeats them."""
 
     found: tuple[Variant, ...]
     asked: tuple[Answer, ...]
@@ -81,15 +81,15 @@ def variants(
     static: bool = False,
     tolerance: str = "",
 ) -> Variants:
-    """Variants of a problem with stated values drawn by chance, all different, each solved and checked.
+    """Variants of a problem with random values of stated numbers, all different, each solved and checked.
 
-    ``vary``: path -> a range ("40..60 mm step 5 mm"), or a list of values. ``ask``: what is asked ("effort.O2",
-    "reaction.A", an `Answer`); by default the file's own `answers`, else all efforts and reactions. A variant is sound
-    where all asked positions are solved and no dead centre is near (the largest reaction less than doubles within
-    2 degrees of the drive on both sides), where no figure is near zero, and where every mistake that `check_answers`
-    knows, and that most sets of values show, changes one asked figure at least by more than ``tolerance`` ("3 %", by
-    default 0.5 %). Raises ModelError where not enough are found, with what was wrong with the others. The same
-    ``seed`` draws the same variants.
+    ``vary``: path -> a range ("40..60 mm step 5 mm"), or a list of values. ``ask``: the required quantities
+    ("effort.O2", "reaction.A", an `Answer`); by default the file's `answers`, else all efforts and reactions. A variant
+    is sound where all asked positions are solved and no dead centre is near (the largest reaction less than doubles
+    within 2 degrees of the drive on both sides), where no figure is near zero, and where every mistake that
+    `check_answers` knows, and that most sets of values show, changes one asked figure at least by more than
+    ``tolerance`` ("3 %", by default 0.5 %). Raises ModelError where too few are sound, with the faults of the others.
+    The same ``seed`` draws the same variants.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
@@ -109,7 +109,7 @@ def variants(
             mechanism.with_values({path: value})
     there_are = prod(len(c.values) for c in choices)
     if there_are < count:
-        what = f"the values allow {there_are} different problems, and {count} are asked for"
+        what = f"the values allow {there_are} different problems, but {count} are requested"
         raise ModelError(what, "give more values, or smaller steps")
     asked = asked_quantities(solve(mechanism, static=static), ask, at)
     seed = secrets.randbelow(10**6) if seed is None else seed
@@ -130,7 +130,7 @@ def variants(
 
 
 def _draws(choices: Sequence[Choices], there_are: int, chance: random.Random) -> Iterator[dict[str, object]]:
-    """Sets of values in a random order, none twice: a shuffle of all, of which no more is made than is asked for."""
+    """Sets of values in a random order, none twice: a shuffle of all, of which only the requested part is made."""
     moved: dict[int, int] = {}
     for k in range(there_are):
         other = k + int(chance.random() * (there_are - k))
@@ -180,7 +180,7 @@ class _Pool:
     def _fault(
         self, one: Candidate, usual: tuple[list[float], list[str]], others: Sequence[Candidate]
     ) -> str:
-        """What is wrong with a solved candidate, if anything."""
+        """Fault of a solved candidate, if any."""
         small = one.near_zero(usual[0])
         if small is not None:
             return f"{describe_answer(self.asked[small])} is near zero"
@@ -195,8 +195,8 @@ class _Pool:
         reasons.update(f for c in self.tried if c not in kept and (f := self._fault(c, usual, kept)))
         said = "; ".join(f"{n} where {reason}" for reason, n in reasons.most_common(3))
         tried = len(self.tried) + len(self.unfit)
-        were = f"{found} of {count} variants were found among {tried} sets of values tried"
-        return f"{were}, of the {there_are} that there are; left out: {said}"
+        were = f"{found} of {count} variants were drawn from {tried} sets of values"
+        return f"{were}, of {there_are} possible ones; rejected: {said}"
 
 
 def _variant(name: str, c: Candidate, asked: Sequence[Answer], tolerance: str) -> Variant:

@@ -1,4 +1,4 @@
-"""A student's answers judged, and the answers that stand in a model file compared.
+"""Judges a student's answers, and compares the answers in a model file with the computed ones.
 
 In: a ``Mechanism`` and answers with their units. Out: verdicts, with the usual mistake that explains a wrong figure.
 Imports ``analysis``, ``model``.

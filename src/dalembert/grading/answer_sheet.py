@@ -17,15 +17,15 @@ if TYPE_CHECKING:
     from dalembert.model import Answer
 
 KNOWN = (*QUANTITIES, *WORDS, *WHOLE)
-"""What a figure may be of."""
+"""Quantities that a figure may have."""
 
 ABOUT = ("student", "variant", "tolerance")
-"""What a sheet may say beside its figures."""
+"""Keys of a sheet beside its figures."""
 
 
 @dataclass(frozen=True)
 class Sheet:
-    """Figures, the lines they stand on, the tolerance of those that state none, whose they are and of which variant."""
+    """Figures, their lines, the tolerance of those that give none, the student and the variant."""
 
     answers: tuple[Answer, ...]
     lines: tuple[int, ...] = ()
@@ -63,13 +63,13 @@ def read_sheet(tree: object, source: Locator | None = None) -> Sheet:
 
 
 def about_sheet(tree: object) -> dict[str, str]:
-    """What a sheet says beside its figures; empty where it does not."""
+    """Keys of a sheet beside its figures; empty where it has none."""
     found = {key: tree.get(key) for key in ABOUT} if isinstance(tree, Mapping) else dict.fromkeys(ABOUT)
     return {key: "" if value is None else str(value) for key, value in found.items()}
 
 
 def without_value(answer: Answer) -> Answer:
-    """What an answer is of, without what stands in the file for it."""
+    """The subject of an answer, without the file's values for it."""
     return answer.model_copy(update=dict.fromkeys(("value", "exact", "tolerance", "exact_tolerance", "why")))
 
 
@@ -82,7 +82,7 @@ Path = tuple[str | int, ...]
 
 
 def sheet_items(tree: object) -> Iterator[tuple[Path, Tree]]:
-    """Every figure as the keys of an answer, and where it stands."""
+    """Every figure as the keys of an answer, and its path."""
     base: Path = ()
     if isinstance(tree, Mapping) and "answers" in tree:
         tree, base = tree["answers"], ("answers",)
@@ -100,7 +100,7 @@ def answer_of(item: Tree) -> Answer:
     from dalembert.model import Answer
 
     if item.get("quantity") not in KNOWN:
-        said = f"there is no quantity {item.get('quantity')!r}"
+        said = f"unknown quantity {item.get('quantity')!r}"
         raise ModelError(said, closest(str(item.get("quantity")), [*KNOWN], 40))
     return Answer(**item)
 
@@ -117,7 +117,7 @@ def _short(tree: Mapping[Any, object]) -> Iterator[tuple[Path, Tree]]:
             yield (name,), {"quantity": quantity, "value": values}
             continue
         if not isinstance(values, Mapping):
-            what = f"{name} stands without names of what the figures are of"
+            what = f"{name} needs names, of the things that the figures belong to"
             raise ModelError(what, f"write {name}: {{NAME: {quote_value(values)}}}", (name,))
         for of, value in values.items():
             yield (name, of), short_item(quantity, str(of), value)

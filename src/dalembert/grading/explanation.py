@@ -29,20 +29,20 @@ SMALL = 0.03
 """Relative difference up to which a figure is nearly right."""
 
 MUCH = 5
-"""How many times nearer than the right value a mistake must come to explain a figure that is nearly right."""
+"""Factor by which a mistake must be nearer than the right value to explain a figure that is nearly right."""
 
 GRAPHICAL = 0.05
 """Relative difference that a drawing may have."""
 
 UNEXPLAINED, ROUNDED = 1.5, 1.2
-"""What a figure that is not explained, or only nearly right, counts beside a mistake."""
+"""Cost of a figure that is not explained, or only nearly right, relative to that of a mistake."""
 
 SAME = 2e-4
-"""Relative differences that tell nothing apart."""
+"""Relative difference below which explanations cannot be distinguished."""
 
 
 class Explanation(NamedTuple):
-    """What is wrong with a figure, in words and of which kind: sign, unit, named, rounding, or unknown."""
+    """Explanation of a wrong figure, in words and by kind: sign, unit, named, rounding, or unknown."""
 
     sentence: str
     kind: str
@@ -65,12 +65,12 @@ class _Option:
 
     @property
     def is_exact(self) -> bool:
-        """Whether one mistake gives all figures: no other explanation is better, but a likelier one."""
+        """True if one mistake gives all figures: no other explanation is better, but a likelier one."""
         return self.cost <= 1 and self.off <= SAME
 
 
 def explain(figures: Sequence[Figure], problems: WrongProblems | None) -> dict[int, Explanation]:
-    """What explains each wrong figure, by its number; without a problem only slips in the values do."""
+    """Explanation of each wrong figure, by its number; without a problem only slips in the values are considered."""
     wrong = [n for n, f in enumerate(figures) if f.judged and not f.met]
     out = {n: Explanation(figures[n].impossible, "sign") for n in wrong if figures[n].impossible}
     wrong = [n for n in wrong if n not in out]
@@ -81,7 +81,7 @@ def explain(figures: Sequence[Figure], problems: WrongProblems | None) -> dict[i
 
 
 def _best(options: list[_Option]) -> _Option:
-    """Of the options of fewest mistakes the likeliest that comes about as near as any."""
+    """Among the options with fewest mistakes, the likeliest that is about as near as any."""
     least = min(o.cost for o in options)
     among = [o for o in options if o.cost <= least + 1e-9]
     nearest = min(o.off for o in among)
@@ -128,7 +128,7 @@ class _Sheet:
         return option
 
     def _values(self, result: Result | None, n: int) -> tuple[Array, ...]:
-        """What a problem answers where figure n asks; what is right without a problem."""
+        """Values of a problem for figure n; the right value without a problem."""
         if result is None:
             return self.figures[n].right
         try:
@@ -137,7 +137,7 @@ class _Sheet:
             return ()
 
     def _away(self, n: int, values: tuple[Array, ...]) -> float | None:
-        """How far a figure is from the nearest of some values that explain it, 0 if it is one of them rounded."""
+        """Distance of a figure from the nearest of some values that explain it, 0 if it is one of them rounded."""
         f = self.figures[n]
         offs = [f.close.off(v) for v in values if self._explains(f, v)]
         if not offs:
@@ -210,7 +210,7 @@ class _Sheet:
 
 
 def _unexplained(f: Figure) -> tuple[Explanation, float]:
-    """What is said of a figure that no mistake explains, and what it costs."""
+    """Explanation of a figure that no mistake explains, and its cost."""
     if f.off <= SMALL:
         return Explanation("close: rounded too early, or a small slip", "rounding"), ROUNDED
     said = "none of the usual mistakes explains it"

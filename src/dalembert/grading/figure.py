@@ -53,12 +53,12 @@ class Figure:
 
     @property
     def judged(self) -> bool:
-        """Whether there is anything to compare with."""
+        """True if there is a value to compare with."""
         return bool(self.right)
 
     @cached_property
     def met(self) -> bool:
-        """Whether the figure is right."""
+        """True if the figure is right."""
         if self.impossible:
             return False
         if self.interval:
@@ -68,7 +68,7 @@ class Figure:
         return self.holds(self.right)
 
     def holds(self, values: tuple[Array, ...]) -> bool:
-        """Whether the figure is one of some values."""
+        """True if the figure is one of some values."""
         return any(self.close.holds(v) for v in values)
 
     @cached_property
@@ -82,14 +82,14 @@ class Figure:
     def impossible(self) -> str:
         """Why no computation can give the figure."""
         if self.answer.component == "magnitude" and float(self.given.value) < 0:
-            return "a magnitude is never negative: the sense is told by the direction, or by the components"
+            return "a magnitude is never negative; the direction or the components give the sense"
         if self.given.polar and str(self.answer.value).lstrip().startswith("-"):
             return "a magnitude is never negative: the opposite sense is a direction turned by 180 deg"
         return ""
 
     @property
     def words(self) -> str:
-        """What the figure is of."""
+        """Description of the figure."""
         return describe_answer(self.answer)
 
     @property
@@ -105,7 +105,7 @@ def figure(result: Result, answer: Answer, tolerance: object = None) -> Figure:
     position = position_of(result, answer, series)
     given = target(answer.value, series, units, "value")
     if not np.isfinite(given.value).all():
-        raise ModelError(f"{value_text(answer.value)!r} is no finite number", "write one", ("value",))
+        raise ModelError(f"{value_text(answer.value)!r} is not a finite number", "write one", ("value",))
     close = closeness(answer, given, series.kind, units, tolerance, floor(result, series.kind))
     right, interval = values_of(result, answer, position)
     shown = [computed_text(v, given, series.kind, units, answer.value) for v in right]
@@ -116,7 +116,7 @@ def figure(result: Result, answer: Answer, tolerance: object = None) -> Figure:
 
 
 def figure_of_key(answer: Answer, right: Answer, tolerance: object = None) -> Figure:
-    """A student's figure beside the value of a key alone; its kind is told by the unit of that value."""
+    """A student's figure beside the value of a key alone; the unit of that value gives its kind."""
     units = Units()
     kind = _kind_of(right.value)
     vector = right.component is None and (isinstance(right.value, tuple) or "@" in str(right.value))
@@ -141,12 +141,12 @@ def _kind_of(value: object) -> str:
 
 
 def why(result: Result, position: int) -> str:
-    """Why there is no number at a position."""
+    """Reason why a position has no number."""
     return reason_at(result, position) or "it depends on the elasticity of the links"
 
 
 def values_of(result: Result, answer: Answer, position: int) -> tuple[tuple[Array, ...], bool]:
-    """What an answer is about at a position, without what has no number: one value, two at a reversal, at rest those of
+    """Right values of an answer at a position, without missing ones: one value, two at a reversal, at rest those of
     both ends; and whether everything between the two is right as well."""
     if answer.extreme is not None:
         extremes = [read(side, answer) for side in sides_of(result, answer)]
@@ -168,7 +168,7 @@ def _numbers(values: list[Array]) -> tuple[Array, ...]:
 
 
 def floor(result: Result, kind: str) -> float:
-    """What is nothing among numbers of a kind, beside the largest force or rate of the machine."""
+    """Rounding level of a kind, beside the largest force or rate of the machine."""
     g, length = result.compiled.layout.algebra, result.compiled.layout.length
 
     def largest(*arrays: Array) -> float:

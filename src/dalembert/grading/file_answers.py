@@ -1,4 +1,4 @@
-"""The answers that stand in a model file, compared with what is computed."""
+"""Compares the answers in a model file with the computed ones."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 TOLERANCE = 1e-6
-"""Relative deviation that an answer without a tolerance of its own may have."""
+"""Relative deviation allowed for an answer without a tolerance."""
 
 EXACT = 1e-7
 """Relative deviation from an independent exact value."""
@@ -94,7 +94,7 @@ def _compare(result: Result, answer: Answer, case: str) -> Row:
         return _word(answer, case, WORDS[answer.quantity](result, position), reason_at(result, position))
     if answer.quantity not in QUANTITIES:
         known = [*QUANTITIES, *WORDS, *WHOLE]
-        what = f"there is no quantity {answer.quantity!r}"
+        what = f"unknown quantity {answer.quantity!r}"
         raise ModelError(what, closest(answer.quantity, known, 40), ("quantity",))
     rows = [_difference(side, answer, read(side, answer), case) for side in sides_of(result, answer)]
     return next((row for row in rows if row.ok), rows[0])
@@ -158,7 +158,7 @@ def reason_at(result: Result, position: int) -> str:
 
 
 def position_of(result: Result, answer: Answer, series: Series | None = None) -> int:
-    """Which position an answer is about, from 0."""
+    """Position of an answer, from 0."""
     count = len(result.status)
     if answer.extreme is not None and series is not None:
         return _extreme(answer.extreme, size(series))
@@ -169,13 +169,13 @@ def position_of(result: Result, answer: Answer, series: Series | None = None) ->
         raise ModelError(what, "say which: at: 1, or at: 60 deg", ("quantity",))
     if isinstance(answer.at, int):
         if not 1 <= answer.at <= count:
-            raise ModelError(f"there is no position {answer.at}", f"they are 1 to {count}", ("at",))
+            raise ModelError(f"position {answer.at} does not exist", f"use 1 to {count}", ("at",))
         return answer.at - 1
     return _position_name(result, answer.at)
 
 
 BY: dict[str, Callable[[Array], Array]] = {"max": lambda v: v, "min": lambda v: -v, "maxabs": np.abs}
-"""What is largest at an extreme."""
+"""Functions whose largest value is the extreme."""
 
 
 def _extreme(which: str, values: Array) -> int:
@@ -185,7 +185,7 @@ def _extreme(which: str, values: Array) -> int:
 def _position_name(result: Result, at: object) -> int:
     """The position where the first drive has a value: `60 deg`."""
     if not result.drives:
-        what = "there is no drive whose position could be named"
+        what = "the mechanism has no drive to name a position by"
         raise ModelError(what, "number the position: at: 1", ("at",))
     drive = result.drives[0]
     kind = drive_kinds(result, drive)["position"]
@@ -199,7 +199,7 @@ def _position_name(result: Result, at: object) -> int:
 
 
 def _apart(found: Array, wanted: object, kind: str) -> Array:
-    """Difference of two values; angles a whole turn apart are the same."""
+    """Difference of two values; angles a full turn apart are the same."""
     difference = found - wanted
     return np.asarray(np.angle(np.exp(1j * difference)) if kind == "angle" else difference)
 
@@ -208,7 +208,7 @@ def _apart(found: Array, wanted: object, kind: str) -> Array:
 
 
 def target(value: object, series: Series, units: Units, key: str) -> Target:
-    """A value as it stands in the file, read as the kind of the series."""
+    """A value as written in the file, read as the kind of the series."""
     from dalembert.model.part import Reading
     from dalembert.model.quantities.values import at_item, check_vector, vector
 
@@ -225,7 +225,7 @@ def target(value: object, series: Series, units: Units, key: str) -> Target:
 
 
 def _unit_of(value: object, kind: str, units: Units) -> str:
-    """The unit a published value is written in: its own, or the file's."""
+    """Unit of a published value: the one written with it, or the file's."""
     for item in value if isinstance(value, (list, tuple)) else [value]:
         for text in re.findall(rf"(?>{NUMBER})\s*([^\W\d][^@]*)", str(item)):
             if unit(text.strip()).dimension == KINDS[kind].dimension:
@@ -273,7 +273,7 @@ def _size(value: Array) -> float:
 
 
 def _scale(wanted: Array, series: Series) -> float:
-    """What a relative tolerance is relative to: the value wanted, or where that is 0 the largest of its series."""
+    """Reference of a relative tolerance: the published value, or where that is 0 the largest of its series."""
     values = size(series)
     return _size(wanted) or (float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0)
 
@@ -294,7 +294,7 @@ def _tolerance(
 
 
 def value_text(value: object) -> str:
-    """A value as it stands in the file."""
+    """A value as written in the file."""
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(value_text(item) for item in value) + "]"
     return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
@@ -332,13 +332,13 @@ def _direction(form: object, units: Units, vector: Array) -> float:
 
 
 def _bracket(values: Array, own: Callable[[float], float]) -> str:
-    """Numbers in brackets; of a rotation a row each in brackets of its own."""
+    """Numbers in brackets; of a rotation one bracket per row."""
     inner = [f"{own(float(v)):.{DIGITS}g}" if v.ndim == 0 else _bracket(v, own) for v in values]
     return "[" + ", ".join(inner) + "]"
 
 
 def _deviation(away: float, scale: float, kind: str, unit_text: str) -> str:
-    """How far: in percent, or in the published unit where there is nothing to be relative to."""
+    """Deviation: in percent, or in the published unit without a reference value."""
     if not math.isfinite(away):
         return "-"
     if scale and kind != "angle":

@@ -1,4 +1,5 @@
-"""A student's figures against ours, and the usual mistakes that explain the differences of a sheet as a whole.
+"""A student's figures against the computed ones, and the usual mistakes that explain the differences of a sheet
+together.
 
 Mechanics: docs/theory.md 12.
 """
@@ -24,10 +25,10 @@ if TYPE_CHECKING:
 
 
 class Verdict(NamedTuple):
-    """One figure compared: what it is of, as given, as computed, relative difference, and what explains it.
+    """One figure compared: its subject, as given, as computed, relative difference, and the explanation.
 
     kind: ``right``; sign, unit, named (another mistake), rounding or unknown; ``open`` where nothing can be compared.
-    line: where it stands in its file, 0 if in none.
+    line: its line in the file, 0 without a file.
     """
 
     quantity: str
@@ -49,7 +50,7 @@ def check_answers(
     >>> from dalembert.bundled import examples
     >>> mine = da.Answer(quantity="effort", of="O2", value="-243.2 lbf*in")
     >>> da.check_answers(da.load(examples()["four_bar"]), [mine])[0].mistake
-    'the sense is opposite: action taken for reaction'
+    'the sense is opposite: action mistaken for reaction'
     """
     mechanism = as_mechanism(mechanism)
     return Problem(mechanism, static).verdicts(answers, tolerance)
@@ -78,7 +79,7 @@ class Problem:
         return [f if isinstance(f, Verdict) else verdict_of(f, said.get(next(numbers))) for f in found]
 
     def verdicts_of(self, sheet: Sheet, tolerance: str | None = None) -> list[Verdict]:
-        """Verdicts with the lines of the sheet; ``tolerance`` in place of the sheet's own."""
+        """Verdicts with the lines of the sheet; ``tolerance`` replaces the sheet's."""
         try:
             found = self.verdicts(sheet.answers, tolerance or sheet.tolerance)
         except ModelError as error:

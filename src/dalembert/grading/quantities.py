@@ -40,13 +40,11 @@ def series_of(r: Result, answer: Answer) -> Series:
 
 
 def _energy_fluctuation(r: Result, answer: Answer) -> Series:
-    """Of a flywheel at a drive, over the cycle: the same at every position."""
+    """Energy fluctuation of a flywheel at a drive, over the cycle: the same at every position."""
     from dalembert.machine.flywheel.flywheels import flywheel
 
     if answer.of not in r.drives:
-        raise ModelError(
-            f"there is no drive {answer.of!r}", closest(answer.of or "", list(r.drives)), ("of",)
-        )
+        raise ModelError(f"unknown drive {answer.of!r}", closest(answer.of or "", list(r.drives)), ("of",))
     return Series("energy", np.full(len(r.status), flywheel(r, answer.of, inertia=1.0).size.energy))
 
 
@@ -64,7 +62,7 @@ def _parts(r: Result, answer: Answer) -> names.Name:
         raise ModelError(f"{answer.of!r} names no point of a moving link", "write of: link.point", ("of",))
     if parts is None:
         what = f"{CATALOGUE[word].of.rstrip('s').replace('_', ' ')} {answer.of!r}"
-        raise ModelError(f"there is no {what}", closest(answer.of or "", _things(r, word)), ("of",))
+        raise ModelError(f"unknown {what}", closest(answer.of or "", _things(r, word)), ("of",))
     return parts
 
 
@@ -102,7 +100,7 @@ WHOLE: dict[str, Callable[[Result], int | None]] = {
     "mobility": lambda r: r.mobility.freedoms if r.mobility else None,
     "redundant": lambda r: r.mobility.redundant if r.mobility else None,
 }
-"""Quantities of the mechanism as a whole."""
+"""Quantities of the complete mechanism."""
 
 
 def component(series: Series, name: str | None) -> Series:
@@ -117,7 +115,7 @@ def component(series: Series, name: str | None) -> Series:
         raise ModelError(what, "leave it out" if number else "give all of it, a row each", ("component",))
     known = dict(names.components(series.values))
     if name not in known:
-        raise ModelError(f"there is no component {name!r}", closest(name, [*known]), ("component",))
+        raise ModelError(f"unknown component {name!r}", closest(name, [*known]), ("component",))
     return Series("angle" if name == "direction" else series.kind, known[name])
 
 

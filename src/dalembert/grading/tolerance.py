@@ -30,7 +30,7 @@ COARSE = 0.01
 """Relative difference up to which rounding to the digits written excuses a figure: two digits at least."""
 
 DIRECTION = math.radians(0.5)
-"""The same of an angle: one in whole degrees is excused, one in tens of degrees is not."""
+"""The same for an angle: one in whole degrees is excused, one in tens of degrees is not."""
 
 MOST_PERCENT = 50
 """The largest tolerance: beyond it a figure says nothing."""
@@ -60,11 +60,11 @@ def half_unit(number: str) -> float:
 
 @dataclass(frozen=True)
 class Closeness:
-    """How far from a figure a value may be: within a relative ``near``, or where no tolerance was stated within
+    """Allowed distance of a value from a figure: within a relative ``near``, or where no tolerance was stated within
     ``halves`` units of its last digits (of each component; of a polar figure of its size and its direction).
 
-    ``stated``: there is a tolerance, and no rounding is excused; ``floor``: what is nothing beside the other forces, or
-    rates, of the machine.
+    ``stated``: a tolerance is given, so that rounding is not excused; ``floor``: rounding level beside the other
+    forces, or rates, of the machine.
     """
 
     given: Array
@@ -89,12 +89,12 @@ class Closeness:
         return math.hypot(*self.given.ravel().tolist())
 
     def holds(self, value: Array) -> bool:
-        """Whether a value is the figure."""
+        """True if a value is the figure."""
         rounded = not self.stated and bool(self.halves) and self._rounds(value, self.near)
         return rounded or self.off(value) <= self.near
 
     def is_rounded(self, value: Array) -> bool:
-        """Whether the figure is the value rounded to its digits, and nothing else is forgiven."""
+        """True if the figure is the value rounded to its digits, without any further tolerance."""
         return bool(self.halves) and self._rounds(value, 0.0)
 
     def _rounds(self, value: Array, near: float) -> bool:
@@ -117,7 +117,7 @@ class Closeness:
 def closeness(
     answer: Answer, given: Target, kind: str, units: Units, tolerance: object = None, floor: float = 0.0
 ) -> Closeness:
-    """How near a value must be to an answer: by its tolerance, or that of the sheet, if one is stated, else by its
+    """Allowed distance of a value from an answer: by its tolerance, or that of the sheet, if one is given, else by its
     digits."""
     own = answer.tolerance if answer.tolerance is not None else tolerance
     halves = _halves(answer.value, given, kind, units)
@@ -152,7 +152,7 @@ def percent(tolerance: object, key: str = "tolerance", most: float | None = MOST
     """
     number = re.fullmatch(rf"({NUMBER})\s*%", str(tolerance).strip())
     if number is None or not 0 <= float(number[1]) <= (most or math.inf):
-        what = f"{quote_value(tolerance)} is no tolerance in percent"
+        what = f"{quote_value(tolerance)} is not a tolerance in percent"
         remedy = f"write one from 0 to {most} %, for example 3 %" if most else "write one, for example 0.3 %"
         raise ModelError(what, remedy, (key,))
     return float(number[1]) / 100
@@ -173,7 +173,7 @@ def _halves(value: object, given: Target, kind: str, units: Units) -> tuple[floa
 
 
 def _in_si(text: str, value: float) -> float:
-    """Half a unit of the last digit of a text whose number stands for a value; 0 where that is 0."""
+    """Half a unit of the last digit of a text whose number represents a value; 0 where that is 0."""
     found = re.search(NUMBER, text)
     if found is None or not float(found[0]):
         return 0.0
@@ -188,7 +188,7 @@ def _angle_half(text: str, whole: str, units: Units) -> float:
 
 
 def radians(angle: float, text: str, units: Units) -> float:
-    """An angle that stands in a text, in radians: in the text's own unit, or else the file's.
+    """An angle in a text, in radians: in the text's unit, or else the file's.
 
     >>> radians(180.0, "155 @ 180 deg", Units(angle="rad")) == radians(math.pi, "155 @ 3.14", Units(angle="rad"))
     True

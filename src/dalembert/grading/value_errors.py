@@ -30,7 +30,7 @@ def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
         return
     opposite = "the sense is opposite"
     if series.kind in ("force", "moment"):
-        opposite += ": action taken for reaction"
+        opposite += ": action mistaken for reaction"
     yield Hypothesis(opposite, -right, "sign")
     if right.ndim == 0:
         return
@@ -47,7 +47,7 @@ def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
     size, angle = math.hypot(x, y), math.atan2(y, x)
     turned = math.degrees(angle)
     yield Hypothesis(
-        "degrees are taken for radians in sine and cosine",
+        "degrees are mismistaken for radians in sine and cosine",
         size * np.array([math.cos(turned), math.sin(turned)]),
     )
 
@@ -65,7 +65,7 @@ def _in_space(right: Array) -> Iterator[Hypothesis]:
 
 def _angles(right: Array) -> Iterator[Hypothesis]:
     for sentence, value in (
-        ("the sense is opposite: action taken for reaction", right + math.pi),
+        ("the sense is opposite: action mistaken for reaction", right + math.pi),
         ("the angle is counted from the other axis", math.pi / 2 - right),
         ("the angle is counted clockwise", -right),
         ("the angle is counted from the negative x axis", math.pi - right),

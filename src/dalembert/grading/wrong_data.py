@@ -1,6 +1,6 @@
-"""Data of a problem taken wrongly, one at a time: loads, rates, masses, friction, g; its geometry stays.
+"""Problems with one wrong datum each: loads, rates, masses, friction, g; the geometry is kept.
 
-Nearly all are changes of the compiled numbers, so that nothing is read or checked again.
+Nearly all are changes of the compiled numbers, so that the description is not read or checked again.
 
 Mechanics: docs/theory.md 12.
 """
@@ -89,7 +89,10 @@ def _rate_changes(r: Result, k: int, drive: str) -> Iterator[Mistake]:
         yield f"the acceleration of drive {drive} is left out", scaled("acceleration", 0.0)
         yield f"the acceleration of drive {drive} has the wrong sense", scaled("acceleration", -1.0)
     if r.drive_speed(drive).any():
-        for factor, words in ((30 / math.pi, "rad/s taken for rpm"), (math.pi / 30, "rpm taken for rad/s")):
+        for factor, words in (
+            (30 / math.pi, "rad/s mistaken for rpm"),
+            (math.pi / 30, "rpm mistaken for rad/s"),
+        ):
             yield f"the speed of drive {drive}: {words}", scaled("speed", factor)
         yield f"the speed of drive {drive} is left out", scaled("speed", 0.0)
 
@@ -103,7 +106,7 @@ def _force_changes(r: Result, k: int, name: str) -> Iterator[Mistake]:
         if point != load.at:  # type: ignore[union-attr]
             there = with_row(k, np.subtract(m.point(on, point), base))
             change = change_numbers("forcing.forces", at=there)
-            yield f"the moment arm of {name} is wrong: it is taken at {point}", change
+            yield f"the moment arm of {name} is wrong: the load is applied at {point}", change
     other = "link" if load.axes == "ground" else "ground"  # type: ignore[union-attr]
     turned = change_numbers("forcing.forces", follows=lambda a: a ^ (np.arange(len(a)) == k))
     yield f"the direction of {name} is counted in {other} axes", turned
@@ -132,7 +135,7 @@ def _link_changes(r: Result, k: int, link: str) -> Iterator[Mistake]:
         words = f"the moment of inertia of {link} is taken about {name}, not its mass centre"
         yield words, change_numbers("forcing.inertia", inertia=about)
     for name, p in points.items():
-        yield f"the mass centre of {link} is taken at {name}", centered(p)
+        yield f"the mass centre of {link} is placed at {name}", centered(p)
     if center[1] and plane:
         yield f"the mass centre of {link} is on the wrong side of it", centered(center * [1, -1])
         along = np.array([float(magnitude(center)), 0.0])
@@ -193,7 +196,7 @@ def _friction_changes(r: Result) -> Iterator[Mistake]:
     if (contacts.coefficient != contacts.resting)[rough].any():
         mu = np.where(rough, contacts.resting, contacts.coefficient)
         resting = change_numbers("contacts", coefficient=lambda _: mu)
-        yield "the coefficient at rest is taken for that of motion", resting
+        yield "the coefficient at rest is mistaken for that of motion", resting
     joints = dict.fromkeys(contacts.joint[rough].tolist())
     apart = {f" of joint {r.joints[k]}": contacts.joint == k for k in joints} if len(joints) > 1 else {}
     for words, here in ({"": rough} | apart).items():
@@ -201,11 +204,11 @@ def _friction_changes(r: Result) -> Iterator[Mistake]:
         if words:
             yield f"the friction{words} is left out", _friction(some, coefficient=0.0)
         all_of = f"the friction{words}" if words else "all friction"
-        yield f"{all_of} acts the wrong way, with the motion", _friction(some, coefficient=-1.0)
+        yield f"{all_of} acts in the wrong sense, with the motion", _friction(some, coefficient=-1.0)
         if round_.any():
             pins = words or " of the pins"
-            yield f"the diameter{pins} is taken for the radius", _friction(round_, lever=2.0)
-            yield f"the radius{pins} is taken for the diameter", _friction(round_, lever=0.5)
+            yield f"the diameter{pins} is mistaken for the radius", _friction(round_, lever=2.0)
+            yield f"the radius{pins} is mistaken for the diameter", _friction(round_, lever=0.5)
 
 
 def _friction(where: Flags, coefficient: float = 1.0, lever: float = 1.0) -> Change:

@@ -36,8 +36,8 @@ class WrongProblem(NamedTuple):
 
 
 class WrongProblems:
-    """The problem at some positions, right and with one mistake each. None where the position itself is asked for: it
-    would be another one."""
+    """The problem at some positions, right and with one mistake each. None where the position itself is unknown: a
+    mistake would change it."""
 
     def __init__(self, result: Result, which: Sequence[int] | None = None) -> None:
         self.full = result
@@ -122,7 +122,7 @@ def _with_factor(r: Result) -> Iterator[tuple[str, Result]]:
 
 
 def _scaled(r: Result) -> Iterator[Mistake]:
-    """The same as changes of the compiled numbers; none for what does not stand by itself among them."""
+    """The same as changes of the compiled numbers; none for values that are not separate among them."""
     sources = tuple(dict.fromkeys(a.source for a in known_actions(r)))
     inertia = {s for s in sources if s.startswith("inertia")}
     for sentence, some, factor in _weightings(r, sources):
@@ -199,8 +199,12 @@ def _of_kinds(
         yield "the inertia couples have the sense of the accelerations, not against them", couples, -1.0
         yield "the inertia forces have the sense of the accelerations, not against them", forces, -1.0
         for g, unit in _gravities(r):
-            yield f"weight is taken for mass: inertia forces are too large by g = {g:.5g} {unit}", forces, g
-            yield f"weight is taken for mass: inertia is too large by g = {g:.5g} {unit}", both, g
+            yield (
+                f"weight is mistaken for mass: inertia forces are too large by g = {g:.5g} {unit}",
+                forces,
+                g,
+            )
+            yield f"weight is mistaken for mass: inertia is too large by g = {g:.5g} {unit}", both, g
         yield "g is in ft/s2 where lengths are inches: the masses are too large by 12", forces, 12.0
         yield "g is in in/s2 where lengths are feet: the masses are too small by 12", forces, 1 / 12
         yield "the moments of inertia are in the wrong unit of length: a factor of 12", couples, 12.0

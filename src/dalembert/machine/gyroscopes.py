@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 class Gyroscopic:
     """Spin (P,) of a rotor about its axis (P, 3), precession (P, 3) of its carrier across it, rad/s, and the couple.
 
-    ``couple`` (P, 3), N m, is C = I_s w_s (w_p x e) on the rotor; the frame takes -C. ``exact`` (P, 3): the whole rate
-    of the rotor's angular momentum, which has also what follows from accelerations and from an inclined axis.
+    ``couple`` (P, 3), N m, is C = I_s w_s (w_p x e) on the rotor; the frame takes -C. ``exact`` (P, 3): the total rate
+    of the rotor's angular momentum, including the terms of accelerations and of an inclined axis.
     """
 
     result: Result = field(repr=False)
@@ -46,12 +46,13 @@ class Gyroscopic:
 def gyroscopic(r: Result, rotor: str, carrier: str = GROUND) -> Gyroscopic:
     """The gyroscopic couple of a link in space that spins in a carrier which itself turns.
 
-    The axis e is that of the spin relative to the carrier, I_s the rotor's inertia about it, w_s its whole spin along
+    The axis e is that of the spin relative to the carrier, I_s the rotor's inertia about it, w_s its total spin along
     it, w_p the carrier's turning across it. Raises ModelError in the plane, and where the rotor does not spin.
     """
     if r.mechanism.dimension == 2:
         raise ModelError(
-            "a gyroscopic couple stands across its rotor's axis: in the plane there is none", "use space"
+            "a gyroscopic couple is perpendicular to its rotor's axis; a planar mechanism has none",
+            "use space",
         )
     still = np.zeros((len(r.status), 3))
     w, held = r.speed(rotor), still if carrier == GROUND else r.speed(carrier)

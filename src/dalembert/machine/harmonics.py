@@ -1,4 +1,4 @@
-"""Harmonics of any output over whole turns: y(q) = a_0 + sum of a_k cos k q + b_k sin k q.
+"""Harmonics of any output over full turns: y(q) = a_0 + sum of a_k cos k q + b_k sin k q.
 
 Mechanics: docs/theory.md 10.1.
 """
@@ -22,11 +22,10 @@ EVEN = 1e-9
 
 @dataclass(frozen=True)
 class Harmonics:
-    """Coefficients (K,) or (K, d) of some orders; a period of several turns has orders between the whole ones.
+    """Coefficients (K,) or (K, d) of some orders; a period of several turns has fractional orders.
 
-    ``cosine`` a_k and ``sine`` b_k; the mean of order 0 is in ``cosine``. ``turns``: the period in turns.
-    ``aliasing``: the largest change of a coefficient when every other position is left out:
-    what the positions are too few for.
+    ``cosine`` a_k and ``sine`` b_k; the mean of order 0 is in ``cosine``. ``turns``: the period in turns. ``aliasing``:
+    the largest change of a coefficient when every other position is left out, a measure of too few positions.
     """
 
     order: Array
@@ -47,12 +46,12 @@ class Harmonics:
 
     @property
     def forward(self) -> Array:
-        """Of a plane vector: the part f_k of x + i y = sum f_k e^(ikq) that turns with the drive (K,), complex."""
+        """Forward part f_k of a planar vector x + i y = sum f_k e^(ikq), which turns with the drive (K,), complex."""
         return self._turning(1)
 
     @property
     def backward(self) -> Array:
-        """The part that turns against it, f_-k (K,); 0 of order 0, whose whole is in ``forward``."""
+        """Backward part f_-k (K,), which turns against the drive; 0 for order 0, which is all in ``forward``."""
         return np.where(self.order == 0, 0.0, self._turning(-1))
 
     def _turning(self, sense: int) -> Array:
@@ -65,11 +64,11 @@ class Harmonics:
 
 
 def harmonics(values: Array | Sequence[float], angle: Array, orders: int | Sequence[float] = 4) -> Harmonics:
-    """Harmonics of values (P,) or (P, d) at even positions (P,) of an angle, rad, over one or several whole turns.
+    """Harmonics of values (P,) or (P, d) at even positions (P,) of an angle, rad, over one or several full turns.
 
     ``orders``: all up to a number, or those listed; over n turns they come in steps of 1 / n. A sum of harmonics below
-    half the number of positions a period is found exactly (the discrete Fourier transform). Raises ModelError for
-    positions that are uneven, missing, no whole turns, or too few for an order.
+    half the number of positions per period is recovered exactly (the discrete Fourier transform). Raises ModelError for
+    positions that are uneven, missing, not over full turns, or too few for an order.
 
     >>> q = np.arange(24) * math.pi / 12
     >>> found = harmonics(3 + 2 * np.cos(2 * q - 0.5), q, orders=[0, 2])
@@ -79,7 +78,9 @@ def harmonics(values: Array | Sequence[float], angle: Array, orders: int | Seque
     turns = whole_turns(angle)
     y = np.asarray(values, float)
     if len(y) != len(angle):
-        raise ModelError(f"{len(y)} values stand at {len(angle)} positions", "give one value a position")
+        raise ModelError(
+            f"{len(y)} values are given for {len(angle)} positions", "give one value per position"
+        )
     if not np.isfinite(y).all():
         k = int(np.argmax(~np.isfinite(y.reshape(len(y), -1)).all(axis=1)))
         raise ModelError(
@@ -105,7 +106,9 @@ def whole_turns(angle: Array) -> int:
         raise ModelError(f"the positions are not even: steps of {least} to {most} deg", remedy)
     turned = abs(step) * len(q) / (2 * math.pi)
     if round(turned) == 0 or abs(turned - round(turned)) > EVEN * len(q):
-        raise ModelError(f"the positions cover {number(360 * turned)} deg, no whole number of turns", remedy)
+        raise ModelError(
+            f"the positions cover {number(360 * turned)} deg, which is not a whole number of turns", remedy
+        )
     return round(turned)
 
 
@@ -121,7 +124,7 @@ def _orders(orders: int | Sequence[float], turns: int, count: int) -> Array:
     if not np.allclose(steps, np.round(steps)) or (asked < 0).any():
         raise ModelError(
             f"a period of {turns} turn{'s' * (turns > 1)} has no harmonic of each order in {[float(k) for k in asked]}",
-            f"its orders are multiples of 1/{turns}" if turns > 1 else "its orders are whole numbers",
+            f"its orders are multiples of 1/{turns}" if turns > 1 else "its orders are integers",
         )
     most = float(asked.max(initial=0.0))
     if 2 * most * turns >= count:

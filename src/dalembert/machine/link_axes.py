@@ -1,4 +1,4 @@
-"""A link's motion in its own axes, with three components in the plane too, so that one code serves plane and space."""
+"""A link's motion in link axes, with three components in the plane too, so that one code serves plane and space."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 class LinkAxes:
     """Rotation (P, 3, 3) of a link; ``turning`` (T, 3): its angular speeds and accelerations, and ``rate`` (P, 3, 3):
-    what times an arm is its acceleration, in own axes; both 0 where the analysis is without inertia."""
+    the matrix that gives the acceleration of an arm, in link axes; both 0 where the analysis is without inertia."""
 
     def __init__(self, r: Result, link: str) -> None:
         self.r, self.link = r, link
@@ -38,13 +38,13 @@ class LinkAxes:
 
 
 def in_space(vector: Sequence[float] | Array) -> Array:
-    """Vectors (..., 2) of the plane, or (..., 3), with three components."""
+    """Planar vectors (..., 2), or (..., 3), with three components."""
     v = np.asarray(vector, float)
     return v if v.shape[-1] == 3 else np.concatenate([v, np.zeros((*v.shape[:-1], 1))], axis=-1)
 
 
 def couple_in_space(v: Array) -> Array:
-    """Couples or turnings (P,) of the plane, or (P, 3), with three components."""
+    """Planar couples or angular speeds (P,), or (P, 3), with three components."""
     return v if v.ndim > 1 else np.stack([0 * v, 0 * v, v], axis=-1)
 
 

@@ -71,12 +71,12 @@ class Shaking(Answer):
     outside_sizes: dict[str, float] = field(default_factory=dict, repr=False)
 
     def floor(self, kind: str) -> float:
-        """What is nothing but rounding beside the largest single force of the cycle: a `force`, else a moment."""
+        """Rounding level beside the largest single force of the cycle: for a `force`, else a moment."""
         return 1e-12 * self.largest * (1.0 if kind == "force" else self.result.compiled.layout.length)
 
     @property
     def whole(self) -> bool:
-        """Whether all links are counted: then it is what the ground feels."""
+        """True if all links are counted: then it is the force on the ground."""
         return len(self.links) == len(self.result.links)
 
     @property
@@ -85,15 +85,15 @@ class Shaking(Answer):
         return tuple(name for name, size in self.outside_sizes.items() if size > self.floor("force"))
 
     def harmonics(self, orders: int | Sequence[float] = 4, of: str = "force") -> Harmonics:
-        """Harmonics of the `force`, the `moment` or the `couple` over whole turns of the first drive.
+        """Harmonics of the `force`, the `moment` or the `couple` over full turns of the first drive.
 
         Raises ModelError for a couple where no link has a place.
         """
         values = {"force": self.force, "moment": self.moment, "couple": self.couple}.get(of)
         if values is None:
             raise ModelError(
-                f"there is no shaking {of}",
-                "ask for force, moment, or couple, for which links need a place: 90 mm along the normal",
+                f"unknown shaking quantity {of!r}",
+                "use force, moment, or couple, for which links need a place: 90 mm along the normal",
             )
         return harmonics(values, turning_angle(self.result), orders)
 
@@ -156,7 +156,7 @@ def _chosen(r: Result, links: Iterable[str] | None) -> tuple[str, ...]:
     asked = r.links if links is None else tuple([links] if isinstance(links, str) else links)
     for link in asked:
         if link not in r.links:
-            raise ModelError(f"there is no moving link {link!r}", closest(link, list(r.links)))
+            raise ModelError(f"unknown moving link {link!r}", closest(link, list(r.links)))
     return tuple(link for link in r.links if link in asked)
 
 
@@ -168,19 +168,19 @@ def fixed_point(r: Result, about: About) -> tuple[str, Array]:
     if isinstance(about, str):
         if about not in points:
             raise ModelError(
-                f"{about!r} is no joint with the ground and no point of it", closest(about, list(points))
+                f"{about!r} is not a joint with the ground or a point of it", closest(about, list(points))
             )
         return about, np.array(points[about], float)
     for value in about:
         require("place", value, "about")
     place = np.array(about, float)
     if place.shape != (d,) or not np.isfinite(place).all():
-        raise ModelError(f"{about} is no point", f"give {d} numbers, in metres")
+        raise ModelError(f"{about} is not a point", f"give {d} numbers, in metres")
     return f"({', '.join(f'{x:g}' for x in place)}) m", place
 
 
 def _actions(r: Result, links: tuple[str, ...]) -> tuple[list[Action], list[Action]]:
-    """What reaches the links from outside and by their inertia; what joins them to all else."""
+    """Actions on the links from outside and by their inertia; and those of the joints with other links."""
     named: Tree = {"load": r.mechanism.loads, "effort": r.mechanism.drives}
     loads: list[Action] = []
     carried = list(joint_actions(r, split=False))
@@ -204,5 +204,5 @@ def _size(values: Array) -> Array:
 
 
 def shaking_force(r: Result) -> Array:
-    """Force of the whole machine on the ground (P, d), N."""
+    """Force of the complete machine on the ground (P, d), N."""
     return shaking(r).force

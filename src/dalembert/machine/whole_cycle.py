@@ -1,4 +1,4 @@
-"""The cycle of a machine: the angle it goes by, and its positions where the file has a single one."""
+"""The cycle of a machine: the angle it is a function of, and its positions where the file has a single one."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FEWEST = 6
 
 
 def over_a_turn(m: Mechanism, positions: AtPositions = None) -> AtPositions:
-    """The positions to analyse: a whole turn where there is one position, which a drive can step round."""
+    """The positions to analyse: a full turn where the file has one position and a drive can be stepped round."""
     turning = [drive for drive in m.drives.values() if drive.turns]
     if positions is not None or len(turning) != 1 or any(d.unknown or d.counts() for d in m.drives.values()):
         return positions
@@ -43,9 +43,9 @@ def refuse_unknown(r: Result, what: str, *needed: Array) -> None:
 
 
 def durations(r: Result, at: Ints | None = None) -> Array:
-    """Time (P,), s, that each position, or some, stand for: trapezoids over time, or over the first drive's motion.
+    """Time (P,), s, represented by each position, or by some: trapezoids over time, or over the first drive's motion.
 
-    Even positions over whole turns stand for the same part each. Raises ModelError where the drive stands still.
+    Even positions over full turns represent equal parts. Raises ModelError where the drive is at rest.
     """
     at = np.arange(len(r.status)) if at is None else at
     if len(r.status) == 1:
@@ -63,7 +63,7 @@ def durations(r: Result, at: Ints | None = None) -> Array:
 
 
 def is_period(q: Array) -> bool:
-    """True for even positions of a drive over whole turns."""
+    """True for even positions of a drive over full turns."""
     try:
         whole_turns(q)
     except ModelError:
@@ -80,7 +80,7 @@ def _closed(r: Result) -> bool:
 def halves(r: Result) -> list[Ints]:
     """Both halves of the positions, every other from the first and from the second; the ends of a range in both.
 
-    None below 6 positions, and for an odd number over whole turns, whose halves are not even.
+    None below 6 positions, and for an odd number over full turns, whose halves are not even.
     """
     count = len(r.status)
     if count < FEWEST or (_closed(r) and count % 2):
@@ -122,7 +122,7 @@ def sampling(
 
 
 def _beyond(y: Array, closed: bool) -> float:
-    """How far a parabola through the greatest value and its neighbours goes beyond it; 0 at the ends of a range."""
+    """Height of a parabola through the greatest value and its neighbours above that value; 0 at the ends of a range."""
     k = int(np.argmax(y))
     if not closed and k in (0, len(y) - 1):
         return 0.0

@@ -1,6 +1,6 @@
-"""What the user and the file write: a frozen description, in SI and radians inside.
+"""Model of a mechanism as the user or the file writes it: a frozen description, in SI and radians inside.
 
-In: a file, or Python's own values. Out: a ``Mechanism``. Imports ``units`` and messages only, never ``core``.
+In: a file, or Python values. Out: a ``Mechanism``. Imports ``units`` and messages only, never ``core``.
 
 >>> from dalembert.model import loads
 >>> loads("{links: {ground: {}, bar: {mass: 2 lbm}}}").mass("bar")

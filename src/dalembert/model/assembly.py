@@ -48,7 +48,7 @@ class PoseValue(Value):
         if not isinstance(value, (list, tuple)):
             return rules.quantity(value, "angle")
         if len(value) != 3:
-            raise ModelError(f"a list of {len(value)} is no pose", "write an angle, or [x, y, angle]")
+            raise ModelError(f"a list of {len(value)} is not a pose", "write an angle, or [x, y, angle]")
         kinds = ("length", "length", "angle")
         x, y, angle = (
             at_item(i, rules.quantity, item, kind)

@@ -50,9 +50,9 @@ if TYPE_CHECKING:
 
 
 class Mechanism(Part):
-    """Links, joints, drives and loads, in SI and radians; no analysis alters it.
+    """Links, joints, drives and loads, in SI and radians; analyses do not change it.
 
-    In Python bare numbers are SI and radians, texts carry their unit; a file's own rules are those of `load`.
+    In Python bare numbers are SI and radians, texts carry their unit; `load` applies the rules of a file.
 
     >>> from dalembert.model import Drive, Link, Pin
     >>> mechanism = Mechanism(
@@ -82,7 +82,7 @@ class Mechanism(Part):
     )
     parameters: Annotated[Mapping[str, Parameter], ParametersValue()] = Field(
         default_factory=dict,
-        description="named quantities, expressions of one another, of which any quantity may be an expression",
+        description="named quantities; they may depend on one another, and any quantity may be an expression of them",
     )
     links: dict[Name, Link] = Field(description="the rigid bodies; ground is the fixed one")
     joints: dict[Name, Joint] = Field(default_factory=dict, description="how they are connected")
@@ -118,7 +118,7 @@ class Mechanism(Part):
     def _version(cls, value: object) -> object:
         if value != 1 or isinstance(value, bool):
             raise ModelError(
-                f"{quote_value(value)} is no version of the format that this program knows",
+                f"unknown format version {quote_value(value)}",
                 "write dalembert: 1",
             )
         return value
@@ -145,7 +145,7 @@ class Mechanism(Part):
         return self
 
     def __eq__(self, other: object) -> bool:
-        """Whether the description is the same, wherever it came from."""
+        """True if the descriptions are equal, whatever their sources."""
         if not isinstance(other, Mechanism):
             return NotImplemented
         return all(getattr(self, name) == getattr(other, name) for name in type(self).model_fields)
@@ -261,21 +261,21 @@ class Mechanism(Part):
         return self.drives[drive].joint or drive
 
     def schedule(self, positions: AtPositions = None) -> Schedule:
-        """What the drives do, position by position; `positions`: how many, or the drives' values."""
+        """Positions, speeds and accelerations of the drives; `positions`: their number, or the drives' values."""
         return schedule(drives_at_start(self.drives, self.start), positions)
 
     @property
     def has_speeds(self) -> bool:
-        """Whether some drive has a speed, an acceleration or a law, so that inertia counts."""
+        """True if some drive has a speed, an acceleration or a law, so that inertia counts."""
         return any(drive.moves for drive in drives_at_start(self.drives, self.start).values())
 
     def with_values(self, values: Mapping[str, object]) -> Mechanism:
         """Another mechanism with some values replaced, each named by its path.
 
         Numbers are SI and radians; texts are read as the file reads them: `"3 @ 30"`, `"[1 in, 20]"`, `"60"` in its
-        units. A parameter goes by its name, and everything that follows from it is computed again; a value that
-        follows from parameters is, once replaced by its own path, a number like others (and a parameter that nothing
-        uses any more is left out). Raises ModelError for a path that does not exist.
+        units. A parameter is named by its name, and every value that depends on it is computed again. A value that
+        depends on parameters becomes a plain number once it is replaced by its path; a parameter that is no longer used
+        is left out. Raises ModelError for a path that does not exist.
         """
         given = {path: as_in_file(value, path) for path, value in values.items()}
         known = self.parameters
@@ -301,7 +301,7 @@ class Mechanism(Part):
 
     @property
     def likenesses(self) -> tuple[Likeness, ...]:
-        """How its `copies` are alike to what they were copied from."""
+        """Relations of the copies of `copies` to their originals."""
         return self._likenesses
 
     @property
@@ -325,9 +325,9 @@ class Mechanism(Part):
         return self.model_dump(mode="json", by_alias=True)
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Write it to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`.
+        """Write it to a .yaml, .json or .toml file; raises ModelError if the file exists and not `overwrite`.
 
-        What came from a file is written as its author wrote it: only the characters of changed values change. Tables
+        The text of a file is kept as its author wrote it: only the characters of changed values change. Tables
         whose columns are in a file of the same folder stay there; in another folder they are written out.
         """
         from dalembert.model.files.model_files import format_of, save_text
@@ -337,7 +337,7 @@ class Mechanism(Part):
 
 
 def file_rules(tree: Mapping[str, object], folder: str = "", data: str = "") -> Reading:
-    """The rules of a file: its own units, its drives' freedoms, plane or space, and where it and its data are."""
+    """Rules of a file: its units, its drives' freedoms, plane or space, and the folders of the file and of its data."""
     return _reading(tree, at_item("units", file_units, tree.get("units", {})), folder, data)
 
 
@@ -356,7 +356,7 @@ def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mecha
     """
     if not isinstance(tree, Mapping):
         raise ModelError(
-            f"{quote_value(tree)} stands where a mapping is needed", "write links: and joints: ..."
+            f"expected a mapping, not {quote_value(tree)}", "write links: and joints: ..."
         ).at_source(source)
     try:
         refuse_empty(tree)

@@ -105,9 +105,7 @@ class Ends(Value):
 
     def read(self, value: object, info: ValidationInfo) -> tuple[tuple[str, str], tuple[str, str]]:
         if isinstance(value, str) or not isinstance(value, (list, tuple)) or len(value) != 2:
-            raise ModelError(
-                f"{quote_value(value)} stands where two ends are needed", "write [ground.A, rod.B]"
-            )
+            raise ModelError(f"expected two points, not {quote_value(value)}", "write [ground.A, rod.B]")
         first, second = (at_item(i, _end, item) for i, item in enumerate(value))
         return first, second
 
@@ -122,13 +120,15 @@ def _end(value: object) -> tuple[str, str]:
     if isinstance(value, tuple) and len(value) == 2:
         return name(value[0]), name(value[1])
     if not isinstance(value, str) or value.count(".") != 1:
-        raise ModelError(f"{quote_value(value)} is no point of a link", "write link.point, for example rod.B")
+        raise ModelError(
+            f"{quote_value(value)} is not a point of a link", "write link.point, for example rod.B"
+        )
     link, point = value.split(".")
     return name(link), name(point)
 
 
 class LoadPart(Part):
-    """What all loads have: what they act on, and what their forces count as."""
+    """Common keys of all loads: what they act on, and what their forces count as."""
 
     ON: ClassVar[Literal["point", "link", "span", "turn"]]
     """A point of a link, a link, the span between two points, or the turn of a joint."""
@@ -139,7 +139,7 @@ class LoadPart(Part):
 
     @property
     def unknown(self) -> bool:
-        """Whether it is asked for."""
+        """True if it is unknown."""
         return False
 
 
@@ -148,8 +148,8 @@ class Directed(LoadPart):
 
     by: Name | None = Field(
         None,
-        description="ground: what exerts it stands on the ground, which takes the opposite, as a cylinder's head does "
-        "of the gas: no part of the shaking force; left out, it comes from outside",
+        description="ground: the ground carries the opposite force, as a cylinder's head does "
+        "of the gas force, so it is not part of the shaking force; default: exerted from outside",
     )
     if TYPE_CHECKING:
         value: Varying | tuple[Varying, ...] | Literal["unknown"]
@@ -164,7 +164,7 @@ class Directed(LoadPart):
 
     @property
     def unknown(self) -> bool:
-        """Whether it is asked for."""
+        """True if it is unknown."""
         return isinstance(self.value, str)
 
     @property
@@ -180,7 +180,7 @@ class Directed(LoadPart):
         return self.value if isinstance(self.value, tuple) else (self.value,)
 
     def at_drives(self, drives: Mapping[str, Numeric], functions: Functions | None) -> Numeric:
-        """Its components, or its single value, at the drives' positions; 1 of what is asked for."""
+        """Its components, or its single value, at the drives' positions; 1 for an unknown."""
         if isinstance(self.value, tuple):
             return tuple(value_at(value, drives, functions) for value in self.value)
         return value_at(1.0 if isinstance(self.value, str) else self.value, drives, functions)
@@ -356,10 +356,10 @@ class TorsionSpring(TurnLoad):
     )
     free_angle: Annotated[float, Scalar("angle")] = Field(
         0.0,
-        description="the joint's angle without moment; default 0. A driven turn counts whole turns "
-        "with its drive. Another is, where the drives stand as assembly has them (else at 0), within half a turn of "
-        "what assembly states, the angle of j less that of i as written (460 deg is a turn more than 100 deg), else "
-        "of 0; from there it is followed",
+        description="the joint's angle without moment; default 0. A driven turn counts full turns "
+        "with its drive. Another turn is, with the drives at their assembly values (else at 0), within half a turn of "
+        "the assembly's value, the angle of j less that of i as written (460 deg is a turn more than 100 deg), else "
+        "of 0; it is followed continuously from that value",
     )
 
 

@@ -1,4 +1,4 @@
-"""What every part of a description has in common: frozen, no unknown keys, read by a file's rules or by Python's."""
+"""Base of every part of a description: frozen, no unknown keys, read by a file's rules or by Python's."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ class Part(BaseModel):
         __init__.__pydantic_base_init__ = True
 
     def __dir__(self) -> list[str]:
-        """Its own words, without those of the library that checks it: what an editor completes."""
+        """Its attributes without those of the library that checks it: what an editor completes."""
         taken = set(dir(Part))
         return [name for name in super().__dir__() if name not in taken or name.startswith("__")]
 
@@ -150,7 +150,7 @@ class Part(BaseModel):
 
 
 IN_SPACE = {"pin": "revolute", "slider": "prismatic", "slot": "slotted_cylinder"}
-"""Joints of the plane that have another name in space."""
+"""Planar joints that have another name in space."""
 
 
 def check_keys(keys: Mapping[str, object], allowed: list[str]) -> None:
@@ -161,7 +161,7 @@ def check_keys(keys: Mapping[str, object], allowed: list[str]) -> None:
             if key in ("axis", "axes") and keys.get("type") in IN_SPACE:
                 kind = str(keys["type"])
                 remedy = f"a {kind} is for the plane and has none; in space, write type: {IN_SPACE[kind]}"
-            raise UnknownKey(f"there is no key {quote_value(key)}", remedy, (str(key),))
+            raise UnknownKey(f"unknown key {quote_value(key)}", remedy, (str(key),))
 
 
 def mapping(
@@ -169,7 +169,7 @@ def mapping(
 ) -> Mapping[str, Any]:
     """The value, if it is a mapping with allowed keys only, and with those that are required."""
     if not isinstance(value, Mapping):
-        raise ModelError(f"{quote_value(value)} stands where a mapping is needed", f"write {example}")
+        raise ModelError(f"expected a mapping, not {quote_value(value)}", f"write {example}")
     check_keys(value, allowed)
     for key in required:
         if key not in value:

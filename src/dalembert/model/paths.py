@@ -20,7 +20,7 @@ from dalembert.wording import closest
 def replace_value(
     part: object, keys: Sequence[str], value: object, rules: Reading, walked: tuple[str, ...] = ()
 ) -> Any:
-    """The part with the value at the path in place of its own; raises ModelError where there is no such path."""
+    """The part with the value at the path replaced; raises ModelError where the path does not exist."""
     key, rest = keys[0], keys[1:]
     here = (*walked, key)
     if isinstance(part, Part):
@@ -47,7 +47,7 @@ class Written(dict[str, object]):
 
 
 def _by_keys(part: Part, key: str, name: str) -> Any:
-    """A field; as a file writes it where it is a value with keys of its own: stops, a motor, a start, a range."""
+    """A field in the form of a file where its value has keys: stops, a motor, a start, a range."""
     value = getattr(part, name)
     if name == "start":  # read anew last, when it is known which parameters are used
         return {k: Written(start.keys) for k, start in value.items()}
@@ -65,7 +65,7 @@ Leaf = float | Expression
 
 
 PLAIN = (float, str, bool, int, type(None))
-"""Types of values in which nothing follows from parameters."""
+"""Types of values that cannot depend on parameters."""
 
 
 def dependents(part: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Leaf]]:
@@ -112,7 +112,7 @@ def parameter_name(path: str, given: Parameters, others: Sequence[str]) -> str:
     """
     keys = path.split(".")
     if given and len(keys) == 1 and path not in (*given, *others):
-        raise ModelError(f"there is no parameter {path!r}", closest(path, list(given)), ("parameters",))
+        raise ModelError(f"unknown parameter {path!r}", closest(path, list(given)), ("parameters",))
     name = keys[1] if keys[0] == "parameters" and len(keys) > 1 else keys[0]
     whole = keys in ([name], ["parameters", name], ["parameters", name, "value"])
     if keys[0] == "parameters" and not (whole and name in given):
@@ -151,11 +151,11 @@ def reached(m: Any, path: str) -> list[str]:
 
 
 def unused_parameters(m: Any) -> list[ModelError]:
-    """A sentence on each parameter that nothing uses."""
+    """Errors for the parameters that are not used."""
     used = used_parameters(m, m.parameters)
     return [
         ModelError(
-            f"nothing uses the parameter {name!r}",
+            f"parameter {name!r} is not used",
             "use it in a quantity, or leave it out",
             ("parameters", name),
         )
@@ -184,7 +184,7 @@ def _inside(part: object) -> Iterable[tuple[str, object]]:
 
 
 WORDS = ("title", "source", "why")
-"""Keys of texts that are no values."""
+"""Keys of texts that are not values."""
 
 
 def as_in_file(value: object, key: str = "") -> object:
@@ -213,7 +213,7 @@ def _texts(value: object) -> object:
 
 
 def _mirror(rows: tuple[tuple[Numeric, ...], ...], keys: Sequence[str]) -> tuple[tuple[Numeric, ...], ...]:
-    """A matrix of inertia after one of its products was replaced: it stands in two places."""
+    """A matrix of inertia after one of its products was replaced, in both of its places."""
     if len(keys) < 2 or keys[0] == keys[1]:
         return rows
     i, j = int(keys[0]), int(keys[1])
@@ -246,14 +246,14 @@ def _require_known(key: str, choices: list[str], here: tuple[str, ...]) -> None:
     if key not in choices:
         where = f" in {'.'.join(here[:-1])}" if here[:-1] else ""
         raise ModelError(
-            f"there is no {key!r}{where}, asked for by the path {'.'.join(here)!r}",
+            f"path {'.'.join(here)!r}: {key!r} does not exist{where}",
             closest(key, choices),
             here[:-1],
         )
 
 
 def _rebuilt(part: Part, name: str, inner: object, rules: Reading, here: tuple[str, ...]) -> Part:
-    """The part with one field replaced; the whole mechanism is rebuilt by its own method, once."""
+    """The part with one field replaced; the complete mechanism is rebuilt once, by its method."""
     if len(here) == 1:
         return part.model_copy(update={name: inner})
     keys = {**fields(part), **dict.fromkeys(part.replaced_by(name, inner)), name: inner}
@@ -290,7 +290,7 @@ def value_at(part: object, keys: Sequence[str], walked: tuple[str, ...] = ()) ->
 
 
 def set_value(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:
-    """The part with any value at an existing path, unchecked: also a symbol in place of a number."""
+    """The part with any value at an existing path, unchecked; the value may be a symbol."""
     if not keys:
         return value
     here = (*walked, keys[0])

@@ -1,4 +1,4 @@
-"""Whether the names in a description name something, and whether its parts fit together."""
+"""Checks that the names in a description exist, and that its parts fit together."""
 
 from __future__ import annotations
 
@@ -30,7 +30,9 @@ def problems(m: Mechanism) -> list[ModelError]:
 
 def _links(m: Mechanism) -> Iterator[ModelError]:
     if not set(m.links) - {GROUND}:
-        yield ModelError("there is no moving link", "write links: {crank: {points: {...}}, ...}", ("links",))
+        yield ModelError(
+            "the mechanism has no moving link", "write links: {crank: {points: {...}}, ...}", ("links",)
+        )
     ground = m.links.get(GROUND)
     if ground is not None and (
         ground.mass or ground.weight or ground.inertia or ground.center or ground.shape
@@ -67,13 +69,13 @@ def _link(m: Mechanism, link: str, user: str, path: tuple[str | int, ...]) -> It
         return
     if link == GROUND:
         yield ModelError(
-            f"{user} needs the fixed link 'ground', which is not there",
+            f"{user} needs the fixed link 'ground', which is missing",
             "add ground: {points: {...}} to links",
             path,
         )
     else:
         yield ModelError(
-            f"{user} names the link {link!r}, which is not there", closest(link, list(m.links)), path
+            f"{user} names the link {link!r}, which does not exist", closest(link, list(m.links)), path
         )
 
 
@@ -108,9 +110,7 @@ def _joints(m: Mechanism) -> Iterator[ModelError]:
         if m.dimension not in joint.DIMENSIONS:
             yield ModelError(
                 f"{user} is of the type {joint.type!r}, which is not for {_where(m)}",
-                "take a joint of the plane, or write space: space"
-                if m.dimension == 2
-                else "take a joint in space",
+                "use a planar joint, or write space: space" if m.dimension == 2 else "take a joint in space",
                 (*path, "type"),
             )
         yield from _friction(m, name, joint)
@@ -130,7 +130,7 @@ def _drives(m: Mechanism) -> Iterator[ModelError]:
     taken: dict[tuple[str, str | None], str] = {}
     for name in m.start.keys() - m.drives.keys():
         yield ModelError(
-            f"start names the drive {name!r}, which is not there",
+            f"start names the drive {name!r}, which does not exist",
             closest(name, list(m.drives)) if m.drives else f"write drives: {{{name}: {{effort: 0}}}}",
             ("start", name),
         )
@@ -140,7 +140,7 @@ def _drives(m: Mechanism) -> Iterator[ModelError]:
         if joint not in m.joints:
             at = (*path, "joint") if drive.joint else path
             yield ModelError(
-                f"drive {name!r} drives the joint {joint!r}, which is not there",
+                f"drive {name!r} drives the joint {joint!r}, which does not exist",
                 closest(joint, list(m.joints)),
                 at,
             )
@@ -194,17 +194,17 @@ def _freedom(name: str, freedom: str | None, joint: str, part: JointPart) -> Ite
 
 
 def _axis(name: str, drive: Drive, joint: str, part: JointPart) -> Iterator[ModelError]:
-    """A ball turns about the axis that its drive gives; other joints have their own."""
+    """Checks the axis of a drive: a ball turns about the axis that its drive gives; other joints have an axis."""
     ball = part.ball and drive.freedom == "turn"
     if ball and drive.axis is None:
         yield ModelError(
-            f"drive {name!r} turns joint {joint!r}, a {part.type} joint, which turns any way",
+            f"drive {name!r} turns joint {joint!r}, a {part.type} joint, which can turn about any axis",
             f"write axis: [0, 0, 1], in the axes of {part.links[0]}",
             ("drives", name),
         )
     elif drive.axis is not None and not ball:
         yield ModelError(
-            f"drive {name!r} has an axis, and joint {joint!r}, a {part.type} joint, says itself how it moves",
+            f"drive {name!r} has an axis, but joint {joint!r}, a {part.type} joint, defines its axis itself",
             "leave it out",
             ("drives", name, "axis"),
         )
@@ -216,7 +216,7 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
     drives = list(m.drives)
     for name in sorted(value.numbers & set(drives) if isinstance(value, Expression) else ()):
         yield ModelError(
-            f"{what} has the number {name} in its expression, and a drive has the name {name!r}",
+            f"{what} has the number {name} in its expression, but {name!r} is also the name of a drive",
             "give the drive a name that is a word",
             path,
         )
@@ -236,32 +236,34 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
 
 
 def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...]) -> Iterator[ModelError]:
-    """Whether a name that is no drive is time, or a coordinate that there is."""
+    """Checks a name that is not a drive: it must be time, or an existing coordinate."""
     found, of = parts(name), name.removesuffix(SPEED)
     if of in m.drives and path[0] == "drives":
         return
     if of in m.drives:
-        remedy = f"write it as the effort of drive {of!r}, which may stand beside its motor"
-        yield ModelError(f"{what} uses {name!r}, and only efforts of drives go by speed", remedy, path)
+        remedy = f"write it as the effort of drive {of!r}, which is allowed with a motor"
+        yield ModelError(
+            f"{what} uses {name!r}, but only efforts of drives may depend on a speed", remedy, path
+        )
     elif found is None and name != TIME:
         remedy = _drive_remedy(name, list(m.drives))
-        yield ModelError(f"{what} uses {name!r}, which is no drive", remedy, path)
+        yield ModelError(f"{what} uses {name!r}, which is not a drive", remedy, path)
     elif path[0] == "drives" and found:
-        remedy = "an effort goes by drives, their speeds and time: write it as a load, or against a drive"
+        remedy = "an effort depends on drives, their speeds and time: write it as a load, or against a drive"
         yield ModelError(f"{what} uses {name!r}", remedy, path)
     elif found is None:
         moved = (x is not None for d in m.drives.values() for x in (d.law, d.motor, d.effort))
         if not m.start and not any(moved):
-            remedy = "give a drive a law, which says when it is where, or go by the drive"
-            yield ModelError(f"{what} goes by time, and no drive has a law of motion", remedy, path)
+            remedy = "give a drive a law of motion, or use the drive instead of time"
+            yield ModelError(f"{what} depends on time, but no drive has a law of motion", remedy, path)
     elif found[0] == "links":
         if found[1] == GROUND or m.dimension == 3:
-            why = "which does not turn" if found[1] == GROUND else "which in space is no one number"
+            why = "which does not turn" if found[1] == GROUND else "which in space is not a single number"
             yield ModelError(f"{what} uses {name!r}, {why}", "write joints.NAME.turn", path)
         yield from _link(m, found[1], what, path)
     elif found[1] not in m.joints:
         remedy = closest(found[1], list(m.joints))
-        yield ModelError(f"{what} uses the joint {found[1]!r}, which is not there", remedy, path)
+        yield ModelError(f"{what} uses the joint {found[1]!r}, which does not exist", remedy, path)
     elif found[2] not in m.joints[found[1]].freedoms:
         freedoms = " or ".join(m.joints[found[1]].freedoms) or "none"
         yield ModelError(
@@ -269,7 +271,9 @@ def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...])
         )
     elif m.joints[found[1]].ball:
         yield ModelError(
-            f"{what} uses {name!r}, of a joint that turns any way", "drive it, and name the drive", path
+            f"{what} uses {name!r}, of a joint that can turn about any axis",
+            "drive it, and name the drive",
+            path,
         )
 
 
@@ -330,7 +334,7 @@ def _torsion(m: Mechanism, load: TurnLoad, user: str, path: tuple[str, ...]) -> 
     name, at = load.joint, (*path, "joint")
     if name not in m.joints:
         yield ModelError(
-            f"{user} names the joint {name!r}, which is not there", closest(name, list(m.joints)), at
+            f"{user} names the joint {name!r}, which does not exist", closest(name, list(m.joints)), at
         )
         return
     joint = m.joints[name]
@@ -340,10 +344,12 @@ def _torsion(m: Mechanism, load: TurnLoad, user: str, path: tuple[str, ...]) -> 
         yield ModelError(f"{what}, which does not turn", "name a joint that turns", at)
     elif joint.ball and not any(d.axis and m.drive_joint(n) == name for n, d in m.drives.items()):
         yield ModelError(
-            f"{what}, which turns any way", "name a joint that turns about one axis, or give couples", at
+            f"{what}, which can turn about any axis",
+            "name a joint that turns about one axis, or give couples",
+            at,
         )
     elif joint.turn_of(load.freedom) is None:
-        asked = f", which has no {load.freedom}" if load.freedom else f", which turns in {len(turns)} ways"
+        asked = f", which has no {load.freedom}" if load.freedom else f", which has {len(turns)} turns"
         yield ModelError(
             f"{what}{asked}",
             f"write freedom: {' or '.join(turns)}",
@@ -358,7 +364,7 @@ def _assembly(m: Mechanism) -> Iterator[ModelError]:
             yield ModelError("assembly gives a pose of 'ground', which does not move", "leave it out", path)
         elif link not in m.links:
             yield ModelError(
-                f"assembly names the link {link!r}, which is not there", closest(link, list(m.links)), path
+                f"assembly names the link {link!r}, which does not exist", closest(link, list(m.links)), path
             )
     yield from assembly_problems(m)
 
@@ -369,7 +375,7 @@ def _answers(m: Mechanism) -> Iterator[ModelError]:
     for k, answer in enumerate(m.answers):
         if answer.of is not None and answer.of not in known and answer.of not in points:
             yield ModelError(
-                f"answer {k + 1} is of {answer.of!r}, which is no link, joint, drive, load or link.point",
+                f"answer {k + 1} is of {answer.of!r}, which is not a link, joint, drive, load or link.point",
                 closest(answer.of, points if "." in answer.of else known),
                 ("answers", k, "of"),
             )

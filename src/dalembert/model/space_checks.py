@@ -1,4 +1,4 @@
-"""What does not fit in a description in space: poses of the plane, welds by an angle; and inertias of no body."""
+"""Checks of a description in space: planar poses, welds by an angle, and inertias that no body can have."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ POSE = "write {position: [0, 0, 0], axis: [0, 0, 1], angle: 30 deg}"
 
 
 def assembly_problems(m: Mechanism) -> Iterator[ModelError]:
-    """Poses of the plane in space, and of space in the plane."""
+    """Errors for planar poses in space, and spatial ones in the plane."""
     for link, pose in m.assembly.items():
         path = ("assembly", link)
         if isinstance(pose, SpacePose) and m.dimension == 2:
             yield ModelError(
-                f"assembly gives link {link!r} a pose in space, and the mechanism is one of the plane",
+                f"assembly gives link {link!r} a pose in space, but the mechanism is planar",
                 "give an angle, or [x, y, angle]",
                 path,
             )
         elif not isinstance(pose, SpacePose) and m.dimension == 3:
             yield ModelError(
-                f"assembly gives link {link!r} a pose of the plane, and the mechanism is in space", POSE, path
+                f"assembly gives link {link!r} a planar pose, but the mechanism is in space", POSE, path
             )
 
 
@@ -63,7 +63,7 @@ def principal_inertias(inertia: Inertia) -> tuple[float, ...]:
 
 
 def impossible(inertia: Inertia) -> bool:
-    """Whether no body has an inertia: one principal value exceeds the sum of the others.
+    """True if no body can have the inertia: one principal value exceeds the sum of the others.
 
     >>> impossible((1.2, 0.0, 0.0)), impossible((1.0, 1.0, 2.0))
     (True, False)

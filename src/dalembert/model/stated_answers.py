@@ -46,10 +46,10 @@ NAMES = {
     },
     **{word: word for word in ("shaking_force", "shaking_couple", "residual", "power_balance")},
 }
-"""The words of format version 1 for quantities, with the names they stand for (docs/quantities.md)."""
+"""Words of format version 1 for quantities, with the names they mean (docs/quantities.md)."""
 
 QUANTITIES = (*NAMES, "status", "count", "mobility", "redundant", "stability")
-"""What an answer may be of: numbers of a position or of the mechanism, and words."""
+"""Quantities an answer may have: numbers of a position or of the mechanism, and words."""
 
 if TYPE_CHECKING:
     Quantity = str
@@ -72,14 +72,14 @@ class Answer(Part):
     by: str | None = Field(None, description="the link a reaction is exerted by")
     at: object = Field(None, description="position: its number from 1, or the drive's value as text")
     extreme: Literal["max", "min", "maxabs"] | None = Field(
-        None, description="over all positions, in place of at"
+        None, description="over all positions, instead of at"
     )
     component: Literal["x", "y", "z", "magnitude", "direction"] | None = Field(
-        None, description="of a vector; without it the whole vector"
+        None, description="of a vector; default the full vector"
     )
     axes: Literal["ground", "link", "joint"] = Field(
         "ground",
-        description="the axes of a vector: ground's, the link's (acted on), in space the joint's own",
+        description="axes of a vector: the ground's, those of the link acted on, in space the joint's",
     )
     value: object = Field(
         None,
@@ -87,7 +87,7 @@ class Answer(Part):
     )
     exact: object = Field(None, description="the exact value, computed independently; checked to 1e-7")
     tolerance: object = Field(None, description="relative, 0.3 %, or a quantity; default 1e-6 relative")
-    exact_tolerance: object = Field(None, description="in place of 1e-7 relative")
+    exact_tolerance: object = Field(None, description="instead of 1e-7 relative")
     why: str | None = Field(None, description="the reason of the tolerance")
 
     @model_validator(mode="before")
@@ -149,7 +149,7 @@ def _frozen(value: object) -> object:
 def _check_plain(item: object) -> None:
     if item is not None and (isinstance(item, bool) or not isinstance(item, (int, float, str))):
         raise ModelError(
-            f"{quote_value(item)} is no value", "write a number, a text with its unit, or a list of them"
+            f"{quote_value(item)} is not a value", "write a number, a text with its unit, or a list of them"
         )
     if isinstance(item, float) and not math.isfinite(item):
-        raise ModelError(f"{quote_value(item)} is no finite number", "write a finite one, or leave it out")
+        raise ModelError(f"{quote_value(item)} is not a finite number", "write a finite one, or leave it out")

@@ -69,11 +69,11 @@ def report(
     about: str = "",
 ) -> Report:
     """The worked solution of one position of a result, of a force system of `da.wrench`, or of an answer of machine
-    design (`da.shaking`, `da.balance`, `da.flywheel`) or of `da.optimize`, of which ``notation`` alone is asked.
+    design (`da.shaking`, `da.balance`, `da.flywheel`) or of `da.optimize`, for which only ``notation`` applies.
 
     ``methods``: some of `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
-    ``about``: a joint to take moments about where a link has it; one that is not there is a ModelError. Of a force
-    system ``at`` is the point to take moments about (m), and methods do not apply.
+    ``about``: a joint to take moments about where a link has it; an unknown one is a ModelError. Of a force system
+    ``at`` is the point to take moments about (m), and methods do not apply.
     """
     from dalembert.wrench import System
 
@@ -89,7 +89,7 @@ def report(
     from dalembert.wording import closest
 
     if about and about not in r.joints:
-        raise ModelError(f"there is no joint {about!r} to take moments about", closest(about, list(r.joints)))
+        raise ModelError(f"unknown joint {about!r} to take moments about", closest(about, list(r.joints)))
     return Report(working(r, at, tuple(methods or METHODS), notation, about))
 
 

@@ -13,7 +13,7 @@ from dalembert.views.space.space_mechanism import space_mechanism_scene
 
 
 def given_picture(c: ReportContext) -> Scene:
-    """The mechanism with its loads, without friction; of a question without what is asked for."""
+    """The mechanism with its loads, without friction; in a question without the unknowns."""
     if c.question:
         seen = ISOMETRIC if c.r.mechanism.dimension == 3 else None
         return question_scene(c.r, c.k, c.notation, seen, data=False)

@@ -1,4 +1,4 @@
-"""What a report is about: the result, the position, the reader's notation."""
+"""Context of a report: the result, the position, the reader's notation."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ METHODS: tuple[Method, ...] = ("matrix", "graphical", "superposition", "virtual-
 
 @dataclass(frozen=True)
 class ReportContext:
-    """What a report is about: the result, the position, the reader's notation, and the methods shown.
+    """Context of a report: the result, the position, the reader's notation, and the methods shown.
 
-    ``question``: only what is stated is shown, and nothing that was computed.
+    ``question``: only the given data are shown, without computed values.
     """
 
     r: Result
@@ -31,7 +31,7 @@ class ReportContext:
 
 
 def as_formula(sign: str) -> str:
-    """A sign of a drawing as a formula: only its index is marked there."""
+    """A sign of a drawing as a formula: only its index is formatted in a drawing."""
     return f"${sign}$" if "_{" in sign or len(sign) == 1 else sign
 
 
@@ -41,5 +41,5 @@ def figure(shown: Figures, kind: str, value: float, words: str = "") -> str:
 
 
 def in_ground(c: ReportContext) -> str:
-    """What a table in ground axes says of them where the equations are in the links' own."""
+    """Note for a table in ground axes where the equations are in link axes."""
     return ", in ground axes" if c.notation.axes == "link" else ""

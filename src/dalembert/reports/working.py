@@ -85,7 +85,7 @@ def working(
 
 
 def _just_after(sheet: Sheet, c: ReportContext) -> None:
-    """What is another number just after contacts have reversed; all before it in the sheet is just before."""
+    """Values that differ just after contacts have reversed; all before them in the sheet are just before."""
     sheet.heading("Just after the reversal")
     sheet.text("The motion and the loads are the same, the friction of what reversed has its other sense.")
     (friction.friction if c.r.mechanism.dimension == 2 else space_friction)(sheet, c)
@@ -122,7 +122,9 @@ def _bodies(sheet: Sheet, c: ReportContext) -> None:
         lines, about = equilibrium_equations.link_equations(r, link, c.k, shown, c.about)
         place = "the mass centre G" if about.name == "G" else f"joint {about.name}"
         own = f" (in {shown.arm_unit})" if shown.arm_unit != shown.unit("length") else ""
-        sheet.text(f"Link {shown.heading(link)}, moments about {place}; R{own} from there to each force:")
+        sheet.text(
+            f"Link {shown.heading(link)}, moments about {place}; R{own} from that point to each force:"
+        )
         sheet.equations(lines)
     if r.mechanism.dimension == 3:
         order_and_solution(sheet, c)
@@ -133,7 +135,7 @@ def _bodies(sheet: Sheet, c: ReportContext) -> None:
         units = (
             f"forces in {shown.unit('force')}, lengths in {shown.arm_unit}, moments in {shown.unit('moment')}"
         )
-        words = f"The knowns stand on the right ({units}){in_ground(c)}; the solution behind it."
+        words = f"The knowns are on the right ({units}){in_ground(c)}, the solution after it."
         sheet.blocks.append(replace(found, caption=words))
 
 

@@ -1,7 +1,7 @@
 """Many designs of one mechanism, drawn, analysed block by block, stored and resumed: ``da.study``.
 
-In: a ``Mechanism``, how its numbers vary, what is asked. Out: a ``Study``, its store, what the designs say.
-Imports ``analysis``.
+In: a ``Mechanism``, the laws of its varied numbers, the outputs. Out: a ``Study``, its store, its statistics. Imports
+``analysis``.
 """
 
 from dalembert.studies.design_study import Study, study

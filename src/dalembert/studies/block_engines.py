@@ -1,4 +1,4 @@
-"""What computes a block of designs: the compiled kernel, or where it does not reach the analyses, one by one."""
+"""Engines for a block of designs: the compiled kernel, or where it does not apply the analyses, one by one."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ ONE_AT_A_TIME = threading.Lock()
 BLOCK_WORK = 3_000_000_000
 """Scalar operations that take a core about a tenth of a second."""
 PROBED = 64
-"""Designs whose bits stand for those of all, when it is asked whether two programs are the same."""
+"""Number of designs whose bits are compared to decide whether two programs are the same."""
 UNSURE = (CODES.index("undecided"), CODES.index("at_rest"))
 """Marks of designs that the kernel leaves to the general executor."""
 Block = dict[str, Array]
-"""Arrays of a block by output, its designs first, and ``status``, the marks of `batch_result.CODES`."""
+"""Arrays of a block by output, its designs first, and ``status``, the codes of `batch_result.CODES`."""
 
 
 class Engine(Protocol):
@@ -117,7 +117,7 @@ class AnalysisEngine:
 
     @property
     def marks(self) -> tuple[int, ...]:
-        """Axes of the marks of a design."""
+        """Axes of the status codes of a design."""
         return () if self.reduce else (self.positions,)
 
     @property
@@ -144,7 +144,7 @@ class AnalysisEngine:
         return {name: np.shape(value) for name, value in self.one(self.mechanism)[0].items()}
 
     def one(self, m: Mechanism) -> tuple[Block, Array]:
-        """Outputs and marks of one design."""
+        """Outputs and status codes of one design."""
         result = solve(m, self.static, self.count)
         codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
         found = np.array(codes, np.uint8)

@@ -1,4 +1,4 @@
-"""Where the spread of an output comes from: each number's contribution, worst case, numbers that change nothing.
+"""Sources of the spread of an output: each number's contribution, worst case, numbers without effect.
 
 Mechanics: docs/theory.md 11.
 """
@@ -29,7 +29,7 @@ STEP = 1e-3
 SAMPLE = 256
 """Designs among which the place of a peak is compared."""
 OFTEN = 0.01
-"""Share of designs from which on a peak that moves is said."""
+"""Share of designs above which a moving peak is reported."""
 
 
 class Contributions(NamedTuple):
@@ -59,9 +59,9 @@ class Response(NamedTuple):
 
 
 def contributions(study: Study, output: str, by: str, designs: int) -> Contributions:
-    """What `Study.contributions` does."""
+    """Implementation of `Study.contributions`."""
     if by not in ("linear", "sobol"):
-        raise ModelError(f"there are no contributions by {by!r}", "there are: linear, sobol")
+        raise ModelError(f"unknown method of contributions {by!r}", "use linear or sobol")
     require("samples", designs, "designs")
     _check(study, output)
     return _linear(study, output) if by == "linear" else _sobol(study, output, designs)
@@ -77,10 +77,12 @@ def _check_output(study: Study, output: str) -> None:
     if study.plan.table is not None:
         raise ModelError("a table says no spread", "give vary= spreads")
     if output not in study.outputs:
-        raise ModelError(f"{output!r} is no output of the study", f"there are: {', '.join(study.outputs)}")
+        raise ModelError(
+            f"{output!r} is not an output of the study", f"the outputs are {', '.join(study.outputs)}"
+        )
     if study.reduce in (None, "envelope", *PLACES):
         raise ModelError(
-            f"reduced by {study.reduce} it is no single number", 'use reduce="peak", "rms", "mean"'
+            f"reduced by {study.reduce} it is not a single number", 'use reduce="peak", "rms", "mean"'
         )
 
 
@@ -125,7 +127,8 @@ def _linear(study: Study, output: str) -> Contributions:
 
 
 def _trust(study: Study, output: str, linear: float) -> str:
-    """Where the linear answer misleads: the peak is at another position in other designs, or the spread is another."""
+    """Reasons why the linear answer misleads: the peak is at another position in other designs, or the spread
+    differs."""
     plan = Plan(study.paths, study.plan.spreads, "random", SAMPLE, study.plan.seed)
     values = plan.values(0, SAMPLE)
     found = _answers(study, output, values)
@@ -139,7 +142,7 @@ def _trust(study: Study, output: str, linear: float) -> str:
 
 
 def _jump(study: Study, output: str, values: Array) -> str:
-    """Where the peak is at another position than in most designs, and in how many; empty where it hardly ever is."""
+    """Position of the peak where it is not that of most designs, and in how many; empty where this is rare."""
     places = _places(study, output, values)
     often, times = np.unique(places[np.isfinite(places)], return_counts=True)
     first = often[times.argmax()] if len(often) else 0.0
@@ -162,7 +165,7 @@ def _sobol(study: Study, output: str, designs: int) -> Contributions:
     """First-order and total Sobol indices (Saltelli 2010, Jansen 1999), from designs * (numbers + 2) designs."""
     d, n = len(study.paths), designs
     if n < 2 or n & (n - 1):
-        raise ModelError(f"{n} designs are no power of two", "give 4096, for example")
+        raise ModelError(f"the number of designs, {n}, is not a power of two", "use 4096, for example")
     both = Plan(
         tuple(f"{path} {half}" for half in "AB" for path in study.paths),
         study.plan.spreads * 2,
@@ -193,7 +196,7 @@ def _sobol(study: Study, output: str, designs: int) -> Contributions:
 
 
 def worst_case(study: Study, output: str) -> WorstCase:
-    """What `Study.worst_case` does."""
+    """Implementation of `Study.worst_case`."""
     _check(study, output)
     ends = np.array([s.ends for s in study.plan.spreads])
     if len(ends) <= CORNERS:
@@ -202,9 +205,7 @@ def worst_case(study: Study, output: str) -> WorstCase:
     else:
         up = slopes(study, output) >= 0
         corners = np.array([np.where(up, ends[:, 1], ends[:, 0])])
-        assumed = (
-            "the output rises or falls with each number all the way: one corner, by the derivatives' signs"
-        )
+        assumed = "the output is monotonic in each number: one corner, chosen by the signs of the derivatives"
     found = _answers(study, output, corners)
     lost = int((~np.isfinite(found)).sum())
     if lost:
@@ -216,7 +217,7 @@ def worst_case(study: Study, output: str) -> WorstCase:
 
 
 def response(study: Study, output: str, paths: Sequence[str], count: int) -> Response:
-    """What `Study.response` does."""
+    """Implementation of `Study.response`."""
     _check_output(study, output)
     for path in paths:
         if path not in study.paths:
@@ -234,7 +235,7 @@ def response(study: Study, output: str, paths: Sequence[str], count: int) -> Res
 
 
 def idle(study: Study) -> tuple[str, ...]:
-    """What `Study.idle` does."""
+    """Implementation of `Study.idle`."""
     if study.plan.table is not None:
         low, high = study.plan.table.min(axis=0), study.plan.table.max(axis=0)
     else:

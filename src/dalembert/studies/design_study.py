@@ -58,14 +58,14 @@ def study(
     lanes: int | None = None,
     simulate: Mapping[str, object] | None = None,
 ) -> Study:
-    """Many designs of a mechanism, each drawn by its number from how the numbers of the model file spread.
+    """Many designs of a mechanism, each drawn by its number from the spreads of the numbers of the model file.
 
-    ``vary``: path or parameter -> spread: ``"± 0.05 mm"`` (normal, three standard deviations, cut there), ``"normal
-    2 %"``, ``"uniform ± 5 %"``, ``"70..90 N"``, ``"70..90 N in 5"``, a list, or ``"range"`` of a parameter that states
-    one. A vector's path means each component. ``outputs``, ``reduce``, ``static``: as in `da.compile`. ``draw``:
-    ``random``, ``sobol``, ``latin``, ``factorial`` (all combinations of levels), or the designs themselves, path ->
-    values, with ``vary`` a list of paths or empty. ``limits``: output -> ``"< 45 N*m"``. ``correlation``: of two paths,
-    between -1 and 1, of their normal scores. ``keep``: store the drawn numbers too. ``simulate``: motions under forces,
+    ``vary``: path or parameter -> spread: ``"± 0.05 mm"`` (normal, truncated at three standard deviations), ``"normal 2
+    %"``, ``"uniform ± 5 %"``, ``"70..90 N"``, ``"70..90 N in 5"``, a list, or ``"range"`` for a parameter that has one.
+    A vector's path means each component. ``outputs``, ``reduce``, ``static``: as in `da.compile`. ``draw``: ``random``,
+    ``sobol``, ``latin``, ``factorial`` (all combinations of levels), or the designs themselves, path -> values, with
+    ``vary`` a list of paths or empty. ``limits``: output -> ``"< 45 N*m"``. ``correlation``: of two paths, between -1
+    and 1, of their normal scores. ``keep``: store the drawn numbers too. ``simulate``: motions under forces,
     ``{"until": ["2 s", "O2.speed = 20 rad/s"], "start": ..., "count": 201, "tolerance": 1e-9}`` as in
     `da.compile_motion`, whose numbers vary too; outputs are also ``time``, ``O2.position`` and ``O2.speed``, those at
     the end, and ``reduce`` is over the instants, or ``final``. Raises ModelError.
@@ -90,7 +90,7 @@ def study(
     given = dict.fromkeys(vary, "") if not isinstance(vary, Mapping) else dict(vary)
     table = dict(draw) if isinstance(draw, Mapping) else None
     if table is None and not given:
-        raise ModelError("nothing varies", "give path: spread, as stroke: ± 0.1 mm", ("vary",))
+        raise ModelError("no number varies", "give path: spread, as stroke: ± 0.1 mm", ("vary",))
     numbers, spreads, rows = (
         spreads_of(mechanism, given) if table is None else columns_of(mechanism, given, table)
     )
@@ -103,7 +103,7 @@ def study(
     plan = Plan(paths, spreads, how, int(whole), int(seed), rows, mixing)
     names = (outputs,) if isinstance(outputs, str) else tuple(outputs) if outputs else None
     if names and len(set(names)) < len(names):
-        raise ModelError("an output is asked for twice", "leave one of them out", ("outputs",))
+        raise ModelError("an output is named twice", "leave one of them out", ("outputs",))
     found = Study(mechanism, plan, names, reduce, static, positions, keep, lanes, motion=motion)
     _ = found.engine  # what cannot be computed is refused here
     return found.with_limits(limits or {})
@@ -117,7 +117,8 @@ def _refuse_beside_motion(**given: object) -> None:
 
 @dataclass(frozen=True)
 class Study:
-    """What is varied, how it is drawn and what is asked; `run` answers. Two equal ones give the same bits anywhere."""
+    """Varied numbers, sampling and outputs of a study; `run` computes it. Two equal ones give the same bits
+    anywhere."""
 
     mechanism: Mechanism
     plan: Plan
@@ -140,14 +141,14 @@ class Study:
 
     @property
     def engine(self) -> Engine:
-        """What computes a block."""
+        """Engine that computes a block."""
         if "engine" not in self.cache:
             self.cache["engine"] = self.engine_for(self.asked, self.reduce)
         found: Engine = self.cache["engine"]
         return found
 
     def engine_for(self, outputs: Sequence[str] | None, reduce: str | None) -> Engine:
-        """What computes blocks of any outputs of the same designs."""
+        """Engine that computes blocks of any outputs of the same designs."""
         if reduce == "squares":
             raise ModelError(
                 "a study has no target for squares", 'reduce an expression by "rms"', ("reduce",)
@@ -164,12 +165,12 @@ class Study:
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """What is answered of each design."""
+        """Outputs of each design."""
         return self.asked if self.asked is not None else self.engine.outputs
 
     @property
     def kinds(self) -> dict[str, str]:
-        """What each output is, of `units.KINDS`."""
+        """Kind of each output, from `units.KINDS`."""
         if "kinds" not in self.cache:
             known = self.end_kinds
             rest = [name for name in self.outputs if name not in known]
@@ -185,7 +186,7 @@ class Study:
 
     @property
     def number_kinds(self) -> dict[str, str]:
-        """What each number is, of `units.KINDS`, by path."""
+        """Kind of each number, from `units.KINDS`, by path."""
         numbers = [n for path in self.paths for n in varied_numbers(self.mechanism, path)]
         return dict(zip(self.paths, number_kinds(self.mechanism, numbers), strict=True))
 
@@ -202,7 +203,7 @@ class Study:
 
     @property
     def count(self) -> int:
-        """How many designs."""
+        """Number of designs."""
         return self.plan.count
 
     @property
@@ -234,7 +235,7 @@ class Study:
         """The numbers of a design by path, SI; designs are numbered from 0."""
         require("design", n)
         if n >= self.count:
-            raise ModelError(f"there is no design {n}", f"there are 0 to {self.count - 1}")
+            raise ModelError(f"design {n} does not exist", f"use 0 to {self.count - 1}")
         return dict(zip(self.paths, self.plan.values(n, n + 1)[0].tolist(), strict=True))
 
     def mechanism_of(self, n: int) -> Mechanism:
@@ -245,7 +246,7 @@ class Study:
         """The same study of more designs; those that there are stay as they are."""
         if not self.plan.extendable:
             raise ModelError(
-                f"a study drawn by {self.plan.draw} is whole", "only random and sobol ones can be extended"
+                f"a study drawn by {self.plan.draw} cannot be extended", "only random and sobol ones can"
             )
         require("designs", designs)
         if designs < self.count:
@@ -254,7 +255,7 @@ class Study:
 
     @cached_property
     def prints(self) -> dict[str, str]:
-        """What may not change between the runs of one store: what is computed, asked, and by which program."""
+        """Fingerprint that may not change between the runs of one store: what is computed, and by which program."""
         tree = self.mechanism.to_tree()
         for key in ("title", "source", "answers"):
             tree.pop(key, None)
@@ -274,7 +275,7 @@ class Study:
         }
 
     def tree(self) -> Tree:
-        """The study in plain values, of which `study_of_tree` makes it again; a table of designs apart."""
+        """The study in plain values, from which `study_of_tree` restores it; a table of designs is separate."""
         p = self.plan
         spreads = [{"kind": s.kind, "a": s.a, "b": s.b, "levels": list(s.levels)} for s in p.spreads]
         return {
@@ -303,19 +304,19 @@ class Study:
         progress: Callable[[int, int], object] | None = None,
         check: bool = True,
     ) -> StudyResult:
-        """Compute the blocks that are not there yet, into a store on disk, which resumes what it has, or in memory.
+        """Computes the missing blocks, into a store on disk, which resumes a stopped run, or in memory.
 
-        threads: default one a core. scheduler: the address of a dask scheduler or a dask client, whose workers compute
-        then. progress: called with (designs done, designs). check: compare what is stored with its checksums first.
-        The same bits whatever the workers, the order, and how often it was stopped. Ctrl-C finishes the blocks under
-        way, which are kept.
+        threads: default one per core. scheduler: the address of a dask scheduler or a dask client, whose workers then
+        compute. progress: called with (designs done, designs). check: first compare the stored blocks with their
+        checksums. The same bits whatever the workers, the order, and how often it was stopped. Ctrl-C finishes and
+        keeps the blocks in progress.
         """
         from dalembert.studies.running import run_study
 
         return run_study(self, store, threads, scheduler, progress, check)
 
     def contributions(self, output: str, by: str = "linear", designs: int = 4096) -> Any:
-        """What each number contributes to the variance of an output, by ``linear`` or ``sobol``: `Contributions`."""
+        """Contribution of each number to the variance of an output, by ``linear`` or ``sobol``: `Contributions`."""
         from dalembert.studies.contributions import contributions
 
         return contributions(self, output, by, designs)

@@ -32,13 +32,13 @@ class Limit(NamedTuple):
     text: str
 
     def kept(self, values: Array) -> Flags:
-        """Whether each design (first axis) keeps it, in all components and positions; no number does not."""
+        """True for each design (first axis) within the limit, in all components and positions; false for NaN."""
         good = (values >= self.low) & (values <= self.high)
         return np.asarray(good.reshape(len(values), -1).all(axis=1))
 
 
 def output_kinds(nominal: Result, outputs: Sequence[str], reduce: str | None) -> dict[str, str]:
-    """What each output is, of `units.KINDS`; those that a result has no name for are numbers."""
+    """Kind of each output, from `units.KINDS`; those unknown to a result are numbers."""
     found = {}
     for name in outputs:
         try:
@@ -49,10 +49,10 @@ def output_kinds(nominal: Result, outputs: Sequence[str], reduce: str | None) ->
 
 
 def read_limit(name: str, said: object, kinds: Mapping[str, str], m: Mechanism) -> Limit:
-    """What an output has to keep, in words; raises ModelError."""
+    """Limit of an output from its text; raises ModelError."""
     if name not in kinds:
         raise ModelError(
-            f"limits names {name!r}, which is no output of the study",
+            f"limits names {name!r}, which is not an output of the study",
             closest(name, list(kinds)),
             ("limits", name),
         )
@@ -73,6 +73,6 @@ def _ends(text: str, kind: str, rules: Reading) -> tuple[float, float]:
         return a, rules.quantity(f"{high} {last or first}".strip(), kind)
     sign = re.match(r"<=?|>=?|≤|≥", text)
     if sign is None:
-        raise ModelError(f"{quote_value(text)} is no limit", FORMS)
+        raise ModelError(f"{quote_value(text)} is not a limit", FORMS)
     value = float(rules.quantity(text[sign.end() :].strip(), kind))
     return (-math.inf, value) if sign[0] in ("<", "<=", "≤") else (value, math.inf)

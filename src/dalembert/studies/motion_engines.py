@@ -1,4 +1,4 @@
-"""What computes a block of motions under forces: compiled ones, or where these do not reach simulations, one by one.
+"""Engines for a block of motions under forces: compiled ones, or where these do not apply simulations, one by one.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -33,19 +33,19 @@ SENTENCES = {
     "undecided": f"The steps of the motion became too small, or it comes near a dead centre{WHY}",
     "failed": f"The motion cannot begin, or stops where it cannot go on{WHY}",
 }
-"""Of designs without numbers, by status."""
+"""Sentences for designs without numbers, by status."""
 
 
 @dataclass(frozen=True)
 class Motion:
-    """What is simulated of each design: until when, at how many instants, with which tolerance."""
+    """Settings of the simulation of each design: its end, number of instants, tolerance."""
 
     until: tuple[str | float, ...]
     count: int = 201
     tolerance: float = 1e-9
 
     def of(self, m: Mechanism) -> Simulation:
-        """The motion of one design, with all that happens on its way."""
+        """The motion of one design, with all its events."""
         return simulate(m, self.until, count=self.count, tolerance=self.tolerance)
 
     def tree(self) -> Tree:
@@ -58,7 +58,7 @@ class Motion:
 
 
 def read_motion(m: Mechanism, given: object) -> tuple[Mechanism, Motion]:
-    """What ``simulate:`` of a study says; the mechanism starts as it says."""
+    """Settings in ``simulate:`` of a study; the mechanism with its start."""
     with errors_at("simulate"):
         if not isinstance(given, Mapping) or "until" not in given:
             raise ModelError("the motion does not say until when", "write simulate: {until: 2 s}")
@@ -175,7 +175,7 @@ def make_motion_engine(
     names = tuple(end_kinds(m) if asked is None else asked)
     outputs = tuple(name for name in names if name not in end_kinds(m))
     if wrong := next((name for name in outputs if name.split(".")[0] in m.drives), ""):
-        raise ModelError(f"there is no output {wrong!r}", closest(wrong, list(end_kinds(m))))
+        raise ModelError(f"unknown output {wrong!r}", closest(wrong, list(end_kinds(m))))
     try:
         kernel = compile_motion(m, motion.until, paths, outputs, reduce, None, motion.count, motion.tolerance)
     except ModelError as error:

@@ -1,7 +1,7 @@
-"""A store of a study at an address, as ``s3://bucket/pump.zarr``: any that fsspec knows, by obstore if that is there.
+"""A store of a study at an address, as ``s3://bucket/pump.zarr``: any that fsspec knows, by obstore if it is installed.
 
-No rename makes it whole: its group's attributes are written last. No lock of a system ends with its process: a lease
-beside it, ``pump.zarr.lock/N``, is renewed while the run is there, and taken over when it has ended.
+A rename cannot complete it, so its group's attributes are written last. A system lock cannot protect it, so a lease
+beside it, ``pump.zarr.lock/N``, is renewed during the run, and another run acquires it when it has expired.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from dalembert.saving import check_installed
 from dalembert.studies.store_folder import this_run
 
 LEASE = 60.0
-"""Seconds after which a run that no longer renews its lease is taken for dead; the clocks agree to better than this."""
+"""Seconds after which a run that no longer renews its lease counts as dead; clocks agree to better than this."""
 RENEWALS = 4
 """Renewals in this time."""
 BY_OBSTORE = ("s3", "s3a", "gs", "az", "adl", "abfs", "abfss", "azure")
-"""Protocols that obstore serves where fsspec's own package for them is missing."""
+"""Protocols that obstore serves where fsspec's package for them is missing."""
 
 
 class Backend(Protocol):
@@ -58,7 +58,7 @@ class ByFsspec:
         self.local = "file" in self.fs.protocol
 
     def group(self, name: str) -> Any:
-        """What zarr takes for the group of a name."""
+        """The store that zarr uses for the group of a name."""
         from zarr.storage import FsspecStore
 
         return self._path(name) if self.local else FsspecStore.from_url(f"{self.address.rstrip('/')}/{name}")
@@ -73,7 +73,7 @@ class ByFsspec:
             return None
 
     def write(self, key: str, data: bytes, new: bool = False) -> None:
-        """Raises FileExistsError for a new one that is there."""
+        """Raises FileExistsError for a new object that exists."""
         path = self._path(key)
         if not self.local:
             self.fs.pipe_file(path, data, **({"mode": "create"} if new else {}))
@@ -115,7 +115,7 @@ class ByObstore:
         self.address, self.store = address, obstore.store.from_url(address)
 
     def group(self, name: str) -> Any:
-        """What zarr takes for the group of a name."""
+        """The store that zarr uses for the group of a name."""
         from obstore.store import from_url
         from zarr.storage import ObjectStore
 
@@ -153,7 +153,7 @@ class ByObstore:
 
 
 def is_address(target: object) -> bool:
-    """Whether this is the address of an object store, and no path.
+    """True if this is the address of an object store, not a path.
 
     >>> is_address("memory://pump.zarr"), is_address("runs/pump.zarr")
     (True, False)
@@ -162,7 +162,7 @@ def is_address(target: object) -> bool:
 
 
 def backend(above: str, address: str) -> Backend:
-    """What serves an address, below what is above it: fsspec, or obstore where fsspec lacks the package."""
+    """Backend of an address, below ``above``: fsspec, or obstore where fsspec lacks the package."""
     check_installed("fsspec", f"a study at {address}", "study")
     try:
         return ByFsspec(above)
@@ -195,13 +195,13 @@ class Objects:
         return self.address
 
     def group(self) -> Any:
-        """What zarr takes for the group."""
+        """The store that zarr uses for the group."""
         return self.objects.group(self.name)
 
     def exists(self) -> bool:
-        """Whether there is a whole study; raises ModelError where there is something else.
+        """True if a complete study exists; raises ModelError where something else exists.
 
-        A half-made one has a group with this program's name in its attributes, and no `blocks_of`, written last.
+        An incomplete one has a group with this program's name in its attributes, and no `blocks_of`, written last.
         """
         with self._reached():
             found = self.objects.read(f"{self.name}/zarr.json")
@@ -212,20 +212,20 @@ class Objects:
         except ValueError:
             attributes = {}
         if "dalembert" not in attributes:
-            raise ModelError(f"{self} is there and is no study", "give another name")
+            raise ModelError(f"{self} exists and is not a study", "give another name")
         return "blocks_of" in attributes
 
     def create(self, fill: Callable[[Any], None]) -> None:
-        """Make it in its place, what is there of a half-made one away."""
+        """Creates it in place, after removing an incomplete one."""
         self.objects.remove(self.objects.keys(f"{self.name}/"))
         fill(self.group())
 
     def remove(self, key: str) -> None:
-        """Take a chunk away, if it is there."""
+        """Deletes a chunk, if it exists."""
         self.objects.remove([f"{self.name}/{key}"])
 
     def sweep(self) -> None:
-        """Objects are written whole: nothing half-written counts."""
+        """Objects are written as a unit: a partly written one never counts."""
 
     def check(self) -> None:
         """Raise ModelError where another run has taken the lease."""
@@ -259,7 +259,7 @@ class Objects:
 class Lease:
     """The right to write a store until a time, renewed by a thread.
 
-    Its objects are numbered: who creates the one behind the last, which has to be let go or past its time, holds it.
+    Its objects are numbered: the creator of the one after the last, which must be released or expired, holds it.
     """
 
     def __init__(self, address: str, objects: Backend, folder: str) -> None:

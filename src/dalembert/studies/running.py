@@ -32,7 +32,7 @@ IN_FLIGHT = 4
 CHANGED = {
     "model": "the mechanism has changed since",
     "study": "what is varied, drawn or asked for has changed since",
-    "program": "this version of dalembert, or this kind of processor, computes it in another way",
+    "program": "this version of dalembert, or this kind of processor, computes it differently",
 }
 """Print that differs -> its sentence."""
 
@@ -47,7 +47,7 @@ def run_study(
     progress: Progress,
     check: bool,
 ) -> StudyResult:
-    """What `Study.run` does."""
+    """Implementation of `Study.run`."""
     require("threads", threads)
     if target is None:
         memory = InMemory(study)
@@ -74,7 +74,7 @@ def run_study(
 
 
 def _opened(study: Study, store: Store) -> int:
-    """The store, made if it is not there, checked if it is; designs of a block."""
+    """The store, created if it does not exist, checked if it does; designs of a block."""
     if not store.exists():
         store.create(attributes(study), study.count, study.block_size(), layout(study), study.plan.table)
     known = store.open()
@@ -88,8 +88,8 @@ def _opened(study: Study, store: Store) -> int:
     block = int(known["block"])
     if known["designs"] > study.count:
         raise ModelError(
-            f"{store} has {known['designs']} designs, and {study.count} are asked for",
-            "ask for as many or more, or name another store",
+            f"{store} has {known['designs']} designs, but {study.count} are requested",
+            "request at least as many, or name another store",
         )
     if known["designs"] < study.count or store.arrays["status"].shape[0] != study.count:
         store.resize(study.count, block)
@@ -97,7 +97,7 @@ def _opened(study: Study, store: Store) -> int:
 
 
 def attributes(study: Study) -> Tree:
-    """What a store says of itself: the model file, the study, its prints, units by path."""
+    """Description in a store: the model file, the study, its fingerprint, units by path."""
     from dalembert import __version__
 
     m = study.mechanism
@@ -138,7 +138,7 @@ def layout(study: Study) -> dict[str, Layout]:
 
 
 class _Target:
-    """Where finished blocks of a stored study go."""
+    """Target of the finished blocks of a stored study."""
 
     def __init__(self, store: Store, block: int, count: int) -> None:
         self.store, self.block, self.count = store, block, count
@@ -279,7 +279,7 @@ def compute_block(spec: bytes, program: str, b: int, start: int, stop: int) -> t
             study: Study = pickle.loads(spec)
             if study.prints["program"] != program:
                 raise ModelError(
-                    "a worker's processor or version of dalembert computes this study in another way",
+                    "a worker's processor or version of dalembert computes this study differently",
                     "start workers of one kind, or give lanes=, the same on all",
                 )
             _known.clear()  # of other studies

@@ -1,7 +1,7 @@
-"""Designs by their number: each follows from the seed, the path and its number alone.
+"""Designs by their number: each depends on the seed, the path and its number alone.
 
-So any part of them can be made by anybody in any order, with the same bits; nothing is remembered between designs.
-Random numbers are Philox's, addressed by counter, a row of its own for each path: `kernel.emit.random_numbers`.
+So any part of them can be computed by any process in any order, with the same bits; no state is kept between designs.
+Random numbers are Philox's, addressed by counter, a separate row for each path: `kernel.emit.random_numbers`.
 
 Mechanics: docs/theory.md 11.
 """
@@ -28,11 +28,11 @@ DRAWS = ("random", "sobol", "latin", "factorial", "table")
 MOST = 10**12
 """Designs of one study."""
 BITS = 30
-"""Of a Sobol number; there are two to this power."""
+"""Bits of a Sobol number; at most 2^30 of them exist."""
 LOW = 16
 """Bits of a Sobol point's number that are looked up in one table."""
 SHARE, SCORE = Spread("uniform", 0, 1), Spread("normal", 0, 1)
-"""Of which a share is the value, and the normal score."""
+"""Spreads whose value is the share, and the normal score."""
 
 
 def triangle_of(paths: Sequence[str], given: Mapping[tuple[str, str], float], draw: str) -> Array | None:
@@ -57,7 +57,7 @@ def triangle_of(paths: Sequence[str], given: Mapping[tuple[str, str], float], dr
             )
         if isinstance(r, bool) or not isinstance(r, (int, float)) or not -1 < r < 1:
             raise ModelError(
-                f"{quote_value(r)} is no correlation of two numbers",
+                f"{quote_value(r)} is not a correlation of two numbers",
                 "give one between -1 and 1",
                 ("correlation",),
             )
@@ -72,7 +72,7 @@ def triangle_of(paths: Sequence[str], given: Mapping[tuple[str, str], float], dr
 
 @dataclass(frozen=True)
 class Plan:
-    """Which designs there are: values (design, number) in SI by the number of the design, from 0."""
+    """Plan of the designs: values (design, number) in SI by the number of the design, from 0."""
 
     paths: tuple[str, ...]
     spreads: tuple[Spread, ...]
@@ -81,11 +81,11 @@ class Plan:
     seed: int = 0
     table: Array | None = field(default=None, repr=False)
     mixing: Array | None = field(default=None, repr=False)
-    """Of correlated numbers the lower triangle that makes their normal scores from independent ones."""
+    """For correlated numbers, the lower triangle that makes their normal scores from independent ones."""
 
     def __post_init__(self) -> None:
         if self.draw not in DRAWS:
-            raise ModelError(f"there is no way to draw {self.draw!r}", closest(self.draw, list(DRAWS)))
+            raise ModelError(f"unknown sampling method {self.draw!r}", closest(self.draw, list(DRAWS)))
         if self.draw == "factorial" and any(s.kind != "levels" for s in self.spreads):
             k = next(k for k, s in enumerate(self.spreads) if s.kind != "levels")
             what = f"{self.paths[k]}: a factorial needs levels"
@@ -95,20 +95,18 @@ class Plan:
         most = 2**BITS if self.draw == "sobol" else MOST
         if not 1 <= self.count <= most:
             more = "; more can be drawn at random" if self.draw == "sobol" else ""
-            raise ModelError(
-                f"{self.count} designs are asked for", f"ask for 1 to {most}{more}", ("designs",)
-            )
+            raise ModelError(f"designs={self.count} is out of range", f"use 1 to {most}{more}", ("designs",))
 
     @property
     def count(self) -> int:
-        """How many designs."""
+        """Number of designs."""
         if self.draw == "factorial":
             return prod(len(s.levels) for s in self.spreads)
         return self.designs if self.table is None else len(self.table)
 
     @property
     def extendable(self) -> bool:
-        """Whether more designs leave those that there are as they were."""
+        """True if more designs leave the existing ones unchanged."""
         return self.draw in ("random", "sobol")
 
     def values(self, start: int, stop: int) -> Array:
@@ -154,7 +152,7 @@ class Plan:
         return self._rows_of([s.law for s in self.spreads])
 
     def _rows_of(self, laws: Sequence[tuple[float, ...]]) -> Array:
-        """How each number is drawn, as `draw` reads it."""
+        """Sampling law of each number, as `draw` reads it."""
         out = np.zeros((len(laws), FIELDS), np.uint64)
         out[:, :2] = [_key(self.seed, path) for path in self.paths]
         out.view(float)[:, 2 : 2 + len(laws[0])] = laws

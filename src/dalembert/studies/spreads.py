@@ -1,4 +1,4 @@
-"""How one number varies from design to design: a distribution or levels, from the words of a study."""
+"""Spread of one number from design to design: a distribution or levels, from the text of a study."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dalembert.units import NUMBER
 from dalembert.wording import quote_value
 
 CUT = 3.0
-"""A tolerance is so many standard deviations: a normal distribution that ends there."""
+"""Standard deviations in a tolerance: a normal distribution is truncated at this many."""
 MOST = 1_000_000
 """Levels that one number may have."""
 FORMS = "write '± 0.05 mm', 'normal 2 %', 'uniform ± 5 %', '70..90 N', '70..90 N in 5' or a list, [70 N, 80 N, 90 N]"
@@ -66,7 +66,7 @@ class Spread:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Least and largest value; of a normal distribution three standard deviations either way."""
+        """Least and largest value; for a normal distribution three standard deviations on either side."""
         if self.kind == "uniform":
             return self.a, self.b
         if self.kind == "levels":
@@ -115,7 +115,7 @@ def read_spread(
 
 
 def _size(text: str, nominal: float, si: Callable[[object], float]) -> float:
-    """A tolerance or standard deviation, of which a percentage is one of the nominal value."""
+    """A tolerance or standard deviation; a percentage is relative to the nominal value."""
     text = text.strip()
     percent = re.fullmatch(rf"({NUMBER})\s*%", text)
     found = abs(nominal) * float(percent[1]) / 100 if percent else si(text)
@@ -136,7 +136,7 @@ def _range(found: re.Match[str], count: str | None, si: Callable[[object], float
     if count is None:
         return Spread("uniform", a, b)
     if not 2 <= int(count) <= MOST:
-        raise ModelError(f"{count} levels are asked for", f"ask for 2 to {MOST}")
+        raise ModelError(f"levels={count} is out of range", f"use 2 to {MOST}")
     return Spread("levels", levels=tuple(np.linspace(a, b, int(count)).tolist()))
 
 
@@ -145,5 +145,5 @@ def _levels(given: object, si: Callable[[object], float]) -> Spread:
     if not found or len(found) > MOST:
         raise ModelError(f"a list of {len(found)} values says no levels", f"give 1 to {MOST}")
     if len(set(found)) < len(found):
-        raise ModelError("a value stands twice in the list", "leave one of them out")
+        raise ModelError("a value occurs twice in the list", "leave one of them out")
     return Spread("levels", levels=found)

@@ -1,6 +1,6 @@
-"""The store of a study: one zarr group, a chunk a block, and a ledger whose row of a block is written last.
+"""The store of a study: one zarr group, one chunk per block, and a ledger whose row of a block is written last.
 
-A block counts as done when its row in the ledger is there and agrees with the checksum of what was written.
+A block counts as done when its row in the ledger exists and agrees with the checksum of the written data.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def checksum(block: Mapping[str, Array]) -> int:
 
 
 def ledger_row(block: Mapping[str, Array], ms: float) -> Ints:
-    """What the ledger says of a block."""
+    """Row of a block in the ledger."""
     marks = block["status"] if block["status"].ndim == 1 else first_mark(block["status"])
     return np.array([checksum(block), round(ms), *np.bincount(marks, minlength=len(CODES))], np.int64)
 
@@ -65,7 +65,7 @@ class Store:
         return str(self.place)
 
     def exists(self) -> bool:
-        """Whether there is a study; raises ModelError where there is something else."""
+        """True if a study exists; raises ModelError where something else exists."""
         return self.place.exists()
 
     def locked(self) -> AbstractContextManager[None]:
@@ -94,7 +94,7 @@ class Store:
 
     def unreadable(self, error: Exception) -> ModelError:
         """The sentence for a group whose attributes or arrays are not those of a study."""
-        return ModelError(f"{self} is no readable study: {error}", "run it anew under another name")
+        return ModelError(f"{self} is not a readable study: {error}", "run it again under another name")
 
     @property
     def names(self) -> list[str]:
@@ -102,7 +102,7 @@ class Store:
         return [name for name in self.arrays if name != "ledger"]
 
     def resize(self, count: int, block: int) -> None:
-        """More designs; the last block is done again if it was not full. What is there stays."""
+        """Adds designs; the last block is computed again if it was not full. Existing blocks are kept."""
         before = int(self.group.attrs["designs"])
         if before % block:
             self.forget(before // block)
@@ -143,7 +143,7 @@ class Store:
             return np.zeros(len(FIELDS), np.int64)
 
     def sound(self, b: int, block: int, count: int, row: Ints) -> bool:
-        """Whether what is stored of a block is what was written, and its row in the ledger says so."""
+        """True if the stored data of a block agree with the checksum in its row of the ledger."""
         which = slice(b * block, min((b + 1) * block, count))
         try:
             found = ledger_row({name: self.arrays[name][which] for name in self.names}, float(row[1]))

@@ -1,4 +1,4 @@
-"""A store of a study in a folder: made whole by a rename, written by one run at a time by a lock of the system."""
+"""A store of a study in a folder: completed by a rename, and written by one run at a time under a system lock."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Folder:
     """A folder on a disk."""
 
     errors: tuple[type[Exception], ...] = (OSError,)
-    """What is raised where it cannot be read or written."""
+    """Errors raised where it cannot be read or written."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
@@ -38,21 +38,21 @@ class Folder:
         return str(self.path)
 
     def group(self) -> Any:
-        """What zarr takes for the group."""
+        """The store that zarr uses for the group."""
         return str(self.path)
 
     def exists(self) -> bool:
-        """Whether there is a study; raises ModelError where there is something else."""
+        """True if a study exists; raises ModelError where something else exists."""
         if not self.path.exists():
             return False
         if (self.path / "ledger" / "zarr.json").is_file():
             return True
         if self.path.is_dir() and not any(self.path.iterdir()):
             return False
-        raise ModelError(f"{self.path} is there and is no study", "give another name")
+        raise ModelError(f"{self.path} exists and is not a study", "give another name")
 
     def create(self, fill: Callable[[Any], None]) -> None:
-        """Make it beside and rename it: it is there whole, or not at all."""
+        """Creates it beside its place and renames it, so that it is never partly visible."""
         new = self.path.with_name(self.path.name + ".new")
         shutil.rmtree(new, ignore_errors=True)
         fill(str(new))
@@ -61,7 +61,7 @@ class Folder:
         new.rename(self.path)
 
     def remove(self, key: str) -> None:
-        """Take a chunk away, if it is there."""
+        """Deletes a chunk, if it exists."""
         (self.path / key).unlink(missing_ok=True)
 
     def sweep(self) -> None:
@@ -70,11 +70,11 @@ class Folder:
             path.unlink()
 
     def check(self) -> None:
-        """The lock is not lost while the process is there."""
+        """Does nothing: the lock is not lost while the process runs."""
 
     @contextmanager
     def locked(self) -> Iterator[None]:
-        """One run at a time: a lock on a file beside it, let go by the system when its process dies."""
+        """One run at a time: a lock on a file beside it, released by the system when its process dies."""
         path = self.path.with_name(self.path.name + ".lock")
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -95,8 +95,8 @@ class Folder:
 
 
 def _lock(file: int) -> None:
-    """Lock an open file for this process; OSError where another one has it. Where the system has no locks, as in a
-    browser, nothing is locked."""
+    """Locks an open file for this process; OSError where another one has it. Without system locks, as in a browser, it
+    does nothing."""
     try:
         import fcntl
     except ImportError:

@@ -28,13 +28,13 @@ KEYS = {
     "of a motion final too",
     "designs": "how many",
     "draw": "random, sobol, latin or factorial",
-    "table": "a .csv file of designs in place of designs and draw: a column a path, its head `path [unit]`",
-    "seed": "a whole number that draws the same designs again",
+    "table": "a .csv file of designs, instead of designs and draw: one column per path, with the head `path [unit]`",
+    "seed": "an integer; the same seed draws the same designs again",
     "limits": "output -> what it has to keep, as < 45 N*m",
     "correlation": "'path, path' -> correlation of two numbers",
     "simulate": "motions under forces, {until: [2 s, 'O2.speed = 20 rad/s'], start: ..., count: 201, tolerance: 1e-9}",
     "static": "true leaves inertia out",
-    "positions": "number of positions in place of the file's",
+    "positions": "number of positions instead of the file's",
     "keep": "true stores the drawn numbers too",
 }
 LARGEST = 50_000_000
@@ -95,7 +95,7 @@ def _placed(error: ModelError, tree: Mapping[str, object]) -> ModelError:
 
 
 def _options(tree: Mapping[str, object]) -> Tree:
-    """The arguments of `study` that stand in a file."""
+    """Arguments of `study` in a file."""
     out: Tree = plain_options(tree, {"designs": 1, "seed": 0, "positions": 1}, ("static", "keep"))
     outputs = tree.get("outputs")
     if outputs is not None:
@@ -108,7 +108,7 @@ def _options(tree: Mapping[str, object]) -> Tree:
         reduce = tree["reduce"]
         if reduce is not None and not isinstance(reduce, str):
             raise ModelError(
-                f"{quote_value(reduce)} is no reduction", "write reduce: peak, or none", ("reduce",)
+                f"{quote_value(reduce)} is not a reduction", "write reduce: peak, or none", ("reduce",)
             )
         out["reduce"] = None if reduce in (None, "none") else reduce
     if "draw" in tree:
@@ -116,7 +116,7 @@ def _options(tree: Mapping[str, object]) -> Tree:
         names = [d for d in DRAWS if d != "table"]
         if draw not in names:
             raise ModelError(
-                f"there is no way to draw {quote_value(draw)}", closest(str(draw), names), ("draw",)
+                f"unknown sampling method {quote_value(draw)}", closest(str(draw), names), ("draw",)
             )
         out["draw"] = draw
     if "limits" in tree:
@@ -181,13 +181,13 @@ def _table(path: Path) -> dict[str, list[str]]:
     heads = [re.fullmatch(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", head) for head in rows[0][1]]
     if not all(h and h[1] for h in heads) or len({h[1] for h in heads if h}) < len(heads):
         raise ModelError(
-            "a head is empty, or stands twice", "write `path [unit]` once each", (), str(path), rows[0][0]
+            "a head is empty or occurs twice", "write `path [unit]` once each", (), str(path), rows[0][0]
         )
     out: dict[str, list[str]] = {h[1]: [] for h in heads if h}
     for line, row in rows[1:]:
         if len(row) != len(heads):
             raise ModelError(
-                f"{len(row)} numbers stand below {len(heads)} heads",
+                f"the row has {len(row)} numbers, but there are {len(heads)} heads",
                 "give one below each",
                 (),
                 str(path),
@@ -197,7 +197,7 @@ def _table(path: Path) -> dict[str, list[str]]:
             assert head is not None
             if not re.fullmatch(NUMBER, cell.strip()):
                 raise ModelError(
-                    f"{quote_value(cell)} is no number",
+                    f"{quote_value(cell)} is not a number",
                     "write one, its unit in the head",
                     (),
                     str(path),

@@ -1,4 +1,4 @@
-"""What the designs of a study say together: counts by status, percentiles, worst and best, what keeps its limits."""
+"""Statistics of the designs of a study: counts by status, percentiles, worst and best, designs within limits."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ REFUSED = "The description refuses the values of these designs, or one of them i
 SAMPLE = 1_000
 """Designs of each sort that are compared, evenly out of all."""
 CERTAIN = 2.2
-"""Kolmogorov and Smirnov's statistic times the root of n m/(n + m) that one number in 8,000 exceeds by chance."""
+"""Kolmogorov and Smirnov's statistic times the root of n m/(n + m) that one number in 8,000 exceeds at random."""
 LEAST = 0.3
-"""Differences of two distributions below which nothing is said of a number."""
+"""Difference of two distributions below which a number is not reported."""
 
 
 class Difference(NamedTuple):
-    """A number that failing designs have mostly on one side of a value: the shares there of these, and of those that
-    answered."""
+    """A number whose values for failing designs are mostly on one side of a value: the shares on that side of these,
+    and of the solved designs."""
 
     path: str
     above: bool
@@ -49,8 +49,8 @@ class Difference(NamedTuple):
 
 
 class Failure(NamedTuple):
-    """Designs that are not solved for one reason: status, how many, the first of them, the sentence; their share of the
-    designs that are there, the sentence of the first one's own analysis, how their numbers differ."""
+    """Designs that are not solved for one reason: status, number, the first of them, the sentence; their share of the
+    computed designs, the sentence of a separate analysis of the first one, how their numbers differ."""
 
     status: str
     designs: int
@@ -62,9 +62,9 @@ class Failure(NamedTuple):
 
 
 class StudyResult(NamedAnswer):
-    """Answers of a study by output, SI, NaN where there is none: ``r["effort.O2"]`` (design, ...).
+    """Answers of a study by output, SI, NaN where unsolved: ``r["effort.O2"]`` (design, ...).
 
-    Of a store that is not finished the designs that are there; `done` says which.
+    In an unfinished store `done` is true for the computed designs.
     """
 
     def __init__(self, study: Study, arrays: Mapping[str, Any], ledger: Ints, block: int) -> None:
@@ -72,9 +72,9 @@ class StudyResult(NamedAnswer):
 
     @classmethod
     def open(cls, path: str | os.PathLike[str], check: bool = True) -> StudyResult:
-        """The results of a store, finished or not; the study is that of its own attributes.
+        """The results of a store, finished or not; the study is that of the store's attributes.
 
-        check: blocks that are not what was written, by their checksums, count as not done; a resumed run repairs them.
+        check: blocks that do not match their checksums count as not done; a resumed run repairs them.
         """
         store = Store(path)
         found = store.open("r")
@@ -109,7 +109,7 @@ class StudyResult(NamedAnswer):
 
     @property
     def extent(self) -> str:
-        """How many designs are there."""
+        """Number of computed designs."""
         return f"{int(self.done.sum()):,} of {self.study.count:,} designs"
 
     @property
@@ -122,12 +122,12 @@ class StudyResult(NamedAnswer):
         return [one_number(name, self[name], self.study.reduce is not None)]
 
     def compared(self) -> Tree:
-        """What equal answers share: the study, the statuses and all outputs."""
+        """Data that equal answers share: the study, the statuses and all outputs."""
         return {"study": self.study, "status": self["status"], **{name: self[name] for name in self.keys()}}
 
     @property
     def done(self) -> Flags:
-        """Which designs are there."""
+        """True for computed designs."""
         return np.repeat(self.ledger[:, 0] > 0, self.block)[: self.study.count]
 
     def __getitem__(self, name: str) -> Array:
@@ -157,7 +157,7 @@ class StudyResult(NamedAnswer):
 
     @property
     def ok(self) -> Flags:
-        """Which designs are solved at all positions."""
+        """True for designs that are solved at all positions."""
         return among(self._marks, SOLVED)
 
     def counts(self) -> dict[str, int]:
@@ -166,13 +166,13 @@ class StudyResult(NamedAnswer):
         return {name: int(n) for name, n in zip(CODES, total, strict=False) if n}
 
     def failed(self, some: int = 5) -> list[Failure]:
-        """Designs that are not solved, by status: their share, the numbers of the first few, the reason in the first
-        one's own analysis, and the number by which they differ most from the designs that are solved."""
+        """Designs that are not solved, by status: their share, the numbers of the first few, the reason from a separate
+        analysis of the first one, and the number by which they differ most from the solved designs."""
         require("some", some)
         return failures(self, self._marks, some)
 
     def unsolved(self) -> tuple[int, int]:
-        """Designs that are there, and how many of them have no numbers: statistics are of the others."""
+        """Number of computed designs, and number of those without numbers: statistics are of the others."""
         return unsolved(self._marks)
 
     def values(self, name: str) -> Array:
@@ -198,7 +198,7 @@ class StudyResult(NamedAnswer):
         return int(where(found))
 
     def percentiles(self, name: str, of: tuple[float, ...] = PERCENTILES) -> dict[float, float]:
-        """Percent -> value that so many percent of the solved designs do not exceed."""
+        """Percent -> value that this percentage of the solved designs does not exceed."""
         for percent in of:
             require("percentile", percent)
         values = self.values(name)
@@ -246,7 +246,7 @@ class StudyResult(NamedAnswer):
 
     @property
     def kinds(self) -> dict[str, str]:
-        """What each output is, of `units.KINDS`."""
+        """Kind of each output, from `units.KINDS`."""
         return self.study.kinds
 
     def to_xarray(self) -> xarray.Dataset:
@@ -278,7 +278,7 @@ def stored_study(store: Store, found: Mapping[str, Any]) -> Study:
 
 
 def failures(r: StudyResult, marks: Array, some: int) -> list[Failure]:
-    """Each reason why designs are not solved, by the marks of all designs (255 where one is not there)."""
+    """Each reason why designs are not solved, by the status codes of all designs (255 where not computed)."""
     out, there, solved = [], marks != 255, np.flatnonzero(among(marks, SOLVED))
     known = {} if r.study.motion is None else SENTENCES
     for mark in np.unique(marks[~among(marks, (*SOLVED, 255))]):
@@ -293,13 +293,13 @@ def failures(r: StudyResult, marks: Array, some: int) -> list[Failure]:
 
 
 def unsolved(marks: Array) -> tuple[int, int]:
-    """Designs that are there, and how many of them have no numbers."""
+    """Number of computed designs, and number of those without numbers."""
     there = marks != 255
     return int(there.sum()), int((there & ~among(marks, NUMBERED)).sum())
 
 
 def _reason(study: Study, n: int, status: str) -> str:
-    """The sentence of one design's own analysis, with its position; nothing where that has another status."""
+    """Sentence of a separate analysis of one design, with its position; empty where that has another status."""
     try:
         problems = study.answer(study.mechanism_of(n)).problems()
     except DalembertError as error:
@@ -325,7 +325,7 @@ def _values(study: Study, designs: Ints) -> Array:
 
 
 def _apart(path: str, one: Array, other: Array) -> Difference:
-    """Where the empirical distributions of two samples differ most, and on which side the first one lies."""
+    """Largest difference of the empirical distributions of two samples, and the side on which the first one lies."""
     ends = np.unique(np.concatenate([one, other]))
     below = [np.searchsorted(np.sort(of), ends, side="right") / len(of) for of in (one, other)]
     k = int(np.argmax(np.abs(below[0] - below[1])))

@@ -32,7 +32,7 @@ def varied_numbers(m: Mechanism, path: str) -> list[Number]:
     if keys[0] in ("drives", "start") and isinstance(value, (int, float)) and not isinstance(value, bool):
         return [Number(path, float(value))]
     if keys[0] == "drives" and keys[2:3] and keys[2] in DRIVEN:
-        raise ModelError(f"{path!r} is no single number", "leave it out: a single position may vary", keys)
+        raise ModelError(f"{path!r} is not a single number", "leave it out: a single position may vary", keys)
     return list(numbers(m, [path]))
 
 
@@ -52,7 +52,7 @@ def reader(m: Mechanism, number: Number) -> Callable[[object], float]:
 
     def si(value: object) -> float:
         if isinstance(value, bool) or value is None:
-            raise ModelError(f"{quote_value(value)} is no quantity", "write a number with its unit")
+            raise ModelError(f"{quote_value(value)} is not a quantity", "write a number with its unit")
         if not isinstance(value, str):
             return quantity(value, "number")
         if nameless:

@@ -1,7 +1,7 @@
-"""Many designs of one mechanism: ``compile`` and what it answers.
+"""Many designs of one mechanism: ``compile`` and its results.
 
-In: a ``Mechanism``, what varies, what is asked for. Out: a ``Kernel``, whose calls answer a ``BatchResult``.
-Imports ``kernel``, ``core``, ``analysis``.
+In: a ``Mechanism``, the varied numbers, the outputs. Out: a ``Kernel``, whose calls return a ``BatchResult``. Imports
+``kernel``, ``core``, ``analysis``.
 """
 
 from dalembert.analysis.batch.batch_result import BatchResult

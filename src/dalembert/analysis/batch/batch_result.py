@@ -1,4 +1,4 @@
-"""What a kernel answers: the same quantities as a ``Result``, with a leading axis design."""
+"""Result of a kernel: the same quantities as a ``Result``, with a leading axis design."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ CODES = (
     "no_derivative",
     "reversal",
 )
-"""Statuses by the marks of the kernel; `undecided` goes to the general executor and does not come back."""
+"""Statuses by the status codes of the kernel; `undecided` goes to the general executor and is not returned."""
 
 NUMBERED = tuple(CODES.index(status) for status in (*errors.NUMBERED, "no_derivative"))
 """Marks of positions that have numbers."""
@@ -49,19 +49,19 @@ BLOCK = 1 << 26
 
 
 def among(marks: NDArray[np.uint8], some: Sequence[int]) -> Flags:
-    """Where a mark is one of some, of many marks twenty times as fast as np.isin."""
+    """True where a code is one of some, for many codes twenty times as fast as np.isin."""
     return np.asarray(np.logical_or.reduce([marks == mark for mark in some]))
 
 
 def first_mark(marks: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Of several positions (..., position) the mark of the first status in the list above, of those without numbers if
-    there is one; 0 where all are ok."""
+    """Status code of several positions (..., position): the first in the list above, of those without numbers if one
+    occurs; 0 where all are ok."""
     later = 100 * among(marks, NUMBERED) + 100 * (marks == 0)
     return np.asarray((marks + later).min(axis=-1) % 100, np.uint8)
 
 
 def not_finite(code: NDArray[np.uint8], arrays: dict[str, Array]) -> Flags:
-    """Where, in the axes of the codes, some value of some output is infinite or no number."""
+    """True where, in the axes of the codes, some value of some output is infinite or not a number."""
     out = np.zeros(code.shape, bool)
     for array in arrays.values():
         out |= ~np.isfinite(array).all(axis=tuple(range(code.ndim, array.ndim)))
@@ -80,9 +80,9 @@ def mark_overflow(code: NDArray[np.uint8], arrays: dict[str, Array], rates: dict
 class BatchResult(NamedAnswer):
     """Answer for many designs: arrays (design, position), or (design,) where reduced over the positions.
 
-    SI and radians, vectors in ground axes with their components last. NaN where there is no answer; ``status`` says
-    why. Where contacts reverse the numbers are those just before, and ``after`` is the whole answer with those just
-    after; None where nothing reverses, and where reduced: reductions are over both.
+    SI and radians, vectors in ground axes with their components last. NaN where unsolved; ``status`` gives the reason.
+    Where contacts reverse the numbers are those just before, and ``after`` is the complete answer with those just
+    after; None where no contact reverses, and where reduced: reductions are over both.
     """
 
     kernel: Any = field(compare=False)
@@ -122,7 +122,7 @@ class BatchResult(NamedAnswer):
         return self.kernel.mechanism  # type: ignore[no-any-return]
 
     def compared(self) -> Tree:
-        """What equal answers share: the recipe of the kernel, and all numbers."""
+        """Data that equal answers share: the recipe of the kernel, and all numbers."""
         return super().compared() | {"kernel": self.kernel.__reduce__()[1]}
 
     @property
@@ -132,7 +132,7 @@ class BatchResult(NamedAnswer):
 
     @property
     def ok(self) -> Flags:
-        """Which of them are solved, at a reversal on both sides; those that are self-locking, and those without a
+        """True where a design is solved, at a reversal on both sides; self-locking positions, and those without a
         derivative, have numbers too."""
         return among(self.code, SOLVED)
 
@@ -162,13 +162,13 @@ class BatchResult(NamedAnswer):
         return self.value(f"effort.{drive}")
 
     def unknown_load(self, name: str) -> Array:
-        """Value of a load that was asked for."""
+        """Value of an unknown load."""
         return self.value(f"load.{name}")
 
     def reaction(self, joint: str, on: str | None = None, axes: str = "ground") -> Array:
         """Force of a joint on one of its links, default its j; reduced component by component."""
         if axes not in ("ground", "link"):
-            raise ModelError(f"there are no axes {axes!r}", "there are: ground, link")
+            raise ModelError(f"unknown axes {axes!r}", "use ground or link")
         force = self._sign(joint, on) * self.value(f"reaction.{joint}")
         if axes != "link":
             return force
@@ -192,7 +192,7 @@ class BatchResult(NamedAnswer):
     def _sign(self, joint: str, on: str | None) -> float:
         joints = self.kernel.mechanism.joints
         if joint not in joints:
-            raise ModelError(f"there is no joint {joint!r}", f"there are: {', '.join(joints)}")
+            raise ModelError(f"unknown joint {joint!r}", f"the joints are {', '.join(joints)}")
         i, j = joints[joint].links
         if on not in (None, i, j):
             raise ModelError(
@@ -205,7 +205,7 @@ class BatchResult(NamedAnswer):
         return -1.0 if on == i else 1.0
 
     def angle(self, link: str) -> Array:
-        """Angle of a link, whole turns counted."""
+        """Angle of a link, full turns counted."""
         return self.value(f"angle.{link}")
 
     def rotation(self, link: str) -> Array:
@@ -267,7 +267,9 @@ def _sentence(code: str) -> str:
     if code in STATUSES:
         return STATUSES[code].sentence
     if code == "no_derivative":
-        return "The numbers are right, but some derivative has no value here, or too large a one."
+        return "The values are correct, but some derivative is undefined or too large here."
     if code == "undecided":
-        return "The kernel is not sure of this one and was told not to ask the general executor."
+        return (
+            "The kernel cannot decide this design, and the fallback to the general executor is switched off."
+        )
     return "The analysis of this design stopped with an error."

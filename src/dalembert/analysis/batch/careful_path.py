@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 AGREES = 1e-8
 """Difference of the compiled equations from the general executor's value, over the largest value of an output along the
-motion, above which they are not taken for its derivative."""
+motion, above which they are not used for its derivative."""
 
 NOTHING = 1e-4
 """An output below this part of the largest one is compared with that."""
@@ -137,7 +137,7 @@ def analyse_design(
 
 
 def _schedule(design: Mechanism, schedule: Schedule) -> Schedule:
-    """The positions asked for, at the design's own speeds."""
+    """Requested positions, at the speeds of the design."""
     own, count = design.schedule(), len(schedule.position)
     rates = [a if len(a) == count else np.repeat(a[:1], count, axis=0) for a in (own.speed, own.acceleration)]
     return replace(schedule, speed=rates[0], acceleration=rates[1])

@@ -1,4 +1,4 @@
-"""Numbers that a kernel is called with: real ones and nothing else, as no other would be taken for what it is."""
+"""Validates kernel inputs: real floats only."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ KINDS = {
     "M": "dates",
     "V": "records",
 }
-"""What arrays hold that are not of real numbers, by numpy's letter for it."""
+"""Content of arrays that are not of real numbers, by numpy's letter for it."""
 
 
 def numbers(name: str, given: ArrayLike) -> Array:
@@ -50,7 +50,7 @@ def numbers(name: str, given: ArrayLike) -> Array:
 
 
 def targets(out: Array | Mapping[str, Array], shapes: dict[str, tuple[int, ...]]) -> dict[str, Array]:
-    """The arrays that results go to, by name; one alone stands for that of a single one."""
+    """Arrays that receive the results, by name; a single array belongs to a single result."""
     given = out if isinstance(out, Mapping) else {next(iter(shapes)): out}
     if set(given) != set(shapes):
         raise ModelError(
@@ -60,13 +60,11 @@ def targets(out: Array | Mapping[str, Array], shapes: dict[str, tuple[int, ...]]
     for name, shape in shapes.items():
         array = given[name]
         if not isinstance(array, np.ndarray) or array.dtype != float or not array.flags.writeable:
-            raise ModelError(
-                f"out= of {name} is no array of floats that can be written", f"give np.empty({shape})"
-            )
+            raise ModelError(f"out= of {name} is not a writable array of floats", f"give np.empty({shape})")
         if array.shape != shape:
             raise ModelError(f"out= of {name} has shape {array.shape}", f"give one of shape {shape}")
     if len({id(array) for array in given.values()}) < len(given):
-        raise ModelError("out= has one array for several results", "give each its own")
+        raise ModelError("out= uses one array for several results", "give a separate array for each")
     return {name: np.asarray(given[name]) for name in shapes}
 
 
@@ -102,7 +100,7 @@ def _named_values(values: Mapping[str, ArrayLike], names: Sequence[str], nominal
 
 
 def drive_values(m: Mechanism, positions: int | ArrayLike) -> Array:
-    """Values of the drives: those that are given, or those of so many positions."""
+    """Values of the drives: the given ones, or those of a given number of positions."""
     if isinstance(positions, (int, float, np.number)) or (
         isinstance(positions, np.ndarray) and not positions.ndim
     ):
@@ -128,7 +126,8 @@ def check_positions(given: Array, schedule: Schedule) -> None:
 def read_target(
     target: ArrayLike | Mapping[str, ArrayLike], shapes: dict[str, tuple[int, int]], reduce: str | None
 ) -> dict[str, Array]:
-    """What outputs are compared with, by name (position, component); one alone stands for that of a single one."""
+    """Values that outputs are compared with, by name (position, component); a single array belongs to a single
+    output."""
     if reduce != "squares":
         raise ModelError("only squares are taken to a target", 'compile with reduce="squares"')
     given = target if isinstance(target, Mapping) else {next(iter(shapes)): target}
@@ -150,7 +149,7 @@ def read_target(
 
 
 def _strange(array: Array) -> str:
-    """What a list of all sorts of things holds beside real numbers; empty where nothing."""
+    """Kinds of items in a list that are not real numbers; empty if all are."""
     if array.dtype != object:
         return ""
     kinds = [x for x in array.ravel() if isinstance(x, bool | np.bool_) or not isinstance(x, Real | Decimal)]

@@ -57,9 +57,9 @@ def compile(  # noqa: A001
     outputs: names such as ``effort.O2``, ``reaction.A``, ``angle.coupler``; default all efforts and reactions
     that are unique. reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope`` or others (docs/kernel.md);
     default none. derivatives: exact ones of every output with respect to every number. static: leave inertia out.
-    lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
-    Raises ModelError for what only the analyses can do (unknown positions, what redundant
-    constraints leave undetermined).
+    lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default those of the processor.
+    Raises ModelError for cases that only the analyses support (unknown positions, reactions that
+    redundant constraints leave undetermined).
 
     >>> import dalembert as da
     >>> k = da.compile(da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"])
@@ -89,7 +89,7 @@ def compile(  # noqa: A001
 
 
 def _several(names: Sequence[str]) -> tuple[str, ...]:
-    """Names; a single one may stand by itself."""
+    """Names; a single one may be given without a list."""
     return (names,) if isinstance(names, str) else tuple(names)
 
 
@@ -97,11 +97,12 @@ def _check_count(name: str, count: object) -> None:
     if count is not None and (
         isinstance(count, bool) or not isinstance(count, int | np.integer) or count <= 0
     ):
-        raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
+        raise ModelError(f"{name}={count!r} is not a number of {name}", "give 1 or more, or leave it out")
 
 
 def _products(nodes: Sequence[Node]) -> list[Node]:
-    """Of nodes two by two: not finite where one of them is not, in half as many operations as their squares."""
+    """Products of pairs of nodes: not finite where one of them is not, with half as many operations as their
+    squares."""
     found = list(dict.fromkeys(n for n in nodes if n.level != CONSTANT))
     return [a * b for a, b in zip(found[::2], found[1::2], strict=False)] + found[len(found) & ~1 :]
 
@@ -142,7 +143,7 @@ class Kernel:
 
     @property
     def nominal(self) -> Array:
-        """The numbers as the description has them."""
+        """Values of the numbers in the description."""
         return self._nominal.copy()
 
     @cached_property
@@ -170,7 +171,7 @@ class Kernel:
         return [inputs[k] for k in range(len(self.trace.numbers))]
 
     def program(self, nodes: Sequence[Node], values: int | None = None) -> Program:
-        """The program of some outputs: first values (default as many as are asked for), then derivatives."""
+        """The program of some outputs: first values (default all requested ones), then derivatives."""
         found = self.trace.catalogue.traced
         marks = replace(found.friction.marks, open=tuple(found.open), doubt=tuple(found.doubt))
         values = sum(len(of) for of in self.nodes.values()) if values is None else values
@@ -210,7 +211,7 @@ class Kernel:
         return replace(self, trace=trace, reduce=None, derivatives=True)
 
     def warm(self) -> None:
-        """Compile now what the file's own positions need."""
+        """Compiles now the code for the file's positions."""
         self.runner.prepare(len(self.trace.course.schedule.position))
 
     def course(self, positions: ArrayLike | None) -> Course:
@@ -232,7 +233,7 @@ class Kernel:
     def _course_to(
         self, positions: ArrayLike | None, target: ArrayLike | Mapping[str, ArrayLike] | None
     ) -> Course:
-        """The mechanism at positions, and what outputs are compared with there."""
+        """The mechanism at positions, with the values that its outputs are compared with."""
         course = self.course(positions)
         shapes = {name: (len(course.schedule.position), len(of)) for name, of in self.nodes.items()}
         return course if target is None else course.with_target(read_target(target, shapes, self.reduce))
@@ -254,12 +255,12 @@ class Kernel:
     ) -> BatchResult:
         """Answers for many designs.
 
-        values: (design, number) in SI in the order of ``numbers``, default the description's own; or by name, each one
-        value or one for each design, ``k({"r": 0.06})``, the others as in the description. positions: the
-        drives' values (position, drive), or how many, default the file's. threads: at most so many, default one a core.
-        progress: called with (designs done, designs). redo: ask the general executor where the kernel is not sure.
-        device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy. out: the array that an output goes to, one on disk
-        by ``np.memmap`` too, or arrays by output (of derivatives by ``gradient.`` and the output). target: what
+        values: (design, number) in SI in the order of ``numbers``, default those of the description; or by name, each
+        one value or one for each design, ``k({"r": 0.06})``, the others as in the description. positions: the drives'
+        values (position, drive), or how many, default the file's. threads: largest number of threads, default one per
+        core. progress: called with (designs done, designs). redo: use the general executor where the kernel is not
+        sure. device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy. out: the array that an output goes to, one
+        on disk by ``np.memmap`` too, or arrays by output (of derivatives by ``gradient.`` and the output). target: what
         ``squares`` compares an output with (position[, component]), or arrays by output; default 0.
         """
         given, course = design_values(values, self.numbers, self.nominal), self._course_to(positions, target)
@@ -273,8 +274,8 @@ class Kernel:
         target: ArrayLike | Mapping[str, ArrayLike] | None = None,
         **options: Any,
     ) -> Iterator[BatchResult]:
-        """Answers for ``size`` designs after ``size``, default as many as take 64 MB: of however many designs no more
-        stand in memory at once. ``options`` are the other arguments of a call."""
+        """Answers in blocks of ``size`` designs, default as many as take 64 MB, so that memory is bounded whatever the
+        number of designs. ``options`` are the other arguments of a call."""
         _check_count("size", size)
         given, course = design_values(values, self.numbers, self.nominal), self._course_to(positions, target)
         each = 8 * max(1, len(self.flat)) * (1 if self.reduce else len(course.schedule.position))
@@ -291,12 +292,12 @@ class Kernel:
         device: str = "cpu",
         out: Array | Mapping[str, Array] | None = None,
     ) -> BatchResult:
-        """What a call does, of designs along a course."""
+        """Result of a call, for designs along a course."""
         from dalembert.analysis.batch.reversal_sides import settle_reversals
 
         _check_count("threads", threads)
         if device not in ("cpu", "cuda"):
-            raise ModelError(f"there is no device {device!r}", "there are: cpu, cuda")
+            raise ModelError(f"unknown device {device!r}", "use cpu or cuda")
         into = self._targets(out, len(given), len(course.schedule.position))
         try:
             found = Sides(*self.runner(device, given, course, threads, progress, into))
@@ -327,9 +328,10 @@ class Kernel:
         return c_source(self, name)
 
     def to_wasm(self, row: int | None = None) -> Any:
-        """`WasmModule`: WebAssembly of many positions, in need of nothing: numbers, drives' quantities, outputs, marks.
+        """`WasmModule`: self-contained WebAssembly for many positions: numbers, drives' quantities, outputs, status
+        codes.
 
-        row: positions that one call may have at most, default as many as the file has. Raises ModelError if reduced.
+        row: largest number of positions of one call, default as many as the file has. Raises ModelError if reduced.
         """
         from dalembert.analysis.batch.kernel_export import wasm_module
 
@@ -371,8 +373,8 @@ class Kernel:
         return {n: found[n] for n in shapes}, {n: found[f"gradient.{n}"] for n in slopes}
 
     def _settle(self, values: Array, course: Course, found: Sides, redo: bool) -> int:
-        """Ask the general executor where the kernel is not sure, and leave no number where there is no answer; how many
-        designs were asked about."""
+        """Uses the general executor where the kernel is not sure, and removes numbers where a design is not solved;
+        returns the number of designs it was used for."""
         from dalembert.analysis.batch.careful_path import redone
 
         code, arrays, rates = found.code, found.arrays, found.rates

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 MANY, MOST = 500, 10_000_000
 """Designs from which on a compiled analysis pays for its tracing; and more of them than anybody means."""
 KEPT = ("effort", "load", "reaction", "reaction_moment")
-"""What is kept of each answer where nothing else is asked for."""
+"""Quantities of each answer that are kept by default."""
 
 Values = Mapping[str, Sequence[object]]
 Done = Callable[[int, int], object]
@@ -56,9 +56,10 @@ def sweep(
     """The analyses of `solve` with the value at a path (of ``with_values``) replaced by each of some values.
 
     ``vary``: a path, with ``values``; or a mapping of paths to values: a grid, or with ``together`` value by value.
-    Numbers are SI and radians, texts as the file reads them (``"3 lb"``). ``outputs``: names of quantities, default
-    every effort, unknown load and reaction. Many numbers run compiled (`da.compile`), all else by kept programs, with
-    the same answers. ``progress``: called with (designs done, designs). Raises ModelError for a value that is refused.
+    Numbers are SI and radians, texts are read as in the file (``"3 lb"``). ``outputs``: names of quantities, default
+    every effort, unknown load and reaction. Many numbers run compiled (`da.compile`), everything else by kept programs,
+    with the same answers. ``progress``: called with (designs done, designs). Raises ModelError for a value that is
+    refused.
 
     >>> import dalembert as da
     >>> s = da.sweep(da.four_bar(), "links.coupler.mass", [1.0, 2.0, 4.0], outputs="effort.O2")
@@ -111,7 +112,7 @@ def _shape(given: Values, together: bool) -> tuple[int, ...]:
         raise ModelError("a sweep needs at least one value for each path", "give a list of values")
     said = ", ".join(f"{count} of {path}" for path, count in counts.items())
     if together and len(set(counts.values())) > 1:
-        raise ModelError(f"values cannot be taken together: {said}", "give as many of each")
+        raise ModelError(f"values cannot be paired: {said}", "give equally many of each")
     shape = tuple(counts.values())[:1] if together else tuple(counts.values())
     if math.prod(shape) > MOST:
         raise ModelError(f"{math.prod(shape)} designs are too many: {said}", f"ask for at most {MOST}")
@@ -119,7 +120,7 @@ def _shape(given: Values, together: bool) -> tuple[int, ...]:
 
 
 class Labels(NamedTuple):
-    """Values of a path, SI, and what they are, of `units.KINDS`, or texts where they are no single numbers; and as they
+    """Values of a path, SI, with their kind from `units.KINDS`, or texts where they are not single numbers; and as they
     were given."""
 
     values: tuple[object, ...]
@@ -154,7 +155,7 @@ def _is_number(value: object) -> bool:
 
 
 def _all_numbers(given: Values) -> bool:
-    """Whether a compiled analysis can have them."""
+    """True if a compiled analysis can take them."""
     return all(map(_is_number, [v for of in given.values() for v in of]))
 
 
@@ -172,7 +173,7 @@ def _analysis(
 
 
 class _Answers(NamedTuple):
-    """Of all designs: status and sentence, positions of the drives, quantities; those just after reversals."""
+    """Answers of all designs: status and sentence, positions of the drives, quantities; those just after reversals."""
 
     status: Array
     reasons: Array
@@ -233,11 +234,11 @@ def _compiled(
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Sweep(NamedAnswer):
-    """Answers along one axis a path (one for all where taken together), then position; SI and radians.
+    """Answers with one axis per path (one for all where they are paired), then position; SI and radians.
 
-    ``s["effort.O2"]`` has the axes (values..., position), of a vector its components last; NaN where there is no
-    answer, and ``status`` says why. Where contacts reverse the numbers are those just before, ``answers.after`` has
-    those just after.
+    ``s["effort.O2"]`` has the axes (values..., position), of a vector its components last; NaN where unsolved;
+    ``status`` gives the reason. Where contacts reverse the numbers are those just before, ``answers.after`` has those
+    just after.
     """
 
     mechanism: Mechanism
@@ -249,12 +250,12 @@ class Sweep(NamedAnswer):
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """What is varied."""
+        """Varied paths."""
         return tuple(self.labels)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many designs along each axis."""
+        """Number of designs along each axis."""
         return tuple(self.status.shape[:-1])
 
     @property
@@ -264,7 +265,7 @@ class Sweep(NamedAnswer):
 
     @property
     def ok(self) -> Array:
-        """Which of them are solved."""
+        """True where a design is solved."""
         return np.isin(self.status.astype(str), SOLVED)
 
     @property

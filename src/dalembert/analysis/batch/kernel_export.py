@@ -30,10 +30,10 @@ def plain(
     without: frozenset[str] = frozenset(),
     known: Functions | None = None,
 ) -> Program:
-    """The program with the drives' own quantities as inputs: cosines and expressions are computed inside.
+    """The program with the drives' quantities as inputs: cosines and expressions are computed inside.
 
-    nodes: other outputs than those asked for. marked: with what says whether they are right. without: operations with
-    which an expression stays an input. known: functions of expressions other than the graph's.
+    nodes: outputs other than the requested ones. marked: with the checks of the outputs. without: operations whose
+    expressions remain inputs. known: functions of expressions other than the graph's.
     """
     graph, inputs = k.trace.catalogue.graph, k.trace.inputs
     places: dict[int, Node] = {}
@@ -71,7 +71,7 @@ def c_source(k: Kernel, name: str) -> str:
     """Self-contained C of one position."""
     _refuse_reduced(k)
     if not re.fullmatch(r"[A-Za-z_]\w*", name):
-        raise ModelError(f"{name!r} is no name for a C function", _LETTERS)
+        raise ModelError(f"{name!r} is not a valid name for a C function", _LETTERS)
     program = plain(k)
     return c_text.function(program, name, _comment(k, program, name))
 
@@ -108,12 +108,11 @@ def output_names(k: Kernel) -> list[str]:
 
 @dataclass(frozen=True)
 class WasmModule:
-    """A program of a mechanism as WebAssembly: ``run(values, path, out, blocks)`` in its own exported ``memory``.
+    """A program of a mechanism as WebAssembly: ``run(values, path, out, blocks)`` in its exported ``memory``.
 
-    ``run`` takes addresses in bytes: values (number), path (channel, row), out (output, row), all f64, the mark of each
-    position as one more output behind the others (0: right, else a place in ``STATUS_CODES``); blocks: half of the
-    positions, rounded up. Memory is free from ``heap`` on; ``row`` positions are the room between two rows. SI and
-    radians.
+    ``run`` takes addresses in bytes: values (number), path (channel, row), out (output, row), all f64, the status code
+    of each position as one more output after the others (0: ok, else an index of ``STATUS_CODES``); blocks: half of the
+    positions, rounded up. Memory is free from ``heap`` on; rows are ``row`` positions apart. SI and radians.
     """
 
     code: bytes = field(repr=False)
@@ -136,7 +135,7 @@ def wasm_module(k: Kernel, row: int | None) -> WasmModule:
 
 
 def wasm_channels(k: Kernel, row: int) -> Array:
-    """What ``path`` holds (channel, row) for the file's positions; behind them the last is repeated."""
+    """Content of ``path`` (channel, row) for the file's positions; the last is repeated to fill the row."""
     course, found = k.trace.course, k.trace.inputs.found
     count = len(course.schedule.position)
     nodes = plain(k).inputs_in_use("channel")
@@ -155,4 +154,4 @@ def casadi_function(k: Kernel, name: str) -> Any:
     except ImportError:
         raise ModelError("casadi is not installed", "pip install 'dalembert[fast]'") from None
     except RuntimeError:
-        raise ModelError(f"{name!r} is no name for a casadi Function", _LETTERS) from None
+        raise ModelError(f"{name!r} is not a valid name for a casadi Function", _LETTERS) from None

@@ -25,7 +25,7 @@ PARTS: dict[str, tuple[str, ...]] = {
 """Largest magnitude; mean; root mean square; (least, largest); place of the largest magnitude, from 0; the smooth
 stand-in of the peak, the eighth root of the mean of the eighth powers; and the peak between the positions, by a
 parabola through the largest magnitude and its neighbours, and its place; the sum of squares, of the differences to a
-target where there is one."""
+target if one is given."""
 
 POWER = {"rms": 2, "norm8": 8}
 """Reductions that are means of powers, with their root taken."""
@@ -38,7 +38,7 @@ PLACES = ("argpeak", "refined_place")
 
 def check(reduce: str | None) -> None:
     if reduce is not None and reduce not in PARTS:
-        raise ModelError(f"there is no reduction {reduce!r}", "there are: " + ", ".join(PARTS))
+        raise ModelError(f"unknown reduction {reduce!r}", "use one of " + ", ".join(PARTS))
 
 
 def with_places(reduce: str) -> tuple[str, ...]:
@@ -58,8 +58,9 @@ def finish_reduction(reduce: str, parts: list[Array], count: int) -> Array:
 
 
 def is_cycle(position: Array, turns: Sequence[bool]) -> bool:
-    """Whether positions (P, D) come round: the step behind the last leads to the first, whole turns away where a drive
-    turns. Raises ModelError where they are not evenly spaced, as then no parabola is laid through neighbours."""
+    """True if positions (P, D) form a cycle: the step after the last leads to the first, full turns away where a
+    drive turns. Raises ModelError where they are not evenly spaced, because a parabola through neighbours needs even
+    steps."""
     if len(position) < 3:
         return False
     steps = np.diff(position, axis=0)
@@ -74,8 +75,8 @@ def is_cycle(position: Array, turns: Sequence[bool]) -> bool:
 
 
 class Parabola(NamedTuple):
-    """Through three values, side by side: place of its vertex from the middle one, Lagrange's weights there (which are
-    the derivatives of the vertex, too), and derivatives of the place; first axis the three values."""
+    """Parabola through three values, side by side: place of its vertex from the middle one, Lagrange's weights at it
+    (also the derivatives of the vertex), and derivatives of the place; first axis the three values."""
 
     place: Array
     weights: Array
@@ -83,7 +84,7 @@ class Parabola(NamedTuple):
 
 
 def parabola(values: Array, inner: Flags) -> Parabola:
-    """Of values (3, ...), the middle one the largest or the least; the middle itself where not ``inner``."""
+    """Parabola of values (3, ...), the middle one the largest or the least; the middle itself where not ``inner``."""
     before, middle, after = values
     bend = before - 2 * middle + after
     flat = ~inner | (bend == 0) | ~np.isfinite(bend)
@@ -119,7 +120,8 @@ def refined_slope(reduce: str, values: Array, rates: Array, inner: Flags) -> Arr
 
 
 def _refined(reduce: str, values: Array, cycle: bool) -> tuple[Ints, Array, Flags]:
-    """Places (3, component) about the peaks of values (position, component), the values there, and which are inner."""
+    """Places (3, component) about the peaks of values (position, component), the values at them, and which are
+    inner."""
     peaks = np.nan_to_num(np.abs(values)).argmax(axis=0)
     three, inner = neighbours(peaks, len(values), cycle)
     return three, values[three, np.arange(values.shape[1])], inner
@@ -163,7 +165,7 @@ def reduce_sides(reduce: str, sides: Sequence[Array], cycle: bool = False) -> Ar
 
 
 def larger_side(by: Sequence[Array], sides: Sequence[Array]) -> Array:
-    """Of one or two arrays that whose place in ``by`` has the larger magnitude; these may have fewer axes."""
+    """The one of one or two arrays whose place in ``by`` has the larger magnitude; these may have fewer axes."""
     if len(sides) == 1:
         return sides[0]
     second = np.abs(by[1]) > np.abs(by[0])

@@ -1,4 +1,4 @@
-"""A kernel's outputs of many designs each at positions of its own, with derivatives by the drive's position too.
+"""A kernel's outputs of many designs, each at separate positions, with derivatives by the drive's position too.
 
 Mechanics: docs/theory.md 8.
 """
@@ -19,9 +19,9 @@ from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import Node
 
 OF_DRIVE = ("position", "cos", "sin")
-"""What a program is given of a drive's position."""
+"""Inputs of a program for a drive's position."""
 OF_MOTION = ("known", "way", "counted")
-"""First words of what it is given of the known motion: which way it goes, where Newton's steps begin, whole turns."""
+"""First words of the names of inputs of the known motion: its branch, the start of Newton's steps, full turns."""
 
 
 class Found(NamedTuple):
@@ -35,7 +35,7 @@ class Found(NamedTuple):
 
 @dataclass(frozen=True)
 class OwnPositions:
-    """A kernel of one drive, whose known motion is taken at the nearest of some stations (S,)."""
+    """A kernel of one drive, whose known motion is that of the nearest of some stations (S,)."""
 
     kernel: Kernel
     stations: Array
@@ -74,13 +74,13 @@ class OwnPositions:
         other = next((n for n in used if n not in mine and not n.startswith(OF_MOTION)), None)
         if other is not None:
             raise ModelError(
-                f"{', '.join(k.outputs)} follow from {other}, which goes by the drive",
-                "at positions of its own take outputs of the motion alone",
+                f"{', '.join(k.outputs)} depend on {other}, which depends on the drive",
+                "at separate positions, use outputs of the motion only",
             )
         return columns, common, used
 
     def __call__(self, values: Array, positions: Array) -> Found:
-        """Of designs (D, number) at positions (D, P) of the drive."""
+        """Outputs of designs (D, number) at positions (D, P) of the drive."""
         columns, common, used = self.columns
         order = np.argsort(self.stations)
         middles = (self.stations[order][1:] + self.stations[order][:-1]) / 2

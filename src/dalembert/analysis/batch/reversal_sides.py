@@ -1,6 +1,6 @@
-"""Positions where contacts reverse, in a kernel: numbers just before and just after, by a program of their own.
+"""Positions where contacts reverse, in a kernel: numbers just before and just after, by a separate program.
 
-Its one input more is the side; senses are those of the second rates, as in `core.friction.reversal`.
+Its additional input is the side; senses are those of the second rates, as in `core.friction.reversal`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ BUILDING = threading.Lock()
 
 
 def settle_reversals(k: Kernel, values: Array, course: Course, found: Sides, threads: int | None) -> None:
-    """Put both sides in the place of marks `at_rest` where the machine moves; without second rates these stay."""
+    """Replaces the status `at_rest` by both sides of a reversal where the machine moves; without second rates it
+    stays."""
     moves = course.schedule.moves
     if k.reduce is None:
         designs, positions = np.nonzero((found.code == AT_REST) & moves)

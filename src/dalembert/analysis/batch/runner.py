@@ -34,10 +34,10 @@ from dalembert.kernel.program import Program
 Arrays = tuple[dict[str, Array], dict[str, Array]]
 """Outputs, and their gradients, by name."""
 CHECKED = 1 << 27
-"""Bytes of results from which it is asked whether there is room for them."""
+"""Bytes of results above which free memory is checked."""
 BY_BLOCKS = "go through k.blocks(values)"
 TOO_MUCH = f"give out= (arrays on disk by np.memmap), or {BY_BLOCKS}"
-"""What to do about results that are."""
+"""Remedy for results that do not fit."""
 FEW = 16
 """Positions below which the lanes are filled with pairs of a design and a position."""
 
@@ -64,7 +64,7 @@ class Runner:
         self.places = self._places()
 
     def _machine(self, kind: str) -> tuple[Program, Machine, Slots]:
-        """Program and machine code of one way to run it."""
+        """Program and machine code of one mode of running it."""
         k = self.k
         if kind == "gradient":  # derivatives alone, at chosen positions
             rates = [n for found in k.rates.values() for row in found for n in row]
@@ -100,7 +100,7 @@ class Runner:
         return nodes, tuple(slots)
 
     def _target(self, name: str, component: int) -> Node:
-        """What one component of an output is compared with."""
+        """Value that one component of an output is compared with."""
         value = partial(target_values, output=name, component=component)
         found: Node = self.k.trace.inputs.make("channel", f"target {component} {name}", value)
         return found
@@ -229,7 +229,7 @@ class Runner:
         return out, code
 
     def _places(self) -> tuple[list[tuple[str, int | slice]], list[tuple[str, slice, tuple[int, ...]]]]:
-        """Where each output stands, and its derivatives with their axes."""
+        """Place of each output, and of its derivatives with their axes."""
         arrays: list[tuple[str, int | slice]] = []
         rates: list[tuple[str, slice, tuple[int, ...]]] = []
         place, n = 0, len(self.k.trace.numbers)
@@ -363,7 +363,7 @@ def _of_sums(reduce: str, parts: dict[tuple[int, str], Array], m: int, total: Ar
 
 
 def _active(runner: Runner, job: Job, m: int, places: dict[tuple[int, str], Array]) -> Array:
-    """Gradient of one component at the positions where its reduction stands."""
+    """Gradient of one component at the positions of its reduction."""
     k = runner.k
     program, machine, _ = runner.machine("gradient")
     columns, common = runner.inputs(program, job.course)

@@ -1,4 +1,4 @@
-"""What is found for many designs, and the numbers just after reversals where there are any."""
+"""Results of many designs, with the numbers just after reversals where any occur."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Sides:
 
     @property
     def finite(self) -> bool:
-        """Whether all numbers are."""
+        """True if all numbers are finite."""
         return all(np.isfinite(a).all() for of in (self.arrays, self.rates) for a in of.values())
 
     def open_after(self) -> None:
@@ -32,7 +32,7 @@ class Sides:
             self.after_rates = {name: rate.copy() for name, rate in self.rates.items()}
 
     def blank(self, lost: Flags) -> None:
-        """No number where there is no answer."""
+        """Replaces numbers by NaN where unsolved."""
         for found in (self.arrays, self.rates, self.after, self.after_rates):
             for array in found.values():
                 if array.dtype.kind == "f":

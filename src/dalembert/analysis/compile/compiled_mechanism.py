@@ -31,11 +31,11 @@ from dalembert.model.quantities.values import Vector
 
 @dataclass(frozen=True)
 class Count:
-    """How the turn of one torsion spring is counted.
+    """Record of the count of one torsion spring's turns.
 
-    spring: its load; place: among the resistances; near: what its angle is counted by, and whether `assembly`
-    states it; at (D,): the drives' positions where it is counted, ``met`` if the motion reaches them, None at the
-    first position; margin (P,): radians to the edge of the half turn, there.
+    spring: its load; place: among the resistances; near: the reference value of the count, and whether `assembly` gives
+    it; at (D,): the drives' positions where it is counted, ``met`` if the motion reaches them, None at the first
+    position; margin (P,): radians to the edge of the half turn at those positions.
     """
 
     spring: str
@@ -90,7 +90,7 @@ class Compiled:
 
     @cached_property
     def first_modes(self) -> Modes | None:
-        """The ways it closes at the first position; None where none is found."""
+        """Assembly modes at the first position; None where it does not close."""
         return self.guess.modes(self.layout, self.first_target)
 
     @property
@@ -100,7 +100,7 @@ class Compiled:
 
     @cached_property
     def period(self) -> Array | None:
-        """What a whole cycle adds to the targets; None if the list of positions is not one."""
+        """Increment of the targets over a full cycle; None if the list of positions is not one."""
         turns = _whole_turns(self.schedule.position, self.layout)
         return None if turns is None else np.concatenate([np.zeros(len(self.target)), turns])
 
@@ -169,7 +169,7 @@ class _Joined:
 
 
 class _Unplaced:
-    """The same wherever the joints' points stand on their links."""
+    """Layout that does not depend on the joints' points on their links."""
 
     def __init__(self, joined: _Joined) -> None:
         self.joined = joined
@@ -223,7 +223,7 @@ def _moved(joined: _Joined, found: Tree) -> Layout:
 
 
 def _lay_out(joined: _Joined, like: Compiled | None) -> Tree:
-    """What follows from the joints and their points alone, by its names in ``Compiled``."""
+    """Data that depend on the joints and their points alone, by their names in ``Compiled``."""
     m, at = joined.m, joined.at
     links = tuple(name for name in m.links if name != GROUND)
     index = _numbers(links)
@@ -262,7 +262,7 @@ def _numbers(links: tuple[str, ...]) -> dict[str, int]:
 
 
 def setting_of(c: Compiled) -> Setting:
-    """What the loads of a compiled mechanism were compiled in."""
+    """Setting in which the loads of a compiled mechanism were compiled."""
     return _setting(c.mechanism, c.schedule, vars(c))
 
 
@@ -273,7 +273,7 @@ def _setting(m: Mechanism, schedule: Schedule, found: Tree) -> Setting:
 
 
 def _drives(schedule: Schedule) -> dict[str, Array]:
-    """What changing quantities may go by: time, where a law says it, of one position 0; the drives' positions and
+    """Variables of changing quantities: time, where a law gives it, for one position 0; the drives' positions and
     speeds."""
     time = np.zeros(1) if schedule.time is None and schedule.count == 1 else schedule.time
     found = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
@@ -282,7 +282,7 @@ def _drives(schedule: Schedule) -> dict[str, Array]:
 
 
 def _without_pose_loads(m: Mechanism) -> tuple[tuple[str, ...], Mechanism]:
-    """What loads go by that only the pose says, and the mechanism with 1 in place of their values."""
+    """Variables of loads that only the pose gives, and the mechanism with 1 instead of their values."""
     found: dict[str, None] = {}
     loads = {}
     for name, load in m.loads.items():

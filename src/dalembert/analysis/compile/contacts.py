@@ -31,9 +31,9 @@ Read = Mapping[Any, float]
 class Contact:
     """One contact of a joint, with the keys of ``core.friction.contact_equations.Contacts``.
 
-    ``read``: its arguments; ``led``: which contact tells its sense, 0 for itself and -1 for the one before;
-    ``group`` of the contacts of the joint that share a slip, 0 for those that do not; ``viscous``: damping of the slide
-    before it, whose force it carries, None where it carries none."""
+    ``read``: its arguments; ``led``: which contact gives its sense, 0 for itself and -1 for the previous one; ``group``
+    of the contacts of the joint that share a slip, 0 for those that do not; ``viscous``: damping of the slide before
+    it, whose force it carries, None where it carries none."""
 
     kind: str
     row: Row
@@ -58,12 +58,12 @@ TURN: Row = (Turn, {})
 
 
 def friction_on(m: Mechanism) -> bool:
-    """Whether some joint has friction and the file does not switch it off."""
+    """True if some joint has friction and the file does not switch it off."""
     return m.friction.enabled and any(getattr(j, "friction", None) is not None for j in m.joints.values())
 
 
 def has_friction(m: Mechanism, joint: object) -> bool:
-    """Whether a joint has friction that is not switched off."""
+    """True if a joint has friction that is not switched off."""
     return m.friction.enabled and getattr(joint, "friction", None) is not None
 
 
@@ -74,7 +74,7 @@ def coefficient(m: Mechanism, joint: Any) -> Numeric:
 
 
 def resting_coefficient(m: Mechanism, joint: Any) -> Numeric:
-    """Coefficient at rest: the joint's own, else its coefficient of motion, else the file's."""
+    """Coefficient at rest: the joint's, else its coefficient of motion, else the file's."""
     f, top = joint.friction, m.friction
     if f.static is not None or f.coefficient is not None:
         return f.coefficient if f.static is None else f.static
@@ -98,7 +98,7 @@ def contacts(
 ) -> Contacts | None:
     """All contacts; None without friction.
 
-    ends, at, arms: links, geometry and points of the joints, with their own damping; places: row of each reaction of a
+    ends, at, arms: links, geometry and points of the joints, with their damping; places: row of each reaction of a
     joint whose first row is given.
     """
     if not friction_on(m):
@@ -132,7 +132,7 @@ def contacts(
 
 
 def _columns(m: Mechanism, found: list[tuple[int, Joint, Contact]]) -> Tree:
-    """What contacts are by themselves."""
+    """Data of contacts that do not depend on others."""
     of = [c for _, _, c in found]
 
     def coefficients(mu: Callable[[Mechanism, Joint], float]) -> Array:
@@ -155,7 +155,7 @@ FLAGS = ("circle", "signed", "ball", "fixed", "around")
 
 
 def _groups(found: list[tuple[int, Joint, Contact]]) -> Ints:
-    """One number for contacts of one joint and group; contacts of group 0 stand alone."""
+    """One number for contacts of one joint and group; contacts of group 0 are separate."""
     keys = [(k, c.group, 0 if c.group else n) for n, (k, _, c) in enumerate(found)]
     return np.array([keys.index(key) for key in keys], np.intp)
 
@@ -220,4 +220,4 @@ def _path(radius: float, addendum: float, angle: float, sign: int) -> Numeric:
 
 
 KINDS: Kinds = {"pin": _pin, "slider": _slider, "slot": _slot, "gear": _gear}
-"""Joints of the plane that can have friction."""
+"""Planar joints that can have friction."""

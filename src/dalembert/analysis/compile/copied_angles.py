@@ -39,7 +39,7 @@ class CopiedAngle(NamedTuple):
 
 
 def copied_angle(c: Compiled, angle: Counted) -> CopiedAngle | None:
-    """The original of an angle; None of what is no copy."""
+    """The original of an angle; None if it is not a copy."""
     for alike in c.mechanism.likenesses:
         if isinstance(angle, str):
             if angle in alike.links:

@@ -59,7 +59,7 @@ class _Joints:
         raise NotImplementedError
 
     def compliance(self, fixed: Rows) -> Array | None:
-        """Of each constraint, 0 where it is rigid; None where no joint yields."""
+        """Compliance of each constraint, 0 where it is rigid; None where no joint has a stiffness."""
         yielding = {k: j.stiffness for k, j in enumerate(self.m.joints.values()) if j.stiffness is not None}
         if not yielding:
             return None
@@ -93,7 +93,7 @@ class _Joints:
 
 
 class PlaneJoints(_Joints):
-    """Joints of the plane."""
+    """Planar joints."""
 
     def add(self, k: int, name: str, joint: Joint) -> None:
         """The rows of one joint."""
@@ -201,7 +201,7 @@ class SpaceJoints(_Joints):
         return self.contacts_of(fixed, self.geometries, SPACE_FRICTION, pair_table.reaction_rows)
 
     def guess(self) -> Drawing:
-        """Poses of the links that the file gives, and how the joints let the others be laid."""
+        """Poses of the links that the file gives, and how the joints place the others."""
         count = len(self.index)
         rotation, point = np.full((count, 9), np.nan), np.full((count, 3), np.nan)
         axis, angle = np.zeros((count, 3)), np.append(np.full(count - 1, np.nan), 0.0)

@@ -23,7 +23,7 @@ from dalembert.model.quantities.values import Vector
 
 @dataclass(frozen=True)
 class Setting:
-    """What loads are compiled in: numbers and reference points of the links, freedoms by name, drives' positions."""
+    """Data needed to compile loads: numbers and reference points of the links, freedoms by name, drives' positions."""
 
     m: Mechanism
     g: Algebra
@@ -146,7 +146,7 @@ def _no_springs(d: int) -> Springs:
 
 
 def _resistances(s: Setting) -> Resistances:
-    """Torsion springs, torsion dampers and the joints' own damping, each in its freedom."""
+    """Torsion springs, torsion dampers and the joints' damping, each in its freedom."""
     rows: list[tuple[int, float, float, float]] = []
     for load in s.m.loads_on("turn").values():
         turn = s.m.joints[load.joint].turn_of(load.freedom)
@@ -156,7 +156,7 @@ def _resistances(s: Setting) -> Resistances:
 
 
 def joint_resistances(m: Mechanism, freedoms: Sequence[tuple[str, str]]) -> Resistances:
-    """The joints' own damping."""
+    """The joints' damping."""
     return _in_freedoms(_damper_rows(m, freedoms))
 
 
@@ -193,7 +193,7 @@ def joint_damping(joint: Joint) -> dict[str, float]:
 
 
 def _effort(s: Setting, name: str, schedule: Schedule) -> Array:
-    """Given effort of a drive at each position, NaN where it is asked for."""
+    """Given effort of a drive at each position, NaN where it is unknown."""
     given = s.m.drives[name].effort
     if given is None or schedule.unknown is not None:
         return np.full(s.count, np.nan)
@@ -201,7 +201,7 @@ def _effort(s: Setting, name: str, schedule: Schedule) -> Array:
 
 
 def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) -> Known:
-    """What is given of the efforts, and what is asked of the loads."""
+    """Given efforts and unknown loads."""
     g = s.g
     if not unknown and all(s.m.drives[n].effort is None for n in schedule.names):
         return _efforts_asked(len(schedule.names), s.count, g.d, g.n)

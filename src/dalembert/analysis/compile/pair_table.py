@@ -166,7 +166,7 @@ def _about_vector(axis: Array, at: Geometry) -> Tree:
 
 
 def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int]) -> Hinge:
-    """How the joint lets one link be laid by the other; ``drives`` are the drives' numbers by freedom."""
+    """Rule by which the joint places one link from the other; ``drives`` are the drives' numbers by freedom."""
     pair = joint.pair
     names = [n for n in joint.freedoms if n.startswith("slide") and pair.slides]
     turning = (

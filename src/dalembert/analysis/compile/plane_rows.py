@@ -56,7 +56,7 @@ class RowBuilder:
         return first
 
     def next_counted_angle(self) -> int:
-        """The place of another relative angle whose whole turns are counted."""
+        """Index of another relative angle whose full turns are counted."""
         self.counted += 1
         return self.counted - 1
 

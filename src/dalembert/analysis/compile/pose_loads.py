@@ -1,4 +1,5 @@
-"""Loads that go by a link's angle or a joint's freedom: known once the motion is, which no load alters."""
+"""Loads that depend on a link's angle or a joint coordinate; evaluated after the motion, which does not depend on
+loads."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ def coordinates(c: Compiled, pose: Pose, names: Iterable[str]) -> Tree:
 
 
 def counted_coordinates(c: Compiled, counted: Compiled, pose: Pose, names: Iterable[str]) -> Tree:
-    """The same (P,) with the whole turns that were counted along the motion of ``counted``."""
+    """The same (P,) with the full turns that were counted along the motion of ``counted``."""
     return {
         name: value + counted.pose_turns.get(name, 0.0) for name, value in coordinates(c, pose, names).items()
     }
@@ -42,7 +43,7 @@ def _coordinates(c: Compiled, pose: Pose, measured: Array, names: Iterable[str])
 
 
 def with_pose_loads(c: Compiled, found: Path) -> Compiled:
-    """The mechanism with the values of its loads that go by the pose, along a motion."""
+    """The mechanism with the values of its loads that depend on the pose, along a motion."""
     if not c.pose_names or not found.reached.any():
         return c
     at = counted_coordinates(c, c, found.pose, c.pose_names)

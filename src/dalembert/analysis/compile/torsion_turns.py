@@ -1,10 +1,10 @@
-"""Which whole turn torsion springs, and loads that depend on an angle, count: not by the list of positions.
+"""Counts the full turns of torsion springs, and of angles that loads depend on, independently of the list of positions.
 
-A turn that no drive settles, of a joint or of a link, is counted where the drives stand as `assembly` has them, else
-at 0: there it is within half a turn of what `assembly` states, the angle of j less that of i as written, or of 0 where
-it states neither link's. From there it is followed through the motion. Where wheels that mesh or roll turn it, it is
-counted where their phase is, at the first position. What is a copy is counted as the image of its original, where the
-drives are those of the image.
+A turn of a joint or a link that no drive determines is counted with the drives at their `assembly` values, else at 0.
+At that position it is within half a turn of the value of `assembly`, the angle of j less that of i as written, or of 0
+where neither link's is given. From this position it is followed through the motion. Where wheels that mesh or roll
+determine it, it is counted at the first position, where their phase is set. A copy is counted as the image of its
+original, at the drives' positions of the image.
 """
 
 from __future__ import annotations
@@ -36,17 +36,17 @@ from dalembert.errors import ModelError
 from dalembert.model.quantities.coordinates import parts
 
 FARTHEST = 1e4
-"""Longest way to where turns are counted, in radians or characteristic lengths."""
+"""Longest path to the position where turns are counted, in radians or characteristic lengths."""
 
 MANY = 200
-"""Positions up to which, with several drives, each has its own way to where turns are counted."""
+"""Positions up to which, with several drives, each has a separate path to the position where turns are counted."""
 
 DOUBTFUL = np.radians(20)
 """An angle this near to half a turn from what it is counted by could as well be meant a turn further."""
 
 
 def wound(c: Compiled, first: tuple[int, Pose], found: Path) -> Compiled:
-    """The mechanism with the whole turns of its torsion springs and of the angles that its loads depend on, ``first``
+    """The mechanism with the full turns of its torsion springs and of the angles that its loads depend on, ``first``
     being the first position and its pose."""
     loads, rows = c.mechanism.loads_on("turn"), c.forcing.resistances.row
     names = list(loads)
@@ -85,7 +85,7 @@ def _ends(c: Compiled, angle: Counted) -> tuple[int, int]:
 
 
 def _open(c: Compiled, angle: Counted) -> bool:
-    """Whether neither a drive nor constraints settle an angle."""
+    """True if neither a drive nor constraints determine an angle."""
     if angle in c.layout.driven:
         return False
     i, j = _ends(c, angle)
@@ -94,7 +94,7 @@ def _open(c: Compiled, angle: Counted) -> bool:
 
 
 class _Counting:
-    """Where the turns of one mechanism are counted."""
+    """Positions at which the turns of one mechanism are counted."""
 
     def __init__(self, c: Compiled, first: tuple[int, Pose], found: Path) -> None:
         self.c, self.found, (self.place, self.first) = c, found, first
@@ -107,8 +107,8 @@ class _Counting:
         self.pieces = self._pieces()
 
     def _pieces(self) -> list[Ints]:
-        """Positions that are counted together: those of a stretch. Several drives may go around a singular place, on
-        either side of which turns count otherwise: then every position has its own way, if there are not too many."""
+        """Positions that are counted together: those of a stretch. With several drives, paths on either side of a
+        singular place may count turns differently, so every position has a separate path, if there are not too many."""
         found = self.found
         if len(self.wanted) > 1 and found.reached.sum() <= MANY:
             return [np.array([k]) for k in np.flatnonzero(found.reached)]
@@ -116,7 +116,7 @@ class _Counting:
         return [np.flatnonzero(found.reached & (found.stretch == n)) for n in numbers]
 
     def offset_and_count(self, what: str, k: int, angle: Counted) -> tuple[Array, Count]:
-        """What the count adds to an angle at each position (P,), and how it was made."""
+        """Number of turns that the count adds to an angle at each position (P,), and how it was made."""
         found, with_phase = self.found, self._has_phase(angle)
         turns, margin = np.zeros((2, len(found.reached)))
         for number, mask in reversed(list(enumerate(self.pieces))):  # the first is told of
@@ -153,7 +153,7 @@ class _Counting:
         return Way(self.first, phi, True)
 
     def _end(self, what: str, number: int, where: Ints, wanted: Array) -> Way:
-        """Where the motion of a piece comes nearest to the drives' positions that turns are counted at."""
+        """Position where the motion of a piece comes nearest to the drives' positions at which turns are counted."""
         key = (number, wanted.tobytes())
         if key not in self.ways:
             c = self.c
@@ -180,7 +180,7 @@ class _Counting:
             raise ModelError(what, f"check their unit; {FARTHEST:.0e} of them can be followed", ("drives",))
 
     def _near(self, row: Counted, actual: Pose) -> tuple[float, bool]:
-        """What a turn is counted by, at a pose of the motion; whether the file states it."""
+        """Reference value of the count of a turn, at a pose of the motion; whether the file gives it."""
         c, given = self.c, self.given
         if isinstance(row, str):
             stated = float(given.turn[c.links.index(row)])
@@ -232,7 +232,7 @@ def _as_written(c: Compiled, pose: Pose) -> Pose:
 
 
 def _about(c: Compiled, link: int, axis: Array) -> tuple[float, float]:
-    """Angle of a link's stated pose about an axis, NaN where it states none, and the whole turns written."""
+    """Angle of a link's stated pose about an axis, NaN where none is given, and the full turns written."""
     assert isinstance(c.guess, Drawing)
     angle, along = float(c.guess.angle[link]), float(np.dot(c.guess.axis[link], axis))
     if angle == 0.0:
@@ -252,14 +252,14 @@ def _drives(c: Compiled, at: Array) -> str:
 
 
 def count_turns(c: Compiled, pose: Pose) -> dict[str, Array]:
-    """Turn (P,) of each torsion spring that counts whole turns."""
+    """Turn (P,) of each torsion spring that counts full turns."""
     values = measure(c.layout.algebra, c.layout.freedoms, pose) if c.counts else np.zeros(0)
     own = c.forcing.resistances
     return {n.spring: values[:, own.row[n.place]] + own.turns[:, n.place] for n in c.counts}
 
 
 def count_notes(c: Compiled, pose: Pose) -> dict[str, str]:
-    """How each of these turns was counted, and where another whole turn could be meant."""
+    """Note on each of these turns: how it was counted, and where another full turn could be meant."""
     turns = count_turns(c, pose)
     return {
         _heading(c, n): _note(c, n, turns[n.spring]) for n in c.counts if np.isfinite(turns[n.spring]).any()
@@ -282,7 +282,7 @@ def _note(c: Compiled, n: Count, turn: Array) -> str:
     elif n.met:
         where = f" at {_drives(c, n.at)}"
     else:
-        where = f" where the motion ends on the way to {_drives(c, n.at)}"
+        where = f" where the motion towards {_drives(c, n.at)} ends"
     text = f"{_angle(c, turn[k])}{here}, counted to within half a turn of {near}{where}"
     if not two_ways(c, n, turn):
         return text
@@ -295,8 +295,8 @@ def _angle(c: Compiled, value: float) -> str:
 
 
 def two_ways(c: Compiled, n: Count, turn: Array) -> bool:
-    """Whether another whole turn is as likely meant: deflected by more than half a turn, near the edge of the half turn
-    where it is counted or away from there, or counted where the motion ends."""
+    """True if another full turn is as likely meant: deflected by more than half a turn, near the edge of the half turn
+    where it is counted or away from it, or counted where the motion ends."""
     known = turn[np.isfinite(turn)]
     if not known.size:
         return False

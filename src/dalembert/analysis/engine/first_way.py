@@ -1,4 +1,4 @@
-"""Which way every group closes at the first position: as the careful path decides it, by the angles that are given."""
+"""Branches of the groups at the first position: chosen by the given angles, as on the careful path."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ AGREES = 1e-6
 
 
 class First(NamedTuple):
-    """The ways of the groups, the links' angles (L,) there, and the sentence on the assembly mode."""
+    """Branches of the groups, the links' angles (L,), and the sentence on the assembly mode."""
 
     ways: tuple[float, ...]
     turn: Array
@@ -28,14 +28,14 @@ class First(NamedTuple):
 
 
 FEW = 6
-"""Sets of ways that are tried one after the other, on single numbers; more of them side by side."""
+"""Number of branch sets up to which they are tried one by one, on single numbers; more of them side by side."""
 
 REMEMBERED = 32
 """First poses of a structure that are remembered."""
 
 
 def first_way(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
-    """The ways that the careful path takes at the first position; None where something is in doubt there."""
+    """The branches that the careful path takes at the first position; None where a check is in doubt."""
     key = _key(k, c, given)
     found: First | None = k.known.get(key)
     if found is None and key not in k.known:
@@ -45,7 +45,7 @@ def first_way(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
 
 
 def remember(k: KeptProgram, c: Compiled, given: list[object], first: First | None) -> None:
-    """Keep what was found for the next analysis that starts from the same pose."""
+    """Keeps the result for the next analysis that starts from the same pose."""
     if len(k.known) >= REMEMBERED:
         k.known.clear()
     k.known[_key(k, c, given)] = first
@@ -59,7 +59,8 @@ def _key(k: KeptProgram, c: Compiled, given: list[object]) -> tuple[object, ...]
 
 
 def _tried(k: KeptProgram, given: list[object], ways: Array) -> tuple[Array, Array]:
-    """Cosines and sines (2, L, W) of the first position for ways (G, W), and closure (M, W); NaN where it has none."""
+    """Cosines and sines (2, L, W) of the first position for branches (G, W), and closure (M, W); NaN where it does not
+    close."""
     rotation, closure = k.nodes["rotation"], k.nodes["closure"]
     out = np.full((rotation.size + closure.size, ways.shape[1]), np.nan)
     if ways.shape[1] > FEW:
@@ -73,9 +74,9 @@ def _tried(k: KeptProgram, given: list[object], ways: Array) -> tuple[Array, Arr
 
 
 def _by_given_angles(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
-    """The ways that were taken when it was traced, where they put all given links near their angles and no others do.
+    """The branches taken when it was traced, where they put all given links near their angles and no others do.
 
-    Every other set of ways differs first in some group, the groups before it standing as they do here.
+    Every other set of branches differs first in some group, the groups before it having the same pose.
     """
     guess = c.guess
     assert isinstance(guess, Guess)
@@ -118,7 +119,7 @@ def _wrapped(angle: float) -> float:
 
 
 def _by_search(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
-    """The ways of the pose that a search for the first pose finds."""
+    """Branches of the pose from a search for the first pose."""
     modes = c.first_modes
     if modes is None or not on_stated_sides(c, c.first_target, modes):
         return None

@@ -25,15 +25,15 @@ ALONG = {(Forces, "value"), (Couples, "value"), (Known, "effort")}
 """Arrays with an axis of positions; the turns of torsion springs may have one too."""
 
 VARIES = 2.0
-"""Stands for a column that is no constant of its structure."""
+"""Value of a column that is not constant for its structure."""
 
 
 class Numbers(NamedTuple):
-    """The numbers of a mechanism by where they stand.
+    """The numbers of a mechanism by their places.
 
-    key: what must be the same for two mechanisms to be one structure, also which numbers are 0, 1 or -1 and which are
-    equal; single (N,): different numbers, and ``which`` (F,) of them stands at each place; columns (C, P): drives'
-    positions, speeds, accelerations, and what changes along the positions.
+    key: data that must be equal for two mechanisms to have one structure, including which numbers are 0, 1 or -1 and
+    which are equal; single (N,): different numbers, and ``which`` (F,) of them is at each place; columns (C, P):
+    drives' positions, speeds, accelerations, and what changes along the positions.
     """
 
     key: tuple[object, ...]
@@ -81,7 +81,7 @@ def flat_numbers(c: Compiled, pose: Pose | None = None) -> Numbers:
 
 
 def _held(c: Compiled, pose: Pose) -> Flags:
-    """Which columns of poses never change: those of the ground, and rotations of links that cannot turn."""
+    """True for columns of poses that never change: those of the ground, and rotations of links that cannot turn."""
     still = rigid_turns(replace(c.layout, driven=np.zeros(0, np.intp)))
     ground, turned = np.arange(len(still)) == len(still) - 1, still == still[-1]
     turns = ground if c.layout.algebra.d == 2 else np.zeros(pose.turn.shape[1], bool)
@@ -90,7 +90,7 @@ def _held(c: Compiled, pose: Pose) -> Flags:
 
 
 def _by_first_place(values: Array) -> tuple[Array, Ints]:
-    """The different values, in the order in which they first occur, and which of them stands at each place."""
+    """The different values, in the order in which they first occur, and which of them is at each place."""
     places: dict[float, int] = {}
     which = [places.setdefault(x, len(places)) for x in values.tolist()]
     return np.array(list(places)), np.array(which, np.intp)
@@ -103,7 +103,7 @@ def _fixed(different: Array) -> Flags:
 
 @lru_cache(maxsize=64)
 def _flat_rows(part: Rows) -> tuple[list[object], list[Array]]:
-    """What ``_flatten`` puts into lists of rows, which are kept from mechanism to mechanism."""
+    """Values that ``_flatten`` puts into lists of rows, which are kept from mechanism to mechanism."""
     rows: list[object] = []
     single: list[Array] = []
     _flatten(part, rows, single, [])
@@ -148,7 +148,7 @@ def _fields(kind: Any) -> tuple[str, ...]:
 
 
 def _changes(kind: type, part: str, array: Array) -> bool:
-    """Whether an array of a record has an axis of positions."""
+    """True if an array of a record has an axis of positions."""
     return (kind, part) in ALONG or (kind is Resistances and part == "turns" and array.ndim > 1)
 
 
@@ -201,7 +201,7 @@ class Symbols:
 
 
 def with_nodes(graph: Graph, c: Compiled, numbers: Numbers, pose: Pose | None = None) -> Symbols:
-    """The mechanism with an input in place of every number that is not 0, 1 or -1 (of a column: not 0)."""
+    """The mechanism with an input for every number that is not 0, 1 or -1 (of a column: not 0)."""
     fixed = _fixed(numbers.single)
     different: list[Node | float] = [
         float(x) if same else graph.input("number", f"number {k}", float(x))

@@ -1,8 +1,8 @@
-"""Motion and forces from a program where the poses are known: of structures that a whole program does not answer.
+"""Motion and forces from a program where the poses are known: for structures that a complete program does not support.
 
-What the careful path finds positions of (gears, groups without closed form, springs whose turns are counted, mechanisms
-in space) and what has friction. Where friction is in doubt, at rest, reverses or jams, and near singular places, the
-careful path answers.
+These are structures whose positions the careful path computes (gears, groups without closed form, springs whose turns
+are counted, mechanisms in space) and those with friction. Where friction is in doubt, at rest, reverses or jams, and
+near singular places, the careful path answers.
 
 Mechanics: docs/theory.md 8.
 """
@@ -93,7 +93,7 @@ def _varying(*nodes: Sequence[Node]) -> Array:
 
 
 def _friction_nodes(p: Problem, pose: Pose, t: Traced) -> dict[str, Array]:
-    """What a ``Friction`` keeps, by name; none without contacts."""
+    """Data that a ``Friction`` keeps, by name; none without contacts."""
     contacts, slip, g = p.contacts, t.friction.slip, p.graph
     if contacts is None or slip is None:
         return {}
@@ -187,12 +187,12 @@ def force_blocks(c: Compiled, k: ForceProgram, numbers: Numbers, size: int) -> F
 
 
 def _below(k: ForceProgram, name: str, out: Array) -> Flags:
-    """Positions where a mark says something, or is no number."""
+    """True at positions where a flag is negative, or not a number."""
     return np.asarray(~(out[k.rows[f"mark {name}"]] >= 0).all(axis=0))
 
 
 def _locked(k: ForceProgram, out: Array) -> tuple[Flags, Flags]:
-    """Where friction turns the power of the unknowns round, and where that, or friction, is in doubt."""
+    """Flags where friction reverses the sign of the power of the unknowns, and where that, or friction, is in doubt."""
     doubt = _below(k, "unsure", out) & _below(k, "sure", out)
     turned = _below(k, "turned", out)
     locked = turned & _below(k, "locked", out) if k.nodes["mark locked"].size else turned
@@ -200,7 +200,7 @@ def _locked(k: ForceProgram, out: Array) -> tuple[Flags, Flags]:
 
 
 def _friction(c: Compiled, k: ForceProgram, out: Array, locked: Flags) -> Friction:
-    """What friction does where it is sure."""
+    """Friction at the positions where it is certain."""
     same = {
         name: k.part(name, out)
         for name in Friction._fields

@@ -1,6 +1,6 @@
 """One structure's program: traced once along a known motion, then a function of numbers.
 
-Every way a group closes is an input here, 1 or -1: which one it is, the first pose decides (``first_way``).
+The branch of every group is an input, 1 or -1, which the first pose decides (``first_way``).
 
 Mechanics: docs/theory.md 8.
 """
@@ -26,10 +26,10 @@ from dalembert.kernel.trace import Drives, Problem, Traced, trace
 POSE = ("closure", "point", "rotation", "turn")
 KEPT = (*POSE, "twist", "acceleration", "effort", "load", "force", "moment")
 CHECKS = ("loads", "unbalanced", "virtual", "power", "margin")
-"""What a program computes, in the order of its outputs: the pose, all that an answer keeps, and what only checks it.
+"""Outputs of a program, in order: the pose, all that an answer keeps, and the checks.
 
-closure: first squares of what vanishes at dead centres, then what else must hold for the pose; these and ``margin`` are
-negative, or no number, where something is in doubt.
+closure: first squares of quantities that vanish at dead centres, then the other conditions of the pose; these and
+``margin`` are negative, or not a number, where a position is in doubt.
 """
 
 
@@ -53,12 +53,12 @@ class Outputs:
 
     @property
     def kept(self) -> int:
-        """How many outputs an answer keeps."""
+        """Number of outputs that an answer keeps."""
         return int(self.rows[CHECKS[0]].start)
 
     @cached_property
     def size(self) -> int:
-        """How many outputs there are."""
+        """Number of outputs."""
         return sum(a.size for a in self.nodes.values())
 
     @cached_property
@@ -72,7 +72,7 @@ class Outputs:
 
     @cached_property
     def moments(self) -> Flags:
-        """Which rows of forces, moments and loads are moments."""
+        """True for rows of forces, moments and loads that are moments."""
         loads = self.nodes["loads"]
         of = [np.zeros(self.nodes["force"].shape, bool), np.ones(self.nodes["moment"].shape, bool)]
         couples = np.zeros(loads.shape, bool)
@@ -86,7 +86,7 @@ class Outputs:
         return whole.transpose(len(shape), *range(len(shape)))
 
     def sure(self, out: Array) -> Flags:
-        """Whether the squares of rates are numbers, and nothing says that a position is in doubt, at each place."""
+        """True where the squares of rates are numbers and no check is in doubt, at each place."""
         rates = out[self.rows["twist"]]
         return np.asarray(
             np.isfinite((rates * rates).sum(axis=0)) & (out[self.rows["margin"]] >= 0).all(axis=0)
@@ -119,14 +119,14 @@ class Outputs:
 
 @dataclass(frozen=True, eq=False)
 class KeptProgram(Outputs):
-    """A structure from its drives' positions to all forces: inputs (numbers, columns, then ways), and the ways it was
-    traced in.
+    """Program of a structure from its drives' positions to all forces: inputs (numbers, columns, then branches), and
+    the branches it was traced on.
 
-    squares: how many rows of closure are such. whole: it gives more than the pose; not so where turns of springs are to
-    be counted. fixed (L,): links whose angle the drives alone give; counted: those whose whole turns some row counts;
-    last: the last way that a link's rotation depends on, -1 for none. driven: the drives whose positions are inputs,
-    which are the first columns. symbols, traced: the mechanism on nodes, and all that was traced of it. known: first
-    poses found lately, by what decides them.
+    squares: number of rows of closure that are squares. whole: it gives more than the pose; false where turns of
+    springs must be counted. fixed (L,): links whose angle the drives alone give; counted: those whose full turns some
+    row counts; last: the last branch that a link's rotation depends on, -1 for none. driven: the drives whose positions
+    are inputs, which are the first columns. symbols, traced: the mechanism on nodes, and its complete trace. known:
+    recent first poses, by the numbers that decide them.
     """
 
     ways: tuple[float, ...]
@@ -142,7 +142,7 @@ class KeptProgram(Outputs):
 
     @property
     def pose(self) -> int:
-        """How many outputs a pose has."""
+        """Number of outputs of a pose."""
         return int(self.rows[POSE[-1]].stop)
 
     @cached_property
@@ -157,7 +157,7 @@ class KeptProgram(Outputs):
 
     @cached_property
     def try_ways(self) -> NumpyProgram:
-        """Rotations, then closure, of one position for several ways side by side."""
+        """Rotations, then closure, of one position for several sets of branches side by side."""
         return NumpyProgram(self.graph, self.inputs, self.outputs("rotation", "closure"), many=True)
 
     @cached_property
@@ -170,7 +170,8 @@ class KeptProgram(Outputs):
 
 
 class DeadCentreError(Exception):
-    """Raised where both ways of a group are one, or its pose does not say which: it is traced in another pose."""
+    """Raised where both branches of a group coincide, or its pose does not identify one: it is traced in another
+    pose."""
 
 
 def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) -> KeptProgram | None:
@@ -205,7 +206,7 @@ def problem_of(
     path: Callable[[str, int], Node],
     signs: Callable[..., Node],
 ) -> Problem:
-    """What a mechanism on nodes asks of the kernel."""
+    """Problem of a mechanism on nodes for the kernel."""
     symbolic, (position, speed, acceleration) = symbols.compiled, symbols.drives
     angular = c.layout.freedoms.angular[c.layout.driven]
     cosine, sine = (
@@ -252,7 +253,7 @@ def _known(pose: Pose, what: str, which: int) -> Numeric:
 
 
 class _Ways:
-    """Inputs for the ways that groups close, met one after the other as the trace goes on."""
+    """Inputs for the branches of groups, met one after the other as the trace goes on."""
 
     def __init__(self, graph: Graph, pose: Pose) -> None:
         self.graph, self.pose, self.inputs = graph, pose, list[Node]()
@@ -315,7 +316,7 @@ def force_nodes(t: Traced) -> dict[str, Array]:
 
 
 def _needs(graph: Graph, ways: list[Node], known: set[int]) -> list[int]:
-    """The ways that each node depends on, as bits; -1 where it needs an input that is not known."""
+    """The branches that each node depends on, as bits; -1 where it needs an input that is not known."""
     bits = {n.index: 1 << k for k, n in enumerate(ways)}
     out: list[int] = []
     for n in graph.nodes:

@@ -21,7 +21,7 @@ from dalembert.core.position.motion_path import Path
 
 
 def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions | None:
-    """The answer of a mechanism of the plane, every position ok; its motion where no forces are asked for, or where its
+    """Answer of a planar mechanism with every position ok; its motion where no forces are requested, or where its
     program gives none; None where some position may not be ok."""
     found = ready(c, inertia)
     if found is None:
@@ -44,7 +44,7 @@ def _positions(found: Ready, c: Compiled, outputs: _Outputs) -> Positions:
 
 
 class _Outputs(NamedTuple):
-    """What an answer keeps (N, P), residual and power balance (P,), of all places."""
+    """Outputs (N, P) that an answer keeps, residual and power balance (P,), of all places."""
 
     out: Array
     residual: Array
@@ -67,7 +67,7 @@ def _follow(r: Ready, c: Compiled, pose_only: bool) -> _Outputs | None:
 
 
 def _evaluate(r: Ready, c: Compiled, columns: Array, pose_only: bool) -> _Outputs | None:
-    """All outputs, and the checks of them; None where one fails. What overflows is no warning (``at_schedule``)."""
+    """All outputs, and their checks; None where one fails. Overflow does not warn (``at_schedule``)."""
     k, count = r.program, columns.shape[1] if len(columns) else c.schedule.count
     run, size, kept = (k.run_pose, k.pose, k.pose) if pose_only else (k.run, k.size, k.kept)
     residual, power = np.zeros(count), np.zeros(count)

@@ -24,7 +24,7 @@ BLOCK = 1024
 """Positions computed at once: their values stay in the cache."""
 
 KEPT = 500_000
-"""Operations of all programs that are kept: so many take about 200 MB."""
+"""Largest number of operations of all kept programs, about 200 MB."""
 
 FEW_LINKS, FEW_POSITIONS, OFTEN = 8, 50, 200
 """A structure of more links met for the first time, at fewer positions (twice as many where its matrix is not dense),
@@ -40,7 +40,8 @@ tracing takes, a structure is traced."""
 
 
 class _Met(NamedTuple):
-    """Stands for a program where a structure was met: what the careful path has taken for it, calls or milliseconds."""
+    """Placeholder for a program of a structure that was met: the cost of the careful path so far, calls or
+    milliseconds."""
 
     spent: float
 
@@ -88,7 +89,7 @@ class Ready(NamedTuple):
 
 
 def ready(c: Compiled, inertia: bool) -> Ready | None:
-    """The program of a mechanism of the plane; None where there is none, or none yet, or its first pose is in doubt."""
+    """The program of a planar mechanism; None where it has none, or none yet, or its first pose is in doubt."""
     if not _suits(c):
         return None
     numbers = flat_numbers(c)
@@ -114,8 +115,8 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
 
 
 def _traced(c: Compiled, numbers: Numbers, given: list[object], inertia: bool) -> KeptProgram | None:
-    """The program of a structure met for the first time: traced the way its given angles say, without a search, or
-    where they leave open which way a group closes, in its first pose; None where it has neither."""
+    """The program of a structure met for the first time: traced on the branches of its given angles, without a search,
+    or in its first pose where they do not decide a branch; None where neither exists."""
     assert isinstance(c.guess, Guess)
     if np.isfinite(c.guess.turn[:-1]).any():
         turn = c.guess.angles(c.layout, c.first_target)
@@ -155,7 +156,7 @@ def known_forces(c: Compiled, pose: Pose, inertia: bool) -> ForceBlock | None:
 
 
 def _suits(c: Compiled) -> bool:
-    """Whether a mechanism is of a kind that programs are kept of."""
+    """True if a mechanism is of a kind whose programs are kept."""
     return (
         isinstance(c.guess, Guess)
         and c.layout.square

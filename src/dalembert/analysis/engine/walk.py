@@ -13,8 +13,8 @@ from dalembert.arrays import Array, Ints
 from dalembert.core.position.path_parameter import walk
 
 STEP, FEWEST = 0.2, 8
-"""Longest way of the drives between two places, radians or lengths, and how many steps a motion has at least: what
-lies between two listed positions is looked at too."""
+"""Longest path of the drives between two places, radians or lengths, and the least number of steps of a motion: the
+motion between two listed positions is checked too."""
 
 MOST = 20_000
 """Places between the listed positions that are looked at."""
@@ -23,12 +23,12 @@ MANY = 200_000
 """Angles that are counted at once, so that it takes little memory."""
 
 TURN = 1.0
-"""Largest turn of a link from place to place, radians: more, and its whole turns are not counted surely."""
+"""Largest turn of a link from place to place, radians; above it, its full turns are not counted reliably."""
 
 
 class Walk(NamedTuple):
     """Places in the order in which a motion meets them: ``order`` of the list's and of those between, ``between``: the
-    drives' positions there (B, D), ``before`` the listed position before each."""
+    drives' positions at those between (B, D), ``before`` the listed position before each."""
 
     order: Ints
     between: Array
@@ -68,7 +68,7 @@ def with_between(k: KeptProgram, columns: Array, walk: Walk) -> Array:
 
 
 def count_turns(k: KeptProgram, out: Array, way: Walk, first: Array) -> bool:
-    """Put in the links' angles, whole turns counted along the motion; not where one of them turns far at a step."""
+    """Adds the links' angles, full turns counted along the motion; false where one of them turns too far in a step."""
     free = k.free
     if len(way.order) == 1:
         out[k.rows["turn"].start + free] = first[free, None]
@@ -101,7 +101,8 @@ def _count_turns(k: KeptProgram, out: Array, way: Walk, first: Array, links: Int
 
 
 def is_steady(k: KeptProgram, out: Array, way: Walk) -> bool:
-    """Whether no group passes a dead centre between two places: what vanishes there changes by less than it is."""
+    """True if no group passes a dead centre between two places: the quantity that vanishes at it changes by less than
+    its value."""
     if len(way.order) == 1:
         return True
     sizes = (np.sqrt(row)[way.order] for row in out[: k.squares])

@@ -1,4 +1,4 @@
-"""Friction's questions: equilibrium with it, verdicts, circles, lines of action, efficiency, the taught iteration.
+"""Analyses of friction: equilibrium, verdicts, circles, lines of action, efficiency, the textbook iteration.
 
 In: a compiled mechanism, or a ``Result``. Out: forces, sentences, readings.
 Imports ``core``, ``analysis``.

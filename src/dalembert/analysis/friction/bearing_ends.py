@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BearingEnd:
-    """An end of a bearing or guide, or the whole of one whose lengths are not given, over P positions.
+    """An end of a bearing or guide, or the complete one if its lengths are not given, over P positions.
 
-    part: `behind` or `ahead` of j's point along the axis, or empty; along: from there, m
+    part: `behind` or `ahead` of j's point along the axis, or empty; along: distance from that point, m
     force (P, 3): across the axis, on j, ground axes; friction (P,): couple about the axis or force along it, on j
     """
 
@@ -82,9 +82,9 @@ class Thread:
 
 
 def thread(r: Result, joint: str) -> Thread:
-    """What a screw with friction carries on its thread: friction over normal force is the tangent of its angle.
+    """Forces on the thread of a screw with friction: friction over normal force is the tangent of its angle.
 
-    The normal force is its part in the plane of axis and turn: of a thread with flanks at an angle less than the whole.
+    The normal force is its part in the plane of axis and turn: for a thread with inclined flanks less than the total.
     """
     screw: Any = r.mechanism.joints[joint]
     f, contacts = friction_of(r)

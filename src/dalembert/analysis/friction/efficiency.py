@@ -1,4 +1,4 @@
-"""What friction costs: efficiency at each position and over the cycle, the share of each joint, both senses."""
+"""Cost of friction: efficiency at each position and over the cycle, the share of each joint, both senses."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 NOTHING = 1e-9
-"""A power, or an efficiency, below this part of the whole is rounding."""
+"""A power, or an efficiency, below this part of the total is rounding."""
 
 
 @dataclass(frozen=True)
@@ -27,10 +27,10 @@ class Efficiency:
     At a reversal forward and reverse are those just before it.
     forward (P,): of the drive against the load, static: effort without friction over effort with it; 0 where it jams
     reverse (P,): of the load against the drive, static; 0 or less where the machine locks itself, or where the drive
-        must help the load against damping at this speed (``damped``)
+    must help the load against damping at this speed (``damped``)
     cycle: work that arrives over work put in, all positions together; put_in and lost are those works, J
-    share: part of the work put in that each joint's friction takes, dry and viscous
-    by_load: the drives act with known efforts, and what is asked for is the load
+    share: part of the work put in that is lost in each joint, by dry and viscous friction
+    by_load: the drives act with known efforts, and the load is unknown
     """
 
     forward: Array
@@ -43,11 +43,11 @@ class Efficiency:
     by_load: bool = False
 
     def driven(self, k: int) -> str:
-        """What it means at a position that the drive moves the load with an efficiency below 0."""
+        """Meaning of an efficiency below 0 where the drive moves the load at a position."""
         return " (below 0: the load must help)" if self.forward[k] < 0 else ""
 
     def held(self, k: int) -> str:
-        """What it means at a position that the load moves the drive with an efficiency of 0 or less."""
+        """Meaning of an efficiency of 0 or less where the load moves the drive at a position."""
         if self.by_load or not self.reverse[k] <= 0:
             return ""
         return (
@@ -60,12 +60,12 @@ class Efficiency:
 def efficiency(r: Result) -> Efficiency:
     """Efficiency of a result with friction.
 
-    Forward is the sense of motion in which the drives (and the loads asked for) put power in: eta = P0 / P; reverse the
+    Forward is the sense of motion in which the drives (and the unknown loads) put power in: eta = P0 / P; reverse the
     other one, in which they take it out: eta = P / P0, with P0 the power in the same sense with the same loads but
-    without the joints' friction, dry and viscous, inertia left out. Where drives act with known efforts, P is of the
-    loads asked for alone: they put power in in reverse, so that the two change places.
+    without the joints' friction, dry and viscous, inertia left out. Where drives act with known efforts, P is the power
+    of the unknown loads alone: they put power in in reverse, so that the two are interchanged.
     Over the cycle: (W - L) / W, with W the work of the drives, or of the loads where those drive, and L what the joints
-    lose. NaN where nothing moves.
+    lose. NaN where the machine does not move.
 
     >>> import dalembert as da
     >>> r = da.statics(da.mechanism({
@@ -123,7 +123,7 @@ def _static(r: Result, sign: float) -> _Sense:
 
 
 def unknown_power(r: Result, effort: Array, load: Array) -> Array:
-    """Power (P,) of the efforts and loads that are asked for."""
+    """Power (P,) of the unknown efforts and loads."""
     asked = r.compiled.known.asked
     power = (effort * r.schedule.speed)[:, asked].sum(axis=-1)
     for k, name in enumerate(r.unknown_loads):
@@ -159,9 +159,9 @@ def _cycle(r: Result) -> tuple[float, float, float, dict[str, float]]:
 
 
 def durations(r: Result) -> Array:
-    """Time (P,) that each position stands for, s: half the way to both neighbours, round the turn if it is whole.
+    """Time (P,) represented by each position, s: half the interval to both neighbours, round the turn if it is full.
 
-    One position stands for one second. From the schedule's times, or from the first drive that moves.
+    A single position represents one second. From the schedule's times, or from the first drive that moves.
     """
     count = len(r.status)
     if count == 1:
@@ -174,7 +174,7 @@ def durations(r: Result) -> Array:
 
 
 def _steps(r: Result) -> Array:
-    """Time between neighbouring positions; with the last one, back to the first, where the turn is whole."""
+    """Time between neighbouring positions; with the last one, back to the first, where the turn is full."""
     s = r.schedule
     if s.time is not None:
         return np.diff(s.time)
@@ -196,8 +196,8 @@ def _load_power(k: int, r: Result) -> Array:
 
 
 def _work(r: Result, power: Callable[[Result], Array], weight: Array) -> float:
-    """Power over the times, half of a position's time before a reversal there and half after it; single positions
-    without a value take that of their neighbours."""
+    """Integral of power over the times, half of a position's time before a reversal there and half after it; single
+    positions without a value take that of their neighbours."""
     work = []
     for side in r.sides:
         values = power(side)

@@ -1,4 +1,5 @@
-"""Fixed-point iteration of friction as a table, as it is taught: solve, set friction by the reactions, solve again."""
+"""Fixed-point iteration of friction as a table, the textbook method: solve, set friction by the reactions, solve
+again."""
 
 from __future__ import annotations
 
@@ -56,8 +57,8 @@ class FixedPoint:
 def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float = 1e-12) -> FixedPoint:
     """The iteration at one position of a result with friction (counted from 0).
 
-    It gets slower with mu r / l and may diverge where there is a solution: it is for reading, not how the answer was
-    found.
+    It converges more slowly with larger mu r / l and may diverge where a solution exists. It is for reading; the answer
+    is computed otherwise.
     """
     contacts, problem, sense = contacts_in_motion(r, position)
     c = strength(contacts, 1.0, sense=sense)
@@ -80,7 +81,7 @@ def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float
 
 
 def _rate(change: Array) -> float:
-    """What a step leaves of the change, over the last five."""
+    """Ratio by which a step reduces the change, over the last five."""
     last = change[1:][-6:]
     return float((last[-1] / last[0]) ** (1 / (len(last) - 1))) if len(last) > 1 and last[0] > 0 else 0.0
 
@@ -109,7 +110,7 @@ def contacts_at(r: Result, position: int) -> tuple[Contacts, Response, SlipState
     w = np.broadcast_to(w, (1, *w.shape[1:]))
     stated = statement(c.layout, known, pose, rows, solver, w)
     if (stated.forces.rcond < singular_below(c.layout)).any():
-        what = f"{' and '.join(c.unknown_loads)}: friction alone balances the given effort, and without it nothing does"
+        what = f"{' and '.join(c.unknown_loads)}: only friction balances the given effort: no start exists"
         raise ModelError(what, "give the load and leave the effort unknown")
     _, problem = response(c.layout, contacts, pose, stated.forces, stated.w, moving.twist)
     return contacts, problem, SlipState(f.sense[part], f.open[part], f.rate[part])

@@ -39,10 +39,10 @@ class Line:
 class FrictionCircle:
     """The friction circle of a pin and the line of its reaction.
 
-    center (P, 2), radius; radii (P,): with the coefficient at rest where nothing tells the sense; taken: the line on
-    which the reaction acts, through the point where it touches the circle; others: where a
-    link of the joint carries two pins and nothing else, the common tangents of both circles that were not taken (NaN
-    where two circles have fewer); reasons (P,): why this one.
+    center (P, 2), radius; radii (P,): with the coefficient at rest where the sense is not known; taken: the line on
+    which the reaction acts, through the point where it touches the circle; others: where a link of the joint carries
+    two pins and nothing else, the common tangents of both circles that were not taken (NaN where two circles have
+    fewer); reasons (P,): the reason for this line.
     """
 
     center: Array
@@ -141,7 +141,7 @@ def two_pins(result: Result, joint: str) -> TwoPins | None:
 
 
 def _two_forces(result: Result, link: str, first: str, second: str) -> bool:
-    """Whether two pins are all that loads a link, at every position."""
+    """True if two pins carry all loads of a link, at every position."""
     a, b = result.reaction(first, on=link), result.reaction(second, on=link)
     span = pin_center(result, second) - pin_center(result, first)
     moment = result.reaction_moment(first, on=link) + result.reaction_moment(second, on=link)

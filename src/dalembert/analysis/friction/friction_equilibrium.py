@@ -1,6 +1,6 @@
-"""Equilibrium with dry friction at a block of positions: senses of slip, the friction forces, what they cost, rest.
+"""Equilibrium with dry friction at a block of positions: senses of slip, the friction forces, losses, rest.
 
-Where all contacts slip their senses follow from the motion, and friction is the solution of one system of equations a
+Where all contacts slip their senses follow from the motion, and friction is the solution of one system of equations per
 position. Where a rate is zero for an instant only (a dead centre) there are two solutions, just before and just after.
 Where a contact stays at rest every unknown lies in an interval; at its ends motion impends.
 Mechanics: docs/theory.md 6.2.
@@ -71,7 +71,7 @@ def _open(p: FrictionProblem, found: FrictionSolution, open_: Ints, rods: Spinni
 
 
 def _after(whole: Forces, behind: Forces, turn: Ints) -> Forces:
-    """Forces and friction just after reversals; at other positions they stay, found at rest or not."""
+    """Forces and friction just after reversals; those of other positions are unchanged, at rest or not."""
     names = ["force", "moment", "effort", "load", "residual", "power_balance", "rcond", "friction"]
     numbers: Tree = {n: put(getattr(whole, n), turn, at(getattr(behind, n), turn)) for n in names}
     return behind._replace(**numbers)
@@ -80,8 +80,7 @@ def _after(whole: Forces, behind: Forces, turn: Ints) -> Forces:
 def _both_sides(
     p: FrictionProblem, found: FrictionSolution, open_: Ints, both: tuple[SlipState, SlipState], turns: Flags
 ) -> list[FrictionSolution]:
-    """Friction just before and just after some of the open positions; contacts that stay at rest there carry
-    nothing."""
+    """Friction just before and just after some of the open positions; contacts that stay at rest carry no friction."""
     turn, out = open_[turns], []
     for side in (at(side, turns) for side in both) if turn.size else ():
         rest = found.state.open[turn] & side.open
@@ -139,7 +138,7 @@ def _with_ends(
 
 
 def _idle(contacts: Contacts, r: Response, found: FrictionSolution, open_: Flags) -> Flags:
-    """Where contacts of unknown sense carry nothing, so that it does not matter."""
+    """True for contacts of unknown sense that carry no force, so that the sense does not matter."""
     y = argument(r, found.c * np.nan_to_num(found.z))
     carried = np.where(open_ & (found.c != 0), np.abs(bearing(contacts, y)), 0.0).max(axis=-1, initial=0.0)
     return np.asarray(carried <= SAME * np.abs(y).max(axis=(-2, -1), initial=0.0))

@@ -1,4 +1,4 @@
-"""What friction follows from at a block of positions: senses of slip, the response of reactions to friction, and the
+"""Data of the friction problem at a block of positions: senses of slip, the response of reactions to friction, and the
 forces of one solution.
 
 Mechanics: docs/theory.md 6.2.
@@ -71,7 +71,7 @@ class FrictionProblem:
     sources: dict[str, Source]
 
     def statement(self, *left_out: str) -> Statement:
-        """What is asked of the equilibrium, under all loads but those of some kinds."""
+        """Statement of the equilibrium, under all loads except those of some kinds."""
         w = self._wrench(*left_out)
         return statement(self.c.layout, self.known, self.pose, self.rows, self.solver, w)
 
@@ -93,7 +93,7 @@ class FrictionProblem:
 
     @property
     def along(self) -> System:
-        """What the contacts act along."""
+        """Directions along which the contacts act."""
         return self._response[0]
 
     @cached_property
@@ -287,5 +287,5 @@ class FrictionProblem:
 
     @property
     def unknowns(self) -> range:
-        """Multipliers of the efforts and loads that are asked for."""
+        """Multipliers of the unknown efforts and loads."""
         return range(self.c.layout.constraints.count, self.bare.shape[-1])

@@ -1,4 +1,4 @@
-"""What friction does to whole arcs of positions, in sentences: jam, self-locking, efforts left open.
+"""Sentences on friction over arcs of positions: jam, self-locking, undetermined efforts.
 
 Mechanics: docs/theory.md 6.3.
 """
@@ -29,10 +29,8 @@ Check = tuple[str, Any, Callable[[Any], str]]
 def refuse_friction(m: Mechanism) -> None:
     """Equilibrium positions are points only without friction."""
     if friction_on(m):
-        what = (
-            "a position is asked for and joints have friction: every position of whole arcs is an equilibrium"
-        )
-        remedy = "switch friction off, or ask for the interval of efforts at given positions"
+        what = "an unknown position with friction is not unique: every position of an arc is an equilibrium"
+        remedy = "switch friction off, or give the positions and compute the interval of efforts"
         raise ModelError(what, remedy, ("drives",))
 
 
@@ -65,7 +63,7 @@ def _locks(f: Forces) -> Array:
 
 
 def alone(f: Forces) -> Flags:
-    """Positions (P,) with a sentence of their own: contacts reverse, and it is not the same before and after."""
+    """Positions (P,) with a separate sentence: contacts reverse, and the status differs before and after."""
     if f.friction is None or f.after is None:
         return np.zeros(len(f.rcond), bool)
     solved = [~_jams(side) & ~_locks(side) for side in _sides(f)]
@@ -74,16 +72,16 @@ def alone(f: Forces) -> Flags:
 
 
 def _side(f: Forces, ask: Callable[[Forces], Array], k: int) -> tuple[Forces, str]:
-    """The side of a position where what is asked is so, and in words where it is one of two."""
+    """Side of a position on which a condition holds, and its name where it holds on one of two."""
     flags = [bool(ask(side)[k]) for side in _sides(f)]
     if len(flags) == 1 or flags[0] == flags[1]:
         return f, ""
     side, word = (f, "before") if flags[0] else (_sides(f)[1], "after")
-    return side, f", just {word} contacts reverse there"
+    return side, f", just {word} contacts reverse"
 
 
 def reversal_checks(c: Compiled, f: Forces) -> list[Check]:
-    """Where contacts reverse, and in words what that does."""
+    """Checks for reversing contacts, with a sentence on their effect."""
     if f.friction is None or f.after is None:
         return []
     return [("reversal", f.friction.reversing.any(axis=-1), lambda k: _reversal_sentence(c, f, k))]
@@ -105,7 +103,7 @@ def _unknowns(c: Compiled) -> list[str]:
 
 
 def _kinds(c: Compiled) -> list[str]:
-    """What the unknowns are: forces or moments."""
+    """Kinds of the unknowns: forces or moments."""
     turns = c.layout.freedoms.angular[c.layout.driven][c.known.asked]
     return ["moment" if turning else "force" for turning in (*turns, *c.known.couple)]
 
@@ -114,11 +112,11 @@ JAMMED = "Friction jams the mechanism{arc}{side}: no effort moves it in this sen
 FREED = "It would move with less than {scale} times the coefficients of friction."
 LOCKED = "Self-locking{arc}{side}: the load cannot drive the machine against its friction"
 NEEDS = "{name} needs {rubbed} and without friction {bare}"
-REVERSAL = "{joints} {verb}{arc}, and friction there changes its sense: {values}."
+REVERSAL = "{joints} {verb}{arc}, so friction in it changes sense: {values}."
 BOTH_SIDES = "{name} is {before} just before and {after} just after"
 REST = "At rest{arc}: any value of {name} between the two impending motions holds the machine"
 NO_RATE = (
-    "No relative motion in {joints}{arc}: the friction there may have any value within its limits, "
+    "No relative motion in {joints}{arc}: its friction may have any value within the limits, "
     "and {names} {verb}."
 )
 
@@ -168,14 +166,14 @@ def _open_sentence(c: Compiled, f: Forces, run: Ints) -> str:
     names = _unknowns(c)
     if not names:
         return (
-            "Nothing moves in a structure: it holds any load, and friction may take any part of it within its limits. "
-            "Switch it off for the reactions without it. To ask what friction holds, leave out the joint in whose "
-            "place it is to hold, and give the freedom that this leaves a drive without speed."
+            "A structure does not move: it holds any load, and friction may carry any part of it within its limits. "
+            "Switch friction off for the reactions without it. To compute what friction holds, replace the joint "
+            "held by friction by a drive at rest."
         )
     if not c.schedule.speed[run].any():
         return _rest_sentence(c, f, run, names)
     joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
-    verb = "lies in an interval" if len(names) == 1 else "each lie in an interval of their own"
+    verb = "lies in an interval" if len(names) == 1 else "each lie in an interval"
     return NO_RATE.format(joints=joints, arc=arc(c, run), names=_and(names), verb=verb)
 
 
@@ -189,14 +187,14 @@ def _rest_sentence(c: Compiled, f: Forces, run: Ints, names: list[str]) -> str:
         for n, name in enumerate(names)
     )
     return (
-        f"At rest{arc(c, run)}: {_and(names)} each lie in an interval of their own. At its ends the machine is about "
-        "to move with the other drives held, and what else was asked for has the value given there; not every "
+        f"At rest{arc(c, run)}: {_and(names)} each lie in an interval. At the ends of each, the machine is about "
+        "to move with the other drives held, and the other unknowns have the values shown for that end; not every "
         f"combination of values within the intervals holds the machine.{limits}{_histories(c, f, run, names)}"
     )
 
 
 def _histories(c: Compiled, f: Forces, run: Ints, names: list[str]) -> str:
-    """What friction can hold beyond the ends, as an earlier motion left it; nothing where it is no more."""
+    """Range that friction can hold beyond the ends, depending on the earlier motion; empty where it is not larger."""
     assert f.friction is not None
     ends = np.stack(
         [np.concatenate([e.effort[:, c.known.asked], e.load], axis=1)[run] for e in f.ends], axis=-1
@@ -234,7 +232,7 @@ def _and(names: list[str]) -> str:
 
 
 def _limits(c: Compiled, ends: tuple[Forces, ...], run: Ints) -> str:
-    """Which joints are at their limit at the ends of an unknown."""
+    """Joints that are at their friction limit at the ends of an unknown's interval."""
     assert c.contacts is not None
     parts = []
     for end, name in zip(ends, ("low", "high"), strict=False):

@@ -1,4 +1,4 @@
-"""What friction does in each joint, read from a result: forces, losses, contact of guides, sizes of circles."""
+"""Friction in each joint, read from a result: forces, losses, contact of guides, sizes of circles."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Loss = Literal["dry", "viscous", "all"]
 
 
 def assumption(result: Result) -> str:
-    """Whether there is friction, and which circle its pins have: 'on, friction circles of R sin(phi)'."""
+    """Description of the friction: on or off, and the kind of pin circles: 'on, friction circles of R sin(phi)'."""
     m = result.mechanism
     if result.friction is None:
         there = any(getattr(j, "friction", None) is not None for j in m.joints.values())
@@ -42,8 +42,8 @@ def interval(result: Result, name: str) -> Array:
     unknowns = unknown_names(result)
     if name not in unknowns:
         raise ModelError(
-            f"{name!r} is neither an effort nor a load that was asked for",
-            f"there are: {', '.join(unknowns)}",
+            f"{name!r} is not an unknown effort or load",
+            f"the unknowns are {', '.join(unknowns)}",
         )
 
     def value(r: Result) -> Array:
@@ -66,13 +66,13 @@ def holding(result: Result, name: str) -> Array:
 
 
 def holds_beyond(ends: Array, held: Array) -> Array:
-    """Where low and high (..., 2) of what friction can hold lie beyond those at which motion impends."""
+    """True where low and high (..., 2) of the range that friction can hold lie beyond those at which motion impends."""
     known = np.where(np.isnan(ends), [-np.inf, np.inf], ends)
     return np.asarray((held[..., 0] < known[..., 0]) | (held[..., 1] > known[..., 1]))
 
 
 def unknown_names(result: Result) -> list[str]:
-    """Efforts and loads that are asked for, in the order of ``result.ends``."""
+    """Unknown efforts and loads, in the order of ``result.ends``."""
     asked = result.compiled.known.asked
     return [*(d for d, a in zip(result.drives, asked, strict=True) if a), *result.unknown_loads]
 
@@ -91,7 +91,7 @@ def reversing_joints(result: Result, position: int) -> tuple[str, ...]:
 
 
 def friction_of(result: Result) -> tuple[Friction, Contacts]:
-    """What friction does at each position, and the contacts it is of; ModelError where there is none."""
+    """Friction at each position, and its contacts; ModelError where the result has no friction."""
     if result.friction is None or result.compiled.contacts is None:
         raise ModelError("this result has no friction", "give a joint `friction`, and do not switch it off")
     return result.friction, result.compiled.contacts
@@ -124,19 +124,20 @@ def contacts_of(result: Result, joint: str, kind: str | None = None) -> list[int
 
 
 def bears_on_faces(result: Result, joint: str) -> bool:
-    """Whether a joint is a slider with friction."""
+    """True if a joint is a slider with friction."""
     j = result.mechanism.joints[joint]
     return result.friction is not None and j.guides and getattr(j, "friction", None) is not None
 
 
 @dataclass(frozen=True)
 class GuideContact:
-    """Where a guide bears, over P positions.
+    """Contact of a guide, over P positions.
 
-    normal, couple (P,): of the contact forces about j's point; lower, upper (P,): loads on the two faces, both positive
+    normal, couple (P,): resultants of the contact forces about j's point; lower, upper (P,): loads on the two faces,
+    both positive
     mode: `lower face`, `upper face`, or the diagonals `lower ahead, upper behind` and `lower behind, upper ahead`;
     empty where no force is known
-    angle (P,): of the reaction to the normal, atan of friction over normal force
+    angle (P,): between the reaction and the normal, atan of friction over normal force
     """
 
     normal: Array
@@ -181,7 +182,7 @@ def friction_circle_radius(result: Result, joint: str) -> float:
 
 
 def friction_circle_radii(result: Result, joint: str) -> Array:
-    """The same at each position (P,): with the coefficient at rest where nothing tells the sense."""
+    """Radii at each position (P,): with the coefficient at rest where the sense is not known."""
     if not friction_circle_radius(result, joint):
         return np.zeros(len(result.status))
     f, contacts = friction_of(result)
@@ -190,7 +191,7 @@ def friction_circle_radii(result: Result, joint: str) -> Array:
 
 
 def friction_coefficient(result: Result, joint: str, position: int) -> float:
-    """Coefficient of a joint at a position: that at rest where nothing tells the sense of its friction."""
+    """Coefficient of a joint at a position: that at rest where the sense of its friction is not known."""
     return contact_forces(result, joint, position)[0].coefficient
 
 
@@ -201,7 +202,7 @@ def friction_sense(result: Result, joint: str, kind: str, position: int) -> floa
 
 
 def at_rest(result: Result, joint: str, kind: str, position: int) -> bool:
-    """Whether nothing tells the sense of a joint's contact of a kind but its impending motion."""
+    """True if only the impending motion gives the sense of a joint's contact of a kind."""
     f, _ = friction_of(result)
     return bool(f.open[position, bearing_contact(result, joint, kind)])
 

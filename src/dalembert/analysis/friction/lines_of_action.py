@@ -38,9 +38,10 @@ ROUNDING = 1e-12
 
 @dataclass(frozen=True)
 class FaceForce:
-    """What a guide exerts on j at one place: ``part`` is empty for a whole face, else `ahead` or `behind`.
+    """Force of a guide on j at one place: ``part`` is empty for a face in full contact, else `ahead` or `behind`.
 
-    at (P, 2); along (P,): of the place from j's point along the slide, m; normal (P, 2) and friction (P, 2) on j
+    at (P, 2); along (P,): distance of the place from j's point along the slide, m; normal (P, 2) and friction (P, 2) on
+    j
     """
 
     part: str
@@ -51,7 +52,7 @@ class FaceForce:
 
 
 def acting_lines(r: Result, k: int) -> tuple[Action, ...]:
-    """Everything that acts on the links, each joint's reaction whole and on its own line.
+    """Everything that acts on the links, each joint's reaction unsplit and on its line of action.
 
     The reaction of a pin touches its friction circle; that of a slider acts on the face that bears, or, where two
     corners bear at position ``k``, as two forces there. Where a guide of no given length would bear far away, its force
@@ -70,7 +71,7 @@ def acting_lines(r: Result, k: int) -> tuple[Action, ...]:
 
 
 def _acting(r: Result, a: Action, k: int) -> list[Action]:
-    """One whole reaction on its line, or at its corners."""
+    """One unsplit reaction on its line, or at its corners."""
     if r.friction is None:
         return [a]
     if r.mechanism.joints[a.of].wheels:  # the teeth's friction is a couple
@@ -92,7 +93,7 @@ def _acting(r: Result, a: Action, k: int) -> list[Action]:
 
 
 def _damping(r: Result, a: Action, sign: float) -> list[Action]:
-    """What damping adds to a slider's reaction, at its point: no corner bears it."""
+    """Contribution of damping to a slider's reaction, at its point: no corner bears it."""
     if r.friction is None:
         return []
     k = r.joints.index(a.of)
@@ -102,7 +103,7 @@ def _damping(r: Result, a: Action, sign: float) -> list[Action]:
 
 
 def close_by(r: Result, face: FaceForce, k: int) -> bool:
-    """Whether a face bears no farther from j's point than the size of the mechanism."""
+    """True if a face bears no farther from j's point than the size of the mechanism."""
     return abs(float(face.along[k])) <= r.compiled.layout.length
 
 
@@ -115,7 +116,7 @@ def _shift(a: Action, at: Array) -> Action:
 
 
 def _plain(r: Result, joint: str) -> list[FaceForce]:
-    """A slider without friction of its own: its normal force where it makes the couple too."""
+    """A slider without friction: its normal force on the line where it also gives the couple."""
     e, normal = slide_direction(r, joint), r.reaction(joint)
     across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
     along = _ratio(r.reaction_moment(joint), (normal * across).sum(axis=-1))
@@ -123,14 +124,14 @@ def _plain(r: Result, joint: str) -> list[FaceForce]:
 
 
 def slot_face(r: Result, joint: str) -> FaceForce:
-    """What a slot with friction exerts on its pin: normal force and friction at the pin."""
+    """Force of a slot with friction on its pin: normal force and friction at the pin."""
     f, _ = friction_of(r)
     normal = r.reaction(joint) - r.friction_force(joint) - f.viscous_force[:, r.joints.index(joint)]
     return FaceForce("", joint_place(r, joint), np.zeros(len(normal)), normal, r.friction_force(joint))
 
 
 def bearing_faces(r: Result, joint: str, k: int) -> list[FaceForce]:
-    """What a guide with friction exerts on j, at the face or the two corners that bear at position ``k``.
+    """Forces of a guide with friction on j, at the face or the two corners that bear at position ``k``.
 
     On one face at M / N from j's point, as far as the faces are apart from it; at corners l2 ahead and l1 behind.
     """

@@ -33,9 +33,9 @@ Kind = Literal["joint", "friction", "effort", "load", "weight", "spring", "dampe
 class Action:
     """A force (P, d) at a point (P, d) and a couple (P,), in space (P, 3), on a link, all in ground axes.
 
-    ``source`` is the contribution it belongs to in a superposition, empty for joints' reactions; ``by`` the link
-    that exerts it, where it is one; ``of`` the joint, drive or load. ``part`` of a joint's reaction, empty where it is
-    whole: `normal` where dry friction along a slide is by itself, `ahead` or `behind` at a corner of a guide.
+    ``source`` is the contribution it belongs to in a superposition, empty for joints' reactions; ``by`` the link that
+    exerts it, where it is one; ``of`` the joint, drive or load. ``part`` of a joint's reaction, empty where it is
+    unsplit: `normal` where dry friction along a slide is separate, `ahead` or `behind` at a corner of a guide.
     """
 
     of: str
@@ -93,7 +93,7 @@ def actions(r: Result) -> tuple[Action, ...]:
 
 @kept
 def whole_actions(r: Result) -> tuple[Action, ...]:
-    """The same with dry friction inside the reactions, at the joints' own places."""
+    """The same with dry friction inside the reactions, at the joints' places."""
     return (*joint_actions(r, split=False), *other_actions(r))
 
 
@@ -104,7 +104,7 @@ def other_actions(r: Result) -> tuple[Action, ...]:
 
 
 def forces_on(r: Result, link: str) -> dict[str, tuple[Action, ...]]:
-    """What acts on a link by class: `joint`, `applied` (loads, weights, springs, efforts), `friction`, `inertia`.
+    """Forces on a link by class: `joint`, `applied` (loads, weights, springs, efforts), `friction`, `inertia`.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
@@ -161,7 +161,7 @@ def friction_actions(r: Result) -> tuple[Action, ...]:
 
 
 def joint_place(r: Result, joint: str) -> Array:
-    """Where a joint's reaction acts (P, d): j's point, or the contact of a higher pair."""
+    """Point where a joint's reaction acts (P, d): j's point, or the contact of a higher pair."""
     described: Any = r.mechanism.joints[joint]
     (i, j), (ui, uj) = described.links, r.mechanism.joint_points(joint)
     pj = link_place(r, j, uj)
@@ -178,7 +178,7 @@ def joint_place(r: Result, joint: str) -> Array:
 
 
 def _pitch_point(r: Result, joint: str) -> Array:
-    """Where the wheels of a mesh in space touch (P, 3)."""
+    """Contact point of the wheels of a mesh in space (P, 3)."""
     layout, k = r.compiled.layout, r.joints.index(joint)
     f = next(f for f in gearings(layout) if k in layout.constraints.joint[f.row])
     _, contact = separation(layout.algebra, f, whole_pose(r))
@@ -204,7 +204,7 @@ def link_speed(r: Result, link: str) -> Array:
 
 
 def effort_actions(r: Result) -> tuple[Action, ...]:
-    """Efforts of the drives on both links; given ones are sources of their own."""
+    """Efforts of the drives on both links; given ones are separate sources."""
     out = []
     for k, drive in enumerate(r.drives):
         joint = r.mechanism.drives[drive].joint or drive
@@ -247,7 +247,7 @@ def normal_direction(r: Result, joint: str) -> Array:
 
 
 def unknown_load_actions(r: Result) -> tuple[Action, ...]:
-    """Loads that were asked for, with the values found."""
+    """Unknown loads, with the computed values."""
     from dalembert.analysis.compile.load_arrays import point_of
 
     out = []

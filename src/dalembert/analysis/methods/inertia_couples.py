@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Turning(NamedTuple):
-    """How a link turns and what that takes, all in its own axes, in which its inertia J (3, 3) stays the same.
+    """Rotation of a link and its moments, all in link axes, in which its inertia J (3, 3) is constant.
 
     speed omega, acceleration alpha (P, 3); momentum J omega, rate J alpha, gyroscopic omega x J omega (P, 3).
     The inertia couple is -(rate + gyroscopic).
@@ -46,6 +46,6 @@ def turning(r: Result, link: str) -> Turning:
 
 
 def inertia_matrix(r: Result, link: str) -> Array:
-    """Inertia of a link about its mass centre (3, 3), kg m2, in its own axes."""
+    """Inertia of a link about its mass centre (3, 3), kg m2, in link axes."""
     given = r.compiled.forcing.inertia.inertia[..., r.links.index(link), :]
     return np.asarray(np.broadcast_to(given, (*given.shape[:-1], 9)).reshape(3, 3))

@@ -1,6 +1,6 @@
-"""What a good teacher sees before calculating: class of each link, order of solution, lines that meet, inertia's share.
+"""Inspection before calculation: class of each link, order of solution, concurrent lines, share of inertia.
 
-Classes follow from what acts on a link: zero-force, two-force, two-force with couple, three-force, four-force,
+Classes follow from the forces on a link: zero-force, two-force, two-force with couple, three-force, four-force,
 general. The order of solution starts at the smallest group of links whose equations suffice for its unknowns.
 Mechanics: docs/theory.md 7.
 """
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 KINDS = {2: "two-force", 3: "three-force", 4: "four-force"}
 ZERO = "zero-force"
-"""The class of a link on which nothing acts at any position."""
+"""Class of a link without forces at any position."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Member:
 
     @property
     def touching(self) -> str:
-        """Where friction puts the lines of the reactions; empty without friction circles."""
+        """Friction's effect on the lines of the reactions; empty without friction circles."""
         if not self.circles:
             return ""
         at = f"the friction circle{'s' if len(self.circles) > 1 else ''} at {', '.join(self.circles)}"
@@ -93,7 +93,7 @@ class Member:
 
 @dataclass(frozen=True)
 class Step:
-    """One step of the solution: links taken together, what it finds, and why it can."""
+    """One step of the solution: links solved together, the unknowns it gives, and the reason why it can."""
 
     links: tuple[str, ...]
     finds: tuple[str, ...]
@@ -118,7 +118,8 @@ class Displaced:
 
 @dataclass(frozen=True)
 class Share:
-    """Largest difference that inertia makes over the cycle to the whole largest value: may it be left out?"""
+    """Largest contribution of inertia over the cycle, compared with the largest total value: shows whether inertia may
+    be left out."""
 
     of: str
     quantity: str
@@ -173,7 +174,7 @@ def _member(r: Result, link: str, some: Sequence[Action], split: Sequence[Action
 
 
 def _nothing(r: Result, forces: Sequence[Action], floor: float) -> bool:
-    """Whether all forces on a link are zero at every position that has an answer, and are unique there."""
+    """True if all forces on a link are zero at every solved position, and unique."""
     answered = np.isfinite(r.power_balance)
     sizes = [magnitude(a.force)[answered] for a in forces]
     unique = [np.isfinite(r.reaction(a.of)[answered]).all() for a in forces if a.kind == "joint"]
@@ -220,7 +221,7 @@ def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tupl
 
 
 def _sought_on(r: Result) -> set[str]:
-    """Links on which an effort or a load is asked for."""
+    """Links on which an unknown effort or load acts."""
     drives = [d for d, asked in zip(r.drives, r.compiled.known.asked, strict=True) if asked]
     links = {n for d in drives for n in r.mechanism.joints[r.mechanism.drives[d].joint or d].links}
     loads: list[Any] = [r.mechanism.loads[n] for n in r.unknown_loads]
@@ -228,7 +229,7 @@ def _sought_on(r: Result) -> set[str]:
 
 
 class _Unknowns:
-    """Unknown numbers by name, the links each stands on, and what has been found."""
+    """Unknown numbers by name, the links that each acts on, and those already solved."""
 
     def __init__(self, r: Result, found: dict[str, Member]) -> None:
         self.each, self.passive = r.compiled.layout.algebra.n, set(r.compiled.passive)
@@ -316,7 +317,7 @@ def displaced_inertia(r: Result, link: str) -> Displaced:
 
 
 def concurrency(some: Sequence[Action], k: int) -> tuple[float, float] | None:
-    """Where the lines of action of forces meet at position k: least squares; None where they are parallel."""
+    """Point where the lines of action of forces meet at position k: least squares; None where they are parallel."""
     if not some:
         return None
     found = meeting_point(np.array([a.at[k] for a in some]), np.array([a.force[k] for a in some]))
@@ -333,10 +334,10 @@ def components_along(r: Result, a: Action, k: int) -> tuple[float, float]:
 
 
 def inertia_shares(r: Result) -> tuple[Share, ...]:
-    """How much of every effort and joint force is inertia's, over the cycle, the largest first.
+    """Share of inertia in every effort and joint force, over the cycle, the largest first.
 
-    Where forces add it is inertia's part of the superposition, else the difference to the answer without inertia. What
-    is only rounding beside the largest force or moment is left out: nothing has a share in it.
+    Where forces add it is inertia's part of the superposition, else the difference to the answer without inertia.
+    Values that are only rounding beside the largest force or moment are left out.
     """
     efforts, forces = _parts_of_inertia(r)
     rounding = {kind: PART * float(np.nanmax(size, initial=0.0)) for kind, size in sizes(r).items()}

@@ -1,6 +1,6 @@
 """Superposition: every reaction and effort split by what causes it (docs/theory.md 5.2).
 
-A x + w = 0 is linear in w, so the answer to a sum of wrenches is the sum of the answers, each found with the same
+A x + w = 0 is linear in w, so the answer to a sum of wrenches is the sum of the answers, each computed with the same
 factored A. Dry friction and the separating force of gear teeth depend on magnitudes, and are refused.
 """
 
@@ -28,7 +28,7 @@ def with_sum(parts: Array) -> Array:
 
 
 def directions(parts: Array) -> Array:
-    """Angles (S,) of forces of the plane (S, 2), rad; nan of one that is only rounding beside the largest.
+    """Angles (S,) of planar forces (S, 2), rad; nan of one that is only rounding beside the largest.
 
     >>> np.rad2deg(directions(np.array([[0.0, 2.0], [-3.0, -1e-17], [0.0, 0.0]]))).tolist()
     [90.0, 180.0, nan]
@@ -40,7 +40,8 @@ def directions(parts: Array) -> Array:
 
 @dataclass(frozen=True)
 class Superposition:
-    """Parts of the answer, one a source, that sum to the whole; the order of ``sources`` is the arrays' first axis."""
+    """Parts of the answer, one per source, that sum to the total; ``sources`` is the order of the arrays' first
+    axis."""
 
     result: Result = field(repr=False)
     sources: tuple[str, ...]
@@ -73,13 +74,13 @@ class Superposition:
         }
 
     def unknown_load(self, name: str) -> dict[str, Array]:
-        """Part of a load that was asked for (P,) by source."""
+        """Part of an unknown load (P,) by source."""
         k = self.result.unknown_loads.index(name)
         return dict(zip(self.sources, self.loads[..., k], strict=True))
 
     @property
     def gap(self) -> Array:
-        """Largest difference between the sum of the parts and the whole (P,), over the largest part."""
+        """Largest difference between the sum of the parts and the total (P,), over the largest part."""
         r = self.result
         size = len(r.status)
         out, largest = np.zeros(size), np.zeros(size)

@@ -1,9 +1,9 @@
 """Virtual work: efforts from powers alone, without any reaction; the independent check of the matrix.
 
 For every drive, with the others held and unit speed: sum of F . v + T omega over all loads, weights, springs and
-inertia wrenches, plus the unknowns' own power, is zero. Dry friction does work too, and its forces follow the
-reactions: they are taken from the solution, so that with friction virtual work checks it and does not replace it.
-Mechanics: docs/theory.md 5.2.
+inertia wrenches, plus the power of the unknowns, is zero. Dry friction does work too, and its forces follow the
+reactions: they come from the solution, so that with friction virtual work checks it and does not replace it. Mechanics:
+docs/theory.md 5.2.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class VirtualWork:
 
     @property
     def independent(self) -> bool:
-        """Whether no reaction is in it: without friction."""
+        """True if no reaction enters: without friction."""
         return self.result.friction is None
 
     @property

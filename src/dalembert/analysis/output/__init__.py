@@ -1,4 +1,4 @@
-"""A result written out: columns, CSV, workbook, netCDF, JSON, and as a person reads it.
+"""Output of a result: columns, CSV, workbook, netCDF, JSON, and printed text.
 
 In: a ``Result``. Out: text, files, tables. Imports ``analysis``.
 """

@@ -1,4 +1,4 @@
-"""What the numbers of a result rest on, each as a phrase."""
+"""Assumptions behind the numbers of a result, each as a phrase."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def assumptions(result: Result) -> dict[str, str]:
-    """Gravity, inertia, joint_friction, how reactions beyond statics were found, which whole turn torsion
+    """Gravity, inertia, joint_friction, the method for statically indeterminate reactions, the full turns that torsion
     springs count, brakes, motors and stops that a prescribed motion leaves out, inertias that no real body has.
 
     >>> import dalembert as da
@@ -59,7 +59,7 @@ def _left_to_forces(r: Result) -> dict[str, str]:
                 "its curve is not used: the effort is what the prescribed motion needs"
             )
         if name in m.start:
-            found[f"start of {name}"] = "not used: the drive is prescribed (simulate begins there)"
+            found[f"start of {name}"] = "not used: the drive is prescribed (simulate starts from it)"
         if drive.stops is not None and name in r.schedule.names:
             found |= _beyond(
                 f"stops of {name}", drive.stops, r.schedule.position[:, r.schedule.names.index(name)]
@@ -79,7 +79,7 @@ def _beyond(what: str, stops: Stops, positions: Array) -> dict[str, str]:
 
 
 PAST = 1e-9
-"""How far beyond a stop, m or rad, is rounding."""
+"""Distance beyond a stop, m or rad, that is rounding."""
 SMALLEST, LARGEST = 2e-3, 100.0
 """Radii of gyration, over the reach of their link and over the largest reach, beyond which a unit is likely wrong."""
 

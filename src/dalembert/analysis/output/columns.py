@@ -32,7 +32,7 @@ class Column(NamedTuple):
 
 
 class Reaction(NamedTuple):
-    """What a joint's i exerts on its j: force (P, d), moment (P,) or (P, 3), NaN if not unique; least norm (P, n)."""
+    """Force (P, d) and moment (P,) or (P, 3) of a joint's i on its j, NaN if not unique; least norm (P, n)."""
 
     joint: str
     on: str
@@ -43,7 +43,7 @@ class Reaction(NamedTuple):
 
 
 class Scale:
-    """SI numbers into the units that were asked for.
+    """Conversion of SI numbers to the requested units.
 
     >>> scale = Scale(None)
     >>> scale.text("moment"), scale("moment", 2.0)
@@ -54,7 +54,7 @@ class Scale:
         self._units = None if units is None else file_units(units)
 
     def bare(self, kind: str) -> bool:
-        """Whether these units have one for bare numbers of this kind."""
+        """True if these units have one for bare numbers of this kind."""
         return self._units is None or not self._units.refuses_bare(kind)
 
     def text(self, kind: str) -> str:

@@ -77,7 +77,7 @@ def rows(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Ite
 
 
 def write_csv(result: Result, stream: IO[str], units: UnitChoice = "SI", axes: Axes = "ground") -> None:
-    """One row a position into an open text file; an empty field where there is no value."""
+    """Writes one row per position to an open text file; the field is empty where a value is missing."""
     import csv
 
     csv.writer(stream, lineterminator="\n").writerows(rows(result, units, axes))
@@ -116,7 +116,7 @@ def to_xlsx(
 
 
 def _about(result: Result) -> dict[str, str]:
-    """What stands beside every table: title, source, assumptions, mobility."""
+    """Head of every table: title, source, assumptions, mobility."""
     m = result.mechanism
     about = {"title": m.title or "", "source": m.source_text or "", **result.assumptions}
     return about | {"mobility": result.mobility.sentence if result.mobility else ""}
@@ -184,7 +184,7 @@ DIMENSIONS = {
     "slide": "sliding_joint",
     "turn": "turning_joint",  # a dimension is not called as a variable over it
 }
-"""Things a quantity is asked of -> the dimension along which they are."""
+"""Things that a quantity belongs to -> their dimension."""
 
 
 def _dimension(word: str) -> str:

@@ -36,16 +36,16 @@ if TYPE_CHECKING:
 
 
 BLOCK = 1024
-"""Positions turned into Python objects at once: of a hundred thousand few stand in memory together."""
+"""Positions turned into Python objects at once, so that few are in memory together."""
 
 
 def to_dict(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
-    """The JSON answer of the model file's contract (section 6); None where there is no value."""
+    """The JSON answer of the model file's contract (section 6); null where a value is missing."""
     return {**head(result, units, axes), "positions": list(position_records(result, units, axes))}
 
 
 def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
-    """What stands before the positions: title, units, assumptions, mobility."""
+    """Head of the record, before the positions: title, units, assumptions, mobility."""
     to = scale(result, units)
     mobility = result.mobility
     return {
@@ -74,7 +74,7 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tre
 
 
 def _counts(result: Result, to: Scale) -> Tree:
-    """How the turns of torsion springs were counted, where there are any that whole turns make different."""
+    """Counts of the turns of torsion springs for which full turns matter."""
     c, turns = result.compiled, count_turns(result.compiled, whole_pose(result))
     found = {
         n.spring: {
@@ -111,7 +111,7 @@ Fields = dict[tuple[str, ...], Lists]
 
 
 def _fields(result: Result, to: Scale, axes: Axes) -> Fields:
-    """Everything that may stand in a record."""
+    """All possible fields of a record."""
     numbers, kinds = _numbers(to), unknown_kinds(result)
     out = _of(to, entries(result, ("time", "drive")))
     if result.after is not None:
@@ -199,7 +199,7 @@ def _ranges(single: Lists, ends: Lists, status: tuple[str, ...]) -> Lists:
 
 
 def _holding_ranges(ends: Lists, values: Array) -> Lists:
-    """`[low, high]`, where nothing bounds it null; None where it is not sought."""
+    """`[low, high]`, null where unbounded; None where it is not computed."""
     unsought = np.asarray(np.isnan(values).all(axis=-1))
     return lambda part: [None if no else both for both, no in zip(ends(part), unsought[part], strict=True)]
 
@@ -248,7 +248,7 @@ SIDES = ("after", "low", "high")
 
 
 def _solution(result: Result, position: int) -> Tree:
-    """How sure the branch is: det(A + J) / det(A), whether no other exists, and the scale at which it jams."""
+    """Certainty of the branch: det(A + J) / det(A), whether another exists, and the scale at which it jams."""
     f = result.friction
     assert f is not None
     determinant, critical = nan_to_none(np.array([f.determinant[position], f.critical[position]]))
@@ -262,7 +262,7 @@ def _solution(result: Result, position: int) -> Tree:
 
 
 def _other_solutions(result: Result, to: Scale) -> dict[int, list[Tree]]:
-    """What `--other-solutions` found at each position where it had to seek."""
+    """Other solutions from `--other-solutions` at each position where they were sought."""
     from dalembert.analysis.friction.other_solutions import every_other_solution
 
     kinds = unknown_kinds(result)

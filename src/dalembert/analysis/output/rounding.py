@@ -1,6 +1,6 @@
-"""Which numbers of an answer are nothing but rounding: those that are small beside all that acts or moves there.
+"""Decides which numbers of an answer are only rounding: those small beside all forces or rates at the position.
 
-A number alone does not say so: 1e-15 N is rounding in a press and a force between molecules. So the sizes are those of
+A number alone does not show it: 1e-15 N is rounding in a press and a force between molecules. So the sizes are those of
 one position of one answer: the mechanism's length, its fastest turning, its largest force.
 Mechanics: docs/theory.md 1.2.
 """
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 PART = 1e-12
-"""Of the size of its kind: what is smaller is rounding. Digits are good to 2e-16, and some are lost on the way."""
+"""Relative size below which a number is rounding. Digits are good to 2e-16, and some are lost in the computation."""
 
 
 def least(r: Result, k: int) -> dict[str, float]:
@@ -63,7 +63,8 @@ def sizes(r: Result) -> dict[str, Array]:
 
 
 def _rates(r: Result) -> tuple[Array, Array]:
-    """The fastest turning, and the largest second rate, a turning's own included; slides over the length."""
+    """The fastest turning, and the largest second rate, including centripetal terms of turning; slides over the
+    length."""
     d, length, many = r.compiled.layout.algebra.d, r.compiled.layout.length, len(r.status)
     angular = r.compiled.layout.freedoms.angular[r.compiled.layout.driven]
 

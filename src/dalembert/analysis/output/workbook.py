@@ -67,7 +67,7 @@ def write_workbook(
 
 @contextmanager
 def new_book(path: Path) -> Iterator[Workbook]:
-    """A workbook to put sheets in, saved at the end; interrupted, it lets go of its sheets without a word."""
+    """A workbook to put sheets in, saved at the end; if interrupted, it discards its sheets silently."""
     from openpyxl import Workbook
 
     book = Workbook(write_only=True)
@@ -109,7 +109,7 @@ def _text(sheet: Worksheet, text: str) -> object:
 
 
 def _extremes(result: Result, units: UnitChoice, axes: Axes) -> Iterator[list[object]]:
-    """Largest and smallest value of each effort, unknown load and reaction, with positions and drives there."""
+    """Largest and smallest value of each effort, unknown load and reaction, with their positions and drives."""
     to = Printed(None if units == "SI" else result.mechanism.units)
     kinds = {drive: drive_kinds(result, drive)["position"] for drive in result.drives}
     places = [f"{drive} [{to.text(kind)}]" for drive, kind in kinds.items()]

@@ -1,4 +1,4 @@
-"""How well the closure equations hold: what is left of the joints' and drives' conditions at each position.
+"""Residual of the closure equations: of the joints' and drives' conditions at each position.
 
 Mechanics: docs/theory.md 3.2.
 """

@@ -1,4 +1,4 @@
-"""Forces at some positions as arrays, and what friction does there."""
+"""Forces at some positions as arrays, and friction at them."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 
 
 class Friction(NamedTuple):
-    """What friction does at each position.
+    """Friction at each position.
 
     force (P, joints, 2), moment (P, joints): dry friction on j, moment about j's point; viscous beside it
     dry_loss, viscous_loss (P, joints): power
     cz, sense, rate (P, E), argument (P, 3, E) of each contact
     determinant, critical, single (P,): of the solution (core.friction.friction_solver)
-    open (P, E): contacts at rest, whose sense nothing tells; reversing (P, E): contacts that only reverse here, so that
+    open (P, E): contacts at rest, whose sense is not known; reversing (P, E): contacts that only reverse here, so that
     these are the numbers just before, and others hold just after; blocked (P,): their reactions are not unique
-    locked (P,): the unknowns' power has the other sign than without friction, with and without inertia
+    locked (P,): the unknowns' power has the opposite sign to that without friction, with and without inertia
     bare_effort (P, D), bare_load (P, U): without friction
     holding (P, unknowns, 2): low and high that friction can hold at rest for some history (core.friction.holding_range)
     """
@@ -49,7 +49,7 @@ class Friction(NamedTuple):
     holding: Array
 
     def known(self, position: int) -> bool:
-        """Whether every contact has its numbers at a position."""
+        """True if every contact has its numbers at a position."""
         return bool(np.isfinite(self.cz[position]).all())
 
 
@@ -75,7 +75,7 @@ class Forces(NamedTuple):
 def forces_of(
     found: Balance, force: Array, moment: Array, unique: Marks, friction: Friction | None = None
 ) -> Forces:
-    """Forces of an equilibrium that was found, with its reactions and what of it statics alone determines."""
+    """Forces of an equilibrium, with its reactions and which of them statics alone determines."""
     return Forces(
         force=force,
         moment=moment,

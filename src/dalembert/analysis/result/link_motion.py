@@ -22,12 +22,12 @@ ORIGIN = "origin"
 def place_of(names: tuple[str, ...], name: str, kind: str) -> int:
     """The number of a name, refused with those there are."""
     if name not in names:
-        raise ModelError(f"there is no {kind} {name!r}", f"there are: {', '.join(names) or 'none'}")
+        raise ModelError(f"unknown {kind} {name!r}", f"choose among {', '.join(names) or 'none'}")
     return names.index(name)
 
 
 class LinkMotion:
-    """What a result knows of its links; the arrays are those of ``Result``."""
+    """Motion of the links of a result; the arrays are those of ``Result``."""
 
     compiled: Compiled
     point_array: Array
@@ -52,9 +52,9 @@ class LinkMotion:
         return int(self.compiled.layout.algebra.d)
 
     def angle(self, link: str) -> Array:
-        """Angle of a link's x axis to ground's (P,), followed through whole turns; in space ask ``rotation``.
+        """Angle of a link's x axis to ground's (P,), followed through full turns; in space use ``rotation``.
 
-        Where a load depends on it, the whole turns are those that the load counts.
+        Where a load depends on it, the full turns are those that the load counts.
         """
         if self._d == 3:
             raise ModelError(f"link {link!r} has no single angle in space", "ask its rotation")

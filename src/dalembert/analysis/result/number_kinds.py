@@ -29,12 +29,12 @@ def load_kind(result: Result, load: str) -> str:
 
 
 def in_plane(result: Result) -> bool:
-    """Whether a result is one of the plane."""
+    """True if a result is planar."""
     return result.mechanism.dimension == 2
 
 
 def unknown_kinds(result: Result) -> dict[str, str]:
-    """Kind of every effort and load that was asked for."""
+    """Kind of every unknown effort and load."""
     asked = zip(result.drives, result.compiled.known.asked, strict=True)
     kinds = {d: drive_kinds(result, d)["effort"] for d, a in asked if a}
     return kinds | {load: load_kind(result, load) for load in result.unknown_loads}

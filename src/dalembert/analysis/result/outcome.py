@@ -1,4 +1,4 @@
-"""What came of each position: runs that are not solved, both sides of reversals, the largest of all."""
+"""Outcome of each position: runs that are not solved, both sides of reversals, the largest of all."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which position of a result is meant: by its number, or by the value of its first drive."""
+"""Finds a position of a result: by its number, or by the value of its first drive."""
 
 from __future__ import annotations
 
@@ -40,10 +40,12 @@ def _place(r: Result, at: PositionChoice) -> int:
     if isinstance(at, int) or (isinstance(at, str) and at.strip().isdigit()):
         n = int(at)
         if not 1 <= n <= len(r.status):
-            raise ModelError(f"there is no position {n}", f"number one from 1 to {len(r.status)}")
+            raise ModelError(f"position {n} does not exist", f"use a number from 1 to {len(r.status)}")
         return n - 1
     if not r.drives:
-        raise ModelError("there is no drive whose position could be named", "number the position")
+        raise ModelError(
+            "the mechanism has no drive to name a position by", "give the number of the position"
+        )
     kind = drive_kinds(r, r.drives[0])["position"]
     wanted = quantity(at, kind, file_units(r.mechanism.units))
     values = r.drive_position(r.drives[0])
@@ -52,12 +54,12 @@ def _place(r: Result, at: PositionChoice) -> int:
         shown = scale(r, "file")
         nearest = f"{float(shown(kind, values[k])):.6g} {shown.text(kind)}"
         what = f"no position has {r.drives[0]} = {at}; the nearest is {nearest}"
-        raise ModelError(what, "solve the mechanism there: give the drive that position, or more positions")
+        raise ModelError(what, "give the drive that position, or more positions")
     return k
 
 
 def _nearest(values: Array, wanted: float, turns: bool) -> tuple[int, bool]:
-    """Index of the nearest value, and whether it is within half a step; whole cycles away is the same place."""
+    """Index of the nearest value, and whether it is within half a step; full cycles away is the same place."""
     away, step = np.abs(values - wanted), float(np.nanmax(np.abs(np.diff(values)), initial=0.0))
     near = 1e-6 + 0.5 * step
     if turns and np.nanmin(away) > near:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 class Named(Protocol):
-    """What has quantities: a result, or a compiled analysis."""
+    """Object with quantities: a result, or a compiled analysis."""
 
     @property
     def mechanism(self) -> Mechanism: ...
@@ -53,7 +53,7 @@ KindOf = Callable[[Any, str], str]
 
 
 class Reading(NamedTuple):
-    """A quantity of one thing: its kind, or what tells the kind of a thing, and how its value is read."""
+    """A quantity of one thing: its kind, or the function that gives its kind, and how its value is read."""
 
     kind: str | KindOf
     read: Read
@@ -230,7 +230,7 @@ CATALOGUE: dict[str, Word] = {
     "power_balance": Word("", {"": Reading("number", _value("power_balance"))}, False),
     "time": Word("times", {"": Reading("time", _value("time"))}, False),
 }
-"""First word of a name -> of what it is asked, its kind and how it is read, by rate."""
+"""First word of a name -> the thing it belongs to, its kind and how it is read, by rate."""
 
 
 def bearing_areas(r: Named) -> dict[str, Any]:

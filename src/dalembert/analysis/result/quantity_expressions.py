@@ -20,10 +20,10 @@ from dalembert.model.quantities.expressions import GRAMMAR, parse_expression
 from dalembert.wording import closest, quote_value
 
 COMPONENTS = ("x", "y", "z", "magnitude", "direction")
-"""Of a vector, behind a dot."""
+"""Components of a vector, after a dot."""
 
 KEEP_KIND = ("+", "-", "max", "min", "abs")
-"""What gives a quantity of the kind of its arguments."""
+"""Functions that keep the kind of their arguments."""
 
 
 def parse_quantity(text: str, names: Sequence[str], what: str = "output") -> Tree:
@@ -46,19 +46,17 @@ def parse_quantity(text: str, names: Sequence[str], what: str = "output") -> Tre
     plain = re.sub(rf"(?<![\w.])(?:{one})(?:\.(?:{'|'.join(COMPONENTS)}))?(?![\w.])", mark, text)
     unknown = re.search(r"[^\W\d][\w-]*(?:\.[\w-]+)+", plain)
     if unknown:
-        raise ModelError(f"there is no {what} {unknown[0]!r}", closest(unknown[0], list(names)))
+        raise ModelError(f"unknown {what} {unknown[0]!r}", closest(unknown[0], list(names)))
     try:
         tree, rest = parse_expression(plain, ())
         if rest:
-            raise ModelError(
-                f"{quote_value(plain)} ends with {quote_value(rest)}, which has no place there", GRAMMAR
-            )
+            raise ModelError(f"{quote_value(plain)}: unexpected {quote_value(rest)} at the end", GRAMMAR)
     except ModelError as error:
         told = re.sub(prefix + r"(\d+)", lambda m: found[int(m[1])], error.what)
         raise ModelError(told, error.remedy) from None
     places = {f"{prefix}{k}": name for k, name in enumerate(found)}
     for name in names_in(tree) - places.keys():
-        raise ModelError(f"there is no {what} {name!r}", closest(name, list(names)))
+        raise ModelError(f"unknown {what} {name!r}", closest(name, list(names)))
     return _rename(tree, places)
 
 

@@ -1,4 +1,4 @@
-"""Reactions of a result in any axes: ground's, those of the link acted on, in space the joint's own.
+"""Reactions of a result in any axes: ground's, those of the link acted on, in space the joint's.
 
 A wrench is (force, moment about j's point of the joint): three numbers in the plane, six in space.
 """
@@ -29,7 +29,7 @@ PARTS = (slice(0, 3), slice(3, 6))
 """Force and moment of a wrench in space."""
 
 PLACES = ("i", "j", "joint")
-"""Axes other than ground's in which uniqueness is known: of both links of each joint, and its own."""
+"""Axes other than ground's in which uniqueness is known: of both links of each joint, and the joint's."""
 
 
 def in_axes(c: Compiled, pose: Pose, shift: Array) -> Iterator[Array]:
@@ -46,7 +46,7 @@ def in_axes(c: Compiled, pose: Pose, shift: Array) -> Iterator[Array]:
 
 
 class Marks(NamedTuple):
-    """What statics alone determines: components (P, joints, n) of reactions, other unknowns (P, X - K), and in space
+    """Uniqueness by statics alone: components (P, joints, n) of reactions, other unknowns (P, X - K), and in space
     components (P, joints, 3, 6) in the axes of ``PLACES``."""
 
     reactions: Array | None
@@ -55,7 +55,7 @@ class Marks(NamedTuple):
 
 
 def marks(c: Compiled, pose: Pose, rows: System, free: Array | None) -> Marks:
-    """Of the projector (P, X, X) on free multipliers; nothing where there is none."""
+    """Uniqueness from the projector (P, X, X) on free multipliers; all unique where it is empty."""
     if free is None:
         return Marks(None, None, None)
     shift, others = shifts(c.layout, pose, rows, free)
@@ -79,13 +79,13 @@ def _axes(c: Compiled, k: int, pose: Pose, place: str, ends: tuple[int, int], mo
 
 
 def axes_of(result: Result, joint: str, place: str, moment: bool = False) -> Array:
-    """Axes (P, 3, 3), a row each, in ground axes, of a joint in space: of its link "i" or "j", or its own "joint".
+    """Axes (P, 3, 3), a row each, in ground axes, of a joint in space: of its link "i" or "j", or of the "joint".
 
     Those of its ``moment`` are others in one pair only (``pairs.local_axes``).
     """
     c = result.compiled
     if not c.geometries:
-        raise ModelError("a joint of the plane has no axes of its own", "take ground's or the link's")
+        raise ModelError("a planar joint has no local axes", "use those of ground or of the link")
     index = {name: k for k, name in enumerate(c.links)} | {"ground": len(c.links)}
     i, j = (index[name] for name in c.mechanism.joints[joint].links)
     return _axes(c, c.joints.index(joint), whole_pose(result), place, (i, j), moment)
@@ -127,7 +127,7 @@ def to_axes(result: Result, joint: str, on: str | None, axes: Axes, whole: Array
 
 
 def unique_in(result: Result, joint: str, place: str) -> Flags:
-    """Which components (P, n) of a joint's wrench statics alone determines, in the axes of a place."""
+    """True for components (P, n) of a joint's wrench that statics alone determines, in the axes of a place."""
     k = result.joints.index(joint)
     if result.unique_array is None:
         return np.ones((*result.force_array.shape[:-2], result.compiled.layout.algebra.n), bool)

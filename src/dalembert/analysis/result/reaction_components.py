@@ -1,8 +1,8 @@
 """In space: the unknown components of joints' reactions, as the table of pairs names them, and how many there are.
 
 A joint that carries all three forces (or moments) has them along any axes; one that carries fewer has them along its
-own local axes, marked by a prime: x'. A screw's force along its axis brings its couple with it; the teeth of a gear
-press along one line. Mechanics: docs/theory.md 2.2.
+local axes, marked by a prime: x'. A screw's force along its axis brings its couple with it; the teeth of a gear press
+along one line. Mechanics: docs/theory.md 2.2.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 class Component(NamedTuple):
     """One unknown number of a reaction at a position.
 
-    turning: a moment; axis: its letter, with a prime along the joint's own axes, empty of a gear; force, couple (3,):
-    of one unit of it on the link acted on, at the joint's place, ground axes; value: N or N m.
+    turning: a moment; axis: its letter, with a prime along the joint's axes, empty of a gear; force, couple (3,): of
+    one unit of it on the link acted on, at the joint's place, ground axes; value: N or N m.
     """
 
     turning: bool
@@ -36,12 +36,12 @@ class Component(NamedTuple):
 
     @property
     def own(self) -> bool:
-        """Whether it has a direction of its own, and is not one of three along any axes."""
+        """True if it has a fixed direction, and is not one of three along any axes."""
         return self.axis not in AXES or not self.axis
 
 
 def unknown_count(r: Result, joint: str) -> int:
-    """How many constraints a joint has, and so how many unknown components its reaction."""
+    """Number of constraints of a joint, equal to the number of unknown components of its reaction."""
     return int((r.compiled.layout.constraints.joint == r.joints.index(joint)).sum())
 
 

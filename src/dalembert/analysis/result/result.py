@@ -1,4 +1,4 @@
-"""What an analysis answers: arrays with names, a status and a sentence a position."""
+"""Result of an analysis: arrays with names, a status and a sentence for each position."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Result(LinkMotion, NamedAnswer):
-    """Answer of one analysis over P positions (a leading axis design may stand before position).
+    """Answer of one analysis over P positions (an axis design may precede position).
 
-    Everything in SI and radians, vectors in ground axes. A reaction is what a joint's other link exerts on the link
-    asked for, at that link's point of the joint. NaN where there is no value; ``status`` and ``reasons`` say why.
-    Where contacts reverse the numbers are those just before, and ``after`` is the whole result with those just after.
+    Everything in SI and radians, vectors in ground axes. A reaction is exerted by a joint's other link on the requested
+    link, at that link's point of the joint. NaN where unsolved; ``status`` and ``reasons`` give the reason. Where
+    contacts reverse the numbers are those just before, and ``after`` is the complete result with those just after.
     """
 
     compiled: Compiled = field(compare=False)
@@ -71,7 +71,7 @@ class Result(LinkMotion, NamedAnswer):
         return {f.name: getattr(self, f.name) for f in fields(self)}  # without what is kept
 
     def __str__(self) -> str:
-        """What `dalembert solve` prints."""
+        """Text printed by `dalembert solve`."""
         from dalembert.analysis.output.summary.printed_answer import answer_text
 
         return answer_text(self)
@@ -101,7 +101,7 @@ class Result(LinkMotion, NamedAnswer):
         return np.array(self.status, object)
 
     def compared(self) -> Tree:
-        """What equal results share: the description, the motion that is asked for, and all numbers."""
+        """Data that equal results share: the description, the requested motion, and all numbers."""
         return super().compared() | {"mechanism": self.mechanism, "schedule": self.schedule}
 
     def plot(
@@ -150,19 +150,19 @@ class Result(LinkMotion, NamedAnswer):
 
     @property
     def unknown_loads(self) -> tuple[str, ...]:
-        """Names of the loads that were asked for."""
+        """Names of the unknown loads."""
         return self.compiled.unknown_loads
 
     @cached_property
     def assumptions(self) -> dict[str, str]:
-        """What the numbers rest on, each as a phrase."""
+        """Assumptions behind the numbers, each as a phrase."""
         from dalembert.analysis.output.assumptions import assumptions
 
         return assumptions(self)
 
     @property
     def ok(self) -> Flags:
-        """Which positions are solved, at a reversal for both sides of it."""
+        """True where a position is solved, at a reversal for both sides of it."""
         return np.array([s in SOLVED for s in self.status])
 
     @property
@@ -214,7 +214,7 @@ class Result(LinkMotion, NamedAnswer):
         return self._masked_unknown(self.effort_array[..., k], self._unknown_place(k))
 
     def unknown_load(self, name: str) -> Array:
-        """Value of a load that was asked for (P,), N along its direction, or N m."""
+        """Value of an unknown load (P,), N along its direction, or N m."""
         k = place_of(self.unknown_loads, name, "unknown load")
         asked = int(self.compiled.known.asked.sum())
         return self._masked_unknown(self.load_array[..., k], asked + k)
@@ -233,8 +233,8 @@ class Result(LinkMotion, NamedAnswer):
     def reaction(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
         """Force of a joint on one of its links (P, d), default on j; NaN in components that are not unique.
 
-        Asking ``on`` the other link changes the sign, nothing else. ``axes="link"`` gives components in the axes of
-        the link acted on, in space ``axes="joint"`` in the joint's own.
+        The other link as ``on`` only changes the sign. ``axes="link"`` gives components in the axes of the link acted
+        on, in space ``axes="joint"`` in the joint's axes.
         """
         return self._wrench(joint, on, axes)[..., : self._d]
 
@@ -245,7 +245,7 @@ class Result(LinkMotion, NamedAnswer):
         return self._wrench(joint, on, axes)[..., 3:]
 
     def unique(self, joint: str) -> Flags:
-        """Which components of a joint's force and moment, in ground axes, statics alone determines (P, n)."""
+        """True for components of a joint's force and moment, in ground axes, that statics alone determines (P, n)."""
         from dalembert.analysis.result.reaction_axes import unique_in
 
         self._joint(joint, None)
@@ -262,7 +262,7 @@ class Result(LinkMotion, NamedAnswer):
         return wrench(self, joint, on, axes, least)
 
     def joint_axes(self, joint: str, moment: bool = False) -> Array:
-        """In space: a joint's own axes x, y, z (P, 3, 3), a row each, in ground axes.
+        """In space: a joint's local axes x, y, z (P, 3, 3), a row each, in ground axes.
 
         Those of its ``moment`` are others in one joint only, the slotted sphere in a cylinder.
         """
@@ -304,7 +304,8 @@ class Result(LinkMotion, NamedAnswer):
         return joint_friction.power_lost(self, joint, kind)
 
     def interval(self, name: str) -> Array:
-        """Low and high end (P, 2) where motion impends, or one number twice; ``ends`` has the whole result there."""
+        """Low and high end (P, 2) where motion impends, or one number twice; ``ends`` has the complete result for each
+        end."""
         from dalembert.analysis.friction import joint_friction
 
         return joint_friction.interval(self, name)
@@ -332,13 +333,13 @@ class Result(LinkMotion, NamedAnswer):
         return freedom_motion(self, joint, kind)
 
     def shaking(self, about: str = "") -> Shaking:
-        """What the machine exerts on its foundation, about a fixed point: `da.shaking`."""
+        """Force and moment of the machine on its foundation, about a fixed point: `da.shaking`."""
         from dalembert.machine.shaking import shaking
 
         return shaking(self, about or None)
 
     def harmonics(self, of: str, orders: int | Sequence[float] = 4) -> Harmonics:
-        """Harmonics over whole turns of the first drive of a quantity: `effort.O2`, `reaction.A`, `shaking_force`."""
+        """Harmonics over full turns of the first drive of a quantity: `effort.O2`, `reaction.A`, `shaking_force`."""
         from dalembert.machine.harmonics import harmonics
         from dalembert.machine.whole_cycle import turning_angle
 

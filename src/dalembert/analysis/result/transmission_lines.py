@@ -28,7 +28,7 @@ class Line(NamedTuple):
 
 
 OfLines = Callable[[Array, Array, Sequence[Line]], Numeric]
-"""Of the two lines at a hinge, turned to where they stand (..., 2), and as they are on their links."""
+"""Function of the two lines at a pin, turned to their directions (..., 2), and as they are on their links."""
 
 
 def transmission_names(m: Mechanism) -> list[str]:
@@ -44,12 +44,14 @@ def transmission_names(m: Mechanism) -> list[str]:
 
 
 def transmission_lines(m: Mechanism, of: str) -> tuple[Line, Line]:
-    """Of the links i and j of a hinge."""
+    """Lines of the links i and j of a pin."""
     there = transmission_names(m)
     joint, *others = of.split(".")
     if of not in there:
-        hint = closest(of, there) if there else "it is that of a pin between two moving links of the plane"
-        raise ModelError(f"there is no transmission angle at {of!r}", hint)
+        hint = (
+            closest(of, there) if there else "it needs a pin between two moving links of a planar mechanism"
+        )
+        raise ModelError(f"{of!r} has no transmission angle", hint)
     part = m.joints[joint]
     chosen = others or [_others(m, link, joint)[0] for link in part.links]
     first, second = (
@@ -84,10 +86,10 @@ def transmission_angle(a: Array, b: Array, lines: Sequence[Line]) -> Numeric:
 
 
 def closure_margin(a: Array, b: Array, lines: Sequence[Line]) -> Numeric:
-    """How much farther apart, or nearer to each other, the far ends of two lines (..., 2) could stand before the lines
-    are stretched or folded and the linkage opens: min(a + b - d, d - |a - b|); across a slide, a - |offset|.
+    """Distance by which the far ends of two lines (..., 2) could move apart, or together, before the lines are
+    stretched or folded and the linkage opens: min(a + b - d, d - |a - b|); across a slide, a - |offset|.
 
-    Over a whole turn of a four-bar's crank its least value is the margin of Grashof's condition for that crank.
+    Over a full turn of a four-bar's crank its least value is the margin of Grashof's condition for that crank.
     """
     slides = [line.slides for line in lines]
     if all(slides):

@@ -1,4 +1,4 @@
-"""Where a linkage does not close: by how much its joints stay open, each as a length or as an angle, in a sentence."""
+"""Sentences on positions where a linkage does not close: the gaps of its joints, as lengths or angles."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ ASIDE = 0.05
 OPEN = "{verdict} {span}{gap}. Change {datum} or the assembly{drives}."
 """Sentence of positions that do not close; ``span`` says where, ``gap`` what stays open and how far, if known."""
 UNFOLLOWED = (
-    "The linkage closes {span}, but the motion could not be followed there: on the way lies a dead centre, or two "
-    "branches come too near to each other to be told apart. Solve these positions by themselves, with an assembly, or "
+    "The linkage closes {span}, but the motion could not be followed: it meets a dead centre, or two "
+    "branches are too close to be distinguished. Solve these positions separately, with an assembly, or "
     "change a length."
 )
 ONE = "the {what} of joint {joint} stay {figure} {how}"
 SEVERAL = "the {what} of its joints stay {total} {how} in all, {where}"
 ALL_ALIKE, MOST = "alike at {joints}", "most at {joint} ({figure})"
 WORDS = {"length": {"what": "points", "how": "apart"}, "angle": {"what": "axes", "how": "out of line"}}
-"""What of a joint stays open, and how, by the kind of its gap."""
+"""Words for a joint's gap, by its kind."""
 
 
 def open_sentence(c: Compiled, found: Path | None, where: Ints) -> str:
@@ -59,12 +59,14 @@ def open_sentence(c: Compiled, found: Path | None, where: Ints) -> str:
 def open_template(c: Compiled) -> str:
     """The sentence with what depends on the positions left open."""
     drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
-    verdict = "The linkage does not close" if _every_way_is_known(c) else "No pose of the linkage was found"
+    verdict = (
+        "The linkage does not close" if _every_way_is_known(c) else "No pose of the linkage could be computed"
+    )
     return OPEN.format(verdict=verdict, drives=drives, span="{span}", gap="{gap}", datum="{datum}")
 
 
 def _every_way_is_known(c: Compiled) -> bool:
-    """Whether closed forms say where the linkage closes; else poses are sought from starts, which may miss some."""
+    """True if closed forms decide where the linkage closes; else poses are sought from starts, which may miss some."""
     if not isinstance(c.guess, Guess):
         return False
     way = plan(without_phase(c.layout, c.targets[0], c.guess, hold=True)[0])
@@ -93,7 +95,7 @@ def _openings(c: Compiled, found: Path | None, position: int) -> tuple[Array, Ar
 
 
 def _aside(c: Compiled, pose: Pose) -> Pose:
-    """A pose with its links turned a little, each another way: links in one line would stay in it."""
+    """A pose with its links turned a little, each by a different angle: links in one line would stay in it."""
     g = c.layout.algebra
     dq = np.zeros((1, c.layout.links, g.n))
     dq[..., g.d :] = ASIDE * np.cos(np.arange(dq[..., g.d :].size)).reshape(dq[..., g.d :].shape)
@@ -117,7 +119,7 @@ def _most(c: Compiled, open_: Array, kind: str, size: float) -> str:
 
 
 AS_DESCRIBED = "as it is described"
-"""Where a mechanism without drives does not close."""
+"""Place in the sentence of a mechanism without drives that does not close."""
 
 
 def _span(c: Compiled, where: Ints) -> str:

@@ -41,18 +41,18 @@ def size_sentence(c: Compiled) -> str | None:
 
 
 def fast(twist: Array, acceleration: Array) -> Flags:
-    """Links (P, L) whose rates, their squares or their accelerations are no numbers."""
+    """True for links (P, L) whose rates, their squares or their accelerations are not finite."""
     return np.asarray(~(np.isfinite(twist * twist) & np.isfinite(acceleration)).all(axis=-1))
 
 
 def strong(f: Forces) -> Flags:
-    """Joints (P, joints) whose reactions are no numbers."""
+    """True for joints (P, joints) whose reactions are not finite."""
     moment = f.moment.reshape(*f.force.shape[:2], -1)
     return np.asarray(~(np.isfinite(f.force).all(axis=-1) & np.isfinite(moment).all(axis=-1)))
 
 
 def not_finite(f: Forces) -> Flags:
-    """Positions (P,) where a reaction, an effort, a load or what checks them is no number."""
+    """True at positions (P,) where a reaction, an effort, a load or a check is not finite."""
     single = (f.effort, f.load, f.residual[:, None], f.power_balance[:, None])
     return np.asarray(strong(f).any(axis=1) | ~np.isfinite(np.concatenate(single, axis=1)).all(axis=1))
 
@@ -66,7 +66,7 @@ RATES, FORCES = "rates or accelerations", "forces"
 
 
 def overflow_sentence(c: Compiled, what: str, names: tuple[str, ...], found: Flags, run: Ints) -> str:
-    """Of which links or joints numbers overflow; of none, what checks them."""
+    """Sentence on the links or joints whose numbers overflow; if none, on the checks that do."""
     of = ", ".join(
         name for name, bad in zip(names, np.atleast_1d(found[run].any(axis=0)), strict=True) if bad
     )

@@ -26,7 +26,7 @@ UNBALANCED = 1e-6
 """Residual above which a position has no equilibrium."""
 
 KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load")
-"""Statuses whose motion stands, and what numbers there are of the forces."""
+"""Statuses that keep the motion, and the available numbers of the forces."""
 
 
 def statuses(
@@ -83,10 +83,10 @@ def no_balance_sentence(c: Compiled, where: Ints) -> str:
     unknown = ", ".join(c.unknown_loads)
     if c.passive:
         links = " or ".join(c.passive)
-        holds = "which nothing holds" if c.contacts is None else "more than friction holds"
+        holds = "which no force prevents" if c.contacts is None else "more than friction holds"
         return (
             f"The loads have no equilibrium here: they turn {links} about the line of two ball joints, {holds}. "
-            "Put a universal joint in place of one of them, or bring the mass centre onto the line."
+            "Replace one of them by a universal joint, or move the mass centre onto the line."
         )
     if unknown:
         why = "it has no power here"

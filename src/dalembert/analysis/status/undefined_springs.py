@@ -1,4 +1,4 @@
-"""What springs need besides their numbers: a direction."""
+"""Checks that springs have a direction."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def find_undefined_springs(c: Compiled, pose: Pose) -> Flags:
 
 
 def undefined_sentence(c: Compiled, found: Flags, run: Ints) -> str:
-    """Which springs have no direction, and how hard they push."""
+    """Sentence on the springs that have no direction, with their force."""
     names = list(c.mechanism.loads_on("span"))
     pushed = np.flatnonzero(found[run].any(axis=0))
     springs = c.forcing.springs

@@ -57,7 +57,7 @@ class Outputs:
         return {name: getattr(self, name) for name in ("json", "csv", "xlsx", "drawing", "report")}
 
     def load(self, file: Path, changes: Changes) -> Mechanism:
-        """The description; what cannot be written is refused before the work, not behind it."""
+        """The description; targets that cannot be written are refused before the work."""
         from dalembert.cli.model_argument import load_model
         from dalembert.cli.solve_command import check_targets
 
@@ -89,7 +89,7 @@ class Outputs:
         return answer
 
     def _save(self, answer: Answer, units: Literal["SI", "file"]) -> None:
-        """Every file that is asked for."""
+        """Saves every requested file."""
         from dalembert.machine.output import written
         from dalembert.saving import new_file
 
@@ -121,14 +121,14 @@ NO_OUTPUTS = Outputs()
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Analysis(Outputs):
-    """The analysis that an answer is found from, and what it is written to."""
+    """Options of the analysis behind an answer, and its output files."""
 
     static: Static = False
     positions: Positions = None
     changes: Changes = AS_IN_FILE
 
     def of(self, file: Path) -> Result:
-        """The analysis of a file, over a whole turn where it has one position."""
+        """The analysis of a file, over a full turn where it has one position."""
         from dalembert.analysis import solve
         from dalembert.machine.whole_cycle import over_a_turn
 
@@ -136,7 +136,7 @@ class Analysis(Outputs):
         return solve(m, static=self.static, positions=over_a_turn(m, self.positions))
 
     def answer(self, result: Result, find: Callable[[Result], Answer]) -> int:
-        """Find, write and print what is found from an analysis."""
+        """Computes, writes and prints an answer from an analysis."""
         self.deliver(result.mechanism, lambda: find(result))
         return 0
 

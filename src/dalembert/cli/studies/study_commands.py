@@ -94,7 +94,7 @@ def extend(
 ) -> int:
     """Add designs to a study with random or sobol sampling; existing designs do not change."""
     if not designs.is_integer():
-        raise ModelError(f"--designs {designs} is not a whole number", "give one, such as 100000 or 1e6")
+        raise ModelError(f"--designs {designs} is not an integer", "give one, such as 100000 or 1e6")
     return _run(_read(store).extended(int(designs)), store, threads, scheduler)
 
 

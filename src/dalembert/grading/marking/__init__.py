@@ -1,4 +1,4 @@
-"""A class's answers marked: sheets and tables, a key, a rubric, marks with follow-through, a workbook and feedback.
+"""Grading of a class: sheets and tables, a key, a rubric, marks with follow-through, a workbook and feedback.
 
 In: files of answers and a key. Out: ``Marks``. Imports ``grading``, ``analysis``, ``core``, ``model``.
 """

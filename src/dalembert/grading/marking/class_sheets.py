@@ -18,7 +18,7 @@ MOST = 5000
 
 
 class Given(NamedTuple):
-    """A figure as a student gave it: keys of an answer, the line it stands on."""
+    """A figure as a student gave it: keys of an answer, and its line."""
 
     keys: dict[str, Any]
     line: int
@@ -26,7 +26,7 @@ class Given(NamedTuple):
 
 @dataclass
 class StudentSheet:
-    """What a student gave; ``problems`` are sentences on what could not be read."""
+    """Answers of a student; ``problems`` are sentences on unreadable parts."""
 
     student: str
     file: str
@@ -46,7 +46,7 @@ def class_sheets(path: str | Path) -> list[StudentSheet]:
         return list(_sheets(path, strict=True))
     files = sorted(p for p in path.iterdir() if p.suffix.lower() in ENDINGS and not p.name.startswith("."))
     if not files:
-        raise ModelError(f"there are no answers in {path}", f"they end in {', '.join(ENDINGS)}")
+        raise ModelError(f"{path} has no answer files", f"their names end in {', '.join(ENDINGS)}")
     found = [sheet for file in files for sheet in _sheets(file)]
     if len(found) > MOST:
         raise ModelError(f"there are {len(found)} sheets", f"divide them: at most {MOST}")

@@ -11,7 +11,7 @@ from dalembert.saving import check_new_folder, new_file, new_folder
 
 
 def write_feedback(students: Sequence[StudentMarks], folder: str | Path, overwrite: bool = False) -> None:
-    """A Markdown file for each student; a new folder appears whole or not at all."""
+    """A Markdown file for each student; a new folder appears complete or not at all."""
     folder = Path(folder)
     check_new_folder(folder, overwrite)
     texts = dict(zip(file_names([s.student for s in students]), map(feedback, students), strict=True))
@@ -45,7 +45,8 @@ def file_names(students: list[str]) -> list[str]:
 
 
 def feedback(s: StudentMarks) -> str:
-    """What a student reads: every figure with its marks and why, and what of the sheet was not counted."""
+    """Feedback for a student: every figure with its marks and reason, and the parts of the sheet that were not
+    counted."""
     lines = [f"# {_plain(s.student)}", ""]
     lines += [f"Variant {_plain(s.variant)}.", ""] if s.variant else []
     lines += [f"{s.total:.4g} of {s.most:.4g} marks.", ""]
@@ -58,7 +59,7 @@ def _sentence(m: Mark) -> str:
     counted = "not counted" if m.outcome == "open" else f"{m.marks:.4g} of {m.most:.4g}"
     head = f"{_plain(m.quantity[:1].upper() + m.quantity[1:])} ({counted}): "
     if m.outcome == "missing":
-        return head + "there is no answer."
+        return head + "no answer is given."
     given = f"you have {_plain(m.given)}; " if m.given else ""
     if m.outcome == "right":
         return head + given + ("right" + (f", but {m.sentence}" if m.sentence else "")) + "."

@@ -1,8 +1,9 @@
-"""Follow-through: a wrong figure that is right for the student's own earlier figures, by the equilibrium of some links.
+"""Follow-through: a wrong figure that is right for the student's earlier figures, by the equilibrium of some links.
 
-The unknowns x of A x + w = 0 are efforts, loads and joint forces. Of some links only their rows are taken, and in place
-of the others the student's own figures, K x = k. If these equations agree with each other and settle another figure of
-the sheet, that one follows. Own accelerations of links change w. Plane and space, without friction or separating teeth.
+The unknowns x of A x + w = 0 are efforts, loads and joint forces. Only the rows of some links are used, and the
+student's figures, K x = k, replace the others. If these equations are consistent and determine another figure of the
+sheet, that one follows. The student's accelerations of links change w. Plane and space, without friction or separating
+teeth.
 """
 
 from __future__ import annotations
@@ -31,11 +32,11 @@ SETTLED = 1e-6
 """Part of a figure that equations that settle it leave open."""
 
 MANY_LINKS = 6
-"""Links up to which any of them are taken together; of more links only two."""
+"""Number of links up to which all combinations are tried; of more links only pairs."""
 
 
 class _Part(NamedTuple):
-    """A figure as a function of the unknowns: its rows (k, X), and its own value (k,)."""
+    """A figure as a function of the unknowns: its rows (k, X), and the student's value (k,)."""
 
     rows: Array
     value: Array
@@ -62,7 +63,7 @@ class LinkEquations:
         self.drives = [d for d, asked in zip(result.drives, c.known.asked, strict=True) if asked]
 
     def part(self, f: Figure) -> _Part | None:
-        """A figure's rows; None where it is no linear function of the unknowns."""
+        """A figure's rows; None where it is not a linear function of the unknowns."""
         rows = self._rows(f)
         if rows is None or f.answer.component in ("magnitude", "direction"):
             return None
@@ -71,7 +72,7 @@ class LinkEquations:
         return _Part(rows, np.atleast_1d(f.given.value))
 
     def _rows(self, f: Figure) -> Array | None:
-        """The whole vector, or number, that a figure is of, of the unknowns."""
+        """Rows of the full vector, or number, to which a figure belongs."""
         r, answer = self.result, f.answer
         if answer.quantity == "effort" and answer.of in self.drives:
             return np.asarray(self.columns[self.drives.index(answer.of)][None])
@@ -85,7 +86,7 @@ class LinkEquations:
         return np.asarray(sign * self.forces[r.joints.index(str(answer.of))])
 
     def with_accelerations(self, figures: Sequence[Figure]) -> Array:
-        """w with the student's own accelerations of links in the plane."""
+        """w with the student's accelerations of links in the plane."""
         r, w = self.result, self.w.copy()
         if r.mechanism.dimension == 3 or not r.inertia:
             return np.asarray(w)
@@ -109,7 +110,8 @@ class LinkEquations:
             yield from combinations(range(count), size)
 
     def follows(self, f: Figure, own: Sequence[Figure], wrong: Sequence[bool]) -> tuple[str, ...] | None:
-        """The links by whose equilibrium a figure follows from own figures, some of them ``wrong``; None if by none."""
+        """Links whose equilibrium yields the figure from the student's earlier ones, some of them ``wrong``; None if
+        none does."""
         rows = self._rows(f)
         if rows is None:
             return None

@@ -1,4 +1,4 @@
-"""Marks of a class: every figure judged, the mistakes named, and what follows from a student's own figures counted."""
+"""Marks of a class: every figure judged, mistakes named, and carried-forward errors not penalised twice."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Marks:
-    """The marks of a class."""
+    """Marks of a class."""
 
     students: list[StudentMarks]
     rubric: Rubric
@@ -88,7 +88,8 @@ def grade(
 
 
 class _Taken(NamedTuple):
-    """What a student gave of an asked figure: compared, or a sentence why it cannot be; part: not all that is asked."""
+    """A student's answer to a required figure: compared, or a sentence why it cannot be; part: not the complete
+    figure."""
 
     asked: Asked
     given: Answer | None
@@ -125,7 +126,7 @@ class _Marker:
     def _taken(
         self, sheet: StudentSheet, variant: ExamVariant, problems: list[str]
     ) -> tuple[list[_Taken], list[str]]:
-        """What the sheet has of each asked figure, and what it has beside."""
+        """The sheet's answers to the required figures, and its other figures."""
         given: list[tuple[Answer | None, str]] = []
         for one in sheet.given:
             try:
@@ -157,7 +158,8 @@ class _Marker:
     def _one(
         self, variant: ExamVariant, asked: Asked, answer: Answer | None, part: bool, where: tuple[str, int]
     ) -> _Taken:
-        """An answer beside what is computed: what it leaves out is as asked, and no tolerance is the student's own."""
+        """An answer beside the computed value: keys that it leaves out are as required, and a student's tolerance is
+        ignored."""
         if answer is None or answer.value in (None, ""):
             return _Taken(asked, answer, None, "", part, where[1])
         keys = ("on", "by") if not (answer.on or answer.by) else ()
@@ -184,7 +186,7 @@ class _Marker:
         return out
 
     def _follows(self, variant: ExamVariant, figures: list[Figure]) -> dict[int, str]:
-        """Figures that follow from the student's own, position by position."""
+        """Figures that follow from the student's, position by position."""
         problem, out = variant.problem, dict[int, str]()
         if problem is None or problem.result.compiled.contacts or problem.result.schedule.unknown is not None:
             return out
@@ -207,14 +209,14 @@ class _Marker:
         words = describe_answer(t.asked.answer)
         if verdict is None:
             outcome = "unreadable" if t.sentence else "missing"
-            sentence = t.sentence or "there is no answer"
+            sentence = t.sentence or "no answer is given"
             given = "" if t.given is None else quote_value(t.given.value)
             return Mark(words, given, "", outcome, sentence, most * self.rubric.shares[outcome], most, t.line)
         outcome, sentence = verdict.kind, verdict.mistake
         if outcome == "open":
             return Mark(words, verdict.given, "", outcome, sentence, 0.0, 0.0, t.line)
         if way and not verdict.right:
-            outcome, sentence = "follow_through", f"{way} with your own figures"
+            outcome, sentence = "follow_through", f"{way} with your figures"
         elif sentence in paid:
             outcome = "repeated"
         elif outcome in ("named", "sign", "unit"):
@@ -227,8 +229,8 @@ class _Marker:
 
 
 def _fit(asked: Answer, keys: Mapping[str, object]) -> int | None:
-    """How a given figure is the one asked: 0 just that, 1 the whole of which it is a component, 2 only its size; None
-    if it is another."""
+    """Match of a given figure with the required one: 0 the same, 1 the complete vector of which it is a component, 2
+    only its size; None if it is another."""
     if keys.get("quantity") != asked.quantity or (keys.get("of") or None) != asked.of:
         return None
     for name in ("at", "extreme"):

@@ -1,4 +1,5 @@
-"""The key of an exam: what is asked of each variant, its right figure, and the model file that explains wrong ones."""
+"""The key of an exam: required figures of each variant, their right values, and the model file that explains wrong
+ones."""
 
 from __future__ import annotations
 
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Asked:
-    """A figure that is asked for: what it is of, with its right value if the key has one; its unit, marks and line."""
+    """A required figure: its subject, with its right value if the key has one; its unit, marks and line."""
 
     answer: Answer
     unit: str = ""
@@ -39,7 +40,7 @@ class Asked:
 
 @dataclass
 class ExamVariant:
-    """A variant: what is asked, and its problem, solved when it is needed; None without a model file."""
+    """A variant: its required figures, and its problem, solved when it is needed; None without a model file."""
 
     name: str
     asked: list[Asked] = field(default_factory=list)
@@ -87,7 +88,7 @@ class Key:
             return next(iter(self.variants.values()))
         known = [v.name for v in self.variants.values()]
         if name:
-            raise ModelError(f"there is no variant {name!r}", closest(name, known))
+            raise ModelError(f"unknown variant {name!r}", closest(name, known))
         raise ModelError("the sheet does not say its variant", f"write variant: {known[0]}")
 
 
@@ -116,7 +117,7 @@ def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, object]], st
             tree = json.loads(file_text(path))
         except (ValueError, RecursionError) as error:
             line = getattr(error, "lineno", 1)
-            raise ModelError("the key is no JSON", "write a list of figures", (), str(path), line) from None
+            raise ModelError("the key is not JSON", "write a list of figures", (), str(path), line) from None
         if isinstance(tree, list):
             return _of_rows([Row(0, _cells(row)) for row in tree], path.parent, str(path), static)
     return Key([_of_model(load(path), static)], str(path))
@@ -124,7 +125,7 @@ def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, object]], st
 
 def _cells(row: object) -> dict[str, str]:
     if not isinstance(row, Mapping):
-        what = f"{quote_value(row)} stands where a figure of the key is needed"
+        what = f"{quote_value(row)} is not a figure of the key"
         raise ModelError(what, "write its quantity")
     return {str(k): str(v) for k, v in row.items() if v not in (None, "")}
 
@@ -180,7 +181,7 @@ def _asked(row: Row, has_model: bool) -> Asked:
     item["at"] = place(cells.get("at"))
     marks = cells.get("marks")
     if marks is not None and not (_is_number(marks) and 0 <= float(marks) <= 1e6):
-        raise ModelError(f"{marks!r} are no marks", "write a number, 0 or more")
+        raise ModelError(f"{marks!r} is not a number of marks", "write a number, 0 or more")
     return Asked(answer_of(item), cells.get("unit", ""), None if marks is None else float(marks), row.line)
 
 

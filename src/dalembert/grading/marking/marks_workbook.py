@@ -14,7 +14,7 @@ from dalembert.saving import check_installed, new_file
 def write_workbook(
     students: Sequence[StudentMarks], rubric: Rubric, path: str | Path, overwrite: bool = False
 ) -> None:
-    """Sheets of marks, figures, mistakes, what could not be read, and the rubric."""
+    """Sheets of marks, figures, mistakes, unreadable parts, and the rubric."""
     check_installed("openpyxl", "a workbook")
     with new_file(path, overwrite) as temporary, new_book(temporary) as book:
         for name, rows in (

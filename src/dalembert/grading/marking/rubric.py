@@ -1,4 +1,4 @@
-"""The rubric: marks of each quantity, and the share of them that a figure keeps by what is wrong with it."""
+"""The rubric: marks of each quantity, and the share that a figure keeps for each kind of error."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ SHARES = {
     "unreadable": 0.0,
     "missing": 0.0,
 }
-"""Share of the marks that a figure keeps: right; right for the student's own earlier wrong figure; wrong by a mistake
-that an earlier figure of the sheet has paid for; nearly right; wrong by a sense, a unit, another mistake that is named;
-a part of what is asked (the size of a force alone); wrong without explanation; no number; not there."""
+"""Share of the marks that a figure keeps: right; right for the student's earlier wrong figure; wrong by a mistake
+already penalised in an earlier figure of the sheet; nearly right; wrong by a sense, a unit, another mistake that is
+named; a part of the required figure (the size of a force alone); wrong without explanation; not a number; missing."""
 
 
 @dataclass(frozen=True)
@@ -65,18 +65,18 @@ def load_rubric(path: str | Path) -> Rubric:
 
 
 def read_rubric(tree: object, source: Locator | None = None) -> Rubric:
-    """The rubric of a tree: marks, share, mistakes, tolerance; what is left out is as by default.
+    """The rubric of a tree: marks, share, mistakes, tolerance; missing keys have their defaults.
 
     >>> read_rubric({"marks": {"effort": 4}, "share": {"sign": 0.75}}).shares["unit"]
     0.5
     """
     try:
         if not isinstance(tree, Mapping):
-            raise ModelError("the rubric is no mapping", "write marks: {effort: 4, reaction: 2}")
+            raise ModelError("the rubric is not a mapping", "write marks: {effort: 4, reaction: 2}")
         for name in tree:
             if name not in ("marks", "share", "mistakes", "tolerance"):
                 said = closest(str(name), ["marks", "share", "mistakes", "tolerance"])
-                raise ModelError(f"there is no key {name!r}", said, (name,))
+                raise ModelError(f"unknown key {name!r}", said, (name,))
         if tree.get("tolerance") is not None:
             percent(tree["tolerance"])
         marks = _numbers(tree, "marks", [*KNOWN, "default"], 1e6)
@@ -89,12 +89,12 @@ def read_rubric(tree: object, source: Locator | None = None) -> Rubric:
 def _numbers(tree: Mapping[str, object], key: str, known: list[str] | None, most: float) -> dict[str, float]:
     found = tree.get(key) or {}
     if not isinstance(found, Mapping):
-        raise ModelError(f"{key} is no mapping", f"write {key}: {{NAME: NUMBER}}", (key,))
+        raise ModelError(f"{key} is not a mapping", f"write {key}: {{NAME: NUMBER}}", (key,))
     for name, value in found.items():
         if known is not None and name not in known:
-            raise ModelError(f"there is no {name!r} in {key}", closest(str(name), known, 40), (key, name))
+            raise ModelError(f"{key} has no entry {name!r}", closest(str(name), known, 40), (key, name))
         number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
         if not number or not 0 <= value <= most:
-            what = f"{quote_value(value)} is no number from 0 to {most:g}"
+            what = f"{quote_value(value)} is not a number from 0 to {most:g}"
             raise ModelError(what, "write one", (key, name))
     return {str(name): float(value) for name, value in found.items()}

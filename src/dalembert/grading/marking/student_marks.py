@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 
 class Mark(NamedTuple):
-    """One asked figure: as given, as computed, the outcome (a word of the rubric's shares; ``open``: not judged), the
-    sentence, the marks, and how many there are; line: where it stands."""
+    """One required figure: as given, as computed, the outcome (a word of the rubric's shares; ``open``: not judged),
+    the sentence, the marks, the largest marks, and its line."""
 
     quantity: str
     given: str
@@ -24,7 +24,7 @@ class Mark(NamedTuple):
 
 @dataclass
 class StudentMarks:
-    """A student's marks, and sentences on what of the sheet could not be read or was not asked."""
+    """A student's marks, and sentences on unreadable or superfluous parts of the sheet."""
 
     student: str
     variant: str
@@ -39,7 +39,7 @@ class StudentMarks:
 
     @property
     def most(self) -> float:
-        """The marks that there are; figures that are not judged have none."""
+        """Largest possible marks; figures that are not judged have none."""
         return sum(m.most for m in self.marks)
 
 

@@ -16,7 +16,7 @@ MOST_ROWS = 100_000
 
 
 class Row(NamedTuple):
-    """Cells by column, those that are empty left out, and the line they stand on."""
+    """Cells by column, without empty ones, and their line."""
 
     line: int
     cells: dict[str, str]
@@ -61,4 +61,4 @@ KEYS = ("quantity", "of", "on", "by", "at", "extreme", "component", "axes")
 """Columns that say what a figure is of."""
 
 COLUMNS = ("student", "variant", "file", *KEYS, "value", "unit", "tolerance", "marks")
-"""Columns that are found in whatever case."""
+"""Columns that are recognised in any case."""

@@ -51,7 +51,7 @@ class Problem:
 
     @property
     def dimension(self) -> int:
-        """Of the mechanism."""
+        """Dimension of the mechanism."""
         return int(self.columns["force"].shape[1])
 
     def sizes(self, least: str) -> dict[str, float]:
@@ -71,7 +71,8 @@ class Problem:
         return {n: w / whole for n, w in used.items()}
 
     def part(self, least: str, of: Mapping[str, float], parts: Mapping[str, float]) -> float:
-        """What is left of a weighted sum, as a part of what it was before; ``parts``: what is left of each quantity."""
+        """Remaining part of a weighted sum, relative to its value before; ``parts``: the remaining value of each
+        quantity."""
         some = [w * parts[n] for n, w in self.weighted(least, of).items()]
         return math.hypot(*some) if least == "rms" else sum(some)
 
@@ -139,11 +140,13 @@ class Problem:
         kept = {n: v for n, v in kept.items() if np.abs(columns @ v).max() * scale.get(n, radius) > least}
         where = f"counterweight on {link}: its "
         if spread and axis is None:
-            remedy = "say where it is: place: (x, y, z)"
-            raise ModelError(f"{where}inertia matters here, and its link turns about no one axis", remedy)
+            remedy = "give its place: place: (x, y, z)"
+            raise ModelError(
+                f"{where}inertia matters here, but its link does not turn about a fixed axis", remedy
+            )
         if {"mass", "inertia"} & kept.keys() and (w.mass is None or w.disc is not None):
-            remedy = "give radius and mass" + (" in place of the disc" if w.disc else "")
-            raise ModelError(f"{where}mass and inertia matter here, and its mass has no bound", remedy)
+            remedy = "give radius and mass" + (" instead of the disc" if w.disc else "")
+            raise ModelError(f"{where}mass and inertia matter here, but its mass has no bound", remedy)
         return kept
 
     def _least_squares(
@@ -195,9 +198,7 @@ def _programme(
     found = minimise(cost, G, h)
     left = found.gap + found.infeasible
     if not left < 1e-6:
-        raise AnalysisError(
-            f"no best counterweights are found: the proof leaves a gap of {left:.1e}; give narrower bounds"
-        )
+        raise AnalysisError(f"optimum not proved: duality gap {left:.1e}; give narrower bounds")
     return found.x[:n], found.dual
 
 

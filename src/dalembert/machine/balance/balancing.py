@@ -39,12 +39,12 @@ Least = Literal["rms", "max"]
 QUANTITIES = ("force", "moment", "torque")
 Of = str | Mapping[str, float]
 COMPLETE = 1e-9
-"""Part of the force before below which nothing is left."""
+"""Relative force below which the balance is complete."""
 
 
 @dataclass(frozen=True)
 class Placed:
-    """A counterweight found: mass (kg), centre (d,) and inertia about it (kg m2, in space (3, 3)), in link axes; m r
+    """An optimal counterweight: mass (kg), centre (d,) and inertia about it (kg m2, in space (3, 3)), in link axes; m r
     (kg m) and in the plane its angle (rad) from the base point; radius of its disc, if it is one."""
 
     mass: float
@@ -57,12 +57,12 @@ class Placed:
 
 @dataclass(frozen=True, eq=False)
 class Balance(Comparison):
-    """Counterweights by link, what is left, and the proof that no others leave less.
+    """Counterweights by link, the remaining shaking, and the proof that no others leave less.
 
     ``before``, ``after``: shaking without and with them. ``numbers`` (W, N): of each m, m x, m y and I about its base
-    point, in space (m, m x, m y, m z, int xx dm, yy, zz, xy, xz, yz). ``bound``: no
-    counterweights within the bounds leave less than this part of what ``of`` was before; ``value``: what these leave;
-    their difference is the ``gap``. ``residual``: how far the mechanism with them, analysed anew, is off.
+    point, in space (m, m x, m y, m z, int xx dm, yy, zz, xy, xz, yz). ``bound``: no counterweights within the bounds
+    leave less than this part of the value of ``of`` before; ``value``: the part that these leave; their difference is
+    the ``gap``. ``residual``: difference of a re-analysis with them.
     """
 
     NAME = "balance"
@@ -82,12 +82,12 @@ class Balance(Comparison):
 
     @property
     def gap(self) -> float:
-        """How much better others could be at most, as a part of what was there before."""
+        """Largest possible improvement by other counterweights, relative to the value before."""
         return max(self.value - self.bound, 0.0)
 
     @property
     def complete(self) -> bool:
-        """Whether nothing of the inertia force is left: full force balance."""
+        """True if the inertia force is zero: full force balance."""
         before, after = (greatest(s.parts["inertia"][0])[0] for s in (self.before, self.after))
         return after <= max(COMPLETE * before, self.before.floor("force"))
 
@@ -109,11 +109,11 @@ class Balance(Comparison):
 
     @property
     def only_bounds(self) -> bool:
-        """Whether nothing but their bounds keeps these counterweights from balancing the force completely."""
+        """True if only their bounds prevent these counterweights from balancing the force completely."""
         return _force_left(self.result, [*self.weights]) < COMPLETE
 
     def missing(self) -> list[str]:
-        """Links of which a counterweight too is needed for full force balance; empty where it is there or cannot be."""
+        """Links that also need a counterweight for full force balance; empty where it exists or is impossible."""
         if self.complete or self.only_bounds or _force_left(self.result, [*self.result.links]) >= COMPLETE:
             return []
         joints = self.result.mechanism.joints.values()
@@ -203,7 +203,7 @@ def _wanted(of: Of, r: Result) -> dict[str, float]:
         if name == "torque" and not r.drives:
             raise ModelError("no drive has a torque that could be balanced", "balance force or moment")
     if not any(wanted.values()):
-        raise ModelError("nothing is asked to be least", 'write of="force"')
+        raise ModelError("no objective to minimise is given", 'write of="force"')
     return wanted
 
 

@@ -1,4 +1,4 @@
-"""What shakes before and after masses are added: the part that all answers of balancing share."""
+"""Shaking before and after masses are added: the common part of all balancing answers."""
 
 from __future__ import annotations
 

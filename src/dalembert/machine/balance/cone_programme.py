@@ -20,7 +20,7 @@ from dalembert.arrays import Array
 
 ROUNDS, ENOUGH = 100, 1e-13
 SHORT = 0.995
-"""Part of the way to the edge of the cones that is gone."""
+"""Part of the distance to the boundary of the cones that a step takes."""
 
 
 class Optimum(NamedTuple):
@@ -33,7 +33,7 @@ class Optimum(NamedTuple):
 
     @property
     def gap(self) -> float:
-        """How far the value may at most be above the optimum, relative to 1 or to the value."""
+        """Upper bound of the value's distance above the optimum, relative to 1 or to the value."""
         return abs(self.primal - self.dual) / max(1.0, abs(self.primal))
 
 

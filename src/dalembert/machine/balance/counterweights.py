@@ -31,12 +31,12 @@ NONE = (0.0, 0.0)
 
 @dataclass(frozen=True)
 class Counterweight:
-    """What a counterweight on a link may be; SI, link axes about the point ``at`` (the link's joint with the ground).
+    """Bounds of a counterweight on a link; SI, link axes about the point ``at`` (the link's joint with the ground).
 
-    ``radius``: all its mass lies within, m (default: as far as the link's points go); ``mass``: the most, kg;
-    ``moment``: the most of m r, kg m; ``place``: where it is as a point, then only its mass is sought; ``x``, ``y``,
-    ``z``: ranges of m x, m y and m z, kg m, (0, 0) for none; ``disc``: (density, thickness, largest radius) of a disc
-    whose rim passes through ``at``, in space across the axis that the link turns about.
+    ``radius``: all its mass is within, m (default: the distance of the link's farthest point); ``mass``: the largest,
+    kg; ``moment``: the largest m r, kg m; ``place``: its position as a point mass, then only its mass is optimised;
+    ``x``, ``y``, ``z``: ranges of m x, m y and m z, kg m, (0, 0) for none; ``disc``: (density, thickness, largest
+    radius) of a disc whose rim passes through ``at``, in space across the axis that the link turns about.
     """
 
     at: str | None = None
@@ -111,7 +111,7 @@ def _known(link: str, bounds: Mapping[str, Any]) -> dict[str, Any]:
     keys = [f.name for f in fields(Counterweight)]
     for key in bounds:
         if key not in keys:
-            raise ModelError(f"counterweight on {link}: there is no bound {key!r}", closest(key, keys))
+            raise ModelError(f"counterweight on {link}: unknown bound {key!r}", closest(key, keys))
     return dict(bounds)
 
 
@@ -128,7 +128,9 @@ def _check(link: str, w: Counterweight, d: int) -> None:
         for end in ends or ():
             require("place", end, f"counterweight on {link}: {name}")
     if (w.place is not None and len(w.place) != d) or (d == 2 and w.z is not None):
-        raise ModelError(f"counterweight on {link}: a place has {d} coordinates", "give so many, in metres")
+        raise ModelError(
+            f"counterweight on {link}: a place has {d} coordinates", f"give {d} numbers, in metres"
+        )
     for name, span in zip("xyz", w.spans, strict=True):
         if span is not None and not ((len(span) == 2 and span[0] < span[1]) or tuple(span) == NONE):
             raise ModelError(

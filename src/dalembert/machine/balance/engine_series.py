@@ -81,9 +81,9 @@ def cylinders(m: Mechanism) -> tuple[Cylinder, ...]:
 
 
 def engine_series(r: Result) -> EngineSeries:
-    """The book's two harmonics of every cylinder, with what turns taken exactly, beside the exact inertia force.
+    """The two textbook harmonics of every cylinder, with the rotating parts exact, beside the exact inertia force.
 
-    Raises ModelError where there is no cylinder, or one whose line passes the crank's axis by.
+    Raises ModelError where the mechanism has no cylinder, or one whose line misses the crank's axis.
 
     >>> import dalembert as da
     >>> m = da.radial_engine(cylinders=3, crank=0.06, rod=0.24, piston_mass=1.0, rod_mass=0.0, speed=80 * np.pi)
@@ -95,7 +95,8 @@ def engine_series(r: Result) -> EngineSeries:
     found = cylinders(r.mechanism)
     if not found:
         raise ModelError(
-            "there is no cylinder: a piston on the ground, a rod, a crank", "ask for the shaking force"
+            "the mechanism has no cylinder: a piston on the ground, a rod and a crank",
+            "compute the shaking force: da.shaking",
         )
     m, counted = r.mechanism, {link for c in found for link in (c.piston, c.rod)}
     parts = [part for c in found for part in _parts(r, c)]

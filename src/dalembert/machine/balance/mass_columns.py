@@ -1,4 +1,4 @@
-"""What a unit of each mass number of a counterweight adds to the shaking force, the moment and the effort.
+"""Shaking force, moment and effort per unit of each mass number of a counterweight.
 
 With A the base point, D = A - P and U = [alpha]x + [w]x [w]x, the inertia force of a mass element at s from A is
 -(a_A + U s) dm. The numbers m, h = int s dm and S = int s s' dm of all of it, in the plane only the trace of S, give
@@ -38,7 +38,7 @@ class MassNumbers(NamedTuple):
     second: Array
 
     def vector(self, d: int) -> Array:
-        """The numbers (4,) of the plane: m, x, y and the trace; in space (10,): S as xx, yy, zz, xy, xz, yz."""
+        """The planar numbers (4,): m, x, y and the trace; in space (10,): S as xx, yy, zz, xy, xz, yz."""
         rows, columns = (0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)
         second = [np.trace(self.second)] if d == 2 else self.second[rows, columns]
         return np.array([self.mass, *self.moment[:d], *second])
@@ -55,7 +55,7 @@ def units(d: int) -> MassNumbers:
 
 
 def numbers_of(vector: Array) -> MassNumbers:
-    """Of a vector (4,) or (10,)."""
+    """Mass numbers of a vector (4,) or (10,)."""
     m, h, s = units(2 if len(vector) == 4 else 3)
     return MassNumbers(vector @ m, vector @ h, np.tensordot(vector, s, 1))
 
@@ -88,7 +88,7 @@ def _axis(turning: Array) -> Array | None:
 def _columns(
     r: Result, own: LinkAxes, base: Array, about: Array, drive: str | None
 ) -> tuple[dict[str, Array], Array]:
-    """Of one counterweight, and the link's turning (P, 3) in own axes at unit speed of the drive."""
+    """Columns of one counterweight, and the link's turning (P, 3) in link axes at unit speed of the drive."""
     d, link = r.mechanism.dimension, own.link
     m, h, s = units(d)
     a, rate = own.own(r._acceleration(link, base)), own.rate

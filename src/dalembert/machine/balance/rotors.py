@@ -39,10 +39,11 @@ NOTHING = 1e-15
 
 @dataclass(frozen=True, eq=False)
 class RotorBalance(Comparison):
-    """Corrections in two planes: m r (2,), kg m, and angles (2,), rad, from an axis of the shaft across its own.
+    """Corrections in two planes: m r (2,), kg m, and angles (2,), rad, from an axis of the shaft perpendicular to its
+    axis of rotation.
 
-    ``unbalance``: S and T as complex numbers, kg m and kg m2; ``left``: the same with the corrections. ``centers``
-    (2, 3), m, and ``masses`` (2,), kg: of the corrections at their radii, in the shaft link's axes. ``before``,
+    ``unbalance``: S and T as complex numbers, kg m and kg m2; ``left``: the same with the corrections. ``centers`` (2,
+    3), m, and ``masses`` (2,), kg: those of the corrections at their radii, in the shaft link's axes. ``before``,
     ``after``: shaking without and with them, moments about the driven joint.
     """
 
@@ -63,8 +64,8 @@ class RotorBalance(Comparison):
 
     @property
     def residual(self) -> float:
-        """What the corrections leave, S and T over the greatest distance of a plane, over all moments that they have;
-        0 of a rotor that was balanced already."""
+        """Remaining S and T, over the greatest distance of a plane, relative to all their moments; 0 for a rotor that
+        was already balanced."""
         reach = max(abs(z) for z in (*self.planes, self.planes[1] - self.planes[0]))
         left = max(abs(self.left[0]), abs(self.left[1]) / reach)
         return float(left / self.moment.sum()) if self.moment.any() else 0.0

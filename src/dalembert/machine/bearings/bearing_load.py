@@ -1,4 +1,4 @@
-"""What the bearing of a joint carries over the cycle, and the life that follows.
+"""Load on the bearing of a joint over the cycle, and its life.
 
 p = F / (d l), PV = p (d / 2) |w|, P = (int F^e |dphi| / int |dphi|)^(1/e) with phi the turn of j against
 i, e = 3 for balls and 10/3 for rollers, L10 = (C / P)^e million turns (ISO 281).
@@ -29,15 +29,15 @@ if TYPE_CHECKING:
 
 MILLION = 1e6
 STILL = 1e-12
-"""Part of the links' own speeds below which the turn of one against the other is rounding."""
+"""Part of the links' speeds below which the turn of one relative to the other is rounding."""
 
 
 @dataclass(frozen=True)
 class BearingLoad:
     """Forces (P,) of a joint across its axis and along it, N, and its turning (P,), rad/s, of j against i.
 
-    ``couple`` (P,), N m: across the axis, which no load here counts: two bearings take it. ``time`` (P,), s: what each
-    position stands for. ``bearing``: as the file has it, or by its kind alone.
+    ``couple`` (P,), N m: across the axis, not counted in these loads: it needs two bearings. ``time`` (P,), s: duration
+    represented by each position. ``bearing``: from the file, or by its kind alone.
     """
 
     result: Result = field(repr=False)
@@ -58,7 +58,7 @@ class BearingLoad:
 
     @property
     def sized(self) -> bool:
-        """Whether it has a pressure."""
+        """True if it has a pressure."""
         return self.bearing is not None and self.bearing.area is not None
 
     @property
@@ -106,7 +106,7 @@ class BearingLoad:
 
     @property
     def exponent(self) -> float:
-        """Of load in life: that of balls where no bearing is described."""
+        """Load exponent of the life equation: that of balls where no bearing is described."""
         return self.bearing.exponent if self.bearing else 3.0
 
     @property
@@ -126,7 +126,7 @@ class BearingLoad:
 
     @property
     def swings(self) -> bool:
-        """Whether it turns to and fro: its turns are then the angle swept over 2 pi."""
+        """True if it oscillates: its revolutions are then the angle swept over 2 pi."""
         return bool((self.rate > 0).any() and (self.rate < 0).any())
 
     @property
@@ -191,7 +191,7 @@ def bearing(r: Result, joint: str) -> BearingLoad:
     (True, 3.0)
     """
     if joint not in r.joints:
-        raise ModelError(f"there is no joint {joint!r}", closest(joint, list(r.joints)))
+        raise ModelError(f"unknown joint {joint!r}", closest(joint, list(r.joints)))
     if joint not in turning_joints(r):
         raise ModelError(f"joint {joint!r} does not turn about one axis", "ask for a pin or a revolute")
     force = r.reaction(joint)

@@ -55,7 +55,7 @@ class FlywheelSize:
     def rim(
         self, density: float, radius: float, breadth: float | None = None, height: float | None = None
     ) -> float:
-        """Side of a rim's section, m: its height from its breadth (along the axis), or the other way.
+        """Side of a rim's section, m: its height from its breadth (along the axis), or the reverse.
 
         I = rho 2 pi R b h (R^2 + h^2 / 4) about the axis, with R the rim's mean radius, exact for the rectangle.
         """
@@ -108,7 +108,7 @@ def flywheel_size(
         require(name, value, name.split()[-1])
     if (Cs is None) == (inertia is None):
         raise ModelError(
-            "a flywheel is sized by Cs or told by its inertia", "give one of them: Cs=0.02 or inertia=3.5"
+            "a flywheel needs either Cs or its inertia", "give one of them: Cs=0.02 or inertia=3.5"
         )
     pulses = tuple(float(pulse) for pulse in pulses)
     sums = [0.0, *accumulate(pulses)]

@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Flywheel(Answer):
-    """Energy curve of a drive at steady speed, the flywheel by the book's rule, and the exact speed with it.
+    """Energy curve of a drive at steady speed, the flywheel by the textbook rule, and the exact speed with it.
 
     ``torque`` (P,) effort of the drive, ``energy`` (P,) E(q) = int (T - T_m) dq from the first position, both at the
-    positions of the result; ``zeros`` where T crosses T_m, ``energies`` E there; ``own`` the mean of the machine's own
-    reduced inertia J over angle. ``exact``: the speed with the book's flywheel; ``exact_size``: the flywheel with which
-    the exact C_s is the one asked for (None where the inertia was given, or where it cannot be had). Where E is
-    greatest the machine has asked most, and is slowest.
+    positions of the result; ``zeros`` where T crosses T_m, ``energies`` E at them; ``own`` the mean of the machine's
+    reduced inertia J over angle. ``exact``: the speed with the textbook flywheel; ``exact_size``: the flywheel that
+    gives exactly the required C_s (None where the inertia was given, or where it is impossible). Where E is greatest
+    the machine has taken most energy, and is slowest.
     """
 
     NAME = "flywheel"
@@ -122,12 +122,12 @@ def flywheel(
     Cs: float | None = None,
     inertia: float | None = None,
 ) -> Flywheel:
-    """The flywheel of a machine that turns steadily over whole turns, by the C_s it shall have or by its inertia.
+    """The flywheel of a machine that turns steadily over full turns, from the required C_s or from its inertia.
 
     E(q) = int (T - T_m) dq of the drive's effort T, dE its greatest less its least value, at the zeros of T - T_m on
-    the continuous curve; I = dE / (C_s w^2). That I leaves the links' own inertia out: the exact
-    speed (`exact`) counts it, and `exact_size` is the flywheel by it. Raises ModelError where the positions are no even
-    whole turns, the speed is not one, or there are several drives; AnalysisError where a position has no answer.
+    the continuous curve; I = dE / (C_s w^2). This I omits the links' inertia: the exact speed (`exact`) includes it,
+    and `exact_size` is the flywheel with it. Raises ModelError where the positions are not even over full turns, the
+    speed varies, or the mechanism has several drives; AnalysisError where a position is not solved.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples

@@ -73,11 +73,12 @@ class Panels:
         )
 
     def turning_points(self, values: Array, floor: float = 0.0) -> tuple[Array, Array]:
-        """Where the integral of a curve of mean 0 turns, greatest and least by turns, and the integral from the
-        period's begin up to there; an integral that comes and goes by less than the ``floor`` does not turn.
+        """Turning points of the integral of a curve of mean 0, alternately greatest and least, and the integral from
+        the start of the period to them; an integral that changes by less than the ``floor`` and returns has no turning
+        point.
 
-        It turns at zeros within the panels and at their edges, where the curve may jump: all are tried, so that no
-        zero is lost or counted twice for being at an edge but for rounding.
+        It turns at zeros within the panels and at their edges, where the curve may jump: all are tried, so that
+        rounding at an edge neither loses a zero nor counts it twice.
         """
         c, starts = self.coefficients(values), self.antiderivative(values)[1]
         at, area = [*self.low], [*starts[:-1]]

@@ -1,8 +1,8 @@
 """The exact speed of a machine with a flywheel over its cycle, driven by a constant torque.
 
-(J(q) + I) q'^2 / 2 = E_0 + int (T_m - S) dq, with J the machine's own reduced inertia and S what the drive must give
-besides kinetic energy; E_0 is such that the mean speed over time is the one asked for. Where S depends on the speed
-(dampers, friction) the speeds found are put in again until they stay. Eksergian, J. Franklin Inst. 209-211 (1930).
+(J(q) + I) q'^2 / 2 = E_0 + int (T_m - S) dq, with J the machine's reduced inertia and S the effort of the drive besides
+kinetic energy; E_0 gives the required mean speed over time. Where S depends on the speed (dampers, friction) the
+computed speeds are inserted again until they converge. Eksergian, J. Franklin Inst. 209-211 (1930).
 
 Mechanics: docs/theory.md 10.3.
 """
@@ -25,8 +25,8 @@ STAYS, MOST_ROUNDS = 1e-12, 60
 class SpeedFluctuation:
     """Speeds (K, n) at the points of panels over a period; least and greatest with their angles; C_s of these.
 
-    ``torque``: the constant driving torque T_m. ``residual``: the law that the motion found, prescribed, asks for just
-    this torque less I alpha, over the largest torque.
+    ``torque``: the constant driving torque T_m. ``residual``: difference of the torque of the computed motion,
+    prescribed, from this torque less I alpha, over the largest torque.
     """
 
     inertia: float
@@ -74,7 +74,7 @@ def speed_fluctuation(t: TurningMoment, panels: Panels, own: Array, inertia: flo
 
 
 def _with_mean_speed(panels: Panels, whole: Array, given: Array, mean: float) -> Array:
-    """Speeds sqrt(2 (E_0 + given) / whole) whose mean over time, period over int dq / q', is the one asked for."""
+    """Speeds sqrt(2 (E_0 + given) / whole) with the required mean over time, period over int dq / q'."""
     start = float(np.max(-given)) if (given < 0).any() else 0.0
     energy = max(panels.mean(whole) * mean**2 / 2, start * (1 + 1e-9) + 1e-300)
     for _ in range(200):

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 SURE = 1e4
-"""Gap at the positions of a result, over rounding, up to which the powers there give its effort."""
+"""Gap at the positions of a result, over rounding, up to which the powers at them give its effort."""
 
 
 STEADY = 1e-9
@@ -37,8 +37,8 @@ STEADY = 1e-9
 class TurningMoment:
     """Effort and reduced inertia of a machine with one turning drive, at any angle and speed.
 
-    Where the analysis has been at steady speed, the powers of inertia and dampers say what another speed changes,
-    J a + J' w^2 / 2 + S(w). Where these are not all, as with dry friction, the analysis is asked again, in its poses.
+    After an analysis at steady speed, the powers of inertia and dampers give the change at another speed, J a + J' w^2
+    / 2 + S(w). Where other forces matter too, as with dry friction, the analysis is repeated in its poses.
     """
 
     def __init__(self, r: Result, drive: str | None = None) -> None:
@@ -98,7 +98,7 @@ class TurningMoment:
         return self.known[1:, place]
 
     def _asked(self, q: Array, speed: Array | float, acceleration: Array | float, inertia: bool) -> Result:
-        """The analysis at other angles; the result's own first position leads, so that the assembly mode is its own."""
+        """The analysis at other angles; the result's first position leads, so that the assembly mode is the same."""
         angle = np.append(self.result.drive_position(self.drive)[:1], q)[:, None]
         rates = (np.broadcast_to(x, q.shape) for x in (speed, acceleration))
         u, a = (np.append(x[:1], x)[:, None] for x in rates)
@@ -115,8 +115,8 @@ class TurningMoment:
 
 
 def powers(r: Result) -> Array:
-    """What the effort of the lone drive of a result without accelerations has in it (3, P): for a unit acceleration,
-    the reduced inertia J; for the square of a unit speed, J' / 2; and for dampers at a unit speed."""
+    """Terms (3, P) of the effort of the lone drive of a result without accelerations: for a unit acceleration, the
+    reduced inertia J; for the square of a unit speed, J' / 2; and for dampers at a unit speed."""
     f, pose, speed = r.compiled.forcing, whole_pose(r), r.schedule.speed[..., None]
     unit, second = with_ground(r.twist_array) / speed, r.acceleration_array / speed**2
 
@@ -130,7 +130,7 @@ def powers(r: Result) -> Array:
 
 
 def _loads(r: Result, unit: Array, twist: Array) -> Array:
-    """What loads, weights, springs and dampers ask of the drive (P,) at twists of the links."""
+    """Effort of the drive (P,) due to loads, weights, springs and dampers at twists of the links."""
     c, moving = r.compiled, Motion(twist, twist, twist, np.ones(len(twist)))
     return _asked_by(
         r, unit, *known_sources(c.layout, c.forcing, whole_pose(r), moving, inertia=False).values()
@@ -138,7 +138,7 @@ def _loads(r: Result, unit: Array, twist: Array) -> Array:
 
 
 def _asked_by(r: Result, unit: Array, *sources: Source) -> Array:
-    """What wrenches ask of the drive (P,), by their power at its unit speed."""
+    """Effort of the drive (P,) due to wrenches, by their power at its unit speed."""
     return np.asarray(-(unit[:, :-1] * total_wrench(r.compiled.layout, *sources)).sum(axis=(1, 2)))
 
 
@@ -151,7 +151,7 @@ def _gap(r: Result) -> float:
 
 
 def reduced_inertia(r: Result, drive: str) -> Array:
-    """What all links are as seen from a drive (P,), kg m2 or kg: twice the kinetic energy at its unit speed alone."""
+    """Inertia of all links reduced to a drive (P,), kg m2 or kg: twice the kinetic energy at its unit speed alone."""
     at, layout, masses = state(r), r.compiled.layout, r.compiled.forcing.inertia
     unit = at.moving.virtual[..., r.drives.index(drive), :, :]
     return _asked_by(r, unit, inertia_wrench(layout, masses, at.pose, 0 * unit, unit[..., :-1, :]))
@@ -159,10 +159,10 @@ def reduced_inertia(r: Result, drive: str) -> Array:
 
 def _only_drive(r: Result, drive: str | None) -> str:
     if drive is not None and drive not in r.drives:
-        raise ModelError(f"there is no drive {drive!r}", closest(drive, list(r.drives)))
+        raise ModelError(f"unknown drive {drive!r}", closest(drive, list(r.drives)))
     if len(r.drives) != 1 or r.unknown_loads or not r.compiled.known.asked.all():
         raise ModelError(
-            "a flywheel steadies a machine of one drive, whose effort is asked for",
+            "a flywheel needs a machine with one drive, whose effort is unknown",
             "leave one drive, without effort, and no unknown load",
         )
     if not r.mechanism.drives[r.drives[0]].turns:
@@ -175,8 +175,8 @@ def _steady_speed(r: Result, drive: str) -> float:
     most = float(np.abs(speed).max())
     if not most or np.ptp(speed) > STEADY * most or np.abs(acceleration).max() > STEADY * most**2:
         raise ModelError(
-            f"drive {drive!r} does not turn at one speed, and a flywheel goes by the torque at a steady speed",
-            "write one speed that is not 0, and no acceleration",
+            f"drive {drive!r} does not turn at constant speed, at which a flywheel is sized",
+            "write one speed other than 0, and no acceleration",
             ("drives", drive, "speed"),
         )
     return float(speed[0])

@@ -35,12 +35,12 @@ class Buckling:
     """Critical compression of a link, N, by `Euler` or `Johnson`, beside its compression where the safety is least.
 
     ``effective_length`` (K in the plane of the mechanism, K across it; in space of bending along the member's y, and
-    along z); ``plane`` the one that decides, 0 or 1; ``ends``: how both ends are held in it (`fixed`, `pinned`,
-    `guided`, `free`), or `given`. ``position`` (from 0) where; ``safety`` critical / compression, infinite without
-    compression; ``two_force``: True if nothing bends it, so that the formula holds: else it is for comparison.
-    ``links``: the link, or barrel and rod that are one column, K then with EI of the weaker part and both lengths.
-    ``moves_along``: True if a joint at an end of it is free to move across, with links whose push then turns.
-    ``criticals`` and ``compressions`` (P,), N, ``factors`` (P, 2) at every position.
+    along z); ``plane`` the governing one, 0 or 1; ``ends``: the end conditions in it (`fixed`, `pinned`, `guided`,
+    `free`), or `given`. ``position`` (from 0) where; ``safety`` critical / compression, infinite without compression;
+    ``two_force``: True if it is not bent, so that the formula holds: else it is for comparison. ``links``: the link, or
+    barrel and rod that are one column, K then with EI of the weaker part and both lengths. ``moves_along``: True if a
+    joint at an end of it is free to move across, with links whose push then turns. ``criticals`` and ``compressions``
+    (P,), N, ``factors`` (P, 2) at every position.
     """
 
     critical: float
@@ -143,9 +143,10 @@ class _Judgement:
             self.moves[k] = any(node.joints and end in ("free", "guided") for node, end in outer)
 
     def _eulers(self, spans: list[float], stiffness: Array, free: Array) -> Array:
-        """Of both planes (2,), each with the column straight in the other; where both bend together that load twice.
+        """Euler loads of both planes (2,), each with the column straight in the other; the combined load twice where
+        both bend together.
 
-        Solved once for the same column: most positions differ in nothing that matters here.
+        Solved once for the same column: most positions do not differ in its data.
         """
         key = (*np.round(spans, 12), stiffness.tobytes(), ((free @ free.T).round(9) + 0.0).tobytes())
         if key not in self.solved:

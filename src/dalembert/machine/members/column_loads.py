@@ -24,7 +24,7 @@ LOOSE = 1e-9
 
 @cache
 def _span_forms() -> tuple[Array, Array]:
-    """int f''g'' and int f'g' on the unit span, of y and y' at both ends and of polynomials that vanish there."""
+    """int f''g'' and int f'g' on the unit span, of y and y' at both ends and of polynomials that vanish at both."""
     x, weight = np.polynomial.legendre.leggauss(BUBBLES + 5)
     x, weight = (x + 1) / 2, weight / 2
     s = np.polynomial.Polynomial([0.0, 1.0])

@@ -1,4 +1,4 @@
-"""How the joints hold the ends of a column: drives and unknown loads hold, other links are rigid, to the first order.
+"""End conditions of a column from its joints: drives and unknown loads hold, other links are rigid, to the first order.
 
 The column is cut at its nodes into rigid pieces, each with its joints; neighbours keep their distance and do not twist
 against each other. The motions that the mechanism's constraints leave these pieces are those of the column's nodes.
@@ -27,13 +27,12 @@ if TYPE_CHECKING:
 LOAD = "load {}"
 """An unknown load among the joints at a node: it holds what it acts on, as a joint does."""
 RANK = 1e-9
-"""Of the largest singular value: below it a motion is left free."""
+"""Part of the largest singular value below which a motion is free."""
 
 
 @dataclass(frozen=True)
 class Node:
-    """A place of a column at a distance s, m, from its start: a piece of a link, with the joints that are there,
-    and unknown loads."""
+    """A place of a column at a distance s, m, from its start: a piece of a link, with its joints and unknown loads."""
 
     link: str
     s: float
@@ -121,7 +120,7 @@ class EndConditions:
 
 
 def _is_short(joint: Any) -> bool:
-    """True for a slider of the plane that says nothing of the length of its guide."""
+    """True for a planar slider without a length of its guide."""
     return joint.guides and getattr(joint.friction, "guide", None) is None
 
 
@@ -187,6 +186,6 @@ WORDS = {(True, True): "fixed", (True, False): "pinned", (False, True): "guided"
 
 
 def end_words(free: Array) -> tuple[str, str]:
-    """How the first and the last node are held, by the motions of one plane (2 N, k)."""
+    """End conditions of the first and the last node, from the motions of one plane (2 N, k)."""
     held = np.abs(free).max(axis=1, initial=0.0) < np.sqrt(LOOSE)
     return WORDS[bool(held[0]), bool(held[1])], WORDS[bool(held[-2]), bool(held[-1])]

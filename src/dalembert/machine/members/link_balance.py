@@ -1,4 +1,4 @@
-"""All that acts on a link in its own axes, its weight and inertia spread along its members where its mass is.
+"""Forces on a link in link axes, its weight and inertia distributed along its members where its mass is.
 
 Mechanics: docs/theory.md 10.4.
 """
@@ -26,12 +26,14 @@ if TYPE_CHECKING:
 BESIDE = 1e-6
 """Part of a member's length that a force may be off it and still act on it."""
 COMBINATIONS = 3
-"""Of what is free: in all of them the change of what is not unique is never zero by chance."""
+"""Number of random combinations of the free unknowns: in all of them a non-unique value never changes by exactly
+zero."""
 
 
 @dataclass(frozen=True)
 class Wrench:
-    """A force and a couple (P, 3) at a place (P, 3), all in link axes; number of its member and its foot there (P,)."""
+    """A force and a couple (P, 3) at a place (P, 3), all in link axes; number of its member and its base point on it
+    (P,)."""
 
     place: Array
     force: Array
@@ -45,7 +47,7 @@ class Wrench:
 
 
 class Loads(NamedTuple):
-    """What acts at feet, what each piece of mass along a member does in all, and what of the first is free."""
+    """Forces at base points, total effect of each piece of mass along a member, and the free part of the first."""
 
     seated: list[Wrench]
     spread: list[tuple[MassPiece, Wrench]]
@@ -111,7 +113,7 @@ def _guided(r: Result, a: Action) -> tuple[Action, ...]:
 
 
 class LinkBalance(LinkAxes):
-    """A link's motion and what acts on it, in its own axes, with three components."""
+    """A link's motion and the forces on it, in link axes, with three components."""
 
     def __init__(self, r: Result, link: str, found: list[tuple[Action, ...]]) -> None:
         super().__init__(r, link)
@@ -123,7 +125,7 @@ class LinkBalance(LinkAxes):
         self.acceleration = self.own(r.center_acceleration(link)) if r.inertia else np.zeros((count, 3))
 
     def place(self, a: Action) -> Array:
-        """Where an action acts (P, 3)."""
+        """Point where an action acts (P, 3)."""
         return self.own(a.at - self.r.position(self.link))
 
     def joints(self) -> Array:

@@ -130,7 +130,7 @@ def _off(place: Array, e: Straight) -> float:
 
 
 def _section_inertia(inertia: Array, mass: float, t: Array, length: float) -> Array:
-    """Inertia per length of a prism's section, from the prism's own I = j l + m l^2 / 12 across its direction t."""
+    """Inertia per length of a prism's section, from the prism's I = j l + m l^2 / 12 across its direction t."""
     return np.asarray((inertia - mass * length**2 / 12 * (np.eye(3) - np.outer(t, t))) / length)
 
 

@@ -100,7 +100,7 @@ class MemberCurve:
 
 
 def _stationary(c: Array) -> tuple[Array, Array]:
-    """Where the derivative of cubics (..., 4) is zero, NaN where it is not; a quadratic has one place."""
+    """Zeros of the derivative of cubics (..., 4), NaN where it has none; a quadratic has one."""
     a, b, k = 3 * c[..., 3], 2 * c[..., 2], c[..., 1]
     with np.errstate(all="ignore"):
         q = -0.5 * (b + np.copysign(np.sqrt(b * b - 4 * a * k), b))
@@ -109,10 +109,10 @@ def _stationary(c: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class MemberForces:
-    """What a link carries inside: a curve for each straight member; ``residual`` (P,), how little is left over.
+    """Internal forces of a link: a curve for each straight member; ``residual`` (P,), the equilibrium error.
 
     ``residual``: force and moment that do not close at the end, over the largest on the link; NaN where unknown.
-    ``brackets``: joints and loads beside the members, with the distance in m; what carries them is not analysed.
+    ``brackets``: joints and loads beside the members, with the distance in m; the bracket is not analysed.
     """
 
     result: Result = field(repr=False)
@@ -153,7 +153,7 @@ class MemberForces:
         return float(values[j, k]), self.curves[j].name, float(places[j, k]), int(k)
 
     def unknown(self) -> dict[str, list[str]]:
-        """Positions ("3" or "3-7", from 1), and which inner forces are not known there all along the link."""
+        """Positions ("3" or "3-7", from 1), and the inner forces that are not known at them all along the link."""
         values = {of: np.sum([curve.greatest(of)[0] for curve in self.curves], axis=0) for of in self.names}
         out = {}
         for which, _, _ in self.result.problems():
@@ -221,7 +221,7 @@ def member_forces(r: Result, link: str) -> MemberForces:
 def forces_inside(r: Result, link: str, found: list[tuple[Action, ...]]) -> MemberForces:
     """The same with what acts on all links."""
     if link not in r.links:
-        raise ModelError(f"there is no moving link {link!r}", closest(link, list(r.links)))
+        raise ModelError(f"unknown moving link {link!r}", closest(link, list(r.links)))
     own = LinkBalance(r, link, found)
     members = members_of(r.mechanism, link, own.joints())
     loads, far = own.loads(members, mass_layout(r.mechanism, link, members)), beyond(members)
@@ -322,7 +322,8 @@ def _inner(curve: MemberCurve, at_end: bool) -> Array:
 
 
 def _beyond(loads: Loads, e: Straight, k: int, far: Flags, at_end: bool) -> Array:
-    """The same by summing what acts there: all but what has its foot at the start, or only what is at the end."""
+    """The same by summing the forces beyond: all except those with their base point at the start, or only those at the
+    end."""
     axes = np.kron(np.eye(2), e.axes.T)
     total = np.zeros((len(loads.seated[0].force), 6))
     for w in loads.seated:

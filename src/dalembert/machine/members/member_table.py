@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class MemberTable(Answer):
-    """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: why others are not there,
-    ``not_judged``: why links with a section have no critical compression."""
+    """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: the reason why others are
+    missing, ``not_judged``: the reason why links with a section have no critical compression."""
 
     NAME = "member"
 

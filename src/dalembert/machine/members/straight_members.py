@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 FLAT = 1e-9
 """Off a line by less than this part of its length is on it."""
 DIGITS = 12
-"""Places along a member are told apart to so many decimals of its length."""
+"""Decimals of a member's length by which places along it are distinguished."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,8 @@ class Straight:
         return np.asarray(self.axes[0])
 
     def foot(self, places: Array) -> tuple[Array, Array]:
-        """Of places (..., 3): distance of the nearest place on the member from its start, and distance from there."""
+        """For places (..., 3): distance of the nearest place on the member from its start, and their distance from
+        it."""
         s = np.clip((places - self.start) @ self.along, 0.0, self.length)
         off = np.linalg.norm(places - self.start - s[..., None] * self.along, axis=-1)
         return self.rounded(s), off

@@ -50,7 +50,8 @@ class Fatigue:
 
 @dataclass(frozen=True)
 class Stresses:
-    """Greatest von Mises stress (P,) of a link, Pa, with its member and place (P,), m; ``normal`` (P,) is sigma there.
+    """Greatest von Mises stress (P,) of a link, Pa, with its member and place (P,), m; ``normal`` (P,) is sigma at that
+    place.
 
     ``largest``: over the cycle, ``position`` (from 0) where; ``safety`` against yield, None without a yield stress.
     """
@@ -64,7 +65,7 @@ class Stresses:
 
     @property
     def position(self) -> int:
-        """Where it is largest, from 0."""
+        """Position of the largest stress, from 0."""
         return int(np.nanargmax(self.equivalent)) if np.isfinite(self.equivalent).any() else 0
 
     @property
@@ -79,7 +80,7 @@ class Stresses:
         return None if given is None else given / self.largest if self.largest else math.inf
 
     def parts(self) -> tuple[float, float]:
-        """What N and what M make of the normal stress at the largest, Pa."""
+        """Contributions of N and of M to the normal stress at the largest, Pa."""
         k = self.position
         comps = self.forces.curve(self.member[k]).at(float(self.place[k]))[k, 0]
         direct = float(comps[0] / self.section.area_of)
@@ -118,8 +119,8 @@ def fibre_stress(s: Section, comps: Array, plane: bool, places: Array | None = N
 
 
 def outer_fibres(s: Section, plane: bool, middle: float = 0.0, half: float = math.pi) -> Array:
-    """Places (F, 2) of the fibres that are stressed most: y = +-, in space the corners, or round a circle, there by
-    angles from y to both sides of a middle, rad."""
+    """Places (F, 2) of the fibres with the largest stress: y = +-, in space the corners, or on a circle by angles from
+    y on both sides of a middle, rad."""
     y, z = s.reach
     if plane:
         return np.array([[y, 0.0], [-y, 0.0]])
@@ -155,7 +156,7 @@ def stresses(forces: MemberForces, given: Section | Tree | None = None) -> Stres
 
 
 def _greatest(curve: MemberCurve, f: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
-    """Greatest value (P,) of f of the inner forces along a member, its place (P,), and the forces there (P, 6)."""
+    """Greatest value (P,) of f of the inner forces along a member, its place (P,), and the forces at it (P, 6)."""
     low, high, every = curve.edges[:, :-1], curve.edges[:, 1:], np.arange(len(curve.edges))
     first = np.where(np.isnan(low[:, 0]), np.nan, -np.inf)
     best = (first, np.full(len(low), np.nan), np.full((len(low), 6), np.nan))

@@ -1,4 +1,4 @@
-"""What moves each drive: a given effort, a motor with its switches, nothing; or a prescribed motion."""
+"""Actuation of each drive: a given effort, a motor with its switches, nothing; or a prescribed motion."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def joint_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
 
 
 def drive_lengths(m: Mechanism) -> Array:
-    """What a position of each drive (D,) is compared with: 1 rad of a turn, of a slide the size of the largest link, or
-    else where it starts; 1 m of a lone point there."""
+    """Reference length for a position of each drive (D,): 1 rad for a turn; for a slide the size of the largest link,
+    or else its start; 1 m for a lone point at 0."""
     at = [np.array(list(m.points(name).values()), float) for name, link in m.links.items() if link.points]
     size = max((float(np.ptp(x, axis=0).max()) for x in at), default=0.0)
     start = [float(np.ravel(np.array(d.position, object))[0]) for d in m.drives.values()]
@@ -40,8 +40,8 @@ def drive_lengths(m: Mechanism) -> Array:
 
 @dataclass
 class Actuation:
-    """How the drives of a mechanism move: ``free`` (D,) by forces from ``position`` and ``speed``, the others at a
-    constant ``acceleration`` (D,); ``on`` (D,): which motors are switched on."""
+    """Actuation of the drives of a mechanism: ``free`` (D,) by forces from ``position`` and ``speed``, the others at a
+    constant ``acceleration`` (D,); ``on`` (D,): True where a motor is switched on."""
 
     m: Mechanism
     free: Flags
@@ -72,12 +72,12 @@ class Actuation:
         )
 
     def switched(self, switch: Switch, k: int, t: float, q: Array, u: Array) -> float:
-        """What a motor is switched by, less the value it is switched at."""
+        """Switching variable of a motor, less its switching value."""
         by, value = switch
         return float({"time": t, "position": q[k], "speed": u[k]}[by] - value)
 
     def known(self, t: float, q: Array, u: Array) -> dict[str, float]:
-        """What efforts go by: time, positions and speeds of the drives."""
+        """Variables of efforts: time, positions and speeds of the drives."""
         return {TIME: t, **dict(zip((*self.names, *self.speeds), (*q, *u), strict=True))}
 
     def effort(self, t: float, q: Array, u: Array) -> Array:
@@ -100,7 +100,8 @@ class Actuation:
 
     def lines(self, u: Array, ahead: Array) -> tuple[Array, Array] | None:
         """Efforts (D,) at speed 0 and their slopes (D,), until a motor's next corner or switch; None where an effort
-        goes by positions, speeds or the time. ``ahead``: accelerations, which way a motor leaves a corner."""
+        depends on positions, speeds or the time. ``ahead``: accelerations, which decide the side on which a motor
+        leaves a corner."""
         first, slope = np.zeros((2, len(u)))
         for k, drive in enumerate(self.drives):
             if hasattr(drive.effort, "at"):
@@ -118,7 +119,7 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
     free = [n for n, d in m.drives.items() if n in m.start or d.motor is not None or d.effort is not None]
     if not free:
         raise ModelError(
-            "no drive is let go: none has a start, a motor or an effort",
+            "no drive is released: none has a start, a motor or an effort",
             "write start: {O2: {position: 60 deg, speed: 0}}, with the name of a drive",
             ("drives",),
         )
@@ -126,7 +127,7 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
     if braked:
         raise ModelError(
             f"drive {braked!r} is prescribed, and its brake would have no effect on the motion",
-            f"let it go: start: {{{braked}: {{position: ..., speed: 0}}}}, or leave the brake out",
+            f"release it: start: {{{braked}: {{position: ..., speed: 0}}}}, or leave the brake out",
             ("drives", braked, "brake"),
         )
     at = {name: _at_start(name, d, m.start.get(name), name in free) for name, d in m.drives.items()}
@@ -138,7 +139,7 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
     unknown = [name for name, load in m.loads.items() if load.unknown]
     if unknown:
         raise ModelError(
-            f"load {unknown[0]!r} is asked for, and forces move the machine",
+            f"load {unknown[0]!r} is unknown, but forces move the machine",
             "give it a value",
             ("loads", unknown[0], "value"),
         )

@@ -1,4 +1,5 @@
-"""``da.compile_motion``: motions under forces of many designs side by side in machine code, each with steps of its own.
+"""``da.compile_motion``: motions under forces of many designs side by side in machine code, each with its own step
+sizes.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -38,16 +39,16 @@ CORNERED = 0.01
 REMEDY = "use da.simulate for such a machine"
 UNDECIDED = "undecided: its steps became too small, or it comes near a dead centre; da.simulate says why"
 ROWS = {"effort": 0, "motor.stall": 0, "motor.no_load": 1, "position": 3, "speed": 4}
-"""What of a drive may vary beside the equation, as rows: effort at speed 0, speed without effort, acceleration of
-what is prescribed, position and speed at time 0."""
+"""Numbers of a drive that may vary outside the equation, as rows: effort at speed 0, speed without effort, acceleration
+of a prescribed drive, position and speed at time 0."""
 
 
 @dataclass(frozen=True)
 class MotionBatch:
     """Motions of many designs: ``arrays`` by output, (design, instant[, component]), or without instants if reduced.
 
-    ``time`` (design,): when each ended, s; ``ended``: by what; ``position``, ``speed`` (design, drive) there. NaN where
-    it is undecided how a motion goes on: not ``ok``.
+    ``time`` (design,): when each ended, s; ``ended``: by which condition; ``position``, ``speed`` (design, drive) at
+    the end. NaN where the continuation of a motion is undecided: not ``ok``.
     """
 
     values: Array = field(repr=False)
@@ -59,7 +60,7 @@ class MotionBatch:
 
     @property
     def ok(self) -> Flags:
-        """Which designs have numbers."""
+        """True for designs that have numbers."""
         return np.isfinite(self.time)
 
     def value(self, output: str) -> Array:
@@ -79,14 +80,14 @@ def compile_motion(
     count: int = 201,
     tolerance: float = 1e-9,
 ) -> MotionKernel:
-    """`da.simulate` of one structure as machine code, for any numbers at ``vary``: each design by steps of its own.
+    """`da.simulate` of one structure as machine code, for any numbers at ``vary``: each design with its own step sizes.
 
     until: a time, and conditions such as ``"O2.speed = 0 rad/s"`` that end a design's motion before it. vary: paths as
     in `da.compile`, and ``drives.NAME.effort``, ``drives.NAME.motor.stall`` and ``.no_load``, ``start.NAME.position``
     and ``.speed``. outputs: names as in `da.compile`, at ``count`` instants evenly from a design's start to its end;
-    reduce: over these instants, as there, or ``final``. tolerance: of each step, relative; the error of the motion
-    grows beyond it with the steps: compare with a tenth of it. Raises ModelError for what is not
-    smooth: dry friction, brakes, stops, motors with switches, efforts that go by positions or time.
+    reduce: over these instants, as in `da.compile`, or ``final``. tolerance: of each step, relative; the error of the
+    motion grows beyond it with the steps: compare with a tenth of it. Raises ModelError for what is not smooth: dry
+    friction, brakes, stops, motors with switches, efforts that depend on positions or time.
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2)
@@ -155,11 +156,12 @@ def _compile(
 
 
 def _refuse_counts(equation: Equation) -> None:
-    """An output that is followed from state to state, as an angle with its whole turns: designs are not."""
+    """Refuses an output that is followed from state to state, as an angle with its full turns: designs are not
+    followed."""
     graph = equation.graph
     for name, nodes in equation.kernel.nodes.items():
         if any(graph.names.get(n.index, "").startswith("known ") for n in graph.order(nodes)):
-            raise ModelError(f"the output {name!r} counts whole turns along the motion", REMEDY)
+            raise ModelError(f"the output {name!r} counts full turns along the motion", REMEDY)
 
 
 def _symbols(m: Mechanism, equation: Equation, traced: Sequence[Number]) -> Mechanism:
@@ -170,7 +172,8 @@ def _symbols(m: Mechanism, equation: Equation, traced: Sequence[Number]) -> Mech
 
 
 def _corners(m: Mechanism) -> dict[int, Corners]:
-    """Of motors with a curve the speeds of its points, and how much its slope changes there: it is level beyond."""
+    """Corners of motors with a curve: the speeds of its points, and the change of slope at them; the curve is level
+    beyond its ends."""
     out = dict[int, Corners]()
     for k, drive in enumerate(m.drives.values()):
         if drive.motor is not None and drive.effort is None and not drive.motor.straight:
@@ -181,13 +184,13 @@ def _corners(m: Mechanism) -> dict[int, Corners]:
 
 
 def _refuse(moves: Actuation) -> None:
-    """What the steps cannot do: efforts that are no function of the drive's speed."""
+    """Refuses efforts that the steps do not support: they must be functions of the drive's speed."""
     for joint, _ in joint_stops(moves.m):
         raise ModelError(f"joint {joint!r} has stops, which change speeds at once", REMEDY)
     for k, (name, drive) in enumerate(moves.m.drives.items()):
         motor = moves.motors.get(k)
         if hasattr(drive.effort, "at"):
-            raise ModelError(f"the effort of drive {name!r} goes by positions or time", REMEDY)
+            raise ModelError(f"the effort of drive {name!r} depends on positions or time", REMEDY)
         if drive.brake:
             raise ModelError(f"drive {name!r} has a brake, which holds at rest", REMEDY)
         if drive.stops:
@@ -210,7 +213,7 @@ def _lines(m: Mechanism, moves: Actuation) -> Array:
 
 
 def _of_drive(path: str) -> bool:
-    """Whether a path is of how a drive moves: given beside the equation, not in it."""
+    """True if a path belongs to the actuation of a drive: given beside the equation, not in it."""
     return path.startswith("start.") or path.partition(".")[2].partition(".")[2].split(".")[0] in (
         "effort",
         "motor",
@@ -218,7 +221,7 @@ def _of_drive(path: str) -> bool:
 
 
 def _varying(moves: Actuation, k: int) -> list[tuple[str, str]]:
-    """What of a drive may vary beside the equation."""
+    """Numbers of a drive that may vary outside the equation."""
     if k < 0 or not moves.free[k]:
         return []
     motor = moves.motors.get(k) if moves.drives[k].effort is None else None
@@ -231,9 +234,7 @@ def _number(moves: Actuation, lines: Array, path: str) -> Number:
     what, k = ".".join(last), moves.names.index(name) if name in moves.names else -1
     if (kind, what) not in (there := _varying(moves, k)):
         known = ", ".join(f"{of}.{name}.{each}" for of, each in there)
-        raise ModelError(
-            f"{path!r} is no number of a drive that forces move", f"there are: {known or 'none'}"
-        )
+        raise ModelError(f"{path!r} is not a number of a drive that forces move", f"use {known or 'none'}")
     return Number(path, float(lines[ROWS[what], k]))
 
 
@@ -261,7 +262,7 @@ class MotionKernel:
 
     @property
     def nominal(self) -> Array:
-        """The numbers as the description has them."""
+        """Values of the numbers in the description."""
         return np.array([self.where[k].value for k in self.places])
 
     @property
@@ -270,8 +271,8 @@ class MotionKernel:
         return tuple(self.equation.kernel.outputs)
 
     def __call__(self, values: ArrayLike | None = None, threads: int | None = None) -> MotionBatch:
-        """Motions of many designs: values (design, number), default the description's own; by so many ``threads``,
-        default one a core."""
+        """Motions of many designs: values (design, number), default those of the description; ``threads``: number of
+        threads, default one per core."""
         given = self._values(values)
         if 8 * len(given) * self.block.asked * (1 if self.reduce else self.block.instants) > available():
             raise ModelError(

@@ -40,17 +40,17 @@ if TYPE_CHECKING:
 STEPS = 40
 """Newton's steps for a pose that has no closed form."""
 NEAR = 1e-7
-"""How far the pose of a state may be from the one that Newton's steps began at, so that they have ended."""
-NO_INERTIA = "nothing there has inertia"
+"""Largest distance of a state's pose from the one at which Newton's steps began, for which they have converged."""
+NO_INERTIA = "no part that moves has inertia"
 DEAD_CENTRE = (
-    "there is a dead centre or a change point, from which the mechanism can go on in two ways, and its drives do not "
-    "tell which; let a drive go that places the links there too"
+    "the mechanism is at a dead centre or a change point, from which it can continue on two branches, and its drives "
+    "do not decide which; release a drive that places the links at this position too"
 )
-OPEN = "there the mechanism does not close, or its drives do not place its links"
+OPEN = "the mechanism does not close, or its drives do not place its links"
 
 
 Corners = Sequence[tuple[Any, Any]]
-"""Of a drive's effort over its speed: speeds at which its slope changes, and by how much; numbers or nodes."""
+"""Corners of a drive's effort over its speed: speeds at which its slope changes, and by how much; numbers or nodes."""
 NO_CORNERS: dict[int, Corners] = {}
 
 LOCK = RLock()
@@ -63,9 +63,9 @@ class StoppedError(AnalysisError):
 
 class Terms(NamedTuple):
     """At a state: efforts (D,) at no acceleration, M_r (D, D), powers of loads and dampers (2,), rates of the contacts
-    (E,), what is below zero within 0.2 deg of a dead centre or change point; of the freedoms that are
-    watched (J, 3 + D) value, but for whole turns, rate and, at no acceleration, second rate, and how far it goes with
-    each drive; what loads by the pose switch by; and what friction changes."""
+    (E,), a margin, negative within 0.2 deg of a dead centre or change point; for the watched freedoms (J, 3 + D) value,
+    up to full turns, rate and, at no acceleration, second rate, and slope with each drive; switching variables of loads
+    that depend on the pose; and the changes by friction."""
 
     effort: Array
     mass: Array
@@ -86,7 +86,7 @@ class LoadChannel:
     sided: Sided | None = None
 
     def known(self, t: float, q: Array) -> dict[str, float]:
-        """What it goes by at a state."""
+        """Variables of its dependence at a state."""
         return {**dict(zip(self.names, q, strict=True)), TIME: t}
 
     def __call__(self, t: float, q: Array, _: object) -> Numeric:
@@ -132,13 +132,13 @@ class LastPose:
 
 
 class Equation:
-    """Efforts that a state of all drives asks for, of a mechanism whose drives are all prescribed.
+    """Efforts required at a state of all drives, for a mechanism whose drives are all prescribed.
 
     ``parts``: nodes of the terms, in their order; ``numbers``: those of speeds, then of accelerations; ``values``: of
-    all numbers, those of nodes where ``places`` says; ``channels``: where an input stands in positions, senses and
-    time, or how it follows from time and positions; ``sides``: where the values have the sides of loads
-    computed in machine code. ``known``: the pose, where states are followed one by one; ``dry``:
-    the contacts, where there is friction, with the names of the joints of its ``own`` ones.
+    all numbers, those of nodes where ``places`` says; ``channels``: index of an input in positions, senses and time, or
+    its function of time and positions; ``sides``: places of the values for sides of loads computed in machine code.
+    ``known``: the pose, where states are followed one by one; ``dry``: the contacts, where there is friction, with the
+    names of the joints of its ``own`` ones (those that slip independently).
     """
 
     def __init__(
@@ -223,12 +223,12 @@ class Equation:
     def steps(
         self, free: Flags, lanes: int = 1, works: bool = True, corners: Mapping[int, Corners] = NO_CORNERS
     ) -> Integrator | None:
-        """Steps of motions side by side in machine code, where drives go by forces (``free``, (D,)) that are straight
-        lines of their own speed; None where it is not smooth, or needs more than the drives' positions and the time.
+        """Steps of motions side by side in machine code, where drives move by forces (``free``, (D,)) that are linear
+        in the drive's speed; None where it is not smooth, or needs more than the drives' positions and the time.
 
-        The state: positions, speeds; ``works`` of drives, of brakes, loads, dampers and friction. Behind ``values``
-        there stand, each (D,): effort at speed 0, its slope, that of the brake, acceleration of what is prescribed.
-        ``corners`` of drives: what bends these lines.
+        The state: positions, speeds; ``works`` of drives, of brakes, loads, dampers and friction. After ``values``
+        follow, each (D,): effort at speed 0, its slope, that of the brake, acceleration of the prescribed drives.
+        ``corners`` of drives: changes of slope of these lines.
         """
         uneven = self.dry or self.known or any(callable(f) for f in self.channels)
         if uneven or find_spec("llvmlite") is None:
@@ -291,7 +291,7 @@ class Equation:
             return Contacted(a, effort, *(none,) * 5), e
         found = self.dry.solve(e.linear, a, effort, change, self.dry.senses(e.rates, sense), stuck)
         if found is None:
-            raise StoppedError("there it jams: no acceleration satisfies the law of friction")
+            raise StoppedError("the machine jams: no acceleration satisfies the law of friction")
         return found, e
 
 
@@ -337,7 +337,7 @@ def _machine_program(
 
 
 def _numpy_program(program: Program, values: Array) -> Callable[[Sequence[float]], Array]:
-    """The program at single states in numpy, where there is no compiler."""
+    """The program at single states in numpy, where no compiler is available."""
     numbers, along = program.inputs_in_use("number"), program.inputs_in_use("channel")
 
     def run(channels: Sequence[float]) -> Array:

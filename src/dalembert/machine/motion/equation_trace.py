@@ -1,4 +1,5 @@
-"""Equations of motion from traced analyses: a structure's, with the numbers of one mechanism, or its own.
+"""Equations of motion from traced analyses: that of a structure, with the numbers of one mechanism, or one traced for
+the mechanism.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -51,8 +52,8 @@ LATEST: deque[tuple[tuple[object, Freedoms], Mechanism, Equation]] = deque(maxle
 
 
 def equation_of(m: Mechanism, freedoms: Freedoms = ()) -> Equation:
-    """The equation of a mechanism whose drives are all prescribed: its structure's, or its own; ``freedoms`` of joints
-    are watched besides those with stops."""
+    """The equation of a mechanism whose drives are all prescribed: its structure's, or one traced for it; ``freedoms``
+    of joints are watched besides those with stops."""
     key = (_made_of(m), freedoms)
     with LOCK:
         found = next((e for same, _, e in LATEST if same == key), None)
@@ -64,7 +65,7 @@ def equation_of(m: Mechanism, freedoms: Freedoms = ()) -> Equation:
 
 
 def _made_of(m: Mechanism) -> object:
-    """What a mechanism's equation follows from: its parts, known by where they are, and how it is driven."""
+    """Key of a mechanism's equation: its parts, known by their identity, and how it is driven."""
     tables = (m.links, m.joints, m.loads, m.assembly)
     parts = [list(map(id, (*t, *t.values()))) for t in tables]
     drives = [(n, d.position, d.joint, d.freedom, d.axis) for n, d in m.drives.items()]
@@ -145,7 +146,8 @@ def _sided_functions(switches: dict[Node, Node], graph: Graph) -> Tree:
 
 
 def _trace_switches(trace: Trace, names: Sequence[str], known: Functions, switches: dict[Node, Node]) -> None:
-    """Note what switches loads that go by drives and time, where they are computed in machine code."""
+    """Records the switching variables of loads that depend on drives and time, where they are computed in machine
+    code."""
     graph, inputs = trace.catalogue.graph, trace.inputs
     raw = {n: inputs.named["channel", f"position {n}"] for n in names} | {TIME: inputs.time()}
     for varying in inputs.varying.values():
@@ -157,7 +159,7 @@ def _trace_switches(trace: Trace, names: Sequence[str], known: Functions, switch
 
 
 def _channel(trace: Trace, names: tuple[str, ...], node: Node) -> Any:
-    """Where an input stands in positions and time, or how it follows from time and positions."""
+    """Index of an input in positions and time, or its function of time and positions."""
     name = trace.catalogue.graph.names[node.index]
     what, _, of = name.partition(" ")
     if what == "position" and of in names:
@@ -178,8 +180,8 @@ def _channel(trace: Trace, names: tuple[str, ...], node: Node) -> Any:
 
 
 def _of_structure(m: Mechanism, freedoms: Freedoms) -> Equation | None:
-    """The equation of a mechanism of the plane whose program is kept by structure, with its numbers; None where there
-    is none: with friction, or loads that go by positions or time."""
+    """The equation of a planar mechanism whose program is kept by structure, with its numbers; None where it is not
+    kept: with friction, or loads that depend on positions or time."""
     if any(getattr(load, "varying", ()) for load in m.loads.values()) or joint_stops(m):
         return None
     names = tuple(m.drives)
@@ -213,9 +215,9 @@ def _shared(k: KeptProgram, names: tuple[str, ...], freedoms: Freedoms) -> Equat
 
 
 def _own(contacts: Contacts, sense: Array) -> Ints:
-    """Contacts whose sense is that of a rate of their own.
+    """Contacts whose sense is that of their own rate.
 
-    Contacts of a common slip share a direction, and teeth are pushed apart always: they follow by themselves.
+    Contacts of a common slip share a direction, and teeth are always pushed apart: these follow from the others.
     """
     alone = (contacts.group == contacts.group[:, None]).sum(axis=0) == 1
     moves = [n.level != CONSTANT for n in sense]
@@ -248,7 +250,7 @@ def _contacts(trace: Trace, accelerations: Sequence[Node]) -> list[list[Node]]:
 def _motion(
     graph: Graph, c: Compiled, traced: Traced, names: Freedoms, accelerations: Sequence[Node]
 ) -> list[Node]:
-    """Of freedoms of joints: value, without whole turns, rate and second rate, and the slopes by the accelerations."""
+    """For freedoms of joints: value, without full turns, rate and second rate, and the slopes by the accelerations."""
     g, freedoms, out, pose = c.layout.algebra, c.layout.freedoms, list[Node](), traced.pose
     if g.d == 2:
         cos, sin = np.moveaxis(trace_array(graph, pose.rotation), -1, 0)
@@ -266,7 +268,7 @@ def _motion(
 
 
 def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
-    """Powers of forces and couples, and of dampers, as nodes; dry friction is not there yet."""
+    """Powers of forces and couples, and of dampers, as nodes; dry friction is not included yet."""
     layout, f, pose, twist = c.layout, c.forcing, traced.pose, traced.twist
 
     def power(*sources: fc.Source) -> Node:

@@ -1,4 +1,4 @@
-"""A motion under forces as segments that are smooth, each ended by an event: nothing is smoothed, nothing skipped.
+"""A motion under forces as smooth segments, each ended by an event, without smoothing or skipping any.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -22,9 +22,9 @@ from dalembert.machine.motion.steps import (
 )
 
 SHORT, TRIES = 1e-6, 100
-"""A step below this part of the longest has met something: a singular position; so many are no progress."""
+"""A step below this part of the longest has met a singular position; after this many of them the motion is stopped."""
 MANY_STEPS, NEVER = 1000, 1e-9
-"""A segment that after so many steps has got on by less than this part of its time a step never arrives."""
+"""A segment that after this many steps advances by less than this part of its time per step never arrives."""
 FAR = 1e3
 """Radians, or sizes of a link, that lie between two instants at most."""
 COARSEST = 1e-9
@@ -39,8 +39,8 @@ class Integration(StepState):
     """One run from a start to an end."""
 
     def run(self, t: float = 0.0, works: Array | None = None) -> None:
-        """Integrate from the start until the end, a condition that stops, a state from which nothing goes on, or one
-        where other freedoms should lead."""
+        """Integrate from the start until the end, a condition that stops, a state from which no motion continues, or
+        one where other freedoms should lead."""
         start, done = self.acting, np.zeros(self.d + 4) if works is None else works
         self.reached = t, y = t, np.concatenate([start.position, start.speed, done])
         try:
@@ -86,7 +86,7 @@ class Integration(StepState):
         return " or ".join(awaited) + (" is" if len(awaited) == 1 else " are")
 
     def stop(self, error: StoppedError) -> None:
-        """End where nothing goes on."""
+        """Ends the motion where it cannot continue."""
         self.keep_samples()
         if self.rows and self.reached[0] > self.rows[-1][0]:
             with suppress(StoppedError):
@@ -97,14 +97,14 @@ class Integration(StepState):
         self.note(t, "stopped", *self.ended)
 
     def _all_rest(self) -> bool:
-        """Whether what forces move is held, and what is prescribed stands."""
+        """True if all drives moved by forces are held, and prescribed ones are at rest."""
         return bool((self.locked | ~self.acting.free | self.bound).all() and not self._others_move())
 
     def _watch_chatter(self, t: float) -> None:
         self.ends = [*self.ends[-MANY:], t]
         if len(self.ends) > MANY and t - self.ends[0] <= CHATTER * max(t, 1e-300):
             raise StoppedError(
-                f"{MANY} events within {t - self.ends[0]:.1e} s: what comes to rest there starts again without end"
+                f"{MANY} events within {t - self.ends[0]:.1e} s: a part comes to rest and starts again without end"
             )
 
     def _segment(self, t: float, y: Array) -> tuple[float, Array]:
@@ -125,13 +125,13 @@ class Integration(StepState):
                 self._give_up(before, from_)
                 return before, from_
             if steps > MANY_STEPS and before - t < steps * NEVER * (self.end - t) < np.inf:
-                raise StoppedError("there the steps become too small, as where friction nearly jams")
+                raise StoppedError("the integration steps become too small, as where friction nearly jams")
             if solver.step():
                 if self.equation.dry and self.tolerance < COARSEST and not self._near_singular(before, from_):
                     self.tolerance *= 10  # forces with friction are found to fewer digits than that
                     return before, from_
                 self._near_singular(before, from_)
-                raise StoppedError(self.refusal or "there the steps of the integration become too small")
+                raise StoppedError(self.refusal or "the integration steps become too small")
             self.refusal, longest = "", max(longest, solver.h_previous or 0.0)
             if self.nears_dead_centre(solver.t, solver.y, (solver.h_previous or 0.0) / (longest or 1.0)):
                 return self._turn_over(solver, before)
@@ -140,7 +140,7 @@ class Integration(StepState):
                 tiny += 1
                 if tiny > TRIES:
                     raise StoppedError(
-                        "there the steps become too small, as where something has next to no inertia"
+                        "the integration steps become too small, as where a part has almost no inertia"
                     )
             met = self._event(solver, guards, before, from_)
             if met is not None:
@@ -238,7 +238,7 @@ class Integration(StepState):
         return longest
 
     def _near_singular(self, t: float, y: Array) -> bool:
-        """Raise StoppedError at a dead centre or change point, where two ways go on; otherwise False."""
+        """Raise StoppedError at a dead centre or change point, where two branches continue; otherwise returns False."""
         if (self.at(t, y)[2].closure < 0).any():
             raise StoppedError(DEAD_CENTRE)
         return False
@@ -267,7 +267,7 @@ class Integration(StepState):
         return when, y
 
     def _happen(self, t: float, y: Array, crossed: list[Guard]) -> None:
-        """What follows from events at one instant; the state may be changed."""
+        """Applies the events of one instant; the state may be changed."""
         self.keep_samples()
         d = self.d
         rests = [g.which for g in crossed if g.kind == "rest"]
@@ -306,7 +306,7 @@ class Integration(StepState):
         self.keep(t, y)
 
     def _rest(self, t: float, y: Array) -> float:
-        """All that forces move stands: until it is no longer held, or to the end."""
+        """All drives moved by forces are at rest: until one is no longer held, or to the end."""
         self.keep_samples()
         end = self.end if np.isfinite(self.end) else max(t, self.limits.time if self.by_time else t)
         when = self._let_go(t, end, y)
@@ -322,7 +322,7 @@ class Integration(StepState):
         self.ended = ("at rest from ", ("time", t), " on")
         if np.isinf(self.end):
             looked: Words = (", as far as until ", ("time", end)) if self.by_time else ()
-            why = "" if self.by_time else ", and nothing moves it any more"
+            why = "" if self.by_time else ", and no force moves it any more"
             self.status, self.ended = "not_met", (*self.ended, why, *looked, f": {self._awaited} not met")
         self.keep_samples()
         if self.rows[-1][0] < end < np.inf and np.isfinite(self.end):

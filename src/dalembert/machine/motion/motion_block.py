@@ -1,4 +1,4 @@
-"""Motions of many designs at once, each by steps of its own, until its end; and what is asked of them along it.
+"""Motions of many designs at once, each with its own step sizes, until its end; and their outputs.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -18,13 +18,13 @@ from dalembert.machine.motion.occurrences import Condition
 from dalembert.machine.motion.steps import Integrator, between, first_step, state_sizes
 
 ATTEMPTS, MOST, SMALL, ROOTS = 24, 100_000, 0.01, 60
-"""Attempts of steps at once, and those after which a motion is given up; part of the mean step below which it is asked
-whether the state is in doubt; halvings that find a condition's time."""
+"""Attempts of steps at once, and those after which a motion is given up; part of the mean step below which the state is
+checked for doubt; halvings that locate a condition's time."""
 
 
 class Motions(NamedTuple):
-    """Of designs side by side: end (M,), by which condition (-1: the time), state there, outputs (M, instants, N), and
-    whether all is sure."""
+    """For designs side by side: end (M,), the condition that ended it (-1: the time), state at the end, outputs (M,
+    instants, N), and whether all is certain."""
 
     time: Array
     met: Array
@@ -35,7 +35,7 @@ class Motions(NamedTuple):
 
 @dataclass(frozen=True)
 class MotionBlock:
-    """Steps in machine code, and the outputs of an equation at so many ``instants`` evenly until the end."""
+    """Steps in machine code, and the outputs of an equation at ``instants`` even instants until the end."""
 
     equation: Equation
     code: Integrator
@@ -47,7 +47,7 @@ class MotionBlock:
 
     @cached_property
     def asked(self) -> int:
-        """How many numbers all outputs have."""
+        """Number of values of all outputs."""
         return sum(map(len, self.equation.kernel.nodes.values()))
 
     @cached_property
@@ -76,7 +76,8 @@ class MotionBlock:
         return Motions(time, met, states.reshape(*shape, -1)[:, -1], out.reshape(*shape, -1), sure)
 
     def _integrate(self, y: Array, given: Array) -> tuple[Array, Ints, Flags]:
-        """All steps (R, ``record_size``), those of a design one after the other, of which design, and which failed."""
+        """All steps (R, ``record_size``), those of a design one after the other, the design of each, and which
+        failed."""
         code, m = self.code, len(y)
         values, motions = code.blocks(given), code.motions(y, 0.0, self.end, self.tolerance, 1.0)
         code.advance(values, motions, 0)

@@ -1,4 +1,4 @@
-"""What ends a segment of a motion."""
+"""Events that end a segment of a motion."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ def say(words: Words, to: Scale = SI) -> str:
 
 
 class Event(NamedTuple):
-    """What happened when, in ``words``, to which drive or joint (``of``); of an impact the speed before, rad/s or m/s,
-    and the energy lost, J."""
+    """Event at a time, described in ``words``, of a drive or joint (``of``); of an impact the speed before, rad/s or
+    m/s, and the energy lost, J."""
 
     time: float
     name: str
@@ -50,7 +50,7 @@ class Event(NamedTuple):
 
     @property
     def sentence(self) -> str:
-        """What happened, in SI units."""
+        """Description of the event, in SI units."""
         return say(self.words)
 
 
@@ -65,7 +65,7 @@ class Condition:
     stops: bool
 
     def value_at(self, d: int) -> Value:
-        """What is to pass zero, of a state of d drives."""
+        """Quantity that passes zero, of a state of d drives."""
         place = self.drive + d * (self.what == "speed")
         return lambda t, y: float(y[place] - self.value)
 
@@ -115,7 +115,9 @@ def read_end(
 def _condition(m: Mechanism, text: str, stops: bool) -> Condition:
     found = CONDITION.fullmatch(text)
     if found is None:
-        raise ModelError(f"{text!r} is no condition", 'write "O2.speed = 0 rad/s" or "O2.position = 90 deg"')
+        raise ModelError(
+            f"{text!r} is not a condition", 'write "O2.speed = 0 rad/s" or "O2.position = 90 deg"'
+        )
     drive = found["drive"]
     if drive not in m.drives:
         raise ModelError(f"the condition {text!r} names no drive", closest(drive, list(m.drives)))

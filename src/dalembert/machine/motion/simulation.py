@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 TOLERANCE = 1e-12
-"""Of the integration, relative; and the most instants that are kept."""
+"""Relative tolerance of the integration, and the largest number of instants that are kept."""
 CLOSE, DOUBT = 1e-10, 1e-5
 """Gap of a check that needs no other measure; and that above which the answer says so: results are read to five digits
 at most."""
@@ -53,12 +53,12 @@ these they may be nothing but rounding."""
 class Simulation(NamedAnswer, Answer):
     """A motion under forces: ``result`` has every joint force at the instants ``time`` (T,), s.
 
-    ``applied`` (T, D): what acts in each drive's freedom, brakes and stops included; ``stop_force`` (T, D): of the stop
-    that it rests on. ``works``: J since the start, (T,), by name.
-    ``kinetic``, ``potential`` (T,). Checks: ``energy_residual``, the gap of the energy balance over the largest energy;
-    ``law_gap`` (T,), of the efforts that the found motion asks for when it is prescribed, over the largest,
-    ``law_residual`` its largest; and ``closure``, of the loops, m or rad. Joint forces and checks take
-    longer than the motion, and are computed when they are first asked for: nothing is printed or written without.
+    ``applied`` (T, D): effort in each drive's freedom, brakes and stops included; ``stop_force`` (T, D): force of the
+    stop on which it rests. ``works``: J since the start, (T,), by name. ``kinetic``, ``potential`` (T,). Checks:
+    ``energy_residual``, the gap of the energy balance over the largest energy; ``law_gap`` (T,), of the efforts of the
+    computed motion, prescribed, over the largest, ``law_residual`` its largest; and ``closure``, of the loops, m or
+    rad. Joint forces and checks take longer than the motion, and are computed when they are first needed: they are
+    always part of a printed or written answer.
     """
 
     NAME = "simulation"
@@ -74,8 +74,9 @@ class Simulation(NamedAnswer, Answer):
     pushed: Array = field(repr=False)  # efforts on what rests on a stop, else NaN
     on_joints: Array = field(repr=False)  # stops of joints, (T, J, 2)
     status: str = "ended"
-    """``ended`` by a time or a condition; ``not_met``: its conditions are not, within the limits or as it is at rest
-    for good; ``stopped`` where nothing goes on, ``interrupted`` by Ctrl-C: ``ended`` says why and when."""
+    """``ended`` by a time or a condition; ``not_met``: its conditions are not, within the limits or because it is at
+    rest for good; ``stopped`` where the motion cannot continue, ``interrupted`` by Ctrl-C: ``ended`` gives the reason
+    and the time."""
     motion: Result | None = field(
         repr=False, default=None
     )  # where other freedoms have led: its poses and rates
@@ -91,12 +92,12 @@ class Simulation(NamedAnswer, Answer):
 
     @property
     def result(self) -> Result:  # type: ignore[override]
-        """The analysis along the motion that was found."""
+        """The analysis along the computed motion."""
         return self._loaded[0]
 
     @property
     def joint_stop_force(self) -> Mapping[str, Array]:
-        """What stops of joints give (T,), N or N m, by joint: positive as the joint's freedom; loads in ``result``."""
+        """Forces of stops of joints (T,), N or N m, by joint: positive as the joint's freedom; loads in ``result``."""
         return self._loaded[1]
 
     @property
@@ -107,14 +108,14 @@ class Simulation(NamedAnswer, Answer):
 
     @cached_property
     def applied(self) -> Array:
-        """What acts in each drive's freedom (T, D), N m or N."""
+        """Effort in each drive's freedom (T, D), N m or N."""
         asked = np.where(np.isnan(self.given), self.result.effort_array, self.given)
         held = stop_effort(self.result, self.pushed, 0 * self.moves.brake)  # with what a brake takes of it
         return np.where(np.isnan(self.pushed), asked, self.pushed + held)
 
     @cached_property
     def stop_force(self) -> Array:
-        """What stops give (T, D) to drives that rest on them: what friction and brakes do not hold."""
+        """Forces of stops (T, D) on drives that rest on them: the part that friction and brakes do not hold."""
         return stop_effort(self.result, self.pushed, self.moves.brake)
 
     @cached_property
@@ -141,7 +142,8 @@ class Simulation(NamedAnswer, Answer):
 
     @cached_property
     def law_gap(self) -> Array:
-        """The found motion, prescribed, asks for the efforts that made it: where they are numbers, nothing reverses."""
+        """Difference of the efforts of the computed motion, prescribed, from those that made it: where they are numbers
+        and no contact reverses."""
         r, free = self.result, self.moves.free
         sure = np.array([s in ("ok", "self_locking", "redundant") for s in r.status])
         if r.friction is not None:
@@ -175,7 +177,7 @@ class Simulation(NamedAnswer, Answer):
 
     @property
     def doubt(self) -> str:
-        """What the checks do not confirm, as beside a singular position where a motion ends; empty where they do."""
+        """Failed checks, as beside a singular position where a motion ends; empty where all are met."""
         at, said = np.flatnonzero(self.law_gap > DOUBT), []
         if len(at):
             when = f"{self.time[at[0]]:.6g} s" + (f" and {len(at) - 1} more" if len(at) > 1 else "")
@@ -193,7 +195,7 @@ class Simulation(NamedAnswer, Answer):
         return self.schedule.names
 
     def position(self, drive: str) -> Array:
-        """Position of a drive (T,), rad or m, whole turns counted."""
+        """Position of a drive (T,), rad or m, full turns counted."""
         return self.schedule.position[:, place_of(self.drives, drive, "drive")]
 
     def speed(self, drive: str) -> Array:
@@ -219,7 +221,7 @@ class Simulation(NamedAnswer, Answer):
 
     @property
     def extent(self) -> str:
-        """How many instants."""
+        """Number of instants."""
         return counted(len(self), self.ROW)
 
     @property
@@ -228,7 +230,7 @@ class Simulation(NamedAnswer, Answer):
         return f"{self.status} {self.ended}"
 
     def _further(self) -> dict[str, Column]:
-        """What is no quantity of the result: efforts that were applied, stops, works and energies, by name."""
+        """Columns that are not quantities of the result: applied efforts, stops, works and energies, by name."""
         return {c.name: c for c in self._columns_of_motion()}
 
     def keys(self) -> list[str]:
@@ -300,13 +302,13 @@ def simulate(
 ) -> Simulation:
     """Motion under forces: motors, given efforts, loads, weights, springs, dampers and dry friction.
 
-    (V^T M V) u' + h(q, u) = tau for the drives that ``start`` lets go; the others stay prescribed. ``until``: a time
-    (``"2 s"``, or seconds), a condition such as ``"O2.speed = 0 rad/s"`` or ``"O2.position = 90 deg"``, or several,
-    the first ends it. Without a time, a motion also ends where its conditions are not met within so many ``steps`` of
-    the integration (a radian at least counts as one), or 1e5 s: its ``status`` is ``not_met``. Ctrl-C ends it with what
-    there is, ``interrupted``. ``start``: in place of the file's, ``{"O2": {"position": "60 deg", "speed": 0}}``.
-    ``events``: conditions that are noted. ``count``: instants in the answer, evenly in time, besides the events;
-    without a time the steps of the integration. Dry friction sticks and lets go; nothing is smoothed. Raises ModelError
+    (V^T M V) u' + h(q, u) = tau for the drives that ``start`` releases; the others stay prescribed. ``until``: a time
+    (``"2 s"``, or seconds), a condition such as ``"O2.speed = 0 rad/s"`` or ``"O2.position = 90 deg"``, or several, the
+    first ends it. Without a time, a motion also ends where its conditions are not met within ``steps`` steps of the
+    integration (a radian at least counts as one), or 1e5 s: its ``status`` is ``not_met``. Ctrl-C ends it with the
+    motion so far, ``interrupted``. ``start``: instead of the file's, ``{"O2": {"position": "60 deg", "speed": 0}}``.
+    ``events``: conditions that are recorded. ``count``: instants in the answer, evenly in time, besides the events;
+    without a time the steps of the integration. Dry friction sticks and releases, without smoothing. Raises ModelError
     for a model that forces cannot move. Hairer, Norsett, Wanner, Solving ODEs I, II.5 (DOP853).
 
     >>> import dalembert as da
@@ -331,10 +333,10 @@ def simulate(
 
 
 def check_choices(count: int, tolerance: float) -> None:
-    """Raise ModelError for so many instants, or such a tolerance."""
+    """Raise ModelError for a number of instants or a tolerance out of range."""
     if not BOUNDS["instants"].allows(count):
         raise ArgumentError(
-            f"{text_of(count)} instants are asked for", f"ask for 2 to {BOUNDS['instants'].high}"
+            f"instants={text_of(count)} is out of range", f"use 2 to {BOUNDS['instants'].high}"
         )
     if not BOUNDS["step error"].allows(tolerance):
         raise ArgumentError(
@@ -343,19 +345,19 @@ def check_choices(count: int, tolerance: float) -> None:
 
 
 def read_start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]:
-    """Starts given in the call, read as the file reads them."""
+    """Starts given in the call, read as in a file."""
     if not start:
         return {}
     for name in start:
         if name not in m.drives:
             raise ModelError(
-                f"start names the drive {name!r}, which is not there", closest(name, list(m.drives))
+                f"start names the drive {name!r}, which does not exist", closest(name, list(m.drives))
             )
     return StartValue().starts(start, m._later_rules({}))
 
 
 def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, pieces: list[Integration]) -> Simulation:
-    """The motion that was found."""
+    """The computed motion."""
     run = pieces[-1]
     if not run.rows:
         raise ModelError(

@@ -32,7 +32,7 @@ from dalembert.model.drives.motors import Switch
 
 @dataclass(frozen=True)
 class Limits:
-    """Where a motion that only conditions end is given up: so many steps of the integration, and so long, s."""
+    """Limits at which a motion that only conditions end is stopped: number of steps of the integration, and time, s."""
 
     steps: int = 10_000
     time: float = 1e5
@@ -78,7 +78,7 @@ class StepState(LeadState):
 
     @property
     def _told(self) -> Flags:
-        """Contacts (E,) whose friction the motion tells where they have no rate: not those that rest by a range."""
+        """Contacts (E,) whose sense the motion gives where they have no rate: not those that rest within a range."""
         told = self.stuck.copy()
         if self.equation.dry and not self.locked.any():
             told[self.equation.dry.own] = True
@@ -94,7 +94,7 @@ class StepState(LeadState):
             self._keep_rates(*code, t, y)
 
     def _keep_rates(self, code: Integrator, values: Array, t: Array, y: Array) -> None:
-        """Keep instants (M,) with the accelerations of the machine code; efforts that are asked for come later: NaN."""
+        """Keeps instants (M,) with the accelerations of the machine code; unknown efforts come later: NaN."""
         d = self.d
         a, (first, slope, brake, _) = code.rates(values, t, y)[:, d : 2 * d], values[-4 * d :].reshape(4, d)
         applied = np.where(self.acting.free & ~self.locked, first + slope * y[:, d : 2 * d] + brake, np.nan)
@@ -166,7 +166,7 @@ class StepState(LeadState):
     # events
 
     def _guards(self, t: float, y: Array) -> list[Guard]:
-        """What may end the segment that begins: each a quantity whose sign is watched."""
+        """Quantities whose change of sign may end the segment that begins."""
         d, acting = self.d, self.acting
 
         def speed(k: int, less: float = 0.0) -> Value:
@@ -203,7 +203,7 @@ class StepState(LeadState):
         return value * g.side < 0
 
     def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
-        """Whether a corner or a condition is passed within the last step, which ends on the same side as it began."""
+        """True if a corner or a condition is passed within the last step, which ends on the same side as it began."""
         if g.kind not in ("corner", "condition") or not g.side:
             return False
         t, y, h = solver.t, solver.y, solver.t - before

@@ -24,7 +24,7 @@ AT_ONCE, UNWATCHED = 16, 256
 
 
 PARTS = ("state", "rates", "least", "time", "step", "end", "tolerance", "growth", "attempts")
-"""Of a motion, as ``kernel.emit.integrator`` has them: the first three of n numbers."""
+"""Parts of a motion, as in ``kernel.emit.integrator``: the first three of n numbers."""
 
 
 def _table() -> Array:
@@ -40,7 +40,7 @@ TABLE = _table()
 
 class Integrator:
     """Machine code for steps of motions side by side, whose rate is a program of channels (state (n,), time) and of
-    numbers; its places say where each stands."""
+    numbers; its places are the index of each."""
 
     def __init__(self, rate: Program, n: int, numbers: int, lanes: int = 1) -> None:
         from dalembert.kernel.emit.machine_code import compile_module
@@ -49,8 +49,8 @@ class Integrator:
         self.machine = compile_module(integrator(rate, n, lanes), lanes)
 
     def advance(self, values: Array, motions: Array, most: int, between: bool = False) -> Array:
-        """Go on with motions (block, ``state_size``, lane) by at most so many attempts of steps; their records (block,
-        most, ``record_size``, lane), of which only as many as were made have numbers. No attempts: only the rates."""
+        """Advances motions (block, ``state_size``, lane) by at most ``most`` attempts of steps; their records (block,
+        most, ``record_size``, lane), of which only the attempted ones have numbers. No attempts: only the rates."""
         blocks = len(motions)
         records = np.empty((blocks, max(most, 1), record_size(self.n), self.lanes))
         where = (address(values), address(motions), address(records), address(TABLE))
@@ -247,7 +247,7 @@ class MachineSteps:
 
 
 class Steps(DOP853):
-    """scipy's solver, which begins where no rate tells how far to step, too."""
+    """scipy's solver, which also starts where the rate gives no step size."""
 
     def __init__(
         self,

@@ -1,7 +1,7 @@
 """A motor for a drive: its torque over the cycle behind a gear, T_m = J_m n alpha + T / (n eta).
 
-T is the drive's effort, n the gear ratio (speed of the motor over that of the drive), J_m the motor's own inertia. The
-efficiency eta divides where the drive takes power and multiplies where it gives it back. Over log n every |T_m| has one
+T is the drive's effort, n the gear ratio (speed of the motor over that of the drive), J_m the motor's inertia. The
+efficiency eta divides where the drive takes power and multiplies where it returns power. Over log n every |T_m| has one
 minimum, and so has the greatest of them.
 
 Mechanics: docs/theory.md 10.5.
@@ -38,7 +38,8 @@ RANGE = 1e4
 
 @dataclass(frozen=True)
 class Need:
-    """What the motor must give behind a gear: rms and greatest torque (N m), speed (rad/s); whether it can."""
+    """Requirement on the motor behind a gear: rms and greatest torque (N m), speed (rad/s); whether the motor meets
+    it."""
 
     ratio: float
     rms: float
@@ -51,8 +52,9 @@ class Need:
 class MotorChoice(Answer):
     """Effort (P,) of a drive, its speed and acceleration, and the inertia (P,) of all links as seen from it.
 
-    ``time`` (P,), s: what each position stands for. ``motor_inertia`` J_m, kg m2; ``curve``: the greatest torque over
-    the speed; ``rated``: the torque that may last, against the rms, N m. ``needs``: by name, of ratios.
+    ``time`` (P,), s: duration represented by each position. ``motor_inertia`` J_m, kg m2; ``curve``: the greatest
+    torque over the speed; ``rated``: the continuous torque, compared with the rms, N m. ``needs``: requirements by
+    name, of ratios.
     """
 
     NAME = "motor"
@@ -106,7 +108,7 @@ class MotorChoice(Answer):
         return np.asarray(self.motor_inertia * ratio * self.acceleration + self.effort * lost / ratio)
 
     def need(self, ratio: float) -> Need:
-        """What the motor must give with a gear ratio."""
+        """Requirement on the motor with a gear ratio."""
         require("ratio", ratio)
         torque, speed = self.torque(ratio), ratio * np.abs(self.speed)
         rms, enough = self.rms(torque), None
@@ -175,12 +177,12 @@ def motor(
     curve: MotorCurve | str | Path | None = None,
     rated: float | None = None,
 ) -> MotorChoice:
-    """What a drive asks its motor for over the cycle, and the gear ratio that needs least torque.
+    """Torque that a drive requires of its motor over the cycle, and the gear ratio that needs least torque.
 
-    ``inertia``: the motor's own, kg m2; ``ratio``: speed of the motor over that of the drive (of one that slides,
+    ``inertia``: that of the motor, kg m2; ``ratio``: speed of the motor over that of the drive (of one that slides,
     rad/m); ``curve``: greatest torque over speed, a motor of a file or a text file with columns speed and torque,
-    default the drive's own ``motor``; ``rated``: the torque that may last, N m. Raises ModelError where the drive
-    stands still, and AnalysisError where a position has no answer.
+    default the drive's ``motor``; ``rated``: the continuous torque, N m. Raises ModelError where the drive is at rest,
+    and AnalysisError where a position is not solved.
 
     >>> import dalembert as da
     >>> found = da.motor(da.dynamics(da.slider_crank(crank=0.05, rod=0.2)), inertia=1e-4)
@@ -198,7 +200,7 @@ def motor(
     if not name:
         raise ModelError("the machine has no drive, and a motor turns one", "drive a joint")
     if name not in r.drives:
-        raise ModelError(f"there is no drive {name!r}", closest(name, list(r.drives)))
+        raise ModelError(f"unknown drive {name!r}", closest(name, list(r.drives)))
     if isinstance(curve, (str, Path)):
         curve = read_curve(curve, r.mechanism.units)
     motion = r.effort(name), r.drive_speed(name), r.drive_acceleration(name), reduced_inertia(r, name)

@@ -18,6 +18,6 @@ def read_curve(file: str | Path, units: Units | None = None) -> MotorCurve:
     columns, lines = read_quantities(file, kinds, Reading(units))
     for (a, b), line in zip(pairwise(columns["speed"]), lines[1:], strict=True):
         if not a < b:
-            what = "the curve is no function of the speed: this one is not greater than the one before"
+            what = "speeds of the curve must increase: this one is not greater than the one before"
             raise ModelError(what, "give each speed once, rising", (), str(file), line)
     return MotorCurve(tuple(columns["speed"]), tuple(columns["torque"]))

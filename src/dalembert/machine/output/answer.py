@@ -1,4 +1,5 @@
-"""What an answer of this room is: numbers over the positions, others by name, parts to read, drawings, a section."""
+"""Base of the answers in this package: numbers over the positions, others by name, printed parts, drawings, a
+section."""
 
 from __future__ import annotations
 
@@ -38,7 +39,7 @@ class Answer(Compared):
             yield Column(f"drive.{drive}", drive_kinds(r, drive)["position"], r.drive_position(drive))
 
     def contents(self, units: UnitChoice = "file", **choice: object) -> Iterable[Part]:
-        """What a person reads: sentences and tables."""
+        """Printed parts: sentences and tables."""
         text = import_module(f"dalembert.machine.output.{self.NAME}_text")
         found: Iterable[Part] = getattr(text, f"{self.NAME}_parts")(
             self, print_scale(self.result, units), **choice

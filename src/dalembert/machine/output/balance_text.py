@@ -1,4 +1,4 @@
-"""Counterweights as a person reads them."""
+"""Printed form of counterweights."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def comparison_table(b: Comparison, to: Printed) -> Table:
 
 
 def proof(b: Balance) -> str:
-    """What was made least, how it is known to be, and what stands in the way of full force balance."""
+    """Objective, proof of optimality, and obstacles to full force balance."""
     counted = b.problem.weighted(b.least, b.of)
     what = " + ".join(f"{'' if w == 1 else f'{w:g} '}{name}" for name, w in b.of.items() if w)
     if not counted:
@@ -71,7 +71,7 @@ def proof(b: Balance) -> str:
     zero = [name for name, w in b.of.items() if w and name not in counted]
     said += f"The {' and the '.join(zero)}, 0 before, did not count. " if zero else ""
     if not b.before.parts["inertia"][0].any():
-        said += "No inertia force is there to balance. "
+        said += "The inertia force is zero without counterweights. "
     elif b.complete:
         said += "The force is balanced completely: the moment is the same about every point. "
     elif b.missing():
@@ -79,8 +79,8 @@ def proof(b: Balance) -> str:
     elif b.only_bounds:
         said += "Without bounds the force would be balanced completely. "
     else:
-        said += "No counterweights balance the force completely: some link has no way to ground over turning joints. "
-    return f"{said}Analysed anew with the counterweights, the machine differs by {remainder(b.residual)}."
+        said += "Full force balance is impossible: some link has no path to ground through turning joints. "
+    return f"{said}Check: re-analysis with the counterweights agrees to {remainder(b.residual)}."
 
 
 def _percent(part: float) -> str:

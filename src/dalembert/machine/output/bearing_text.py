@@ -1,4 +1,4 @@
-"""Bearings as a person reads them."""
+"""Printed form of bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A flywheel as a person reads it."""
+"""Printed form of a flywheel."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from dalembert.machine.flywheel.flywheels import Flywheel
 
 NONE = 1e-6
-"""Part of the links' own inertia below which a flywheel is none."""
+"""Part of the links' inertia below which a flywheel counts as none."""
 
 
 def flywheel_parts(f: Flywheel, to: Printed) -> Iterator[Part]:
@@ -56,31 +56,30 @@ def _sizes(f: Flywheel, to: Printed) -> Table:
 
 
 def _needless(f: Flywheel) -> bool:
-    """Whether the links alone turn as steadily as is asked."""
+    """True if the links alone turn as steadily as required."""
     return f.exact_size is not None and f.exact_size.inertia < NONE * f.own
 
 
 def comparison(f: Flywheel, to: Printed) -> str:
-    """What the book's rule leaves out, in a sentence."""
+    """Sentence on the inertia that the textbook rule omits."""
     if f.exact is None:
         return f"No exact speed: {f.reason}."
     said = (
-        f"The links have an inertia of their own of {to.quantity('inertia', f.own)} on the mean, as seen from "
-        f"{f.drive}, which dE / (Cs w^2) leaves out: with that flywheel Cs is {number(f.exact.fluctuation, 5)}"
+        f"The mean inertia of the links, reduced to "
+        f"{f.drive}, is {to.quantity('inertia', f.own)}; dE / (Cs w^2) omits it, "
+        f"so that with this flywheel Cs is {number(f.exact.fluctuation, 5)}"
         f"{_percent(f.exact, f.size.fluctuation)}. "
     )
     if f.exact_size is not None and _needless(f):
-        said += "For the Cs asked for no flywheel is needed: that of the links alone is smaller. "
+        said += "For the required Cs no flywheel is needed: that of the links alone is smaller. "
     elif f.exact_size is not None:
         rule = f.size.inertia - f.own
-        said += f"For the Cs asked for {to.quantity('inertia', f.exact_size.inertia)} will do"
-        said += (
-            f"; the rule less the links' own inertia says {to.quantity('inertia', rule)}" if rule > 0 else ""
-        )
+        said += f"For the required Cs {to.quantity('inertia', f.exact_size.inertia)} is enough"
+        said += f"; the rule less the links' inertia gives {to.quantity('inertia', rule)}" if rule > 0 else ""
         said += ". "
     elif f.reason:
-        said += f"The flywheel for just that Cs is not found: {f.reason}. "
-    return f"{said}The exact motion, prescribed, asks for a constant torque within {remainder(f.exact.residual)}."
+        said += f"The flywheel for exactly that Cs cannot be computed: {f.reason}. "
+    return f"{said}Check: the exact motion, prescribed, needs a torque constant to {remainder(f.exact.residual)}."
 
 
 def _percent(s: SpeedFluctuation, asked: float) -> str:

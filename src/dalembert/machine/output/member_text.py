@@ -1,4 +1,4 @@
-"""Inner forces and stresses as a person reads them."""
+"""Printed form of inner forces and stresses."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ CLOSED = 1e-8
 
 
 def floors(f: MemberForces) -> dict[str, float]:
-    """What of each inner force is nothing but rounding, by its kind."""
+    """Rounding level of each inner force, by its kind."""
     force, moment = (
         max(np.nan_to_num(abs(f.largest(of)[0])) for of in f.names if kind_of(of) == kind)
         for kind in ("force", "moment")
@@ -41,7 +41,7 @@ def member_parts(t: MemberTable, to: Printed) -> Iterator[Part]:
     heads = ["link", "largest", "", "unit", "member", f"at\n{to.text('length')}", "where"]
     rows = _largest_rows(t, to)
     if rows or not t.unknown:
-        yield Table(heads, rows, 2) if rows else "Nothing is carried inside the links."
+        yield Table(heads, rows, 2) if rows else "The links carry no internal forces."
     yield from (_unknown(t, which, why) for which, why in t.unknown.items())
     yield from (table for f in (_stress_table, _fatigue_table, _buckling_table) if (table := f(t, to)).rows)
     if notes := " ".join(_buckling_notes(t)):
@@ -53,7 +53,7 @@ def member_parts(t: MemberTable, to: Printed) -> Iterator[Part]:
 
 
 def _closure(t: MemberTable) -> str:
-    """How well forces and moments close, or on which link they do not."""
+    """Equilibrium error of forces and moments, or the link on which it is too large."""
     with np.errstate(all="ignore"):
         known = {link: float(np.nanmax(f.residual, initial=0.0)) for link, f in t.links.items()}
     if not any(np.isfinite(f.residual).any() for f in t.links.values()):
@@ -66,13 +66,13 @@ def _closure(t: MemberTable) -> str:
 
 
 def _brackets(link: str, f: MemberForces, to: Printed) -> str:
-    """What acts beside the members of a link, by a bracket that nothing is computed of."""
+    """Loads beside the members of a link, by a bracket that is not analysed."""
     some = ", ".join(f"{of} ({to.number('length', x)} {to.text('length')})" for of, x in f.brackets.items())
     return f"Beside the members of {link}: {some}. Its bracket there is taken as rigid and is not analysed."
 
 
 def _unknown(t: MemberTable, which: str, why: str) -> str:
-    """What of which link is not known, and why."""
+    """Inner forces of a link that are not known, with the reason."""
     lost = {link: f.unknown().get(which, []) for link, f in t.links.items()}
     if all(len(lost[link]) == len(f.names) for link, f in t.links.items()):
         return f"At position {which} forces inside links are not known: {why}"
@@ -149,11 +149,11 @@ def _buckling_table(t: MemberTable, to: Printed) -> Table:
 
 
 def _buckling_notes(t: MemberTable) -> Iterator[str]:
-    """What the critical loads assume, and where they are for comparison."""
+    """Assumptions of the critical loads, and where they are for comparison."""
     if any(b.ends[0] != "given" for b in t.buckling.values()):
         yield (
-            "K L is the effective length, the ends are those of the plane that decides: as the joints hold them with "
-            "the drives at rest and the other links rigid, under a force that keeps its direction."
+            "K L is the effective length; the ends are those in the governing plane, as the joints hold them with "
+            "the drives at rest and the other links rigid, under a force of constant direction."
         )
         if t.result.mechanism.dimension == 2:
             yield "Across the plane joints hold their places; only welds, and what holds a link alone, hold the angle."

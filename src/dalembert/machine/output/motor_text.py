@@ -1,4 +1,4 @@
-"""The choice of a motor as a person reads it."""
+"""Printed form of the choice of a motor."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def _no_least(c: MotorChoice) -> str:
     if not np.any(c.effort):
         own = c.motor_inertia and np.any(c.acceleration)
         said = (
-            "only the motor's own acceleration does: the lower the ratio, the less"
+            "only the motor's acceleration needs torque: the lower the ratio, the less"
             if own
-            else "nor does the motor"
+            else "the motor needs no torque either"
         )
         return f"The drive needs no effort; {said}."
     return (
-        "Torque falls with every higher ratio, as nothing of it goes into the motor's own acceleration: the ratio "
-        "is limited by the motor's speed alone."
+        "Torque falls as the ratio rises, because accelerating the motor takes no torque: the ratio "
+        "is limited only by the motor's speed."
     )
 
 
@@ -38,7 +38,7 @@ ENOUGH = {None: "-", True: "yes", False: "no"}
 
 
 def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
-    """What the drive asks for, and the motor behind each ratio."""
+    """Requirement of the drive, and the motor behind each ratio."""
     kinds = drive_kinds(c.result, c.drive)
     rows = []
     for name in ("effort", "speed", "acceleration", "power"):
@@ -65,5 +65,5 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
         yield _no_least(c)
     by = {"its curve": c.curve, "its rated torque against the rms": c.rated}
     given = " and ".join(what for what, value in by.items() if value is not None)
-    judged = f"Whether it is enough is judged by {given}."
-    yield judged if given else "No curve and no rated torque given: nothing is judged."
+    judged = f"The column `enough` compares with {given}."
+    yield judged if given else "No curve or rated torque is given, so no ratio is rated."

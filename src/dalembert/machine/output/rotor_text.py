@@ -1,4 +1,4 @@
-"""A rotor balanced in two planes as a person reads it."""
+"""Printed form of a rotor balanced in two planes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The shaking force and moment as a person reads them."""
+"""Printed form of the shaking force and moment."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def shaking_parts(s: Shaking, to: Printed, orders: int | Sequence[float] = 4) ->
 
 
 def _values(s: Shaking, to: Printed) -> Part:
-    """One position: components. Several: greatest size with its place, mean and rms, of the whole and its parts."""
+    """One position: components. Several: greatest size with its place, mean and rms, of the total and its parts."""
     r, d, single = s.result, s.result.mechanism.dimension, len(s.result.status) == 1
     named = [("shaking force", "force", s.force), ("shaking moment", "moment", s.moment)]
     named += [] if s.couple is None else [("shaking couple", "moment", s.couple)]
@@ -83,7 +83,7 @@ def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> 
 
 
 def _engine(s: Shaking, to: Printed) -> list[Part]:
-    """Of an engine, the book's two harmonics beside the exact ones."""
+    """For an engine, the two textbook harmonics beside the exact ones."""
     from dalembert.machine.balance.engine_series import engine_series
 
     r = s.result
@@ -128,8 +128,8 @@ def _harmonic_table(name: str, h: Harmonics, to: Printed, floor: float) -> Table
         for part in (h.forward, h.backward) if turning else ():
             row.append(to.number(kind, abs(part[k])) if abs(part[k]) > floor else "0")
         rows.append(row)
-    note = f"Every other position left out changes them by {_off(h.aliasing, kind, to)} at most."
-    note = note if math.isfinite(h.aliasing) else "Too few positions to tell their aliasing."
+    note = f"Aliasing check: using every other position changes the amplitudes by at most {_off(h.aliasing, kind, to)}."
+    note = note if math.isfinite(h.aliasing) else "Too few positions to check aliasing."
     return Table([*heads, *(["with it", "against"] if turning else [])], rows, note=note)
 
 
@@ -140,5 +140,5 @@ def _off(aliasing: float, kind: str, to: Printed) -> str:
 
 
 def _phase(phase: float, order: float) -> str:
-    """Of the mean, which has a sign, 0 or 180; half a turn back is half a turn on."""
+    """Phase; for the mean, which has a sign, 0 or 180; half a turn back is half a turn on."""
     return turned(math.radians(round_components([math.degrees(phase)], 1.0)[0])) if order or phase else "0"

@@ -1,4 +1,4 @@
-"""A motion under forces as a person reads it."""
+"""Printed form of a motion under forces."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
     if joints.rows:
         yield joints
     yield (
-        f"Checks: the energy balance holds within {remainder(s.energy_residual)} of the largest energy; the motion "
-        f"found, prescribed, asks for the efforts that made it within {remainder(s.law_residual)}; the loops close "
+        f"Checks: the energy balance holds within {remainder(s.energy_residual)} of the largest energy; the efforts "
+        f"of the computed motion, prescribed, agree to {remainder(s.law_residual)}; the loops close "
         f"within {remainder(s.closure)} m."
     )
     if s.doubt:
-        yield f"Doubtful: {s.doubt}."
+        yield f"Check failed: {s.doubt}."
     # where forces move every drive, no load has to drive it
     natural = {"at_rest", "self_locking"} if s.moves.free.all() else {"at_rest"}
     problems = [row for row in s.result.problems() if row[1] not in natural]

@@ -19,7 +19,7 @@ from dalembert.units import KINDS
 
 
 def to_dict(answer: Answer, units: UnitChoice = "SI") -> Tree:
-    """Everything of an answer, in SI or in the units of the file; None where there is no value."""
+    """All numbers of an answer, in SI or in the units of the file; None where unsolved."""
     r, to = answer.result, scale(answer.result, units)
     named = [(c.name, nan_to_none(np.asarray(to(c.kind, c.values)))) for c in answer.columns()]
     rows = zip(*(values for _, values in named), strict=True)
@@ -54,7 +54,7 @@ def write_json(answer: Answer, stream: IO[str], units: UnitChoice = "SI") -> Non
 
 
 def rows(answer: Answer, units: UnitChoice = "SI") -> Iterator[list[object]]:
-    """Heads with units, then one row a position; None where there is no value."""
+    """Heads with units, then one row per position; None where unsolved."""
     to, some = scale(answer.result, units), list(answer.columns())
     yield ["position", *(f"{c.name} [{to.text(c.kind)}]" if to.text(c.kind) else c.name for c in some)]
     lists = [nan_to_none(np.asarray(to(c.kind, c.values))) for c in some]
@@ -62,7 +62,7 @@ def rows(answer: Answer, units: UnitChoice = "SI") -> Iterator[list[object]]:
 
 
 def write_csv(answer: Answer, stream: IO[str], units: UnitChoice = "SI") -> None:
-    """One row a position into an open text file; an empty field where there is no value."""
+    """Writes one row per position to an open text file; the field is empty where unsolved."""
     csv.writer(stream, lineterminator="\n").writerows(rows(answer, units))
 
 

@@ -1,4 +1,4 @@
-"""Which freedom each drive prescribes, read off a description before its values are."""
+"""Finds the freedom that each drive prescribes, from the description before its values are read."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def drive_freedoms(tree: Mapping[str, object]) -> dict[str, str]:
 
 
 def with_freedoms(tree: Mapping[str, object]) -> Mapping[str, object]:
-    """The tree with the freedom of each drive said; raises ModelError where a joint has several."""
+    """The tree with the freedom of each drive written out; raises ModelError where a joint has several."""
     drives: dict[str, object] = {}
     problems: list[ModelError] = []
     for key, drive, freedom, choices in _drives(tree):

@@ -137,7 +137,7 @@ def kind_of(freedom: str | None, what: str) -> str:
 
 
 def slides(freedom: str | None) -> bool:
-    """Whether a freedom is a length."""
+    """True if a freedom is a length."""
     return (freedom or "").startswith("slide")
 
 
@@ -178,7 +178,9 @@ class Drive(Part):
     25.0
     """
 
-    joint: Name | None = Field(None, description="the joint it drives; default the drive's own name")
+    joint: Name | None = Field(
+        None, description="the joint it drives; default the joint with the drive's name"
+    )
     freedom: Literal["turn", "slide", "turn1", "turn2", "slide1", "slide2"] | None = Field(
         None, description="which freedom of the joint; needed where it has several"
     )
@@ -194,15 +196,15 @@ class Drive(Part):
         0.0, description="one value or a list; rad/s^2 of a turn, length/time^2 of a slide; default 0"
     )
     law: Annotated[Law, DriveValue(read_law, law_schema)] | None = Field(
-        None, description="a law of motion in place of position, speed and acceleration"
+        None, description="a law of motion instead of position, speed and acceleration"
     )
     effort: Annotated[Varying, DriveValue(_effort, varying_schema, "effort")] | None = Field(
         None,
-        description="known effort: a moment on a turn, a force on a slide; then a load must be unknown. Beside a "
-        "motor it is what else acts on its shaft, as -0.02*O2.speed^2 of a fan: used by simulate",
+        description="known effort: a moment on a turn, a force on a slide; then a load must be unknown. With a "
+        "motor, any further effort on its shaft, e.g. -0.02*O2.speed^2 of a fan: used by simulate",
     )
     motor: Annotated[MotorCurve, DriveValue(motor_curve, motor_schema)] | None = Field(
-        None, description="effort as a function of speed, of a drive that `start` lets go: used by simulate"
+        None, description="effort as a function of speed, for a drive that `start` releases: used by simulate"
     )
     brake: Annotated[float, DriveValue(_brake, lambda: NUMBER_OR_TEXT, "effort")] = Field(
         0.0, description="dry effort against the motion of its freedom, which holds at rest: used by simulate"
@@ -226,17 +228,17 @@ class Drive(Part):
 
     @property
     def unknown(self) -> bool:
-        """Whether its position is asked for."""
+        """True if its position is unknown."""
         return isinstance(self.position, str)
 
     @property
     def moves(self) -> bool:
-        """Whether it has a speed, an acceleration or a law."""
+        """True if it has a speed, an acceleration or a law."""
         return self.law is not None or any(map(_nonzero, (self.speed, self.acceleration)))
 
     @property
     def turns(self) -> bool:
-        """Whether its freedom is an angle."""
+        """True if its freedom is an angle."""
         return not slides(self.freedom)
 
     @model_validator(mode="before")
@@ -251,14 +253,14 @@ class Drive(Part):
         if self.law is not None:
             self._refuse("a law of motion", "position", "speed", "acceleration", "range", "stops")
         elif self.position is None and self.motor is None and self.effort is None:
-            what = "its position is not said"
+            what = "its position is missing"
             raise ModelError(what, "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law")
         if self.motor is not None:
             self._refuse("a motor", "law", "range")
             if isinstance(self.effort, (int, float)):
                 said = "a motor and a constant effort are given"
                 raise ModelError(
-                    said, "write that effort as a load; one that changes may stand here", ("effort",)
+                    said, "write that effort as a load; a varying effort is allowed here", ("effort",)
                 )
         if self.unknown:
             self._refuse("an unknown position", "speed", "acceleration")

@@ -25,13 +25,13 @@ EXAMPLE = "stops: {from: 0 mm, to: 80 mm, restitution: 0.4}"
 
 @dataclass(frozen=True, slots=True)
 class Stops:
-    """Least and greatest position, rad or m, infinite where nothing is; part of the speed that comes back, 0 to 1."""
+    """Least and greatest position, rad or m, infinite without a stop; coefficient of restitution, 0 to 1."""
 
     least: float = -inf
     greatest: float = inf
     restitution: float = 0.0
     kind: str = ""
-    """Of the freedom of a joint: angle or length."""
+    """Kind of the joint's freedom: angle or length."""
 
     def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
@@ -56,13 +56,13 @@ def end_stops(value: object, kind: str, rules: Reading) -> Stops:
         raise ModelError(said, "give from the least and to the greatest position", ("from",))
     back = at_item("restitution", rules.quantity, keys.get("restitution", 0.0), "number")
     if not 0 <= back <= 1:
-        said = f"a restitution of {back:g}: it is the speed after an impact over that before"
-        raise ModelError(said, "write 0 (it stays) to 1 (nothing is lost)", ("restitution",))
+        said = f"restitution is {back:g}; it is the speed after an impact over the speed before"
+        raise ModelError(said, "write a number from 0 (no rebound) to 1 (no energy lost)", ("restitution",))
     return Stops(least, greatest, back)
 
 
 def stops_schema() -> JsonSchema:
-    """Of stops in a file."""
+    """JSON schema of stops in a file."""
     return object_schema(
         {
             "from": NUMBER_OR_TEXT | {"description": "least position"},

@@ -125,10 +125,10 @@ def law(value: object, kind: str, rules: Reading) -> Law:
     if isinstance(value, (Rise, TimeTable)):
         return value
     if not isinstance(value, Mapping):
-        raise ModelError(f"{quote_value(value)} is no law", f"write {EXAMPLES['rise']}")
+        raise ModelError(f"{quote_value(value)} is not a law of motion", f"write {EXAMPLES['rise']}")
     form = value.get("type")
     if form not in TYPES:
-        found = "the key 'type' is missing" if form is None else f"there is no law {quote_value(form)}"
+        found = "the key 'type' is missing" if form is None else f"unknown law {quote_value(form)}"
         raise ModelError(found, closest(str(form), list(TYPES)), () if form is None else ("type",))
     return _table(value, kind, rules) if form == "table" else _rise(value, kind, rules)
 
@@ -179,8 +179,8 @@ def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic:
 def count(value: object, least: int = 1) -> int:
     """A number of positions."""
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= MOST:
-        what = f"{quote_value(value)} is no number of positions"
-        raise ModelError(what, f"write a whole number from {least} to {MOST}")
+        what = f"{quote_value(value)} is not a number of positions"
+        raise ModelError(what, f"write an integer from {least} to {MOST}")
     return value
 
 

@@ -24,7 +24,7 @@ KEYS = ["stall", "no_load", "curve", "on", "off"]
 SWITCHES = ("time", "position", "speed")
 
 Switch = tuple[str, float]
-"""What a motor is switched by, one of ``SWITCHES``, and at which value of it."""
+"""Variable that switches a motor, one of ``SWITCHES``, and its switching value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +145,7 @@ def _curve(value: object, kinds: Mapping[str, str], rules: Reading) -> tuple[tup
     for k, (a, b) in enumerate(pairwise(speed)):
         if not a < b:
             raise ModelError(
-                f"the curve is no function of the speed: point {k + 2} is not at a greater speed than point {k + 1}",
+                f"speeds of the curve must increase: point {k + 2} is not at a greater speed than point {k + 1}",
                 "give each speed once, rising",
                 ("speed",),
             )
@@ -174,7 +174,7 @@ def switch(value: object, kinds: Mapping[str, str], rules: Reading) -> Switch:
 
 
 def motor_schema() -> JsonSchema:
-    """Of a motor in a file."""
+    """JSON schema of a motor in a file."""
     many = list_schema(NUMBER_OR_TEXT, 2)
     curve = {
         "speed": many | {"description": "rising speeds"},

@@ -19,12 +19,12 @@ Motion = tuple[Any, Any, Any, Any]
 
 @dataclass(frozen=True)
 class Schedule:
-    """What the drives do, position by position.
+    """Motion of the drives, position by position.
 
     position, speed, acceleration: (positions, drives), SI and radians; an unknown position is NaN
     time:    (positions,) of a law of motion, else None
     parts:   (positions, contacts) of friction's limit at contacts without a rate, where it is known; else NaN, None
-    unknown: the drive whose position is asked for, and the `range` it is sought in
+    unknown: the drive whose position is unknown, and the `range` in which it is sought
     """
 
     names: tuple[str, ...]
@@ -43,8 +43,8 @@ class Schedule:
 
     @property
     def moves(self) -> Flags:
-        """Whether the machine moves at each position (positions,): some drive has a speed, or all stand only to turn
-        back, between two positions where they move."""
+        """True at the positions (positions,) where the machine moves: some drive has a speed, or all are at rest only
+        to reverse between two positions where they move."""
         import numpy as np
 
         moving: Flags = (self.speed != 0).any(axis=1)
@@ -60,7 +60,7 @@ AtPositions = int | Sequence[Any] | Array | None
 def schedule(drives: Mapping[str, Drive], positions: AtPositions = None) -> Schedule:
     """The drives' positions; a count replaces those of ranges and laws, or steps a lone turn round; values replace all.
 
-    Raises ModelError where counts disagree, and for a count that is not whole.
+    Raises ModelError where counts disagree, and for a count that is not an integer.
     """
     import numpy as np
 
@@ -89,7 +89,7 @@ def _whole(count: object) -> int:
 
     if isinstance(count, bool) or not isinstance(count, Integral):
         raise ModelError(
-            f"positions={count} is not a whole number", "give a number of positions, or a list of values"
+            f"positions={count} is not an integer", "give a number of positions, or a list of values"
         )
     return int(count)
 
@@ -125,23 +125,23 @@ def _with_positions(drives: Mapping[str, Drive], values: Sequence[Any] | Array) 
 def _step_full_turn(drives: Mapping[str, Drive], positions: int) -> Mapping[str, Drive]:
     """The drives, a lone turn of one value stepped round a full turn."""
     if not 1 <= positions <= MOST:
-        raise ModelError(f"{positions} positions are asked for", f"ask for 1 to {MOST}")
+        raise ModelError(f"positions={positions} is out of range", f"use 1 to {MOST}")
     if positions == 1 or any(drive.counts() for drive in drives.values()):
         return drives
     sought = [name for name, drive in drives.items() if drive.unknown]
     if sought or not drives:
         why = (
-            f"drive {sought[0]!r} has all that are found in its range"
+            f"the positions of drive {sought[0]!r} are computed within its range"
             if sought
             else "a structure has no drive"
         )
-        what = f"{positions} positions are asked for, and {why}"
+        what = f"positions={positions} cannot be used: {why}"
         raise ModelError(what, "leave the number out", ("drives",))
     turning = [name for name, drive in drives.items() if drive.turns]
     if len(turning) != 1:
         raise ModelError(
-            f"{positions} positions are asked for, and {len(turning)} drives turn ({', '.join(turning) or 'none'})",
-            "say in the file which one steps: position: {from: 0 deg, to: 360 deg, count: 72}",
+            f"positions={positions} needs one drive that turns, not {len(turning)} ({', '.join(turning) or 'none'})",
+            "give one drive its steps in the file: position: {from: 0 deg, to: 360 deg, count: 72}",
             ("drives",),
         )
     drive = drives[turning[0]]
@@ -159,12 +159,12 @@ def _count(drives: Mapping[str, Drive], positions: int | None) -> int:
             found.setdefault(number if listed or positions is None else positions, name)
     if len(found) > 1 or (positions is not None and found and positions not in found):
         said = " and ".join(f"{number} of drive {name!r}" for number, name in found.items())
-        asked = f", and {positions} are asked for" if positions is not None else ""
+        asked = f", but positions={positions}" if positions is not None else ""
         raise ModelError(
             f"the numbers of positions differ: {said}{asked}",
             "drives advance together: give equal counts, or single values"
             if len(found) > 1
-            else "a list has its own count: leave the number out, or write {from, to, count}",
+            else "the list sets the count: leave the number out, or write {from, to, count}",
             ("drives", list(found.values())[-1]),
         )
     return next(iter(found), 1)

@@ -1,4 +1,4 @@
-"""Where a motion under forces starts: position and speed of the drives that forces move."""
+"""Start of a motion under forces: position and speed of the drives that forces move."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Start:
 
 
 def drives_at_start(drives: Mapping[str, Drive], start: Mapping[str, Start]) -> Mapping[str, Drive]:
-    """The drives, those without a position of their own as they start."""
+    """The drives; those without a position take that of the start."""
     if not start:
         return drives
     at = {
@@ -72,7 +72,7 @@ class StartValue(Value):
         turns = rules.freedoms.get(name, "turn") == "turn"
         keys, kinds = mapping(given, ["position", "speed"], EXAMPLE), TURN if turns else SLIDE
         if "position" not in keys:
-            raise ModelError("its position is not said", f"write {EXAMPLE}")
+            raise ModelError("its position is missing", f"write {EXAMPLE}")
         position = at_item("position", rules.quantity, keys["position"], kinds[""])
         speed = keys.get("speed", 0)
         still = speed == 0 and not isinstance(speed, (str, bool))

@@ -8,9 +8,9 @@ FilePath = str | os.PathLike[str]
 
 
 def convert(path: FilePath, target: FilePath, overwrite: bool = False) -> None:
-    """Write a model file in another format, keeping the user's own units, texts and order of keys.
+    """Write a model file in another format, keeping the user's units, texts and order of keys.
 
-    The mechanism is read first, so that nothing wrong is converted. Comments are not kept.
+    The mechanism is read first, so that a wrong file is not converted. Comments are not kept.
     """
     from dalembert.model.description import mechanism
     from dalembert.model.files.model_files import read_file, save_tree

@@ -21,7 +21,7 @@ def read(text: str) -> object:
         raise at_line(what, "check commas, quotes and brackets", error.lineno) from None
     except _TwiceError as twice:
         line = _second(text, str(twice))
-        said = f"the key {quote_value(str(twice))} stands twice"
+        said = f"the key {quote_value(str(twice))} occurs twice"
         raise at_line(said, "leave one of them out", line) from None
 
 
@@ -52,7 +52,7 @@ def _check_tokens(text: str) -> None:
         depth += (token in "[{") - (token in "]}")
         line += token == "\n"
         if token in ("NaN", "Infinity", "-Infinity"):
-            raise at_line(f"{token} is no number of JSON", "write a finite number", line)
+            raise at_line(f"{token} is not a JSON number", "write a finite number", line)
         if depth > DEEPEST:
             what = f"the file is nested deeper than {DEEPEST} levels"
             raise at_line(what, "a model file needs 6 or so", line)

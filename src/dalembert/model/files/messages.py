@@ -1,4 +1,4 @@
-"""What is wrong with a description, as sentences: pydantic's findings and our own, most useful first."""
+"""Turns the errors of a description, pydantic's and the model's, into sentences, most useful first."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ HINTS = {
     "stiffness": "give it, for example stiffness: 2000 N/m",
     "damping": "give it, for example damping: 30 N*s/m",
     "direction": "give the angle it points at, direction: 30 deg",
-    "quantity": "say what is asked for, quantity: effort",
+    "quantity": "name the unknown quantity, quantity: effort",
 }
 """Missing key -> what to write."""
 
 MOST = 20
-"""How many errors are listed one by one."""
+"""Largest number of errors listed one by one."""
 
 
 class UnknownKey(ModelError):  # noqa: N818
@@ -83,7 +83,7 @@ def of_originals(error: ModelError, copied: Mapping[Path, Path]) -> ModelError:
 
 
 def place(path: Sequence[str | int]) -> str:
-    """Where in a description, in words.
+    """Place in a description, in words.
 
     >>> place(("links", "crank", "points", "A", "at", 0))
     "item 1 of at of point 'A' of link 'crank'"
@@ -132,7 +132,7 @@ def _of_ours(inner: ModelError, path: Path) -> tuple[int, ModelError]:
 
 
 def _path(loc: Sequence[str | int], tree: object, missing: bool) -> Path:
-    """pydantic's location without the names of the alternatives it tried, which are no keys of the tree."""
+    """pydantic's location without the names of the alternatives it tried, which are not keys of the tree."""
     path: list[str | int] = []
     for step, key in enumerate(loc):
         inner = _inside(tree, key)
@@ -145,7 +145,7 @@ def _path(loc: Sequence[str | int], tree: object, missing: bool) -> Path:
 
 
 def _inside(tree: object, key: str | int) -> object:
-    """What stands at a key, or the tree itself if it has no such key."""
+    """Value at a key, or the tree itself if it does not have the key."""
     if isinstance(tree, Mapping):
         return tree.get(key, tree)
     if isinstance(tree, (list, tuple)) and isinstance(key, int) and key < len(tree):
@@ -165,20 +165,20 @@ def _sentence(one: ErrorDetails) -> tuple[str, str]:
         word, choices = str(ctx["tag"]), _quote(ctx["expected_tags"])
         meant = [name for name in MEANT.get(word.lower().replace(" ", "_"), ()) if name in choices]
         remedy = f"write {' in the plane, '.join(meant)}" + (" in space" if len(meant) > 1 else "")
-        return f"there is no type {quote_value(word)}", remedy if meant else closest(word, choices, 30)
+        return f"unknown type {quote_value(word)}", remedy if meant else closest(word, choices, 30)
     if kind == "union_tag_not_found":
         return "the key 'type' is missing", HINTS["type"]
     if kind == "literal_error":
         choices = _quote(ctx["expected"])
         return f"{quote_value(given)} has no meaning here", closest(str(given), choices)
     if kind in ("model_type", "model_attributes_type", "dict_type", "mapping_type"):
-        return f"{quote_value(given)} stands where a mapping is needed", "write {key: value, ...}"
+        return f"expected a mapping, not {quote_value(given)}", "write {key: value, ...}"
     if kind in ("tuple_type", "list_type"):
-        return f"{quote_value(given)} stands where a list is needed", "write [..., ...]"
+        return f"expected a list, not {quote_value(given)}", "write [..., ...]"
     if kind in ("bool_type", "bool_parsing"):
         return f"{quote_value(given)} is neither true nor false", "write true or false"
     if kind == "string_type":
-        return f"{quote_value(given)} is no text", "put it in quotes"
+        return f"{quote_value(given)} is not text", "put it in quotes"
     return f"{quote_value(given)}: {one['msg'].lower()}", ""
 
 
@@ -191,7 +191,7 @@ MEANT: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("fixed", "rigid", "clamp"), ("weld",)),
     **dict.fromkeys(("torque", "moment"), ("couple",)),
 }
-"""What other programs and books call the types: in the plane, in space."""
+"""Names of the types in other programs and books: in the plane, in space."""
 
 
 def _quote(choices: str) -> list[str]:

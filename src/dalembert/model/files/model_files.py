@@ -50,7 +50,7 @@ def load(path: FilePath, data: FilePath = "") -> Mechanism:
 
 
 def loads(text: str, form: str = "yaml", name: str = "text") -> Mechanism:
-    """The mechanism of a text; `name` stands for the file in messages.
+    """The mechanism of a text; `name` is the name of the file in messages.
 
     >>> loads("{links: {ground: {}, bar: {mass: 2 lbm}}}").mass("bar")
     0.90718474
@@ -68,7 +68,7 @@ def read_file(path: FilePath) -> tuple[Any, Source]:
 def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, Source]:
     """The tree of a text as it is written, and where it came from."""
     if form not in FORMATS.values():
-        raise ModelError(f"there is no format {form!r}", "yaml, json or toml")
+        raise ModelError(f"unknown format {form!r}", "use yaml, json or toml")
     if len(text) > LARGEST:
         what = f"the file has more than {LARGEST} characters"
         raise ModelError(what, "give large tables fewer points", (), name, 1)
@@ -83,7 +83,7 @@ def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, S
 
 
 def _tree(text: str, form: str) -> tuple[object, Callable[[], Lines]]:
-    """A text's tree, and its lines: those of YAML are found with it, others when a message needs them."""
+    """Tree of a text, and its lines: those of YAML are read with it, others when a message needs them."""
     if form == "yaml":
         from dalembert.model.files import yaml_text
 
@@ -152,7 +152,7 @@ def _decode(content: bytes, name: str) -> str:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
-        what = f"the file is not UTF-8 text: byte {content[error.start]:#04x} has no meaning there"
+        what = f"the file is not UTF-8 text: invalid byte {content[error.start]:#04x}"
         raise ModelError(what, "save it as UTF-8", (), name, line) from None
 
 
@@ -160,7 +160,7 @@ def format_of(path: FilePath) -> str:
     """The format that the ending of a name says."""
     suffix = Path(path).suffix.lower()
     if suffix not in FORMATS:
-        what = f"{os.fspath(path)} is named like no model file"
+        what = f"{os.fspath(path)} does not have the name of a model file"
         raise ModelError(what, "end its name with .yaml, .json or .toml")
     return FORMATS[suffix]
 
@@ -177,7 +177,7 @@ def save_text(text: str, path: FilePath, overwrite: bool = False) -> None:
     except UnicodeEncodeError as error:
         half = text[error.start]
         what = f"cannot write {os.fspath(path)}: a text in it has {half!r}, half a character"
-        raise ModelError(what, "write that text anew") from None
+        raise ModelError(what, "write that text again") from None
     with new_file(path, overwrite) as temporary:
         temporary.write_bytes(content)
 

@@ -1,4 +1,4 @@
-"""Where each value of a model file stands in its text: its line, and the characters that change with it."""
+"""Position of each value of a model file in its text: its line, and the characters that change with it."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def lines(text: str, form: str) -> Lines:
 
 
 def inside(found: Places, path: Path) -> list[Path]:
-    """The values that stand directly in a mapping or list."""
+    """Values directly inside a mapping or list."""
     return [other for other in found if len(other) == len(path) + 1 and other[: len(path)] == path]
 
 

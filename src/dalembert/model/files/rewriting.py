@@ -1,4 +1,5 @@
-"""The text of a mechanism: its file's own, with only the changed values changed; or one that a person would write."""
+"""Text of a mechanism: its file's text with only the changed values changed, or a new one as a person would write
+it."""
 
 from __future__ import annotations
 
@@ -32,13 +33,14 @@ NOWHERE = "\0"
 """No folder: a text that may be saved anywhere has no file beside it."""
 
 ROUNDS = 3
-"""What an anchor hands on changes with it, so that others get their own value back in a second round."""
+"""Largest number of rounds: a changed anchor changes its aliases, which get their old values back in a second round."""
 
 
 def text_of(m: Mechanism, form: str, folder: str | None = None) -> str:
-    """The text of a model file in a format: that of the mechanism's own file as far as there is one.
+    """The text of a model file in a format: the text of the mechanism's file, changed as little as possible, if it has
+    one.
 
-    Columns of another file stay there if it is in the ``folder`` of the text (default: that of the mechanism's own).
+    Columns of another file stay there if it is in the ``folder`` of the text (default: that of the mechanism's file).
     """
     own_folder = m.source.folder if m.source is not None else ""
     token = FILE_FOLDER.set(own_folder if folder is None else folder)
@@ -62,7 +64,7 @@ def _text_of(m: Mechanism, form: str) -> str:
 
 
 def file_tree(m: Mechanism) -> Tree:
-    """The description in its own units, without what goes without saying."""
+    """The description in the file's units, without default values."""
     tree: Tree = m.model_dump(mode="json", by_alias=True, context=m.units)
     for name, drive in tree.get("drives", {}).items():
         if len(m.joints[m.drive_joint(name)].freedoms) == 1:
@@ -93,15 +95,15 @@ def _own_text(m: Mechanism, source: Source) -> str | None:
 
 
 def _every_value(m: Mechanism, tree: Mapping[str, object]) -> dict[Path, object]:
-    """The changes, columns that have to be written out, and parameters that nothing uses any more."""
+    """The changes, columns that have to be written out, and parameters that are no longer used."""
     known: Any = tree.get("parameters") or {}
     unused = {("parameters", name): REMOVED for name in known if name not in m.parameters}
     return dict(_values(m, tree)) | dict(listed_columns(m, tree)) | unused
 
 
 def text_changes(m: Mechanism, text: str, form: str) -> list[Change] | None:
-    """What to change in the text of a mechanism's file so that it is this mechanism, columns of other files written
-    out; None where that is not done in one go."""
+    """Changes of the text of a mechanism's file that make it describe this mechanism, columns of other files written
+    out; None where one pass is not enough."""
     from dalembert.model.files.model_files import read_text
 
     token = FILE_FOLDER.set(NOWHERE)
@@ -144,14 +146,14 @@ def _tables_from_files(tree: object, path: Path) -> Iterator[Path]:
 
 
 def _values(m: Mechanism, tree: Mapping[str, object]) -> Iterator[tuple[Path, object]]:
-    """The changes as paths down the file's tree, with values in the file's own words."""
+    """Changes as paths down the file's tree, with values in the file's words."""
     dumped = m.to_tree()
     for path, given in m.changes.items():
         yield from _value(m, tree, dumped, path.split("."), given)
 
 
 def _differences(m: Mechanism, read: Mechanism, tree: Mapping[str, object]) -> Iterator[tuple[Path, object]]:
-    """What a text says otherwise than the mechanism, leaf by leaf."""
+    """Differences of a text from the mechanism, leaf by leaf."""
     wanted = m.to_tree()
     for path in _differing(wanted, read.to_tree(), ()):
         yield from _value(m, tree, wanted, list(map(str, path)), _at(wanted, path, REMOVED), said=False)
@@ -171,7 +173,7 @@ def _differing(a: object, b: object, path: Path) -> Iterator[Path]:
 def _value(
     m: Mechanism, tree: object, dumped: object, keys: list[str], given: object, said: bool = True
 ) -> Iterator[tuple[Path, object]]:
-    """A change as paths and values of the tree; `said`: a text given is written as it is."""
+    """A change as paths and values of the tree; `said`: a given text is written unchanged."""
     if keys[0] == "parameters" and len(keys) == 2 and isinstance(_at(tree, tuple(keys), None), Mapping):
         keys, dumped = [*keys, "value"], _with_values(dumped, keys[1])
     path, old = _path_to_text(tree, keys)
@@ -197,14 +199,14 @@ def _value(
 
 
 def _with_values(dumped: Any, name: str) -> Tree:
-    """The tree with a parameter as a mapping, as its file has it."""
+    """The tree with a parameter as a mapping, as in its file."""
     said = dumped["parameters"][name]
     whole_ = said if isinstance(said, Mapping) else {"value": said}
     return {**dumped, "parameters": {**dumped["parameters"], name: whole_}}
 
 
 def _path_to_text(tree: object, keys: list[str]) -> tuple[Path, object]:
-    """The path down the tree, as far as it goes before a value that is one text, and what stands there."""
+    """Path down the tree, as far as a value that is one text, and the value at that path."""
     path: Path = ()
     for key in keys:
         if isinstance(tree, list) and key.isdigit() and int(key) < len(tree):
@@ -217,7 +219,7 @@ def _path_to_text(tree: object, keys: list[str]) -> tuple[Path, object]:
 
 
 def _at(tree: Any, path: Path, default: object) -> Any:
-    """What stands at a path of a tree."""
+    """Value at a path of a tree."""
     for key in path:
         try:
             tree = tree[key]
@@ -287,7 +289,7 @@ def _polar(m: Mechanism, si: list[str | float], old: str) -> object:
 
 
 def _of_load(m: Mechanism, tree: object, name: str, given: object) -> Iterator[tuple[Path, object]]:
-    """The value and direction of a force, which may stand as one polar text, or as a vector without a direction."""
+    """Value and direction of a force, which may be written as one polar text, or as a vector without a direction."""
     load, was = m.loads[name], _at(tree, ("loads", name), {})
     path, old = ("loads", name, "value"), was.get("value") if isinstance(was, Mapping) else None
     value, direction = getattr(load, "value", None), getattr(load, "direction", None)

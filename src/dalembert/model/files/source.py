@@ -1,4 +1,4 @@
-"""Where a description came from: the file's name and the line of each of its keys."""
+"""Source of a description: the file's name and the line of each of its keys."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ Lines = Mapping[Path, int]
 
 
 STANDARD_INPUT = ("-", "/dev/stdin", "standard input")
-"""What is read from standard input, and what messages call it."""
+"""Names of standard input: as a path, and in messages."""
 
 
 def is_stream(path: str | os.PathLike[str]) -> bool:
-    """Whether it can be read only once, and its name says little: standard input, a pipe, `<(...)`, a device."""
+    """True if the path can be read only once and its name means little: standard input, a pipe, `<(...)`, a device."""
     if os.fspath(path) in STANDARD_INPUT:
         return True
     try:
@@ -28,7 +28,7 @@ def is_stream(path: str | os.PathLike[str]) -> bool:
 
 @dataclass(frozen=True)
 class Source:
-    """A file's name, its text and format, and its lines by path, found when first asked for.
+    """A file's name, text and format, and its lines by path, computed when first needed.
 
     >>> Source("four.yaml", lambda: {("joints",): 3, ("joints", "A"): 5}).line(("joints", "A", "links", 0))
     5

@@ -1,4 +1,4 @@
-"""Values of a model file's text changed, each in its own place; every other character stays."""
+"""Changes values of a model file's text, each in its place; all other characters are kept."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Renamed(NamedTuple):
 
 
 class Change(NamedTuple):
-    """Characters in place of those from `start` to `end`."""
+    """Characters that replace those from `start` to `end`."""
 
     start: int
     end: int
@@ -165,7 +165,7 @@ def _new_line(text: str, behind: int, indent: str, pair: str) -> Change:
 
 
 def _block(text: str, form: str, found: Places, path: Path, value: object) -> Change:
-    """A block on lines of its own becomes one value behind its key."""
+    """Replaces a block on separate lines by one value behind its key."""
     place = found[path]
     assert place.key is not None, path
     colon = text.index(":", place.key[1])

@@ -23,23 +23,19 @@ def load_task(
     keys: Mapping[str, str],
     make: Callable[[Mapping[str, object], Mechanism, Path], Task],
 ) -> Task:
-    """What ``make(tree, mechanism, folder)`` makes of a file with these keys, whose version is under the key ``what``;
+    """Result of ``make(tree, mechanism, folder)`` for a file with these keys, whose version is under the key ``what``;
     raises ModelError with file and line."""
     tree, source = read_file(path)
     folder = Path(path).parent
     try:
         if not isinstance(tree, Mapping):
-            found = f"{quote_value(tree)} stands where a mapping is needed"
+            found = f"expected a mapping, not {quote_value(tree)}"
             raise ModelError(found, "write model: ... and vary: ...")
         if "links" in tree:
-            raise ModelError(
-                "this is a model file", "name it from a file of its own: model: FILE", ("links",)
-            )
+            raise ModelError("this is a model file", "name it in a separate file: model: FILE", ("links",))
         check_keys(tree, list(keys))
         if tree.get(what, 1) != 1 or isinstance(tree.get(what), bool):
-            raise ModelError(
-                f"{quote_value(tree[what])} is no version of the format", f"write {what}: 1", (what,)
-            )
+            raise ModelError(f"unknown format version {quote_value(tree[what])}", f"write {what}: 1", (what,))
         return make(tree, _model(tree, folder), folder)
     except ModelError as error:
         raise error.at_source(source) from None
@@ -53,7 +49,7 @@ def _model(tree: Mapping[str, object], folder: Path) -> Mechanism:
     path = folder / name
     if not path.is_file():
         raise ModelError(
-            f"there is no model file {path}", "name one, from the folder of this file", ("model",)
+            f"model file {path} does not exist", "give its path relative to this file", ("model",)
         )
     return load(path)
 
@@ -77,5 +73,5 @@ def _whole(value: Any, key: str, least: int) -> int:
     number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < LARGEST
     if number and value == int(value) >= least:
         return int(value)
-    what = f"{key} is {quote_value(value)}, which is no whole number of {least} or more"
+    what = f"{key} is {quote_value(value)}; it must be an integer of at least {least}"
     raise ModelError(what, f"write {key}: 1000", (key,))

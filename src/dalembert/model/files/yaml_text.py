@@ -145,14 +145,14 @@ class _Builder:
         top = self.stack[-1]
         if key in top.value:
             first = self.lines.get((*top.path, key), self.line)
-            what = f"the key {quote_value(key)} stands twice, first in line {first}"
+            what = f"the key {quote_value(key)} occurs twice, first in line {first}"
             raise self.error(what, "leave one of them out")
         top.key, top.wants_key = key, False
         self.lines[(*top.path, key)] = self.line
 
     def open_node(self, event: CollectionStartEvent, value: dict[str, object] | list[object]) -> None:
         if self.wants_key:
-            raise self.error("a list or mapping stands where a key is needed", "write key: value")
+            raise self.error("a list or mapping cannot be a key", "write key: value")
         if len(self.stack) >= DEEPEST:
             what = f"the file is nested deeper than {DEEPEST} levels"
             raise self.error(what, "a model file needs 6 or so")
@@ -166,13 +166,13 @@ class _Builder:
         self.add_anchor(top.anchor, top.value, self.size - top.start)
 
     def merge(self, top: _Open) -> None:
-        """Take in what `<<: *name` names; keys that stand in the mapping itself, and earlier ones, go first."""
+        """Merges the mappings that `<<: *name` names; keys of the mapping itself, and earlier ones, take precedence."""
         given = top.value.pop(MERGE)
         line = self.line = self.lines.pop((*top.path, MERGE))
         merged: dict[str, object] = {}
         for other in reversed(given if isinstance(given, list) else [given]):
             if not isinstance(other, dict):
-                what = f"{quote_value(other)} stands where {MERGE} takes in a mapping"
+                what = f"{quote_value(other)} cannot be merged: {MERGE} needs a mapping"
                 raise self.error(what, f"write {MERGE}: *name, after &name {{...}}")
             merged |= other
         own = dict(top.value)
@@ -187,9 +187,9 @@ class _Builder:
     def alias(self, anchor: str) -> None:
         if anchor not in self.anchors:
             remedy = f"write &{anchor} before a complete value"
-            raise self.error(f"there is no anchor {quote_value(anchor)}", remedy)
+            raise self.error(f"unknown anchor {quote_value(anchor)}", remedy)
         if self.wants_key:
-            raise self.error("an alias stands where a key is needed", "write the key")
+            raise self.error("an alias cannot be a key", "write the key")
         value, size = self.anchors[anchor]
         self.size += size
         self.add(value)

@@ -1,4 +1,4 @@
-"""The bearing of a joint that turns: what its pressure and its life are found from."""
+"""The bearing of a joint that turns: the data for its pressure and its life."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Bearing(Part):
 
     @property
     def exponent(self) -> float:
-        """Of load in life."""
+        """Load exponent of the life equation."""
         return 3.0 if self.kind == "ball" else 10 / 3
 
     @model_validator(mode="after")

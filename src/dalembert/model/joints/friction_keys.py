@@ -23,7 +23,7 @@ Circle = Literal["sin", "tan"]
 
 
 class Guide(Value):
-    """How far the guide reaches behind and ahead of j's point, `[l1, l2]`."""
+    """Lengths of the guide behind and ahead of j's point, `[l1, l2]`."""
 
     def read(self, value: object, info: ValidationInfo) -> tuple[float, float]:
         lengths = numbers(value, "length", reading(info))
@@ -41,7 +41,7 @@ class Guide(Value):
 
 
 class FrictionDefaults(Part):
-    """The top-level `friction`: what the joints' own `friction` leaves out, and whether there is any.
+    """The top-level `friction`: defaults of the joints' `friction`, and whether it is on.
 
     >>> FrictionDefaults(coefficient=0.1).circle
     'sin'
@@ -54,14 +54,14 @@ class FrictionDefaults(Part):
 
 
 class FrictionPart(Part):
-    """What dry friction of every kind of joint has: its coefficients."""
+    """Common keys of dry friction in every kind of joint: its coefficients."""
 
     coefficient: Coefficient | None = Field(
         None, description="coefficient of friction; default the top level's"
     )
     static: Coefficient | None = Field(
         None,
-        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
+        description="coefficient at rest; default the joint's coefficient, then the top level's static",
     )
 
 

@@ -1,4 +1,4 @@
-"""What all joints have: two links and a point on each."""
+"""Common keys of all joints: two links and a point on each."""
 
 from __future__ import annotations
 
@@ -28,24 +28,26 @@ class At(Value):
 
 
 class JointPart(Part):
-    """What all joints have: the links i and j, and the point on each."""
+    """Common keys of all joints: the links i and j, and the point on each."""
 
     FREEDOMS: ClassVar[tuple[str, ...]] = ()
 
     DIMENSIONS: ClassVar[tuple[int, ...]] = (2,)
-    """Of the plane, of space, or of both."""
+    """Dimensions it is for: plane, space, or both."""
 
     TOOTHED: ClassVar[bool] = False
-    """Whether its wheels have teeth."""
+    """True if its wheels have teeth."""
 
     type: str
     links: TwoNames = Field(description="[i, j]: motion and reaction are those of j against i")
     at: Annotated[str | tuple[str, str], At()] | None = Field(
-        None, description="point of both links, or [point of i, point of j]; default the joint's own name"
+        None,
+        description="point of both links, or [point of i, point of j]; default the point with the joint's name",
     )
 
     stiffness: Stiffness | None = Field(
-        None, description="where reactions are not unique: {force: ..., moment: ...}, by which they are found"
+        None,
+        description="where reactions are not unique: {force: ..., moment: ...}, from which they are computed",
     )
 
     @property
@@ -55,17 +57,17 @@ class JointPart(Part):
 
     @property
     def wheels(self) -> int:
-        """Of a contact of wheels about its points, how many touch: two, or j's with a line of i; 0 of other joints."""
+        """Number of wheels in contact about its points: two, or j's with a line of i; 0 for other joints."""
         return 0
 
     @property
     def slides(self) -> bool:
-        """Whether j slides straight in i."""
+        """True if j slides along a straight line of i."""
         return any(freedom.startswith("slide") for freedom in self.freedoms)
 
     @property
     def apart(self) -> bool:
-        """Whether j's point, the joint's place, moves away from i's."""
+        """True if j's point, the joint's place, moves away from i's."""
         return self.slides
 
     @property
@@ -75,12 +77,12 @@ class JointPart(Part):
 
     @property
     def ball(self) -> bool:
-        """Whether j turns any way in i."""
+        """True if j can turn about any axis of i."""
         return False
 
     @property
     def hinge(self) -> bool:
-        """Whether j turns about one axis of i, and does nothing else."""
+        """True if j only turns about one axis of i."""
         return self.freedoms == ("turn",) and not (self.ball or self.apart or self.wheels)
 
     @property
@@ -89,14 +91,14 @@ class JointPart(Part):
         return PAIRS.get(self.type, TEETH)
 
     def turn_of(self, named: str | None) -> str | None:
-        """The turn that is named, or its only one; None where there is no such one, or a name is needed."""
+        """The named turn, or the only one; None where it does not exist, or a name is needed."""
         turns = [freedom for freedom in self.freedoms if freedom.startswith("turn")]
         if named is not None:
             return named if named in turns else None
         return turns[0] if len(turns) == 1 else None
 
     def point_names(self, own: str) -> tuple[str, str]:
-        """The names of its points on i and on j; `own` is the joint's name."""
+        """Names of its points on i and on j; `own` is the joint's name."""
         if isinstance(self.at, tuple):
             return self.at
         point = self.at or own

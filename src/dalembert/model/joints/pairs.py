@@ -27,7 +27,7 @@ class Pair(NamedTuple):
     friction: tuple[str, ...] = ()
     """Keys of its friction beside the coefficients; of a pair without any, friction is not analysed."""
     radius: str = ""
-    """What its friction needs the radius of."""
+    """Part whose radius its friction needs."""
     threaded: bool = False
     """It advances by a lead as it turns: with the force along its axis comes a couple."""
     pins: bool = False
@@ -40,7 +40,7 @@ class Pair(NamedTuple):
 
     @property
     def ball(self) -> bool:
-        """Whether it turns any way."""
+        """True if it can turn about any axis."""
         return len(self.turns) == 3
 
     @property
@@ -53,7 +53,7 @@ class Pair(NamedTuple):
 
     @property
     def damped(self) -> tuple[str, ...]:
-        """Freedoms that can be damped: of a ball its slides, for it turns about no axis of its own.
+        """Freedoms that can be damped: for a ball its slides, because it has no fixed axis of turning.
 
         >>> PAIRS["sphere_in_cylinder"].damped
         ('slide',)
@@ -109,7 +109,7 @@ PAIRS: dict[str, Pair] = {
 """The classic table; ``blocked`` of a slotted sphere turns the local axes of its moment and turns."""
 
 TEETH = Pair("", "", local="x radial, y tangential, z along the axis of i")
-"""Of a gear: one force, along no axis of its own."""
+"""Pair of a gear: one force, along none of its local axes."""
 
 
 def freedoms_of(kind: str) -> tuple[str, ...]:

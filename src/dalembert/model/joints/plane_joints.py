@@ -38,7 +38,7 @@ class TwoNumbers(Value):
     def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
         found = numbers(value, self.kind, reading(info))
         if len(found) != 2:
-            raise ModelError(f"a list of {len(found)} stands where two are needed", "write [of i, of j]")
+            raise ModelError(f"a list of {len(found)} is given; two values are needed", "write [of i, of j]")
         for i, number in enumerate(found):
             at_item(i, check_sign, number, value[i], "positive")
         return found[0], found[1]
@@ -51,7 +51,7 @@ class TwoNumbers(Value):
 
 
 class SlotDamping(Value):
-    """Of the slide; or `{slide:, turn:}`."""
+    """Damping of the slide; or `{slide:, turn:}`."""
 
     def read(self, value: object, info: ValidationInfo) -> tuple[float, float]:
         rules = reading(info)
@@ -232,7 +232,7 @@ class Gear(JointPart):
         dimension = reading(info).dimension
         for key in ("helix_angle", "axes", "axis"):
             if dimension == 2 and getattr(self, key):
-                raise ModelError(f"a wheel of the plane has no {key}", "leave it out", (key,))
+                raise ModelError(f"a wheel of a planar mechanism has no {key}", "leave it out", (key,))
         if dimension == 3 and (self.axes is None) == (self.axis is None):
             what = "a gear in space needs the axes of its wheels"
             raise ModelError(what, "write axis: [0, 0, 1] for both, or axes: {i: {z: ...}, j: {z: ...}}")
@@ -247,7 +247,7 @@ class Gear(JointPart):
         if half or toothed == (self.radii is not None):
             raise ModelError("its size is not clear", "give either radii, or both teeth and module")
         if self.teeth is not None and any(number != round(number) for number in self.teeth):
-            raise ModelError("a number of teeth is not whole", "write whole numbers", ("teeth",))
+            raise ModelError("a number of teeth is not an integer", "write integers", ("teeth",))
         if not 0 <= self.pressure_angle < 1.2:
             raise ModelError(
                 "the pressure angle is not between 0 and 68 deg", "20 deg is usual", ("pressure_angle",)

@@ -59,7 +59,7 @@ class Frames(Part):
 
 
 class Dampings(Value):
-    """Of the only freedom; or `{freedom: coefficient}`."""
+    """Damping of the only freedom; or `{freedom: coefficient}`."""
 
     def read(self, value: object, info: ValidationInfo) -> dict[str, float]:
         rules, kind = reading(info), str(info.data.get("type"))
@@ -153,7 +153,7 @@ class SpaceJoint(JointPart):
 
     @property
     def ball(self) -> bool:
-        """Whether j turns any way in i."""
+        """True if j can turn about any axis of i."""
         return self.pair.ball
 
     @property
@@ -219,9 +219,10 @@ class SpaceJoint(JointPart):
 
 
 def frames(axes: Frames | None, axis: Vector | None, main: str) -> tuple[Matrix, Matrix]:
-    """Local axes on both links; what is not given of one link has the components it has in the other, made square.
+    """Local axes on both links; an axis that one link leaves out has the components it has in the other,
+    orthogonalised.
 
-    What neither says is the link's own axis that is nearest to a right angle, z before x before y.
+    An axis that neither gives is the link axis nearest to a right angle, z before x before y.
     """
     if axis is not None:
         given = {main: axis}

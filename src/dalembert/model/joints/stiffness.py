@@ -18,11 +18,11 @@ from dalembert.model.quantities.values import (
     value_text,
 )
 
-AXES = ", or [x, y, z] for the joint's own axes (of a joint that turns in two ways those of its link i)"
+AXES = ", or [x, y, z] in the joint's axes (for a joint with two turns, the axes of its link i)"
 
 
 class Stiffnesses(Value):
-    """One number; in space also one for each of the joint's own axes x, y, z."""
+    """One number; in space also one for each of the joint's axes x, y, z."""
 
     def __init__(self, kind: str) -> None:
         self.kind = kind
@@ -32,7 +32,7 @@ class Stiffnesses(Value):
         if not isinstance(value, (list, tuple)):
             return check_sign(rules.quantity(value, self.kind), value, "positive")
         if rules.dimension == 2 or len(value) != 3:
-            what = f"a list of {len(value)} is no stiffness"
+            what = f"a list of {len(value)} is not a stiffness"
             raise ModelError(what, "write one number" + ("" if rules.dimension == 2 else AXES))
         found = numbers(value, self.kind, rules)
         return tuple(at_item(k, check_sign, x, value[k], "positive") for k, x in enumerate(found))
@@ -52,7 +52,7 @@ class Stiffnesses(Value):
 
 
 class Stiffness(Part):
-    """How a joint yields to its reaction; what is left out is rigid.
+    """Stiffness of a joint; a direction without a value is rigid.
 
     >>> Stiffness(force="20 kN/mm").force
     20000000.0
@@ -60,9 +60,9 @@ class Stiffness(Part):
 
     force: Annotated[float | tuple[float, ...], Stiffnesses("stiffness")] | None = Field(
         None,
-        description="force per length; in space also [x, y, z] along the joint's own axes, "
-        "of a joint that turns in two ways along those of its link i",
+        description="force per length; in space also [x, y, z] along the joint's axes, "
+        "for a joint with two turns along those of its link i",
     )
     moment: Annotated[float | tuple[float, ...], Stiffnesses("torsion_stiffness")] | None = Field(
-        None, description="moment per angle; in space also [x, y, z] about the joint's own axes"
+        None, description="moment per angle; in space also [x, y, z] about the joint's axes"
     )

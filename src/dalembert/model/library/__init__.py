@@ -96,7 +96,7 @@ TEMPLATES = {name: Template(globals()[name], said) for name, said in DESCRIPTION
 
 
 def template(name: str) -> Mechanism:
-    """The template of that name with its own dimensions.
+    """The template of that name with its default dimensions.
 
     >>> from dalembert.model.library import template
     >>> template("four_bar").joints["A"].links
@@ -126,5 +126,5 @@ def _require_known(name: str) -> Template:
 
         near = get_close_matches(name, TEMPLATES, 1, 0.4)
         hint = f"did you mean {near[0]!r}?" if near else "they are " + ", ".join(TEMPLATES)
-        raise ModelError(f"there is no template {name!r}", hint)
+        raise ModelError(f"unknown template {name!r}", hint)
     return TEMPLATES[name]

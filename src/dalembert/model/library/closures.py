@@ -1,7 +1,7 @@
-"""Where the points of the plane templates are for one value of the drive, in which no two links may miss each other.
+"""Points of the planar templates for one value of the drive, for which every pair of links must meet.
 
 Each function is named after its template, takes its dimensions (metres, radians, points and ranges as tuples), and
-gives a ``Closure``, or only refuses what cannot be.
+returns a ``Closure``, or only raises an error for impossible dimensions.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ FOUR_BAR: dict[str, str | float] = {"coupler": "A B", "rocker": "O4 B"}
 
 
 def _on_link(start: complex, end: complex, local: complex) -> complex:
-    """A point of the link from start to end, given in its own axes."""
+    """Point of the link from start to end, given in link axes."""
     return start + local * (end - start) / abs(end - start)
 
 
@@ -302,7 +302,8 @@ def _direction(key: str, vector: Vector) -> Vector:
 def _closes_in_space(
     s: Sizes, start: Vector, e: Vector, closes: Callable[[Vector, float], bool], what: str
 ) -> None:
-    """Check the way to A from a point of a line along e, at each turn of a crank about z, and with the crank at 0."""
+    """Checks the distance to A from a point of a line along e, at each turn of a crank about z, and with the crank at
+    0."""
 
     def at(turn: float) -> bool:
         gap = less((s.crank * cos(turn), s.crank * sin(turn), 0.0), start)

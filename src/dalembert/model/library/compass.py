@@ -1,4 +1,4 @@
-"""Closing a linkage by compass and ruler: points of the plane as complex numbers, x + iy in metres.
+"""Closing a linkage by compass and ruler: planar points as complex numbers, x + iy in metres.
 
 Every template places its points for one value of the drive; :func:`start_points` tries that all along the sweep
 and says where it fails, and with which two links.
@@ -39,7 +39,7 @@ def vector_at(length: float, angle: float) -> complex:
 
 
 def meet(a: complex, first: Side, b: complex, second: Side, left: bool = True) -> complex:
-    """Where a link from a and a link from b meet, on the left of the way from a to b or on its right.
+    """Point where a link from a and a link from b meet, on the left of the line from a to b or on its right.
 
     In one line they just meet: a change point, which is for the analysis to judge.
 
@@ -58,7 +58,7 @@ def meet(a: complex, first: Side, b: complex, second: Side, left: bool = True) -
 
 
 def reach(a: complex, link: Side, line: complex, direction: float = 0.0, forward: bool = True) -> complex:
-    """Where a link from a reaches the straight line through a point, forward along its direction or backward.
+    """Point where a link from a reaches the straight line through a point, forward along its direction or backward.
 
     >>> reach(3j, ("rod", 5.0), 0)
     (4+0j)

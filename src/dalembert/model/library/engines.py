@@ -1,6 +1,7 @@
-"""Engines of any number of cylinders in line, in a V, or in a star: generated, as no file has a number of links.
+"""Engines of any number of cylinders in line, in a V, or in a star; generated, because a file has a fixed number of
+links.
 
-All cylinders are drawn in one plane; `place` says where along the shaft each stands, for the couples.
+All cylinders are drawn in one plane; `place` gives the position of each along the shaft, for the couples.
 """
 
 from __future__ import annotations
@@ -86,9 +87,9 @@ def v_engine(
     `cylinders` in number, even; `angle` between the banks in degrees; `throws`: angles of the crank's throws in degrees
     (default: evenly spread over a turn). `crank` radius, `rod` length and `pitch`, the distance of the throws, in
     metres; the rod's centre is a third of its length from the crank pin. `piston_mass` and `rod_mass` in kg. `gas`: the
-    largest force on a piston in N, 0 for none; each cylinder fires at a dead centre of its own, every other throw a
-    turn later. `speed` in rad/s, `sweep` in radians. What the engine does to its frame: dalembert shake; the
-    counterweight of its crank: dalembert balance --on crank.
+    largest force on a piston in N, 0 for none; each cylinder fires at a different dead centre, every other throw a turn
+    later. `speed` in rad/s, `sweep` in radians. Shaking forces on its frame: dalembert shake; counterweight of its
+    crank: dalembert balance --on crank.
 
     >>> from dalembert.model.library import v_engine
     >>> sorted(v_engine().joints)[:3]

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 _ARGUMENT = re.compile(r"^  (\w+): +\{value: (.+?), about: (.+)\}$", re.MULTILINE)
 _GROUP = re.compile(r"(\w+)_(x|y|z|1|2|start|end|first|last)")
 UNITS = Units(length="mm")
-"""Of the files."""
+"""Units of the files."""
 POSITIVE = ("kg", "kg/m", "kg/m^2", "m")
-"""Units of dimensions that are sizes: greater than 0, if the file's own is."""
+"""Units of dimensions that are sizes, which must be greater than 0 if the file's value is."""
 
 
 def file_text(name: str) -> str:
@@ -65,7 +65,7 @@ def template_function(name: str) -> Callable[..., Mechanism]:
 
 
 def _explanation(name: str, text: str, explained: list[str]) -> str:
-    """What the head of the file says, and its parameters."""
+    """Explanation from the head of the file, and its parameters."""
     head = re.search(r"^(# .*?)\n#\n# Solve it", text, re.MULTILINE | re.DOTALL)
     assert head is not None
     said = re.sub(r"^# ?", "", head[1], flags=re.MULTILINE)
@@ -161,15 +161,13 @@ def _members(name: str, argument: str, value: object, said: Mapping[str, object]
 
 
 def _text(name: str, parameter: str, value: Any, own: Parameter) -> Any:
-    """A value as the file has it: a number of SI units, of an angle that is no range degrees."""
+    """A value as in the file: a number of SI units; degrees for an angle that is not a range."""
     unit = si_unit(own.dimension)
     number = (
         read_parameters({parameter: value}, UNITS, {})[parameter].value if isinstance(value, str) else value
     )
     if not isinstance(number, (int, float)) or isinstance(number, bool):
-        raise ModelError(
-            f"{name}: {parameter} is {value!r}, which is no number", f"give it in {unit or 'numbers'}"
-        )
+        raise ModelError(f"{name}: {parameter} is {value!r}, not a number", f"give it in {unit or 'numbers'}")
     if unit in POSITIVE and own.value > 0 and not parameter.endswith(("_x", "_y", "_z")):
         positive(name, unit, **{parameter: number})
     if not isfinite(number):

@@ -80,13 +80,13 @@ def scissor(
 def _check_scissor(stages: int, link: float, widths: tuple[float, float], drive: str) -> None:
     if isinstance(stages, bool) or not isinstance(stages, int) or stages < 1:
         raise ModelError(
-            f"scissor: stages is {stages!r}, and must be a whole number of 1 or more",
+            f"scissor: stages is {stages!r}; it must be an integer of at least 1",
             "for example scissor(3)",
         )
     positive("scissor", link=link, first_width=widths[0], last_width=widths[1])
     if max(widths) >= link:
         raise ModelError(
-            f"scissor: the roller is to be {max(widths):g} m from the base pin, and links of {link:g} m lie flat there",
+            f"scissor: with the roller {max(widths):g} m from the base pin, links of {link:g} m lie flat",
             f"give widths below {link:g} m, or longer links",
         )
     if drive not in ("slide", "turn"):

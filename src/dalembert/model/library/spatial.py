@@ -97,13 +97,13 @@ def bennett(
     sweep: tuple[float, float] = (-4 * pi / 9, 4 * pi / 9),
     positions: int = 72,
 ) -> Mechanism:
-    """Bennett's linkage: four revolutes, neither parallel nor through one point, that move all the same.
+    """Bennett's linkage: four revolutes, neither parallel nor through one point, that can nevertheless move.
 
-    Opposite links are equal. `length` of the crank in metres and the `twists` of crank and coupler (degrees between
-    the axes at a link's ends) give the coupler: a / sin(alpha) = b / sin(beta). Drawn, and counted from, with the
-    crank at `start` degrees from ground's line. Four revolutes carry three constraints too many; `determinate` makes
-    the one at B a ball and the one at C cylindrical, which moves the same between the poses where all lies on one
-    line, at 0 and 180 degrees: there it can change into another motion. Links uniform and slender with
+    Opposite links are equal. `length` of the crank in metres and the `twists` of crank and coupler (degrees between the
+    axes at a link's ends) give the coupler: a / sin(alpha) = b / sin(beta). The crank is drawn, and its turn is
+    counted, from `start` degrees from ground's line. Four revolutes have three redundant constraints; `determinate`
+    makes the one at B a ball and the one at C cylindrical, which moves the same between the poses where all lies on one
+    line, at 0 and 180 degrees, where it can change into another motion. Links uniform and slender with
     `mass_per_length` in kg/m, gravity along -z; `speed` in rad/s, `sweep` in radians.
 
     >>> from dalembert.model.library import bennett

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def slender(mass_per_length: float, **points: float) -> Tree:
-    """A uniform slender link along its own x axis, with named points on it.
+    """A uniform slender link along its x axis, with named points on it.
 
     >>> slender(2.0, O2=0.0, A=0.6)
     {'points': {'O2': [0.0, 0.0], 'A': [0.6, 0.0]}, 'mass': 1.2, 'center': [0.3, 0.0], 'inertia': 0.036}
@@ -31,7 +31,7 @@ def slender(mass_per_length: float, **points: float) -> Tree:
 
 
 def pin(i: str, j: str, at: str | None = None) -> Tree:
-    """A pin at the point of its own name, or at another that both links have."""
+    """A pin at the point with its name, or at another that both links have."""
     return {"type": "pin", "links": [i, j]} | ({"at": at} if at else {})
 
 
@@ -71,7 +71,7 @@ def force(on: str, at: str, value: object, **more: object) -> Tree:
 
 
 def build_mechanism(title: str, **sections: object) -> Mechanism:
-    """The mechanism of a whole tree, through the public constructor with all its checks."""
+    """The mechanism of a complete tree, through the public constructor with all its checks."""
     from dalembert.model import mechanism
 
     return mechanism({"dalembert": 1, "title": title} | tidy(sections))

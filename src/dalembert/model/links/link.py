@@ -1,4 +1,4 @@
-"""A link: a rigid body with named points in its own axes and mass properties; it has no position and no forces."""
+"""A link: a rigid body with named points in link axes and mass properties; it has no position and no forces."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ from dalembert.model.quantities.values import (
 from dalembert.wording import closest, quote_value
 
 CENTER = "center"
-"""The name of the mass centre where a point is asked for."""
+"""Name of the mass centre where a point is expected."""
 
 GROUND = "ground"
 """The reserved name of the fixed link."""
@@ -64,7 +64,7 @@ class Offset:
     about: str = ""
 
     def image(self, start: Vector, about: Vector) -> Vector:
-        """Where a start leads, both in link axes, metres; ``start`` may be of symbols."""
+        """Image of a start, both in link axes, metres; ``start`` may be of symbols."""
         if self.turn or self.mirror is not None:
             x, y = (a - b for a, b in zip(start, about, strict=True))
             cos, sin = unit_vector(self.turn if self.mirror is None else 2 * self.mirror)
@@ -115,7 +115,7 @@ class Place(Value):
     def json_schema(self) -> JsonSchema:
         relative = {
             "from": {"type": "string", "description": "another point of the link, or center"},
-            "at": vector_schema() | {"description": "from there, in link axes, lengths"},
+            "at": vector_schema() | {"description": "relative to it, in link axes, lengths"},
             "turn": NUMBER_OR_TEXT | {"description": "in the plane: that point turned by this angle"},
             "mirror": NUMBER_OR_TEXT | {"description": "or reflected in a line at this angle"},
             "about": {"type": "string", "description": "the point it is turned about; default the origin"},
@@ -134,9 +134,9 @@ class InertiaValue(Value):
             return check_sign(rules.quantity(value, "inertia"), value, self.sign)
         if rules.dimension == 2:
             remedy = "in the plane, write inertia: 0.02; in space, space: space at the top"
-            raise ModelError(f"{quote_value(value)} stands where one number is needed", remedy)
+            raise ModelError(f"expected one number, not {quote_value(value)}", remedy)
         if len(value) != 3:
-            what = f"a list of {len(value)} is no inertia"
+            what = f"a list of {len(value)} is not an inertia"
             raise ModelError(what, "write 3 principal values, or the 3 rows of a matrix")
         if isinstance(value[0], (list, tuple)):
             return _symmetric(
@@ -196,7 +196,7 @@ class Link(Part):
         None, description="mass; or give weight; default massless"
     )
     weight: Annotated[float, Scalar("force", "not negative")] | None = Field(
-        None, description="weight, a force, in place of the mass: divided by g"
+        None, description="weight, a force, instead of the mass: divided by g"
     )
     center: Annotated[Vector, Components("length")] | None = Field(
         None, description="mass centre in link axes, lengths; default the link's origin"
@@ -229,8 +229,8 @@ class Link(Part):
     @model_validator(mode="after")
     def _place_in_the_plane(self, info: ValidationInfo) -> Self:
         if self.place and reading(info).dimension == 3:
-            remedy = "leave it out: in space the points say where the link is"
-            raise ModelError("a place along the normal is for mechanisms of the plane", remedy, ("place",))
+            remedy = "leave it out: in space the points locate the link"
+            raise ModelError("a place along the normal is for planar mechanisms only", remedy, ("place",))
         return self
 
     @model_validator(mode="after")
@@ -275,17 +275,17 @@ class Link(Part):
                 raise ModelError(said, "leave one of them out: a shape gives both", (key,))
         check_densities(self.shapes, self.mass is not None or self.weight is not None)
         if not finite(self.mass_properties, 1.0 if self.weight is not None else self.mass):
-            what = "its mass or inertia is no finite number"
+            what = "its mass or inertia is not a finite number"
             raise ModelError(what, "check its size and units", ("shape",))
 
     def mass_properties(self, mass: Numeric = None) -> MassProperties:
-        """Mass, centre and inertia of its shapes; of one density where the whole mass is given."""
+        """Mass, centre and inertia of its shapes; of uniform density where the total mass is given."""
         return mass_properties(self.shapes, self._marked, mass)
 
     def _marked(self, point: str) -> Vector:
         """A point of its shape, which is not placed from the mass centre that the shape gives."""
         if point not in self.points:
-            raise ModelError(f"there is no point {point!r}", closest(point, list(self.points)))
+            raise ModelError(f"unknown point {point!r}", closest(point, list(self.points)))
         start = point
         for _ in self.points:
             place = self.points.get(start)
@@ -326,7 +326,7 @@ class Link(Part):
             return self._center()
         if point not in self.points:
             path = ("points", seen[-1], "from") if seen else ("points",)
-            raise ModelError(f"there is no point {point!r}", closest(point, [*self.points, CENTER]), path)
+            raise ModelError(f"unknown point {point!r}", closest(point, [*self.points, CENTER]), path)
         return self.points[point]
 
     def _center(self) -> Vector:

@@ -25,11 +25,11 @@ MASS_ALONG = ("uniform", "shape", "lumped")
 
 
 class MassAlong(Value):
-    """How a link's mass lies along its members."""
+    """Distribution of a link's mass along its members."""
 
     def read(self, value: object, info: ValidationInfo) -> str:
         if value not in MASS_ALONG:
-            what = f"{value!r} is no way to lay out mass along a member"
+            what = f"{value!r} is not a mass distribution along a member"
             raise ModelError(what, f"write {', '.join(MASS_ALONG)}")
         return str(value)
 
@@ -43,16 +43,14 @@ class Members(Value):
     def read(self, value: Any, info: ValidationInfo) -> tuple[tuple[str, str], ...]:
         example = "write [[A, B], [B, C]]"
         if not isinstance(value, (list, tuple)) or not value:
-            raise ModelError("no members stand where a list is needed", example)
+            raise ModelError("the list of members is empty or not a list", example)
         pairs = value if isinstance(value[0], (list, tuple)) else [value]
         found = tuple(pair_of_names(pair) for pair in pairs)
         met = [{name(found[0][0])}]
         for a, b in found:
             at_a, at_b = (next((s for s in met if end in s), {end}) for end in (a, b))
             if at_a is at_b:
-                what = (
-                    f"the members close a ring at {a!r} and {b!r}: the forces in it are not found by statics"
-                )
+                what = f"the members close a ring at {a!r} and {b!r}; its forces are statically indeterminate"
                 raise ModelError(what, "leave one of them out: members are a tree")
             met = [s for s in met if s is not at_a and s is not at_b] + [at_a | at_b]
         if len(met) > 1:
@@ -83,8 +81,8 @@ Stress = Annotated[float, Scalar("pressure", "positive")]
 class Section(Part):
     """The section of a member, by one shape or by area, modulus and inertia; and the strength of its material.
 
-    y lies across the member in the plane of bending (z the normal of the plane). ``area`` A, ``modulus`` W = I / e,
-    ``inertia`` I, second moment of area.
+    y is transverse to the member in the plane of bending (z its normal). ``area`` A, ``modulus`` W = I /
+    e, ``inertia`` I, second moment of area.
 
     >>> s = Section(rectangle=("20 mm", "40 mm"))
     >>> round(s.area_of, 9), round(s.second_moments[1], 13)    # m2; m4 in the plane
@@ -133,7 +131,7 @@ class Section(Part):
 
     @property
     def round(self) -> bool:
-        """Whether it bends the same way about every axis."""
+        """True if its bending stiffness is the same about every axis."""
         return self.circle is not None or self.tube is not None
 
     @property
@@ -175,7 +173,7 @@ class Section(Part):
 
     @property
     def reach(self) -> tuple[float, float]:
-        """How far its outermost fibres are from the axis along y and z, m."""
+        """Distances of its outermost fibres from the axis along y and z, m."""
         return self._measures.reach
 
     @property
@@ -191,6 +189,6 @@ class Section(Part):
         """Torque over its greatest shear stress, m3: 2 I / r, rectangles within 0.2 % (Roark), an I as thin strips."""
         if self._measures.torsion is None:
             remedy = "give a rectangle, a circle, a tube or an I"
-            what = "a section by its numbers says nothing of torsion, nor of bending two ways"
+            what = "a section given by its numbers has no torsion or biaxial bending properties"
             raise ModelError(what, remedy)
         return self._measures.torsion

@@ -57,7 +57,7 @@ class Lengths(Value):
     def read(self, value: Any, info: ValidationInfo) -> Vector:
         found = numbers(value, "length", reading(info))
         if len(found) != self.count:
-            raise ModelError(f"a list of {len(found)} stands where {self.count} are needed", self.example)
+            raise ModelError(f"a list of {len(found)} is given; {self.count} values are needed", self.example)
         return tuple(at_item(i, check_sign, x, value[i], "positive") for i, x in enumerate(found))
 
     def write(self, value: Vector) -> object:
@@ -73,7 +73,7 @@ Length = Annotated[float, Scalar("length", "positive")]
 
 
 class ShapePart(Part):
-    """What all shapes have."""
+    """Common keys of all shapes."""
 
     density: Annotated[float, Scalar("density", "positive")] | None = Field(
         None, description="mass per volume; or give the link's mass or weight"
@@ -172,8 +172,8 @@ class Long(Placed):
         return length, (a + b) / 2, (b - a) / length
 
     def round(self, points: Points, area: Numeric, squares: Numeric) -> Solid:
-        """Of an area turned about the axis, ``squares`` the sum of the squares of its radii: I = V squares / 2 about
-        the axis, V (3 squares + l^2) / 12 across it."""
+        """Solid of an area revolved about the axis, ``squares`` the sum of the squares of its radii: I = V squares / 2
+        about the axis, V (3 squares + l^2) / 12 across it."""
         length, middle, axis = self.line(points)
         volume = area * length
         along, across = volume * squares / 2, volume * (3 * squares + length**2) / 12
@@ -216,7 +216,7 @@ class Tube(Long):
 
 
 class SlenderBar(Long):
-    """A slender bar: no inertia about its own line, m l^2 / 12 across it."""
+    """A slender bar: no inertia about its axis, m l^2 / 12 across it."""
 
     type: Literal["bar"] = "bar"
     area: Annotated[float, Scalar("area", "positive")] | None = Field(
@@ -259,14 +259,14 @@ Shape = Annotated[
 
 
 def in_three(vector: Vector) -> Array:
-    """A vector of the plane or of space as three components."""
+    """A planar or spatial vector as three components."""
     return np.array([*vector, 0.0][:3])
 
 
 def check_densities(shapes: tuple[ShapePart, ...], weighed: bool) -> None:
     """Raise where the mass of shapes is given twice or not at all."""
     if not shapes:
-        raise ModelError("an empty list stands where a shape is needed", "leave it out", ("shape",))
+        raise ModelError("the list of shapes is empty", "leave it out", ("shape",))
     for k, shape in enumerate(shapes):
         path: tuple[str | int, ...] = ("shape", k) if len(shapes) > 1 else ("shape",)
         if weighed and shape.density is not None:
@@ -281,7 +281,7 @@ def check_densities(shapes: tuple[ShapePart, ...], weighed: bool) -> None:
 
 
 def finite(properties: Callable[[Numeric], MassProperties], mass: Numeric) -> bool:
-    """Whether a mass, its centre and its inertia can be told in numbers."""
+    """True if a mass, its centre and its inertia are finite numbers."""
     try:
         with np.errstate(all="ignore"):
             found, center, inertia = properties(mass)
@@ -291,7 +291,7 @@ def finite(properties: Callable[[Numeric], MassProperties], mass: Numeric) -> bo
 
 
 def mass_properties(shapes: tuple[ShapePart, ...], points: Points, mass: Numeric = None) -> MassProperties:
-    """Shapes taken together (parallel axes); of one density where the whole mass is given."""
+    """Combined mass properties of shapes (parallel axes); of uniform density where the total mass is given."""
     solids = [
         at_item("shape", shape.solid, points)
         if len(shapes) == 1

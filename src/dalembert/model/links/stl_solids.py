@@ -32,7 +32,7 @@ class MeshFile:
 
     @property
     def path(self) -> Path:
-        """Where the file is."""
+        """Path of the file."""
         return Path(self.folder) / self.written
 
 
@@ -43,7 +43,9 @@ class MeshFileValue(Value):
         if isinstance(value, MeshFile):
             return value
         if not isinstance(value, str) or not value.lower().endswith(".stl"):
-            raise ModelError(f"{quote_value(value)} is no STL file", "name one, for example file: rod.stl")
+            raise ModelError(
+                f"{quote_value(value)} is not an STL file", "name one, for example file: rod.stl"
+            )
         return MeshFile(value, reading(info).folder)
 
     def write(self, value: MeshFile) -> object:
@@ -70,15 +72,15 @@ class MeshUnit(Value):
 
 
 def mesh_solid(file: MeshFile) -> tuple[float, Array, Array]:
-    """Volume, centre (3,) and inertia (3, 3) about it at a density of 1, in the mesh's own unit of length."""
+    """Volume, centre (3,) and inertia (3, 3) about it at a density of 1, in the unit of length of the mesh."""
     check_installed("trimesh", "a mesh", "cad")
     try:
         state = os.stat(file.path)
     except (OSError, ValueError):
-        said = f"there is no file {file.written!r}"
+        said = f"file {file.written!r} does not exist"
         raise ModelError(said, "check the name; it is relative to the model file") from None
     if not file.path.is_file() or state.st_size > LARGEST:
-        what = "is no ordinary file" if not file.path.is_file() else f"has more than {LARGEST} bytes"
+        what = "is not an ordinary file" if not file.path.is_file() else f"has more than {LARGEST} bytes"
         raise ModelError(f"the mesh {file.written!r} {what}", "name an STL file of a coarser mesh")
     return _read(file, state.st_mtime_ns)
 
@@ -92,9 +94,9 @@ def _read(file: MeshFile, changed: int) -> tuple[float, Array, Array]:
         mesh = trimesh.load_mesh(file.path, file_type="stl")
     except Exception as error:  # the package raises errors of many kinds for a file that is no mesh
         said = f"the mesh {file.written!r} cannot be read: {error}"
-        raise ModelError(said, "write it anew as STL") from None
+        raise ModelError(said, "export it again as STL") from None
     if not len(mesh.faces) or not np.isfinite(mesh.vertices).all():
-        raise ModelError(f"the mesh {file.written!r} has no triangles", "write it anew as STL")
+        raise ModelError(f"the mesh {file.written!r} has no triangles", "export it again as STL")
     if not mesh.is_watertight or not mesh.is_winding_consistent:
         what = f"the surface of the mesh {file.written!r} is not closed, so it has no volume"
         raise ModelError(what, "close its holes, or give mass, center and inertia")

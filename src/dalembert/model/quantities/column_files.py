@@ -1,6 +1,7 @@
 """Columns of numbers in a text file beside a model file: commas, semicolons or tabs between them, and a head.
 
-Messages name the file and the line. A file is read as text, whole, and only from the model's folder or one allowed.
+Messages name the file and the line. A file is read as text, all at once, and only from the model's folder or an allowed
+one.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ _DECIMAL_COMMA = re.compile(r"([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)")
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """Numbers of a column as they stand, each with its line; the unit that the head (on its line) states."""
+    """Numbers of a column as written, each with its line; the unit that the head (on its line) states."""
 
     name: str
     unit: str
@@ -87,9 +88,9 @@ def _rows(text: str) -> list[tuple[int, str]]:
 
 
 def find_file(file: str, rules: Reading) -> Path:
-    """Where the file is: in the model's folder, or in the other one that is allowed, links resolved."""
+    """Path of the file: in the model's folder, or in the other allowed one, links resolved."""
     if not isinstance(file, str) or not file.lower().endswith(ENDINGS):
-        what = f"{quote_value(file)} is no file of columns"
+        what = f"{quote_value(file)} is not a file of columns"
         raise ModelError(what, f"name one that ends in {', '.join(ENDINGS)}")
     try:
         folders = [
@@ -103,12 +104,12 @@ def find_file(file: str, rules: Reading) -> Path:
         ]
         found = next((path for path in inside if path.exists()), None)
     except (OSError, ValueError, RuntimeError):
-        raise ModelError(f"{quote_value(file)} is no path of a file", "check the name") from None
+        raise ModelError(f"{quote_value(file)} is not a valid path", "check the name") from None
     if not inside:
-        remedy = "put it there, or allow its folder: --data FOLDER, in Python da.load(..., data=FOLDER)"
+        remedy = "move it into that folder, or allow its folder: --data FOLDER, in Python da.load(..., data=FOLDER)"
         raise ModelError(f"the file {file!r} is outside the model file's folder", remedy)
     if found is None:
-        raise ModelError(f"there is no file {file!r}", "check the name; it is relative to the model file")
+        raise ModelError(f"file {file!r} does not exist", "check the name; it is relative to the model file")
     return found
 
 
@@ -164,7 +165,7 @@ class _Cells:
         return [cell.strip() for cell in cut]
 
     def heads(self) -> list[tuple[str, str]]:
-        """Name and unit of each column, taken off the rows; empty without a head. Units may have a row of their own."""
+        """Name and unit of each column, taken off the rows; empty without a head. Units may be in a separate row."""
         first = self.rows[0][1]
         if all(self._number(cell) is not None for cell in first):
             return [("", "")] * self.width
@@ -199,14 +200,14 @@ class _Cells:
             value = self._number(row[place])
             if value is None or not math.isfinite(value):
                 what = f" in column {name!r}" if name else ""
-                said = f"{quote_value(row[place])}{what} is no finite number"
+                said = f"{quote_value(row[place])}{what} is not a finite number"
                 raise _error(said, "correct it, or take the row out", self.file, n)
             out.append(value)
         return tuple(out)
 
 
 def _place(column: str | int, k: int, heads: list[tuple[str, str]], cells: _Cells) -> int:
-    """Which column is meant."""
+    """Index of the column that is meant."""
     names = [name for name, _ in heads]
     if isinstance(column, int) and not isinstance(column, bool) and 1 <= column <= len(heads):
         return column - 1

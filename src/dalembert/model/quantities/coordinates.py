@@ -1,4 +1,4 @@
-"""What a changing quantity may go by besides the drives: time, a link's angle, a freedom of a joint."""
+"""Variables of a changing quantity besides the drives: time, a link's angle, a freedom of a joint."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def going_by(text: str) -> dict[str, str]:
 
 
 def along_of(path: str, freedoms: Mapping[str, str]) -> str:
-    """Whether it is an angle, a length or a time; empty where that is not known."""
+    """Kind of a variable: angle, length or time; empty where it is not known."""
     if path in freedoms:
         return "length" if freedoms[path].startswith("slide") else "angle"
     found = parts(path)

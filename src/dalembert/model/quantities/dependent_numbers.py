@@ -39,12 +39,12 @@ class Dependent(float):
 
 
 def follows(value: object) -> bool:
-    """Whether a number, or some component of a vector, follows from parameters, whatever its value is."""
+    """True if a number, or some component of a vector, depends on parameters, whatever its value."""
     return isinstance(value, Dependent) or (isinstance(value, tuple) and any(map(follows, value)))
 
 
 def dependent_text(number: Dependent, kind: str = "") -> str:
-    """The expression that a number follows from, as it stands in a file."""
+    """Expression that a number depends on, as in a file."""
     return expression_with_unit(number.expression, kind)
 
 
@@ -80,7 +80,7 @@ def factor_text(value: float | Expression, kind: str) -> str:
 
 
 def parameters_of(value: object) -> tuple[str, ...]:
-    """The parameters that a value follows from by its own expression."""
+    """Parameters in the expression of a value."""
     e = value.expression if isinstance(value, Dependent) else value
     return tuple(name for name, _ in e.parameters or ()) if isinstance(e, Expression) else ()
 

@@ -1,8 +1,8 @@
-"""Dimensions of expressions: what an expression of quantities is, and whether it may stand where one is needed.
+"""Dimensions of expressions: the kind of an expression of quantities, and whether it fits where one is needed.
 
 A dimension is the powers of length, mass, time and angle. The angle of `pi` and of a turning drive is open (None):
-`pi/4` is a number or an angle, as its place needs. In a product of other quantities the angle does not count, so
-that `theta*r` is a length. A bare 0 has every dimension.
+`pi/4` is a number or an angle, depending on where it is used. In a product of other quantities the angle does not
+count, so that `theta*r` is a length. A bare 0 has every dimension.
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ def _of_seconds(tree: Tree, given: Powers) -> bool:
 
 
 def is_bare(given: Powers | None, kind: str, text: str) -> bool:
-    """Whether a number of this dimension is a bare one where one of the kind is needed, in the file's unit.
+    """True if a number of this dimension is a bare one where one of the kind is needed, in the file's unit.
 
     Raises ModelError where it is of another kind.
     """
@@ -188,7 +188,7 @@ def _base_units(given: Powers | None) -> str:
 
 
 def phrase(given: Powers | None) -> str:
-    """What a quantity of this dimension is called."""
+    """Name of a quantity of this dimension."""
     kind = kind_of_dimension(given)
     exact = kind is not None and (given is None or given[3] is None or KINDS[kind].dimension[3] == given[3])
     return KINDS[kind].phrase if kind and exact else f"in {_base_units(given)}"

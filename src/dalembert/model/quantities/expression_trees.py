@@ -78,13 +78,13 @@ def evaluate(tree: Tree, drives: Mapping[str, Numeric], functions: Functions) ->
 
 
 def unknown_name(what: str, name: str, known: list[str]) -> ModelError:
-    """The error that ``what`` goes by a name that has no value."""
+    """Error for an expression ``what`` that depends on a name without a value."""
     if name == "time":
         remedy = "give a drive a law of motion, or let forces move the machine: simulate"
         return ModelError(
-            "a quantity goes by time, and several positions without a law have no times", remedy
+            "a quantity depends on time, but several positions without a law have no times", remedy
         )
-    return ModelError(f"{what} {name!r}, which is no drive", closest(name, known))
+    return ModelError(f"{what} {name!r}, which is not a drive", closest(name, known))
 
 
 def apply_function(name: str, values: Sequence[Numeric], functions: Functions) -> Numeric:

@@ -1,4 +1,4 @@
-"""Expressions in the drives' names, parsed against a fixed grammar of our own; nothing in a file is ever executed.
+"""Expressions in the drives' names, parsed by a fixed grammar; text of a file is never executed.
 
 sum     = product {("+" | "-") product}
 product = sign {("*" | "/") sign}
@@ -65,13 +65,13 @@ class Expression:
         known = None if self.parameters is None else [name for name, _ in self.parameters]
         tree, rest = parse_expression(self.text, known)
         if rest:
-            what = f"{quote_value(self.text)} ends with {quote_value(rest)}, which has no place there"
+            what = f"{quote_value(self.text)}: unexpected {quote_value(rest)} at the end"
             raise ModelError(what, GRAMMAR)
         object.__setattr__(self, "tree", tree)
 
     @property
     def numbers(self) -> frozenset[str]:
-        """The numbers that stand in it, as written."""
+        """Numbers in it, as written."""
         return frozenset(match["number"] for match in _TOKEN.finditer(self.text) if match["number"])
 
     @property
@@ -235,7 +235,7 @@ class _Parser:
         exponent = self.sign(depth + 1)
         value = _constant(exponent)
         if value is None or abs(value) > EXPONENT:
-            words = f"has an exponent that is no number from -{EXPONENT} to {EXPONENT}"
+            words = f"has an exponent that is not a number from -{EXPONENT} to {EXPONENT}"
             raise self.error(words, GRAMMAR)
         return Apply("^", (base, exponent))
 
@@ -277,13 +277,13 @@ class _Parser:
     def parse_name(self, name: str, depth: int) -> Tree:
         call = self.sign_among(("(",))
         if call and name not in ARGUMENTS:
-            raise ModelError(f"there is no function {quote_value(name)} in an expression", GRAMMAR)
+            raise ModelError(f"unknown function {quote_value(name)}", GRAMMAR)
         if call:
             return self.parse_call(name, depth, self.place - 1)
         if name in CONSTANTS:
             return Number(CONSTANTS[name], name if self.parameters is not None else "", (0, 0, 0, None))
         if name in ARGUMENTS:
-            raise ModelError(f"the function {name} stands without its brackets", f"write {name}(...)")
+            raise ModelError(f"the function {name} needs brackets", f"write {name}(...)")
         if "__" in name:
             raise self.refusal(name)
         path = long_names(name)
@@ -323,14 +323,14 @@ class _Parser:
 
     def refusal(self, found: str = "", why: str = "") -> ModelError:
         rest = found or self.text[self.place :].strip()
-        why = why or (f"{quote_value(rest[:20])} has no place there" if rest else "it stops in the middle")
-        return ModelError(f"{quote_value(self.text)} is no expression: {why}", GRAMMAR)
+        why = why or (f"unexpected {quote_value(rest[:20])}" if rest else "it stops in the middle")
+        return ModelError(f"{quote_value(self.text)} is not an expression: {why}", GRAMMAR)
 
 
 def _finite(digits: str) -> float:
     value = float(digits)
     if not math.isfinite(value):
-        raise ModelError(f"{quote_value(digits)} is no finite number", "write a finite one")
+        raise ModelError(f"{quote_value(digits)} is not a finite number", "write a finite one")
     return value
 
 

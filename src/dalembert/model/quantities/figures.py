@@ -103,7 +103,7 @@ def plain_vector(vector: tuple[float, ...], kind: str, units: Units) -> object:
 
 
 def own_polar(old: str, kind: str, units: Units) -> tuple[str, str]:
-    """The units of size and angle that stand in a polar text; empty are the file's."""
+    """Units of size and angle written in a polar text; empty where they are the file's."""
     size, angle = (
         re.fullmatch(rf"\s*(?>{NUMBER})\s*(.*?)\s*", side.replace("\u2212", "-"))
         for side in old.split("@", 1)
@@ -125,7 +125,7 @@ def unit_vector(angle: float) -> tuple[float, float]:
 def polar_text(
     vector: tuple[float, ...], kind: str, units: Units, size: str = "", angle: str = ""
 ) -> str | None:
-    """`r @ angle` that is read as exactly this vector of the plane, if there is one; `size` and `angle` are units."""
+    """`r @ angle` that is read as exactly this planar vector, if possible; `size` and `angle` are units."""
     length = unit(size) if size else units.unit(kind)
     turn = unit(angle) if angle else units.unit("angle")
     r0, turn0 = length.of_si(math.hypot(*vector)), turn.of_si(math.atan2(vector[1], vector[0]))
@@ -152,7 +152,7 @@ def with_own_unit(number: float, kind: str, old: str, units: Units) -> str | Non
 
 
 def quantity_fails(value: str, kind: str, units: Units) -> bool:
-    """Whether a text is no quantity of this kind."""
+    """True if a text is not a quantity of this kind."""
     try:
         quantity(value, kind, units)
     except ValueError:

@@ -27,7 +27,7 @@ from dalembert.units import KINDS, NUMBER, REFUSED_BARE, Units, check_unit, quan
 from dalembert.wording import closest, quote_value
 
 RESERVED = ("none", "standard", "unknown", "nan", "inf", "infinity", "time")
-"""Words that mean something else where a quantity stands."""
+"""Words with another meaning where a quantity is expected."""
 KEYS = ("value", "about", "range")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
 
@@ -51,11 +51,11 @@ class Parameter:
 
     @property
     def kind(self) -> str | None:
-        """The kind of quantity it is, such as `length`; None where it has no name of its own."""
+        """Kind of the quantity, such as `length`; None where the kind has no name."""
         return kind_of_dimension(self.dimension)
 
     def in_unit(self, number: float | None = None) -> float:
-        """Its value, or another SI number, in its own unit.
+        """Its value, or another SI number, in its unit.
 
         >>> Parameter(0.045, (1, 0, 0, 0), "mm").in_unit()
         45.0
@@ -64,7 +64,7 @@ class Parameter:
         return unit(self.unit).of_si(number) if self.unit else float(number)
 
     def tree(self) -> object:
-        """As it stands in a file."""
+        """Form of the parameter in a file."""
         value = dependent_text(self.value) if isinstance(self.value, Dependent) else self._text(self.value)
         beside = {"about": self.about} if self.about else {}
         ends = {"range": [self._text(x) for x in self.range]} if self.range else {}
@@ -81,7 +81,7 @@ Parameters = Mapping[str, Parameter]
 
 
 def uses(value: object, names: Mapping[str, object]) -> bool:
-    """Whether a text has one of the names in it."""
+    """True if a text contains one of the names."""
     return isinstance(value, str) and any(word in names for word in _WORD.findall(value))
 
 
@@ -160,12 +160,12 @@ def refuse_unknown(
 ) -> None:
     """Raise ModelError for a name in an expression that is neither a parameter nor a drive."""
     for name in sorted(names - {*given, *drives}):
-        what = f"{quote_value(text)} uses {name!r}, which is no parameter"
+        what = f"{quote_value(text)} uses {name!r}, which is not a parameter"
         raise ModelError(what, closest(name, [*given, *drives]))
 
 
 def refuse_other_names(text: str, given: Parameters) -> None:
-    """Raise ModelError where a text is an expression, of names that are no parameters."""
+    """Raise ModelError where a text is an expression with names that are not parameters."""
     try:
         names = names_in(parse_expression(text, given)[0])
     except ModelError:
@@ -176,9 +176,9 @@ def refuse_other_names(text: str, given: Parameters) -> None:
 def read_parameters(
     tree: object, units: Units | None, drives: Mapping[str, str], keys: Sequence[str] = ()
 ) -> dict[str, Parameter]:
-    """The parameters that a file's `parameters` says.
+    """Parameters of a file's `parameters`.
 
-    keys: the file's own, which no parameter may be called. Raises ModelError for a cycle, an unknown name, a name
+    keys: the file's keys, which parameters may not use as names. Raises ModelError for a cycle, an unknown name, a name
     that means something else, and quantities that do not fit together.
 
     >>> found = read_parameters({"area": "pi*bore^2/4", "bore": "80 mm"}, None, {})
@@ -186,7 +186,7 @@ def read_parameters(
     (0.005026548245743669, 'm^2', 80.0)
     """
     if not isinstance(tree, Mapping):
-        what = f"{quote_value(tree)} stands where a mapping is needed"
+        what = f"expected a mapping, not {quote_value(tree)}"
         raise ModelError(what, "write {r: 45 mm}", ("parameters",))
     found: dict[str, Parameter] = {}
     for name in tree:
@@ -199,7 +199,7 @@ def read_parameters(
 
 @contextmanager
 def _parameter_path(name: object) -> Iterator[None]:
-    """What is wrong inside is wrong with the parameter."""
+    """Assigns errors inside to the parameter."""
     try:
         yield
     except ModelError as error:
@@ -259,7 +259,7 @@ def _parameter(said: object, units: Units | None, found: Parameters, tree: Mappi
         return _value(said, units, found, tree)
     for key in said:
         if key not in KEYS:
-            raise ModelError(f"there is no key {quote_value(key)}", closest(str(key), list(KEYS)), (key,))
+            raise ModelError(f"unknown key {quote_value(key)}", closest(str(key), list(KEYS)), (key,))
     if "value" not in said:
         raise ModelError("the key 'value' is missing", "write {value: 45 mm, about: ...}")
     try:
@@ -267,7 +267,7 @@ def _parameter(said: object, units: Units | None, found: Parameters, tree: Mappi
     except ModelError as error:
         raise ModelError(error.what, error.remedy, ("value",)) from None
     if not isinstance(about := said.get("about", ""), str):
-        raise ModelError(f"{quote_value(about)} is no text", "put it in quotes", ("about",))
+        raise ModelError(f"{quote_value(about)} is not text", "put it in quotes", ("about",))
     return replace(of, about=about, range=_range(said.get("range"), of, units))
 
 
@@ -296,7 +296,7 @@ def _range(said: object, of: Parameter, units: Units | None) -> tuple[float, flo
         return None
     example = f"write range: [{of._text(of.value / 2)}, {of._text(of.value * 2)}]"
     if not isinstance(said, (list, tuple)) or len(said) != 2:
-        raise ModelError(f"{quote_value(said)} is no range", example, ("range",))
+        raise ModelError(f"{quote_value(said)} is not a range", example, ("range",))
     low, high = (_like(_value(x, units, {}, {}), x, of, units).value for x in said)
     if not low < high:
         raise ModelError("a range is two increasing values", example, ("range",))
@@ -317,11 +317,11 @@ def _like(new: Parameter, said: object, of: Parameter, units: Units | None) -> P
 def change_parameters(
     given: Parameters, changes: Mapping[str, object], units: Units, drives: Mapping[str, str]
 ) -> dict[str, Parameter]:
-    """The parameters with other values for some: numbers in SI, or texts as the file has them."""
+    """The parameters with other values for some: numbers in SI, or texts as in the file."""
     tree: dict[str, object] = dict(given)
     for name, value in changes.items():
         if name not in given:
-            raise ModelError(f"there is no parameter {name!r}", closest(name, list(given)), ("parameters",))
+            raise ModelError(f"unknown parameter {name!r}", closest(name, list(given)), ("parameters",))
         tree[name] = value if isinstance(value, str) else replace(given[name], value=_finite(name, value))
     found = read_parameters(tree, units, drives)
     for name, value in changes.items():

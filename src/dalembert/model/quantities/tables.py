@@ -1,4 +1,5 @@
-"""Quantities given as a table against where the machine is, or time: linear or a cubic spline, periodic if said so."""
+"""Quantities given as a table against a coordinate of the machine or time: linear or a cubic spline, optionally
+periodic."""
 
 from __future__ import annotations
 
@@ -32,8 +33,8 @@ class Table:
     """A quantity known at `x` of `against` (radians, metres or seconds): SI values `y`, times a factor.
 
     ``against`` is a drive, `time`, `links.NAME.angle` or a freedom of a joint, `joints.NAME.slide`. Outside its ends a
-    table has no value; with a `period` it repeats. With a `shift` it comes so much later. ``of`` is the kind of y where
-    ``times`` makes another of it, a pressure times an area; ``file`` is where the columns came from.
+    table has no value; with a `period` it repeats. `shift` delays it. ``of`` is the kind of y where ``times`` changes
+    it, e.g. pressure times area; ``file`` is the file of the columns.
 
     >>> Table("O2", (0.0, 1.0, 2.0), (0.0, 10.0, 0.0)).at({"O2": 0.25})
     np.float64(2.5)
@@ -55,7 +56,7 @@ class Table:
 
     @property
     def names(self) -> frozenset[str]:
-        """What it is against."""
+        """Name of its variable."""
         return frozenset((self.against,))
 
     def closed(self) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -1,4 +1,4 @@
-"""What a file says before its parts: units of bare numbers, and named parameters."""
+"""Reads the head of a file: units of bare numbers, and named parameters."""
 
 from __future__ import annotations
 

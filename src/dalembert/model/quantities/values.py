@@ -29,12 +29,12 @@ NAME_OR_NUMBER: JsonSchema = {"type": ["string", "integer"]}
 
 
 def list_schema(items: JsonSchema = NUMBER_OR_TEXT, least: int = 1, most: int | None = None) -> JsonSchema:
-    """Of a list of so many items."""
+    """JSON schema of a list with a least and a largest number of items."""
     return {"type": "array", "items": items, "minItems": least} | ({"maxItems": most} if most else {})
 
 
 def object_schema(keys: JsonSchema, *required: str) -> JsonSchema:
-    """Of a mapping with these keys and no others."""
+    """JSON schema of a mapping with these keys and no others."""
     needed = {"required": list(required)} if required else {}
     return {"type": "object", "properties": keys, **needed, "additionalProperties": False}
 
@@ -176,13 +176,13 @@ def check_vector(value: object, rules: Reading, example: str) -> Sequence[object
     if rules.dimension == 3:
         example = "[x, y, z]"
     if isinstance(value, str) or not isinstance(value, Sequence):
-        raise ModelError(f"{quote_value(value)} is no vector", f"write {example}")
+        raise ModelError(f"{quote_value(value)} is not a vector", f"write {example}")
     wanted = (rules.dimension,) if rules.dimension else (2, 3)
     if len(value) not in wanted:
         if rules.dimension == 2 and len(value) == 3:
             example += ", or space: space at the top of the file"
         if len(value) == 1 and len(parts := str(value[0]).split()) in wanted:
-            example = f"[{', '.join(parts)}]: commas stand between the components"
+            example = f"[{', '.join(parts)}]: separate the components by commas"
         counted = f"{len(value)} component{'' if len(value) == 1 else 's'}"
         raise ModelError(f"a vector has {counted} where {wanted[0]} are needed", f"write {example}")
     return value
@@ -194,7 +194,7 @@ def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
         raise ModelError(f"{quote_value(value)} is polar, which is for the plane", "write [x, y, z]")
     radius, angle = (side.strip() for side in value.split("@", 1))
     if "@" in angle or not radius or not angle:
-        what = f"{quote_value(value)} is no polar vector"
+        what = f"{quote_value(value)} is not a polar vector"
         raise ModelError(what, "write r @ angle, for example 3 @ 30 deg")
     match = re.fullmatch(rf"({NUMBER})\s*(.*)", angle.replace("\u2212", "-"))
     if uses(angle, rules.parameters):
@@ -218,18 +218,18 @@ def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
 def numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
     """The SI values of a list of quantities."""
     if isinstance(value, str) or not isinstance(value, Sequence):
-        raise ModelError(f"{quote_value(value)} stands where a list is needed", "write [..., ...]")
+        raise ModelError(f"expected a list, not {quote_value(value)}", "write [..., ...]")
     if not value:
-        raise ModelError("an empty list stands where values are needed", "write [..., ...]")
+        raise ModelError("the list of values is empty", "write [..., ...]")
     return tuple(at_item(i, rules.quantity, item, kind) for i, item in enumerate(value))
 
 
 def name(value: object) -> str:
-    """A name of a link, point, joint, drive or load; a whole number is one too."""
+    """A name of a link, point, joint, drive or load; an integer is one too."""
     if isinstance(value, int) and not isinstance(value, bool):
         return str(value)
     if not isinstance(value, str):
-        raise ModelError(f"{quote_value(value)} is no name", "write a name as text")
+        raise ModelError(f"{quote_value(value)} is not a name", "write a name as text")
     if not value.strip() or value != value.strip() or not value.isprintable() or re.search(r"[.@]", value):
         what = f"{quote_value(value)} cannot be a name"
         raise ModelError(what, "a name is text without '.', '@' and spaces at its ends")
@@ -262,7 +262,7 @@ class PairOfNames(Value):
 def pair_of_names(value: object) -> tuple[str, str]:
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
         found = f"a list of {len(value)}" if isinstance(value, (list, tuple)) else quote_value(value)
-        raise ModelError(f"{found} stands where two names are needed", "write [ground, crank]")
+        raise ModelError(f"expected two names, not {found}", "write [ground, crank]")
     first, second = (at_item(i, name, item) for i, item in enumerate(value))
     return first, second
 

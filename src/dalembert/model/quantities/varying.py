@@ -85,7 +85,7 @@ def _is_expression(value: str) -> bool:
 def expression(value: object, kind: str, rules: Reading, unit_text: str = "") -> Expression:
     """An expression, with a unit behind it or the file's."""
     if not isinstance(value, str):
-        what = f"{quote_value(value)} is no expression"
+        what = f"{quote_value(value)} is not an expression"
         raise ModelError(what, "write it as text, for example 500*sin(O2)")
     rest = parse_expression(value)[1]
     if rest and not re.match(r"[^\W\d]", rest):
@@ -103,7 +103,7 @@ def _map_values(value: Mapping[str, object], kind: str, rules: Reading) -> Varyi
         keys = mapping(value, ["expression", "unit"], "")
         unit_text = keys.get("unit", "")
         if not isinstance(unit_text, str):
-            what = f"{quote_value(unit_text)} is no unit"
+            what = f"{quote_value(unit_text)} is not a unit"
             raise ModelError(what, f"write {KINDS[kind].si}, for example", ("unit",))
         read = _with_units if has_units(keys["expression"], rules) else expression
         return at_item("expression", read, keys["expression"], kind, rules, unit_text)
@@ -111,7 +111,7 @@ def _map_values(value: Mapping[str, object], kind: str, rules: Reading) -> Varyi
 
 
 def varying_tree(value: Varying, kind: str) -> object:
-    """The value as it stands in a file, in SI, units said."""
+    """The value as written in a file, in SI, with units."""
     if isinstance(value, Expression) and value.parameters is not None:
         return expression_with_unit(value, kind)
     if isinstance(value, Expression):

@@ -12,7 +12,7 @@ def dot(a: tuple[float, ...], b: tuple[float, ...]) -> float:
 
 
 def length(a: tuple[float, ...]) -> float:
-    """Also of symbols, which are no floats."""
+    """Length of a vector of numbers or of symbols, which are not floats."""
     return math.hypot(*a) if all(isinstance(x, (float, int)) for x in a) else sum(x * x for x in a) ** 0.5
 
 

@@ -29,7 +29,7 @@ from dalembert.units import KINDS, Units, check_unit, quantity
 from dalembert.wording import quote_value
 
 FILE_FOLDER: ContextVar[str | None] = ContextVar("FILE_FOLDER", default=None)
-"""The folder of the file that is being written: columns that came from there stay in their file, others are listed."""
+"""Folder of the file that is being written: columns from it stay in their file, others are listed."""
 
 EXAMPLE = "{against: O2, x: [...], y: [...]}"
 KEYS = ("against", "x", "y", "file", "columns", "units", "times", "shift", "interpolate", "periodic")
@@ -37,14 +37,16 @@ KEYS = ("against", "x", "y", "file", "columns", "units", "times", "shift", "inte
 
 def table_schema() -> JsonSchema:
     items = {"type": "array", "items": NUMBER_OR_TEXT}
-    against = "what x is: a drive, time, links.NAME.angle, joints.NAME.slide or .turn; default the only drive"
+    against = (
+        "quantity of x: a drive, time, links.NAME.angle, joints.NAME.slide or .turn; default the only drive"
+    )
     columns = "of the file, x and y: names in its head, or numbers; default [1, 2]"
-    period = "true: after a turn, or the whole turns x goes over (a slide: all of x); or the period"
+    period = "true: a full turn, or the full turns that x covers (a slide: all of x); or the period"
     keys = {
         "against": NAME_OR_NUMBER | {"description": against},
         "x": items | {"description": "positions of the drive, increasing"},
-        "y": items | {"description": "values there, one for each x"},
-        "file": {"type": "string", "description": "in place of x and y: a .csv file in the model's folder"},
+        "y": items | {"description": "values, one for each x"},
+        "file": {"type": "string", "description": "instead of x and y: a .csv file in the model's folder"},
         "columns": list_schema(NAME_OR_NUMBER, 2, 2) | {"description": columns},
         "units": list_schema({"type": "string"}, 2, 2)
         | {"description": "of the two columns, where the head has none"},
@@ -97,7 +99,7 @@ def table(value: Mapping[str, object], kind: str, rules: Reading) -> Table:
 
 
 def _kind_of(first: object) -> str:
-    """Whether x are angles or lengths where nothing but their unit says so."""
+    """Kind of x, angles or lengths, where only their unit gives it."""
     try:
         quantity(first, "angle")
     except ModelError:
@@ -128,7 +130,7 @@ def _from_file(keys: Mapping[str, object], kind: str, along: str, rules: Reading
     for key, pair in (("columns", asked), ("units", units)):
         if not isinstance(pair, (list, tuple)) or len(pair) != 2:
             example = "columns: [angle, pressure]" if key == "columns" else "units: [deg, bar]"
-            what = f"{quote_value(pair)} stands where two {key} are needed"
+            what = f"expected two {key}, not {quote_value(pair)}"
             raise ModelError(what, f"write {example}", (key,))
     first, second = at_item("file", read_columns, file, asked, rules)
     names = [_unit_of(first, units[0], 0), _unit_of(second, units[1], 1)]
@@ -207,7 +209,7 @@ def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> 
 
 
 def table_tree(value: Table, kind: str) -> object:
-    """The table as it stands in a file, in SI, units said; columns stay in their file where that is beside it."""
+    """The table as written in a file, in SI, with units; columns stay in their file where that is beside it."""
     tree: dict[str, object] = {"against": value.against}
     folder = FILE_FOLDER.get()
     if value.file is not None and folder is not None and same_folder(folder, value.file.folder):
@@ -235,5 +237,5 @@ def _with_unit(said: object, kind: str) -> object:
 
 
 def same_folder(a: str, b: str) -> bool:
-    """Whether two paths are of one folder."""
+    """True if two paths are in one folder."""
     return os.path.realpath(a or ".") == os.path.realpath(b or ".")

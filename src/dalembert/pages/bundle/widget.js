@@ -2345,7 +2345,7 @@ var at = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 			name: e.name,
 			before: this.quantity(a.here[e.row], e.kind),
 			after: this.quantity(a.hereAfter[e.row], e.kind)
-		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval of their own";
+		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
 		return {
 			...i,
 			joints: e === "reversal" ? at(l) : l.join(", "),

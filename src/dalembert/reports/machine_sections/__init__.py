@@ -13,11 +13,11 @@ from dalembert.views.machine import scenes_of
 from dalembert.views.notation import Notation, Shown, pretty
 
 OWN = {"member": "member_section", "shaking": "shaking_section"}
-"""Answers with a file of their own."""
+"""Answers with a separate file."""
 
 
 def machine_sheet(answer: Answer, notation: Notation | None = None) -> Sheet:
-    """The worked solution of an answer: its equations in letters and numbers, what is found, its drawings."""
+    """The worked solution of an answer: its equations in letters and numbers, the results, its drawings."""
     shown = Shown(answer.result, notation or Notation())
     sheet = Sheet(answer.result.mechanism.title or "Machine", answer.result.mechanism.source_text)
     file = OWN.get(answer.NAME, "design_sections")

@@ -108,8 +108,8 @@ def motor_section(sheet: Sheet, c: MotorChoice, shown: Shown) -> None:
     """The torque behind a gear, and the ratio of its least rms."""
     sheet.heading(f"Motor for {c.drive}")
     sheet.text(
-        "Behind a gear of ratio n the motor turns n times as fast as the drive: it accelerates its own inertia, and "
-        "gives the drive's effort T over n, with the efficiency of the gear where power goes to the machine."
+        "Behind a gear of ratio n the motor turns n times as fast as the drive: it accelerates its rotor inertia and "
+        "supplies the drive's effort T over n, divided by the gear efficiency where power flows to the machine."
     )
     lines, best = [Working("T_{m} = J_{m} n alpha + frac(T; n eta)")], c.least_rms()
     if best is not None:
@@ -119,10 +119,10 @@ def motor_section(sheet: Sheet, c: MotorChoice, shown: Shown) -> None:
 
 
 def simulation_section(sheet: Sheet, s: Simulation, shown: Shown) -> None:
-    """What moves, and how its motion is found: the equation that is integrated."""
+    """Moving drives, and the equation of motion that is integrated."""
     sheet.heading("Motion under forces")
     sheet.text(
-        f"The speeds of {', '.join(s.drives)} follow from the efforts that act: the effort that a state asks for is "
-        "the reduced inertia times the acceleration, and what is asked for without one. Between events this is "
-        f"integrated step by step (Dormand and Prince, order 8). It ends {say(s.ending, shown.scale)}."
+        f"The speeds of {', '.join(s.drives)} follow from the applied efforts: the effort required by a state is "
+        "the reduced inertia times the acceleration plus the effort required without acceleration. Between events this "
+        f"is integrated step by step (Dormand and Prince, order 8). It ends {say(s.ending, shown.scale)}."
     )

@@ -1,4 +1,4 @@
-"""Forces inside links worked out: how they are found."""
+"""Worked solution of the forces inside links."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LAWS = (
         "frac(d M_{z}; d s) = V_{y} quad frac(d M_{y}; d s) = V_{z}",
     ),
 )
-"""Of the plane and of space."""
+"""Words for the plane and for space."""
 ACROSS = "n across it, turned by +90°", "y and z across it, y turned by +90° about the link's z axis"
 BENT = "+ frac(M; W)", "- frac(M_{z} y; I_{z}) + frac(M_{y} z; I_{y})"
 
@@ -27,7 +27,7 @@ def member_section(sheet: Sheet, t: MemberTable, shown: Shown) -> None:
     space = t.result.mechanism.dimension == 3
     sheet.text(
         "F and M are what the part of a link beyond a cut exerts on the part before it; t points along the member, "
-        f"{ACROSS[space]}. The load along it is weight and inertia of its own mass."
+        f"{ACROSS[space]}. The distributed load is the weight and inertia of the member's mass."
     )
     sheet.equations([Working(line) for line in ("q = mu (g - a)", *LAWS[space])])
     for link, s in known_stresses(t).items():
@@ -36,7 +36,9 @@ def member_section(sheet: Sheet, t: MemberTable, shown: Shown) -> None:
             f'{shown.number("pressure", x)} "{shown.unit("pressure")}"' for x in (direct + bent, s.largest)
         )
         where = f"{link}, {shown.text('length', float(s.place[s.position]))} along {s.member[s.position]}:"
-        sheet.text(f"{where} at the fibre that is stressed most, and with torsion there or shear at the axis")
+        sheet.text(
+            f"{where} at the fibre with the largest stress, with torsion at that fibre or shear at the axis"
+        )
         numbers = f"{shown.number('pressure', direct)} + {bracket_negative(shown.number('pressure', bent))}"
         von_mises = Working("sigma_{v} = (sigma^{2} + 3 tau^{2})^{1/2}", "", most)
         sheet.equations([Working(f"sigma = frac(N; A) {BENT[space]}", numbers, sigma), von_mises])

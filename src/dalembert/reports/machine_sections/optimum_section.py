@@ -15,7 +15,7 @@ from dalembert.views.paper.scene import Scene
 
 
 def optimum_sheet(o: Optimum, notation: Notation | None = None) -> Sheet:
-    """The page of what `da.optimize` found."""
+    """The page of the optimum of `da.optimize`."""
     m, notation = o.mechanism, notation or Notation()
     sheet = Sheet(m.title or "Optimum", m.source_text)
     sheet.heading("Optimum")
@@ -27,8 +27,8 @@ def optimum_sheet(o: Optimum, notation: Notation | None = None) -> Sheet:
 
 
 def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
-    """What is least over the cycle, then the designs before and after where it is largest in magnitude; a design that
-    does not close there is left out."""
+    """Objective over the cycle, then the designs before and after at its largest magnitude; a design that does not
+    close at that position is left out."""
     shown, kind = Shown(o.after, notation or Notation()), quantity(o.after, o.aim.of).kind
     x, label, angle = along(o.after, shown)
     both = {"before": o.before, "after": o.after}

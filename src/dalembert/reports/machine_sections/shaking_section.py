@@ -11,7 +11,7 @@ from dalembert.reports.sheet import Sheet, Working
 from dalembert.views.notation import Shown
 
 SIGNS = {"inertia": "-sum m_{i} a_{i}", "weight": "sum W_{i}", "external": "sum F_{i}"}
-"""Part of the shaking force -> how it is made of the links' own."""
+"""Part of the shaking force -> its sum over the links' forces."""
 
 
 def shaking_section(sheet: Sheet, s: Shaking, shown: Shown) -> None:

@@ -54,7 +54,7 @@ def link_equations(
 def _line(left: str, pieces: list[Piece], shown: Shown, kind: str) -> Working:
     """One sum; what is left of it beside its largest term is rounding."""
     if not pieces:
-        none = "no force acts along it" if kind == "force" else "nothing turns the link"
+        none = "no force acts along it" if kind == "force" else "no moment acts on the link"
         return Working(f'{left}: quad "{none}"')
     total = math.fsum(p.value for p in pieces)
     largest = max((abs(p.value) for p in pieces), default=0.0)

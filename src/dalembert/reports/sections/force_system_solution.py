@@ -19,11 +19,11 @@ from dalembert.wrench.forces import Axis
 from dalembert.wrench.reading import Vector
 
 MOMENT_TERMS = {2: ("x F_y − y F_x",), 3: ("y F_z − z F_y", "z F_x − x F_z", "x F_y − y F_x")}
-"""How the moment of a force about the point is made of arm and components, by dimension."""
+"""Moment of a force about the point from arm and components, by dimension."""
 
 
 def force_system_sheet(s: System, at: Vector | None = None, notation: Notation | None = None) -> Sheet:
-    """How the answers about a force system come out, with moments about a point (default the origin)."""
+    """Worked solution of a force system, with moments about a point (default the origin)."""
     shown = Figures(s.units, notation or Notation())
     sheet = Sheet(
         s.title or "Force system", s.source, f"{'Plane' if s.dimension == 2 else 'Space'}, {_count(s)}"
@@ -149,7 +149,7 @@ class _Work:
     def moments(self) -> None:
         self.sheet.heading("Moments")
         self.sheet.text(
-            f"About {self.name} at {self.point(self.at)}; {', '.join(self.axes)} are measured from there. "
+            f"About {self.name} at {self.point(self.at)}; {', '.join(self.axes)} are measured from that point. "
             "The moment of a force is the sum of the moments of its components (Varignon)."
         )
         rows = []
@@ -166,12 +166,12 @@ class _Work:
         self.sheet.table(
             _formulas(heads),
             rows,
-            f"Moments in {self.shown.unit('moment')}, couples with their own",
+            f"Moments in {self.shown.unit('moment')}; a couple has the same moment about every point",
             total=True,
         )
 
     def reduction(self) -> None:
-        self.sheet.heading("What the system comes to")
+        self.sheet.heading("Resultant")
         self.sheet.text(
             f"At {self.name}: the force $R$ and the couple ${self.about}$. Lines of action: {self._lie()}."
         )
@@ -233,7 +233,7 @@ class _Work:
         return f"{self.force(r[1])} x − {bracket_negative(self.force(r[0]))} y = {self.moment(m)}"
 
     def _intercepts(self, axis: Axis, name: str) -> str:
-        """Where a line crosses the axes or planes through the point."""
+        """Intersections of a line with the axes or planes through the point."""
         k = self.axes.index(name)
         if abs(axis.direction[k]) < 1e-9:
             return ""

@@ -102,7 +102,8 @@ def _two_force_links(c: ReportContext) -> list[TwoPins]:
 
 
 def tangent_lines(c: ReportContext, two: TwoPins) -> tuple[str, list[Working]]:
-    """Which common tangent of its circles a two-force link's reactions take, and the direction of that line."""
+    """Common tangent of the friction circles along which a two-force link's reactions act, and the direction of that
+    line."""
     r, shown, k = c.r, c.shown, c.k
     a, b = two.joints
     span = pin_center(r, b)[k] - pin_center(r, a)[k]
@@ -119,7 +120,11 @@ def tangent_lines(c: ReportContext, two: TwoPins) -> tuple[str, list[Working]]:
     words = (
         f"Link {shown.heading(two.link)} carries the forces of {a} and {b} alone, so both lie on one line, a common "
         f"tangent of the two friction circles{f', in {state}' if state else ''}. It takes "
-        + ("an inner one, as friction turns the link the same way at both pins" if inner else "an outer one")
+        + (
+            "an internal one, as friction turns the link in the same sense at both pins"
+            if inner
+            else "an external one"
+        )
         + "; its inclination to the line of the pins:"
     )
     number, degrees = shown.number("length", length), c.notation.degrees
@@ -194,7 +199,7 @@ def cost(sheet: Sheet, c: ReportContext) -> None:
         for n, p in [*lost.items(), ("sum", total)]
     ]
     heads = ["Joint", f"Power lost ({shown.unit('power')})", "of the power put in"]
-    sheet.table(heads, rows, "What friction takes at this position", total=True)
+    sheet.table(heads, rows, "Power lost to friction at this position", total=True)
     found = efficiency(r)
     senses = (
         (float(found.forward[k]), f"where the drive moves the load{found.driven(k)}"),
@@ -221,7 +226,8 @@ def at_rest(sheet: Sheet, c: ReportContext, answers: Callable[..., object]) -> N
 
 
 def intervals(c: ReportContext) -> list[Working]:
-    """What friction leaves open: every effort or unknown load between the two impending motions, and beyond them."""
+    """Intervals left open by friction: every effort or unknown load between the two impending motions, and beyond
+    them."""
     r, shown, out = c.r, c.shown, []
     for name in unknown_names(r):
         kind = unknown_kinds(r)[name]

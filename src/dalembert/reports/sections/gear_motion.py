@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working]]:
-    """Pitch circles that roll on each other, seen from the line of centres: what is said, and the equations."""
+    """Pitch circles that roll on each other, seen from the line of centres: sentence and equations."""
     described: Any = r.mechanism.joints[joint]
     wheels = [*zip(described.links, signed_radii(described), strict=True)]
     line = _Line(r, k, joint)
@@ -52,19 +52,19 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
     words = f"Mesh {joint}: the pitch circles roll on each other"
     if any(rate for _, _, rate, _ in rates):
         parts = [f"${letter}_{{c}}$ = {shown.text(kind, rate)}" for letter, kind, rate, _ in rates if rate]
-        words += f", seen from the line of centres, of which {' and '.join(parts)}"
+        words += f", seen from the line of centres, for which {' and '.join(parts)}"
     words += ", rates in radians" if any(shown.size(kind) != 1 for _, kind, *_ in rates) else ""
     inner = "; of an internal pair the inner radius is negative" if described.internal else ""
     return f"{words}{inner}.", out
 
 
 def _radians(shown: Shown, kind: str, rate: float) -> str:
-    """A rate in radians, whatever the reader's own unit of rates is: times a radius it is a speed."""
+    """A rate in radians, whatever the reader's unit of rates: times a radius it is a speed."""
     return shown.notation.number(0.0 if abs(rate) < shown.least.get(kind, 0.0) else rate)
 
 
 class _Line:
-    """The line from centre to centre of two wheels: its angular speed and acceleration, 0 where it stands."""
+    """The line from centre to centre of two wheels: its angular speed and acceleration, 0 where it is at rest."""
 
     def __init__(self, r: Result, k: int, joint: str) -> None:
         described: Any = r.mechanism.joints[joint]

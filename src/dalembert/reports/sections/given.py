@@ -1,4 +1,4 @@
-"""What is given: links, joints, drives, loads, assumptions."""
+"""Given data: links, joints, drives, loads, assumptions."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def knowns(sheet: Sheet, c: ReportContext) -> None:
     c = replace(c, shown=Shown(c.r, c.notation))
     r, shown, m = c.r, c.shown, c.r.mechanism
     sheet.heading("Given")
-    sheet.table(["Parameter", "Value", "What it is"], _parameters(c))
+    sheet.table(["Parameter", "Value", "Meaning"], _parameters(c))
     _links(sheet, c)
     stated_axes = axes_text if c.question else lambda _: ""
     joints = [
@@ -60,7 +60,7 @@ def knowns(sheet: Sheet, c: ReportContext) -> None:
 
 
 def _parameters(c: ReportContext) -> list[list[str]]:
-    """The file's parameters: name, what they follow from and their value, in their own units."""
+    """The file's parameters: name, expression and value, in their units."""
     rows = []
     for name, p in c.r.mechanism.parameters.items():
         number = f"{p.in_unit():.{c.notation.figures}g} {pretty(p.unit)}".strip()
@@ -70,7 +70,7 @@ def _parameters(c: ReportContext) -> list[list[str]]:
 
 
 def _links(sheet: Sheet, c: ReportContext) -> None:
-    """Points, mass and mass centre of each link; its inertia, in space as a table of its own."""
+    """Points, mass and mass centre of each link; its inertia, in space as a separate table."""
     r, shown, m = c.r, c.shown, c.r.mechanism
     rows = []
     for link in r.links:
@@ -87,7 +87,7 @@ def _links(sheet: Sheet, c: ReportContext) -> None:
             cells.append(shown.text("inertia", m.inertia(link)) if m.inertia(link) else "–")
         rows.append(cells)
     length = shown.unit("length")
-    heads = ["Link", f"Points, own axes ({length})", "Mass", f"Centre ({length})"]
+    heads = ["Link", f"Points, link axes ({length})", "Mass", f"Centre ({length})"]
     sheet.table([*heads, "Inertia"] if m.dimension == 2 else heads, rows)
     if m.dimension == 3 or c.question:
         ground = "; ".join(f"{n} ({place_text(shown, p)})" for n, p in m.points(GROUND).items())
@@ -97,7 +97,7 @@ def _links(sheet: Sheet, c: ReportContext) -> None:
 
 
 def _inertias(sheet: Sheet, c: ReportContext) -> None:
-    """Matrices J of inertia about the mass centres; off its diagonal stand the products with their minus."""
+    """Matrices J of inertia about the mass centres; the off-diagonal elements are the negative products of inertia."""
     r, shown = c.r, c.shown
     found = {link: inertia_matrix(r, link) for link in r.links}
     found = {link: j for link, j in found.items() if j.any()}
@@ -108,14 +108,14 @@ def _inertias(sheet: Sheet, c: ReportContext) -> None:
     for link, j in found.items():
         least = PART * float(np.abs(j).max())
         rows.append([shown.heading(link), *(shown.number("inertia", float(j[p]), least) for p in places)])
-    about = f"Inertia ({shown.unit('inertia')}) about the mass centre, in the link's own axes"
+    about = f"Inertia ({shown.unit('inertia')}) about the mass centre, in link axes"
     sheet.table(
         heads, rows, about if diagonal else f"{about}; off the diagonal J holds the products with a minus"
     )
 
 
 def joint_axes(sheet: Sheet, c: ReportContext) -> None:
-    """Each joint's own axes at this position, in ground axes."""
+    """Each joint's local axes at this position, in ground axes."""
     rows = []
     for joint in c.r.joints:
         described = c.r.mechanism.joints[joint]
@@ -127,12 +127,12 @@ def joint_axes(sheet: Sheet, c: ReportContext) -> None:
                 _add_primes(described.pair.local),
             ]
         )
-    heads = ["Joint", "x'", "y'", "z'", "What they are"]
-    sheet.table(heads, rows, "The joints' own axes, marked by a prime, at this position in ground axes")
+    heads = ["Joint", "x'", "y'", "z'", "Meaning"]
+    sheet.table(heads, rows, "The joints' local axes (primed) at this position, in ground axes")
 
 
 def _add_primes(words: str) -> str:
-    """The letters of a joint's own axes with their prime."""
+    """The letters of a joint's axes with their prime."""
     return re.sub(r"\b([xyz])\b", r"\1'", words)
 
 
@@ -150,7 +150,7 @@ def _convention(c: ReportContext) -> str:
     if space:
         return (
             f"${n.letter}_{{ij}}$ is the force and $M_{{ij}}$ the moment about the joint {first}; moments are positive "
-            f"by the right hand; components in {axes}, with a prime along the joint's own."
+            f"by the right hand; components in {axes}, with a prime along the joint's axes."
         )
     return f"${n.letter}_{{ij}}$ is the force {first}; moments are positive {sense}; components in {axes}."
 

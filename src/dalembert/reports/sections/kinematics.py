@@ -46,7 +46,8 @@ def loops(r: Result, k: int) -> list[Loop]:
 
 
 def rings(r: Result) -> list[Ring]:
-    """Independent loops through joints that are no contacts of wheels: each of one outside a tree from the ground."""
+    """Independent loops through joints that are not contacts of wheels: one for each joint outside a tree from the
+    ground."""
     edges = {n: d.links for n, d in r.mechanism.joints.items() if not d.wheels}
     parent: dict[str, tuple[str, str] | None] = {GROUND: None}
     queue, tree = [GROUND], set()
@@ -122,7 +123,7 @@ def _crossing(r: Result, k: int, joint: str, before: str, after: str) -> list[Ve
 
 
 def _radius(r: Result, k: int, joint: str, before: str) -> Vector:
-    """From the centre of a circular slot to its pin, or back: of one length, turning at a rate of its own."""
+    """Vector from the centre of a circular slot to its pin, or back: of constant length, with its rate of turning."""
     i, j = r.mechanism.joints[joint].links
     (pi, vi, ai), (pj, vj, aj) = (_point_motion(r, k, joint, link) for link in (i, j))
     span, square = pj - pi, float((pj - pi) @ (pj - pi))

@@ -29,13 +29,13 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 MOST = 15
-"""Unknowns of a matrix equation that is printed whole."""
+"""Largest number of unknowns of a matrix equation that is printed in full."""
 
 
 class Unknown(NamedTuple):
-    """One unknown number: its sign, value (SI), kind, and what one unit of it does to links: force, couple, place.
+    """One unknown number: its sign, value (SI), kind, and the action of one unit of it on links: force, couple, place.
 
-    ``of``: kinds and names of the actions it stands for.
+    ``of``: kinds and names of the actions it represents.
     """
 
     sign: str

@@ -73,7 +73,7 @@ def inertia(sheet: Sheet, c: ReportContext) -> None:
         return
     sheet.heading("Inertia forces")
     if not any(np.any(r.center_acceleration(n)[c.k]) or np.any(r.acceleration(n)[c.k]) for n in heavy):
-        sheet.text("No mass is accelerated at this position: there are no inertia forces.")
+        sheet.text("No mass accelerates at this position: all inertia forces are zero.")
         shares(sheet, c)
         return
     units_of_inertia(sheet, c)
@@ -85,7 +85,7 @@ def inertia(sheet: Sheet, c: ReportContext) -> None:
 
 
 def units_of_inertia(sheet: Sheet, c: ReportContext) -> None:
-    """Where a mass times an acceleration is no force in the reader's units: the factor between them."""
+    """Note on the factor between mass times acceleration and force where they differ in the reader's units."""
     shown, said = c.shown, []
     for words, kind, of in (
         ("masses times accelerations", "force", ("mass", "acceleration")),
@@ -108,7 +108,7 @@ def units_of_inertia(sheet: Sheet, c: ReportContext) -> None:
 
 
 def shares(sheet: Sheet, c: ReportContext) -> None:
-    """Whether inertia could be left out."""
+    """Shares of inertia: shows whether it could be left out."""
     found = inertia_shares(c.r)
     if not found:
         return

@@ -1,4 +1,5 @@
-"""What each source does: the answer split by superposition, and the work of each for a displacement of the drives."""
+"""Contribution of each source: the answer split by superposition, and the work of each for a displacement of the
+drives."""
 
 from __future__ import annotations
 
@@ -66,12 +67,12 @@ def superposition(sheet: Sheet, c: ReportContext) -> None:
     tables, gap = _tables([efforts, *forces]), remainder(float(parts.gap[k]))
     for n, columns in enumerate(tables):
         caption = (
-            f"{units}; the parts sum to the whole within {gap}" if n == len(tables) - 1 else in_ground(c)[2:]
+            f"{units}; the parts sum to the total within {gap}" if n == len(tables) - 1 else in_ground(c)[2:]
         )
         heads = ["Source", *(name for name, _, _ in columns)]
         sheet.table(heads, _rows(c, parts.sources, columns), caption, total=True)
     if len(r.joints) > MOST:
-        sheet.text(f"Of its {len(r.joints)} joints these are the first {MOST}.")
+        sheet.text(f"Only the first {MOST} of {len(r.joints)} joints are shown.")
     external = [s for s in parts.sources if s in r.mechanism.loads]
     if 2 <= len(external) <= 4 and "graphical" in c.methods and r.mechanism.dimension == 2:
         sheet.figure(*(draw.force_chain(r, k + 1, c.notation, case=s) for s in external))
@@ -113,7 +114,7 @@ def _rows(c: ReportContext, sources: tuple[str, ...], columns: list[Column]) -> 
 
 
 def _part(c: ReportContext, kind: str, value: float) -> str:
-    """A number of a table; the direction of nothing is a dash."""
+    """A number of a table; the direction of a zero vector is a dash."""
     if kind == "direction":
         return c.notation.degrees(value) if math.isfinite(value) else "–"
     return c.shown.number(kind, value)
@@ -151,8 +152,8 @@ def virtual_work(sheet: Sheet, c: ReportContext) -> None:
     else:
         sheet.heading("Virtual work, a check")
         sheet.text(
-            "The work of friction contains the joint forces found above: with friction virtual work checks that "
-            "solution, it is no independent one."
+            "The work of friction contains the joint forces computed above, so with friction virtual work checks that "
+            "solution but is not independent of it."
         )
     least = floors(r, k)
     idle = "no reaction does work" if found.independent else "of the reactions friction alone does work"
@@ -229,7 +230,7 @@ def _power(r: Result, a: Action, k: int) -> float:
 
 
 def _nothing(a: Action, k: int, least: tuple[float, ...]) -> bool:
-    """Whether an action in space is rounding at this position."""
+    """True if an action in space is rounding at this position."""
     return bool(np.abs(a.force[k]).max() <= least[0] and np.abs(a.couple[k]).max() <= least[1] and least[2])
 
 

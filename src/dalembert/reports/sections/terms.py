@@ -1,4 +1,4 @@
-"""What stands in the equilibrium equations of a link: each action as terms in letters and in numbers.
+"""Terms of the equilibrium equations of a link: each action in letters and in numbers.
 
 Moments of a force F with the arm R about an axis a are R_b F_c - R_c F_b, with a, b, c in the order x, y, z.
 """
@@ -25,7 +25,7 @@ PARALLEL = 1e-12
 """A direction cosine, or its difference to 1, below this is rounding."""
 
 Signed = tuple[bool, str]
-"""Whether a term has a minus before it, and the term."""
+"""True if a term has a minus before it, and the term."""
 
 
 class About(NamedTuple):
@@ -44,8 +44,8 @@ class Piece(NamedTuple):
 
 
 class Setting(NamedTuple):
-    """Where equations are written: the reader's notation, their axes (d, d) a row each, the point of the moments;
-    sizes in SI below which a force, a moment and an arm are rounding."""
+    """Setting of the equations: the reader's notation, their axes (d, d) a row each, the point of the moments; sizes in
+    SI below which a force, a moment and an arm are rounding."""
 
     r: Result
     k: int
@@ -68,7 +68,7 @@ class Setting(NamedTuple):
 
 
 class Term(Protocol):
-    """What an action adds to the sums of forces along an axis, and of moments about one."""
+    """Contribution of an action to the sums of forces along an axis, and of moments about one."""
 
     def force(self, axis: int) -> list[Piece]: ...
 
@@ -89,7 +89,7 @@ def join_numbers(texts: list[str]) -> str:
 
 
 def setting(r: Result, link: str, k: int, shown: Shown, about: About) -> Setting:
-    """In ground axes or in those of the link, as the reader has them."""
+    """Setting in ground axes or in those of the link, as in the reader's notation."""
     axes = np.eye(r.mechanism.dimension) if shown.notation.axes == "ground" else r.rotation(link)[k].T
     return Setting(r, k, shown, axes, about, floors(r, k))
 
@@ -101,7 +101,7 @@ def floors(r: Result, k: int) -> tuple[float, float, float]:
 
 
 def terms(s: Setting, some: tuple[Action, ...]) -> list[Term]:
-    """Terms of the actions on one link; in space an unknown that has a direction of its own stands by itself."""
+    """Terms of the actions on one link; in space an unknown with a fixed direction is separate."""
     if s.r.mechanism.dimension == 2:
         plain = [Vector(s, a, a.force[s.k], a.couple[s.k, None]) for a in some]
         return [v for v in plain if v.counts]
@@ -211,7 +211,7 @@ class Vector:
 
 
 class Line:
-    """In space: one unknown number along a direction of its own, in the reader's units."""
+    """In space: one unknown number along a fixed direction, in the reader's units."""
 
     def __init__(
         self, s: Setting, sign: str, value: float, kind: str, force: Array, couple: Array, a: Action
@@ -273,7 +273,7 @@ def about(place: str, axis: str) -> str:
 
 
 def place_of(s: Setting, a: Action) -> str:
-    """Index of the arm: the joint, the point of a load by its name, else the load's own index, or G."""
+    """Index of the arm: the joint, the point of a load by its name, else the load's index, or G."""
     if a.kind in ("joint", "friction") or a.of in s.r.joints:
         return a.of
     if a.kind == "effort":

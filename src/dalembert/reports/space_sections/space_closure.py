@@ -24,7 +24,7 @@ ORDERS = (("length", 0), ("speed", 1), ("acceleration", 2))
 class Side(NamedTuple):
     """One side of a loop: its sign, the link it turns with, its vector (3,) and the first two rates of it, SI.
 
-    ``slide``: of the way s along the axis e of a joint's slide its index, and whether it is gone backwards.
+    ``slide``: index of the displacement s along the axis e of a joint's slide, and whether it is traversed backwards.
     """
 
     sign: str
@@ -40,7 +40,7 @@ def closing_lines(sheet: Sheet, r: Result, k: int, shown: Shown, moving: bool) -
         sides = loop_sides(r, k, ring)
         names = " – ".join(shown.heading(after) for _, _, after in ring)
         ways = any(s.slide for s in sides)
-        slid = "; s e is the way of a slide s along its direction e" if ways else ""
+        slid = "; s e is the displacement of a slide s along its direction e" if ways else ""
         sheet.text(f"Loop {n + 1} through links {names}: the sides sum to zero{slid}.")
         for kind, order in ORDERS[: 3 if moving else 1]:
             sheet.equations(_lines(sides, kind, order, shown))

@@ -27,7 +27,7 @@ LAWS = {
     "screw": "the coefficient times the thread's normal force, and times the force across the axis, lies along the "
     "helix at the mean radius",
 }
-"""What makes the friction of a joint, by its type."""
+"""Law of the friction of a joint, by its type."""
 
 
 def space_friction(sheet: Sheet, c: ReportContext) -> None:

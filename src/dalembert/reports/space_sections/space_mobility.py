@@ -16,7 +16,7 @@ def degrees_of_freedom(sheet: Sheet, c: ReportContext) -> None:
     sheet.heading("Degree of freedom")
     rows = [_row(c, joint) for joint in r.joints]
     constraints = sum(unknown_count(r, joint) for joint in r.joints)
-    heads = ["Joint", "Type", "Links", "Reactions, own axes", "Constraints"]
+    heads = ["Joint", "Type", "Links", "Reactions, joint axes", "Constraints"]
     caption = (
         "By the table of pairs: a force along every axis without slide, a moment about every one without turn"
     )
@@ -41,7 +41,7 @@ def _row(c: ReportContext, joint: str) -> list[str]:
 
 
 def _words(found: Mobility, n: int, constraints: int) -> list[str]:
-    """What spins, what the rank is, what is redundant, what drives."""
+    """Sentences on free spins, rank, redundancy and drives."""
     out, motions = [], 6 * n - len(found.passive)
     if found.passive:
         out.append(

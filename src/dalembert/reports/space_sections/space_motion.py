@@ -22,7 +22,7 @@ AXES = "xyz"
 
 
 def space_motion(sheet: Sheet, c: ReportContext) -> None:
-    """How the position was found, the loops in figures, joint values, places, and the motion of the links."""
+    """Computation of the position, the loops in figures, joint values, places, and the motion of the links."""
     r, k = c.r, c.k
     sheet.heading("Position and motion" if _moves(c) else "Position")
     spins = len(r.compiled.passive)
@@ -76,7 +76,7 @@ def _vector(c: ReportContext, kind: str, v: Array) -> list[str]:
 
 
 def _orientations(sheet: Sheet, c: ReportContext) -> None:
-    """How each link stands: turned from ground's axes about an axis, and its mass centre."""
+    """Orientation of each link, turned from ground's axes about an axis, and its mass centre."""
     r, rows = c.r, []
     for link in r.links:
         angle, axis = space.angle_and_axis(r.rotation(link)[c.k])
@@ -121,8 +121,8 @@ def space_inertia(sheet: Sheet, c: ReportContext) -> None:
         return
     sheet.heading("Inertia forces and couples")
     sheet.text(
-        "The couple is worked out in the link's own axes, marked by a prime, in which its inertia stays the same, and "
-        "then turned to ground axes; $omega' times J omega'$ is its gyroscopic part."
+        "The couple is computed in the link's axes (primed), in which its inertia is constant, and "
+        "then rotated to ground axes; $omega' times J omega'$ is its gyroscopic part."
     )
     units_of_inertia(sheet, c)
     for link in heavy:

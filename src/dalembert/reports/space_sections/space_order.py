@@ -19,7 +19,7 @@ ABREAST = 3
 
 
 def order_and_solution(sheet: Sheet, c: ReportContext) -> None:
-    """Which links are two-force members, then the steps with their matrices, or the whole system with its size."""
+    """The two-force members, then the steps with their matrices, or the complete system with its size."""
     r = c.r
     sheet.heading("Order of solution")
     every = unknowns(r, c.k, c.shown)
@@ -53,7 +53,7 @@ def _two_force_step(c: ReportContext, member: Member) -> Member:
 
 
 def _between_balls(c: ReportContext, link: str) -> bool:
-    """Whether a link has two ball joints and no other."""
+    """True if a link has two ball joints and no other."""
     joints = [d for d in c.r.mechanism.joints.values() if link in d.links]
     return len(joints) == 2 and all(d.ball and not d.slides for d in joints)
 
@@ -96,7 +96,7 @@ def _tension(c: ReportContext, link: str, member: Member) -> Unknown:
 
 
 def _finds(u: Unknown, step: Step) -> bool:
-    """Whether a step finds an unknown."""
+    """True if a step determines an unknown."""
     ((kind, name),) = u.of
     return any(
         n in step.finds for n in ((f"torque {name}", f"force {name}") if kind == "effort" else (name,))
@@ -112,13 +112,13 @@ def _step(sheet: Sheet, c: ReportContext, step: Step, some: list[Unknown]) -> No
         _system_size(sheet, c, f"Link{'s' if len(step.links) > 1 else ''} {links}", step.equations, some)
         return
     spins = "".join(
-        f" The moments of {c.shown.heading(link)} about {'xyz'[axis]} follow from its others: nothing holds its spin."
+        f" The moments of {c.shown.heading(link)} about {'xyz'[axis]} follow from its others: its spin is free."
         for link, axis in spinning.items()
     )
     words = (
-        f"The {len(some)} equations of {links} as one; what is known stands on the right (forces in "
+        f"The {len(some)} equations of {links} as one; the knowns are on the right (forces in "
         f"{c.shown.unit('force')}, lengths in {c.shown.arm_unit}, moments in {c.shown.unit('moment')}), the "
-        f"solution behind{in_ground(c)}.{spins}"
+        f"solution after it{in_ground(c)}.{spins}"
     )
     sheet.blocks.append(replace(matrix, caption=words))
 

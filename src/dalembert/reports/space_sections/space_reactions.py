@@ -1,4 +1,4 @@
-"""In space: the unknowns of each joint, and the reactions found, in ground axes and in the joints' own."""
+"""In space: the unknowns of each joint, and the computed reactions, in ground axes and in the joints' axes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def reaction_tables(sheet: Sheet, c: ReportContext) -> None:
     """Forces and moments of all joints by components and sizes; what is not unique in brackets."""
     r, on = c.r, {joint: _acting_link(c, joint) for joint in c.r.joints}
     least = floors(r, c.k)
-    for axes, words, prime in (("ground", "ground axes", ""), ("joint", "each joint's own axes", "'")):
+    for axes, words, prime in (("ground", "ground axes", ""), ("joint", "each joint's axes", "'")):
         heads = ["Joint", "Force", *(f"{a}{prime}" for a in AXES), "size"]
         heads += ["Moment", *(f"{a}{prime}" for a in AXES), "size"]
         rows = [_row(c, joint, on[joint], axes, least) for joint in r.joints]
@@ -36,7 +36,7 @@ def _acting_link(c: ReportContext, joint: str) -> str:
 
 
 def _row(c: ReportContext, joint: str, on: str, axes: Any, least: tuple[float, ...]) -> list[str]:
-    """One joint's force and moment; a stroke where it cannot carry a component along its own axes."""
+    """One joint's force and moment; a dash where it cannot carry a component along its local axes."""
     r, k, shown = c.r, c.k, c.shown
     exact = np.concatenate([f(joint, on, axes)[k] for f in (r.reaction, r.reaction_moment)])
     whole = r.least_norm(joint, on, axes)[k]
@@ -58,7 +58,7 @@ def _row(c: ReportContext, joint: str, on: str, axes: Any, least: tuple[float, .
 
 
 def _carried_components(c: ReportContext, joint: str, moments: int) -> tuple[bool, ...]:
-    """Which components along its own axes a joint carries; of a gear any."""
+    """Components along its local axes that a joint carries; for a gear any."""
     described = c.r.mechanism.joints[joint]
     pair = described.pair
     letters = pair.moments if moments else pair.forces
@@ -67,7 +67,7 @@ def _carried_components(c: ReportContext, joint: str, moments: int) -> tuple[boo
 
 
 def uniqueness(c: ReportContext) -> str:
-    """Which reactions equilibrium alone does not settle, in the joints' own axes."""
+    """Reactions that equilibrium alone does not determine, in the joints' axes."""
     r, found = c.r, []
     for joint in r.joints:
         exact = np.concatenate([f(joint, None, "joint")[c.k] for f in (r.reaction, r.reaction_moment)])
@@ -80,10 +80,10 @@ def uniqueness(c: ReportContext) -> str:
             found.append(f"{joint} ({', '.join(free)})")
     if found:
         return (
-            f"Not unique, as equilibrium alone leaves them open: {'; '.join(found)}. Figures in brackets are those of "
-            "the least sum of squares, one answer of many that balance all links; the others hold in all of them."
+            f"Not unique, because equilibrium alone does not determine them: {'; '.join(found)}. Figures in brackets "
+            "have the least sum of squares, one answer of many that balance all links; the others hold in all of them."
         )
     settled = r.assumptions.get("redundant reactions")
     if settled and r.unique_array is not None:
-        return f"Equilibrium alone does not settle all reactions; they are found {settled}."
-    return "Every reaction is unique: equilibrium alone settles it."
+        return f"Equilibrium alone does not determine all reactions; they are computed {settled}."
+    return "Every reaction is unique: equilibrium alone determines it."

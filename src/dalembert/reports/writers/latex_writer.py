@@ -122,7 +122,7 @@ def _figure(b: blocks.Figure) -> str:
 
 
 def _part(scene: Scene) -> float:
-    """What a drawing's size is multiplied with to fit the page."""
+    """Factor by which a drawing's size is multiplied to fit the page."""
     left, bottom, right, top = scene.bounds
     return min(1.0, WIDTH / (right - left + 2 * MARGIN), HEIGHT / (top - bottom + 2 * MARGIN))
 

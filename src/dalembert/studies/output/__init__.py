@@ -1,4 +1,4 @@
-"""What the designs of a study say, as text, tables, drawings and a page.
+"""Output of a study: text, tables, drawings and a page.
 
 In: a ``StudyResult``. Out: text, files, scenes, a ``Sheet``. Imports ``studies``, ``views``, ``reports``.
 """

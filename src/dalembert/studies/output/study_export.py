@@ -14,7 +14,7 @@ from dalembert.units import KINDS
 
 
 def export_study(r: StudyResult, path: Path, overwrite: bool = False) -> None:
-    """Write numbers, status and outputs of the designs that are there, SI, as .csv or netCDF."""
+    """Writes numbers, status and outputs of the computed designs, SI, as .csv or netCDF."""
     check_new(path, overwrite)
     if path.suffix.lower() not in (".csv", ".nc"):
         raise ModelError(f"{path.name}: a study is exported as .csv or .nc", "name a file that ends so")

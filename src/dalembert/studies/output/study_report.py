@@ -35,10 +35,10 @@ AT_LEAST = 0.005
 
 
 def study_sheet(r: StudyResult) -> Sheet:
-    """The page of a study's designs that are there."""
+    """Page of a study's computed designs."""
     m = r.study.mechanism
     sheet = Sheet(m.title or "Study", m.source_text, heading(r))
-    sheet.heading("What varies")
+    sheet.heading("Varied numbers")
     _numbers(sheet, r)
     sheet.heading("Designs by status")
     sheet.table(["status", "designs", "share"], status_rows(r))
@@ -145,7 +145,7 @@ class _Output:
 
     @property
     def at_end(self) -> bool:
-        """Whether it is what a motion ends with."""
+        """True if it is the final state of a motion."""
         return self.r.study.reduce == "final" or self.name in self.r.study.end_kinds
 
     def _drawing(self, design: int) -> Scene:

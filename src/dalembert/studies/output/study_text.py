@@ -16,14 +16,14 @@ BLOCKS = " ▁▂▃▄▅▆▇█"
 
 
 def summary(r: StudyResult) -> str:
-    """Statuses, percentiles, histograms, worst and best designs, limits, of the designs that are there."""
+    """Statuses, percentiles, histograms, worst and best designs, limits, of the computed designs."""
     return "\n\n".join(
         [f"{r.study.mechanism.title}\n{heading(r)}".strip(), _statuses(r), *_outputs(r), *_limits(r)]
     )
 
 
 def heading(r: StudyResult) -> str:
-    """How many designs, how they were drawn, and what they took."""
+    """Number of designs, their sampling, and the reduction of the outputs."""
     done, plan = int(r.done.sum()), r.study.plan
     seconds = r.ledger[:, 1].sum() / 1e3
     seed = "" if plan.draw in ("table", "factorial") else f", seed {plan.seed}"
@@ -32,7 +32,7 @@ def heading(r: StudyResult) -> str:
 
 
 def reduction(r: StudyResult) -> str:
-    """What the outputs are over, as a sentence."""
+    """Sentence on the reduction of the outputs."""
     over = "positions" if r.study.motion is None else "instants"
     return f"Over the {over}: {r.study.reduce}." if r.study.reduce else ""
 

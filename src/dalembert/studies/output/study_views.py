@@ -1,4 +1,4 @@
-"""What the designs of a study say, as drawings: histogram, scatter, response over one number or two."""
+"""Drawings of a study: histogram, scatter, response over one number or two."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ DOTS = 1_000
 LEVELS = 8
 """Lines of equal value in a contour diagram, about."""
 EDGE = 8.0
-"""From the edge of a diagram, mm, where no line is labelled: there stand the numbers of its axes."""
+"""Distance from the edge of a diagram, mm, within which lines are not labelled: the numbers of its axes are there."""
 PERCENTS = {"median": (50.0, "curve-1"), "5 % and 95 %": (5.0, "curve-3"), "": (95.0, "curve-3")}
 
 
@@ -33,7 +33,7 @@ def axis_label(to: Scale, name: str, kind: str) -> str:
 
 
 def histogram_scene(r: StudyResult, name: str) -> Scene:
-    """How many designs have an output in each of some equal intervals, its percentiles and limits."""
+    """Number of designs with an output in each of some equal intervals, its percentiles and limits."""
     to, kind, canvas = Scale(r.study.mechanism.units), r.kinds[name], Canvas()
     counts, edges = r.histogram(name)
     x = to(kind, edges)
@@ -51,7 +51,7 @@ def histogram_scene(r: StudyResult, name: str) -> Scene:
         canvas.add(Line((field(place, field.y[0]), field(place, field.y[-1])), role))
         if words:
             field.draw_legend(canvas, words, role)
-    return canvas.scene(f"How {name} spreads")
+    return canvas.scene(f"Distribution of {name}")
 
 
 def scatter_scene(r: StudyResult, name: str, path: str) -> Scene:
@@ -70,7 +70,7 @@ def scatter_scene(r: StudyResult, name: str, path: str) -> Scene:
 
 
 def response_scene(r: StudyResult, of: Response) -> Scene:
-    """A curve over one number; over two, lines of equal value, grey where there is no answer."""
+    """A curve over one number; over two, lines of equal value, grey where unsolved."""
     to, kind = Scale(r.study.mechanism.units), r.kinds[of.output]
     z = to(kind, of.values)
     kinds = [r.study.number_kinds[path] for path in of.paths]

@@ -1,4 +1,4 @@
-"""Branches of closed forms: which of the two ways a group of links closes a pose has."""
+"""Branches of closed forms: which of the two closures of a group of links a pose has."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from dalembert.kernel.graph import Node, Scalar
 
 @dataclass(frozen=True)
 class Branch:
-    """A group of links that closes in two ways: the input 1 or -1 that chooses, and what tells which of the two a
-    known pose has: the place of link b, or its turn against link a, on both branches."""
+    """A group of links with two closures: the input 1 or -1 that chooses, and the value that identifies the branch of a
+    known pose: the place of link b, or its turn against link a, on both branches."""
 
     sign: Node
     plus: tuple[Scalar, ...]
@@ -33,7 +33,7 @@ class Branch:
 
 
 def place_on_branch(pose: Pose, components: int, a: int, b: int) -> Array:
-    """What is compared of a motion (component, P): the turn of link b against a (2), b's point (3) or its rotation."""
+    """Value compared along a motion (component, P): the turn of link b against a (2), b's point (3) or its rotation."""
     r = pose.rotation
     if components == 2:
         cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]

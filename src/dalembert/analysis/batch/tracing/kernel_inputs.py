@@ -1,4 +1,4 @@
-"""What the kernel is given along the positions: drives, changing loads, and the known motion where it is asked for."""
+"""Inputs of the kernel along the positions: drives, changing loads, and the known motion where it is needed."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ from dalembert.model import Mechanism, Schedule
 
 @dataclass(frozen=True)
 class Course:
-    """The mechanism with the file's numbers at a list of positions, followed when its motion is asked for.
+    """The mechanism with the file's numbers at a list of positions, followed when its motion is needed.
 
-    With the ``result`` of the general executor, which may be of another design, its motion is that.
+    With the ``result`` of the general executor, which may be of another design, its motion is that of the result.
     """
 
     mechanism: Mechanism
     schedule: Schedule
     result: Result | None = None
     target: Mapping[str, Array] | None = None
-    """What each output is compared with (position, component)."""
+    """Values that each output is compared with (position, component)."""
 
     def with_target(self, target: Mapping[str, Array]) -> Course:
         """The same course, as far as it is followed."""
@@ -64,7 +64,7 @@ class Course:
 
     @cached_property
     def cycle(self) -> bool:
-        """Whether its positions come round; raises ModelError where they are not even."""
+        """True if its positions form a cycle; raises ModelError where they are not even."""
         drives = [self.mechanism.drives[name].turns for name in self.schedule.names]
         return is_cycle(self.schedule.position, drives)
 
@@ -90,11 +90,12 @@ class Course:
         return int(np.argmax(path.reached)) if path is not None else 0
 
     def going_by(self, names: Iterable[str]) -> Tree:
-        """What a changing quantity goes by (P,): drives, time, and the pose, the motion being known."""
+        """Variables (P,) that a changing quantity depends on: drives, time, and the pose, the motion being known."""
         found: Tree = {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
         if TIME in names and TIME not in found and self.schedule.time is None:
             raise ModelError(
-                "a load goes by time, which positions given to the kernel do not have", "leave them out"
+                "a load depends on time, but no times are given for these positions",
+                "leave the positions out",
             )
         by_pose = [name for name in names if "." in name]
         at = counted_coordinates(self.compiled, self.counted, self.pose, by_pose) if by_pose else {}
@@ -114,7 +115,7 @@ class Course:
 
     @cached_property
     def reversals(self) -> dict[tuple[str, str], Array]:
-        """Sense (P,) of each contact where it reverses in the result, 0 where its rate tells it."""
+        """Sense (P,) of each contact where it reverses in the result, 0 where its rate gives it."""
         f = None if self.result is None else self.result.friction
         if self.result is None or f is None:
             return {}
@@ -123,7 +124,7 @@ class Course:
 
     @property
     def counted(self) -> Compiled:
-        """The mechanism with the whole turns of its torsion springs counted along its motion."""
+        """The mechanism with the full turns of its torsion springs counted along its motion."""
         return self.followed.compiled if self.result is None else self.result.compiled
 
     def at(self, positions: Array) -> Course:
@@ -138,7 +139,7 @@ class Course:
 
 @dataclass
 class Inputs:
-    """The inputs of a trace, each with how it is found for a course: channels (P,), common ones a number.
+    """The inputs of a trace, each with the function that computes it for a course: channels (P,), common ones a number.
 
     followed: the motion is followed where the program runs, so that every branch, which `branches` lists, is an input.
     """
@@ -232,8 +233,8 @@ class Inputs:
         return np.array([one(key) for key in contact_keys(c)], object)
 
     def turns(self, c: Compiled) -> tuple[Compiled, dict[int, Node]]:
-        """The mechanism with whole turns of its torsion springs as inputs, and of each such turn, by freedom, how far
-        it may differ from the known motion without another count."""
+        """The mechanism with full turns of its torsion springs as inputs, and for each such turn, by freedom, how far
+        it may differ from the known motion before the count changes."""
         own, margins = c.forcing.resistances, {}
         turns = np.array([self.graph.zero] * len(own.row), object)
         for n in self.course.counted.counts:
@@ -245,7 +246,7 @@ class Inputs:
         return replace(c, forcing=forcing), margins
 
     def whole_turns(self, c: Compiled, row: int) -> Numeric:
-        """What is added to the measured value of a freedom, so that it is counted as in a result."""
+        """Value added to the measured value of a freedom, so that it is counted as in a result."""
         own = c.forcing.resistances
         for n in self.course.counted.counts:
             if own.row[n.place] == row:
@@ -265,7 +266,7 @@ class Inputs:
         return self.make("channel", f"counted turns of {name}", partial(_pose_turns, name=name))
 
     def signs(self, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int) -> Scalar:
-        """Which of two rotations of link b against link a the known motion has: 1 or -1, or an input if it changes."""
+        """Sign of the rotation of link b against link a in the known motion: 1 or -1, or an input if it changes."""
         kind = "channel" if any(n.level & POSITION for n in plus if isinstance(n, Node)) else "common"
         signs = self._signs(self.course, kind, plus, minus, a, b)
         if not self.followed and ((signs >= 0).all() or (signs <= 0).all()):
@@ -302,7 +303,7 @@ class Inputs:
 
 
 def target_values(course: Course, output: str, component: int) -> Array:
-    """What one component of an output is compared with (P,)."""
+    """Values (P,) that one component of an output is compared with."""
     if course.target is None:
         return np.zeros(len(course.schedule.position))
     return np.asarray(course.target[output][:, component])
@@ -314,7 +315,7 @@ def _constant(course: Course, value: float) -> Array:
 
 
 def _turns(course: Course, place: int) -> Array:
-    """What the count of whole turns adds to the turn of a torsion spring (P,)."""
+    """Contribution of the full turns to the turn of a torsion spring (P,)."""
     c = course.counted
     turns = c.forcing.resistances.turns
     return turns[:, place] if turns.ndim > 1 else np.zeros(len(c.schedule.position))
@@ -328,12 +329,12 @@ def _turns_off(course: Course, row: int) -> float:
 
 
 def _pose_turns(course: Course, name: str) -> Array:
-    """What the count of whole turns adds to an angle that a load depends on (P,)."""
+    """Contribution of the full turns to an angle that a load depends on (P,)."""
     return course.counted.pose_turns.get(name, np.zeros(len(course.schedule.position)))
 
 
 def _margin(course: Course, place: int) -> Array:
-    """How far that turn may differ where it is counted (P,); 0 where it was not."""
+    """Margin (P,) by which that turn may differ where it is counted; 0 where it was not."""
     c = course.counted
     return next((n.margin for n in c.counts if n.place == place), np.zeros(len(c.schedule.position)))
 
@@ -358,7 +359,7 @@ def _one(kind: str, c: Course, column: Array) -> Numeric:
 
 
 def _carry_sign_forward(signs: Array) -> Array:
-    """Where both ways coincide, the sign before it."""
+    """Sign of the position before, where both branches coincide."""
     places = np.maximum.accumulate(np.where(signs != 0, np.arange(len(signs)), -1))
     first = signs[np.argmax(signs != 0)]
     return np.where(places >= 0, signs[np.maximum(places, 0)], first)
@@ -386,7 +387,7 @@ def _known_quantity(c: Course, what: str, which: int) -> Array:
 
 
 def _line_angle(c: Course, row: int) -> Array:
-    """Angle of the line of centres of a mesh, whole turns counted as the mesh counts them."""
+    """Angle of the line of centres of a mesh, full turns counted as the mesh counts them."""
     from dalembert.core.layout import Mesh
 
     followed = c.followed.compiled

@@ -1,4 +1,4 @@
-"""What a kernel can be asked for, by name, as nodes of its trace."""
+"""Outputs of a kernel, by name, as nodes of its trace."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Catalogue(LinkMotion):
             value, _ = evaluated(self, name, self.names, symbol_functions(self.graph))
         except (TypeError, ZeroDivisionError) as error:
             raise ModelError(
-                f"{name!r} cannot be compiled: {error}", "use powers of whole numbers other than 0"
+                f"{name!r} cannot be compiled: {error}", "use integer powers other than 0"
             ) from None
         return list(trace_array(self.graph, np.ravel(np.asarray(value, object))))
 
@@ -104,7 +104,7 @@ class Catalogue(LinkMotion):
 
     @property
     def algebra(self) -> Algebra:
-        """Of the plane, or of space."""
+        """Algebra of the plane, or of space."""
         return self.compiled.layout.algebra
 
     def _counted(self, name: str) -> Numeric:

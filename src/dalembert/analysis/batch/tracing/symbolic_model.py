@@ -1,4 +1,4 @@
-"""A description with symbols in place of the numbers that vary, and of the loads that change along the motion."""
+"""A description with symbols instead of the numbers that vary, and of the loads that change along the motion."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ DRIVEN = ("position", "law", "range")
 
 
 PLACING = ("shift", "period")
-"""What says where the points of a table are."""
+"""Keys that place the points of a table."""
 
 
 @dataclass(frozen=True)
 class Number:
-    """One number of a description: its path and its value there, SI."""
+    """One number of a description: its path and its value, SI."""
 
     path: str
     value: float
     parameter: bool = False
-    """Whether it is a parameter of the file, of which others follow."""
+    """True if it is a parameter of the file, on which others depend."""
 
     @property
     def keys(self) -> list[str]:
@@ -77,7 +77,7 @@ def _parameter(m: Mechanism, name: str) -> Number:
 
 
 def may_vary(m: Mechanism, name: str) -> bool:
-    """Whether a parameter may vary: none that says where a drive stands."""
+    """True if a parameter may vary: it does not determine a drive's position."""
     try:
         _parameter(m, name)
     except ModelError:
@@ -103,7 +103,7 @@ def _refuse_law(m: Mechanism, path: str) -> None:
 
 
 def of_motion(path: str) -> bool:
-    """Whether a path names what a motion under forces begins with, or a number of a motor."""
+    """True if a path names an initial value of a motion under forces, or a number of a motor."""
     keys = path.split(".")
     return keys[0] == "start" or keys[2:3] == ["motor"]
 
@@ -126,7 +126,7 @@ def _numbers(path: str, value: object) -> list[Number]:
         )
     if isinstance(value, (bool, str)):
         raise ModelError(
-            f"{path!r} is {value!r}, which is no number", "give it a number in the description first", keys
+            f"{path!r} is {value!r}, not a number", "give it a number in the description first", keys
         )
     if isinstance(value, (int, float)):
         return [Number(path, float(value))]
@@ -135,7 +135,7 @@ def _numbers(path: str, value: object) -> list[Number]:
     if keys[-1] == "inertia" and isinstance(value, tuple):  # what stands twice varies once
         return [Number(f"{path}.{i}.{j}", float(row[j])) for i, row in enumerate(value) for j in range(i, 3)]
     raise ModelError(
-        f"{path!r} is no number", "name a number, or a vector of numbers, of the description", keys
+        f"{path!r} is not a number", "name a number, or a vector of numbers, of the description", keys
     )
 
 
@@ -155,11 +155,11 @@ def _refuse_absent(m: Mechanism, path: str, keys: list[str]) -> None:
 
 
 ANY = 1.25
-"""A number that stands nowhere by default: a file leaves out what is."""
+"""Value that is not the default of any key: a file leaves out defaults."""
 
 
 def number_kinds(m: Mechanism, numbers: Sequence[Number]) -> tuple[str, ...]:
-    """What each number is, of `units.KINDS`: by the unit that a saved file writes in its place."""
+    """Kind of each number, from `units.KINDS`: by the unit that a saved file writes for it."""
     found = [n for n in numbers if not n.parameter]
     tree = with_numbers(m, found, [ANY] * len(found)).to_tree() if found else {}
     return tuple(
@@ -175,12 +175,13 @@ def _kind(tree: object, number: Number) -> str:
 
 
 def geometric(m: Mechanism, path: str) -> bool:
-    """Whether the number at a path, or what follows from a parameter, places joints."""
+    """True if the number at a path, or a value that depends on a parameter, places joints."""
     return any(_places_joints(found.split(".")) for found in reached(m, path))
 
 
 def chooses_motion(m: Mechanism, path: str, flips: bool) -> bool:
-    """Whether a number decides which motion a design has: by `assembly`, with change points by the geometry too."""
+    """True if a number decides which motion a design has: through `assembly`, with change points through the geometry
+    too."""
     assembly = any(found.startswith("assembly.") for found in reached(m, path))
     return assembly or (flips and geometric(m, path))
 
@@ -246,7 +247,7 @@ def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Cha
 
 
 def _value(name: str, value: Numeric, channel: Channel) -> Numeric:
-    """A number or symbol as it is, else the input that stands for its value along the motion."""
+    """A number or symbol itself, else the input for its value along the motion."""
     return channel(name, value) if hasattr(value, "at") else value  # an input, or traced from some
 
 

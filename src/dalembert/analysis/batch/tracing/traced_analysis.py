@@ -44,7 +44,7 @@ class Trace:
 
     def unique(self, outputs: Sequence[str] | None) -> tuple[str, ...]:
         """The outputs, default all that are unique; raises ModelError where constraints are redundant and statics alone
-        does not determine one that is asked for."""
+        does not determine a requested one."""
         m, names = self.course.mechanism, self.catalogue.defaults() if outputs is None else outputs
         if not (self.redundant and names):
             return tuple(names)
@@ -56,7 +56,7 @@ class Trace:
             raise ModelError(
                 f"{' and '.join(open_)} cannot be compiled: constraints are redundant, and statics alone does not "
                 "determine it",
-                "leave it out, free a constraint, or use da.dynamics, which marks what is unique",
+                "leave it out, free a constraint, or use da.dynamics, which shows the unique reactions",
                 ("joints",),
             )
         return tuple(name for name in names if name not in open_)
@@ -74,15 +74,14 @@ def trace_analysis(
     functions_of: Callable[[Graph], Tree] = functions,
     followed: bool = False,
 ) -> Trace:
-    """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses.
+    """Everything an analysis computes, as nodes; raises ModelError for cases that only the analyses support.
 
-    With the general executor's answer for the file's own numbers, ``solved``: from a known solution, not from nothing.
-    ``moves``: the drives go on from the known motion, which is that of the state before.
-    ``sided``: with the side of reversals as an input. ``redundant``: constraints may repeat each other; reactions that
-    are not unique are then one choice of many; ``whole``: links that these place stand by all constraints at once.
-    ``functions_of`` a graph: those of loads by the pose.
-    ``followed``: branches of closed forms and phases of wheels are inputs, as the motion is followed where the program
-    runs.
+    With the general executor's answer for the numbers of the file, ``solved``: starts from a known solution.
+    ``moves``: the drives continue from the known motion, which is that of the previous state. ``sided``: with the side
+    of reversals as an input. ``redundant``: constraints may repeat each other; reactions that are not unique are then
+    one choice of many; ``whole``: links placed by these are solved with all constraints at once. ``functions_of`` a
+    graph: those of loads by the pose. ``followed``: branches of closed forms and phases of wheels are inputs, as the
+    motion is followed where the program runs.
     """
     schedule = m.schedule()
     if schedule.unknown is not None:
@@ -136,7 +135,7 @@ def trace_analysis(
 def _pose_loads(
     inputs: Inputs, c: Compiled, moved: list[Number], known: Tree
 ) -> Callable[[Forcing, Pose], Forcing] | None:
-    """Loads that are expressions of the pose as nodes of it; tables are taken at the known motion."""
+    """Loads that are expressions of the pose as nodes of it; tables are evaluated at the known motion."""
     graph, names = inputs.graph, c.schedule.names
     by_pose = {k: v for k, v in inputs.varying.items() if any("." in name for name in v.names)}
     tables = {name: v.against for name, v in by_pose.items() if hasattr(v, "against")}
@@ -173,7 +172,7 @@ def _substituted(graph: Graph, array: Array, places: dict[int, Node]) -> Array:
 
 
 def _check(course: Course, redundant: bool) -> bool:
-    """Whether constraints repeat each other."""
+    """True if constraints are redundant."""
     followed = course.followed
     if followed.path is None:
         raise ModelError(
@@ -186,7 +185,7 @@ def _check(course: Course, redundant: bool) -> bool:
         raise ModelError(
             f"{mobility.redundant} redundant constraint(s) among joints {joints}: not all reactions follow "
             "from equilibrium, so it cannot be compiled",
-            "free a constraint, or use the analyses, which mark what is unique",
+            "free a constraint, or use the analyses, which show the unique reactions",
             ("joints",),
         )
     if repeated and course.followed.compiled.contacts is not None:
@@ -214,7 +213,7 @@ def _refuse_friction(course: Course) -> None:
 
 
 def _check_space(c: Compiled, moved: list[Number]) -> None:
-    """What is not compiled in space."""
+    """Refuses cases in space that are not compiled."""
     links = dict(enumerate(c.links))
     for f in c.contacts.rows.families if c.contacts is not None else ():
         rods = [links[end] for end in (*f.i, *f.j) if links.get(end) in c.passive]
@@ -230,7 +229,7 @@ def _check_space(c: Compiled, moved: list[Number]) -> None:
     if wheels:
         why = f"the wheels of gear {wheels[0]!r} in space are fitted to each other at the first position"
     elif spun:
-        why = f"how link {spun[0]!r} is spun follows from its whole motion, as a ball moves along it"
+        why = f"the spin of link {spun[0]!r} depends on its motion from the first position, as a ball moves along it"
     if moved and why:
         what = f"{moved[0].path!r} places joints, and {why}: so it cannot vary"
         raise ModelError(what, "leave it out, or use da.dynamics or da.statics", moved[0].keys)

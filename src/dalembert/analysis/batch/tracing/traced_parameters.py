@@ -61,7 +61,7 @@ def symbol_functions(graph: Graph) -> Functions:
 
 
 def varies(value: object) -> bool:
-    """Whether an expression or a table along the motion follows from a parameter that varies."""
+    """True if an expression or a table along the motion depends on a parameter that varies."""
     if isinstance(value, Expression):
         return any(isinstance(v, Node) for _, v in value.parameters or ())
     return isinstance(value, Table) and any(isinstance(x, Node) for x in (value.times, *value.y))
@@ -90,7 +90,7 @@ def traced(name: str, value: Expression | Table, graph: Graph, channel: Channel)
 
 
 def _table(name: str, table: Table, channel: Channel) -> Numeric:
-    """A table is linear in its values: the sum of each times its own share of the position, and the factor."""
+    """A table is linear in its values: the sum of each times its weight at the position, times the factor."""
     times: Numeric = table.times
     table = replace(table, times=1.0)
     closed = table.closed()[1] is table.y and table.period is not None

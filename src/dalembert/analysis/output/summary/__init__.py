@@ -1,4 +1,4 @@
-"""A result as a person reads it: tables and sentences, printed by the command line and by ``print(result)``.
+"""Printed form of a result: tables and sentences, for the command line and ``print(result)``.
 
 In: a ``Result``. Out: text. Imports ``analysis``.
 """

@@ -1,4 +1,4 @@
-"""The answer as a person reads it: what was assumed, one position in full or many in a table."""
+"""Printed form of the answer: assumptions, one position in full or many in a table."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 def answer_text(
     result: Result, units: UnitChoice = "file", axes: Axes = "ground", every: bool = False
 ) -> str:
-    """The whole answer as text."""
+    """The complete answer as text."""
     parts = [heading(result), *answer_parts(result, units, axes, every)]
     return "\n\n".join(str(part) for part in parts if part)
 
@@ -49,8 +49,8 @@ def answer_text(
 def answer_parts(
     result: Result, units: UnitChoice = "file", axes: Axes = "ground", every: bool = False, more: str = MORE
 ) -> list[Part]:
-    """What stands under the heading, in order: tables, and sentences that may be empty; ``more`` says where all
-    positions are."""
+    """Parts under the heading, in order: tables, and sentences that may be empty; ``more`` says where all positions
+    are."""
     to = print_scale(result, units)
     parts: list[Part] = []
     if len(result.status) == 1:
@@ -243,7 +243,7 @@ NOT_IN_FULL = {
 
 
 def _count(result: Result) -> str:
-    """How many positions are solved, and what became of the others."""
+    """Number of solved positions, and the outcome of the others."""
     many, solved = len(result.status), int(result.ok.sum())
     if many == 1:
         return ""
@@ -260,7 +260,7 @@ def _count(result: Result) -> str:
 
 
 def checks_text(result: Result) -> str:
-    """How many positions are solved, and the worst residual and power balance of what is solved."""
+    """Number of solved positions, and their worst residual and power balance."""
     found = [
         (n, v[np.isfinite(v)])
         for n, v in (("residual", result.residual), ("power balance", result.power_balance))
@@ -278,7 +278,7 @@ MOST_NAMED = 8
 
 
 def reversals_text(result: Result, to: Printed) -> str:
-    """Which contacts reverse where, and how that is shown; the sentence itself of a single position."""
+    """Reversing contacts with their positions, and how they are shown; the sentence itself for a single position."""
     places = np.flatnonzero(result.reverses)
     if not places.size or len(result.status) == 1:
         return wrap(result.reasons[0] or "", "  ") if places.size and result.ok[0] else ""
@@ -292,7 +292,5 @@ def reversals_text(result: Result, to: Printed) -> str:
         + (f" and {len(at) - MOST_NAMED} more" if at[MOST_NAMED:] else "")
         for joints, at in by_joints.items()
     ]
-    words = (
-        "friction there changes its sense; given are the numbers just before, and under them those just after"
-    )
+    words = "friction changes sense; the first line gives the values just before, the line below it those just after"
     return wrap(f"Reversal of {'; '.join(parts)}: {words}.", "  ")

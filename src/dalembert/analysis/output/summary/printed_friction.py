@@ -1,4 +1,4 @@
-"""What friction does, as a person reads it."""
+"""Printed form of friction."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def with_ends(result: Result, to: Printed, position: int, cells: list[str]) -> l
 
 
 def branch_note(result: Result) -> str:
-    """Where the solution is the physical one of possibly several."""
+    """Note on the positions where the solution is the physical one of possibly several."""
     f = result.friction
     if f is None:
         return ""
@@ -83,7 +83,7 @@ def efficiency_note(result: Result) -> str:
 
 
 def cycle_table(result: Result, to: Printed) -> Part:
-    """What each joint's friction takes over all positions, and the efficiency."""
+    """Loss of each joint's friction over all positions, and the efficiency."""
     from dalembert.analysis.friction.efficiency import NOTHING, efficiency
 
     if result.friction is None or not (result.schedule.speed != 0).any():

@@ -1,4 +1,4 @@
-"""An answer in space as a person reads it: forces and moments by components, links by how they are turned."""
+"""Printed form of an answer in space: forces and moments by components, orientation of links."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ NOT_UNIQUE = "Not unique; with the least sum of squares:"
 AXES: dict[Axes, str] = {
     "ground": "ground axes",
     "link": "the axes of link j",
-    "joint": "the joint's own axes",
+    "joint": "the joint's axes",
 }
 
 
@@ -58,7 +58,7 @@ def _components_and_size(vector: Array) -> list[str]:
 
 
 def space_link_tables(result: Result, to: Printed) -> Iterator[Table]:
-    """How every link is turned, where its mass centre is, and their rates, at the first position."""
+    """Orientation of every link, position of its mass centre, and their rates, at the first position."""
     turned = [f"turned\n{to.text('angle')}", "about x", "y", "z", *_heads("center", to.text("length"))]
     rates = (("speed", "angular_speed"), ("acceler.", "angular_acceleration"))
     turning = [head for name, kind in rates for head in _heads(name, to.text(kind))]

@@ -123,8 +123,8 @@ class Extreme(NamedTuple):
 
 
 def extremes(result: Result, to: Printed, axes: Axes = "ground") -> Iterator[Extreme]:
-    """Of each effort, unknown load and reaction, both sides of reversals counted; where only the motion is known, of
-    the links' angles and rates."""
+    """Extremes of each effort, unknown load and reaction, both sides of reversals included; where only the motion is
+    known, of the links' angles and rates."""
     drives = len(result.drives)
     heads, *sides = _series(result.before, to, axes)
     sides += [] if result.after is None else [_series(result.after, to, axes)[1]]
@@ -148,7 +148,7 @@ def _peak_table(result: Result, to: Printed, axes: Axes) -> Part:
 
 
 def _place_text(result: Result, to: Printed, position: int) -> str:
-    """Where, and whether it is one side of a reversal."""
+    """Position of an extreme, with the side of a reversal."""
     return where(result, to, position) + (" *" if result.reverses[position] else "")
 
 

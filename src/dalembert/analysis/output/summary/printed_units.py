@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Printed(Scale):
-    """The units of the file; angular rates to which it gives no unit of their own, in radians.
+    """The units of the file; angular rates for which it gives no unit, in radians.
 
     ``powers``: kind -> power of ten that its unit has with it, as kN or 10^3 lbf.
 
@@ -52,10 +52,10 @@ class Printed(Scale):
 
 PREFIXES = {3: "k", 6: "M", 9: "G", 12: "T"}
 PREFIXED = ("N", "N*m", "W", "J", "Pa")
-"""Units that take a prefix; before others stands the power itself."""
+"""Units that take a prefix; for others the power itself is printed."""
 PASCAL = {"N/m^2": "Pa"}
 OF_METRES = {"N*mm": "N*m", "mm/s": "m/s", "mm/s^2": "m/s^2"}
-"""Units of millimetres -> those of metres that stand for a thousand of them."""
+"""Units of millimetres -> those of metres that are a thousand times larger."""
 
 
 def unit_with_power(unit: str, power: int) -> str:
@@ -113,7 +113,7 @@ def _power(most: float) -> int:
 
 @kept
 def _extents(result: Result) -> Tree:
-    """By kind the largest number of the whole answer (1,), 0 where there is none but rounding."""
+    """Largest number of the complete answer by kind (1,), 0 where all are rounding."""
     r, d = result.before, result.compiled.layout.algebra.d
     turns = np.array([drive_kinds(r, n)["effort"] == "moment" for n in r.drives], bool)
     couples = np.array([load_kind(r, n) == "moment" for n in r.unknown_loads], bool)
@@ -133,19 +133,19 @@ def _extents(result: Result) -> Tree:
 
 
 def _smallest(result: Result) -> float:
-    """The smallest joint force of the whole answer (N) that is no rounding."""
+    """The smallest joint force of the complete answer (N) that is not rounding."""
     sizes = np.linalg.norm(result.before.force_array, axis=-1)
     known = sizes[np.isfinite(sizes)]
     return float(known[known > PART * known.max(initial=0.0)].min(initial=math.inf))
 
 
 def without_reactions(result: Result) -> bool:
-    """Whether the method has found none, as virtual work does, where there is an answer."""
+    """True if the method gives no reactions, as virtual work does, at solved positions."""
     return bool(result.ok.any()) and not np.isfinite(result.force_array).any()
 
 
 def motion_only(result: Result) -> bool:
-    """Whether no force was asked for."""
+    """True if forces were not requested."""
     return without_reactions(result) and not np.isfinite(result.effort_array).any()
 
 
@@ -165,7 +165,7 @@ def significant(result: Result, kind: str, values: Array) -> Array:
 
 @kept
 def _largest(result: Result) -> Tree:
-    """By kind the largest number at each position (P,): quicker than all that acts there."""
+    """Largest number by kind at each position (P,): computed faster than all forces at it."""
     d, length, many = result.compiled.layout.algebra.d, result.compiled.layout.length, len(result.status)
     angular = [drive_kinds(result, drive)["effort"] == "moment" for drive in result.drives]
     efforts = np.where(angular, result.effort_array / length, result.effort_array)

@@ -1,4 +1,4 @@
-"""Whether a motion comes near a dead centre of its drives, where other freedoms should lead.
+"""Detects that a motion comes near a dead centre of its drives, where other freedoms should lead.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -21,10 +21,10 @@ from dalembert.machine.motion.stops.impacts import StopState
 from dalembert.model import Mechanism
 
 PLACES = 100
-"""So many of the instants behind say which way the drives have gone."""
+"""Number of previous instants that define the recent path of the drives."""
 WATCHED, HEAVY = 0.3, 2.0
-"""A step, or a speed, below this part of the greatest may be that of a drive near its dead centre, if to the drives the
-mechanism is so much heavier than it was."""
+"""A step, or a speed, below this part of the greatest may be that of a drive near its dead centre, if the inertia
+reduced to the drives has grown by the second factor."""
 
 
 class LeadState(StopState):
@@ -41,7 +41,7 @@ class LeadState(StopState):
         """Keep the instants that wait."""
 
     def is_heavy(self, t: float, y: Array) -> bool:
-        """Whether the mechanism has become much heavier to its drives than it was."""
+        """True if the inertia reduced to the drives has become much larger than it was."""
         if not self.may_turn_over:
             return False
         mass = float(np.trace(self.equation(t, y[: self.d], y[self.d : 2 * self.d]).mass))
@@ -49,8 +49,8 @@ class LeadState(StopState):
         return mass > HEAVY * self.lightest
 
     def nears_dead_centre(self, t: float, y: Array, shorter: float) -> bool:
-        """Whether the drives place the links far worse than other freedoms. It is asked where the steps become
-        ``shorter`` or a drive slow, and all that moves seems heavy to them."""
+        """True if the drives place the links far worse than other freedoms. Evaluated where the steps become
+        ``shorter`` or a drive slow, and the reduced inertia has become large."""
         slower = np.abs(y[self.d : 2 * self.d]) / np.maximum(self.fastest, 1e-300)
         least = min(shorter, float(slower[self.acting.free].min()))
         looks = self.may_turn_over and least <= self.watch

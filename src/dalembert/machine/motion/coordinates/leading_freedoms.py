@@ -33,7 +33,7 @@ PIVOT = 0.1
 
 
 def unit_motions(m: Mechanism, way: Array, t: float) -> Result:
-    """The mechanism at the end of a way (K, D) of its drives that it has gone: at speed 1 of each of them in turn."""
+    """The mechanism at the end of a path (K, D) travelled by its drives: at speed 1 of each of them in turn."""
     k, d = way.shape
     position, speed = np.vstack([way, *[way[-1:]] * (d - 1)]), np.zeros((k + d - 1, d))
     speed[k - 1 :] = np.eye(d)
@@ -49,7 +49,7 @@ def rates_of_freedoms(r: Result) -> Array:
 
 
 def best_freedoms(r: Result, free: Array, left_out: Sequence[int] = ()) -> tuple[list[int], float]:
-    """Rows of the freedoms, without those ``left_out``, that place the links best in place of the drives that are
+    """Rows of the freedoms, without those ``left_out``, that place the links best instead of the drives that are
     ``free`` (D,), and the least part of their motion that the drives have: 1 where these are as good, 0 at a dead
     centre."""
     c, layout = r.compiled, r.compiled.layout
@@ -68,13 +68,13 @@ def best_freedoms(r: Result, free: Array, left_out: Sequence[int] = ()) -> tuple
 
 
 def _drivable(c: Compiled, row: int) -> bool:
-    """Whether a drive can be put there: the joint has that freedom alone, or by a name of its own."""
+    """True if a drive can be put on a freedom: it is the joint's only one, or has a name."""
     return c.freedoms[row][1] in ("turn", "slide", "turn1", "turn2", "slide1", "slide2")
 
 
 def can_be_led(m: Mechanism, acting: Actuation) -> bool:
-    """Whether other freedoms may lead, where there are any: brakes, stops and switches are of drives, and loads may go
-    by a drive's position."""
+    """True if other freedoms may lead, where they exist: brakes, stops and switches belong to drives, and loads may
+    depend on a drive's position."""
     if sum(len(joint.freedoms) for joint in m.joints.values()) <= len(m.drives) or joint_stops(m):
         return False
     own = getattr(acting, "own", acting)
@@ -87,7 +87,7 @@ def can_be_led(m: Mechanism, acting: Actuation) -> bool:
 
 
 def lead(m: Mechanism, r: Result, chosen: list[int]) -> tuple[Mechanism, Array]:
-    """The mechanism with drives of the chosen freedoms where it stands at the last position, and their positions."""
+    """The mechanism with drives of the chosen freedoms at its last position, and their positions."""
     c, drives, at = r.compiled, {}, []
     for (name, drive), row, was in zip(m.drives.items(), chosen, c.layout.driven, strict=True):
         joint, freedom = c.freedoms[row]
@@ -120,7 +120,7 @@ def _assembly(r: Result) -> dict[str, Any]:
 
 @dataclass
 class Led(Actuation):
-    """Efforts of the drives of another actuation, ``own``, on the freedoms that lead in their place."""
+    """Efforts of the drives of another actuation, ``own``, on the freedoms that lead instead of them."""
 
     own: Actuation = field(kw_only=True)
     freedoms: tuple[tuple[str, str], ...] = field(kw_only=True)
@@ -128,7 +128,7 @@ class Led(Actuation):
     last: Array = field(kw_only=True)
 
     def follow(self, t: float, p: Array) -> tuple[Array, Array]:
-        """Positions (D,) of the drives where the freedoms stand, whole turns counted, and their rates for speed 1 of
+        """Positions (D,) of the drives at the freedoms' positions, full turns counted, and their rates for speed 1 of
         each of these (D, D)."""
         found = self.equation(t, p, np.zeros(len(p))).freedoms
         q, turns = found[:, 0], np.array([d.turns for d in self.own.drives])
@@ -160,9 +160,10 @@ class Led(Actuation):
 
 
 def led_from(m: Mechanism, acting: Actuation, way: Array, t: float, u: Array) -> tuple[Mechanism, Led]:
-    """The mechanism with the best freedoms leading from a state, the end of a way of its drives, and what acts on them.
+    """The mechanism with the best freedoms leading from a state, the end of a path of its drives, and the efforts on
+    them.
 
-    Raises StoppedError where no such equation has numbers on both sides of it.
+    Raises StoppedError where none of these equations is finite on both sides of the state.
     """
     r = unit_motions(m, way, t)
     driven = r.compiled.layout.driven

@@ -50,7 +50,7 @@ def integrate(run: Integration) -> list[Integration]:
 
 
 def instants(pieces: Sequence[Integration]) -> tuple[Instants, Result | None]:
-    """The instants of all pieces, of an event the state behind it; and the motion there, where freedoms have led."""
+    """The instants of all pieces, of an event the state after it; and the motion at them, where freedoms have led."""
     found = [_rows(piece) for piece in pieces]
     if len(pieces) == 1:
         return found[0], None

@@ -20,13 +20,11 @@ from dalembert.machine.motion.rest.standstill import ContactState
 from dalembert.model import Mechanism
 
 AHEAD = 1e-7
-"""Part of the time in which the machine moves by its natural size, after which it is asked which way a switch goes."""
+"""Part of the characteristic time of the machine's motion, after which the direction of a switch is evaluated."""
 OFTEN, SOONER, LATER = 1e-3, 0.97, 41
-"""A switch that goes to and fro in less than this part of that time, and by this factor sooner than so many times
+"""A switch that alternates within less than this part of that time, and by this factor sooner than that many times
 before, is a jump at which the machine comes to rest."""
-HOLDS = (
-    "jumps there and pushes back from both sides: it holds the machine, and is itself between its two values"
-)
+HOLDS = "jumps at this state and pushes back from both sides: it holds the machine at a value between its two limits"
 DRY = (
     "jumps with a speed and pushes back from both sides, as dry friction does: write it as `brake:` of the drive, or "
     "as friction of its joint, which hold at rest"
@@ -54,7 +52,7 @@ class CornerState(ContactState):
         self._loads = f"load {' or '.join(map(repr, loads))}"
 
     def _own_sides(self) -> Iterator[tuple[Sided, Callable[[float, Array], dict[str, float]]]]:
-        """Loads and efforts that follow from drives, speeds and time, with what they go by at a state."""
+        """Loads and efforts that depend on drives, speeds and time, with their variables at a state."""
         d = self.d
         for channel in self.equation.channels:
             if isinstance(channel, LoadChannel) and channel.sided is not None:
@@ -113,7 +111,7 @@ class CornerState(ContactState):
                     raise StoppedError(f"{switch.what} {HOLDS}")
 
     def _ahead(self, switch: Switch, t: float, y: Array) -> float:
-        """How a switch changes over a short time, all sides as they are."""
+        """Change of a switch over a short time, all sides unchanged."""
         return switch.value(*self.soon(t, y)) - switch.value(t, y)
 
     def soon(self, t: float, y: Array) -> tuple[float, Array]:

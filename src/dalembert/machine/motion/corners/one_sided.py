@@ -1,7 +1,7 @@
 """Corners and jumps of loads and efforts: along a segment of a motion each part is on one side, until an event.
 
 `sign`, `abs`, `min`, `max` and the points of a linear table switch where something passes zero. On one side all is
-smooth, a little beyond the corner too, so that a step that meets one has its own digits.
+smooth, a little beyond the corner too, so that a step that meets one keeps its accuracy.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -24,13 +24,13 @@ from dalembert.model.quantities.tables import Table
 SWITCHING = ("sign", "abs", "min", "max", *COMPARISONS)
 """Functions of expressions that have a corner or a jump."""
 BEYOND = 1e-5
-"""Part of a table's span by which a motion is taken to be beyond its end, when it comes there."""
+"""Part of a table's span by which a motion is placed beyond the table's end when it reaches it."""
 Sides = dict[int, float]
-"""Of each switch, by its order in the expression."""
+"""Side of each switch, by its order in the expression."""
 
 
 def has_corners(value: object) -> bool:
-    """Whether a quantity has corners; those of a table over time are met as instants."""
+    """True if a quantity has corners; those of a table over time are met as instants."""
     if isinstance(value, Expression):
         return any(isinstance(n, Apply) and n.function in SWITCHING for n in nodes(value.tree))
     return isinstance(value, Table) and value.interpolate == "linear" and value.against != TIME
@@ -77,7 +77,7 @@ class Sided:
         return found if np.isfinite(found) else float(self.value.at(known))  # which says what is wrong
 
     def switch(self, k: int, known: Mapping[str, Any]) -> float:
-        """What passes zero where a switch goes over to its other side."""
+        """Value that passes zero where a switch changes to its other side."""
         self.at(known)
         return self.switches[k]
 

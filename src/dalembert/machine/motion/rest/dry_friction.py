@@ -1,12 +1,12 @@
-"""Dry friction of a moving machine: accelerations and friction of its contacts together, of known senses.
+"""Dry friction of a moving machine: accelerations and friction of its contacts together, for known senses.
 
 Equilibrium with inertia is linear in accelerations a and friction c z alike:
 
     effort = e + M a + G c z,    y = y0 + Ya a + H c z,    rates of the contacts' rates = d - G^T a
 
 With a put in from the first, where efforts are given, the second is that of contacts at known accelerations, with other
-numbers: the same solver finds z = -s S(y), the same determinant tells that there is one solution. A contact that sticks
-has its rate's rate 0 in place of that law, and its friction is what this takes.
+numbers: the same solver finds z = -s S(y), the same determinant shows that the solution is unique. A contact that
+sticks has the rate of its rate equal to 0 instead of that law, and its friction is the force that this needs.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -58,15 +58,15 @@ class Contacted(NamedTuple):
 
 @dataclass
 class DryFriction:
-    """The contacts of a machine; ``own``: those that slip by themselves, whose senses are told. ``last``: z of the last
-    state, where the next one's is sought from."""
+    """The contacts of a machine; ``own``: those that slip independently, whose senses are given. ``last``: z of the
+    last state, the start for the next one."""
 
     contacts: Contacts
     own: Ints
     last: Array | None = None
 
     def senses(self, rates: Array, told: Array) -> Array:
-        """Part of each contact (E,) in the direction of its slip; ``told``: of the own ones."""
+        """Part of each contact (E,) in the direction of its slip; ``told``: senses of the own ones."""
         c = self.contacts
         sense = sign(c, rates * c.reckoned, (c.group == c.group[:, None]).sum(axis=0) == 1)
         sense[self.own] = told
@@ -76,7 +76,7 @@ class DryFriction:
         self, f: Linear, a: Array, effort: Array, change: Array, sense: Array, stuck: Flags
     ) -> Contacted | None:
         """The solution, from that without friction (a, effort) and the ``change`` (2D, E) of both with c z; None where
-        there is none, or not by the way from no friction."""
+        it does not exist, or is not reached on the path from no friction."""
         d = len(a)
         x = np.concatenate([a, effort, f.drift - f.push.T @ a])
         r = Response(
@@ -103,7 +103,7 @@ class DryFriction:
         return Contacted(x[:d], x[d : 2 * d], x[2 * d :], cz, room, parts, pushed)
 
     def _slip(self, r: Response, sense: Array, c: Array) -> Array | None:
-        """z of those that slip: near the last one, else by the way from no friction."""
+        """z of those that slip: near the last one, else on the path from no friction."""
         whole = Response(*(x[None] for x in r))
         if self.last is not None:
             found = newton(self.contacts, whole, sense[None], c[None], self.last[None])

@@ -1,4 +1,4 @@
-"""What friction and brakes do at the moment: the test of rest is the analysis of the machine at rest there.
+"""Friction and brakes at an instant: the test of rest is the analysis of the machine at rest at that position.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -25,11 +25,11 @@ from dalembert.model.quantities.coordinates import TIME
 from dalembert.model.quantities.tables import Table
 
 STILL = 1e-9
-"""A speed below this part of the greatest there has been is rest, at an event where it passes zero."""
+"""A speed below this part of the greatest so far is rest, at an event where it passes zero."""
 WEIGHTLESS = 1e-12
 """Part of the greatest inertia that is rounding."""
 INSTANTS = 400
-"""At so many instants it is asked whether what rests by friction is still held."""
+"""Number of instants at which friction at rest is checked."""
 
 
 def at_state(m: Mechanism, first: Array, t: float, q: Array, u: Array, a: Array) -> Result:
@@ -109,14 +109,14 @@ class ContactState:
         return self.slipping[1]
 
     def own(self, rates: Array) -> Array:
-        """Of all contacts those that slip by themselves."""
+        """Rates of the contacts that slip independently."""
         return rates[self.equation.dry.own] if self.equation.dry else rates
 
     def note(self, t: float, name: str, *words: str | tuple[str, float], of: str = "") -> None:
         self.events.append(Event(t, name, words, of))
 
     def _others_move(self) -> bool:
-        """Whether something prescribed moves."""
+        """True if a prescribed drive moves."""
         others = ~self.acting.free
         return bool((self.acting.speed[others] != 0).any() or (self.acting.acceleration[others] != 0).any())
 
@@ -135,7 +135,7 @@ class ContactState:
             raise StoppedError(no_inertia(self.acting.names[free[k]]))
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
-        """Effort that acts on a drive at rest, and the least and greatest with which it stays there."""
+        """Effort that acts on a drive at rest, and the least and greatest with which it stays at rest."""
         q, u = y[: self.d], y[self.d : 2 * self.d]
         held = self.locked.copy()
         self.locked[k] = True
@@ -147,13 +147,13 @@ class ContactState:
         name = self.acting.names[k]
         low, high = holding_efforts(r, k) if self.equation.dry else (float(r.effort(name)[1]),) * 2
         if np.isnan(low) or np.isnan(high):
-            raise StoppedError(f"{name} stands, and {r.reasons[1] or r.status[1]}")
+            raise StoppedError(f"{name} is at rest: {r.reasons[1] or r.status[1]}")
         tau = float(self.acting.effort(t, q, u)[k])
         low, high = low - self.acting.brake[k], high + self.acting.brake[k]
         return tau, -np.inf if self.on_stop[k] < 0 else low, np.inf if self.on_stop[k] > 0 else high
 
     def _settle(self, k: int, t: float, y: Array) -> None:
-        """Lock a drive that stands and is held, or let it go in the sense of the end that is passed."""
+        """Locks a drive that is at rest and held, or releases it in the sense of the end that is passed."""
         tau, low, high = self._range(k, t, y)
         name, was = self.acting.names[k], self.locked[k]
         wide = bool(self.on_stop[k]) or high - low > 1e-12 * max(abs(low), abs(high), 1e-300)
@@ -190,7 +190,7 @@ class ContactState:
         return np.flatnonzero(self.own(self.solved(t, y)[0].room) < 0).tolist() if self.stuck.any() else []
 
     def _yields(self, t: float, y: Array) -> bool:
-        """Whether something at rest is no longer held."""
+        """True if a part at rest is no longer held."""
         return bool(self._loose(t, y) or self.leaving(t, y))
 
     def _switches(self, k: int) -> list[tuple[str, Switch]]:
@@ -206,7 +206,8 @@ class ContactState:
         self.note(t, f"motor {key}", f"the motor of {self.acting.names[k]} is switched {key}")
 
     def _let_go(self, t: float, end: float, y: Array) -> float:
-        """When what stands is no longer held; motors that are switched by time are, at theirs."""
+        """Instant at which a part at rest is no longer held; for motors that are switched by time, the switching
+        instant."""
         switches = [
             (s[1], k, key) for k in self.acting.motors for key, s in self._switches(k) if s[0] == "time"
         ]
@@ -225,7 +226,7 @@ class ContactState:
         return end
 
     def _by_time(self) -> list[Any]:
-        """Loads and efforts that go by time."""
+        """Loads and efforts that depend on time."""
         own = getattr(self.acting, "own", self.acting)
         loads = (v for load in self.m.loads.values() for v in getattr(load, "varying", ()))
         return [v for v in (*loads, *(d.effort for d in own.drives)) if TIME in getattr(v, "names", ())]
@@ -242,7 +243,7 @@ class ContactState:
         return out
 
     def _loosening(self, low: float, high: float, state: Callable[[float], Array]) -> float:
-        """The instant at which what is locked is let go, by halving."""
+        """Instant at which a locked drive is released, by halving."""
         while high - low > 1e-14 * high:
             middle = (low + high) / 2
             if middle in (low, high):

@@ -1,7 +1,8 @@
-"""Contacts at rest in machines of several freedoms: which of them stick, and which way the others go.
+"""Contacts at rest in machines of several freedoms: which of them stick, and the senses of the others.
 
-A contact sticks while what keeps its rate at 0 is no more than its coefficient at rest allows. All sets of contacts at
-rest that stick, and senses of the others, are tried, most sticking ones first, until one satisfies friction's law.
+A contact sticks while the force that keeps its rate at 0 is within the limit of its coefficient at rest. All sets of
+contacts at rest that stick, and senses of the others, are tried, most sticking ones first, until one satisfies
+friction's law.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -30,7 +31,7 @@ EVEN = 1e-9
 
 
 class StickState(CornerState):
-    """A motion's contacts and drives at rest; ``tied`` (own contacts,) and ``bound`` (D,): those that rest because
+    """A motion's contacts and drives at rest; ``tied`` (own contacts,) and ``bound`` (D,): those at rest because
     contacts stick."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
@@ -39,7 +40,7 @@ class StickState(CornerState):
         self.bound: Flags = np.zeros(self.d, bool)
 
     def _settle_start(self, t: float, y: Array) -> None:
-        """Senses at the start; what stands there is held, or goes the way it is pushed."""
+        """Sets the senses at the start; parts at rest are held, or move in the sense in which they are pushed."""
         u = y[self.d : 2 * self.d]
         self.find_sides(t, y)
         if self.equation.dry:
@@ -49,7 +50,8 @@ class StickState(CornerState):
         self.settle(np.flatnonzero(self.rubs & (u == 0)).tolist(), t, y)
 
     def settle(self, drives: Sequence[int], t: float, y: Array, leaving: Sequence[int] = ()) -> list[int]:
-        """Decide what drives and contacts at rest do, contacts that are ``leaving`` having slipped; of which own ones.
+        """Decides on drives and contacts at rest, after contacts that are ``leaving`` have slipped; returns the own
+        contacts concerned.
 
         In a machine of one freedom by the range of its effort, and so where there is a brake or a stop, or too many
         contacts; else by the contacts alone.
@@ -72,7 +74,7 @@ class StickState(CornerState):
         return [int(e) for e in resting]
 
     def _begin(self, t: float, y: Array) -> None:
-        """Which way drives go that stand and are not held."""
+        """Sets the senses of drives that are at rest and not held."""
         slow = np.abs(y[self.d : 2 * self.d]) <= STILL * self.fastest
         begins = slow & self.acting.free & ~(self.locked | self.bound | self._kept)
         if begins.any():
@@ -85,7 +87,7 @@ class StickState(CornerState):
         return np.asarray((self.acting.brake > 0) | (self.on_stop != 0))
 
     def _resting(self, t: float, y: Array) -> tuple[Ints, Array, Array]:
-        """Own contacts whose rates are 0 and change with what is free; rates (own,), the push (D, own) on that."""
+        """Own contacts whose rates are 0 and change with the free drives; rates (own,), the push (D, own) on them."""
         if not self.equation.dry:
             return np.zeros(0, np.intp), np.zeros(0), np.zeros((self.d, 0))
         terms = self.equation(t, y[: self.d], y[self.d : 2 * self.d])
@@ -109,7 +111,7 @@ class StickState(CornerState):
             return
         if len(resting) > AT_ONCE:
             what = f"{len(resting)} contacts come to rest at once"
-            raise StoppedError(f"{what}, and of {AT_ONCE} at most it is found which of them stick")
+            raise StoppedError(f"{what}; which of them stick can be decided for at most {AT_ONCE}")
         stuck, sense = self.stuck.copy(), self.sense.copy()
         forced = {e: float(-np.sign(self.solved(t, y)[0].cz[dry.own[e]])) for e in leaving}
         for way in _ways([(forced[e],) if e in forced else (0.0, sense[e], -sense[e]) for e in resting]):
@@ -127,13 +129,13 @@ class StickState(CornerState):
             self.stuck, self.sense = stuck, sense
             names = ", ".join(self.equation.joints[e] for e in resting)
             why = "neither sticking nor slipping satisfies the law of friction"
-            raise StoppedError(f"there it jams: of {names}, at rest, {why}")
+            raise StoppedError(f"the machine jams: for {names}, at rest, {why}")
         self.tied = _within(push, push[:, held]) & np.isin(np.arange(len(sense)), resting)
         self.bound = _within(np.eye(self.d), push[:, held]) & (y[self.d : 2 * self.d] == 0)
         self._note_change(stuck[dry.own], sense, t)
 
     def _lawful(self, resting: Ints, way: Array, t: float, y: Array) -> bool:
-        """Whether those that stick can, and the others go the way of their senses."""
+        """True if the sticking contacts can stick, and the others move in their senses."""
         assert self.equation.dry is not None
         found, own = self.solved(t, y)[0], self.equation.dry.own[resting]
         ahead, size = found.second[own] * way, found.size[own]

@@ -26,10 +26,10 @@ from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.end_stops import Stops
 
 SLOW = 1e-6
-"""What goes back from a stop with less than this part of the greatest speed there has been comes to rest there: after
-all bounces that are left, which go less far than positions are known."""
+"""A part that rebounds from a stop with less than this part of the greatest speed so far comes to rest on it: the
+remaining bounces are smaller than the accuracy of positions."""
 LOOKS = 9
-"""Instants of a step at which it is asked whether a stop has been met."""
+"""Number of instants of a step at which stops are checked."""
 TOUCHING = 1e-12
 """Distance from a stop, m or rad, that is rounding: it takes part in an impact at another."""
 UNMOVED = 1e-12
@@ -43,7 +43,7 @@ Look = tuple[float, float, float]
 class Stop:
     """Stops of a drive, by its number, or of a joint, by its place among ``Terms.freedoms``.
 
-    ``resting``: -1 on the least, 1 on the greatest; ``looks``: positions over the last step, whole turns counted.
+    ``resting``: -1 on the least, 1 on the greatest; ``looks``: positions over the last step, full turns counted.
     """
 
     name: str
@@ -55,11 +55,11 @@ class Stop:
     looks: list[Look] = field(default_factory=lambda: [(0.0, 0.0, 0.0)])
 
     def end(self, side: float) -> float:
-        """Where it is on one side."""
+        """Position of the stop on one side."""
         return self.ends.least if side < 0 else self.ends.greatest
 
     def near(self, x: float, guess: float) -> float:
-        """The position that is x but for whole turns, next to a guess; a drive counts its own."""
+        """The position equal to x up to full turns, nearest to a guess; a drive counts its own turns."""
         counts = self.joint >= 0 and self.freedom == "turn"
         return x + 2 * np.pi * round((guess - x) / (2 * np.pi)) if counts and np.isfinite(x) else x
 
@@ -82,7 +82,7 @@ class StopState(StickState):
             self._place_at_start(stop, *self.motion_of(stop, 0.0, y))
 
     def _place_at_start(self, stop: Stop, x: float, rate: float) -> None:
-        """Count whole turns so that a joint starts between its stops."""
+        """Counts full turns so that a joint starts between its stops."""
         least, greatest, small = stop.ends.least, stop.ends.greatest, 1e-9
         ends = [stop.near(x, end) for end in (0.0, least, greatest) if np.isfinite(end)]
         at = [x + n for x in ends for n in (0.0, 2 * np.pi, -2 * np.pi) if n == 0 or x != stop.near(x, x + n)]
@@ -98,7 +98,7 @@ class StopState(StickState):
         stop.looks = [(0.0, within[0] if within else x, rate)]
 
     def motion_of(self, stop: Stop, t: float, y: Array) -> tuple[float, float]:
-        """Position, of a joint's turn but for whole turns, and speed."""
+        """Position, for a joint's turn up to full turns, and speed."""
         d = self.d
         if stop.joint < 0:
             return float(y[stop.drive]), float(y[d + stop.drive])
@@ -106,7 +106,7 @@ class StopState(StickState):
         return float(x), float(rate)
 
     def stop_guards(self) -> list[Guard]:
-        """Stops that are not rested on, the side that of the way in; and forces of those that are."""
+        """Stops without contact, on the side of the approach; and forces of those in contact."""
 
         def beyond(stop: Stop, x: float) -> Callable[[float, Array], float]:
             return lambda t, y: stop.near(self.motion_of(stop, t, y)[0], x) - x
@@ -160,8 +160,8 @@ class StopState(StickState):
         return None
 
     def strike(self, hit: Sequence[tuple[int, float]], t: float, y: Array) -> None:
-        """u+ = u- - M^-1 n I at stops that are met, each on its side: I >= 0, and where it is more what goes back
-        has the speed of its restitution (Moreau); those rested on push too. What friction holds is let go."""
+        """Applies u+ = u- - M^-1 n I at stops that are met, each on its side: I >= 0, and where I > 0 the rebound has
+        the speed of its restitution (Moreau); stops in contact push too. Parts held by friction are released."""
         d, free = self.d, np.flatnonzero(self.acting.free)
         u = y[d : 2 * d]
         for k, side in hit:
@@ -222,19 +222,19 @@ class StopState(StickState):
         return bool(stop.resting == side or near)
 
     def _row(self, stop: Stop, terms: Terms) -> Array:
-        """What it moves with each drive (D,)."""
+        """Its motion per unit of each drive (D,)."""
         return np.asarray(
             terms.freedoms[stop.joint][3:] if stop.joint >= 0 else np.arange(self.d) == stop.drive, float
         )
 
     def _drive_of(self, stop: Stop) -> int:
-        """The drive that stands where the stop is rested on; -1 where others go on."""
+        """The drive that is at rest while the stop is in contact; -1 where others move."""
         free = np.flatnonzero(self.acting.free)
         alone = stop.joint >= 0 and len(free) == 1 and not self._others_move()
         return int(free[0]) if alone else stop.drive
 
     def _note_rests(self, t: float, y: Array) -> None:
-        """What stands on its stop, and stops of joints that push while others go on."""
+        """Records drives at rest on a stop, and stops of joints that push while others move."""
         d, none = self.d, np.zeros(self.d)
         self.on_stop[:], self.pressed, self.resting = 0.0, [], {}
         for stop in self.stops:
@@ -244,7 +244,8 @@ class StopState(StickState):
                 self.on_stop[k], self.resting[k], y[d + k] = stop.resting * np.sign(way), stop.name, 0.0
             elif stop.resting and self.equation.dry:
                 raise StoppedError(
-                    f"{stop.name} rests on its stop while others go on, with friction: what the stop gives is not found"
+                    f"{stop.name} rests on its stop while other freedoms move, with friction: "
+                    "the force of the stop cannot be computed"
                 )
             elif stop.resting:
                 self.pressed.append(stop)
@@ -305,8 +306,8 @@ class StopState(StickState):
         return tau, -np.inf if self.on_stop[k] < 0 else low, np.inf if self.on_stop[k] > 0 else high
 
     def joint_forces(self, t: float, y: Array) -> Array:
-        """Of stops of joints (J, 2): what they give, once ``at`` was asked, and where it is not known yet, as one drive
-        stands with them, what each moves with it."""
+        """Forces of stops of joints (J, 2), once ``at`` was evaluated; and where the force is not known yet, because
+        one drive is at rest with them, the slopes with that drive."""
         out = np.zeros((len(self.stops), 2))
         for k, stop in enumerate(self.stops):
             if stop.joint >= 0 and stop.resting and stop not in self.pressed:
@@ -335,7 +336,7 @@ class StopState(StickState):
 
 
 def _impulses(own: Array, gap: Array) -> Array:
-    """I >= 0 with own I >= gap, and I = 0 where that is more: own is symmetric and not negative."""
+    """I >= 0 with own I >= gap, and I = 0 where own I > gap: own is symmetric and positive semidefinite."""
     if len(gap) == 1:
         return np.asarray(np.maximum(gap / own[0], 0.0))
     size, way = np.linalg.eigh(own)

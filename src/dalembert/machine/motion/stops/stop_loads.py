@@ -1,4 +1,4 @@
-"""What stops give: to drives as an effort, of joints as loads of the analysis, so that all joint forces have them in.
+"""Forces of stops: on drives as an effort, on joints as loads of the analysis, so that all joint forces include them.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 ROUNDS, SAME = 40, 1e-13
-"""Times that forces of stops are sought beside friction, which goes by them; and a change that is rounding."""
+"""Iterations of the forces of stops with friction, which depends on them; and a change that is rounding."""
 
 
 def stop_effort(r: Result, pushed: Array, brake: Array) -> Array:
-    """What drives that rest on stops are given (T, D), ``pushed`` by these efforts: what friction and a ``brake`` (D,)
-    do not hold."""
+    """Forces (T, D) of stops on drives that rest on them, ``pushed`` by these efforts: the part that friction and a
+    ``brake`` (D,) do not hold."""
     out = np.zeros_like(pushed)
     for k in np.flatnonzero(np.isfinite(pushed).any(axis=0)):
         held = np.clip(pushed[:, k], *_holding(r, int(k), brake))
@@ -45,8 +45,8 @@ def _holding(r: Result, k: int, brake: Array) -> tuple[Array, Array]:
 def with_stop_loads(
     r: Result, found: Array, pushed: Array, moves: Actuation
 ) -> tuple[Result, dict[str, Array]]:
-    """The analysis with the forces of joints' stops, and these (T,) by joint: ``found`` (T, J, 2) as
-    ``StopState.joint_forces`` has them. Where one drive stands it is the least force: friction holds what it can."""
+    """The analysis with the forces of joints' stops, and these (T,) by joint: ``found`` (T, J, 2) from
+    ``StopState.joint_forces``. Where one drive is at rest it is the least force: friction holds as much as it can."""
     m, names = r.mechanism, list(joint_stops(r.mechanism))
     force, ratio, loaded = found[..., 0], found[..., 1], r
     k, held = (

@@ -1,5 +1,5 @@
-"""Parts of a mechanism written once and copied: `copies` of a file, read as the links, joints and loads they stand for.
+"""Parts of a mechanism written once and copied: `copies` of a file, expanded to links, joints and loads.
 
-In: a file's tree. Out: the tree without `copies`, which copy each new part came from, and how copies are alike.
-Imports ``model``.
+In: a file's tree. Out: the tree without `copies`, the copy that each new part came from, and the relations of copies to
+originals. Imports ``model``.
 """

@@ -61,11 +61,11 @@ class Copying:
             if name in self.drives and f"{name}{self.image.ending}" not in self.tree["start"]:
                 self.add("start", name, self.start(name, start))
         if self.image.shift and not self.shifted:
-            what = "none of its loads goes by a drive that stays, to be shifted"
+            what = "shift has no effect: none of its loads depends on a drive that is not copied"
             raise ModelError(what, "leave shift out", ("shift",))
 
     def likeness(self) -> Likeness:
-        """How the copy is alike, but for links whose angle the file states by itself."""
+        """Relation of the copy to its original, except for links whose angle the file states itself."""
         end, image = self.image.ending, self.image
         alike = Likeness(
             image.side,
@@ -80,7 +80,7 @@ class Copying:
     def add(self, section: str, name: str, value: object) -> None:
         new = f"{name}{self.image.ending}"
         if new in {str(other) for other in self.tree[section]}:
-            what = f"its {section[:-1]} {new!r} is there already"
+            what = f"its {section[:-1]} {new!r} already exists"
             raise ModelError(what, "give the copies other names: names: [...]")
         self.tree[section][new] = value
         self.copied[section, new] = self.path
@@ -97,8 +97,8 @@ class Copying:
         shapes = link.get("shape", [])
         for shape in shapes if isinstance(shapes, list) else [shapes]:
             if "file" in shape:
-                what = "a mesh is not mirrored"
-                raise ModelError(what, "give mass, center and inertia in place of its shape")
+                what = "a mesh cannot be mirrored"
+                raise ModelError(what, "give mass, center and inertia instead of its shape")
         flipped = [s | {key: at(s[key]) for key in ("center", "axis") if key in s} for s in _list(shapes)]
         return new | ({"shape": flipped} if shapes else {})
 
@@ -110,7 +110,7 @@ class Copying:
         return new | {key: self.image.angle(place[key]) for key in ("turn", "mirror") if key in place}
 
     def point(self, link: str, point: str) -> str:
-        """A point that the copy hangs on: its own, or that of the image of a link that stays."""
+        """Point that the copy is attached to: its own, or that of the image of a link that is not copied."""
         if link in self.of or link not in self.image.phase:
             return point
         new, owner = f"{point}{self.image.ending}", self.tree["links"].get(link)
@@ -164,7 +164,7 @@ class Copying:
                 raise ModelError(f"{name!r} does not say how link {link!r} is mirrored", remedy, ("mirror",))
 
     def between(self, joint: str) -> float:
-        """What the angle of a copied joint's j against its i has more than that of the image."""
+        """Angle of a copied joint's j against its i minus that of the image."""
         links = [str(link) for link in _list(self.joints[joint].get("links"))]
         self.require_mirrors(joint, *links)
         i, j = self.ends(links)
@@ -191,7 +191,7 @@ class Copying:
         }
 
     def start(self, name: str, start: Tree) -> Tree:
-        """Where the copied drive starts."""
+        """Start of the copied drive."""
         joint = str(self.drives[name].get("joint", name))
         if self.slides(joint, self.drives[name]):
             return start
@@ -281,7 +281,7 @@ class Copying:
         return names + size[len(body) :] + at + angle
 
     def renamed(self, name: str, dimensional: bool) -> str:
-        """A name of an expression as the copy has it; ``dimensional``: in an expression of parameters."""
+        """Name of an expression in the copy; ``dimensional``: in an expression of parameters."""
         found = self.coordinate(name)
         if found is not None:
             new, side, offset = found

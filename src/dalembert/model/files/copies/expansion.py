@@ -1,4 +1,4 @@
-"""The links, joints, drives and loads that `copies` of a file stand for."""
+"""Expands `copies` of a file into links, joints, drives and loads."""
 
 from __future__ import annotations
 
@@ -57,10 +57,11 @@ def copies_schema() -> JsonSchema:
 def expand(
     tree: Mapping[str, object], rules: Reading
 ) -> tuple[Mapping[str, object], dict[Path, Path], tuple[Likeness, ...]]:
-    """The tree with what its copies stand for; paths of the new parts -> path of the copy; how they are alike."""
+    """The tree with its copies expanded; paths of the new parts -> path of the copy; relations of copies to
+    originals."""
     entries = tree.get("copies")
     if not isinstance(entries, (list, tuple)):
-        said = f"{quote_value(entries)} stands where a list is needed"
+        said = f"expected a list, not {quote_value(entries)}"
         raise ModelError(said, f"write copies: [{EXAMPLE}]", ("copies",))
     out: Tree = {key: value for key, value in tree.items() if key != "copies"}
     for key in ("links", "joints", "drives", "loads", "assembly", "start"):
@@ -82,7 +83,7 @@ def expand(
 
 
 def _state_against(tree: Tree) -> None:
-    """Tables that leave out what they are against, the only drive, said before it is copied."""
+    """Writes out what tables are against, the only drive, where they leave it out, before the drive is copied."""
     drives: object = tree.get("drives")
     if not isinstance(drives, Mapping) or len(drives) != 1:
         return
@@ -115,7 +116,7 @@ def _images(entry: object, tree: Tree, rules: Reading) -> Iterator[Image]:
         raise ModelError("it says no links", f"write {EXAMPLE}", ("of",) if of is not None else ())
     for k, name in enumerate(of):
         if str(name) not in links or name == GROUND:
-            said = f"there is no moving link {str(name)!r}"
+            said = f"unknown moving link {str(name)!r}"
             raise ModelError(said, closest(str(name), sorted(links - {GROUND})), ("of", k))
     turned = _phases(keys, links - {str(name) for name in of})
     count = _count(keys, turned)
@@ -153,7 +154,7 @@ def _phases(keys: Mapping[str, object], links: set[str]) -> dict[str, object]:
         raise ModelError(what, "write phase: {crank: [0, 180]}", (which,))
     for link in given:
         if str(link) not in links:
-            said = f"there is no link {str(link)!r} that stays"
+            said = f"{str(link)!r} is not a link outside the copies"
             raise ModelError(said, closest(str(link), sorted(links)), (which,))
     return {str(link): [0, value] if which == "mirror" else value for link, value in given.items()}
 
@@ -168,8 +169,8 @@ def _count(keys: Mapping[str, object], turned: Mapping[str, object]) -> int:
             ("count",) if "count" in keys else (),
         )
     if listed - {count}:
-        what = f"{count} are asked for, and a list has {max(listed - {count})}"
-        raise ModelError(what, "give one for each, the original's 0 first")
+        what = f"count is {count}, but a list has {max(listed - {count})} values"
+        raise ModelError(what, "give one value for each, the original's 0 first")
     return count
 
 

@@ -1,8 +1,8 @@
-"""Values of a file as they are in a copy, which is turned or reflected against what it hangs on.
+"""Values of a file in a copy, which is rotated or reflected relative to the links it is attached to.
 
-A copied link is reflected in its own x axis. A link that stays has an image for the copy: turned by an angle, or
-reflected in a line; its image's axes stand at `offset` from its own. What follows from parameters stays an expression
-of them. A value that cannot be read is left as it is: the error is that of the original.
+A copied link is reflected in its local x axis. A link that is not copied has an image for the copy: rotated by an
+angle, or reflected in a line; the image's axes are at `offset` from the link's. Values that depend on parameters remain
+expressions of them. A value that cannot be read is left as it is: the error is that of the original.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from dalembert.units import KINDS, NUMBER
 
 @dataclass(frozen=True)
 class Image:
-    """Of a copy: its number among all, what its names end with, and how it differs from the original.
+    """Data of a copy: its number among all, the ending of its names, and its differences from the original.
 
-    phase: links that stay -> angle of what hangs on them, radians; with `mirrored` that of the line
-    shift: how much later its loads come, SI
+    phase: links that are not copied -> angle of the parts attached to them, radians; with `mirrored` that of the line
+    shift: delay of its loads, SI
     """
 
     ending: str
@@ -70,7 +70,7 @@ class Image:
         return f"{number + shift!r} {si}"
 
     def opposite(self, value: object) -> object:
-        """What changes its sign in a reflection: a couple, the speed of a turn."""
+        """Value that changes sense in a reflection: a couple, the speed of a turn."""
         return self.negative(value) if self.mirrored else value
 
     def interval(self, value: object, offset: float) -> object:
@@ -136,8 +136,8 @@ class Image:
             return {"expression": " + ".join(_plain(f, v) for f, v in parts), "unit": KINDS[kind].si}
         if any(free):
             raise ModelError(
-                "one component of a turned vector has parameters or units inside, and the other has none",
-                "write each component as a load of its own, a value with a direction",
+                "one component of a rotated vector uses parameters or units, and the other does not",
+                "write each component as a separate load, a value with a direction",
             )
         return " + ".join(f"{f!r}*{factor_text(v, kind)}" for f, v in parts)
 
@@ -148,8 +148,8 @@ class Image:
             raise _Unread from None
         if isinstance(found, Table):
             raise ModelError(
-                "a component of a vector that is turned is a table",
-                "write each component as a load of its own, a value with a direction",
+                "a component of a rotated vector is a table",
+                "write each component as a separate load, a value with a direction",
             )
         return found
 

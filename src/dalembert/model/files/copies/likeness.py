@@ -1,4 +1,4 @@
-"""How a copy of links differs from what it was copied from: its angles count whole turns as the image's do."""
+"""Relation of a copy of links to its original: its angles count full turns as the image's do."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ class Likeness:
     drives: Mapping[str, str] = field(default_factory=dict)
 
     def between(self, i: str, j: str) -> float:
-        """What the angle of j against i, one of them a copy's, has more than that of the image; radians."""
+        """Angle of j against i, one of them a copy's, minus that of the image; radians."""
         a, b = (0.0 if link in self.links else self.offsets.get(link, 0.0) for link in (i, j))
         return a - b
 
     def staying(self, i: str, j: str) -> float:
-        """What the angle of j against i, links that stay, has more in the image's position; radians."""
+        """Angle of j against i, links that are not copied, minus that in the image's position; radians."""
         return self.offsets.get(i, 0.0) - self.offsets.get(j, 0.0)
 
     def without(self, links: Iterable[str], ends: Mapping[str, tuple[str, ...]]) -> Likeness:
