@@ -174,18 +174,18 @@ def checked() -> dict[str, list[str]]:
     return {name: rest for name, *rest in (part.strip().splitlines() for part in parts)}
 
 
-def alike(a: str, b: str) -> bool:
+def alike(a: str, b: str, off: float = NEAR) -> bool:
     """True if two lines say the same, their numbers up to rounding."""
     words = list(zip(a.split(" "), b.split(" "), strict=False))
-    return len(a.split(" ")) == len(b.split(" ")) and all(x == y or near(x, y) for x, y in words)
+    return len(a.split(" ")) == len(b.split(" ")) and all(x == y or near(x, y, off) for x, y in words)
 
 
-def near(a: str, b: str) -> bool:
+def near(a: str, b: str, off: float) -> bool:
     try:
-        x, y = float(a.strip(",:")), float(b.strip(",:"))
+        x, y = float(a.strip("[],:")), float(b.strip("[],:"))
     except ValueError:
         return False
-    return abs(x - y) <= max(NEAR, 2e-5 * abs(y))
+    return abs(x - y) <= max(off, 2e-5 * abs(y))
 
 
 @pytest.mark.parametrize("kind", DRAWN)
