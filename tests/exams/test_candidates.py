@@ -286,3 +286,47 @@ def test_a_mistake_counts_at_the_position_that_is_asked(solved: tuple[Any, Any, 
         assert both.mistakes[sentence] == pytest.approx(max(x.get(sentence, 0.0) for x in alone))
     (half,) = (v for s, v in alone[1].items() if s.startswith("the sense is opposite"))
     assert half > CLEAR
+
+
+def test_beside_a_slide_the_force_counts_and_no_moment() -> None:
+    """A guide's moment in N m is larger by far than its force in N, and is no part of it."""
+    block: dict[str, Any] = {
+        "gravity": "none",
+        "links": {"ground": {"points": {"O": [0, 0]}}, "block": {"points": {"B": [0, 0], "P": [0, 50]}}},
+        "joints": {"guide": {"type": "slider", "links": ["ground", "block"], "at": ["O", "B"]}},
+        "drives": {"guide": {"position": 0.4}},
+        "loads": {"F": {"type": "force", "on": "block", "at": "P", "value": [-30, -4]}},
+    }
+    r = da.statics(da.mechanism(block))
+    assert abs(float(r.reaction_moment("guide")[0])) == pytest.approx(1500)
+    assert _beside(r, 0, "guide", True) == pytest.approx([4.0, 4.0, 4.0])
+
+
+def test_reactions_that_are_rounding_or_not_unique_are_not_asked() -> None:
+    """A bar held at both ends: along it nobody can say what each end carries; a bar without a load carries none."""
+    held: dict[str, Any] = {
+        "gravity": "none",
+        "links": {
+            "ground": {"points": {"A": [0, 0], "B": [2, 0], "C": [0, 1]}},
+            "bar": {"points": {"A": [0, 0], "B": [2, 0], "P": [0.7, 0]}},
+            "arm": {"points": {"C": [0, 0], "Q": [1, 0.3]}},
+        },
+        "joints": {
+            "A": {"type": "pin", "links": ["ground", "bar"]},
+            "B": {"type": "pin", "links": ["bar", "ground"]},
+            "C": {"type": "pin", "links": ["ground", "arm"]},
+        },
+        "drives": {"C": {"position": 0.3}},
+        "loads": {
+            "F": {"type": "force", "on": "bar", "at": "P", "value": [0, -100]},
+            "G": {"type": "force", "on": "arm", "at": "Q", "value": [7, 0]},
+            "H": {"type": "force", "on": "arm", "at": "Q", "value": [-7, 3e-12]},
+        },
+    }
+    r = da.statics(da.mechanism(held))
+    assert r.unique("A").any()
+    assert not r.unique("A").all()
+    assert 0 < float(np.hypot(*r.reaction("C")[0])) < 1e-10
+    assert [a.quantity for a in asked_quantities(r, [], None)] == ["effort"]
+    large = da.statics(r.mechanism.with_values({"loads.H.value": [-7, 0.01]}))
+    assert [a.of for a in asked_quantities(large, ["reactions"], None)] == ["C"]

@@ -248,3 +248,10 @@ def test_meshes_go_with_the_problems(tmp_path: Path, monkeypatch: pytest.MonkeyP
     some.save(tmp_path / "exam")
     some.save(tmp_path / "exam", overwrite=True)
     assert da.load(tmp_path / "exam" / "problems" / "02.yaml").mass("arm") == m.mass("arm")
+
+
+def test_a_key_has_the_letters_of_the_file(tmp_path: Path) -> None:
+    m = bracket(value=100, direction="30 deg").with_values({"title": "Öse"})
+    da.variants(m, {"loads.F.value": [80.0, 100.0]}, count=2, seed=1, ask=["reaction.O"]).save(tmp_path / "e")
+    text = (tmp_path / "e" / "variants.json").read_text(encoding="utf-8")
+    assert "Öse" in text

@@ -52,6 +52,8 @@ def test_one_picture_or_many(tmp_path: Path) -> None:
     assert (tmp_path / "all.svg").read_text(encoding="utf-8").count("<text") > 100
     assert main(["joints", "-o", str(tmp_path / "each")]) == 0
     assert {path.stem for path in (tmp_path / "each").iterdir()} == set(PAIRS)
+    again = ["joints", "-o", str(tmp_path / "each")]
+    assert (main(again), main([*again, "--force"])) == (2, 0)  # a folder that is there, its pictures anew
 
 
 def test_no_such_joint() -> None:

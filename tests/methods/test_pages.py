@@ -82,3 +82,13 @@ def test_a_stack_stays_whole_where_it_has_room_upright_or_along(
     scene = Scene((Group(tuple(inner), "stack"), Group((Line(((0.0, 0.0), (9.0, 9.0))),), "last")))
     names = [p.title for p in _panels(scene, *room("a4"))]
     assert names == (["stack", "last"] if whole else ["0.0", f"{height}", "last"])
+
+
+def test_motion_is_named_besides_only_where_there_is_a_view_of_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """None in space, and none of what has no drive."""
+    for name, motion in (("rssr", False), ("truss", False), ("four_bar", True)):
+        assert main(["draw", str(examples()[name]), "-o", str(tmp_path / f"{name}.svg")]) == 0
+        besides = capsys.readouterr().err.partition("There is also ")[2]
+        assert ("motion" in besides) is motion, name

@@ -247,3 +247,11 @@ def test_a_parameter_set_to_what_goes_without_saying_is_kept() -> None:
     assert list(zero.parameters) == list(m.parameters)
     for again in (da.loads(str(zero)), da.mechanism(zero.to_tree())):
         assert again.with_values({name: p.value for name, p in m.parameters.items()}).to_tree() == m.to_tree()
+
+
+@pytest.mark.parametrize("text", ["2*30mm + 1cm", "2*30 mm + 1 cm", "2*30  mm+ 1cm", "0.07m", "7e1mm"])
+def test_a_unit_stands_beside_its_number_or_behind_it(text: str) -> None:
+    tree = da.four_bar().to_tree()
+    tree["parameters"] = {"r": text}
+    tree["links"]["crank"]["points"]["A"] = ["r", 0]
+    assert da.mechanism(tree).links["crank"].points["A"][0] == pytest.approx(0.07, rel=1e-12)

@@ -136,6 +136,7 @@ def test_only_files_of_the_models_folder_are_read_unless_another_is_allowed(
     assert m == loads(ENGINE.replace("VALUE", INLINE))
     assert (main(["solve", str(path)]), main(["--data", str(tmp_path), "solve", str(path)])) == (2, 0)
     assert main(["solve", str(path), f"--data={tmp_path}"]) == 0
+    assert main([f"--data={tmp_path}", "solve", str(path)]) == 0
     changed = m.with_values({"links.piston.mass": 2.0})
     changed.save(inner / "changed.yaml")
     assert load(inner / "changed.yaml", data=tmp_path) == changed

@@ -13,7 +13,7 @@ from tests.model.parts import FOUR_BAR
 
 WRONG: dict[str, list[dict[str, Any]]] = read_file(Path(__file__).parent / "wrong.yaml")[0]
 CASES = [
-    pytest.param(case, id=f"{group}-{i}") for group, cases in WRONG.items() for i, case in enumerate(cases)
+    pytest.param(case, id=f"{i}-{group}") for group, cases in WRONG.items() for i, case in enumerate(cases)
 ]
 
 
@@ -35,7 +35,7 @@ WRONG_IN_SPACE: dict[str, list[dict[str, Any]]] = read_file(Path(__file__).paren
 @pytest.mark.parametrize(
     "case",
     [
-        pytest.param(case, id=f"{group}-{i}")
+        pytest.param(case, id=f"{i}-{group}")
         for group, cases in WRONG_IN_SPACE.items()
         for i, case in enumerate(cases)
     ],

@@ -262,3 +262,24 @@ def test_progress_is_told_and_may_stop_it() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         da.sweep(FOUR_BAR, COUPLER, [1, 2, 3], progress=stop)
+
+
+def test_of_many_curves_six_are_drawn_in_their_order_and_counted() -> None:
+    s = da.sweep(FOUR_BAR, COUPLER, [f"{k} lbf" for k in range(1, 61)], positions=2, outputs="effort.O2")
+    scene = s.plot("effort.O2")
+    assert list(scene.numbers) == [f"{k} lbf" for k in (1, 13, 25, 36, 48, 60)]
+    assert scene.title == f"effort.O2 by {COUPLER}, 6 of 60 curves"
+    few = da.sweep(FOUR_BAR, COUPLER, ["1 lbf", "2 lbf"], positions=3, outputs="effort.O2")
+    assert few.plot("effort.O2").title == f"effort.O2 by {COUPLER}"
+    assert list(few.plot("effort.O2").numbers) == ["1 lbf", "2 lbf"]
+
+
+@pytest.mark.parametrize(("against", "step"), [("angle.rocker", 15.0), ("angle.rocker.speed", None)])
+def test_only_angles_have_the_ticks_of_angles(against: str, step: float | None) -> None:
+    """Multiples of 15 degrees and no tens of others."""
+    r = da.dynamics(FOUR_BAR, positions=24)
+    scene = r.plot("effort.O2", against=against)
+    ticks = [t.text.replace("−", "-") for t in scene.texts() if t.role == "note" and t.at[1] == -3.2]
+    values = np.array([float(text) for text in ticks])
+    assert len(values) >= 3
+    assert (values % 15 == 0).all() == (step is not None)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.optimization import optimizers, optimizing, pareto_front
+from dalembert.optimization import optimizers, optimizing, pareto_front, polishing
 from dalembert.optimization.aims import Aim, Problem, Rows, Value, parse_aim, parse_condition
 from dalembert.optimization.optimizers import METHODS, find_method, polish_by, search_by
 from dalembert.optimization.polishing import _Design, polish
@@ -257,6 +257,7 @@ def test_a_condition_is_kept_but_for_rounding() -> None:
         ([0.37, 0.52], [0.2, 0.4], [2.0, 1.0], [0.4, 0.4]),  # the step as a part of the span
         ([0.97, 0.02], [0.3, 0.3], [1.0, 1.0], [0.9, 0.0]),  # no step beyond the box
         ([0.61, 0.4], [5.0, 0.25], [0.0, 1.0], [1.0, 0.5]),  # without a span, and to the nearer one
+        ([0.61, 0.9], [0.25, 3.0], [1.0, 1.0], [0.5, 0.0]),  # a step longer than the span
         ([0.22] * 11, [0.1] * 11, [1.0] * 11, [0.2] * 11),  # too many to look at all neighbours
     ],
 )
@@ -339,3 +340,55 @@ def test_an_evolved_fronts_designs_are_those_of_the_analyses(monkeypatch: pytest
     assert all(name in heads for name in (*aims, *BOX))
     with pytest.raises(da.ModelError, match=r"pymoo\.nsga2 takes no steps; give \(low, high\)"):
         da.pareto(da.four_bar(), {next(iter(BOX)): (0.28, 0.36, 0.01)}, aims, method="pymoo")
+
+
+@pytest.mark.parametrize("curvature", [40.0, 0.05])
+def test_of_a_round_bowl_the_second_step_is_the_last(curvature: float) -> None:
+    """The first change of the slope gives the curvature of all directions, not only of its own."""
+    best, seen = np.array([0.3, 0.6, 0.45]), list[Any]()
+
+    def round_bowl(u: Any) -> Value:
+        off = (u - best) * [1.0, 1.001, 0.999]  # so that no single step ends there
+        seen.append(np.abs(u - best).max())
+        return Value(curvature * (off**2).sum(axis=1) / 2, curvature * off * [1.0, 1.001, 0.999])
+
+    places, _ = minimize(round_bowl, np.array([[0.31, 0.5, 0.5]]))
+    np.testing.assert_allclose(places[0], best, atol=1e-6)
+    assert sum(off > 2e-3 for off in seen) <= 4
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_polish_of_a_peak_starts_where_both_its_signs_have_room(
+    sign: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    p, met = problem("peak effort.O2"), list[Any]()
+    at = p.at
+
+    def turned(_: Any, u: Any) -> Rows:
+        """All of one sign."""
+        rows = at(u)
+        return rows._replace(aim=sign * np.abs(rows.aim))
+
+    monkeypatch.setattr(Problem, "at", turned)
+    monkeypatch.setattr(polishing, "polish_by", lambda *told: met.append(told) or told[3])
+    u = np.array([0.31, 0.62])
+    np.testing.assert_array_equal(polish(p, u), u)
+    ((_, aim, (room, _), start, high),) = met
+    assert start[-1] == pytest.approx(float(np.abs(at(u).aim).max()) / p.scale)
+    assert high.tolist() == [1.0, 1.0, np.inf]
+    assert room(start).min() > -1e-9 or room(start).argmin() < len(p.conditions)
+    assert aim(start)[0] == start[-1]
+
+
+def test_a_front_of_which_no_design_keeps_its_conditions_is_refused() -> None:
+    with pytest.raises(da.ModelError, match="no design keeps every condition") as refused:
+        da.pareto(
+            da.four_bar(),
+            BOX,
+            ["rms effort.O2", "peak effort.O2"],
+            "transmission.B >= 89.5 deg",
+            positions=7,
+            points=3,
+            starts=3,
+        )
+    assert refused.value.remedy == "widen the bounds, or leave a condition out"

@@ -10,6 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.batch.own_positions import OwnPositions
+from dalembert.optimization.free_timing import FreeTiming
 from tests.tiers import tiers
 
 MODEL = """dalembert: 1
@@ -150,3 +151,37 @@ def test_wrong_targets(changed: dict[str, Any], message: str) -> None:
     given: dict[str, Any] = {"vary": VARY, "targets": {"angle.rocker": np.ones(10)}, "starts": 2, **changed}
     with pytest.raises(da.ModelError, match=re.escape(message)):
         da.synthesize(da.loads(MODEL), **given)
+
+
+@pytest.mark.parametrize(
+    ("ends", "turned"),
+    [([0.2, 4.0], False), ([4.0, 0.2], False), ([0.0, 2 * np.pi], True), ([2 * np.pi, 0.0], True)],
+)
+def test_free_timing_begins_where_a_design_comes_nearest_either_way_round(
+    ends: list[float], turned: bool
+) -> None:
+    """Positions between stations are met within half a station, in their order; of a whole turn it may go on."""
+    k = da.compile(made(), ["links.rocker.points.B.0"], ["point.coupler.P"], derivatives=True, static=True)
+    q = ends[0] + (ends[1] - ends[0]) * np.array([0.1, 0.34, 0.55, 0.8])
+    targets = {"point.coupler.P": k([[0.25]], q).value("point.coupler.P")[0]}
+    course = np.linspace(*ends, 25)
+    timing = FreeTiming.of(k, np.array([0.2]), np.array([0.1]), targets, course)
+    sense = 1.0 if ends[1] > ends[0] else -1.0
+    assert (timing.whole, timing.sense) == (turned, sense)
+    stations = timing.own.stations
+    assert stations[0] == ends[0]
+    assert (stations[-1] == ends[1]) is not turned
+    x = timing.begin(np.array([[0.5]]))
+    pitch = abs(stations[1] - stations[0])
+    met = timing.places(x[0])[:, 0]
+    away = np.abs((met - q + np.pi) % (2 * np.pi) - np.pi)
+    assert away.max() <= 0.51 * pitch
+    assert (np.diff(sense * met) > 0).all()
+    assert timing.answers(np.array([[0.5]])).all()
+    found = timing(np.hstack([[[0.5]], sense * q[None]]))
+    assert float(found.cost[0]) < 1e-20
+    assert timing(x).cost[0] > 1e-8
+    far = timing.moved(x, np.full_like(x, -100.0))
+    assert (np.diff(far[0, 1:]) > 0).all()
+    if not turned:
+        assert far[0, 1] > min(sense * np.array(ends)) - 1e-12

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -129,3 +130,49 @@ def test_a_page_of_designs_that_fail() -> None:
     assert re.search(rf"not_assembled\s+{r.counts()['not_assembled']}\s", text)
     assert "First: design" in " ".join(text.split())
     assert r.shares()["effort.O2 < 1 kN*m"] <= 1 - failed / 60
+
+
+def test_shares_on_the_page_are_those_of_the_study() -> None:
+    """Linear and Sobol's, each in a column, and how many are left out."""
+    r = four_bar(designs=8)
+    text = " ".join(str(r.report()).split())
+    assert "Shares of the variance of effort.O2" in text
+    assert "number linear Sobol Sobol, with interactions" in text
+    for path, share in r.study.contributions("effort.O2").shares.items():
+        assert f"{path} {share:.2%}" in text
+
+
+@pytest.mark.parametrize("paths", [["links.coupler.mass"] * 2, [], list("abc")])
+def test_a_response_is_to_one_or_two_different_numbers(paths: list[str]) -> None:
+    s = da.study(da.four_bar(), {"links.coupler.mass": "± 5 %"}, ["effort.O2"], designs=8, positions=4)
+    with pytest.raises(da.ModelError, match=r"one or two different ones|does not vary"):
+        s.response("effort.O2", *paths, count=3)
+
+
+@pytest.mark.parametrize("level", [5.0, -5.0, 0.0])
+def test_values_that_differ_by_rounding_stand_in_one_bar(level: float) -> None:
+    """Of whichever sign: the intervals are then one unit wide in all, about them."""
+    values = np.full(7, level) * (1 + 1e-16 * np.arange(7)) + np.linspace(0, 4e-16, 7) * abs(level)
+    few: Any = SimpleNamespace(values=lambda name: values)
+    counts, ends = StudyResult.histogram(few, "x", 5)
+    assert counts.tolist() == [0, 0, 7, 0, 0]
+    assert ends[[0, -1]] == pytest.approx([level - 0.5, level + 0.5])
+    few.values = lambda name: np.append(values, level + 1)
+    assert StudyResult.histogram(few, "x", 5)[0].tolist() == [7, 0, 0, 0, 1]
+
+
+def test_bars_of_one_value_have_an_axis_about_it() -> None:
+    vary = {"links.coupler.mass": "± 5 %"}
+    r = da.study(da.four_bar(), vary, ["angle.rocker"], designs=8, positions=3).run()
+    scene = histogram_scene(r, "angle.rocker")
+    (bar,) = (p for p in scene.flat() if isinstance(p, Polygon))
+    xs = sorted({x for x, _ in bar.points})
+    lines = [i for i in scene.flat() if isinstance(i, Line) and i.role == "axis"]
+    right = max(x for line in lines for x, _ in line.points)
+    assert 0.0 < xs[0] < xs[-1] < right
+
+
+@pytest.mark.parametrize("value", [True, False, None])
+def test_what_is_no_quantity_is_no_level(value: object) -> None:
+    with pytest.raises(da.ModelError, match="is no quantity; write a number with its unit"):
+        da.study(da.four_bar(), {"links.coupler.mass": [1.0, value]}, ["effort.O2"], designs=4)
