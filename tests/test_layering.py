@@ -68,7 +68,17 @@ MAY_IMPORT = {
 here has the rule of the room it is in. '' is the package itself, for its version."""
 
 FACADES = {
+    "answer.answer",
     "analysis.result.result",
+    "machine.output.machine_answer",
+    "machine.shaking",
+    "machine.flywheel.flywheels",
+    "machine.members.member_table",
+    "machine.bearings.bearing_table",
+    "machine.motors.motor_choice",
+    "machine.motion.simulation",
+    "machine.balance.balancing",
+    "machine.balance.rotors",
     "model.description",
     "views.paper.scene",
     "analysis.batch.compiled_kernel",
@@ -79,8 +89,8 @@ FACADES = {
     "studies.study_result",
 }
 """Result, Mechanism, Scene, Kernel, Sweep, Study, StudyResult, System, and the answers of `machine`, which print
-themselves: their methods call what is built on them, by imports inside the methods."""
-SHOWING = {"notebook", "pages", "views"}
+and draw themselves: their methods call what is built on them, by imports inside the methods."""
+SHOWING = {"notebook", "pages", "views", "reports"}
 """What they call to show themselves."""
 
 

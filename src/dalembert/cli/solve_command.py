@@ -191,13 +191,9 @@ def by_method(method: str, result: Result, units: Literal["SI", "file"]) -> tupl
 
 def _print_answer(result: Result, wanted: Wanted, more: str) -> None:
     if str(wanted.json) == "-":
-        from dalembert.analysis.output.json_record import write_json
-
-        write_json(result, sys.stdout, wanted.written_units, wanted.axes, wanted.other_solutions)
+        result.to_json(sys.stdout, False, wanted.written_units, wanted.axes, others=wanted.other_solutions)
     elif str(wanted.csv) == "-":
-        from dalembert.analysis.output.export import write_csv
-
-        write_csv(result, sys.stdout, wanted.written_units, wanted.axes)
+        result.to_csv(sys.stdout, False, wanted.written_units, wanted.axes)
     else:
         from dalembert.analysis.output.summary.printed_answer import answer_text
 
@@ -207,13 +203,8 @@ def _print_answer(result: Result, wanted: Wanted, more: str) -> None:
 
 
 def _write(result: Result, kind: str, path: Path, wanted: Wanted) -> None:
-    from dalembert.analysis.output import export
-
-    if kind == "json":
-        export.to_json(result, path, wanted.force, wanted.written_units, wanted.axes, wanted.other_solutions)
-        return
-    writers = {"csv": export.to_csv, "xlsx": export.to_xlsx, "netcdf": export.to_netcdf}
-    writers[kind](result, path, wanted.force, wanted.written_units, wanted.axes)
+    choice = {"others": wanted.other_solutions} if kind == "json" else {}
+    getattr(result, f"to_{kind}")(path, wanted.force, wanted.written_units, wanted.axes, **choice)
 
 
 COMMANDS = {solve: EXAMPLES}

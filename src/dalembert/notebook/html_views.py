@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale
 from dalembert.analysis.output.summary.printed_units import scale_for
+from dalembert.answer.column import Scale
 from dalembert.arrays import Array
 from dalembert.notebook.html_card import card
 from dalembert.printing import Part, Table, number, with_unit

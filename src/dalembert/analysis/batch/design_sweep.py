@@ -14,11 +14,11 @@ from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
 from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds
-from dalembert.analysis.output.columns import Scale, UnitChoice
 from dalembert.analysis.result.named_quantities import Quantity, component, names_of, quantity
 from dalembert.analysis.result.number_kinds import drive_kinds, in_plane
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
+from dalembert.answer.column import Scale, UnitChoice
 from dalembert.answer.named_answer import NamedAnswer, counted
 from dalembert.arrays import Array, Tree
 from dalembert.errors import SOLVED, STATUSES, ModelError

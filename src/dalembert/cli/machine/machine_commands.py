@@ -31,7 +31,7 @@ from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
-    from dalembert.machine.output.answer import Answer
+    from dalembert.answer.answer import Answer
     from dalembert.model import Mechanism
 
 
@@ -67,8 +67,6 @@ class Outputs:
     def deliver(self, m: Mechanism, find: Callable[[], Any], model: Path | None = None, **choice: Any) -> Any:
         """Find, write and print an answer of ``machine``, with a choice of what is printed, and write its mechanism to
         the file ``model``. What is printed comes last: a pipe that closes early takes no file with it."""
-        from dalembert.machine.output import written
-
         try:
             answer = find()
         except ModelError as error:
@@ -78,9 +76,9 @@ class Outputs:
         if model is not None:
             answer.mechanism.save(model, self.force)
         if str(self.json) == "-":
-            written.write_json(answer, sys.stdout, units)
+            answer.to_json(sys.stdout, units=units)
         elif str(self.csv) == "-":
-            written.write_csv(answer, sys.stdout, units)
+            answer.to_csv(sys.stdout, units=units)
         else:
             print(answer.text("SI" if self.units == "si" else "file", **choice))
         for path in (*self.targets.values(), model):
@@ -90,19 +88,13 @@ class Outputs:
 
     def _save(self, answer: Answer, units: Literal["SI", "file"]) -> None:
         """Every file that is asked for."""
-        from dalembert.machine.output import written
-        from dalembert.saving import new_file
-
-        for path, write in ((self.json, written.write_json), (self.csv, written.write_csv)):
+        for path, write in (
+            (self.json, answer.to_json),
+            (self.csv, answer.to_csv),
+            (self.xlsx, answer.to_xlsx),
+        ):
             if path is not None and str(path) != "-":
-                with (
-                    new_file(path, self.force) as new,
-                    open(new, "w", encoding="utf-8", newline="") as stream,
-                ):
-                    write(answer, stream, units)
-        if self.xlsx is not None:
-            with new_file(self.xlsx, self.force) as new:
-                written.write_workbook(answer, new, units)
+                write(path, self.force, units)
         if self.drawing is None and self.report is None:
             return
         from dalembert.reports import report

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale
+from dalembert.answer.column import Scale
 from dalembert.errors import NUMBERED
 from dalembert.printing import number, table
 from dalembert.studies.design_study import Study
