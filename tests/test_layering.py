@@ -49,8 +49,8 @@ MAY_IMPORT = {
     "analysis": ANALYSIS,
     "analysis.result": ANALYSIS | {"machine"},  # Result.harmonics asks for the shaking force
     "analysis.output": BASE | {"answer", "algebra", "model", "analysis"},
-    "grading": BASE | {"core", "model", "analysis", "machine", "grading"},
-    "wrench": BASE | {"algebra", "model", "analysis", "wrench"},
+    "grading": BASE | {"answer", "core", "model", "analysis", "machine", "grading"},
+    "wrench": BASE | {"answer", "algebra", "model", "analysis", "wrench"},
     "machine": ANALYSIS | {"machine"},
     "optimization": ANALYSIS - {"core", "kernel"} | {"machine", "optimization"},
     "views": SHOWN | {"views"},
@@ -87,6 +87,10 @@ FACADES = {
     "analysis.batch.design_sweep",
     "studies.design_study",
     "studies.study_result",
+    "optimization.optimum",
+    "optimization.pareto_front",
+    "optimization.synthesis",
+    "grading.marking.grade",
 }
 """Result, Mechanism, Scene, Kernel, Sweep, Study, StudyResult, System, and the answers of `machine`, which print
 and draw themselves: their methods call what is built on them, by imports inside the methods."""

@@ -198,7 +198,7 @@ class Answer(Compared):
 class Labelled(Answer):
     """Answer that labelled arrays are made of."""
 
-    def arrays(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
+    def labelled(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
         """Arrays by name as xarray takes them, and coordinates."""
         from dalembert.answer.labelled import column_arrays
 
@@ -237,7 +237,10 @@ class Drawn(Answer):
         """All its drawings on one sheet."""
         from dalembert.views.paper.scene import stack_scenes
 
-        return stack_scenes(self.drawings(notation), title=self.described.title, width=270.0)
+        scenes = self.drawings(notation)
+        return (
+            scenes[0] if len(scenes) == 1 else stack_scenes(scenes, title=self.described.title, width=270.0)
+        )
 
 
 class Worked(Answer):

@@ -68,7 +68,7 @@ class Column(NamedTuple):
     def cells(self, to: Scale, rows: slice) -> list[object]:
         """Values of some rows, None for NaN and infinity."""
         values = to(self.kind, self.values[rows])
-        return list(values) if self.kind == WORD else nan_to_none(values)
+        return np.asarray(values).tolist() if self.kind == WORD else nan_to_none(np.asarray(values))
 
 
 def parts(values: Array) -> Iterator[tuple[str, Array]]:

@@ -32,5 +32,5 @@ def dataset(answer: Labelled, units: UnitChoice, axes: Axes) -> xarray.Dataset:
     check_installed("xarray", "a dataset")
     import xarray
 
-    data, coordinates = answer.arrays(answer.scale(units), axes)
+    data, coordinates = answer.labelled(answer.scale(units), axes)
     return xarray.Dataset(data, coords=coordinates, attrs=answer.basis() | {"reaction_axes": axes})

@@ -14,7 +14,6 @@ from dalembert.printing import table
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
     from dalembert.arrays import Tree
-    from dalembert.grading.marking.grade import Marks
     from dalembert.grading.mistakes import Verdict
 
 
@@ -93,10 +92,6 @@ def _verdict(v: Verdict) -> str:
     return "not judged" if v.kind == "open" else f"off by {off:.0f} %" if off >= 10 else f"off by {off:.2g} %"
 
 
-SHOWN = 10
-"""Mistakes of a class that are printed."""
-
-
 def grade(
     answers: Annotated[
         Path,
@@ -129,7 +124,7 @@ def grade(
     if feedback is not None:
         check_new_folder(feedback, force)
     marks = graded(answers, key, rubric, tolerance, static)
-    print(_class_text(marks))
+    print(marks)
     if feedback is not None:
         marks.save_feedback(feedback, force)
     if output is not None:
@@ -137,18 +132,6 @@ def grade(
     for said in (said for s in marks.students for said in s.problems):
         print(said, file=sys.stderr)
     return 1 if any(s.problems for s in marks.students) else 0
-
-
-def _class_text(marks: Marks) -> str:
-    """A row a student, then the mistakes of most students."""
-    rows = [
-        [s.student, s.variant, f"{s.total:.4g}" if s.marks else "-", f"{s.most:.4g}" if s.marks else "-"]
-        for s in marks.students
-    ]
-    parts = [table(["student", "variant", "marks", "of"], rows, left=2)]
-    named = [[sentence, str(count)] for sentence, count in marks.mistakes()[:SHOWN]]
-    parts += [table(["mistake", "students"], named, left=1)] if named else []
-    return "\n\n".join(parts)
 
 
 COMMANDS: dict[Callable[..., int], str] = {

@@ -370,7 +370,7 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
 
         return position_records(self, units, axes, **choice)
 
-    def arrays(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
+    def labelled(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
         """Labelled arrays over position, drive, joint, link and component, and coordinates."""
         from dalembert.analysis.output.result_arrays import result_arrays
 

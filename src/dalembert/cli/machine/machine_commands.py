@@ -31,7 +31,7 @@ from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
-    from dalembert.answer.answer import Answer
+    from dalembert.machine.output.machine_answer import MachineAnswer
     from dalembert.model import Mechanism
 
 
@@ -86,7 +86,7 @@ class Outputs:
                 print(f"Written: {path}", file=sys.stderr)
         return answer
 
-    def _save(self, answer: Answer, units: Literal["SI", "file"]) -> None:
+    def _save(self, answer: MachineAnswer, units: Literal["SI", "file"]) -> None:
         """Every file that is asked for."""
         for path, write in (
             (self.json, answer.to_json),
@@ -127,7 +127,7 @@ class Analysis(Outputs):
         m = self.load(file, self.changes)
         return solve(m, static=self.static, positions=over_a_turn(m, self.positions))
 
-    def answer(self, result: Result, find: Callable[[Result], Answer]) -> int:
+    def answer(self, result: Result, find: Callable[[Result], MachineAnswer]) -> int:
         """Find, write and print what is found from an analysis."""
         self.deliver(result.mechanism, lambda: find(result))
         return 0

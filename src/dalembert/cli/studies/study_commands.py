@@ -156,9 +156,7 @@ def export(
     force: Force = False,
 ) -> int:
     """Write all designs to one file."""
-    from dalembert.studies.output.study_export import export_study
-
-    export_study(_stored(store), output, force)
+    _stored(store).save(output, force)
     return 0
 
 

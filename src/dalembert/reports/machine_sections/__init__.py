@@ -5,7 +5,10 @@ In: an answer of ``machine``, a notation. Out: a ``Sheet``. Imports ``machine``,
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from dalembert.machine.output.machine_answer import MachineAnswer
+from dalembert.printing import Part
 from dalembert.reports.sheet import Sheet
 from dalembert.views.notation import Notation, Shown, pretty
 
@@ -15,12 +18,17 @@ def machine_sheet(answer: MachineAnswer, notation: Notation | None = None) -> Sh
     shown = Shown(answer.result, notation or Notation())
     sheet = Sheet(answer.result.mechanism.title or "Machine", answer.result.mechanism.source_text)
     answer.section(sheet, shown)
-    for part in answer.contents(shown.notation.units):
+    put_parts(sheet, answer.contents(shown.notation.units))
+    sheet.figure(*answer.drawings(shown.notation))
+    return sheet
+
+
+def put_parts(sheet: Sheet, parts: Iterable[Part]) -> None:
+    """Sentences and tables as an answer prints them, put on a sheet."""
+    for part in parts:
         if isinstance(part, str):
             sheet.text((pretty(part) if "*" in part else part).replace("\n", "; "))
         else:
             heads = [pretty(head.replace("\n", " ")) for head in part.heads]
             rows = [[pretty(cell) for cell in row] for row in part.rows]
             sheet.table(heads, rows, part.note.replace("\n", " "))
-    sheet.figure(*answer.drawings(shown.notation))
-    return sheet
