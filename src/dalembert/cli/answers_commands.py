@@ -7,7 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from dalembert.cli.options import AS_IN_FILE, Changes, Force, ModelFile, Static, flag, output, with_help
+from dalembert.cli.options import AS_STATED, ModelFile, Static, Steady, flag, with_help
+from dalembert.cli.outputs import NO_OUTPUTS, Outputs
 from dalembert.errors import ModelError
 from dalembert.printing import table
 
@@ -29,16 +30,14 @@ def check_answers(
             "Tolerance for answers that give none, e.g. 3% for graphical work (default: 0.5 %, or the digits given)."
         ),
     ] = None,
-    static: Static = False,
-    changes: Changes = AS_IN_FILE,
+    of: Steady = AS_STATED,
 ) -> int:
     """Compare your answers with the computed ones, and name the mistakes that explain the differences."""
-    from dalembert.cli.model_argument import load_model
     from dalembert.grading.answer_sheet import read_sheet
     from dalembert.grading.mistakes import Problem
     from dalembert.model.files.model_files import read_file
 
-    problem = Problem(load_model(file, changes), static)
+    problem = Problem(of.load(file), of.static)
     if interactive:
         sheet = read_sheet(_ask_figures(problem.result))
     elif answers is None:
@@ -101,7 +100,6 @@ def grade(
     *,
     key: Annotated[Path, with_help("Answer key (.csv, .json) written by `variants`, or a model file.")],
     rubric: Annotated[Path | None, with_help("Points and partial-credit shares: YAML, JSON or TOML.")] = None,
-    output: Annotated[Path | None, output("Workbook of results to write, .xlsx.")] = None,
     feedback: Annotated[Path | None, with_help("Folder for the feedback, one text per student.")] = None,
     tolerance: Annotated[
         str | None,
@@ -110,25 +108,19 @@ def grade(
         ),
     ] = None,
     static: Static = False,
-    force: Force = False,
+    out: Outputs = NO_OUTPUTS,
 ) -> int:
     """Grade a class's ANSWERS by a key: mistakes named, partial credit, carried-forward errors not penalised twice."""
     from dalembert.grading.marking.grade import grade as graded
-    from dalembert.saving import check_installed, check_new, check_new_folder
+    from dalembert.saving import check_new_folder
 
-    if output is not None:
-        if output.suffix.lower() != ".xlsx":
-            raise ModelError(f"{output} is not a workbook", "name it .xlsx")
-        check_installed("openpyxl", "a workbook")
-        check_new(output, force)
+    out.check(answers)
     if feedback is not None:
-        check_new_folder(feedback, force)
+        check_new_folder(feedback, out.force)
     marks = graded(answers, key, rubric, tolerance, static)
-    print(marks)
     if feedback is not None:
-        marks.save_feedback(feedback, force)
-    if output is not None:
-        marks.to_xlsx(output, force)
+        marks.save_feedback(feedback, out.force)
+    out.deliver(marks)
     for said in (said for s in marks.students for said in s.problems):
         print(said, file=sys.stderr)
     return 1 if any(s.problems for s in marks.students) else 0

@@ -80,7 +80,7 @@ def report(
     if isinstance(r, System):
         from dalembert.reports.sections.force_system_solution import force_system_sheet
 
-        return Report(force_system_sheet(r, at, notation))
+        return Report(force_system_sheet(r, r.about if at is None else at, notation))
     if not isinstance(r, Result):
         return Report(r.sheet(notation))
     from dalembert.errors import ModelError

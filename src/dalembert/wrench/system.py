@@ -204,6 +204,23 @@ class System(Drawn, Worked):
             out["central_axis"] = axis | {"moment": to("moment", c.moment), "pitch": to("length", c.pitch)}
         return {"system": out}
 
+    about: Vector | None = None
+    """Point about which its worked solution takes moments, and at which its drawing reduces it."""
+    camera = "isometric"
+
+    def seen(self, about: Vector | None, camera: str) -> System:
+        """The same system, with moments about a point, drawn by a camera in space."""
+        self.point(about)
+        made = self._of(*self.parts)
+        made.about, made.camera = about, camera
+        return made
+
+    def text(self, units: UnitChoice = "file", **choice: Any) -> str:
+        """The worked solution as text; ``figures``: significant figures."""
+        from dalembert.views.notation import Notation
+
+        return str(self.report(Notation(units=units, **choice))).rstrip("\n")
+
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
         """The parts and their sum as a table, and what they reduce to."""
         from dalembert.wrench.system_text import system_parts
@@ -214,13 +231,13 @@ class System(Drawn, Worked):
         """The forces with their resultant; in the plane with the force polygon."""
         from dalembert.views import draw
 
-        return [draw.force_system(self, notation=notation)]
+        return [draw.force_system(self, self.about, notation, self.camera)]
 
     def sheet(self, notation: Notation | None = None) -> Sheet:
         """The reduction in letters and numbers."""
         from dalembert.reports.sections.force_system_solution import force_system_sheet
 
-        return force_system_sheet(self, None, notation)
+        return force_system_sheet(self, self.about, notation)
 
     # its size
 
