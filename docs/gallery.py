@@ -16,7 +16,6 @@ from dalembert.cli.describe_commands import JOINT_HEADS, joint_rows
 from dalembert.machine.members.member_table import member_table
 from dalembert.model.joints.pairs import PAIRS
 from dalembert.saving import new_file
-from dalembert.views.machine import scenes_of
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "build" / "gallery"
@@ -133,10 +132,10 @@ def machine_figures() -> None:
     engine = da.dynamics(da.in_line_engine(cylinders=4))
     run_up = da.simulate(da.load(FIGURES.parent / "press.yaml"), "8 s", tolerance=1e-9, count=801)
     drawn = {
-        "press": scenes_of(run_up),
-        "engine": [*scenes_of(da.shaking(engine))[1:], *scenes_of(da.flywheel(engine, Cs=0.01))[:2]],
-        "balance": scenes_of(da.balance(bar, ["crank", "rocker"])),
-        "crane": [da.draw.mechanism(crane, at=1), *scenes_of(member_table(crane, ["boom"]))[4:6]],
+        "press": run_up.drawings(),
+        "engine": [*da.shaking(engine).drawings()[1:], *da.flywheel(engine, Cs=0.01).drawings()[:2]],
+        "balance": da.balance(bar, ["crank", "rocker"]).drawings(),
+        "crane": [da.draw.mechanism(crane, at=1), *member_table(crane, ["boom"]).drawings()[4:6]],
     }
     for name, scenes in (drawn | part_figures()).items():
         da.draw.beside(scenes).save(FIGURES / f"machine_{name}.svg", overwrite=True)
@@ -152,13 +151,13 @@ def part_figures() -> dict[str, list[da.draw.Scene]]:
     journal = engine.with_values({"joints.A.bearing": pin})
     slider = da.slider_crank(crank=0.05, rod=0.2).with_values({"drives.O2.acceleration": 50.0})
     parts: dict[str, tuple[list[da.draw.Scene], tuple[int, ...]]] = {
-        "shaking": (scenes_of(da.shaking(da.dynamics(engine), about="O2")), (2, 3)),
-        "counterweights": (scenes_of(da.balance(linkage, bounds, least="max", of="force")), (0, 3)),
-        "flywheel": (scenes_of(da.flywheel(da.dynamics(engine, positions=144), Cs=0.02)), (0, 1)),
-        "hammer": (scenes_of(da.simulate(da.load(FIGURES.parent / "drop-hammer.yaml"), "2 s")), (0,)),
-        "members": (scenes_of(member_table(da.dynamics(bar), ["coupler"])), (2, 5)),
-        "bearings": (scenes_of(da.bearings(da.dynamics(journal), hours=2000)), (2, 8)),
-        "motor": (scenes_of(da.motor(da.dynamics(slider), inertia=1e-4)), (0, 4)),
+        "shaking": (da.shaking(da.dynamics(engine), about="O2").drawings(), (2, 3)),
+        "counterweights": (da.balance(linkage, bounds, least="max", of="force").drawings(), (0, 3)),
+        "flywheel": (da.flywheel(da.dynamics(engine, positions=144), Cs=0.02).drawings(), (0, 1)),
+        "hammer": (da.simulate(da.load(FIGURES.parent / "drop-hammer.yaml"), "2 s").drawings(), (0,)),
+        "members": (member_table(da.dynamics(bar), ["coupler"]).drawings(), (2, 5)),
+        "bearings": (da.bearings(da.dynamics(journal), hours=2000).drawings(), (2, 8)),
+        "motor": (da.motor(da.dynamics(slider), inertia=1e-4).drawings(), (0, 4)),
     }
     return {name: [scenes[k] for k in chosen] for name, (scenes, chosen) in parts.items()}
 

@@ -49,8 +49,8 @@ MAY_IMPORT = {
     "analysis": ANALYSIS,
     "analysis.result": ANALYSIS | {"machine"},  # Result.harmonics asks for the shaking force
     "analysis.output": BASE | {"answer", "algebra", "model", "analysis"},
-    "grading": BASE | {"core", "model", "analysis", "machine", "grading"},
-    "wrench": BASE | {"algebra", "model", "analysis", "wrench"},
+    "grading": BASE | {"answer", "core", "model", "analysis", "machine", "grading"},
+    "wrench": BASE | {"answer", "algebra", "model", "analysis", "wrench"},
     "machine": ANALYSIS | {"machine"},
     "optimization": ANALYSIS - {"core", "kernel"} | {"machine", "optimization"},
     "views": SHOWN | {"views"},
@@ -68,7 +68,17 @@ MAY_IMPORT = {
 here has the rule of the room it is in. '' is the package itself, for its version."""
 
 FACADES = {
+    "answer.answer",
     "analysis.result.result",
+    "machine.output.machine_answer",
+    "machine.shaking",
+    "machine.flywheel.flywheels",
+    "machine.members.member_table",
+    "machine.bearings.bearing_table",
+    "machine.motors.motor_choice",
+    "machine.motion.simulation",
+    "machine.balance.balancing",
+    "machine.balance.rotors",
     "model.description",
     "views.paper.scene",
     "analysis.batch.compiled_kernel",
@@ -77,10 +87,14 @@ FACADES = {
     "analysis.batch.design_sweep",
     "studies.design_study",
     "studies.study_result",
+    "optimization.optimum",
+    "optimization.pareto_front",
+    "optimization.synthesis",
+    "grading.marking.grade",
 }
 """Result, Mechanism, Scene, Kernel, Sweep, Study, StudyResult, System, and the answers of `machine`, which print
-themselves: their methods call what is built on them, by imports inside the methods."""
-SHOWING = {"notebook", "pages", "views"}
+and draw themselves: their methods call what is built on them, by imports inside the methods."""
+SHOWING = {"notebook", "pages", "views", "reports"}
 """What they call to show themselves."""
 
 

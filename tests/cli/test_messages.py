@@ -19,8 +19,8 @@ from tests.cli.conftest import Run
             "four_bar.yml: file not found; did you mean 'four_bar.yaml'?",
         ),
         (
-            ["solve", "four_bar.yaml", "--bogus"],
-            "dalembert: unknown option: --bogus; see `dalembert solve --help`",
+            ["solve", "four_bar.yaml", "--xyzzy"],
+            "dalembert: unknown option: --xyzzy; see `dalembert solve --help`",
         ),
         *(
             (

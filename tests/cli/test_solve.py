@@ -182,7 +182,9 @@ def test_csv(run: Run, folder: Path) -> None:
     with (folder / "turn.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert [row["position"] for row in rows] == ["1", "2", "3", "4", "5"]
-    assert float(rows[0]["effort.O2 [N*m]"]) == pytest.approx(27.4821576052, rel=1e-10)
+    assert float(rows[0]["effort.O2 [lbf*in]"]) == pytest.approx(
+        27.4821576052 / 0.1129848290276167, rel=1e-10
+    )
     assert float(rows[0]["reaction.A.x [N]"]) == pytest.approx(-525.00541990866, rel=1e-10)
     printed = run("solve", "four_bar.yaml", "--csv", "-", "--units", "file").out
     assert printed.splitlines()[0].startswith("position,status,drive.O2 [deg],drive.O2.speed [deg/s]")
@@ -195,7 +197,7 @@ def test_workbook(run: Run, folder: Path) -> None:
     book = openpyxl.load_workbook(folder / "turn.xlsx", read_only=True)
     first, *rows = list(book["positions"].values)
     assert len(rows) == 3
-    assert rows[0][first.index("effort.O2 [N*m]")] == pytest.approx(27.4821576052, rel=1e-10)
+    assert rows[0][first.index("effort.O2 [lbf*in]")] == pytest.approx(243.2375907, rel=1e-9)
     assert ("inertia", "on (D'Alembert)") in list(book["about"].values)
     book.close()
 

@@ -17,7 +17,6 @@ from typing import Any
 import pytest
 
 import dalembert as da
-from dalembert.analysis.output import export
 from dalembert.bundled import cases, examples
 from dalembert.model import load, tree_text
 from tests.cli.conftest import Run
@@ -126,7 +125,7 @@ def solved() -> Any:
 WRITERS: dict[str, Write] = {
     "model.yaml": lambda path: FOUR_BAR.save(path, overwrite=True),
     "converted.json": lambda path: da.convert(examples()["four_bar"], path, overwrite=True),
-    "answer.json": lambda path: export.to_json(solved(), path, overwrite=True),
+    "answer.json": lambda path: solved().to_json(path, overwrite=True),
     "answer.csv": lambda path: solved().to_csv(path, overwrite=True),
     "drawing.svg": lambda path: da.draw.mechanism(solved()).save(path, overwrite=True),
     "report.txt": lambda path: da.report(solved()).save(path, overwrite=True),

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.output.export import write_csv
 from dalembert.analysis.output.summary.printed_answer import checks_text
 from dalembert.cli import main
 from dalembert.grading.file_answers import check
@@ -209,7 +208,7 @@ def test_json_has_both_sides_and_their_low_and_high() -> None:
 def test_tables_have_low_and_high_of_every_quantity_that_friction_changes() -> None:
     r = da.dynamics(four_stroke.engine())
     text = io.StringIO()
-    write_csv(r, text)
+    r.to_csv(text, units="SI")
     heads, *rows = list(csv.reader(io.StringIO(text.getvalue())))
     assert len(rows) == 144
     assert all(rows[0])

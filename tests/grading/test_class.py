@@ -13,7 +13,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
-from dalembert.grading.marking import marks_workbook
+from dalembert.grading.marking import marks_tabs
 from dalembert.grading.marking.rubric import read_rubric
 from tests.grading.made_class import named_rate, write_class, write_variants
 from tests.tiers import tiers
@@ -295,7 +295,7 @@ def test_an_interruption_leaves_nothing(tmp_path: Path, key: Path, monkeypatch: 
     def interrupted(*_: Any) -> Any:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(marks_workbook, "_rubric", interrupted)
+    monkeypatch.setattr(marks_tabs, "_rubric", interrupted)
     with pytest.raises(KeyboardInterrupt):
         marks.to_xlsx(tmp_path / "marks.xlsx")
     monkeypatch.setattr(Path, "rename", interrupted)

@@ -12,7 +12,7 @@ import pytest
 from scipy.optimize import lsq_linear, minimize
 
 import dalembert as da
-from dalembert.analysis.output.columns import scale
+from dalembert.answer.column import Scale
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
@@ -162,7 +162,7 @@ def test_the_sentences_on_full_balance_are_those_of_the_inertia(four_bar: Any) -
     assert b.complete
     assert b.missing() == []
     assert "The force is balanced completely" in str(b)
-    record: Any = b.record(scale(b.result, "SI"))
+    record: Any = b.record(Scale(None))
     assert record["balance"]["complete"] is True
     heads = [c.name for c in b.columns()]
     assert {"before.inertia_force.x", "after.inertia_force.x", "after.shaking_force.x"} <= {*heads}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.output.columns import scale
+from dalembert.answer.column import Scale
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
@@ -255,7 +255,7 @@ def test_external_loads_are_named_and_those_by_the_ground_are_not() -> None:
     r = da.dynamics(da.load(examples()["quick_return"]))
     s = da.shaking(r)
     assert s.outside == ("cutting",)
-    record: Any = s.record(scale(r, "SI"))
+    record: Any = s.record(Scale(None))
     assert record["shaking"]["outside"] == ("cutting",)
     assert {"external_force.x", "external_moment"} <= {c.name for c in s.columns()}
     said = " ".join(str(s).split())

@@ -12,7 +12,6 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.model.drives.motors import MotorCurve
 from dalembert.views.charts import chart_scenes
-from dalembert.views.machine import scenes_of
 from dalembert.views.paper.diagrams import SIZE
 from dalembert.views.paper.scene import Line, Polygon, Scene
 
@@ -151,7 +150,7 @@ def test_charts_of_a_machine_in_space() -> None:
 def test_charts_of_shaking_and_its_harmonics() -> None:
     r = result("four_bar")
     s = da.shaking(r)
-    polar, parts, moment, bars = scenes_of(s)
+    polar, parts, moment, bars = s.drawings()
     x, force = np.degrees(r.drive_position("O2")), s.force / LBF
     np.testing.assert_allclose(path(polar)[:-1], force, atol=1e-6 * np.abs(force).max())
     check(parts, ("O2 in °", "Force in lbf"), x, components(force))
@@ -178,7 +177,7 @@ def test_charts_of_a_motor_and_its_drive() -> None:
     r = result("four_bar")
     c = da.motor(r, inertia=0.002, ratio=3.0, curve=MotorCurve((0.0, 200.0), (900.0, 300.0)))
     x = np.degrees(r.drive_position("O2"))
-    scenes = {s.title: s for s in scenes_of(c)}
+    scenes = {s.title: s for s in c.drawings()}
     speed = r.drive_speed("O2")
     check(scenes["Effort of O2"], ("O2 in °", "Effort in lbf·in"), x, {"effort": r.effort("O2") / LBF_IN})
     check(scenes["Speed of O2"], ("O2 in °", "Speed in rad/s"), x, {"speed": speed})
@@ -199,7 +198,7 @@ def test_charts_of_a_flywheel() -> None:
     steady = da.load(examples()["four_bar"]).with_values({"drives.O2.acceleration": 0.0})
     r = da.dynamics(steady, positions=72)
     f = da.flywheel(r, Cs=0.02)
-    turning, energy, *speeds = scenes_of(f)
+    turning, energy, *speeds = f.drawings()
     x, torque = np.degrees(r.drive_position("O2")), r.effort("O2") / LBF_IN
     labels = ("O2 in °", "Torque in lbf·in")
     check(turning, labels, x, {"effort": torque, "mean": np.full_like(torque, torque.mean())})
@@ -216,7 +215,7 @@ def test_charts_of_a_flywheel() -> None:
 def test_charts_of_bearings() -> None:
     r = result("four_bar")
     t = da.bearings(r)
-    scenes = {s.title: s for s in scenes_of(t)}
+    scenes = {s.title: s for s in t.drawings()}
     x = np.degrees(r.drive_position("O2"))
     forces = {j: np.linalg.norm(r.reaction(j), axis=1) / LBF for j in t.loads}
     check(scenes["Radial force of the joints"], ("O2 in °", "Radial force in lbf"), x, forces)
@@ -244,7 +243,7 @@ def test_charts_of_a_motion_under_forces() -> None:
     start: {O: {position: -60 deg, speed: 0}}
     """
     s = da.simulate(da.loads(text), 1.0, count=21)
-    speed, effort, energies = scenes_of(s)
+    speed, effort, energies = s.drawings()
     assert [x.title for x in (speed, effort, energies)] == ["Speed of O", "Effort of O", "Energies and works"]
     labels = ("Time in s", "Speed in rad/s")
     check(speed, labels, s.time, {"speed": s.speed("O")})

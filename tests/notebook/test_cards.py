@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.batch import sweep_text
 from dalembert.analysis.output.summary.printed_units import scale_for
 from dalembert.bundled import cases, examples
 from dalembert.notebook import html_card, html_views
@@ -270,7 +271,7 @@ def test_a_sweeps_card_row_by_row(monkeypatch: pytest.MonkeyPatch) -> None:
     varied: dict[str, Any] = {"links.coupler.weight": ["5 lbf", "9 lbf"], "links.rocker.weight": [10.0, 20.0]}
     s = da.sweep(FOUR_BAR, varied, positions=5, outputs=["effort.O2", "reaction.A", "rotation.rocker"])
     shown = read(s)
-    assert shown.text == repr(s).strip("<>") + "\n"
+    assert shown.text.splitlines()[:3] == [FOUR_BAR.title, FOUR_BAR.source_text, repr(s).strip("<>")]
     assert shown.rows[0] == [*varied, "solved", "largest effort.O2lbf*in", "largest reaction.Albf"]
     named = [(a, b) for a in varied["links.coupler.weight"] for b in ("10 N", "20 N")]
     assert [row[:3] for row in shown.rows[1:]] == [[a, b, "5 of 5"] for a, b in named]
@@ -283,9 +284,11 @@ def test_a_sweeps_card_row_by_row(monkeypatch: pytest.MonkeyPatch) -> None:
     problems = [f"{status}: {which}: {sentence}" for which, status, sentence in short.problems()]
     assert len(problems) == 3
     for most in (3, 2):
-        monkeypatch.setattr(html_views, "MOST_SAID", most)
-        said = read(short).text.splitlines()[1:]
-        assert [line[:60] for line in said] == [line[:60] for line in problems[:most]]
+        monkeypatch.setattr(sweep_text, "MOST_SAID", most)
+        said = read(short).text.splitlines()
+        assert [p[:60] for p in problems if any(line.startswith(p[:60]) for line in said)] == [
+            p[:60] for p in problems[:most]
+        ]
 
 
 def test_large_numbers_have_the_prefix_of_the_printed_tables() -> None:

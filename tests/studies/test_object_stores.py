@@ -203,7 +203,7 @@ def test_the_commands_take_an_address(
     assert main(["study", "extend", address, "--designs", "400"]) == main(["study", "show", address]) == 0
     assert "400 of 400 designs" in capsys.readouterr().out
     assert main(["study", "design", address, "7", "-o", str(tmp_path / "d.yaml")]) == 0
-    assert main(["study", "export", address, "-o", str(tmp_path / "s.csv")]) == 0
+    assert main(["study", "show", address, "--csv", str(tmp_path / "s.csv")]) == 0
     assert len((tmp_path / "s.csv").read_text().splitlines()) == 401
 
 

@@ -86,7 +86,7 @@ def test_the_page_says_what_the_designs_say(tmp_path: Path, capsys: pytest.Captu
         limits={"effort.O": "< 380 N*m"},
     )
     r = s.run(tmp_path / "p.zarr")
-    assert main(["study", "report", str(tmp_path / "p.zarr"), "-o", str(tmp_path / "p.txt")]) == 0
+    assert main(["study", "show", str(tmp_path / "p.zarr"), "--report", str(tmp_path / "p.txt")]) == 0
     text = (tmp_path / "p.txt").read_text()
     for said in (
         f"{r.share('effort.O', '< 380 N*m'):.4%}",
@@ -98,7 +98,7 @@ def test_the_page_says_what_the_designs_say(tmp_path: Path, capsys: pytest.Captu
         "several numbers a design or none: reaction.A",
     ):
         assert said in " ".join(text.split()) or said in text, said
-    assert main(["study", "report", str(tmp_path / "p.zarr"), "-o", str(tmp_path / "p.txt")]) == 2
+    assert main(["study", "show", str(tmp_path / "p.zarr"), "--report", str(tmp_path / "p.txt")]) == 2
     assert "p.txt" in capsys.readouterr().err
 
 

@@ -235,7 +235,7 @@ def test_the_command_runs_resumes_extends_shows_and_exports(
     assert main(["study", "design", "s.zarr", str(worst), "-o", "worst.yaml"]) == 0
     own = np.abs(da.statics(da.load("worst.yaml")).effort("O")).max()
     assert own == pytest.approx(found["effort.O"][worst], rel=1e-12)
-    assert main(["study", "export", "s.zarr", "-o", "s.csv"]) == 0
+    assert main(["study", "show", "s.zarr", "--csv", "s.csv", "--units", "si"]) == 0
     head, *rows = Path("s.csv").read_text().splitlines()
     assert head == "design,stroke,density,status,effort.O [N*m]"
     assert len(rows) == 200

@@ -130,9 +130,9 @@ def test_command(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert "About A at (−7.000, 0) m" in out
     assert "d = M_A / R = 689.7 / 148.3 = 4.649 m" in out
     assert "Force and couple at A (−7.000, 0) m" in (here / "plate.svg").read_text(encoding="utf-8")
-    assert err == "Written: plate.svg\nWritten: plate.html\n"
+    assert err == "Written: plate.html\nWritten: plate.svg\n"
     assert main(arguments) == 2
-    assert capsys.readouterr()[1].startswith("plate.svg exists; name another file, or overwrite it")
+    assert capsys.readouterr()[1].startswith("plate.html exists; name another file, or overwrite it")
 
 
 def test_command_in_space(here: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,4 +1,5 @@
-"""Features common to all answers: access by name, equality, a one-line representation.
+"""What all answers have in common, whatever they are answers to: reading by name, equality, writers of every format.
 
-In: the names, arrays and statuses of a class. Out: its methods. Imports only the top-level modules.
+In: the names, columns, records and parts of a class. Out: its methods, tables, arrays, records and workbooks. Imports
+nothing but the files beside the rooms; drawings and reports inside methods.
 """

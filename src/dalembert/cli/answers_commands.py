@@ -7,14 +7,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from dalembert.cli.options import AS_IN_FILE, Changes, Force, ModelFile, Static, flag, output, with_help
+from dalembert.cli.options import AS_STATED, ModelFile, Static, Steady, flag, with_help
+from dalembert.cli.outputs import NO_OUTPUTS, Outputs
 from dalembert.errors import ModelError
 from dalembert.printing import table
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
     from dalembert.arrays import Tree
-    from dalembert.grading.marking.grade import Marks
     from dalembert.grading.mistakes import Verdict
 
 
@@ -30,16 +30,14 @@ def check_answers(
             "Tolerance for answers that give none, e.g. 3% for graphical work (default: 0.5 %, or the digits given)."
         ),
     ] = None,
-    static: Static = False,
-    changes: Changes = AS_IN_FILE,
+    of: Steady = AS_STATED,
 ) -> int:
     """Compare your answers with the computed ones, and name the mistakes that explain the differences."""
-    from dalembert.cli.model_argument import load_model
     from dalembert.grading.answer_sheet import read_sheet
     from dalembert.grading.mistakes import Problem
     from dalembert.model.files.model_files import read_file
 
-    problem = Problem(load_model(file, changes), static)
+    problem = Problem(of.load(file), of.static)
     if interactive:
         sheet = read_sheet(_ask_figures(problem.result))
     elif answers is None:
@@ -93,10 +91,6 @@ def _verdict(v: Verdict) -> str:
     return "not judged" if v.kind == "open" else f"off by {off:.0f} %" if off >= 10 else f"off by {off:.2g} %"
 
 
-SHOWN = 10
-"""Mistakes of a class that are printed."""
-
-
 def grade(
     answers: Annotated[
         Path,
@@ -106,7 +100,6 @@ def grade(
     *,
     key: Annotated[Path, with_help("Answer key (.csv, .json) written by `variants`, or a model file.")],
     rubric: Annotated[Path | None, with_help("Points and partial-credit shares: YAML, JSON or TOML.")] = None,
-    output: Annotated[Path | None, output("Workbook of results to write, .xlsx.")] = None,
     feedback: Annotated[Path | None, with_help("Folder for the feedback, one text per student.")] = None,
     tolerance: Annotated[
         str | None,
@@ -115,40 +108,22 @@ def grade(
         ),
     ] = None,
     static: Static = False,
-    force: Force = False,
+    out: Outputs = NO_OUTPUTS,
 ) -> int:
     """Grade a class's ANSWERS by a key: mistakes named, partial credit, carried-forward errors not penalised twice."""
     from dalembert.grading.marking.grade import grade as graded
-    from dalembert.saving import check_installed, check_new, check_new_folder
+    from dalembert.saving import check_new_folder
 
-    if output is not None:
-        if output.suffix.lower() != ".xlsx":
-            raise ModelError(f"{output} is not a workbook", "name it .xlsx")
-        check_installed("openpyxl", "a workbook")
-        check_new(output, force)
+    out.check(answers)
     if feedback is not None:
-        check_new_folder(feedback, force)
+        check_new_folder(feedback, out.force)
     marks = graded(answers, key, rubric, tolerance, static)
-    print(_class_text(marks))
     if feedback is not None:
-        marks.save_feedback(feedback, force)
-    if output is not None:
-        marks.to_xlsx(output, force)
+        marks.save_feedback(feedback, out.force)
+    out.deliver(marks)
     for said in (said for s in marks.students for said in s.problems):
         print(said, file=sys.stderr)
     return 1 if any(s.problems for s in marks.students) else 0
-
-
-def _class_text(marks: Marks) -> str:
-    """A row a student, then the mistakes of most students."""
-    rows = [
-        [s.student, s.variant, f"{s.total:.4g}" if s.marks else "-", f"{s.most:.4g}" if s.marks else "-"]
-        for s in marks.students
-    ]
-    parts = [table(["student", "variant", "marks", "of"], rows, left=2)]
-    named = [[sentence, str(count)] for sentence, count in marks.mistakes()[:SHOWN]]
-    parts += [table(["mistake", "students"], named, left=1)] if named else []
-    return "\n\n".join(parts)
 
 
 COMMANDS: dict[Callable[..., int], str] = {

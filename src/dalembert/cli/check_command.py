@@ -70,7 +70,6 @@ def _model_files(named: Iterable[Path]) -> Iterator[Path]:
 
 def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list[Row], int]:
     """Rows of all files, and how many files are wrong; wrong files are reported at once."""
-    from dalembert.cli.model_argument import load_model
     from dalembert.grading.file_answers import check
     from dalembert.model.gravity import gravity_doubt
 
@@ -80,7 +79,7 @@ def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list
         for done, path in enumerate(files):
             step(done, path.name)
             try:
-                m = load_model(path, changes)
+                m = changes.load(path)
                 if doubt := gravity_doubt(m.gravity_vector):
                     print(f"{path}: note: the acceleration of gravity of {doubt}", file=sys.stderr)
                 rows += check(m, path.stem)

@@ -11,16 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from cyclopts import Parameter
 
 from dalembert.cli.options import (
-    AS_IN_FILE,
     AS_USUAL,
-    At,
-    Changes,
+    AT_FIRST,
     Force,
     ModelFile,
     Names,
-    Positions,
+    OfAt,
     Seen,
-    Static,
     Style,
     Theme,
     flag,
@@ -75,9 +72,6 @@ def draw(
         ),
     ],
     view: Annotated[ViewName | None, VIEWS] = None,
-    at: At = None,
-    positions: Positions = None,
-    static: Static = False,
     theme: Theme = "light",
     paper: Annotated[
         Literal["a4", "letter", "fit"] | None,
@@ -86,20 +80,19 @@ def draw(
     camera: Seen = None,
     names: Names = False,
     question: Annotated[bool, flag("Show only the given data; nothing computed.")] = False,
-    changes: Changes = AS_IN_FILE,
+    of: OfAt = AT_FIRST,
     force: Force = False,
 ) -> int:
     """Draw FILE to scale: the mechanism, free bodies, force polygons, charts."""
-    from dalembert.cli.model_argument import load_model
     from dalembert.views import draw
 
     shown = _view_for(output, view, question)
     check_new(output, force)
     with progress(f"Drawing {file}"):
-        m, moves = load_model(file, changes), _moves(shown, output)
+        m, moves, positions = of.load(file), _moves(shown, output), of.positions
         if positions is None and (shown == "charts" or moves):
             positions = _enough(m, 36 if moves else 72)
-        result, at = _solve_at(m, at, static, positions)
+        result, at = _solve_at(m, of.at, of.static, positions)
         notation = draw.Notation(links="name" if names else "number")
         left: Sequence[str] = ()
         if output.suffix.lower() == ".glb":
@@ -186,9 +179,6 @@ def report(
     output: Annotated[
         Path, output("File to write; its extension selects the format: .pdf, .html, .tex or .txt.")
     ],
-    at: At = None,
-    positions: Positions = None,
-    static: Static = False,
     method: Annotated[
         list[Literal["matrix", "graphical", "superposition", "virtual-work"]] | None,
         Parameter(
@@ -197,16 +187,15 @@ def report(
     ] = None,
     style: Style = AS_USUAL,
     about: Annotated[str, with_help("Joint about which moments are taken, for links that have it.")] = "",
-    changes: Changes = AS_IN_FILE,
+    of: OfAt = AT_FIRST,
     force: Force = False,
 ) -> int:
     """Write the worked solution of FILE, step by step, with its drawings."""
-    from dalembert.cli.model_argument import load_model
     from dalembert.reports import report as worked_out
 
     with progress(f"Working out {file}"):
         check_new(output, force)
-        result, at = _solve_at(load_model(file, changes), at, static, positions)
+        result, at = _solve_at(of.load(file), of.at, of.static, of.positions)
         worked_out(result, at, method, style.notation(), about).save(output, force)
         return _announce(result, output)
 

@@ -10,9 +10,9 @@ import numpy as np
 from dalembert.analysis.friction.joint_friction import unknown_names
 from dalembert.analysis.methods.applied_forces import magnitude
 from dalembert.analysis.methods.superposition import directions, with_sum
-from dalembert.analysis.output.columns import UnitChoice
 from dalembert.analysis.output.summary.printed_units import Printed, print_scale, significant
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind, unknown_kinds
+from dalembert.answer.column import UnitChoice
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.printing import number, remainder, round_components, table, tables, with_unit, wrap

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from cyclopts import Parameter
 
 if TYPE_CHECKING:
+    from dalembert.model import Mechanism
     from dalembert.views.notation import Notation
 
 
@@ -106,9 +107,11 @@ Drawing = Annotated[Path | None, with_help("Write a drawing: .svg, .pdf, .png or
 Report = Annotated[
     Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
 ]
-PrintedUnits = Annotated[
+Units = Annotated[
     Literal["si", "file"] | None,
-    with_help("Units of printed numbers (default: file) and of written ones (default: si)."),
+    with_help(
+        "Units: si or file (default: file for what people read, CSV and Excel; si for JSON and netCDF)."
+    ),
 ]
 Theme = Annotated[
     Literal["light", "dark", "print"],
@@ -133,7 +136,7 @@ Force = Annotated[bool, flag("Overwrite files that exist.")]
 class Style:
     """Notation of a worked solution."""
 
-    units: Annotated[Literal["si", "file"], with_help("Units of the numbers: file (default) or si.")] = "file"
+    units: Units = None
     axes: Annotated[Axes, with_help("Axes of components: ground, or the link acted on.")] = "ground"
     names: Names = False
     on_by: Annotated[bool, flag("F_ij is the force on i by j (default: by i on j).")] = False
@@ -168,11 +171,41 @@ class Style:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Changes:
-    """Changes of the model file by options."""
+    """What of a model file is analysed: its numbers changed by options."""
 
     no_friction: NoFriction = False
     set: Set = None
 
+    def load(self, file: Path) -> Mechanism:
+        """The description with what the command line says otherwise."""
+        from dalembert.cli.model_argument import load_model
+
+        return load_model(file, self)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Steady(Changes):
+    """The same, with or without inertia."""
+
+    static: Static = False
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Of(Steady):
+    """The same, at so many positions."""
+
+    positions: Positions = None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class OfAt(Of):
+    """The same, of which one position is shown."""
+
+    at: At = None
+
 
 AS_USUAL = Style()
-AS_IN_FILE = Changes()
+AS_IN_FILE, AS_STATED, AS_GIVEN, AT_FIRST = Changes(), Steady(), Of(), OfAt()

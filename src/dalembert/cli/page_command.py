@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from dalembert.cli.options import AS_IN_FILE, Changes, Force, ModelFile, Static
+from dalembert.cli.options import AS_STATED, Force, ModelFile, Steady
 from dalembert.cli.options import output as written
 from dalembert.errors import ModelError
 from dalembert.saving import check_new
@@ -20,18 +20,16 @@ def page(
     /,
     *,
     output: Annotated[Path, written("File to write, .html.")],
-    static: Static = False,
-    changes: Changes = AS_IN_FILE,
+    of: Steady = AS_STATED,
     force: Force = False,
 ) -> int:
     """Make a live page of FILE, one HTML file: drag joints, change numbers, and all forces follow."""
-    from dalembert.cli.model_argument import load_model
     from dalembert.pages.html_page import page as make_page
 
     if output.suffix.lower() not in (".html", ".htm"):
         raise ModelError(f"{output.name}: a page is HTML", "name a file that ends in .html")
     check_new(output, force)
-    make_page(load_model(file, changes), output, static, force)
+    make_page(of.load(file), output, of.static, force)
     print(f"{output}: open it in a browser")
     return 0
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dalembert.cli.options import AS_IN_FILE, At, Changes, Force, ModelFile, Static, numeric, output, target
+from dalembert.cli.options import AS_STATED, At, Force, ModelFile, Steady, numeric, output, target
 
 EXAMPLES = """Examples:
   dalembert variants four_bar.yaml --vary "loads.T_4.value=100..140" -o exam
@@ -48,12 +48,10 @@ def variants(
     tolerance: Annotated[
         str, target("Smallest effect of a common mistake, and the key's tolerance, e.g. 3 %.")
     ] = "",
-    static: Static = False,
-    changes: Changes = AS_IN_FILE,
+    of: Steady = AS_STATED,
     force: Force = False,
 ) -> int:
     """Make exam variants of FILE with random values, each solved and checked: question sheets, solutions and a key."""
-    from dalembert.cli.model_argument import load_model
     from dalembert.exams.choices import read_option
     from dalembert.exams.exam_folder import check_folder
     from dalembert.exams.variants import variants as drawn
@@ -62,8 +60,8 @@ def variants(
 
     check_folder(output, force)
     choices = dict(map(read_option, vary))
-    m = load_model(file, changes)
-    found = drawn(m, choices, count, seed, ask or (), at, static, tolerance)
+    m = of.load(file)
+    found = drawn(m, choices, count, seed, ask or (), at, of.static, tolerance)
     found.save(output, force)
     rows = [[v.name, *(value_text(v.values[path]) for path in choices)] for v in found]
     print(tables(["variant", *choices], rows, 1))

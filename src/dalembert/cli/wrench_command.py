@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
-from dalembert.cli.options import Drawing, Figures, Force, Report, Theme, target, with_help
+from dalembert.cli.options import target, with_help
+from dalembert.cli.outputs import NO_DRAWN, DrawnOutputs
 
 EXAMPLES = """Examples:
   dalembert wrench plate.yaml
@@ -30,38 +30,16 @@ def wrench(
             'Point about which moments are taken: a point of the file, or "[x, y]" (default: the origin).'
         ),
     ] = None,
-    drawing: Drawing = None,
-    report: Report = None,
     camera: Annotated[
         Literal["isometric", "front", "side", "top"], with_help("View direction of a spatial system.")
     ] = "isometric",
-    theme: Theme = "light",
-    units: Annotated[
-        Literal["si", "file"], with_help("Units of the numbers: file (default) or si.")
-    ] = "file",
-    figures: Figures = 4,
-    force: Force = False,
+    out: DrawnOutputs = NO_DRAWN,
 ) -> int:
     """Reduce the force system of FILE: resultant, moments, central axis, equilibrium."""
-    from dalembert.reports import report as worked_out
-    from dalembert.saving import check_new
-    from dalembert.views import draw
     from dalembert.wrench import load
 
-    for path in (drawing, report):
-        if path is not None:
-            check_new(path, force)
-    system = load(file)
-    notation = draw.Notation(units="SI" if units == "si" else "file", figures=figures)
-    sheet = worked_out(system, about, notation=notation)
-    if drawing is not None:
-        draw.force_system(system, about, notation, camera).save(drawing, force, theme)
-    if report is not None:
-        sheet.save(report, force)
-    print(sheet, end="")
-    for path in (drawing, report):
-        if path is not None:
-            print(f"Written: {path}", file=sys.stderr)
+    out.check(file)
+    out.deliver(load(file).seen(about, camera), figures=out.figures)
     return 0
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,19 +23,24 @@ from dalembert.analysis.methods.applied_forces import (
     magnitude,
     unknown_load_actions,
 )
-from dalembert.analysis.output.columns import Column, Scale, parts
 from dalembert.analysis.result.transmission_lines import ground_points
+from dalembert.answer.column import Axes, Column, Scale, parts
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
-from dalembert.machine.output.answer import Answer
+from dalembert.machine.output.machine_answer import MachineAnswer
 from dalembert.machine.whole_cycle import turning_angle
 from dalembert.model import GROUND
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
+    from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation, Shown
+    from dalembert.views.paper.scene import Scene
 
 CAUSES = {"inertia": "inertia", "weight": "weight", "load": "external", "effort": "external"}
 """Kind of an action that reaches the ground through the machine -> the part of the shaking force it is."""
@@ -47,7 +52,7 @@ Wrench = tuple[Array, Array]
 
 
 @dataclass(frozen=True, eq=False)
-class Shaking(Answer):
+class Shaking(MachineAnswer):
     """Force (P, d) and moment (P,), in space (P, 3), that some links exert on all else, about a fixed point (d,).
 
     ``parts``: the same by cause: `inertia`, `weight`, `external`. ``residual`` (P,): difference to what the joints,
@@ -55,8 +60,6 @@ class Shaking(Answer):
     ``outside_sizes``: by load or drive that is external, its greatest force, with its couple over the length, N.
     ``couple`` (P, 2), in the plane where links have a `place` z along the normal: sum of z k x F over the links.
     """
-
-    NAME = "shaking"
 
     result: Result = field(repr=False)
     links: tuple[str, ...]
@@ -97,7 +100,7 @@ class Shaking(Answer):
             )
         return harmonics(values, turning_angle(self.result), orders)
 
-    def columns(self) -> Iterator[Column]:
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """Every number: the first drives' positions, force and moment, and their parts."""
         yield from self.drive_columns()
         whole = {"shaking": (self.force, self.moment)}
@@ -112,6 +115,24 @@ class Shaking(Answer):
         """Its other numbers by name, in the units of a scale."""
         said = {"links": self.links, "about": self.about, "whole": self.whole, "outside": self.outside}
         return {"shaking": {**said, "point": to("length", self.point)}}
+
+    def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
+        """What a person reads, in the units of a scale."""
+        from dalembert.machine.output.shaking_text import shaking_parts
+
+        return shaking_parts(self, to, **choice)
+
+    def scenes(self, notation: Notation) -> list[Scene]:
+        """Its drawings in a notation."""
+        from dalembert.views.machine.shaking_views import shaking_scenes
+
+        return shaking_scenes(self, notation)
+
+    def section(self, sheet: Sheet, shown: Shown) -> None:
+        """Its equations in letters and numbers, put on a sheet."""
+        from dalembert.reports.machine_sections.shaking_section import shaking_section
+
+        shaking_section(sheet, self, shown)
 
 
 def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) -> Shaking:

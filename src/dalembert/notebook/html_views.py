@@ -6,26 +6,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale
-from dalembert.analysis.output.summary.printed_units import scale_for
-from dalembert.arrays import Array
+from dalembert.answer.column import Scale
 from dalembert.notebook.html_card import card
 from dalembert.printing import Part, Table, number, with_unit
 
 if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
-    from dalembert.analysis.batch.design_sweep import Sweep
     from dalembert.analysis.result.result import Result
     from dalembert.model import AtPositions, Mechanism
     from dalembert.views.paper.scene import Scene
-    from dalembert.wrench import System
 
 MOST_DRAWN = 60
 """Links of a mechanism that is drawn beside its tables; a larger one is drawn on request."""
 MOST_POSITIONS = 2000
 """Positions along which a card's drawing traces points."""
-MOST_SAID = 8
-"""Problems of a sweep that are listed individually."""
 
 
 def result_html(r: Result) -> str:
@@ -105,54 +99,3 @@ def kernel_html(k: Kernel) -> str:
     ]
     outputs = f"Outputs: {', '.join(k.outputs)}."
     return card(f"Kernel of {k.mechanism.title or 'a mechanism'}", "; ".join(about) + ".", numbers, outputs)
-
-
-def system_html(s: System) -> str:
-    """Forces with their points, couples, the sum of all, and the drawing."""
-    from dalembert.views import draw
-    from dalembert.wrench.forces import Couple
-
-    total, turning = s.reduced(), [c.size for c in s.couples]
-    most = {"force": max(f.size for f in (*s.forces, *total.parts[:1]))}
-    to = scale_for(s.units, most | {"moment": max([*turning, total.parts[1].size])})
-    axes = "xyz"[: s.dimension]
-    units = (to.text("force"), to.text("length"), to.text("moment"))
-    heads = ["part", *(f"F {a}\n{units[0]}" for a in axes), *(f"at {a}\n{units[1]}" for a in axes)]
-    heads += [f"M {a}\n{units[2]}" for a in axes] if s.dimension == 3 else [f"M\n{units[2]}"]
-    blank = [""] * s.dimension
-    rows = []
-    for name, part in zip(s.names, s.parts, strict=True):
-        if isinstance(part, Couple):
-            rows.append([name, *blank, *blank, *_cells(to("moment", part.vector))])
-        else:
-            rows.append([name, *_cells(to("force", part.vector)), *_cells(to("length", part.at)), ""])
-    named = {"force": total.force, "length": total.at, "moment": total.vector}
-    sums = [cell for kind, vector in named.items() for cell in _cells(to(kind, vector))]
-    rows = [[*row, *[""] * (len(heads) - len(row))] for row in [*rows, ["sum at the origin", *sums]]]
-    words = f"It reduces to: {s.kind()}. {s.equilibrium().sentence}"
-    return card(
-        s.title or "Force system", s.source, Table(heads, rows, 1), words, lambda: draw.force_system(s)
-    )
-
-
-def _cells(vector: Array) -> list[str]:
-    return [number(float(v)) for v in np.ravel(vector)]
-
-
-def sweep_html(s: Sweep) -> str:
-    """One row per design: varied numbers, solved positions, largest magnitude of each quantity over the positions."""
-    named = [name for name, a in s.answers.arrays.items() if a.ndim - len(s.shape) < 3]
-    peaks = {name: s.over(name).reshape(-1) for name in named}
-    most = {s.kinds[name]: 0.0 for name in named}
-    for name, peak in peaks.items():
-        most[s.kinds[name]] = max(most[s.kinds[name]], float(np.nanmax(np.abs(peak), initial=0.0)))
-    to = scale_for(s.mechanism.units, most)
-    heads = [*s.paths, "solved", *(f"largest {name}\n{to.text(s.kinds[name])}" for name in peaks)]
-    solved = s.ok.reshape(-1, s.status.shape[-1]).sum(axis=1)
-    cells = [[number(float(v)) for v in to(s.kinds[name], peak)] for name, peak in peaks.items()]
-    rows = [
-        [*values, f"{count} of {s.status.shape[-1]}", *more]
-        for values, count, *more in zip(s.designs, map(str, solved), *cells, strict=True)
-    ]
-    sentences = [f"{status}: {which}: {sentence}" for which, status, sentence in s.problems()[:MOST_SAID]]
-    return card(repr(s).strip("<>"), Table(heads, rows, len(s.paths) + 1), *sentences)

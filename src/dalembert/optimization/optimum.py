@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
-import os
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.named_quantities import quantity
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.result.result import Result
-from dalembert.answer.equality import Compared
-from dalembert.arrays import Array
+from dalembert.answer.answer import Drawn, Labelled, Remade, Worked
+from dalembert.answer.column import Axes, Column, Scale, UnitChoice, parts
+from dalembert.arrays import Array, Tree
 from dalembert.model import Mechanism
 from dalembert.optimization.aims import Aim, Condition, parse_aim
-from dalembert.printing import number, table, wrap
+from dalembert.printing import Table
+
+if TYPE_CHECKING:
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation
+    from dalembert.views.paper.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
-class Optimum(Compared):
-    """The best design; ``values`` (number,) in SI in the order of ``numbers``.
+class Optimum(Labelled, Drawn, Worked, Remade):
+    """The best design that was found; ``values`` (number,) in SI in the order of ``numbers``.
 
     before, after: the analyses of the original description and of ``mechanism``. value: the aim, SI. found: how many
     of the polished starts came within a thousandth of the best, of ``polished``; started: number of starts that could
@@ -51,10 +60,6 @@ class Optimum(Compared):
         """The aim of the original description, SI; NaN where some position has no answer."""
         return self._sizes(self.before)[0]
 
-    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes the best mechanism as a model file, in the author's text if it came from a file."""
-        self.mechanism.save(path, overwrite)
-
     def size_of(self, aim: Aim, r: Result | None = None) -> float:
         """Any aim of the best design, or of another result, SI."""
         from dalembert.analysis.batch.over_positions import reduce_positions
@@ -70,23 +75,26 @@ class Optimum(Compared):
     def _sizes(self, r: Result) -> list[float]:
         return [self.size_of(self.aim, r), *(float(r[c.margin].min()) for c in self.conditions)]
 
-    def number_rows(self) -> list[list[str]]:
-        """Name with unit of each number, before, after, and its bounds, in the units of the file."""
+    @property
+    def _kinds(self) -> list[str]:
+        """Kinds of the aim and of the room of each condition."""
+        return [quantity(self.after, e).kind for e in (self.aim.of, *(c.margin for c in self.conditions))]
+
+    def number_rows(self, units: UnitChoice = "file") -> list[list[str]]:
+        """Name with unit of each number, before, after, and its bounds."""
+        to = self._printed(units)
         columns = zip(self.numbers, self.kinds, self.nominal, self.values, *self.bounds.T, strict=True)
-        return [self._row(name, kind, *values) for name, kind, *values in columns]
+        return [row_of(to, *each) for each in columns]
 
-    def aim_rows(self) -> list[list[str]]:
-        """The aim, and the margin of each condition, before and after."""
-        names = [f"{self.aim.word} {self.aim.of}", *(f"margin of {c.text}" for c in self.conditions)]
-        kinds = [quantity(self.after, e).kind for e in (self.aim.of, *(c.margin for c in self.conditions))]
-        both = zip(names, kinds, self._sizes(self.before), self._sizes(self.after), strict=True)
-        return [self._row(*each) for each in both]
+    def aim_rows(self, units: UnitChoice = "file") -> list[list[str]]:
+        """The aim, and the room that each condition has left, before and after."""
+        to = self._printed(units)
+        names = [f"{self.aim.word} {self.aim.of}", *(f"room of {c.text}" for c in self.conditions)]
+        both = zip(names, self._kinds, self._sizes(self.before), self._sizes(self.after), strict=True)
+        return [row_of(to, *each) for each in both]
 
-    def _row(self, name: str, kind: str, *values: float) -> list[str]:
-        to = Printed(self.mechanism.units)
-        unit = to.text(kind)
-        shown = [number(float(to(kind, v))) for v in values]
-        return [f"{name} [{unit}]" if unit not in ("", "1") else name, *shown]
+    def _printed(self, units: UnitChoice) -> Printed:
+        return Printed(None if units == "SI" else self.mechanism.units)
 
     @property
     def words(self) -> str:
@@ -95,8 +103,66 @@ class Optimum(Compared):
             return "No design meets every condition; this one violates them least."
         return f"{self.found} of the {self.polished} best of {self.started} starts converged to this design."
 
-    def __str__(self) -> str:
-        """Before and after, in the units of the file."""
-        heads = ["", "before", "after"]
-        tables = [table([*heads, "from", "to"], self.number_rows()), table(heads, self.aim_rows())]
-        return "\n\n".join([*tables, wrap(self.words)])
+    # as an answer
+
+    def basis(self) -> dict[str, str]:
+        """Title, source, and what the analyses rest on."""
+        return super().basis() | self.after.assumptions
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """What is least, and the room of each condition, over the cycle before and after."""
+        for drive in self.after.drives:
+            kind = drive_kinds(self.after, drive)["position"]
+            yield Column(f"drive.{drive}", kind, self.after.drive_position(drive))
+        for side, r in (("before", self.before), ("after", self.after)):
+            for name, of in (
+                (self.aim.of, self.aim.of),
+                *((f"room of {c.text}", c.margin) for c in self.conditions),
+            ):
+                found = quantity(r, of)
+                for part, values in parts(found.values):
+                    yield Column(f"{side}.{name}{part}", found.kind, values)
+
+    def record(self, to: Scale) -> Tree:
+        """Numbers before and after with their bounds, the aim, the room of conditions, and how sure it is."""
+        columns = zip(self.numbers, self.kinds, self.nominal, self.values, *self.bounds.T, strict=True)
+        names = ("before", "after", "from", "to")
+        numbers = {n: dict(zip(names, (to(kind, v) for v in of), strict=True)) for n, kind, *of in columns}
+        sizes = zip(*(self._sizes(r) for r in (self.before, self.after)), strict=True)
+        of = [f"{self.aim.word} {self.aim.of}", *(c.text for c in self.conditions)]
+        both = [
+            {name: to(kind, v) for name, v in zip(names, pair, strict=False)}
+            for kind, pair in zip(self._kinds, sizes, strict=True)
+        ]
+        found = {
+            "feasible": self.feasible,
+            "alike": self.found,
+            "polished": self.polished,
+            "started": self.started,
+        }
+        rooms = dict(zip(of[1:], both[1:], strict=True))
+        return {"optimum": {"numbers": numbers, "aim": {"of": of[0], **both[0]}, "room": rooms, **found}}
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
+        """Before and after, and how sure it is."""
+        yield Table(["", "before", "after", "from", "to"], self.number_rows(units))
+        yield Table(["", "before", "after"], self.aim_rows(units))
+        yield self.words
+
+    def drawings(self, notation: Notation | None = None) -> list[Scene]:
+        """What is least over the cycle, and the designs before and after."""
+        from dalembert.reports.machine_sections.optimum_section import optimum_scenes
+
+        return optimum_scenes(self, notation)
+
+    def sheet(self, notation: Notation | None = None) -> Sheet:
+        """Numbers, the aim and its conditions, before and after, and the drawings."""
+        from dalembert.reports.machine_sections.optimum_section import optimum_sheet
+
+        return optimum_sheet(self, notation)
+
+
+def row_of(to: Printed, name: str, kind: str, *values: float) -> list[str]:
+    """A name with the unit of its kind, and numbers in that unit."""
+    unit = to.text(kind)
+    return [f"{name} [{unit}]" if unit not in ("", "1") else name, *(to.number(kind, v) for v in values)]

@@ -8,14 +8,17 @@ Mechanics: docs/theory.md 11.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import compile  # noqa: A004
-from dalembert.answer.equality import Compared
+from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.result.named_quantities import quantity
+from dalembert.answer.answer import Drawn, Labelled, Worked
+from dalembert.answer.column import Axes, Column, UnitChoice
 from dalembert.arrays import Array
 from dalembert.bounds import require
 from dalembert.errors import ModelError
@@ -24,7 +27,13 @@ from dalembert.optimization.aims import parse_aim
 from dalembert.optimization.optimizers import DEFAULT, METHODS, OPEN, evolve, find_method
 from dalembert.optimization.optimizing import Bounds, judge, optimize, optimum_of, problem_of, starts_of
 from dalembert.optimization.optimum import Optimum
-from dalembert.printing import table
+from dalembert.printing import Table
+
+if TYPE_CHECKING:
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation
+    from dalembert.views.paper.scene import Scene
 
 DEFAULTS = {"starts": 1000, "seed": 0, "positions": None, "static": False}
 """Defaults of `da.optimize`."""
@@ -33,19 +42,56 @@ AS_GOOD = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Front(Compared):
-    """Designs from the best for the first aim to the best for the second; ``values`` (design, aim), SI."""
+class Front(Labelled, Drawn, Worked):
+    """Designs from the best by the first aim to the best by the second; ``values`` (design, aim), SI."""
 
     aims: tuple[str, str]
     designs: tuple[Optimum, ...]
     values: Array
 
-    def __str__(self) -> str:
-        """Both aims and the numbers of each design, in the units of the file."""
+    ROWS = "designs"
+
+    @property
+    def described(self) -> Mechanism:
+        """The description of the first design."""
+        return self.designs[0].mechanism
+
+    def _kinds(self) -> list[str]:
+        """Kinds of the two aims."""
+        return [quantity(self.designs[0].after, parse_aim(aim).of).kind for aim in self.aims]
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """A row a design: both aims, and its numbers."""
+        for aim, kind, values in zip(self.aims, self._kinds(), self.values.T, strict=True):
+            yield Column(aim, kind, values)
+        first, numbers = self.designs[0], np.stack([o.values for o in self.designs], axis=1)
+        for name, kind, values in zip(first.numbers, first.kinds, numbers, strict=True):
+            yield Column(name, kind, values)
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
+        """Both aims and the numbers of each design."""
+        to = Printed(None if units == "SI" else self.described.units)
+        kinds = self._kinds()
         rows = [
-            [o.aim_text(aim) for aim in self.aims] + [row[2] for row in o.number_rows()] for o in self.designs
+            [
+                *(to.quantity(k, v) for k, v in zip(kinds, both, strict=True)),
+                *(r[2] for r in o.number_rows(units)),
+            ]
+            for o, both in zip(self.designs, self.values, strict=True)
         ]
-        return table([*self.aims, *(row[0] for row in self.designs[0].number_rows())], rows)
+        yield Table([*self.aims, *(row[0] for row in self.designs[0].number_rows(units))], rows)
+
+    def drawings(self, notation: Notation | None = None) -> list[Scene]:
+        """The second aim over the first; the first design and the last."""
+        from dalembert.reports.machine_sections.optimum_section import front_scenes
+
+        return front_scenes(self, notation)
+
+    def sheet(self, notation: Notation | None = None) -> Sheet:
+        """Both aims and the numbers of each design, and the drawings."""
+        from dalembert.reports.machine_sections.optimum_section import plain_sheet
+
+        return plain_sheet(self, "Front", notation)
 
 
 def pareto(

@@ -8,31 +8,46 @@ Mechanics: docs/theory.md 11.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch.checked_input import drive_values
 from dalembert.analysis.batch.compiled_kernel import Kernel, compile  # noqa: A004
-from dalembert.answer.equality import Compared
-from dalembert.arrays import Array
+from dalembert.analysis.batch.tracing.symbolic_model import number_kinds
+from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.result.named_quantities import quantity
+from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.analysis.result.result import Result
+from dalembert.analysis.solution import solve
+from dalembert.answer.answer import Drawn, Labelled, Remade, Worked
+from dalembert.answer.column import Axes, Column, Scale, UnitChoice, parts
+from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.optimization.free_timing import FreeTiming
 from dalembert.optimization.least_squares import Misfit, least_squares, wanted
 from dalembert.optimization.optimizing import Bounds, bounds_of, random_places
-from dalembert.printing import number, table
+from dalembert.optimization.optimum import row_of
+from dalembert.printing import Table, number
+
+if TYPE_CHECKING:
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation
+    from dalembert.views.paper.scene import Scene
 
 EXACT = 1e-6
 """Rms error over the spread of the targets below which a design counts as meeting them."""
 
 
 @dataclass(frozen=True, eq=False)
-class Synthesis(Compared):
-    """The best mechanism; ``error`` its rms error over the spread of the targets, ``exact`` how many of ``started``
+class Synthesis(Labelled, Drawn, Worked, Remade):
+    """The mechanism found; ``error`` its rms error over the spread of the targets, ``exact`` how many of ``started``
     designs meet them to a millionth. ``values`` (number,) in SI in the order of ``numbers``; ``positions`` (P, D) are
     those of the drives at the targets, computed where the timing is free."""
 
@@ -46,17 +61,50 @@ class Synthesis(Compared):
     positions: Array = field(repr=False)
     found: dict[str, Array] = field(repr=False)  # outputs of the design at the targets' positions
 
-    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Writes the best mechanism as a model file."""
-        self.mechanism.save(path, overwrite)
+    kinds: tuple[str, ...] = field(repr=False)
 
-    def __str__(self) -> str:
-        """Numbers before and after, SI."""
-        before, after = ([number(float(x)) for x in of] for of in (self.nominal, self.values))
-        rows = [list(row) for row in zip(self.numbers, before, after, strict=True)]
+    @cached_property
+    def result(self) -> Result:
+        """The analysis of the mechanism found at the positions of the targets."""
+        return solve(self.mechanism, True, self.positions)
+
+    @property
+    def words(self) -> str:
+        """How near it comes."""
         error = number(self.error, 3)
-        words = f"Rms error {error} of the targets' spread; of {self.started} starts {self.exact} are exact."
-        return table(["SI", "before", "after"], rows) + "\n\n" + words
+        return f"Rms error {error} of the targets' spread; of {self.started} starts {self.exact} are exact."
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """The drives at the targets, and what the outputs are there."""
+        for k, drive in enumerate(self.result.drives):
+            yield Column(f"drive.{drive}", drive_kinds(self.result, drive)["position"], self.positions[:, k])
+        for name, values in self.found.items():
+            for part, numbers in parts(values):
+                yield Column(f"{name}{part}", quantity(self.result, name).kind, numbers)
+
+    def record(self, to: Scale) -> Tree:
+        """Numbers before and after, and how near the outputs come."""
+        columns = zip(self.numbers, self.kinds, self.nominal, self.values, strict=True)
+        numbers = {n: {"before": to(kind, a), "after": to(kind, b)} for n, kind, a, b in columns}
+        found = {"error": self.error, "exact": self.exact, "started": self.started}
+        return {"synthesis": {"numbers": numbers, **found}}
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
+        """Numbers before and after, and how near the outputs come."""
+        to = Printed(None if units == "SI" else self.mechanism.units)
+        columns = zip(self.numbers, self.kinds, self.nominal, self.values, strict=True)
+        yield Table(["", "before", "after"], [row_of(to, *each) for each in columns])
+        yield self.words
+
+    def drawings(self, notation: Notation | None = None) -> list[Scene]:
+        """The mechanism found at the first target, with the paths of its points."""
+        return [self.result.draw(notation=notation)]
+
+    def sheet(self, notation: Notation | None = None) -> Sheet:
+        """Numbers before and after, and the mechanism."""
+        from dalembert.reports.machine_sections.optimum_section import plain_sheet
+
+        return plain_sheet(self, "Synthesis", notation)
 
 
 def synthesize(
@@ -115,6 +163,7 @@ def synthesize(
         started=len(x),
         positions=k.course(place).schedule.position,
         found={name: r.value(name)[0] for name in targets},
+        kinds=number_kinds(mechanism, found),
     )
 
 

@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result.result import Result
+    from dalembert.answer.answer import Worked
     from dalembert.reports.sheet import Sheet
     from dalembert.views.notation import Notation
-    from dalembert.wrench import System
 
 FORMATS = (".pdf", ".html", ".tex", ".txt")
 
@@ -62,27 +61,28 @@ class Report:
 
 
 def report(
-    r: Result | System | Any,
+    r: Worked,
     at: Any = None,
     methods: Any = None,
     notation: Notation | None = None,
     about: str = "",
 ) -> Report:
-    """The worked solution of one position of a result, of a force system of `da.wrench`, or of an answer of machine
-    design (`da.shaking`, `da.balance`, `da.flywheel`) or of `da.optimize`, for which only ``notation`` applies.
+    """The worked solution of one position of a result, of a force system of `da.wrench`, or of any other answer
+    that has one (`da.shaking`, `da.flywheel`, `da.optimize`, `da.study`), of which ``notation`` alone is asked.
 
     ``methods``: some of `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
     ``about``: a joint to take moments about where a link has it; an unknown one is a ModelError. Of a force system
     ``at`` is the point to take moments about (m), and methods do not apply.
     """
+    from dalembert.analysis.result.result import Result
     from dalembert.wrench import System
 
     if isinstance(r, System):
         from dalembert.reports.sections.force_system_solution import force_system_sheet
 
-        return Report(force_system_sheet(r, at, notation))
-    if not hasattr(r, "joints"):
-        return Report(_answer_sheet(r, notation))
+        return Report(force_system_sheet(r, r.about if at is None else at, notation))
+    if not isinstance(r, Result):
+        return Report(r.sheet(notation))
     from dalembert.errors import ModelError
     from dalembert.reports.report_context import METHODS
     from dalembert.reports.working import working
@@ -91,12 +91,3 @@ def report(
     if about and about not in r.joints:
         raise ModelError(f"unknown joint {about!r} to take moments about", closest(about, list(r.joints)))
     return Report(working(r, at, tuple(methods or METHODS), notation, about))
-
-
-def _answer_sheet(answer: Any, notation: Notation | None) -> Sheet:
-    from dalembert.optimization.optimum import Optimum
-    from dalembert.reports.machine_sections import machine_sheet
-    from dalembert.reports.machine_sections.optimum_section import optimum_sheet
-
-    make = optimum_sheet if isinstance(answer, Optimum) else machine_sheet
-    return make(answer, notation)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED, SOLVED, among, first_mark, one_number
+from dalembert.answer.answer import Drawn, Labelled, Worked
+from dalembert.answer.column import Axes, Column, Scale, UnitChoice
 from dalembert.answer.named_answer import NamedAnswer
 from dalembert.arrays import Array, Flags, Ints, Tree
 from dalembert.bounds import require
@@ -20,10 +22,11 @@ from dalembert.studies.store import Store
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
-    import xarray
-
     from dalembert.model import Mechanism
-    from dalembert.reports import Report
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation
+    from dalembert.views.paper.scene import Scene
 
 PERCENTILES = (0.1, 5.0, 50.0, 95.0, 99.9)
 ROUNDING = 1e-12
@@ -61,8 +64,8 @@ class Failure(NamedTuple):
     differs: Difference | None = None
 
 
-class StudyResult(NamedAnswer):
-    """Answers of a study by output, SI, NaN where unsolved: ``r["effort.O2"]`` (design, ...).
+class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
+    """Answers of a study by output, SI, NaN where there is none: ``r["effort.O2"]`` (design, ...).
 
     In an unfinished store `done` is true for the computed designs.
     """
@@ -228,13 +231,6 @@ class StudyResult(NamedAnswer):
         mean, sigma = float(values.mean()), float(values.std())
         return min(found.high - mean, mean - found.low) / (3 * sigma) if sigma > 0 else np.inf
 
-    def report(self) -> Report:
-        """All that the designs say as a page: ``r.report().save("pump.html")``, or .pdf, .tex, .txt."""
-        from dalembert.reports import Report
-        from dalembert.studies.output.study_report import study_sheet
-
-        return Report(study_sheet(self))
-
     def shares(self) -> dict[str, float]:
         """The same for the limits of the study, and under "all" of the designs that keep them all together."""
         done, limits = self.done, self.study.limits
@@ -249,22 +245,60 @@ class StudyResult(NamedAnswer):
         """Kind of each output, from `units.KINDS`."""
         return self.study.kinds
 
-    def to_xarray(self) -> xarray.Dataset:
-        """Outputs over the designs with their numbers as coordinates, SI."""
-        from dalembert.saving import check_installed
-        from dalembert.units import KINDS
+    # as an answer
 
-        check_installed("xarray", "a dataset")
-        import xarray
+    ROWS, FIRST = "designs", 0
 
-        values = self.study.plan.values(0, self.study.count)
-        data: dict[str, Any] = {"status": ("design", self.status.astype(str))}
+    def blocks(self, count: int) -> Iterator[slice]:
+        """The blocks of designs that are there."""
+        for b in np.flatnonzero(self.ledger[:, 0]).tolist():
+            yield slice(b * self.block, min((b + 1) * self.block, count))
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """A row a design: its numbers, status and outputs, read from the store by blocks."""
+        from dalembert.studies.output.study_columns import study_columns
+
+        return study_columns(self)
+
+    def record(self, to: Scale) -> Tree:
+        """Designs by status, and shares of those that keep the limits."""
+        return {"designs_done": int(self.done.sum()), "statuses": self.counts(), "shares": self.shares()}
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
+        """Designs by status, percentiles, worst and best, limits."""
+        from dalembert.studies.output.study_text import study_parts
+
+        return study_parts(self)
+
+    def text(self, units: UnitChoice = "file", **choice: Any) -> str:
+        """The same with histograms, as `dalembert study show` prints it."""
+        from dalembert.studies.output.study_text import summary
+
+        return summary(self)
+
+    def drawings(self, notation: Notation | None = None) -> list[Scene]:
+        """How each output of one number a design spreads."""
+        from dalembert.studies.output.study_text import output_rows
+        from dalembert.studies.output.study_views import histogram_scene
+
+        return [histogram_scene(self, row[0]) for row in output_rows(self)[1]]
+
+    def sheet(self, notation: Notation | None = None) -> Sheet:
+        """All that the designs say as a page."""
+        from dalembert.studies.output.study_report import study_sheet
+
+        return study_sheet(self)
+
+    def labelled(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
+        """Outputs over the designs, and their numbers as coordinates."""
+        values, kinds = self.study.plan.values(0, self.study.count), self.study.number_kinds
+        data: Tree = {"status": ("design", self.status.astype(str))}
         for name in self.study.outputs:
-            array = self[name]
+            array, kind = self[name], self.kinds[name]
             rest = [f"{name} axis {k}" for k in range(1, array.ndim)]
-            data[name] = (("design", *rest), array, {"units": KINDS[self.kinds[name]].si})
-        names = {path: ("design", values[:, j]) for j, path in enumerate(self.study.paths)}
-        return xarray.Dataset(data, coords=names, attrs={"title": self.study.mechanism.title or ""})
+            data[name] = (("design", *rest), to(kind, array), {"units": to.text(kind)})
+        named = [(path, kinds[path], values[:, j]) for j, path in enumerate(self.study.paths)]
+        return data, {path: ("design", to(kind, v), {"units": to.text(kind)}) for path, kind, v in named}
 
 
 def stored_study(store: Store, found: Mapping[str, Any]) -> Study:

@@ -242,10 +242,9 @@ def force_system(
 
 
 def machine(answer: Any, notation: Notation | None = None) -> Scene:
-    """Curves of a machine-design answer over the cycle: `da.shaking`, `da.balance` or `da.flywheel`."""
-    from dalembert.views.machine import scenes_of
-
-    return stack_scenes(scenes_of(answer, notation), title=answer.result.mechanism.title, width=270.0)
+    """What an answer of machine design shows over the cycle: of `da.shaking`, `da.balance` or `da.flywheel`."""
+    scene: Scene = answer.draw(notation=notation)
+    return scene
 
 
 def motion(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:

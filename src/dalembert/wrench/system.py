@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.arrays import Array, Numeric
+from dalembert.answer.answer import Drawn, Worked
+from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice, parts
+from dalembert.arrays import Array, Numeric, Tree
 from dalembert.bounds import require
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.units import Units, file_units
@@ -17,6 +20,12 @@ from dalembert.wrench import reading
 from dalembert.wrench.balance_check import Balance, balance
 from dalembert.wrench.forces import ALGEBRA, Axis, Couple, Force, moment_about, value_of
 from dalembert.wrench.reading import UnitNames, Vector, read_only
+
+if TYPE_CHECKING:
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation
+    from dalembert.views.paper.scene import Scene
 
 EXACT = 1e-9
 """Fraction of the largest force (of force times length) below which a force (a moment) counts as zero."""
@@ -63,8 +72,8 @@ class CentralAxis:
     pitch: float
 
 
-class System:
-    """Forces and couples, all planar or all spatial; ``units`` are the display units (default SI).
+class System(Drawn, Worked):
+    """Forces and couples, all of the plane or all of space; ``units`` are those it is shown in (default SI).
 
     ``points`` names places (m), for drawings and as points to take moments about.
 
@@ -147,10 +156,88 @@ class System:
         where = "plane" if self.dimension == 2 else "space"
         return f"System({len(self.forces)} forces and {len(self.couples)} couples in {where})"
 
-    def _repr_html_(self) -> str:
-        from dalembert.notebook.html_views import system_html
+    # as an answer
 
-        return system_html(self)
+    ROWS = "parts"
+
+    def compared(self) -> Tree:
+        """What equal systems share: their parts, and how they are shown."""
+        return {"parts": self.parts, "names": self.names, "units": self.units, "points": self.points}
+
+    @property
+    def described(self) -> System:
+        """Itself."""
+        return self
+
+    def basis(self) -> dict[str, str]:
+        """Title and source."""
+        return {"title": self.title or "Force system", "source": self.source}
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """A row a part: its name, force, point of application, moment."""
+        yield Column("name", WORD, np.array(self.names, object))
+        missing, turns = np.full(self.dimension, np.nan), ALGEBRA[self.dimension].n - self.dimension
+        still = np.full(turns, np.nan)
+        sides = [
+            (missing, missing, p.vector) if isinstance(p, Couple) else (p.vector, p.at, still)
+            for p in self.parts
+        ]
+        for name, kind, values in zip(
+            ("force", "at", "moment"), ("force", "length", "moment"), zip(*sides, strict=True), strict=True
+        ):
+            numbers = np.stack(values)
+            for part, of in parts(numbers[:, 0] if numbers.shape[1] == 1 else numbers):
+                yield Column(f"{name}{part}", kind, of)
+
+    def record(self, to: Scale) -> Tree:
+        """The sum of all at the origin, what it reduces to, and the equilibrium."""
+        sums, kind, held = self.reduced(), self.kind(), self.equilibrium()
+        out: Tree = {
+            "resultant": to("force", sums.force),
+            "moment_at_origin": to("moment", value_of(sums.vector)),
+            "kind": kind,
+            "equilibrium": {"holds": held.holds, "residual": held.residual, "sentence": held.sentence},
+        }
+        if kind in ("single force", "wrench"):
+            c = self.central_axis()
+            axis = {"point": to("length", c.axis.point), "direction": c.axis.direction}
+            out["central_axis"] = axis | {"moment": to("moment", c.moment), "pitch": to("length", c.pitch)}
+        return {"system": out}
+
+    about: Vector | None = None
+    """Point about which its worked solution takes moments, and at which its drawing reduces it."""
+    camera = "isometric"
+
+    def seen(self, about: Vector | None, camera: str) -> System:
+        """The same system, with moments about a point, drawn by a camera in space."""
+        self.point(about)
+        made = self._of(*self.parts)
+        made.about, made.camera = about, camera
+        return made
+
+    def text(self, units: UnitChoice = "file", **choice: Any) -> str:
+        """The worked solution as text; ``figures``: significant figures."""
+        from dalembert.views.notation import Notation
+
+        return str(self.report(Notation(units=units, **choice))).rstrip("\n")
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
+        """The parts and their sum as a table, and what they reduce to."""
+        from dalembert.wrench.system_text import system_parts
+
+        return system_parts(self, units)
+
+    def drawings(self, notation: Notation | None = None) -> list[Scene]:
+        """The forces with their resultant; in the plane with the force polygon."""
+        from dalembert.views import draw
+
+        return [draw.force_system(self, self.about, notation, self.camera)]
+
+    def sheet(self, notation: Notation | None = None) -> Sheet:
+        """The reduction in letters and numbers."""
+        from dalembert.reports.sections.force_system_solution import force_system_sheet
+
+        return force_system_sheet(self, self.about, notation)
 
     # its size
 

@@ -14,11 +14,12 @@ from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
 from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds
-from dalembert.analysis.output.columns import Scale, UnitChoice
 from dalembert.analysis.result.named_quantities import Quantity, component, names_of, quantity
 from dalembert.analysis.result.number_kinds import drive_kinds, in_plane
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
+from dalembert.answer.answer import Drawn, Labelled
+from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice, parts
 from dalembert.answer.named_answer import NamedAnswer, counted
 from dalembert.arrays import Array, Tree
 from dalembert.errors import SOLVED, STATUSES, ModelError
@@ -26,12 +27,13 @@ from dalembert.model import AtPositions, Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.paths import value_at
 from dalembert.model.quantities.parameters import Parameter
 from dalembert.progress import progress as progress_line
-from dalembert.saving import check_installed
 from dalembert.units import KINDS
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
-    import xarray
+    from dalembert.printing import Part
+    from dalembert.views.notation import Notation
+    from dalembert.views.paper.scene import Scene
 
 MANY, MOST = 500, 10_000_000
 """Designs from which on a compiled analysis pays for its tracing; and more of them than anybody means."""
@@ -233,8 +235,8 @@ def _compiled(
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Sweep(NamedAnswer):
-    """Answers with one axis per path (one for all where they are paired), then position; SI and radians.
+class Sweep(NamedAnswer, Labelled, Drawn):
+    """Answers along one axis a path (one for all where taken together), then position; SI and radians.
 
     ``s["effort.O2"]`` has the axes (values..., position), of a vector its components last; NaN where unsolved;
     ``status`` gives the reason. Where contacts reverse the numbers are those just before, ``answers.after`` has those
@@ -275,6 +277,7 @@ class Sweep(NamedAnswer):
         return list(zip(*texts, strict=True) if self.together else product(*texts))
 
     ROW = "design"
+    ROWS = "rows"
 
     @property
     def codes(self) -> Array:
@@ -340,16 +343,48 @@ class Sweep(NamedAnswer):
                     out.append((f"{said}: position {which}", code, reason or known))
         return out
 
-    def to_xarray(self, units: UnitChoice = "SI") -> xarray.Dataset:
-        """Quantities over the values of the paths, position and component, each with ``attrs["units"]``."""
-        check_installed("xarray", "a dataset")
-        import xarray
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """A row a position of each design: number of both, what is varied, drives, status, quantities, reason."""
+        count, rows = self.status.shape[-1], self.status.size
+        yield Column("design", WORD, np.repeat(np.arange(rows // count) + 1, count))
+        yield Column("position", WORD, np.tile(np.arange(count) + 1, rows // count))
+        grid = np.indices(self.shape).reshape(len(self.shape), -1)
+        for k, (path, of) in enumerate(self.labels.items()):
+            values = np.array(of.values, float if of.unit or _is_number(of.values[0]) else object)
+            kind = WORD if values.dtype == object else of.kind
+            yield Column(path, kind, np.repeat(values[grid[0 if self.together else k]], count))
+        for k, drive in enumerate(self.nominal.drives):
+            kind = drive_kinds(self.nominal, drive)["position"]
+            yield Column(f"drive.{drive}", kind, self.answers.drives[..., k].reshape(-1))
+        yield Column("status", WORD, self.status.reshape(-1))
+        for before, arrays in (("", self.answers.arrays), ("after.", self.answers.after)):
+            for name, values in arrays.items():
+                flat = values.reshape((rows, *values.shape[self.status.ndim :]))
+                for part, numbers in parts(flat):
+                    yield Column(f"{before}{name}{part}", self.kinds[name], numbers)
+        yield Column("reason", WORD, self.answers.reasons.reshape(-1))
 
-        to = Scale(None if units == "SI" else self.mechanism.units)
-        axes = ("design",) if self.together else self.paths
-        data: Tree = {"status": ((*axes, "position"), self.status.astype(str))}
+    def basis(self) -> dict[str, str]:
+        """Title, source, and what the numbers of the first design rest on."""
+        return super().basis() | self.nominal.assumptions
+
+    def record(self, to: Scale) -> Tree:
+        """What is varied, as it was given."""
+        return {"vary": {path: list(of.given) for path, of in self.labels.items()}, "together": self.together}
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
+        """A row a design: what was varied, the positions solved, the largest size of each quantity; problems."""
+        from dalembert.analysis.batch.sweep_text import sweep_parts
+
+        return sweep_parts(self, units)
+
+    def labelled(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
+        """Quantities over the values of the paths, position and component, and coordinates."""
+        over_designs = ("design",) if self.together else self.paths
+        data: Tree = {"status": ((*over_designs, "position"), self.status.astype(str))}
         for name, values in self.answers.arrays.items():
-            over = (*axes, "position", *("component", "link_axis")[: values.ndim - len(self.shape) - 1])
+            rest = ("component", "link_axis")[: values.ndim - len(self.shape) - 1]
+            over = (*over_designs, "position", *rest)
             data[name] = (over, to(self.kinds[name], values), {"units": to.text(self.kinds[name])})
         names: Tree = {"position": np.arange(1, self.status.shape[-1] + 1)}
         names["component"] = list("xyz"[: self.mechanism.dimension])
@@ -359,8 +394,12 @@ class Sweep(NamedAnswer):
         for k, drive in enumerate(self.nominal.drives):
             kind = drive_kinds(self.nominal, drive)["position"]
             values = to(kind, self.answers.drives[..., k])
-            names[f"drive_{drive}"] = ((*axes, "position"), values, {"units": to.text(kind)})
-        return xarray.Dataset(data, coords=names, attrs={"title": self.mechanism.title or ""})
+            names[f"drive_{drive}"] = ((*over_designs, "position"), values, {"units": to.text(kind)})
+        return data, names
+
+    def drawings(self, notation: Notation | None = None) -> list[Scene]:
+        """Curves over the cycle of every quantity that has one number or a size, in the units of the file."""
+        return [self.plot(name) for name, a in self.answers.arrays.items() if a.ndim - len(self.shape) < 3]
 
     def plot(self, name: str, reduce: str | None = None, ax: Any = None) -> Any:
         """Curves over the cycle, one a design; with ``reduce`` (`peak`, `mean`, `rms`) against the first path's values.
@@ -369,8 +408,3 @@ class Sweep(NamedAnswer):
         from dalembert.notebook.plots import plot_sweep
 
         return plot_sweep(self, name, reduce, ax)
-
-    def _repr_html_(self) -> str:
-        from dalembert.notebook.html_views import sweep_html
-
-        return sweep_html(self)

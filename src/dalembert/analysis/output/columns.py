@@ -1,10 +1,10 @@
-"""A result as plain columns: each number named, with its kind of unit; what all writers share."""
+"""The numbers of a result as columns and entries: each named, with its kind of unit; what its writers share."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -13,22 +13,12 @@ from dalembert.analysis.result.named_quantities import things
 from dalembert.analysis.result.number_kinds import in_plane, unknown_kinds
 from dalembert.analysis.result.quantity_catalogue import CATALOGUE, FREEDOMS, Reading, magnitude
 from dalembert.analysis.result.reaction_axes import Axes, force_and_moment, to_axes
-from dalembert.arrays import Array, Numeric
+from dalembert.answer.column import Column, parts
+from dalembert.arrays import Array
 from dalembert.model.links.link import CENTER
-from dalembert.units import KINDS, file_units
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-
-UnitChoice = Literal["SI", "file"]
-
-
-class Column(NamedTuple):
-    """One number a position: its name, its kind (a key of ``units.KINDS``) and its values in SI (P,)."""
-
-    name: str
-    kind: str
-    values: Array
 
 
 class Reaction(NamedTuple):
@@ -42,38 +32,6 @@ class Reaction(NamedTuple):
     least_norm: Array | None
 
 
-class Scale:
-    """Conversion of SI numbers to the requested units.
-
-    >>> scale = Scale(None)
-    >>> scale.text("moment"), scale("moment", 2.0)
-    ('N*m', 2.0)
-    """
-
-    def __init__(self, units: object) -> None:
-        self._units = None if units is None else file_units(units)
-
-    def bare(self, kind: str) -> bool:
-        """True if these units have one for bare numbers of this kind."""
-        return self._units is None or not self._units.refuses_bare(kind)
-
-    def text(self, kind: str) -> str:
-        """The unit of a kind of number, as text."""
-        return KINDS[kind].si if self._units is None else self._units.text(kind)
-
-    def __call__(self, kind: str, values: Numeric) -> Numeric:
-        """The values in that unit."""
-        if self._units is None:
-            return values
-        unit = self._units.unit(kind)
-        return values * unit.denominator / unit.numerator
-
-
-def scale(result: Result, units: UnitChoice) -> Scale:
-    """Scale to SI, or to the units of the file."""
-    return Scale(None if units == "SI" else result.mechanism.units)
-
-
 def reactions(result: Result, axes: Axes = "ground") -> Iterator[Reaction]:
     """The reaction of every joint on its j."""
     for joint in result.joints:
@@ -81,19 +39,6 @@ def reactions(result: Result, axes: Axes = "ground") -> Iterator[Reaction]:
         force, moment = result.reaction(joint, on, axes), result.reaction_moment(joint, on, axes)
         least = None if result.unique(joint).all() else result.least_norm(joint, on, axes)
         yield Reaction(joint, on, by, force, moment, least)
-
-
-def parts(values: Array) -> Iterator[tuple[str, Array]]:
-    """Names and values (P,) of the components of numbers (P,), vectors (P, d) or matrices (P, 3, 3).
-
-    >>> [name for name, _ in parts(np.zeros((1, 3)))]
-    ['.x', '.y', '.z']
-    """
-    if values.ndim == 1:
-        yield "", values
-        return
-    for place in np.ndindex(values.shape[1:]):
-        yield "." + "".join("xyz"[k] for k in place), values[(slice(None), *place)]
 
 
 class Entry(NamedTuple):

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,42 +14,30 @@ from dalembert.analysis.output.columns import (
     CHECKS,
     MOTION,
     Entry,
-    Scale,
-    UnitChoice,
     bounds,
     entries,
     friction_joints,
     least_norms,
-    scale,
 )
 from dalembert.analysis.result.joint_freedoms import whole_pose
 from dalembert.analysis.result.number_kinds import in_plane, unknown_kinds
 from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.answer.column import Scale, UnitChoice, nan_to_none
+from dalembert.answer.record import VERSION
 from dalembert.arrays import Array, Tree
-from dalembert.saving import new_file
-from dalembert.units import KINDS
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-BLOCK = 1024
-"""Positions turned into Python objects at once, so that few are in memory together."""
-
-
-def to_dict(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
-    """The JSON answer of the model file's contract (section 6); null where a value is missing."""
-    return {**head(result, units, axes), "positions": list(position_records(result, units, axes))}
-
-
 def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
-    """Head of the record, before the positions: title, units, assumptions, mobility."""
-    to = scale(result, units)
+    """What stands before the positions: title, units, assumptions, mobility."""
+    to = result.scale(units)
     mobility = result.mobility
     return {
-        "dalembert": 2,
+        "dalembert": VERSION,
         "title": result.mechanism.title,
-        "units": "SI" if units == "SI" else {kind: to.text(kind) for kind in KINDS if to.text(kind)},
+        "units": to.names(),
         "reaction_axes": axes,
         "friction": not result.assumptions["friction"].startswith("off"),
         "assumptions": dict(result.assumptions),
@@ -93,13 +79,13 @@ def position_records(
     result: Result, units: UnitChoice = "SI", axes: Axes = "ground", others: bool = False
 ) -> Iterator[Tree]:
     """One mapping a position, made a block at a time; ``others`` seeks the other solutions of friction."""
-    fields = _fields(result, scale(result, units), axes)
-    sought = _other_solutions(result, scale(result, units)) if others else {}
-    for start in range(0, len(result.status), BLOCK):
-        part = slice(start, start + BLOCK)
+    fields = _fields(result, result.scale(units), axes)
+    sought = _other_solutions(result, result.scale(units)) if others else {}
+    for part in result.blocks(len(result.status)):
+        groups = _transpose({name: lists(part) for name, lists in fields.items()})
         yield from (
-            _with_others(_record(result, start + k, group), sought.get(start + k))
-            for k, group in enumerate(_transpose({name: lists(part) for name, lists in fields.items()}))
+            _with_others(_record(result, k, group), sought.get(k))
+            for k, group in enumerate(groups, part.start)
         )
 
 
@@ -204,16 +190,6 @@ def _holding_ranges(ends: Lists, values: Array) -> Lists:
     return lambda part: [None if no else both for both, no in zip(ends(part), unsought[part], strict=True)]
 
 
-def nan_to_none(values: Array) -> list[object]:
-    """A list with None for NaN and infinity."""
-    finite = np.isfinite(values)
-    if finite.all():
-        return list(values.tolist())
-    out = values.astype(object)
-    out[~finite] = None
-    return list(out.tolist())
-
-
 def _transpose(lists: dict[tuple[str, ...], list[object]]) -> Iterator[dict[tuple[str, ...], object]]:
     for row in zip(*lists.values(), strict=True):
         yield dict(zip(lists, row, strict=True))
@@ -287,31 +263,3 @@ def _with_others(record: Tree, others: list[Tree] | None) -> Tree:
     if others is not None:
         record["friction"]["other_solutions"] = others
     return record
-
-
-def write_json(
-    result: Result,
-    stream: IO[str],
-    units: UnitChoice = "SI",
-    axes: Axes = "ground",
-    others: bool = False,
-) -> None:
-    """The JSON answer into an open text file, one position a line."""
-    opening = json.dumps(head(result, units, axes), ensure_ascii=False, allow_nan=False, indent=1)
-    stream.write(opening.removesuffix("\n}") + ',\n "positions": [')
-    for k, record in enumerate(position_records(result, units, axes, others)):
-        stream.write((",\n  " if k else "\n  ") + json.dumps(record, ensure_ascii=False, allow_nan=False))
-    stream.write("]}\n")
-
-
-def to_json(
-    result: Result,
-    path: str | Path,
-    overwrite: bool = False,
-    units: UnitChoice = "SI",
-    axes: Axes = "ground",
-    others: bool = False,
-) -> None:
-    """The JSON answer as a file."""
-    with new_file(path, overwrite) as temporary, open(temporary, "w", encoding="utf-8") as stream:
-        write_json(result, stream, units, axes, others)

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import scale
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import STATUSES, AnalysisError, ModelError
@@ -51,7 +50,7 @@ def _place(r: Result, at: PositionChoice) -> int:
     values = r.drive_position(r.drives[0])
     k, near = _nearest(values, wanted, kind == "angle")
     if not near:
-        shown = scale(r, "file")
+        shown = r.scale("file")
         nearest = f"{float(shown(kind, values[k])):.6g} {shown.text(kind)}"
         what = f"no position has {r.drives[0]} = {at}; the nearest is {nearest}"
         raise ModelError(what, "give the drive that position, or more positions")

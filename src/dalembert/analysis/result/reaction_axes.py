@@ -6,13 +6,14 @@ A wrench is (force, moment about j's point of the joint): three numbers in the p
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from dalembert.algebra import plane
 from dalembert.analysis.compile.pair_table import local_axes
 from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.answer.column import Axes as Axes
 from dalembert.arrays import Array, Flags
 from dalembert.core.equilibrium import shifts, unique
 from dalembert.core.gear_rows import gearings, own_axes
@@ -22,8 +23,6 @@ from dalembert.errors import ModelError
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.result.result import Result
-
-Axes = Literal["ground", "link", "joint"]
 
 PARTS = (slice(0, 3), slice(3, 6))
 """Force and moment of a wrench in space."""

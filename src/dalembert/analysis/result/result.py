@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -10,32 +10,31 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
+from dalembert.answer.answer import Drawn, Labelled, Worked
+from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice
 from dalembert.answer.named_answer import NamedAnswer
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.errors import SOLVED, ModelError
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    import pandas
-    import xarray
-
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.degree_of_freedom import Mobility
     from dalembert.analysis.result.force_arrays import Friction
     from dalembert.analysis.result.position_lookup import PositionChoice
-    from dalembert.analysis.result.reaction_axes import Axes
+    from dalembert.answer.workbook import Tab
     from dalembert.machine.harmonics import Harmonics
     from dalembert.machine.shaking import Shaking
     from dalembert.model import Schedule
+    from dalembert.printing import Part
+    from dalembert.reports import Report
     from dalembert.views.draw import View
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Result(LinkMotion, NamedAnswer):
-    """Answer of one analysis over P positions (an axis design may precede position).
+class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
+    """Answer of one analysis over P positions (a leading axis design may stand before position).
 
     Everything in SI and radians, vectors in ground axes. A reaction is exerted by a joint's other link on the requested
     link, at that link's point of the joint. NaN where unsolved; ``status`` and ``reasons`` give the reason. Where
@@ -69,12 +68,6 @@ class Result(LinkMotion, NamedAnswer):
 
     def __getstate__(self) -> Tree:
         return {f.name: getattr(self, f.name) for f in fields(self)}  # without what is kept
-
-    def __str__(self) -> str:
-        """Text printed by `dalembert solve`."""
-        from dalembert.analysis.output.summary.printed_answer import answer_text
-
-        return answer_text(self)
 
     def _repr_html_(self) -> str:
         from dalembert.notebook.html_views import result_html
@@ -345,7 +338,7 @@ class Result(LinkMotion, NamedAnswer):
 
         return harmonics(self[of], turning_angle(self), orders)
 
-    # summaries and files
+    # summaries, and what every format is made of
 
     def worst(self, quantity: Literal["effort", "reaction", "moment"], of: str) -> tuple[float, int]:
         """Largest magnitude over the positions, both sides of reversals counted, and the position (from 0) of it."""
@@ -353,45 +346,57 @@ class Result(LinkMotion, NamedAnswer):
 
         return outcome.worst(self, quantity, of)
 
-    def to_dict(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> Tree:
-        """The JSON answer of the model file's contract."""
-        from dalembert.analysis.output import export
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """Status, every number with its name and kind, and the reason of positions that are not ok."""
+        from dalembert.analysis.output.columns import columns
 
-        return export.to_dict(self, units, axes)
+        yield Column("status", WORD, self.codes)
+        yield from columns(self, axes)
+        yield Column("reason", WORD, np.array(self.reasons, object))
 
-    def to_dataframe(
-        self,
-        units: Literal["SI", "file"] = "SI",
-        axes: Axes = "ground",
-        index: Literal["position", "drives"] = "position",
-    ) -> pandas.DataFrame:
-        """One row a position, one column a quantity; ``index="drives"``: rows by the values of the drives."""
-        from dalembert.analysis.output import export
+    def basis(self) -> dict[str, str]:
+        """Title, source, assumptions and mobility."""
+        mobility = {"mobility": self.mobility.sentence if self.mobility else ""}
+        return super().basis() | self.assumptions | mobility
 
-        return export.to_dataframe(self, units, axes, index)
+    def head(self, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
+        """What stands before the positions in the JSON answer."""
+        from dalembert.analysis.output.json_record import head
 
-    def to_xarray(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> xarray.Dataset:
-        """Labelled arrays with units in their attributes."""
-        from dalembert.analysis.output import export
+        return head(self, units, axes)
 
-        return export.to_xarray(self, units, axes)
+    def records(self, units: UnitChoice = "SI", axes: Axes = "ground", **choice: Any) -> Iterator[Tree]:
+        """The positions of the JSON answer; ``others`` seeks the other solutions of friction."""
+        from dalembert.analysis.output.json_record import position_records
 
-    def to_csv(self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI") -> None:
-        """Write one row a position."""
-        from dalembert.analysis.output import export
+        return position_records(self, units, axes, **choice)
 
-        export.to_csv(self, path, overwrite=overwrite, units=units)
+    def labelled(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
+        """Labelled arrays over position, drive, joint, link and component, and coordinates."""
+        from dalembert.analysis.output.result_arrays import result_arrays
 
-    def to_xlsx(self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI") -> None:
-        """Write a workbook."""
-        from dalembert.analysis.output import export
+        return result_arrays(self, to, axes)
 
-        export.to_xlsx(self, path, overwrite=overwrite, units=units)
+    def tabs(self, units: UnitChoice = "file", axes: Axes = "ground") -> Iterator[Tab]:
+        """Positions, extremes, charts, and what the numbers rest on."""
+        from dalembert.analysis.output.worksheets import result_tabs
 
-    def to_netcdf(
-        self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI"
-    ) -> None:
-        """Write labelled arrays."""
-        from dalembert.analysis.output import export
+        return result_tabs(self, units, axes)
 
-        export.to_netcdf(self, path, overwrite=overwrite, units=units)
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Sequence[Part]:
+        """Tables, and sentences that may be empty."""
+        from dalembert.analysis.output.summary.printed_answer import answer_parts
+
+        return answer_parts(self, units, **choice)
+
+    def text(self, units: UnitChoice = "file", **choice: Any) -> str:
+        """What `dalembert solve` prints."""
+        from dalembert.analysis.output.summary.printed_answer import answer_text
+
+        return answer_text(self, units, **choice)
+
+    def report(self, notation: Notation | None = None) -> Report:
+        """The worked solution of the first position; `da.report` has those of others."""
+        from dalembert.reports import report
+
+        return report(self, notation=notation)

@@ -4,144 +4,54 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
 from dalembert.cli.options import (
+    AS_GIVEN,
     AS_IN_FILE,
     Changes,
-    Drawing,
-    Force,
     ModelFile,
+    Of,
     Positions,
-    PrintedUnits,
-    Report,
-    Static,
-    Theme,
     numeric,
     several,
     target,
     with_help,
 )
-from dalembert.cli.options import output as output_to
+from dalembert.cli.outputs import NO_LABELLED, LabelledOutputs
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
-    from dalembert.machine.output.answer import Answer
     from dalembert.model import Mechanism
 
 
-@Parameter(name="*")
-@dataclass(frozen=True)
-class Outputs:
-    """Files of an answer."""
-
-    json: Annotated[Path | None, target("Write everything as JSON; - prints only the JSON.")] = None
-    csv: Annotated[
-        Path | None, target("Write a table (CSV), one row per position; - prints only the table.")
-    ] = None
-    xlsx: Annotated[Path | None, target("Write a workbook with the table and the printed answer.")] = None
-    drawing: Drawing = None
-    report: Report = None
-    units: PrintedUnits = None
-    theme: Theme = "light"
-    force: Force = False
-
-    @property
-    def targets(self) -> dict[str, Path | None]:
-        """Kind of file -> where it goes, - for the screen."""
-        return {name: getattr(self, name) for name in ("json", "csv", "xlsx", "drawing", "report")}
-
-    def load(self, file: Path, changes: Changes) -> Mechanism:
-        """The description; targets that cannot be written are refused before the work."""
-        from dalembert.cli.model_argument import load_model
-        from dalembert.cli.solve_command import check_targets
-
-        check_targets(file, self.targets, self.force)
-        return load_model(file, changes)
-
-    def deliver(self, m: Mechanism, find: Callable[[], Any], model: Path | None = None, **choice: Any) -> Any:
-        """Find, write and print an answer of ``machine``, with a choice of what is printed, and write its mechanism to
-        the file ``model``. What is printed comes last: a pipe that closes early takes no file with it."""
-        from dalembert.machine.output import written
-
-        try:
-            answer = find()
-        except ModelError as error:
-            raise error.at_source(m.source) from None
-        units: Literal["SI", "file"] = "file" if self.units == "file" else "SI"
-        self._save(answer, units)
-        if model is not None:
-            answer.mechanism.save(model, self.force)
-        if str(self.json) == "-":
-            written.write_json(answer, sys.stdout, units)
-        elif str(self.csv) == "-":
-            written.write_csv(answer, sys.stdout, units)
-        else:
-            print(answer.text("SI" if self.units == "si" else "file", **choice))
-        for path in (*self.targets.values(), model):
-            if path is not None and str(path) != "-":
-                print(f"Written: {path}", file=sys.stderr)
-        return answer
-
-    def _save(self, answer: Answer, units: Literal["SI", "file"]) -> None:
-        """Saves every requested file."""
-        from dalembert.machine.output import written
-        from dalembert.saving import new_file
-
-        for path, write in ((self.json, written.write_json), (self.csv, written.write_csv)):
-            if path is not None and str(path) != "-":
-                with (
-                    new_file(path, self.force) as new,
-                    open(new, "w", encoding="utf-8", newline="") as stream,
-                ):
-                    write(answer, stream, units)
-        if self.xlsx is not None:
-            with new_file(self.xlsx, self.force) as new:
-                written.write_workbook(answer, new, units)
-        if self.drawing is None and self.report is None:
-            return
-        from dalembert.reports import report
-        from dalembert.views import draw
-
-        notation = draw.Notation(units="SI" if self.units == "si" else "file")
-        if self.drawing is not None:
-            draw.machine(answer, notation).save(self.drawing, self.force, self.theme)
-        if self.report is not None:
-            report(answer, notation=notation).save(self.report, self.force)
+def computed(find: Callable[[], Any], m: Mechanism) -> Any:
+    """What is found; errors name the place in the model file."""
+    try:
+        return find()
+    except ModelError as error:
+        raise error.at_source(m.source) from None
 
 
-NO_OUTPUTS = Outputs()
+def cycle_of(file: Path, of: Of, out: LabelledOutputs) -> Result:
+    """The analysis of a file, over a whole turn where it has one position; what cannot be written is refused first."""
+    from dalembert.analysis import solve
+    from dalembert.machine.whole_cycle import over_a_turn
+
+    out.check(file)
+    m = of.load(file)
+    return solve(m, static=of.static, positions=over_a_turn(m, of.positions))
 
 
-@Parameter(name="*")
-@dataclass(frozen=True)
-class Analysis(Outputs):
-    """Options of the analysis behind an answer, and its output files."""
-
-    static: Static = False
-    positions: Positions = None
-    changes: Changes = AS_IN_FILE
-
-    def of(self, file: Path) -> Result:
-        """The analysis of a file, over a full turn where it has one position."""
-        from dalembert.analysis import solve
-        from dalembert.machine.whole_cycle import over_a_turn
-
-        m = self.load(file, self.changes)
-        return solve(m, static=self.static, positions=over_a_turn(m, self.positions))
-
-    def answer(self, result: Result, find: Callable[[Result], Answer]) -> int:
-        """Computes, writes and prints an answer from an analysis."""
-        self.deliver(result.mechanism, lambda: find(result))
-        return 0
-
-
-AS_ASKED = Analysis()
+def answer(result: Result, find: Callable[[Result], Any], out: LabelledOutputs, **choice: Any) -> Any:
+    """Find, write and print what is found from an analysis."""
+    made = computed(lambda: find(result), result.mechanism)
+    out.deliver(made, **choice)
+    return made
 
 
 def number_of(r: Result, text: str | None, kind: str, option: str, key: str) -> float | None:
@@ -174,17 +84,18 @@ def shake(
     ] = None,
     links: Annotated[list[str] | None, several("Links to include, one or more (default: all).")] = None,
     orders: Annotated[int, numeric("orders", "Highest order of the harmonics.")] = 4,
-    out: Analysis = AS_ASKED,
+    of: Of = AS_GIVEN,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Shaking force and moment that the machine of FILE exerts on its foundation, with harmonics."""
     import numpy as np
 
     from dalembert.machine.shaking import shaking
 
-    result = out.of(file)
+    result = cycle_of(file, of, out)
     m = result.mechanism
-    found = out.deliver(m, lambda: shaking(result, _point(m, about), links), orders=orders)
-    if np.isfinite(found.force).all():
+    made = answer(result, lambda r: shaking(r, _point(m, about), links), out, orders=orders)
+    if np.isfinite(made.force).all():
         return 0
     from dalembert.analysis.output.summary.printed_answer import problems_text
     from dalembert.analysis.output.summary.printed_units import print_scale
@@ -208,14 +119,16 @@ def flywheel(
         numeric("Cs", "Allowed coefficient of fluctuation of speed: (max - min) / mean.", "--Cs"),
     ] = None,
     inertia: Annotated[str | None, target("Inertia of an existing flywheel, e.g. 3.5kg*m^2.")] = None,
-    out: Analysis = AS_ASKED,
+    of: Of = AS_GIVEN,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Flywheel of FILE: energy curve, inertia from Cs, or Cs from inertia, and the exact speed over the cycle."""
     from dalembert.machine.flywheel import flywheels
 
-    result = out.of(file)
+    result = cycle_of(file, of, out)
     given = number_of(result, inertia, "inertia", "inertia", "flywheel inertia")
-    return out.answer(result, lambda r: flywheels.flywheel(r, None, cs, given))
+    answer(result, lambda r: flywheels.flywheel(r, None, cs, given), out)
+    return 0
 
 
 FLYWHEEL = """Examples:
@@ -252,31 +165,26 @@ def balance(
         ),
     ] = "force",
     about: Annotated[str | None, target("Point about which moments are taken, as for shake.")] = None,
-    output: Annotated[
-        Path | None, output_to("Write the model file with the counterweights here: .yaml, .json, .toml.")
-    ] = None,
     positions: Positions = None,
     changes: Changes = AS_IN_FILE,
-    out: Outputs = NO_OUTPUTS,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Optimal counterweights on links of FILE within bounds, with a proof of optimality; rotors in two planes."""
     from dalembert.cli.machine.counterweight_argument import bounds_of, sum_of, two_planes
     from dalembert.machine.balance.balancing import balance as balanced
     from dalembert.machine.balance.rotors import balance_rotor
-    from dalembert.saving import check_new
 
-    if output is not None:
-        check_new(output, out.force)
-    m = out.load(file, changes)
+    out.check(file, ("model",))
+    m = changes.load(file)
     if planes is not None or radii is not None:
         both = two_planes(m, planes or "", radii or "", on)
-        out.deliver(m, lambda: balance_rotor(m, *both), output)
+        out.deliver(computed(lambda: balance_rotor(m, *both), m))
         return 0
     if not on:
         remedy = "write --on crank rocker, or of a rotor --planes 50mm,450mm --radii 40mm"
         raise ModelError("the links for the counterweights are missing", remedy)
     weights = dict(bounds_of(m, text) for text in on)
-    out.deliver(m, lambda: balanced(m, weights, least, sum_of(of), _point(m, about), positions), output)
+    out.deliver(computed(lambda: balanced(m, weights, least, sum_of(of), _point(m, about), positions), m))
     return 0
 
 
@@ -313,14 +221,16 @@ def simulate(
         ),
     ] = 10_000,
     changes: Changes = AS_IN_FILE,
-    out: Outputs = NO_OUTPUTS,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Motion of FILE under forces: motors, loads, springs and friction, with every joint force."""
     from dalembert.machine.motion import simulation
 
-    m, small = out.load(file, changes), tolerance or simulation.TOLERANCE
-    found = out.deliver(m, lambda: simulation.simulate(m, until, None, event or (), count, small, steps))
-    return {"ended": 0, "interrupted": 130}.get(found.status, 1)
+    out.check(file)
+    m, small = changes.load(file), tolerance or simulation.TOLERANCE
+    made = computed(lambda: simulation.simulate(m, until, None, event or (), count, small, steps), m)
+    out.deliver(made)
+    return {"ended": 0, "interrupted": 130}.get(made.status, 1)
 
 
 SIMULATE = """Examples:

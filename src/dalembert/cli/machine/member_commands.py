@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from dalembert.cli.machine.machine_commands import AS_ASKED, Analysis, number_of
-from dalembert.cli.options import ModelFile, numeric, several, target, with_help
+from dalembert.cli.machine.machine_commands import answer, cycle_of, number_of
+from dalembert.cli.options import AS_GIVEN, ModelFile, Of, numeric, several, target, with_help
+from dalembert.cli.outputs import NO_LABELLED, LabelledOutputs
 
 
 def members(
@@ -16,12 +17,14 @@ def members(
     links: Annotated[
         list[str] | None, several("Links to analyse, one or more (default: all with a length).")
     ] = None,
-    out: Analysis = AS_ASKED,
+    of: Of = AS_GIVEN,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Axial force, shear and bending moment inside links of FILE; stress, safety and buckling of their sections."""
     from dalembert.machine.members.member_table import member_table
 
-    return out.answer(out.of(file), lambda r: member_table(r, links))
+    answer(cycle_of(file, of, out), lambda r: member_table(r, links), out)
+    return 0
 
 
 MEMBERS = """Examples:
@@ -44,13 +47,15 @@ def bearings(
     ] = None,
     factor: Annotated[float, numeric("factor", "Load factor (default: 1).")] = 1.0,
     safety: Annotated[float, numeric("safety", "Minimum static safety factor C0/P0 (default: 1).")] = 1.0,
-    out: Analysis = AS_ASKED,
+    of: Of = AS_GIVEN,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Pressure, PV, equivalent load and life of the bearings of FILE; the smallest one in a table that
     reaches the required life."""
     from dalembert.machine.bearings.bearing_table import bearings as bearing_table
 
-    return out.answer(out.of(file), lambda r: bearing_table(r, joints, hours, table, factor, safety))
+    answer(cycle_of(file, of, out), lambda r: bearing_table(r, joints, hours, table, factor, safety), out)
+    return 0
 
 
 BEARINGS = """Examples:
@@ -73,16 +78,18 @@ def motor(
     rated: Annotated[
         str | None, target("Continuous torque rating, e.g. 3N*m, compared with the rms torque.")
     ] = None,
-    out: Analysis = AS_ASKED,
+    of: Of = AS_GIVEN,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Torque, speed and power required by a drive of FILE, and the gear ratio that minimises motor torque."""
     from dalembert.machine.motors import motor_choice
 
-    result = out.of(file)
+    result = cycle_of(file, of, out)
     own = number_of(result, inertia, "inertia", "inertia", "motor inertia") or 0.0
     lasting = number_of(result, rated, "moment", "rated", "rated torque")
     choice = drive, own, ratio, efficiency, curve, lasting
-    return out.answer(result, lambda r: motor_choice.motor(r, *choice))
+    answer(result, lambda r: motor_choice.motor(r, *choice), out)
+    return 0
 
 
 MOTOR = """Examples:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from dalembert.cli.options import Force, with_help
-from dalembert.cli.options import output as output_to
+from dalembert.cli.options import with_help
+from dalembert.cli.outputs import NO_LABELLED, LabelledOutputs
 
 OPTIMIZE = """Examples:
   dalembert optimize optimize.yaml
@@ -27,28 +27,15 @@ def optimize(
     file: Annotated[Path, with_help("File with model, vary, least and where: YAML, JSON or TOML.")],
     /,
     *,
-    output: Annotated[
-        Path | None, output_to("Write the model file of the best design: .yaml, .json, .toml.")
-    ] = None,
-    report: Annotated[
-        Path | None, with_help("Write a report comparing before and after: .html, .pdf, .tex or .txt.")
-    ] = None,
-    force: Force = False,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Optimise numbers of a model file within bounds and constraints."""
     from dalembert.optimization.optimize_file import optimize_file
-    from dalembert.reports import report as write_report
-    from dalembert.saving import check_new
 
-    for file_to_write in filter(None, (output, report)):
-        check_new(file_to_write, force)
-    found = optimize_file(file)
-    print(found)
-    if output is not None:
-        found.save(output, force)
-    if report is not None:
-        write_report(found).save(report, force)
-    return 0 if found.feasible else 1
+    out.check(file, ("model",))
+    best = optimize_file(file)
+    out.deliver(best)
+    return 0 if best.feasible else 1
 
 
 COMMANDS = {optimize: OPTIMIZE}

@@ -1,4 +1,4 @@
-"""`dalembert study`: run, resume, extend, show, report, design and export."""
+"""`dalembert study`: run, resume, extend, show and design."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from cyclopts import App
 
 from dalembert.cli.options import Force, flag, numeric, output, with_help
+from dalembert.cli.outputs import NO_LABELLED, LabelledOutputs
 from dalembert.errors import ModelError
 from dalembert.progress import progress
 
@@ -25,9 +26,8 @@ study = App(
   dalembert study resume pump.zarr
   dalembert study extend pump.zarr --designs 1e6
   dalembert study show pump.zarr --contributions linear
-  dalembert study report pump.zarr -o pump.html
-  dalembert study design pump.zarr 4711 -o worst.yaml
-  dalembert study export pump.zarr -o pump.csv""",
+  dalembert study show pump.zarr --report pump.html --csv pump.csv
+  dalembert study design pump.zarr 4711 -o worst.yaml""",
 )
 
 StudyFile = Annotated[Path, with_help("Study file: YAML, JSON or TOML.")]
@@ -100,6 +100,7 @@ def extend(
 
 @study.command(
     help_epilogue="Examples:\n  dalembert study show pump.zarr\n  dalembert study show pump.zarr --contributions sobol"
+    "\n  dalembert study show pump.zarr --report pump.html --netcdf pump.nc"
 )
 def show(
     store: StorePath,
@@ -112,17 +113,17 @@ def show(
         ),
     ] = None,
     unused: Annotated[bool, flag("Name numbers that do not affect any output.")] = False,
+    out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Print the summary: statuses, percentiles, histograms, worst and best designs, and the yield."""
-    from dalembert.studies.output.study_text import contributions_text, summary
+    from dalembert.studies.output.study_text import contributions_text
 
+    out.check(Path(store))
     found = _stored(store)
-    print(summary(found))
-    if contributions:
-        print("\n" + contributions_text(found.study, contributions))
+    more = [contributions_text(found.study, contributions)] if contributions else []
     if unused:
-        names = ", ".join(found.study.idle())
-        print(f"\nNumbers that change no output: {names or 'none'}")
+        more.append(f"Numbers that change no output: {', '.join(found.study.idle()) or 'none'}")
+    out.deliver(found, more="\n\n".join(more))
     return 0
 
 
@@ -144,37 +145,6 @@ def design(
     print(design_text(found, number))
     if output is not None:
         found.mechanism_of(number).save(output, force)
-    return 0
-
-
-@study.command(help_epilogue="Examples:\n  dalembert study export pump.zarr -o pump.csv")
-def export(
-    store: StorePath,
-    /,
-    *,
-    output: Annotated[Path, output("File to write, .csv or .nc (netCDF): numbers, status and outputs, SI.")],
-    force: Force = False,
-) -> int:
-    """Write all designs to one file."""
-    from dalembert.studies.output.study_export import export_study
-
-    export_study(_stored(store), output, force)
-    return 0
-
-
-@study.command(help_epilogue="Examples:\n  dalembert study report pump.zarr -o pump.html")
-def report(
-    store: StorePath,
-    /,
-    *,
-    output: Annotated[Path, output("File to write: .html, .pdf, .tex or .txt.")],
-    force: Force = False,
-) -> int:
-    """Write a report: percentiles, histograms, limits, contributions, worst case, responses, extreme designs."""
-    from dalembert.saving import check_new
-
-    check_new(output, force)
-    _stored(store).report().save(output, force)
     return 0
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from dalembert.answer.answer import Worked
+from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import answer_of
 from dalembert.grading.explanation import explain
@@ -15,6 +17,7 @@ from dalembert.grading.file_answers import describe_answer
 from dalembert.grading.marking.class_sheets import StudentSheet, class_sheets
 from dalembert.grading.marking.follow_through import LinkEquations, follow_through
 from dalembert.grading.marking.key import Asked, ExamVariant, Key, read_key
+from dalembert.grading.marking.marks_tabs import FIGURE, figures, marks_parts, marks_tabs
 from dalembert.grading.marking.rubric import Rubric, load_rubric
 from dalembert.grading.marking.student_marks import Mark, StudentMarks, named_mistakes
 from dalembert.grading.mistakes import Verdict, verdict_of
@@ -23,12 +26,23 @@ from dalembert.progress import progress
 from dalembert.wording import quote_value
 
 if TYPE_CHECKING:
+    from dalembert.answer.workbook import Tab
+    from dalembert.arrays import Tree
     from dalembert.model import Answer, Mechanism
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation
 
 
-@dataclass
-class Marks:
-    """Marks of a class."""
+SHOWN = 10
+"""Mistakes of a class that are printed."""
+
+
+@dataclass(eq=False)
+class Marks(Worked):
+    """The marks of a class: an answer with a row a figure of every student."""
+
+    ROWS = "rows"
 
     students: list[StudentMarks]
     rubric: Rubric
@@ -37,11 +51,46 @@ class Marks:
         """The mistakes that were named, those of most students first."""
         return named_mistakes(self.students)
 
-    def to_xlsx(self, path: str | Path, overwrite: bool = False) -> None:
-        """A workbook: marks, figures, mistakes, rubric."""
-        from dalembert.grading.marking.marks_workbook import write_workbook
+    def basis(self) -> dict[str, str]:
+        """Title."""
+        return {"title": "Marks"}
 
-        write_workbook(self.students, self.rubric, path, overwrite)
+    def scale(self, units: UnitChoice) -> Scale:
+        """Marks have no unit; figures are texts with their own."""
+        return Scale(None)
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """Student, variant, figure, as given and as computed, outcome, marks, why, and where it stands."""
+        rows = list(figures(self.students))
+        for k, name in enumerate(FIGURE):
+            yield Column(name, WORD, [row[k] for row in rows])
+
+    def record(self, to: Scale) -> Tree:
+        """Marks of each student, mistakes, and what could not be read."""
+        totals = {s.student: {"variant": s.variant, "marks": s.total, "of": s.most} for s in self.students}
+        unread = {s.student: s.problems for s in self.students if s.problems}
+        return {"students": totals, "mistakes": dict(self.mistakes()), "not_read": unread}
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
+        """A row a student, then the mistakes of most students."""
+        return marks_parts(self.students, SHOWN)
+
+    def text(self, units: UnitChoice = "file", **choice: Any) -> str:
+        """The same as the command prints it."""
+        return "\n\n".join(map(str, self.contents(units)))
+
+    def tabs(self, units: UnitChoice = "file", axes: Axes = "ground") -> Iterator[Tab]:
+        """Marks, figures, mistakes, what could not be read, and the rubric."""
+        return marks_tabs(self.students, self.rubric)
+
+    def sheet(self, notation: Notation | None = None) -> Sheet:
+        """Marks, all mistakes, and every figure that lost some."""
+        from dalembert.reports.machine_sections import put_parts
+        from dalembert.reports.sheet import Sheet
+
+        sheet = Sheet("Marks")
+        put_parts(sheet, marks_parts(self.students))
+        return sheet
 
     def save_feedback(self, folder: str | Path, overwrite: bool = False) -> None:
         """A text of plain sentences for each student, in a folder."""

@@ -17,7 +17,7 @@ from dalembert.machine.balance.cone_programme import minimise
 from dalembert.machine.balance.counterweights import Counterweight
 from dalembert.machine.balance.mass_columns import MassNumbers, numbers_of
 from dalembert.machine.link_axes import in_space
-from dalembert.machine.output.written import greatest, rms
+from dalembert.machine.output.sizes_over_cycle import greatest, rms
 
 NOTHING = 1e-12
 """Part of the largest effect below which a mass number has none."""

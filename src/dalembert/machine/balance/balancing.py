@@ -6,16 +6,16 @@ Mechanics: docs/theory.md 10.2.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.output.columns import Scale
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import dynamics
+from dalembert.answer.column import Scale
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
@@ -29,7 +29,7 @@ from dalembert.machine.balance.counterweights import (
     with_masses,
 )
 from dalembert.machine.balance.mass_columns import mass_columns, numbers_of
-from dalembert.machine.output.written import greatest
+from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.machine.shaking import About, Shaking, shaking
 from dalembert.machine.whole_cycle import over_a_turn, refuse_unknown
 from dalembert.model import GROUND, AtPositions, Mechanism, ModelOrPath, as_mechanism
@@ -37,6 +37,13 @@ from dalembert.wording import quote_value
 
 Least = Literal["rms", "max"]
 QUANTITIES = ("force", "moment", "torque")
+if TYPE_CHECKING:
+    from dalembert.analysis.output.summary.printed_units import Printed
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation, Shown
+    from dalembert.views.paper.scene import Scene
+
 Of = str | Mapping[str, float]
 COMPLETE = 1e-9
 """Relative force below which the balance is complete."""
@@ -64,8 +71,6 @@ class Balance(Comparison):
     leave less than this part of the value of ``of`` before; ``value``: the part that these leave; their difference is
     the ``gap``. ``residual``: difference of a re-analysis with them.
     """
-
-    NAME = "balance"
 
     result: Result = field(repr=False)
     weights: dict[str, Counterweight]
@@ -144,6 +149,24 @@ class Balance(Comparison):
             name: getattr(self, name) for name in ("value", "bound", "gap", "residual")
         }
         return {"balance": out | {"missing": self.missing()}}
+
+    def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
+        """What a person reads, in the units of a scale."""
+        from dalembert.machine.output.balance_text import balance_parts
+
+        return balance_parts(self, to, **choice)
+
+    def scenes(self, notation: Notation) -> list[Scene]:
+        """Its drawings in a notation."""
+        from dalembert.views.machine.cycle_views import balance_scenes
+
+        return balance_scenes(self, notation)
+
+    def section(self, sheet: Sheet, shown: Shown) -> None:
+        """Its equations in letters and numbers, put on a sheet."""
+        from dalembert.reports.machine_sections.design_sections import balance_section
+
+        balance_section(sheet, self, shown)
 
 
 def balance(

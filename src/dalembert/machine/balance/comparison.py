@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from dalembert.analysis.output.columns import Column, Scale
+from dalembert.answer.answer import Remade
+from dalembert.answer.column import Axes, Column, Scale
 from dalembert.arrays import Array, Tree
-from dalembert.machine.output.answer import Answer
-from dalembert.machine.output.written import greatest, rms
+from dalembert.machine.output.machine_answer import MachineAnswer
+from dalembert.machine.output.sizes_over_cycle import greatest, rms
 from dalembert.machine.shaking import Shaking
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 
-class Comparison(Answer):
+class Comparison(MachineAnswer, Remade):
     """An answer with shaking ``before`` and ``after``; of force and moment the parts of inertia are compared."""
 
     before: Shaking
@@ -40,7 +41,7 @@ class Comparison(Answer):
                 found[name] = dict(zip(("rms", "max"), sizes, strict=True))
         return out
 
-    def columns(self) -> Iterator[Column]:
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """Force, moment and torque before and after, over the positions."""
         yield from self.drive_columns()
         for name, s in (("before", self.before), ("after", self.after)):

@@ -19,7 +19,7 @@ from dalembert.analysis.methods.applied_forces import link_place
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.machine.output.written import greatest
+from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.machine.shaking import Shaking, shaking
 from dalembert.model import GROUND
 

@@ -8,18 +8,18 @@ Mechanics: docs/theory.md 10.2.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import joint_place, state
 from dalembert.analysis.methods.inertia_couples import inertia_matrix
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.output.columns import Scale
 from dalembert.analysis.result.transmission_lines import ground_points
 from dalembert.analysis.solution import dynamics
+from dalembert.answer.column import Scale
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ArgumentError, ModelError
@@ -30,7 +30,12 @@ from dalembert.machine.whole_cycle import over_a_turn
 from dalembert.model import GROUND, ModelOrPath, as_mechanism
 
 if TYPE_CHECKING:
+    from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation, Shown
+    from dalembert.views.paper.scene import Scene
 
 
 NOTHING = 1e-15
@@ -46,8 +51,6 @@ class RotorBalance(Comparison):
     3), m, and ``masses`` (2,), kg: those of the corrections at their radii, in the shaft link's axes. ``before``,
     ``after``: shaking without and with them, moments about the driven joint.
     """
-
-    NAME = "rotor"
 
     result: Result = field(repr=False)
     shaft: str
@@ -86,6 +89,24 @@ class RotorBalance(Comparison):
                 "couple": to("inertia", abs(both[1])),
             }
         return {"rotor": out | self.sizes_record(to)}
+
+    def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
+        """What a person reads, in the units of a scale."""
+        from dalembert.machine.output.rotor_text import rotor_parts
+
+        return rotor_parts(self, to, **choice)
+
+    def scenes(self, notation: Notation) -> list[Scene]:
+        """Its drawings in a notation."""
+        from dalembert.views.machine.cycle_views import rotor_scenes
+
+        return rotor_scenes(self, notation)
+
+    def section(self, sheet: Sheet, shown: Shown) -> None:
+        """Its equations in letters and numbers, put on a sheet."""
+        from dalembert.reports.machine_sections.design_sections import rotor_section
+
+        rotor_section(sheet, self, shown)
 
 
 def balance_rotor(m: ModelOrPath, planes: tuple[float, float], radii: Sequence[float]) -> RotorBalance:

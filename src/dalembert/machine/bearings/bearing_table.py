@@ -5,25 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from dalembert.analysis.output.columns import Column, Scale
+from dalembert.answer.column import Axes, Column, Scale
 from dalembert.arrays import Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.bearings.bearing_load import BearingLoad, bearing, turning_joints
 from dalembert.machine.bearings.catalogue import Row, catalogue, choose
-from dalembert.machine.output.answer import Answer
+from dalembert.machine.output.machine_answer import MachineAnswer
 
 if TYPE_CHECKING:
+    from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation, Shown
+    from dalembert.views.paper.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
-class BearingTable(Answer):
+class BearingTable(MachineAnswer):
     """Loads by joint; ``hours`` of life asked for, the load times ``factor``; ``chosen`` from a table of ``rows``."""
-
-    NAME = "bearing"
 
     result: Result = field(repr=False)
     loads: dict[str, BearingLoad]
@@ -32,7 +35,7 @@ class BearingTable(Answer):
     rows: int = 0
     chosen: dict[str, Row | None] = field(default_factory=dict)
 
-    def columns(self) -> Iterator[Column]:
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """The drives' positions; forces and turning of each joint, pressure and PV of those with a size."""
         yield from self.drive_columns()
         for joint, b in self.loads.items():
@@ -63,6 +66,24 @@ class BearingTable(Answer):
                 row = self.chosen.get(joint)
                 own["chosen"] = row.name if row else None
         return {"bearings": out, "hours": self.hours, "factor": self.factor}
+
+    def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
+        """What a person reads, in the units of a scale."""
+        from dalembert.machine.output.bearing_text import bearing_parts
+
+        return bearing_parts(self, to, **choice)
+
+    def scenes(self, notation: Notation) -> list[Scene]:
+        """Its drawings in a notation."""
+        from dalembert.views.machine.cycle_views import bearing_scenes
+
+        return bearing_scenes(self, notation)
+
+    def section(self, sheet: Sheet, shown: Shown) -> None:
+        """Its equations in letters and numbers, put on a sheet."""
+        from dalembert.reports.machine_sections.design_sections import bearing_section
+
+        bearing_section(sheet, self, shown)
 
 
 def bearings(

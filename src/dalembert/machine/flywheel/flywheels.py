@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Column, Scale
+from dalembert.answer.column import Axes, Column, Scale
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import AnalysisError
@@ -19,15 +19,20 @@ from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
 from dalembert.machine.flywheel.legendre_panels import resolve
 from dalembert.machine.flywheel.speed_fluctuation import SpeedFluctuation, inertia_for, speed_fluctuation
 from dalembert.machine.flywheel.turning_moment import TurningMoment
-from dalembert.machine.output.answer import Answer
+from dalembert.machine.output.machine_answer import MachineAnswer
 
 if TYPE_CHECKING:
+    from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation, Shown
+    from dalembert.views.paper.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
-class Flywheel(Answer):
-    """Energy curve of a drive at steady speed, the flywheel by the textbook rule, and the exact speed with it.
+class Flywheel(MachineAnswer):
+    """Energy curve of a drive at steady speed, the flywheel by the book's rule, and the exact speed with it.
 
     ``torque`` (P,) effort of the drive, ``energy`` (P,) E(q) = int (T - T_m) dq from the first position, both at the
     positions of the result; ``zeros`` where T crosses T_m, ``energies`` E at them; ``own`` the mean of the machine's
@@ -35,8 +40,6 @@ class Flywheel(Answer):
     gives exactly the required C_s (None where the inertia was given, or where it is impossible). Where E is greatest
     the machine has taken most energy, and is slowest.
     """
-
-    NAME = "flywheel"
 
     result: Result = field(repr=False)
     drive: str
@@ -73,7 +76,7 @@ class Flywheel(Answer):
         work = abs(self.mean * len(q) * (q[1] - q[0]))
         return self.size.energy / work if work > 1e-9 * self.size.energy else float("nan")
 
-    def columns(self) -> Iterator[Column]:
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """Angle, effort and energy over the positions, with the exact speed."""
         r = self.result
         yield Column(f"drive.{self.drive}", "angle", r.drive_position(self.drive))
@@ -102,6 +105,24 @@ class Flywheel(Answer):
             name: _speed_record(s, to) for name, s in (("exact", self.exact), ("for_Cs", self.exact_size))
         }
         return {"flywheel": {"drive": self.drive, **book, **exact, "reason": self.reason or None}}
+
+    def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
+        """What a person reads, in the units of a scale."""
+        from dalembert.machine.output.flywheel_text import flywheel_parts
+
+        return flywheel_parts(self, to, **choice)
+
+    def scenes(self, notation: Notation) -> list[Scene]:
+        """Its drawings in a notation."""
+        from dalembert.views.machine.cycle_views import flywheel_scenes
+
+        return flywheel_scenes(self, notation)
+
+    def section(self, sheet: Sheet, shown: Shown) -> None:
+        """Its equations in letters and numbers, put on a sheet."""
+        from dalembert.reports.machine_sections.design_sections import flywheel_section
+
+        flywheel_section(sheet, self, shown)
 
 
 def _speed_record(s: SpeedFluctuation | None, to: Scale) -> Tree | None:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Column, Scale
+from dalembert.answer.column import Column, Scale
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.core.equilibrium import UNIQUE
 from dalembert.errors import ModelError

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from dalembert.analysis.output.columns import Column, Scale
+from dalembert.answer.column import Axes, Column, Scale
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.machine.members.buckling import Buckling, stepped_column
@@ -14,18 +14,21 @@ from dalembert.machine.members.link_balance import acting
 from dalembert.machine.members.member_forces import MemberForces, forces_inside
 from dalembert.machine.members.stresses import Stresses
 from dalembert.machine.members.struts import rod_of
-from dalembert.machine.output.answer import Answer
+from dalembert.machine.output.machine_answer import MachineAnswer
 
 if TYPE_CHECKING:
+    from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation, Shown
+    from dalembert.views.paper.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
-class MemberTable(Answer):
-    """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: the reason why others are
-    missing, ``not_judged``: the reason why links with a section have no critical compression."""
-
-    NAME = "member"
+class MemberTable(MachineAnswer):
+    """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: why others are not there,
+    ``not_judged``: why links with a section have no critical compression."""
 
     result: Result = field(repr=False)
     links: dict[str, MemberForces]
@@ -40,7 +43,7 @@ class MemberTable(Answer):
         some = {which for f in self.links.values() for which in f.unknown()}
         return {which: sentence for which, _, sentence in self.result.problems() if which in some}
 
-    def columns(self) -> Iterator[Column]:
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """The drives' positions, every inner force, and the greatest stress."""
         yield from self.drive_columns()
         for link, forces in self.links.items():
@@ -93,6 +96,24 @@ class MemberTable(Answer):
             "member": b.member,
             "links": list(b.links),
         }
+
+    def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
+        """What a person reads, in the units of a scale."""
+        from dalembert.machine.output.member_text import member_parts
+
+        return member_parts(self, to, **choice)
+
+    def scenes(self, notation: Notation) -> list[Scene]:
+        """Its drawings in a notation."""
+        from dalembert.views.machine.member_views import member_scenes
+
+        return member_scenes(self, notation)
+
+    def section(self, sheet: Sheet, shown: Shown) -> None:
+        """Its equations in letters and numbers, put on a sheet."""
+        from dalembert.reports.machine_sections.member_section import member_section
+
+        member_section(sheet, self, shown)
 
 
 def _stress_record(s: Stresses, to: Scale) -> Tree:

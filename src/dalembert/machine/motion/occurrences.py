@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale
+from dalembert.answer.column import Scale
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism

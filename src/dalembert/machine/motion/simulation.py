@@ -8,16 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.output.columns import Column, Scale, columns
+from dalembert.analysis.output.columns import columns
 from dalembert.analysis.output.rounding import sizes
 from dalembert.analysis.result.closure_residual import closure_gap
 from dalembert.analysis.result.link_motion import place_of
 from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.answer.column import Axes, Column, Scale
 from dalembert.answer.named_answer import NamedAnswer, counted
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import BOUNDS, text_of
@@ -29,14 +30,19 @@ from dalembert.machine.motion.integration import Integration
 from dalembert.machine.motion.occurrences import Event, Words, read_end, say
 from dalembert.machine.motion.stepping import Limits
 from dalembert.machine.motion.stops.stop_loads import stop_effort, with_stop_loads
-from dalembert.machine.output.answer import Answer
+from dalembert.machine.output.machine_answer import MachineAnswer
 from dalembert.model import Mechanism, ModelOrPath, Schedule, as_mechanism
 from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.starting import Start, StartValue
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
+    from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation, Shown
+    from dalembert.views.paper.scene import Scene
 
 TOLERANCE = 1e-12
 """Relative tolerance of the integration, and the largest number of instants that are kept."""
@@ -50,7 +56,7 @@ these they may be nothing but rounding."""
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Simulation(NamedAnswer, Answer):
+class Simulation(NamedAnswer, MachineAnswer):
     """A motion under forces: ``result`` has every joint force at the instants ``time`` (T,), s.
 
     ``applied`` (T, D): effort in each drive's freedom, brakes and stops included; ``stop_force`` (T, D): force of the
@@ -61,7 +67,6 @@ class Simulation(NamedAnswer, Answer):
     always part of a printed or written answer.
     """
 
-    NAME = "simulation"
     ROW = "instant"
 
     schedule: Schedule = field(repr=False)
@@ -250,9 +255,9 @@ class Simulation(NamedAnswer, Answer):
         """Events whose name or sentence begins so."""
         return [e for e in self.events if e.name.startswith(name) or e.sentence.startswith(name)]
 
-    def columns(self) -> Iterator[Column]:
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """Time, all numbers of the result, works and energies."""
-        yield from columns(self.result)
+        yield from columns(self.result, axes)
         yield from self._columns_of_motion()
 
     def _columns_of_motion(self) -> Iterator[Column]:
@@ -289,6 +294,24 @@ class Simulation(NamedAnswer, Answer):
     def _event(self, e: Event, to: Scale) -> Tree:
         known = {"time": float(np.asarray(to("time", e.time))), "name": e.name, "sentence": say(e.words, to)}
         return known | ({} if np.isnan(e.lost) else {"lost": float(np.asarray(to("energy", e.lost)))})
+
+    def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
+        """What a person reads, in the units of a scale."""
+        from dalembert.machine.output.simulation_text import simulation_parts
+
+        return simulation_parts(self, to, **choice)
+
+    def scenes(self, notation: Notation) -> list[Scene]:
+        """Its drawings in a notation."""
+        from dalembert.views.machine.cycle_views import simulation_scenes
+
+        return simulation_scenes(self, notation)
+
+    def section(self, sheet: Sheet, shown: Shown) -> None:
+        """Its equations in letters and numbers, put on a sheet."""
+        from dalembert.reports.machine_sections.design_sections import simulation_section
+
+        simulation_section(sheet, self, shown)
 
 
 def simulate(

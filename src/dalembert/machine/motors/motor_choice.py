@@ -13,24 +13,29 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Column, Scale
 from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.answer.column import Axes, Column, Scale
 from dalembert.arrays import Array, Ints, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.flywheel.turning_moment import reduced_inertia
 from dalembert.machine.motors.motor_curves import read_curve
-from dalembert.machine.output.answer import Answer
+from dalembert.machine.output.machine_answer import MachineAnswer
 from dalembert.machine.whole_cycle import durations, sampling
 from dalembert.model.drives.motors import MotorCurve
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
+    from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
+    from dalembert.printing import Part
+    from dalembert.reports.sheet import Sheet
+    from dalembert.views.notation import Notation, Shown
+    from dalembert.views.paper.scene import Scene
 
 RANGE = 1e4
 """Ratios are sought so far below and above the one of least rms torque."""
@@ -49,15 +54,13 @@ class Need:
 
 
 @dataclass(frozen=True, eq=False)
-class MotorChoice(Answer):
+class MotorChoice(MachineAnswer):
     """Effort (P,) of a drive, its speed and acceleration, and the inertia (P,) of all links as seen from it.
 
     ``time`` (P,), s: duration represented by each position. ``motor_inertia`` J_m, kg m2; ``curve``: the greatest
     torque over the speed; ``rated``: the continuous torque, compared with the rms, N m. ``needs``: requirements by
     name, of ratios.
     """
-
-    NAME = "motor"
 
     result: Result = field(repr=False)
     drive: str
@@ -140,7 +143,7 @@ class MotorChoice(Answer):
             near * math.exp(minimize_scalar(peak, bounds=(-reach, reach), options={"xatol": 1e-10}).x)
         )
 
-    def columns(self) -> Iterator[Column]:
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """The drives' positions; what the drive needs, and the motor behind each ratio."""
         yield from self.drive_columns()
         kinds, drive = drive_kinds(self.result, self.drive), self.drive
@@ -166,6 +169,24 @@ class MotorChoice(Answer):
             for name, need in self.needs.items()
         }
         return {"motor": out}
+
+    def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
+        """What a person reads, in the units of a scale."""
+        from dalembert.machine.output.motor_text import motor_parts
+
+        return motor_parts(self, to, **choice)
+
+    def scenes(self, notation: Notation) -> list[Scene]:
+        """Its drawings in a notation."""
+        from dalembert.views.machine.cycle_views import motor_scenes
+
+        return motor_scenes(self, notation)
+
+    def section(self, sheet: Sheet, shown: Shown) -> None:
+        """Its equations in letters and numbers, put on a sheet."""
+        from dalembert.reports.machine_sections.design_sections import motor_section
+
+        motor_section(sheet, self, shown)
 
 
 def motor(

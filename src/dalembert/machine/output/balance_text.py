@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from dalembert.analysis.output.summary.printed_units import Printed
-from dalembert.machine.output.written import greatest
+from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.printing import Part, Table, number, remainder, round_components, wrap
 
 if TYPE_CHECKING:

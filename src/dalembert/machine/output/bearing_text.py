@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
-from dalembert.machine.output.written import greatest
+from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.machine.whole_cycle import sampled
 from dalembert.printing import Part, Table, number
 

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.number_kinds import drive_kinds
-from dalembert.machine.output.written import greatest
+from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.machine.whole_cycle import sampled
 from dalembert.printing import Part, Table, number, round_components
 

@@ -13,7 +13,7 @@ from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
 from dalembert.machine.output.balance_text import turned
-from dalembert.machine.output.written import greatest, rms
+from dalembert.machine.output.sizes_over_cycle import greatest, rms
 from dalembert.printing import Part, Table, number, remainder, round_components, wrap
 
 if TYPE_CHECKING:

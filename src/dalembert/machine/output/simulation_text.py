@@ -11,7 +11,7 @@ import numpy as np
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.machine.motion.occurrences import say
-from dalembert.machine.output.written import greatest
+from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.printing import Part, Table, number, remainder, round_components
 
 if TYPE_CHECKING:

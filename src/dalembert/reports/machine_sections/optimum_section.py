@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
 import numpy as np
 
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.optimization.optimum import Optimum
+from dalembert.optimization.pareto_front import Front
+from dalembert.optimization.synthesis import Synthesis
+from dalembert.reports.machine_sections import put_parts
 from dalembert.reports.sheet import Sheet
 from dalembert.views import draw
 from dalembert.views.charts import along
@@ -39,3 +44,24 @@ def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
     closed = [r for r in both.values() if np.isfinite(r[o.aim.of][at])]
     chart = curves_scene(x, curves, label, f"{o.aim.of} in {unit}" if unit else o.aim.of, title, angle)
     return [chart, *(draw.mechanism(r, at + 1, notation) for r in closed)]
+
+
+def front_scenes(f: Front, notation: Notation | None = None) -> list[Scene]:
+    """The second aim over the first, then the best design by each."""
+    shown = Shown(f.designs[0].after, notation or Notation())
+    x, y = (
+        (c.values * shown.value(c.kind, 1.0), f"{c.name} in {shown.unit(c.kind)}")
+        for c in islice(f.columns(), 2)
+    )
+    curve = curves_scene(x[0], {"front": y[0]}, x[1], y[1], "Front")
+    return [curve, *(draw.mechanism(o.after, notation=notation) for o in (f.designs[0], f.designs[-1]))]
+
+
+def plain_sheet(answer: Front | Synthesis, heading: str, notation: Notation | None = None) -> Sheet:
+    """The page of an answer that has no equations: what is printed, and the drawings."""
+    shown = notation or Notation()
+    sheet = Sheet(answer.described.title or heading, answer.described.source_text)
+    sheet.heading(heading)
+    put_parts(sheet, answer.contents(shown.units))
+    sheet.figure(*answer.drawings(shown))
+    return sheet

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.machine.output.written import greatest
+from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.machine.shaking import Shaking
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views.notation import Shown

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale
 from dalembert.analysis.result.named_quantities import quantity
+from dalembert.answer.column import Scale
 from dalembert.errors import ModelError
 from dalembert.printing import number
 from dalembert.reports.sheet import Sheet

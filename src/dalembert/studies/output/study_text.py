@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale
+from dalembert.answer.column import Scale
 from dalembert.errors import NUMBERED
-from dalembert.printing import number, table
+from dalembert.printing import Part, Table, number, table
 from dalembert.studies.design_study import Study
 from dalembert.studies.study_result import PERCENTILES, Difference, Failure, StudyResult
 from dalembert.studies.varied_numbers import varied_numbers
@@ -20,6 +22,18 @@ def summary(r: StudyResult) -> str:
     return "\n\n".join(
         [f"{r.study.mechanism.title}\n{heading(r)}".strip(), _statuses(r), *_outputs(r), *_limits(r)]
     )
+
+
+def study_parts(r: StudyResult) -> Iterator[Part]:
+    """Designs, their statuses, outputs and limits: sentences and tables."""
+    yield heading(r)
+    yield Table(["status", "designs", "share"], status_rows(r))
+    yield from (failure_text(r, f) for f in r.failed())
+    heads, rows = output_rows(r)
+    if rows:
+        yield Table(heads, rows, 2, " ".join(filter(None, (reduction(r), left_out(r)))))
+    if limits := limit_rows(r):
+        yield Table(["limit", "designs that keep it", "Cpk"], limits)
 
 
 def heading(r: StudyResult) -> str:

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale
+from dalembert.answer.column import Scale
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.studies.contributions import Response

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.friction.joint_friction import reversing_joints
-from dalembert.analysis.output.columns import UnitChoice, reactions
+from dalembert.analysis.output.columns import reactions
 from dalembert.analysis.output.summary.printed_friction import (
     branch_note,
     efficiency_note,
@@ -30,6 +30,7 @@ from dalembert.analysis.output.summary.printed_units import (
 )
 from dalembert.analysis.result.number_kinds import drive_kinds, in_plane, load_kind, unknown_kinds
 from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.answer.column import UnitChoice
 from dalembert.arrays import Array
 from dalembert.errors import SOLVED
 from dalembert.printing import Part, Table, number, remainder, round_components, with_unit, wrap

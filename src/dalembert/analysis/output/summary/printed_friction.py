@@ -8,9 +8,10 @@ import numpy as np
 
 from dalembert.analysis.compile.contacts import coefficient
 from dalembert.analysis.friction.joint_friction import bears_on_faces, friction_circle_radius, guide_contact
-from dalembert.analysis.output.columns import Scale, friction_joints
+from dalembert.analysis.output.columns import friction_joints
 from dalembert.analysis.output.summary.printed_units import Printed, significant
 from dalembert.analysis.result.number_kinds import unknown_kinds
+from dalembert.answer.column import Scale
 from dalembert.printing import Part, Table, number, with_unit
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale, UnitChoice
 from dalembert.analysis.output.rounding import PART, largest, sizes
 from dalembert.analysis.result.kept import kept
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
+from dalembert.answer.column import Scale, UnitChoice
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.printing import number
 

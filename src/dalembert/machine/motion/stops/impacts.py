@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import brentq, nnls
 
-from dalembert.analysis.output.columns import Scale
+from dalembert.answer.column import Scale
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.motion.actuation import Actuation, joint_stops

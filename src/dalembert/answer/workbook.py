@@ -1,4 +1,4 @@
-"""A result as a workbook: every position, extremes, native charts, what the numbers rest on.
+"""An answer as a workbook: every row, native charts, and sheets of its own.
 
 Numbers are numbers and texts are texts: a name that begins like a formula stays a name.
 """
@@ -6,22 +6,20 @@ Numbers are numbers and texts are texts: a name that begins like a formula stays
 from __future__ import annotations
 
 import math
-import sys
+import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale, UnitChoice, scale
-from dalembert.analysis.output.json_record import nan_to_none
-from dalembert.analysis.output.summary.printed_series import extremes
-from dalembert.analysis.output.summary.printed_units import Printed
-from dalembert.analysis.result.number_kinds import drive_kinds, in_plane, unknown_kinds
-from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice, nan_to_none
+from dalembert.answer.table_rows import rows
 from dalembert.arrays import Array
-from dalembert.units import KINDS
+from dalembert.errors import ModelError
+from dalembert.saving import check_installed, new_file
 
 if TYPE_CHECKING:
     from openpyxl import Workbook
@@ -29,40 +27,73 @@ if TYPE_CHECKING:
     from openpyxl.chart.axis import NumericAxis
     from openpyxl.worksheet.worksheet import Worksheet
 
-    from dalembert.analysis.result.result import Result
+    from dalembert.answer.answer import Answer
 
+MOST_ROWS = 1_048_575
+"""Rows of a worksheet, less its heading."""
 MOST_CURVES, MOST_DIAGRAMS, MOST_POINTS = 12, 6, 20_000
-"""Curves in a chart, those of the largest forces; polar diagrams; points of a curve, evenly taken from more."""
+"""Curves in a chart, the largest ones; diagrams of a sort; points of a curve, evenly taken from more."""
 WIDTH, HEIGHT = 20.0, 9.5
 """Size of a chart, cm."""
-SHOWN_UNITS = [
-    "length",
-    "angle",
-    "force",
-    "moment",
-    "mass",
-    "inertia",
-    "angular_speed",
-    "angular_acceleration",
-]
+
+
+class Tab(NamedTuple):
+    """A sheet of a workbook: rows, widths of its first columns, the cell that stays while others scroll; or charts."""
+
+    title: str
+    rows: Iterable[Sequence[object]] = ()
+    widths: Sequence[int] = ()
+    freeze: str | None = None
+    charts: Sequence[Diagram] = ()
 
 
 def write_workbook(
-    result: Result,
-    rows: Iterable[Sequence[object]],
-    about: dict[str, str],
-    path: Path,
-    units: UnitChoice,
-    axes: Axes,
+    answer: Answer, path: str | os.PathLike[str], overwrite: bool, units: UnitChoice, axes: Axes
 ) -> None:
-    """Sheets of positions (the ``rows``), extremes, charts with their numbers, assumptions, and ``about``."""
-    with new_book(path) as book:
-        add_sheet(book, "positions", rows).freeze_panes = "C2"
-        add_sheet(book, "extremes", _extremes(result, units, axes), (34, 12, 16, 12, 18, 16, 12, 18))
-        if len(result.status) > 1 and result.drives and result.stability is None:
-            _charts(book, result, units, axes)
-        add_sheet(book, "assumptions", _assumptions(result, units, axes), (24, 100))
-        add_sheet(book, "about", about.items(), (24, 100))
+    """The sheets of an answer as a file; raises ModelError for more rows than a sheet holds."""
+    check_installed("openpyxl", "a workbook")
+    count = len(next(answer.columns(axes)).values)
+    if count > MOST_ROWS:
+        what = f"{count} {answer.ROWS} do not fit a worksheet of {MOST_ROWS} rows"
+        raise ModelError(what, "write CSV or netCDF")
+    with new_file(path, overwrite) as temporary, new_book(temporary) as book:
+        for tab in answer.tabs(units, axes):
+            if tab.charts:
+                add_charts(book, tab.title, tab.charts)
+            else:
+                add_sheet(book, tab.title, tab.rows, tab.widths).freeze_panes = tab.freeze
+
+
+def answer_tabs(answer: Answer, units: UnitChoice, axes: Axes) -> Iterator[Tab]:
+    """A sheet of the rows, one of what is printed, and charts of the largest columns of each kind."""
+    yield Tab(answer.ROWS, rows(answer, units, axes), freeze="C2")
+    printed: list[Sequence[str]] = []
+    for part in answer.contents(units):
+        lines = [[part]] if isinstance(part, str) else [part.heads, *part.rows, [part.note]]
+        printed += [*([cell.replace("\n", " ") for cell in line] for line in lines), []]
+    yield Tab("answer", printed, (24,))
+    charts = column_diagrams(answer, answer.scale(units), axes)
+    if charts:
+        yield Tab("charts", charts=charts)
+
+
+def column_diagrams(answer: Answer, to: Scale, axes: Axes) -> list[Diagram]:
+    """The columns of each kind over the first drive, or over the number of the row."""
+    some = [c for c in answer.columns(axes) if c.kind != WORD]
+    count = len(some[0].values) if some else 0
+    if count < 2:
+        return []
+    every = [(c, np.asarray(c.values[:], float)) for c in some]
+    drive = next((c for c, _ in every if c.name.startswith("drive.")), None)
+    x = named(drive, to) if drive else Named(answer.ROWS[:-1], "", np.arange(count) + answer.FIRST)
+    groups: dict[str, list[Named]] = {}
+    for c, values in every:
+        if c is not drive and np.isfinite(values).any():
+            groups.setdefault(c.kind, []).append(Named(c.name, to.text(c.kind), to(c.kind, values)))
+    for group in groups.values():
+        group.sort(key=lambda of: -float(np.nan_to_num(np.abs(of.values)).max()))
+    found = (Diagram(kind.replace("_", " ").capitalize(), x, of[:MOST_CURVES]) for kind, of in groups.items())
+    return list(islice(found, MOST_DIAGRAMS))
 
 
 @contextmanager
@@ -108,36 +139,6 @@ def _text(sheet: Worksheet, text: str) -> object:
     return cell
 
 
-def _extremes(result: Result, units: UnitChoice, axes: Axes) -> Iterator[list[object]]:
-    """Largest and smallest value of each effort, unknown load and reaction, with their positions and drives."""
-    to = Printed(None if units == "SI" else result.mechanism.units)
-    kinds = {drive: drive_kinds(result, drive)["position"] for drive in result.drives}
-    places = [f"{drive} [{to.text(kind)}]" for drive, kind in kinds.items()]
-    yield ["over the positions", "unit", "largest", "position", *places, "smallest", "position", *places]
-    where = [nan_to_none(to(kind, result.drive_position(drive))) for drive, kind in kinds.items()]
-    for e in extremes(result, to, axes):
-        ends = ((e.largest, e.most), (e.smallest, e.least))
-        cells = (cell for value, k in ends for cell in (value, k + 1, *(of[k] for of in where)))
-        yield [e.name, e.unit, *cells]
-
-
-def _assumptions(result: Result, units: UnitChoice, axes: Axes) -> Iterator[tuple[str, object]]:
-    """The method, what was assumed, units, and how far the numbers can be trusted."""
-    inertia = ", with inertia forces" if result.inertia else ""
-    yield "method", f"equilibrium of all links at once, by one matrix{inertia}"
-    yield from result.assumptions.items()
-    yield "reactions", f"what the joint's first link exerts on its second, in {axes} axes"
-    to = scale(result, units)
-    yield from ((f"unit of {KINDS[kind].phrase.partition(' ')[2]}", to.text(kind)) for kind in SHOWN_UNITS)
-    yield "positions", len(result.status)
-    yield "positions solved", int(result.ok.sum())
-    for name in ("residual", "power_balance"):
-        values = np.abs(getattr(result, name))
-        largest = float(np.nanmax(values)) if np.isfinite(values).any() else None
-        yield f"largest {name.replace('_', ' ')}", largest
-    yield "program", f"dalembert {sys.modules['dalembert'].__version__}"
-
-
 # charts
 
 
@@ -150,7 +151,15 @@ class Named(NamedTuple):
 
     @property
     def head(self) -> str:
-        return f"{self.name} [{self.unit}]"
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+
+def named(c: Column, to: Scale) -> Named:
+    """A column of numbers for a chart, angles in degrees."""
+    values = np.asarray(c.values[:], float)
+    if c.kind == "angle":
+        return Named(c.name, "deg", np.degrees(values))
+    return Named(c.name, to.text(c.kind), to(c.kind, values))
 
 
 class Diagram(NamedTuple):
@@ -162,43 +171,17 @@ class Diagram(NamedTuple):
     polar: bool = False
 
 
-def _diagrams(result: Result, to: Scale, axes: Axes) -> Iterator[Diagram]:
-    """Efforts and unknown loads of one unit together, sizes of the largest joint forces, polar diagrams of pins."""
-    first = result.drives[0]
-    kind, place = drive_kinds(result, first)["position"], result.drive_position(first)
-    turned = kind == "angle"
-    x = Named(first, "deg" if turned else to.text(kind), np.degrees(place) if turned else to(kind, place))
-    asked = {
-        n: (result.effort if n in result.drives else result.unknown_load)(n) for n in unknown_kinds(result)
-    }
-    unknown = _finite(Named(n, to.text(k), to(k, asked[n])) for n, k in unknown_kinds(result).items())
-    for unit in dict.fromkeys(of.unit for of in unknown):
-        yield Diagram("Effort", x, [of for of in unknown if of.unit == unit])
-    unit = to.text("force")
-    forces = {joint: to("force", result.reaction(joint, axes=axes)) for joint in result.joints}
-    sizes = _finite(Named(joint, unit, np.linalg.norm(force, axis=-1)) for joint, force in forces.items())
-    sizes.sort(key=lambda of: -float(np.nan_to_num(of.values).max(initial=0.0)))
-    yield Diagram("Joint forces", x, sizes[:MOST_CURVES])
-    pins = [of.name for of in sizes if in_plane(result) and result.mechanism.joints[of.name].hinge]
-    for joint in pins[:MOST_DIAGRAMS]:
-        along, up = (Named(f"{joint}, force {c}", unit, forces[joint][:, k]) for k, c in enumerate("xy"))
-        yield Diagram(f"Polar diagram of {joint}", along, [up], polar=True)
-
-
-def _finite(some: Iterable[Named]) -> list[Named]:
+def with_values(some: Iterable[Named]) -> list[Named]:
     """Those that have a value somewhere."""
     return [of for of in some if np.isfinite(of.values).any()]
 
 
-def _charts(book: Workbook, result: Result, units: UnitChoice, axes: Axes) -> None:
-    """The diagrams on one sheet, their numbers on another behind it: where contacts reverse those just before."""
-    diagrams = [d for d in _diagrams(result, scale(result, units), axes) if d.curves]
-    if not diagrams:
-        return
-    sheet = book.create_sheet("charts")
+def add_charts(book: Workbook, title: str, diagrams: Sequence[Diagram]) -> None:
+    """The diagrams on one sheet, their numbers on another behind it."""
+    sheet = book.create_sheet(title)
     sheet.sheet_properties.pageSetUpPr.fitToPage, sheet.page_setup.fitToHeight = True, 0
     columns = [column for d in diagrams for column in (d.x, *d.curves)]
-    every = max(1, -(-len(result.status) // MOST_POINTS))
+    every = max(1, -(-len(columns[0].values) // MOST_POINTS))
     lists = [nan_to_none(column.values[::every]) for column in columns]
     numbers = add_sheet(book, "chart values", [[c.head for c in columns], *zip(*lists, strict=True)])
     row, column = 1, 1
@@ -215,7 +198,7 @@ def _chart(numbers: Worksheet, d: Diagram, column: int, rows: int) -> ScatterCha
 
     chart = ScatterChart(scatterStyle="lineMarker")
     chart.title, chart.width, chart.height, chart.display_blanks = d.title, WIDTH, HEIGHT, "gap"
-    label = d.curves[0].head if d.polar else f"{d.title} [{d.curves[0].unit}]"
+    label = d.curves[0].head if d.polar else d.curves[0]._replace(name=d.title).head
     for axis, text in ((chart.x_axis, d.x.head), (chart.y_axis, label)):
         axis.title, axis.delete, axis.tickLblPos, axis.number_format = text, False, "low", "General"
         axis.majorGridlines.spPr = GraphicalProperties(ln=LineProperties(solidFill="D9D9D9"))

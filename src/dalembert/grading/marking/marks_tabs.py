@@ -1,30 +1,36 @@
-"""Marks as a workbook: text stays text, whatever it begins with."""
+"""Marks as tables: to read, and as the sheets of a workbook."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
-from dalembert.analysis.output.workbook import add_sheet, new_book
+from dalembert.answer.workbook import Tab
 from dalembert.grading.marking.rubric import Rubric
 from dalembert.grading.marking.student_marks import StudentMarks, named_mistakes
-from dalembert.saving import check_installed, new_file
+from dalembert.printing import Part, Table
 
 
-def write_workbook(
-    students: Sequence[StudentMarks], rubric: Rubric, path: str | Path, overwrite: bool = False
-) -> None:
-    """Sheets of marks, figures, mistakes, unreadable parts, and the rubric."""
-    check_installed("openpyxl", "a workbook")
-    with new_file(path, overwrite) as temporary, new_book(temporary) as book:
-        for name, rows in (
-            ("marks", _marks(students)),
-            ("figures", _figures(students)),
-            ("mistakes", [("mistake", "students"), *named_mistakes(students)]),
-            ("not read", _problems(students)),
-            ("rubric", _rubric(rubric)),
-        ):
-            add_sheet(book, name, rows).freeze_panes = "B2"
+def marks_tabs(students: Sequence[StudentMarks], rubric: Rubric) -> Iterator[Tab]:
+    """Sheets of marks, figures, mistakes, what could not be read, and the rubric."""
+    for name, rows in (
+        ("marks", _marks(students)),
+        ("figures", [FIGURE, *figures(students)]),
+        ("mistakes", [("mistake", "students"), *named_mistakes(students)]),
+        ("not read", _problems(students)),
+        ("rubric", _rubric(rubric)),
+    ):
+        yield Tab(name, rows, freeze="B2")
+
+
+def marks_parts(students: Sequence[StudentMarks], most: int | None = None) -> Iterator[Part]:
+    """A row a student, then the mistakes of most students."""
+    rows = [
+        [s.student, s.variant, *(f"{x:.4g}" if s.marks else "-" for x in (s.total, s.most))] for s in students
+    ]
+    yield Table(["student", "variant", "marks", "of"], rows, 2)
+    named = [[sentence, str(count)] for sentence, count in named_mistakes(students)[:most]]
+    if named:
+        yield Table(["mistake", "students"], named)
 
 
 def _marks(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:
@@ -37,20 +43,24 @@ def _marks(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:
         yield [s.student, s.variant, round(s.total, 4), s.most, percent, *(of.get(n) for n in names)]
 
 
-def _figures(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:
-    yield [
-        "student",
-        "variant",
-        "figure",
-        "given",
-        "computed",
-        "outcome",
-        "marks",
-        "of",
-        "why",
-        "file",
-        "line",
-    ]
+FIGURE = (
+    "student",
+    "variant",
+    "figure",
+    "given",
+    "computed",
+    "outcome",
+    "marks",
+    "of",
+    "why",
+    "file",
+    "line",
+)
+"""What is kept of each figure."""
+
+
+def figures(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:
+    """A row a figure of every student."""
     for s in students:
         for m in s.marks:
             outcome = m.outcome.replace("_", " ")
