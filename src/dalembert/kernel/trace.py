@@ -132,19 +132,24 @@ class Traced:
 
 def trace(p: Problem) -> Traced:
     """Positions, motion and equilibrium of one position of one design."""
-    layout = replace(p.layout, solver=solver(p.graph))
+    layout, decided = replace(p.layout, solver=solver(p.graph)), _decided(p)
     target, apart = _with_phase(p, layout)
     placed = _trace_pose(p, layout, target, p.drives, p.path)
     if p.redundant:
         placed.open.append(_closed(p, layout, placed.pose, target))
     if p.phased:
         apart = _centres_apart(p, layout, placed)
-    return _trace_at(p, layout, placed, apart)
+    return _trace_at(p, layout, placed, [*apart, *decided])
 
 
 def trace_at(p: Problem, pose: Pose) -> Traced:
     """Motion and equilibrium of one position where the pose is known."""
-    return _trace_at(p, replace(p.layout, solver=solver(p.graph)), Placed(pose), [])
+    return _trace_at(p, replace(p.layout, solver=solver(p.graph)), Placed(pose), _decided(p))
+
+
+def _decided(p: Problem) -> list[Node]:
+    """Nodes that are negative where the description decides otherwise, as which of two wheels is inside the other."""
+    return [n for n in p.graph.decisions if n.level != CONSTANT]
 
 
 def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> Traced:
@@ -189,7 +194,6 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
             *_short(p, layout, pose),
             *_turn_count_doubt(p, layout, pose),
             *_unheld(p.graph, layout, spins, friction.total),
-            *(n for n in g.decisions if n.level != CONSTANT),
         ],
         friction=friction,
         flips=placed.flips,
