@@ -203,7 +203,7 @@ def test_more_refusals() -> None:
     with pytest.raises(da.ModelError, match="unknown axes 'joint'; use ground or link"):
         k().reaction("A", axes="joint")
     pytest.importorskip("casadi")
-    with pytest.raises(da.ModelError, match="'1 x' is not a name for a casadi Function"):
+    with pytest.raises(da.ModelError, match="'1 x' is not a valid name for a casadi Function"):
         k.to_casadi("1 x")
 
 
