@@ -145,7 +145,7 @@ def test_a_motion_that_cannot_go_on_is_undecided() -> None:
             "is not smooth",
         ),
         (("effort: 0", "motor: {stall: 4 N*m, no_load: 9 rad/s, off: 1 s}"), [], "has switches"),
-        (("effort: 0", "effort: 2*cos(O2)"), [], "goes by positions or time"),
+        (("effort: 0", "effort: 2*cos(O2)"), [], "depends on positions or time"),
         (("", ""), ["start.O4.speed"], "is no number of a drive that forces move"),
         (("", ""), ["drives.O2.position"], "vary 'start.O2.position'"),
         ((FOUR_BAR, SPRINGS), [], "forces that move M move no mass; give its links masses"),
