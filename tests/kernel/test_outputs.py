@@ -126,7 +126,7 @@ def test_names_with_signs_and_links_with_several_joints() -> None:
         ("reaction.A + 3", "write reaction.A.x or reaction.A.magnitude"),
         ("effort.O2 +", "it stops in the middle"),
         ("foo(effort.O2)", "unknown function 'foo'"),
-        ("effort.O2 effort.O2", "'effort.O2 effort.O2' ends with 'effort.O2'"),
+        ("effort.O2 effort.O2", "'effort.O2 effort.O2': unexpected 'effort.O2' at the end"),
         ("transmission.O2", "unknown output 'transmission.O2'; did you mean 'transmission.B'?"),
         ("effort.O2^0.3", "a traced value to the power 0.3"),
         ("effort.O2 + 3 bananas", "bananas"),

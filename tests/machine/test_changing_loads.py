@@ -144,7 +144,7 @@ def test_what_is_wrong_says_so_at_its_line(drive: str, load: str, sentence: str)
 def test_a_table_that_ends_too_early_and_many_designs_are_refused() -> None:
     with pytest.raises(ModelError, match=r"^text:.*from 0 s to 1 s of 'time'.*or end before"):
         da.simulate(rotor("{position: 0}", "{against: time, x: [0, 1], y: [0, 4]}"), "2 s")
-    with pytest.raises(ModelError, match="the effort of drive 'O' goes by"):
+    with pytest.raises(ModelError, match="the effort of drive 'O' depends on"):
         da.compile_motion(rotor("{effort: -O.speed N*m}"), until="1 s")
 
 

@@ -145,8 +145,8 @@ def test_a_motion_that_cannot_go_on_is_undecided() -> None:
             "is not smooth",
         ),
         (("effort: 0", "motor: {stall: 4 N*m, no_load: 9 rad/s, off: 1 s}"), [], "has switches"),
-        (("effort: 0", "effort: 2*cos(O2)"), [], "goes by positions or time"),
-        (("", ""), ["start.O4.speed"], "is no number of a drive that forces move"),
+        (("effort: 0", "effort: 2*cos(O2)"), [], "depends on positions or time"),
+        (("", ""), ["start.O4.speed"], "is not a number of a drive that forces move"),
         (("", ""), ["drives.O2.position"], "vary 'start.O2.position'"),
         ((FOUR_BAR, SPRINGS), [], "forces that move M move no mass; give its links masses"),
     ],
@@ -154,7 +154,7 @@ def test_a_motion_that_cannot_go_on_is_undecided() -> None:
 def test_what_it_cannot_do_it_says(change: tuple[str, str], vary: list[str], sentence: str) -> None:
     with pytest.raises(ModelError, match=sentence):
         da.compile_motion(da.loads(FOUR_BAR.replace(*change)), "1 s", vary)
-    with pytest.raises(ModelError, match=r"'angle\.coupler' counts whole turns"):
+    with pytest.raises(ModelError, match=r"'angle\.coupler' counts full turns"):
         da.compile_motion(da.loads(FOUR_BAR), "1 s", outputs=["angle.coupler"])
 
 

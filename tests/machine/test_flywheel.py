@@ -303,7 +303,7 @@ def test_what_has_no_flywheel_is_refused() -> None:
         da.flywheel(da.dynamics(m.with_values({"drives.O2.acceleration": 3.0}), positions=72), Cs=0.02)
     with pytest.raises(ModelError, match="not a whole number of turns"):
         da.flywheel(da.dynamics(m.with_values({"drives.O2.position": [0.0, 0.1, 0.2]})), Cs=0.02)
-    with pytest.raises(ModelError, match="a machine of one drive"):
+    with pytest.raises(ModelError, match="a machine with one drive"):
         da.flywheel(da.dynamics(da.load(examples()["two_drives"])), Cs=0.02)
 
 
