@@ -104,15 +104,16 @@ def test_a_periodic_table_goes_on_and_wakes_what_friction_holds() -> None:
     check(s)
 
 
-def test_other_analyses_take_one_position_at_time_0_and_refuse_several() -> None:
-    m = rotor("{position: 0, speed: 1 rad/s}", "5*cos(3*time)")
+def test_other_analyses_have_time_at_a_constant_speed_and_refuse_others() -> None:
+    m = rotor("{position: 0, speed: 2 rad/s}", "5*cos(3*time)")
     assert float(da.statics(m).effort("O")[0]) == pytest.approx(-5)
+    r = da.dynamics(m, positions=5)
+    assert r.effort("O") == pytest.approx(-5 * np.cos(3 * r["drive.O"] / 2))
+    slow = rotor("{position: 0, speed: 2 rad/s, acceleration: 1 rad/s^2}", "5*cos(3*time)")
     with pytest.raises(
         ModelError, match=r"^text:.*goes by time, and several positions without a law have no times"
     ):
-        da.dynamics(m, positions=5)
-    with pytest.raises(ModelError, match="time"):
-        da.compile(m, ["links.rotor.mass"])
+        da.dynamics(slow, positions=5)
 
 
 @pytest.mark.parametrize(
@@ -123,11 +124,7 @@ def test_other_analyses_take_one_position_at_time_0_and_refuse_several() -> None
             "0",
             "the effort of drive 'O' uses 'P.speed', which is no drive; there is only 'O'",
         ),
-        (
-            "{position: 0}",
-            "3*O.speed",
-            "only efforts of drives go by speed; write it as the effort of drive 'O'",
-        ),
+        ("{position: 0}", "3*P.speed", "load 'C' uses 'P.speed', which is no drive; there is only 'O'"),
         (
             "{motor: {stall: 4 N*m, no_load: 9 rad/s}, effort: 3 N*m}",
             "0",

@@ -384,6 +384,11 @@ def unit_value(x: Scalar) -> float:
     return float(x) if x in (1.0, -1.0) else 0.0
 
 
+def node(graph: Graph, x: Scalar) -> Node:
+    """A node as it is, a number as a constant."""
+    return x if isinstance(x, Node) else graph.constant(x)
+
+
 def trace_array(graph: Graph, array: object) -> Array:
     """An array of nodes: numbers become constants."""
     source = np.asarray(array)

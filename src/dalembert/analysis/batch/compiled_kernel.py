@@ -28,7 +28,7 @@ from dalembert.analysis.batch.checked_input import (
     targets,
 )
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.kernel_inputs import Course
+from dalembert.analysis.batch.tracing.course import Course
 from dalembert.analysis.batch.tracing.symbolic_model import chooses_motion
 from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule

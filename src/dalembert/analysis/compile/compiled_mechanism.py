@@ -25,7 +25,7 @@ from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
 from dalembert.model.load_types import Directed
-from dalembert.model.quantities.coordinates import SPEED, TIME
+from dalembert.model.quantities.coordinates import SPEED, TIME, parts
 from dalembert.model.quantities.values import Vector
 
 
@@ -273,9 +273,8 @@ def _setting(m: Mechanism, schedule: Schedule, found: Tree) -> Setting:
 
 
 def _drives(schedule: Schedule) -> dict[str, Array]:
-    """What changing quantities may go by: time, where a law says it, of one position 0; the drives' positions and
-    speeds."""
-    time = np.zeros(1) if schedule.time is None and schedule.count == 1 else schedule.time
+    """What changing quantities may go by: time, where it is known; the drives' positions and speeds."""
+    time = schedule.clock
     found = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
     found |= {f"{name}{SPEED}": schedule.speed[:, k] for k, name in enumerate(schedule.names)}
     return found if time is None else {TIME: time} | found
@@ -288,7 +287,7 @@ def _without_pose_loads(m: Mechanism) -> tuple[tuple[str, ...], Mechanism]:
     for name, load in m.loads.items():
         if not isinstance(load, Directed):
             continue
-        used = [n for value in load.varying for n in getattr(value, "names", ()) if "." in n]
+        used = [n for value in load.varying for n in getattr(value, "names", ()) if parts(n)]
         if used:
             one = tuple(1.0 for _ in load.value) if isinstance(load.value, tuple) else 1.0
             found |= dict.fromkeys(used)

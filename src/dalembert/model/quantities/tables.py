@@ -11,7 +11,7 @@ from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.model.quantities.expression_trees import Functions, unknown_name
 
-UNITS = {"angle": "deg", "length": "m", "time": "s"}
+UNITS = {"angle": "deg", "length": "m", "time": "s", "angular_speed": "rad/s", "speed": "m/s"}
 """Kind of a table's x -> the unit in which messages say it."""
 
 SLACK = 1e-9
