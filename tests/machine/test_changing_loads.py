@@ -138,9 +138,16 @@ def test_what_is_wrong_says_so_at_its_line(drive: str, load: str, sentence: str)
     assert sentence in str(caught.value)
 
 
-def test_a_table_that_ends_too_early_and_many_designs_are_refused() -> None:
-    with pytest.raises(ModelError, match=r"^text:.*from 0 s to 1 s of 'time'.*or end before"):
-        da.simulate(rotor("{position: 0}", "{against: time, x: [0, 1], y: [0, 4]}"), "2 s")
+@pytest.mark.parametrize(("outside", "last"), [("refuse", 4.0), ("hold", 4.0), ("zero", 0.0)])
+def test_a_table_that_ends_too_early_is_held_with_a_status_or_zero(outside: str, last: float) -> None:
+    table = f"{{against: time, x: [0, 1], y: [0, 4], outside: {outside}}}"
+    s = da.simulate(rotor("{position: 0}", table), "2 s")
+    slack = 4e-9 if outside == "zero" else 0.0  # 1e-9 of its span beyond its end it is at the end
+    assert s["drive.O.speed"][-1] == pytest.approx((2 + last + slack) / J, rel=1e-10)
+    assert set(s.result.status) == ({"ok", "outside_table"} if outside == "refuse" else {"ok"})
+
+
+def test_many_designs_of_an_effort_by_speed_are_refused() -> None:
     with pytest.raises(ModelError, match="the effort of drive 'O' goes by"):
         da.compile_motion(rotor("{effort: -O.speed N*m}"), until="1 s")
 

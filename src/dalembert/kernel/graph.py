@@ -173,6 +173,8 @@ class Graph:
         self.nominal: dict[int, Numeric] = {}
         self.samples: dict[int, Numeric] = {}
         self.decisions: list[Node] = []
+        self.outside: list[Node] = []
+        """Below zero where a table is asked for more than it has."""
         self.zero, self.one = self.constant(0.0), self.constant(1.0)
 
     def constant(self, value: SupportsFloat) -> Node:

@@ -21,7 +21,7 @@ STORED = 32
 longer: it is the stores that are waited for then."""
 PER_STORE = 12
 
-CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "slope": 12}
+CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "outside": 14, "slope": 12}
 """The mark of a position, the first of these that applies, else 0; of many positions the first too."""
 
 
@@ -33,7 +33,8 @@ class Marks:
     has no rate to tell its sense. Elsewhere ``slips``, as doubt, and so where both ``unsure`` and ``sure`` are, but for
     ``jam``, which is asked there: it surely jams. turned: friction turns the power of the unknowns round; there
     ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
-    slope (below zero, or no number): the outputs are right, but some derivative has no value.
+    outside (below zero): a table ends before. slope (below zero, or no number): the outputs are right, but some
+    derivative has no value.
     """
 
     open: tuple[Node, ...] = ()
@@ -46,12 +47,14 @@ class Marks:
     turned: tuple[Node, ...] = ()
     still: tuple[Node, ...] = ()
     locked: tuple[Node, ...] = ()
+    outside: tuple[Node, ...] = ()
     slope: tuple[Node, ...] = ()
 
     @property
     def always(self) -> list[Node]:
         """Those asked at every position."""
-        return [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned, *self.slope]
+        first = [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned]
+        return [*first, *self.outside, *self.slope]
 
     @property
     def seldom(self) -> list[Node]:
@@ -67,6 +70,7 @@ class Marks:
             "rest": self.rest,
             "jam": self.jam,
             "locked": self.turned,
+            "outside": self.outside,
             "slope": self.slope,
         }
         return [name for name, nodes in there.items() if nodes]

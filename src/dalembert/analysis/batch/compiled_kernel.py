@@ -173,6 +173,7 @@ class Kernel:
         """The program of some outputs: first values (default as many as are asked for), then derivatives."""
         found = self.trace.catalogue.traced
         marks = replace(found.friction.marks, open=tuple(found.open), doubt=tuple(found.doubt))
+        marks = replace(marks, outside=tuple(n for n in found.graph.outside if n.level != CONSTANT))
         values = sum(len(of) for of in self.nodes.values()) if values is None else values
         slope = [] if self.reduce else nodes[values:]
         known = self.trace.course.result is not None

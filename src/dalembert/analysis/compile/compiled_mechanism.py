@@ -15,6 +15,7 @@ from dalembert.analysis.compile import plane_rows as table
 from dalembert.analysis.compile.joint_rows import PlaneJoints, SpaceJoints
 from dalembert.analysis.compile.load_arrays import Setting, forcing, unknown_columns
 from dalembert.analysis.compile.pair_table import Geometry
+from dalembert.analysis.compile.table_ends import Beyond, beyond_ends
 from dalembert.arrays import Array, Tree
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Forcing
@@ -74,6 +75,7 @@ class Compiled:
     pose_turns: Mapping[str, Array] = field(
         default_factory=dict
     )  # (P,) what the count adds to angles of pose_names
+    beyond: tuple[Beyond, ...] = ()  # tables that end before some position
 
     @cached_property
     def targets(self) -> Array:
@@ -136,6 +138,7 @@ def compile_mechanism(
         forcing=forcing(setting),
         known=unknown_columns(setting, schedule, unknown),
         pose_names=pose_names,
+        beyond=beyond_ends(m, setting.drives),
         **found,
     )
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, setting_of
 from dalembert.analysis.compile.load_arrays import load_forces
+from dalembert.analysis.compile.table_ends import beyond_ends
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.core.constraints import measure, rates, system
 from dalembert.core.equilibrium import motion
@@ -63,4 +64,5 @@ def with_pose_loads(c: Compiled, found: Path) -> Compiled:
     setting = setting_of(c)
     setting = replace(setting, m=c.mechanism, drives={**setting.drives, **at})
     forces, couples = load_forces(setting)
-    return replace(c, forcing=replace(c.forcing, forces=forces, couples=couples))
+    beyond = beyond_ends(c.mechanism, setting.drives)
+    return replace(c, forcing=replace(c.forcing, forces=forces, couples=couples), beyond=beyond)

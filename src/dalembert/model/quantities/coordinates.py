@@ -41,6 +41,16 @@ def path_of(value: str) -> str:
     return long_name(word, thing) + rate if short else value
 
 
+def quantity_name(path: str) -> str:
+    """The name of a coordinate as a quantity: the other way of `path_of`.
+
+    >>> quantity_name("joints.G.slide"), quantity_name("links.rod.angle.speed"), quantity_name("O.speed")
+    ('slide.G', 'angle.rod.speed', 'O.speed')
+    """
+    found = parts(path)
+    return f"{found[2]}.{found[1]}{SPEED if is_speed(path) else ''}" if found else path
+
+
 def parts(path: str) -> tuple[str, str, str] | None:
     """The parts of `links.NAME.angle` and `joints.NAME.FREEDOM`, or of their speed; None of another name.
 

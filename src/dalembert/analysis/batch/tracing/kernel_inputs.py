@@ -104,6 +104,8 @@ class Inputs:
     def time(self) -> Node:
         """Time, of a law of motion, or as the first drive of constant speed has it."""
         s = self.course.schedule
+        if s.time is None and s.count == 1:
+            return self.graph.zero
         if s.time is None and s.clock is not None and s.began is not None:
             k = int(np.argmax((s.speed != 0).any(axis=0)))
             clock: Node = (self.motion.position[k] - float(s.began[k])) / self.motion.speed[k]

@@ -11,6 +11,8 @@ from dalembert.analysis.batch.tracing.course import Course
 from dalembert.analysis.batch.tracing.kernel_inputs import Inputs
 from dalembert.analysis.batch.tracing.outputs import Catalogue
 from dalembert.analysis.batch.tracing.symbolic_model import Number, functions, geometric, numbers, symbolic
+from dalembert.analysis.batch.tracing.traced_parameters import is_table
+from dalembert.analysis.batch.tracing.traced_tables import margins
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import coordinates, parts
 from dalembert.analysis.degree_of_freedom import check_knowns
@@ -138,6 +140,7 @@ def trace_analysis(
 def _pose_loads(inputs: Inputs, c: Compiled, known: Tree) -> Callable[[Forcing, Pose, Array], Forcing] | None:
     """Loads that go by the pose, by speeds, or by the time of a constant speed, as nodes of these."""
     graph = inputs.graph
+    _note_table_ends(inputs)
     inside = {k: v for k, v in inputs.varying.items() if k.startswith("loads.") and inputs.inside(v)}
     if not inside:
         return None
@@ -171,6 +174,14 @@ def _known(inputs: Inputs, c: Compiled, functions: Tree) -> Known:
     if not places:
         return c.known
     return replace(c.known, effort=_substituted(inputs.graph, c.known.effort, places))
+
+
+def _note_table_ends(inputs: Inputs) -> None:
+    """Note where tables over drives and time, which are computed outside, end."""
+    known = inputs.known()
+    for table in inputs.varying.values():
+        if is_table(table) and not inputs.inside(table) and table.against in known:
+            inputs.graph.outside += margins(table, known[table.against] - table.shift)
 
 
 def _substituted(graph: Graph, array: Array, places: dict[int, Node]) -> Array:

@@ -1,7 +1,8 @@
 """Tables as nodes: differentiable by what they are against, by their values, their factor and their shift.
 
 The piece is found by bisection, unrolled: each half is chosen by a flag that is 0 or 1, so that all is exact and the
-slope is that of the piece. Beyond its ends a table is in doubt: there the analyses say what it is.
+slope is that of the piece. Beyond its ends a table holds its value, with a mark where it
+refuses that.
 """
 
 from __future__ import annotations
@@ -33,6 +34,9 @@ def table_function(graph: Graph) -> Callable[[Table, Scalar], Node]:
         step, found = place - chosen[0], chosen[1]
         for coefficient in chosen[2:]:
             found = found * step + coefficient
+        if table.outside == "zero" and table.period is None:
+            below, above = _ends(table, node(graph, position) - table.shift)
+            found = found * ((1.0 - (-below).positive()) * (1.0 - (-above).positive()))
         return node(graph, found * table.times)
 
     return value
@@ -59,9 +63,19 @@ def _inside(graph: Graph, table: Table, place: Node, breaks: Array) -> Node:
         turns = (place - low) / table.period
         nearest = turns.rint()
         return place - graph.without_gradient(nearest - (nearest - turns).positive()) * table.period
-    slack = SLACK * (high - low)
-    graph.decisions.extend((place - (low - slack), (high + slack) - place))
+    graph.outside += margins(table, place)
     return -(-(place.larger(low))).larger(-high)
+
+
+def margins(table: Table, place: Node) -> list[Node]:
+    """Below zero where a position, less the shift, is outside a table that refuses that."""
+    return [] if table.period is not None or table.outside != "refuse" else _ends(table, place)
+
+
+def _ends(table: Table, place: Node) -> list[Node]:
+    low, high = table.x[0], table.x[-1]
+    slack = SLACK * (high - low)
+    return [place - (low - slack), (high + slack) - place]
 
 
 def _choose(graph: Graph, place: Node, breaks: Array, rows: Sequence[Sequence[Scalar]]) -> list[Scalar]:
