@@ -136,6 +136,10 @@ STATUSES: dict[str, Status] = {
         "Friction changes its sense here: the numbers jump from those just before to those just after.",
         "",
     ),
+    "outside_table": Status(
+        "A load is a table that ends before this position: the value at its end was used.",
+        "Give the table more points, make it periodic, or say what it is outside: hold or zero.",
+    ),
     "at_rest": Status(
         "With friction and no motion the efforts are an interval, not a number.",
         "Give a speed to choose the sense.",
@@ -146,5 +150,5 @@ STATUSES: dict[str, Status] = {
 SOLVED = ("ok", "reversal")
 """Statuses of a position that is solved; at a reversal twice, just before and just after."""
 
-NUMBERED = (*SOLVED, "self_locking")
+NUMBERED = (*SOLVED, "self_locking", "outside_table")
 """Statuses of a position whose every number is known."""

@@ -27,6 +27,20 @@ def test_solve_with_other_values(run: Run) -> None:
     assert math.dist(*m.links["crank"].points.values()) == pytest.approx(0.04)
 
 
+def test_a_parameter_that_nothing_uses_is_a_note_and_is_kept(run: Run, folder: Path) -> None:
+    text = (
+        (folder / "pump.yaml")
+        .read_text(encoding="utf-8")
+        .replace("parameters:\n", "parameters:\n  spare: 5 N\n")
+    )
+    (folder / "pump.yaml").write_text(text, encoding="utf-8")
+    line = text.splitlines().index("  spare: 5 N") + 1
+    ran = run("solve", "pump.yaml", "--set", "stroke=80mm", "--set", "spare=6N")
+    assert ran.status == 0
+    assert ran.err.startswith(f"pump.yaml:{line}: note: nothing in the file uses the parameter 'spare'")
+    assert da.load("pump.yaml").with_values({"stroke": 0.08}).parameters["spare"].value == 5.0
+
+
 @pytest.mark.parametrize("target", ["out.toml", "out.yaml"])
 def test_convert_keeps_parameters(run: Run, target: str) -> None:
     assert run("convert", "pump.yaml", "-o", target, "--set", "ratio=5").status == 0

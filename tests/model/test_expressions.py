@@ -202,16 +202,6 @@ def test_a_load_may_use_the_names_of_quantities(short: str, copies: str) -> None
     assert np.abs(full.effort("O") - none).max() > 1e-3
 
 
-@pytest.mark.parametrize("name", ["slide.B.speed", "joints.B.slide.speed", "angle.rod.speed"])
-def test_a_load_by_the_speed_of_a_joint_or_link_is_refused_by_name(name: str) -> None:
-    with pytest.raises(ModelError) as caught:
-        loads(SLIDER_CRANK.replace("COPIES", "").replace("VALUE", f"50*sign({name})"))
-    assert str(caught.value).endswith(
-        f"'50*sign({name})' uses {name!r}, and a load cannot depend on the speed of a link or a joint; "
-        "use a damper, or the effort of a drive and its speed"
-    )
-
-
 def test_over_arrays_of_any_shape() -> None:
     angle = np.linspace(0, 6, 12).reshape(3, 4)
     assert np.array_equal(

@@ -142,7 +142,7 @@ WRONG = {
     "kg: 2|mass: kg": "engine.yaml:5: parameter 'kg': its name is that of a unit; call it otherwise, for example kg_1",
     "gravity: 2|mass: gravity": "engine.yaml:5: parameter 'gravity': its name is that of a key of the file; call it "
     "otherwise, for example gravity_1",
-    "q: 2 kg|mass: rho*r": "engine.yaml:5: parameter 'q' is not used; use it in a quantity, or leave it out",
+    "q: 2 kg|mass: rho*r": None,
     "q: 2|mass: rh*r": "engine.yaml:16: mass of link 'crank': 'rh*r' uses 'rh', which is not a parameter; did you mean "
     "'rho'?",
     "q: 2|mass: 2 q": "engine.yaml:16: mass of link 'crank': '2 q' has a number beside 'q'; write 2*q",

@@ -41,15 +41,12 @@ def test_a_periodic_table_repeats_and_closes_itself() -> None:
     assert table.at({"O": place + 4 * math.pi}) == pytest.approx(table.at({"O": place}), abs=1e-12)
 
 
-def test_at_its_end_rounding_is_forgiven_and_nothing_more() -> None:
-    table = Table("O", X, Y)
-    assert table.at({"O": 4.0 + 1e-12}) == 1.0
-    with pytest.raises(ModelError) as caught:
-        table.at({"O": np.array([1.0, 4.1])})
-    assert str(caught.value) == (
-        "a table goes from 0 deg to 229.183 deg of the drive 'O', which is at 234.913 deg; "
-        "give the table more points, make it periodic, or give the drive a smaller range"
-    )
+@pytest.mark.parametrize(("outside", "there"), [("refuse", 1.0), ("hold", 1.0), ("zero", 0.0)])
+def test_at_its_end_rounding_is_forgiven_and_nothing_more(outside: str, there: float) -> None:
+    table = Table("O", X, Y, outside=outside)
+    at = np.array([4.0, 4.0 + 1e-12, 4.0 + 1e-7])
+    assert list(table.at({"O": at})) == [1.0, 1.0, there]
+    assert list(table.beyond(at)) == [False, False, outside == "refuse"]
 
 
 def test_another_evaluator_gets_the_table() -> None:

@@ -72,7 +72,9 @@ def some_positions(c: Compiled, which: Index) -> Compiled:
     time, parts = (None if x is None else x[which] for x in (s.time, s.parts))
     rates = {name: getattr(s, name)[which] for name in ("position", "speed", "acceleration")}
     loads, known = slice_forcing(c, which)
-    return replace(c, schedule=replace(s, time=time, parts=parts, **rates), forcing=loads, known=known)
+    beyond = tuple(replace(b, at=b.at[which]) for b in c.beyond)
+    some = replace(s, time=time, parts=parts, **rates)
+    return replace(c, schedule=some, forcing=loads, known=known, beyond=beyond)
 
 
 def _along(followed: Positions, path: Path, inertia: bool, forces: bool, method: Method = "auto") -> Result:

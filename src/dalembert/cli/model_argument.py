@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -17,8 +18,13 @@ if TYPE_CHECKING:
 def load_model(file: Path, changes: Changes) -> Mechanism:
     """The mechanism of a file, with what the command line says otherwise."""
     from dalembert.model import load
+    from dalembert.model.paths import unused_parameters
 
-    m = with_settings(load(file), changes.set or ())
+    m = load(file)
+    for name in unused_parameters(m):
+        line = f":{m.source.line(('parameters', name))}" if m.source else ""
+        print(f"{file}{line}: note: nothing in the file uses the parameter {name!r}", file=sys.stderr)
+    m = with_settings(m, changes.set or ())
     return m.with_values({"friction.enabled": False}) if changes.no_friction else m
 
 

@@ -172,6 +172,8 @@ class Graph:
         self.nominal: dict[int, Numeric] = {}
         self.samples: dict[int, Numeric] = {}
         self.decisions: list[Node] = []
+        self.outside: list[Node] = []
+        """Below zero where a table is asked for more than it has."""
         self.zero, self.one = self.constant(0.0), self.constant(1.0)
 
     def constant(self, value: SupportsFloat) -> Node:
@@ -381,6 +383,11 @@ def unit_value(x: Scalar) -> float:
     if type(x) is Node:
         x = x.value if x.op == "const" else 0.0
     return float(x) if x in (1.0, -1.0) else 0.0
+
+
+def node(graph: Graph, x: Scalar) -> Node:
+    """A node as it is, a number as a constant."""
+    return x if isinstance(x, Node) else graph.constant(x)
 
 
 def trace_array(graph: Graph, array: object) -> Array:

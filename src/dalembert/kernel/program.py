@@ -21,19 +21,20 @@ STORED = 32
 longer, since stores then limit the speed."""
 PER_STORE = 12
 
-CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "slope": 12}
-"""Status code of a position: the first of these that applies, else 0; of many positions the first too."""
+CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "outside": 14, "slope": 12}
+"""The mark of a position, the first of these that applies, else 0; of many positions the first too."""
 
 
 @dataclass(frozen=True)
 class Marks:
     """Nodes that decide whether the outputs are valid, each negative where it applies.
 
-    open: the linkage does not close. doubt (negative or NaN): the general executor decides. rest: no rate gives
-    friction its sense. Elsewhere ``slips`` acts as doubt, and so do ``unsure`` and ``sure`` where both are negative,
-    unless ``jam`` is negative there: then the position is proved jammed. turned: friction reverses the power of the
-    unknowns; there ``still`` acts as doubt, and ``locked``: the reversal occurs without inertia too. Without
-    ``locked``, turned is enough. slope (negative or NaN): the outputs are right, but some derivative does not exist.
+    open: the linkage does not close. doubt (below zero, or no number): the general executor decides. rest: friction
+    has no rate to tell its sense. Elsewhere ``slips``, as doubt, and so where both ``unsure`` and ``sure`` are, but for
+    ``jam``, which is asked there: it surely jams. turned: friction turns the power of the unknowns round; there
+    ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
+    outside (below zero): a table ends before. slope (below zero, or no number): the outputs are right, but some
+    derivative has no value.
     """
 
     open: tuple[Node, ...] = ()
@@ -46,12 +47,14 @@ class Marks:
     turned: tuple[Node, ...] = ()
     still: tuple[Node, ...] = ()
     locked: tuple[Node, ...] = ()
+    outside: tuple[Node, ...] = ()
     slope: tuple[Node, ...] = ()
 
     @property
     def always(self) -> list[Node]:
-        """Flags evaluated at every position."""
-        return [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned, *self.slope]
+        """Those asked at every position."""
+        first = [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned]
+        return [*first, *self.outside, *self.slope]
 
     @property
     def seldom(self) -> list[Node]:
@@ -67,6 +70,7 @@ class Marks:
             "rest": self.rest,
             "jam": self.jam,
             "locked": self.turned,
+            "outside": self.outside,
             "slope": self.slope,
         }
         return [name for name, nodes in there.items() if nodes]

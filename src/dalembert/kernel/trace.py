@@ -85,7 +85,7 @@ class Problem:
     slips: Array | None
     reversals: Array | None
     margins: dict[int, Node]
-    at_pose: Callable[[Forcing, Pose], Forcing] | None = None  # of loads that depend on the pose
+    at_pose: Callable[[Forcing, Pose, Array], Forcing] | None = None  # of loads by the pose and its rates
     moves: bool = False
     side: Node | None = None  # -1 just before reversals, 1 just after
     redundant: bool = False  # some rows repeat others
@@ -120,6 +120,7 @@ class Traced:
     friction: FrictionTrace
     flips: bool
     sources: dict[str, Source]
+    forcing: Forcing
     graph: Graph
     scale: Array
 
@@ -154,9 +155,9 @@ def _decided(p: Problem) -> list[Node]:
 
 def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> Traced:
     pose = placed.pose
-    if p.at_pose is not None:
-        p = replace(p, forcing=p.at_pose(p.forcing, pose))
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
+    if p.at_pose is not None:
+        p = replace(p, forcing=p.at_pose(p.forcing, pose, moving.twist))
     sources = known_sources(layout, p.forcing, pose, moving, p.inertia)
     s, friction = _trace_equilibrium(p, layout, pose, moving, rows, factors, sources)
     x, idle = friction.x, layout.constraints.idle
@@ -198,6 +199,7 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
         friction=friction,
         flips=placed.flips,
         sources=sources,
+        forcing=p.forcing,
         graph=g,
         scale=layout.wrench_scale,
     )

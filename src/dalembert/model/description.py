@@ -28,6 +28,7 @@ from dalembert.model.links.shapes import MassProperties
 from dalembert.model.load_types import Load, SpanLoad
 from dalembert.model.part import Part, Reading
 from dalembert.model.paths import (
+    ancestors,
     as_in_file,
     fields,
     latest,
@@ -139,7 +140,6 @@ class Mechanism(Part):
         from dalembert.model.plane_checks import problems
 
         found = problems(self)
-        found += unused_parameters(self)
         if found:
             raise together(found)
         return self
@@ -290,7 +290,9 @@ class Mechanism(Part):
         ):  # in their order: lists' lengths must agree
             found = replace_value(found, path.split("."), given[path], rules)
         if known:
-            rules = replace(rules, parameters=used_parameters(found, rules.parameters))
+            names = {*used_parameters(found, rules.parameters), *unused_parameters(self)}
+            kept = ancestors(names, rules.parameters)
+            rules = replace(rules, parameters={n: p for n, p in rules.parameters.items() if n in kept})
         changed = Mechanism.model_validate(fields(found), context=rules)
         paths = {f"parameters.{named[path]}" if path in named else path: given[path] for path in given}
         changed._source, changed._changes = self._source, latest(self._changes, paths)

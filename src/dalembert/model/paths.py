@@ -150,18 +150,10 @@ def reached(m: Any, path: str) -> list[str]:
     ]
 
 
-def unused_parameters(m: Any) -> list[ModelError]:
-    """Errors for the parameters that are not used."""
+def unused_parameters(m: Any) -> list[str]:
+    """The parameters that nothing in the description uses."""
     used = used_parameters(m, m.parameters)
-    return [
-        ModelError(
-            f"parameter {name!r} is not used",
-            "use it in a quantity, or leave it out",
-            ("parameters", name),
-        )
-        for name in m.parameters
-        if name not in used
-    ]
+    return [name for name in m.parameters if name not in used]
 
 
 @lru_cache(maxsize=64)

@@ -12,9 +12,10 @@ from dalembert.model.load_types import Couple, ForceLoad, SpanLoad, TurnLoad
 from dalembert.model.quantities.coordinates import SPEED, TIME, along_of, parts
 from dalembert.model.quantities.expression_trees import ARGUMENTS
 from dalembert.model.quantities.expressions import CONSTANTS, Expression
-from dalembert.model.quantities.tables import Table
+from dalembert.model.quantities.tables import UNITS, Table
 from dalembert.model.quantities.varying import Varying
 from dalembert.model.space_checks import assembly_problems, space_problems
+from dalembert.units import KINDS
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
@@ -225,10 +226,10 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
     drive_kinds = {name: "turn" if drive.turns else "slide" for name, drive in m.drives.items()}
     along = along_of(value.against, drive_kinds) if isinstance(value, Table) else ""
     if isinstance(value, Table) and along and along != value.along:
-        one = {"angle": "an angle", "length": "a length", "time": "a time"}
+        one = {kind: KINDS[kind].phrase for kind in UNITS}
         is_drive = value.against in m.drives
         yield ModelError(
-            f"{what} is a table whose x are {value.along}s, and "
+            f"{what} is a table whose x are {value.along.replace('_', ' ')}s, and "
             f"{'the position of drive ' if is_drive else ''}{value.against!r} is {one[along]}",
             "give x with units of that kind",
             (*path, "x"),
@@ -238,14 +239,9 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
 def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...]) -> Iterator[ModelError]:
     """Checks a name that is not a drive: it must be time, or an existing coordinate."""
     found, of = parts(name), name.removesuffix(SPEED)
-    if of in m.drives and path[0] == "drives":
-        return
     if of in m.drives:
-        remedy = f"write it as the effort of drive {of!r}, which is allowed with a motor"
-        yield ModelError(
-            f"{what} uses {name!r}, but only efforts of drives may depend on a speed", remedy, path
-        )
-    elif found is None and name != TIME:
+        return
+    if found is None and name != TIME:
         remedy = _drive_remedy(name, list(m.drives))
         yield ModelError(f"{what} uses {name!r}, which is not a drive", remedy, path)
     elif path[0] == "drives" and found:
@@ -253,9 +249,11 @@ def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...])
         yield ModelError(f"{what} uses {name!r}", remedy, path)
     elif found is None:
         moved = (x is not None for d in m.drives.values() for x in (d.law, d.motor, d.effort))
-        if not m.start and not any(moved):
-            remedy = "give a drive a law of motion, or use the drive instead of time"
-            yield ModelError(f"{what} depends on time, but no drive has a law of motion", remedy, path)
+        if not m.start and not any(moved) and not any(d.moves for d in m.drives.values()):
+            remedy = "give a drive a constant speed or a law, which says when it is where, or go by the drive"
+            yield ModelError(
+                f"{what} depends on time, but no drive has a law of motion or a speed", remedy, path
+            )
     elif found[0] == "links":
         if found[1] == GROUND or m.dimension == 3:
             why = "which does not turn" if found[1] == GROUND else "which in space is not a single number"
@@ -278,6 +276,8 @@ def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...])
 
 
 def _drive_remedy(name: str, drives: list[str]) -> str:
+    if name.startswith("links.") and name.endswith(SPEED):
+        return f"the speed of an angle is angle.{name.split('.')[1]}.speed"
     guess = closest(name, [*drives, "unknown"])
     if guess.startswith("did"):
         return guess

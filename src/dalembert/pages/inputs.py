@@ -306,7 +306,7 @@ def channel_fields(k: Kernel, names: dict[int, str], channels: list[Node]) -> li
         field: Tree = {"name": names[n.index], "values": series(values)}
         varying = inputs.varying.get(names[n.index])
         if isinstance(varying, Table):
-            breaks, pieces = varying.pieces()
+            breaks, pieces = varying.everywhere()
             field["table"] = {
                 "drive": varying.against,
                 "breaks": floats(breaks),

@@ -14,7 +14,7 @@ import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
-from dalembert.analysis.batch.tracing.kernel_inputs import Course
+from dalembert.analysis.batch.tracing.course import Course
 from dalembert.analysis.batch.tracing.traced_analysis import with_meshes
 from dalembert.analysis.positions import places_to_sample
 from dalembert.arrays import Array, Tree

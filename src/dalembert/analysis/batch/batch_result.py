@@ -34,6 +34,7 @@ CODES = (
     "overflow",
     "no_derivative",
     "reversal",
+    "outside_table",
 )
 """Statuses by the status codes of the kernel; `undecided` goes to the general executor and is not returned."""
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED, first_mark
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.kernel_inputs import Course
+from dalembert.analysis.batch.tracing.course import Course
 from dalembert.analysis.batch.tracing.symbolic_model import Number, with_numbers
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.named_quantities import quantity as read_quantity

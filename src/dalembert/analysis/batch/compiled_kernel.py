@@ -28,7 +28,7 @@ from dalembert.analysis.batch.checked_input import (
     targets,
 )
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.kernel_inputs import Course
+from dalembert.analysis.batch.tracing.course import Course
 from dalembert.analysis.batch.tracing.symbolic_model import chooses_motion
 from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
@@ -174,6 +174,7 @@ class Kernel:
         """The program of some outputs: first values (default all requested ones), then derivatives."""
         found = self.trace.catalogue.traced
         marks = replace(found.friction.marks, open=tuple(found.open), doubt=tuple(found.doubt))
+        marks = replace(marks, outside=tuple(n for n in found.graph.outside if n.level != CONSTANT))
         values = sum(len(of) for of in self.nodes.values()) if values is None else values
         slope = [] if self.reduce else nodes[values:]
         known = self.trace.course.result is not None

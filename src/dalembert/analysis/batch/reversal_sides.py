@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import BLOCK, CODES, NUMBERED, among, first_mark
 from dalembert.analysis.batch.careful_path import reduce_design
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.kernel_inputs import Course
+from dalembert.analysis.batch.tracing.course import Course
 from dalembert.arrays import Array, Ints
 
 if TYPE_CHECKING:

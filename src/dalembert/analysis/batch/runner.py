@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.batch import over_positions
-from dalembert.analysis.batch.tracing.kernel_inputs import Course, target_values
+from dalembert.analysis.batch.tracing.course import Course
+from dalembert.analysis.batch.tracing.kernel_inputs import target_values
 from dalembert.analysis.batch.tracing.traced_analysis import trace_analysis
 from dalembert.arrays import Array
 from dalembert.errors import ModelError

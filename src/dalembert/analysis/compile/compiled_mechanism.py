@@ -15,6 +15,7 @@ from dalembert.analysis.compile import plane_rows as table
 from dalembert.analysis.compile.joint_rows import PlaneJoints, SpaceJoints
 from dalembert.analysis.compile.load_arrays import Setting, forcing, unknown_columns
 from dalembert.analysis.compile.pair_table import Geometry
+from dalembert.analysis.compile.table_ends import Beyond, beyond_ends
 from dalembert.arrays import Array, Tree
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Forcing
@@ -25,7 +26,7 @@ from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
 from dalembert.model.load_types import Directed
-from dalembert.model.quantities.coordinates import SPEED, TIME
+from dalembert.model.quantities.coordinates import SPEED, TIME, parts
 from dalembert.model.quantities.values import Vector
 
 
@@ -74,6 +75,7 @@ class Compiled:
     pose_turns: Mapping[str, Array] = field(
         default_factory=dict
     )  # (P,) what the count adds to angles of pose_names
+    beyond: tuple[Beyond, ...] = ()  # tables that end before some position
 
     @cached_property
     def targets(self) -> Array:
@@ -136,6 +138,7 @@ def compile_mechanism(
         forcing=forcing(setting),
         known=unknown_columns(setting, schedule, unknown),
         pose_names=pose_names,
+        beyond=beyond_ends(m, setting.drives),
         **found,
     )
 
@@ -273,9 +276,8 @@ def _setting(m: Mechanism, schedule: Schedule, found: Tree) -> Setting:
 
 
 def _drives(schedule: Schedule) -> dict[str, Array]:
-    """Variables of changing quantities: time, where a law gives it, for one position 0; the drives' positions and
-    speeds."""
-    time = np.zeros(1) if schedule.time is None and schedule.count == 1 else schedule.time
+    """What changing quantities may go by: time, where it is known; the drives' positions and speeds."""
+    time = schedule.clock
     found = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
     found |= {f"{name}{SPEED}": schedule.speed[:, k] for k, name in enumerate(schedule.names)}
     return found if time is None else {TIME: time} | found
@@ -288,7 +290,7 @@ def _without_pose_loads(m: Mechanism) -> tuple[tuple[str, ...], Mechanism]:
     for name, load in m.loads.items():
         if not isinstance(load, Directed):
             continue
-        used = [n for value in load.varying for n in getattr(value, "names", ()) if "." in n]
+        used = [n for value in load.varying for n in getattr(value, "names", ()) if parts(n)]
         if used:
             one = tuple(1.0 for _ in load.value) if isinstance(load.value, tuple) else 1.0
             found |= dict.fromkeys(used)

@@ -33,7 +33,7 @@ from dalembert.core.position.whole_turns import (
     whole_turns,
 )
 from dalembert.errors import ModelError
-from dalembert.model.quantities.coordinates import parts
+from dalembert.model.quantities.coordinates import is_speed, parts
 
 FARTHEST = 1e4
 """Longest path to the position where turns are counted, in radians or characteristic lengths."""
@@ -68,8 +68,10 @@ def wound(c: Compiled, first: tuple[int, Pose], found: Path) -> Compiled:
 
 
 def _angle_of(c: Compiled, name: str) -> Counted | None:
-    """The angle that a coordinate of a load names; None of a length."""
+    """The angle that a coordinate of a load names; None of a length and a speed."""
     kind, of, which = parts(name) or ("", "", "")
+    if is_speed(name):
+        return None
     if kind == "links":
         return of
     row = c.freedoms.index((of, which))

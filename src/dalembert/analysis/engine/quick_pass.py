@@ -26,7 +26,8 @@ def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions
     found = ready(c, inertia)
     if found is None:
         return None
-    whole = found.program.whole and c.contacts is None and c.layout.compliance is None and not c.pose_names
+    known = not c.pose_names and not c.beyond
+    whole = found.program.whole and c.contacts is None and c.layout.compliance is None and known
     outputs = _follow(found, c, pose_only=not (forces and whole))
     if outputs is None:
         return None

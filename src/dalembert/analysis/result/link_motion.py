@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.model import Mechanism
 
+
+Rate = Literal["", "speed", "acceleration"]
+"""What of a coordinate is asked for, the value by default."""
 
 ORIGIN = "origin"
 """The point of a link where its axes begin, beside its named points and its mass centre."""
@@ -51,11 +54,30 @@ class LinkMotion:
         """Components of a force."""
         return int(self.compiled.layout.algebra.d)
 
-    def angle(self, link: str) -> Array:
-        """Angle of a link's x axis to ground's (P,), followed through full turns; in space use ``rotation``.
+    def slide(self, joint: str, rate: Rate = "") -> Array:
+        """Slide of a joint (P,), m, or its `speed` or `acceleration`: `slide.JOINT.RATE`."""
+        return self._named("slide", joint, rate)
+
+    def turn(self, joint: str, rate: Rate = "") -> Array:
+        """Turn of a joint (P,), rad, or its `speed` or `acceleration`: `turn.JOINT.RATE`."""
+        return self._named("turn", joint, rate)
+
+    def drive(self, name: str, rate: Rate = "") -> Array:
+        """Position of a drive (P,), or its `speed` or `acceleration`: `drive.NAME.RATE`."""
+        return self._named("drive", name, rate)
+
+    def _named(self, *name: str) -> Array:
+        result: Any = self
+        return np.asarray(result[".".join(filter(None, name))])
+
+    def angle(self, link: str, rate: Rate = "") -> Array:
+        """Angle of a link's x axis to ground's (P,), followed through whole turns, or its `speed` or `acceleration`; in
+        space ask ``rotation``.
 
         Where a load depends on it, the full turns are those that the load counts.
         """
+        if rate:
+            return self._named("angle", link, rate)
         if self._d == 3:
             raise ModelError(f"link {link!r} has no single angle in space", "ask its rotation")
         return np.asarray(self.turn_array[..., self._link(link)] + self._counted(f"links.{link}.angle"))
@@ -103,8 +125,10 @@ class LinkMotion:
         """Acceleration of a link's mass centre (P, 2)."""
         return self._acceleration(link, np.array(self.mechanism.center(link)))
 
-    def point(self, link: str, name: str) -> Array:
-        """A named point of a link (P, 2), ground axes."""
+    def point(self, link: str, name: str, rate: Literal["", "velocity", "acceleration"] = "") -> Array:
+        """A named point of a link (P, 2), ground axes, or its `velocity` or `acceleration`."""
+        if rate:
+            return self._named("point", link, name, rate)
         return self._place(link, self._point(link, name))
 
     def point_velocity(self, link: str, name: str) -> Array:

@@ -19,6 +19,7 @@ def bits(t: Text, program: Program, names: dict[int, str]) -> dict[str, str]:
         ("open", marks.open, "olt"),
         ("doubt", marks.doubt, "ult"),
         ("rest", marks.rest, "olt"),
+        ("outside", marks.outside, "olt"),
         ("slope", marks.slope, "ult"),
     )
     out = {name: _any(t, nodes, names, how) for name, nodes, how in asked}

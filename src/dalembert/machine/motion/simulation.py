@@ -150,7 +150,7 @@ class Simulation(NamedAnswer, MachineAnswer):
         """Difference of the efforts of the computed motion, prescribed, from those that made it: where they are numbers
         and no contact reverses."""
         r, free = self.result, self.moves.free
-        sure = np.array([s in ("ok", "self_locking", "redundant") for s in r.status])
+        sure = np.array([s in ("ok", "self_locking", "outside_table", "redundant") for s in r.status])
         if r.friction is not None:
             sure &= ~r.friction.reversing.any(axis=1)
         arm = np.where(self.moves.turns, 1.0, r.compiled.layout.length)[free]  # forces as couples

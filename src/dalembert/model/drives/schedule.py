@@ -35,6 +35,23 @@ class Schedule:
     unknown: str | None = None
     range: tuple[float, float] | None = None
     parts: Array | None = None
+    began: Array | None = None
+    """Positions (drives,) at time 0; None for the first."""
+
+    @property
+    def clock(self) -> Array | None:
+        """Time (positions,): of a law, or of the first drive that moves, at a constant speed, from where it began; 0 of
+        one position; None where it is not known."""
+        import numpy as np
+
+        driven = np.flatnonzero((self.speed != 0).any(axis=0))
+        if self.time is not None or not driven.size:
+            return np.zeros(1) if self.time is None and self.count == 1 else self.time
+        k = int(driven[0])
+        if np.ptp(self.speed[:, k]) or self.acceleration[:, k].any():
+            return np.zeros(1) if self.count == 1 else None
+        first = self.position[0] if self.began is None else self.began
+        return np.asarray((self.position[:, k] - first[k]) / self.speed[0, k])
 
     @property
     def count(self) -> int:
@@ -80,7 +97,9 @@ def schedule(drives: Mapping[str, Drive], positions: AtPositions = None) -> Sche
     position, speed, acceleration = whole
     unknown = _unknown(drives)
     span = (drives[unknown].range or (0.0, 2 * math.pi)) if unknown else None
-    return Schedule(tuple(drives), position, speed, acceleration, _time(columns), unknown, span)
+    return Schedule(
+        tuple(drives), position, speed, acceleration, _time(columns), unknown, span, None, position[0]
+    )
 
 
 def _whole(count: object) -> int:

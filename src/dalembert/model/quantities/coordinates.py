@@ -11,11 +11,12 @@ from dalembert.model.quantities.values import name
 from dalembert.wording import quote_value
 
 TIME = "time"
+SPEEDS = {"turn": "angular_speed", "slide": "speed"}
 EXAMPLES = "a drive, time, links.NAME.angle, joints.NAME.slide or joints.NAME.turn"
 
 
 SPEED = ".speed"
-"""Behind a drive's name: its speed, by which efforts of drives may go."""
+"""Behind the name of a drive or a coordinate: its speed."""
 
 
 def coordinate_name(value: object) -> str:
@@ -23,7 +24,7 @@ def coordinate_name(value: object) -> str:
     if not isinstance(value, str) or "." not in value:
         return name(value)
     path = path_of(value)
-    if "." in path and not parts(path):
+    if "." in path.removesuffix(SPEED) and not parts(path):
         raise ModelError(f"{quote_value(value)} is nothing that a table can be against", f"write {EXAMPLES}")
     return path
 
@@ -31,41 +32,64 @@ def coordinate_name(value: object) -> str:
 def path_of(value: str) -> str:
     """The path of a coordinate by the name of its quantity; any other name as it is.
 
-    >>> path_of("slide.G"), path_of("drive.O-4"), path_of("time")
-    ('joints.G.slide', 'O-4', 'time')
+    >>> path_of("slide.G"), path_of("drive.O-4"), path_of("turn.A.speed"), path_of("time")
+    ('joints.G.slide', 'O-4', 'joints.A.turn.speed', 'time')
     """
-    word, _, thing = value.partition(".")
+    word, _, rest = value.partition(".")
+    thing, rate = (rest.removesuffix(SPEED), SPEED) if rest.endswith(SPEED) else (rest, "")
     short = re.fullmatch(r"angle|drive|(?:slide|turn)[12]?", word) and thing and "." not in thing
-    return long_name(word, thing) if short else value
+    return long_name(word, thing) + rate if short else value
+
+
+def quantity_name(path: str) -> str:
+    """The name of a coordinate as a quantity: the other way of `path_of`.
+
+    >>> quantity_name("joints.G.slide"), quantity_name("links.rod.angle.speed"), quantity_name("O.speed")
+    ('slide.G', 'angle.rod.speed', 'O.speed')
+    """
+    found = parts(path)
+    return f"{found[2]}.{found[1]}{SPEED if is_speed(path) else ''}" if found else path
 
 
 def parts(path: str) -> tuple[str, str, str] | None:
-    """The parts of `links.NAME.angle` and `joints.NAME.FREEDOM`; None of another name.
+    """The parts of `links.NAME.angle` and `joints.NAME.FREEDOM`, or of their speed; None of another name.
 
-    >>> parts("links.rod.angle"), parts("O2")
-    (('links', 'rod', 'angle'), None)
+    >>> parts("links.rod.angle"), parts("joints.A.turn.speed"), parts("O2.speed")
+    (('links', 'rod', 'angle'), ('joints', 'A', 'turn'), None)
     """
-    found = path.split(".")
+    found = (path.removesuffix(SPEED) if path.count(".") == 3 else path).split(".")
     if len(found) != 3 or (found[0], found[2] == "angle") not in (("links", True), ("joints", False)):
         return None
     return found[0], found[1], found[2]
 
 
 def going_by(text: str) -> dict[str, str]:
-    """Time and the coordinates that an expression may use, with what each is: a turn, a slide, or time.
+    """Time and the coordinates that an expression may use, with what each is: a turn, a slide, its speed, or time.
 
-    >>> going_by("p*sin(links.rod.angle)")
-    {'time': 'time', 'links.rod.angle': 'turn'}
+    >>> going_by("p*sin(links.rod.angle)*(slide.G.speed > 0)")
+    {'time': 'time', 'links.rod.angle': 'turn', 'joints.G.slide.speed': 'slide speed'}
     """
-    found = re.findall(r"[^\W\d]\w*\.\w+\.\w+", long_names(text))
-    return {TIME: TIME} | {path: "slide" if ".slide" in path else "turn" for path in found if parts(path)}
+    paths = re.findall(r"[^\W\d]\w*\.\w+\.\w+(?:\.speed\b)?", long_names(text))
+    known = {path: found[2].rstrip("12").replace("angle", "turn") for path in paths if (found := parts(path))}
+    return {TIME: TIME} | {path: f"{of} speed" if is_speed(path) else of for path, of in known.items()}
+
+
+def is_speed(path: str) -> bool:
+    """True if a name is the speed of a drive or of a coordinate.
+
+    >>> [is_speed(path) for path in ("O.speed", "joints.G.slide.speed", "joints.speed.slide", "links.speed.angle")]
+    [True, True, False, False]
+    """
+    return path.endswith(SPEED) and path.count(".") in (1, 3)
 
 
 def along_of(path: str, freedoms: Mapping[str, str]) -> str:
-    """Kind of a variable: angle, length or time; empty where it is not known."""
-    if path in freedoms:
-        return "length" if freedoms[path].startswith("slide") else "angle"
+    """Whether it is an angle, a length, a speed of these or a time; empty where that is not known."""
     found = parts(path)
-    if found:
-        return "length" if found[2].startswith("slide") else "angle"
+    freedom = freedoms.get(path.removesuffix(SPEED) if is_speed(path) else path) or (
+        found[2] if found else ""
+    )
+    if freedom:
+        kind = "slide" if freedom.startswith("slide") else "turn"
+        return {"slide": "length", "turn": "angle"}[kind] if not is_speed(path) else SPEEDS[kind]
     return "time" if path == TIME else ""

@@ -6,7 +6,7 @@ sign    = {"+" | "-"} power
 power   = atom [("^" | "**") sign]          the exponent: a number from -16 to 16, without drives
 atom    = NUMBER [UNIT] | "pi" | NAME | FUNCTION "(" sum {"," sum} ")" | "(" sum [COMPARISON sum] ")"
 
-NAME is a drive, its speed (`O2.speed`), a coordinate (`time`, `links.rod.angle` or `angle.rod`) or a parameter.
+NAME is a drive, `time`, a coordinate (`links.rod.angle`, `angle.rod`), a speed of these (`O2.speed`), or a parameter.
 COMPARISON is >= <= > <, worth 1 or 0. A UNIT ends before a name and a function: `40 N*sin(O2)`.
 """
 
@@ -163,7 +163,8 @@ def units_inside(text: str, names: Iterable[str] = ()) -> bool:
     known = {*names, *ARGUMENTS, "time"} - SYMBOLS.keys()
     words = _PATH.findall(long_names(rest))
     return rest[:1].isalpha() and (
-        bool(_MORE_TERMS.search(rest)) or any(word in known or word.startswith(PATHS) for word in words)
+        bool(_MORE_TERMS.search(rest))
+        or any(word.removesuffix(".speed") in known or word.startswith(PATHS) for word in words)
     )
 
 
@@ -286,11 +287,7 @@ class _Parser:
             raise ModelError(f"the function {name} needs brackets", f"write {name}(...)")
         if "__" in name:
             raise self.refusal(name)
-        path = long_names(name)
-        if path.endswith(".speed") and path.count(".") > 1:
-            what = f"{quote_value(self.text)} uses {name!r}, and a load cannot depend on the speed of a link or a joint"
-            raise ModelError(what, "use a damper, or the effort of a drive and its speed")
-        return Name(path)
+        return Name(long_names(name))
 
     def parse_call(self, name: str, depth: int, opened: int) -> Tree:
         arguments = [self.sum(depth + 1)]

@@ -12,8 +12,12 @@ from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.model.quantities.expression_trees import Functions, unknown_name
 
-UNITS = {"angle": "deg", "length": "m", "time": "s"}
+UNITS = {"angle": "deg", "length": "m", "time": "s", "angular_speed": "rad/s", "speed": "m/s"}
 """Kind of a table's x -> the unit in which messages say it."""
+FAR = 1e9
+"""Spans of a table that it goes on beyond its ends."""
+OUTSIDE = ("refuse", "hold", "zero")
+"""What a table is beyond its ends."""
 
 SLACK = 1e-9
 """Relative to the table's span: how far outside its ends a position is still taken as the end."""
@@ -32,9 +36,10 @@ class ColumnFile:
 class Table:
     """A quantity known at `x` of `against` (radians, metres or seconds): SI values `y`, times a factor.
 
-    ``against`` is a drive, `time`, `links.NAME.angle` or a freedom of a joint, `joints.NAME.slide`. Outside its ends a
-    table has no value; with a `period` it repeats. `shift` delays it. ``of`` is the kind of y where ``times`` changes
-    it, e.g. pressure times area; ``file`` is the file of the columns.
+    ``against`` is a drive, `time`, `links.NAME.angle`, a freedom of a joint, `joints.NAME.slide`, or a speed of these.
+    ``outside`` its ends it holds the value there, is zero, or holds it and is refused by a status; with a `period` it
+    repeats. With a `shift` it comes so much later. ``of`` is the kind of y where
+    ``times`` makes another of it, a pressure times an area; ``file`` is where the columns came from.
 
     >>> Table("O2", (0.0, 1.0, 2.0), (0.0, 10.0, 0.0)).at({"O2": 0.25})
     np.float64(2.5)
@@ -50,6 +55,7 @@ class Table:
     shift: float = 0.0
     of: str = ""
     file: ColumnFile | None = field(default=None, compare=False)
+    outside: str = "refuse"
 
     def __post_init__(self) -> None:
         _check(self)
@@ -79,6 +85,27 @@ class Table:
         spline = CubicSpline(x, y, bc_type="not-a-knot" if self.period is None else "periodic")
         return x, spline.c
 
+    def everywhere(self) -> tuple[Array, Array]:
+        """The same, with a piece of 0 before and behind where it is zero outside."""
+        import numpy as np
+
+        breaks, coefficients = self.pieces()
+        if self.outside != "zero" or self.period is not None:
+            return breaks, coefficients
+        far = FAR * (breaks[-1] - breaks[0])
+        breaks = np.concatenate([[breaks[0] - far], breaks, [breaks[-1] + far]])
+        return breaks, np.pad(coefficients, ((0, 0), (1, 1)))
+
+    def beyond(self, position: ArrayLike) -> Array:
+        """Where it is asked for more than it has, and refuses that."""
+        import numpy as np
+
+        place = np.asarray(position, float) - self.shift
+        if self.period is not None or self.outside != "refuse":
+            return np.zeros(place.shape, bool)
+        slack = SLACK * (self.x[-1] - self.x[0])
+        return np.asarray((place < self.x[0] - slack) | (place > self.x[-1] + slack))
+
     def next_point(self, position: float) -> float:
         """The next of its points beyond a position, where it bends; infinite behind the last.
 
@@ -106,37 +133,23 @@ class Table:
         import numpy as np
 
         breaks, coefficients = self.pieces()
-        place = self._inside(np.asarray(position, float) - self.shift, breaks[0], breaks[-1])
+        low, high = breaks[0], breaks[-1]
+        given = np.asarray(position, float) - self.shift
+        place = np.clip(given, low, high) if self.period is None else low + np.mod(given - low, self.period)
         piece = np.clip(np.searchsorted(breaks, place, "right") - 1, 0, len(breaks) - 2)
         step, value = place - breaks[piece], np.zeros(place.shape)
         for row in coefficients:
             value = value * step + row[piece]
+        if self.outside == "zero" and self.period is None:
+            value = np.where(np.abs(given - place) > SLACK * (high - low), 0.0, value)
         return value[()]
 
-    def _inside(self, position: Array, low: float, high: float) -> Array:
-        import numpy as np
 
-        if self.period is not None:
-            return low + np.mod(position - low, self.period)
-        slack = SLACK * (high - low)
-        outside = (position < low - slack) | (position > high + slack)
-        if outside.any():
-            first, last, here = (
-                self._describe(x + self.shift) for x in (low, high, position[outside].ravel()[0])
-            )
-            what = "" if "." in self.against or self.along == "time" else "the drive "
-            shorter = "end before" if self.along == "time" else "give the drive a smaller range"
-            raise ModelError(
-                f"a table goes from {first} to {last} of {what}{self.against!r}, which is at {here}",
-                f"give the table more points, make it periodic, or {shorter}",
-            )
-        return np.clip(position, low, high)
+def _describe(table: Table, position: float) -> str:
+    import math
 
-    def _describe(self, position: float) -> str:
-        import math
-
-        number = math.degrees(position) if self.along == "angle" else position
-        return f"{number:.6g} {UNITS[self.along]}"
+    number = math.degrees(position) if table.along == "angle" else position
+    return f"{number:.6g} {UNITS[table.along]}"
 
 
 def _check(table: Table) -> None:
@@ -161,7 +174,7 @@ def _check_period(table: Table) -> None:
     span = table.x[-1] - table.x[0]
     if not table.period > 0 or span > table.period * (1 + SLACK):
         raise ModelError(
-            f"a periodic table goes over {table._describe(span)} and repeats after {table._describe(table.period)}",
+            f"a periodic table goes over {_describe(table, span)} and repeats after {_describe(table, table.period)}",
             "leave out the points beyond one period, or give a longer one, as in `periodic: 20 mm` or `720 deg`",
             ("periodic",),
         )

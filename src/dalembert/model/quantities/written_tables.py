@@ -13,7 +13,7 @@ from dalembert.model.part import Reading, mapping
 from dalembert.model.quantities.coordinates import along_of, coordinate_name
 from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.parameters import stated_dimension
-from dalembert.model.quantities.tables import SLACK, ColumnFile, Table
+from dalembert.model.quantities.tables import OUTSIDE, SLACK, ColumnFile, Table
 from dalembert.model.quantities.values import (
     NAME_OR_NUMBER,
     NUMBER_OR_TEXT,
@@ -32,7 +32,19 @@ FILE_FOLDER: ContextVar[str | None] = ContextVar("FILE_FOLDER", default=None)
 """Folder of the file that is being written: columns from it stay in their file, others are listed."""
 
 EXAMPLE = "{against: O2, x: [...], y: [...]}"
-KEYS = ("against", "x", "y", "file", "columns", "units", "times", "shift", "interpolate", "periodic")
+KEYS = (
+    "against",
+    "x",
+    "y",
+    "file",
+    "columns",
+    "units",
+    "times",
+    "shift",
+    "interpolate",
+    "periodic",
+    "outside",
+)
 
 
 def table_schema() -> JsonSchema:
@@ -54,6 +66,10 @@ def table_schema() -> JsonSchema:
         "shift": NUMBER_OR_TEXT | {"description": "how much later along x it comes; default 0"},
         "interpolate": {"enum": ["linear", "cubic"], "description": "between the points; default linear"},
         "periodic": {"type": ["boolean", "number", "string"], "description": period},
+        "outside": {
+            "enum": list(OUTSIDE),
+            "description": "beyond its ends; default refuse: hold, with a status",
+        },
     }
     return object_schema(keys) | {"anyOf": [{"required": ["x", "y"]}, {"required": ["file"]}]}
 
@@ -87,9 +103,10 @@ def table(value: Mapping[str, object], kind: str, rules: Reading) -> Table:
     interpolate = keys.get("interpolate", "linear")
     try:
         known = (interpolate, period, along, points.times, shift)
-        return Table(against, points.x, points.y, *known, points.of, points.file)
+        outside = at_item("outside", _outside, keys.get("outside", "refuse"), period)
+        return Table(against, points.x, points.y, *known, points.of, points.file, outside)
     except ModelError as error:
-        if points.file is None or error.path[:1] == ("periodic",):
+        if points.file is None or error.path[:1] in (("periodic",), ("outside",)):
             raise
         row = int(error.path[1]) if len(error.path) > 1 else -1
         line = points.lines[row] if points.lines else 1
@@ -196,6 +213,14 @@ def _kind_with(dimension: Dimension, kind: str) -> str:
     return found
 
 
+def _outside(value: object, period: float | None) -> str:
+    if value not in OUTSIDE:
+        raise ModelError(f"outside is {quote_value(value)}", f"write one of {', '.join(OUTSIDE)}")
+    if period is not None and value != "refuse":
+        raise ModelError("a periodic table goes on outside its points", "leave outside, or periodic, out")
+    return str(value)
+
+
 def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> float | None:
     if value is False:
         return None
@@ -225,6 +250,8 @@ def table_tree(value: Table, kind: str) -> object:
         tree["shift"] = value_text(value.shift, value.along)
     if value.interpolate != "linear":
         tree["interpolate"] = value.interpolate
+    if value.outside != "refuse":
+        tree["outside"] = value.outside
     if value.period is not None:
         tree["periodic"] = value_text(value.period, value.along)
     return tree

@@ -2,139 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from copy import copy
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from dalembert.analysis.batch.over_positions import is_cycle
 from dalembert.analysis.batch.tracing.branches import Branch, place_on_branch
-from dalembert.analysis.batch.tracing.traced_parameters import traced, varies
-from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
-from dalembert.analysis.compile.pose_loads import TIME, counted_coordinates
-from dalembert.analysis.engine.quick_pass import quick_answer
-from dalembert.analysis.positions import Positions, positions
+from dalembert.analysis.batch.tracing.course import Course, contact_keys
+from dalembert.analysis.batch.tracing.traced_parameters import is_shifted, is_table, traced, varies
+from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.compile.pose_loads import SPEED, TIME
 from dalembert.analysis.result.joint_freedoms import turns_off
-from dalembert.analysis.result.result import Result
-from dalembert.analysis.status.overflow import size_sentence
 from dalembert.arrays import Array, Ints, Numeric, Tree
 from dalembert.core.constraints import measure
-from dalembert.core.friction.contact_equations import bearing
-from dalembert.core.layout import Pose
-from dalembert.errors import ModelError
 from dalembert.kernel.graph import POSITION, Graph, Node, Scalar
 from dalembert.kernel.trace import Drives
-from dalembert.model import Mechanism, Schedule
-
-
-@dataclass(frozen=True)
-class Course:
-    """The mechanism with the file's numbers at a list of positions, followed when its motion is needed.
-
-    With the ``result`` of the general executor, which may be of another design, its motion is that of the result.
-    """
-
-    mechanism: Mechanism
-    schedule: Schedule
-    result: Result | None = None
-    target: Mapping[str, Array] | None = None
-    """Values that each output is compared with (position, component)."""
-
-    def with_target(self, target: Mapping[str, Array]) -> Course:
-        """The same course, as far as it is followed."""
-        found = copy(self)
-        found.__dict__["target"] = target
-        return found
-
-    @cached_property
-    def compiled(self) -> Compiled:
-        return compile_mechanism(self.mechanism, self.schedule)
-
-    @cached_property
-    def followed(self) -> Positions:
-        beyond = size_sentence(self.compiled)
-        if beyond is not None:
-            raise ModelError(beyond, "", ("links",))
-        with np.errstate(all="ignore"):
-            found = quick_answer(self.compiled, inertia=True, forces=False)
-        return found if isinstance(found, Positions) else positions(self.compiled)
-
-    @cached_property
-    def cycle(self) -> bool:
-        """True if its positions form a cycle; raises ModelError where they are not even."""
-        drives = [self.mechanism.drives[name].turns for name in self.schedule.names]
-        return is_cycle(self.schedule.position, drives)
-
-    @cached_property
-    def pose(self) -> Pose:
-        """Its poses, NaN where it does not close."""
-        if self.result is not None:
-            return _poses_with_ground(self.result)
-        path = self.followed.path
-        assert path is not None
-        lost = ~path.reached
-        parts = [a.copy() for a in path.pose]
-        for a in parts:
-            a[lost] = np.nan
-        return Pose(*parts)
-
-    @cached_property
-    def first(self) -> int:
-        """The first position that closes."""
-        if self.result is not None:
-            return int(np.argmax(np.isfinite(self.pose.point).all(axis=(1, 2))))
-        path = self.followed.path
-        return int(np.argmax(path.reached)) if path is not None else 0
-
-    def going_by(self, names: Iterable[str]) -> Tree:
-        """Variables (P,) that a changing quantity depends on: drives, time, and the pose, the motion being known."""
-        found: Tree = {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
-        if TIME in names and TIME not in found and self.schedule.time is None:
-            raise ModelError(
-                "a load depends on time, but no times are given for these positions",
-                "leave the positions out",
-            )
-        by_pose = [name for name in names if "." in name]
-        at = counted_coordinates(self.compiled, self.counted, self.pose, by_pose) if by_pose else {}
-        at = {name: np.where(np.isfinite(values), values, values[self.first]) for name, values in at.items()}
-        return {TIME: self.schedule.time, **found, **at}
-
-    @cached_property
-    def slips(self) -> dict[tuple[str, str], Array]:
-        """Friction z (P,) of each contact of the result, by joint and kind: c z is its force or couple."""
-        f = None if self.result is None else self.result.friction
-        if self.result is None or f is None:
-            return {}
-        c = self.result.compiled
-        assert c.contacts is not None
-        z = np.nan_to_num(-f.sense * bearing(c.contacts, f.argument))
-        return dict(zip(contact_keys(c), z.T, strict=True))
-
-    @cached_property
-    def reversals(self) -> dict[tuple[str, str], Array]:
-        """Sense (P,) of each contact where it reverses in the result, 0 where its rate gives it."""
-        f = None if self.result is None else self.result.friction
-        if self.result is None or f is None:
-            return {}
-        sense = np.where(f.reversing, f.sense, 0.0)
-        return dict(zip(contact_keys(self.result.compiled), sense.T, strict=True))
-
-    @property
-    def counted(self) -> Compiled:
-        """The mechanism with the full turns of its torsion springs counted along its motion."""
-        return self.followed.compiled if self.result is None else self.result.compiled
-
-    def at(self, positions: Array) -> Course:
-        """Another list of positions, at the same speeds and accelerations."""
-        count = len(positions)
-        rates = [np.repeat(a[:1], count, axis=0) for a in (self.schedule.speed, self.schedule.acceleration)]
-        schedule = replace(
-            self.schedule, position=positions, speed=rates[0], acceleration=rates[1], time=None
-        )
-        return Course(self.mechanism, schedule)
+from dalembert.model import Mechanism
 
 
 @dataclass
@@ -151,6 +36,7 @@ class Inputs:
     found: dict[Node, Callable[[Course], Numeric]] = field(default_factory=dict)
     named: dict[tuple[str, str], Node] = field(default_factory=dict)
     varying: Tree = field(default_factory=dict)
+    motion: Drives = field(init=False)
 
     def make(self, kind: str, name: str, value: Callable[[Course], Numeric]) -> Node:
         """An input, made once."""
@@ -177,7 +63,22 @@ class Inputs:
                 value = getattr(self.course.schedule, rate)[0, k]
                 node = given if isinstance(given, Node) else self.graph.constant(value) if steady else None
                 columns[rate].append(self._drive(kind, name, rate, k) if node is None else node)
-        return Drives(*(np.array(column, object) for column in columns.values()))
+        found = Drives(*(np.array(column, object) for column in columns.values()))
+        if kind == "channel":
+            self.motion = found
+        return found
+
+    def known(self) -> Tree:
+        """Time, positions and speeds of the drives by the names that changing quantities have for them."""
+        names, s = self.course.schedule.names, self.course.schedule
+        found = dict(zip(names, self.motion.position, strict=True))
+        found |= dict(zip((name + SPEED for name in names), self.motion.speed, strict=True))
+        return found | ({} if s.clock is None else {TIME: self.time()})
+
+    def inside(self, varying: Any) -> bool:
+        """True if a changing quantity depends on something that a design's numbers may move: it is computed with the design."""
+        timed = TIME in varying.names and self.course.schedule.time is None
+        return timed or is_shifted(varying) or any("." in name for name in varying.names)
 
     def _drive(self, kind: str, name: str, what: str, k: int) -> Node:
         return self.make(kind, f"{what} {name}", lambda c: _one(kind, c, getattr(c.schedule, what)[:, k]))
@@ -187,6 +88,9 @@ class Inputs:
 
     def load(self, name: str, varying: Any) -> Node:
         """A load that changes with the drives."""
+        if varies(varying) and is_table(varying) and self.inside(varying):
+            self.varying[name] = varying
+            return self.make("channel", name, partial(_constant, value=0.0))
         if varies(varying):
             found: Node = traced(name, varying, self.graph, self.load)
             return found
@@ -198,7 +102,14 @@ class Inputs:
         )
 
     def time(self) -> Node:
-        """Time, of a law of motion."""
+        """Time, of a law of motion, or as the first drive of constant speed has it."""
+        s = self.course.schedule
+        if s.time is None and s.count == 1:
+            return self.graph.zero
+        if s.time is None and s.clock is not None and s.began is not None:
+            k = int(np.argmax((s.speed != 0).any(axis=0)))
+            clock: Node = (self.motion.position[k] - float(s.began[k])) / self.motion.speed[k]
+            return clock
         return self.make("channel", TIME, lambda c: c.going_by((TIME,))[TIME])
 
     def path(self, kind: str) -> Callable[[str, int], Node]:
@@ -337,21 +248,6 @@ def _margin(course: Course, place: int) -> Array:
     """Margin (P,) by which that turn may differ where it is counted; 0 where it was not."""
     c = course.counted
     return next((n.margin for n in c.counts if n.place == place), np.zeros(len(c.schedule.position)))
-
-
-def contact_keys(c: Compiled) -> list[tuple[str, str]]:
-    """Joint and kind of each contact, numbered from the second of a kind in a joint on."""
-    keys: list[tuple[str, str]] = []
-    for k, kind in zip(c.contacts.joint, c.contacts.kind, strict=True) if c.contacts is not None else ():
-        same = sum(joint == c.joints[k] and name.split()[0] == kind for joint, name in keys)
-        keys.append((c.joints[k], f"{kind} {same + 1}" if same else kind))
-    return keys
-
-
-def _poses_with_ground(result: Result) -> Pose:
-    """Poses of a result, with those of the ground."""
-    point = np.pad(result.point_array, ((0, 0), (0, 1), (0, 0)))
-    return Pose(point, *result.compiled.layout.algebra.with_ground(result.turn_array, result.rotation_array))
 
 
 def _one(kind: str, c: Course, column: Array) -> Numeric:

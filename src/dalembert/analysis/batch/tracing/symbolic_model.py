@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 from dalembert.analysis.batch.tracing.traced_parameters import Channel, symbol_functions
+from dalembert.analysis.batch.tracing.traced_tables import table_function
 from dalembert.arrays import Numeric, Tree
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, Scalar
@@ -24,8 +25,8 @@ DRIVEN = ("position", "law", "range")
 """Keys of a drive that are given when a kernel is called."""
 
 
-PLACING = ("shift", "period")
-"""Keys that place the points of a table."""
+PLACING = ("period",)
+"""What says where the points of a table are."""
 
 
 @dataclass(frozen=True)
@@ -292,4 +293,5 @@ def functions(graph: Graph) -> Tree:
         name: one(name) for name in ("sin", "cos", "tan", "asin", "acos", "sqrt", "exp", "log", "abs", "sign")
     }
     out |= {name: two(name) for name in ("atan2", "min", "max")}
-    return out | {"atan": lambda x: graph.binary("atan2", node(x), graph.one)}
+    out |= {"atan": lambda x: graph.binary("atan2", node(x), graph.one), "table": table_function(graph)}
+    return out

@@ -7,11 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dalembert.analysis.batch.tracing.kernel_inputs import Course, Inputs
+from dalembert.analysis.batch.tracing.course import Course
+from dalembert.analysis.batch.tracing.kernel_inputs import Inputs
 from dalembert.analysis.batch.tracing.outputs import Catalogue
 from dalembert.analysis.batch.tracing.symbolic_model import Number, functions, geometric, numbers, symbolic
+from dalembert.analysis.batch.tracing.traced_parameters import is_table
+from dalembert.analysis.batch.tracing.traced_tables import margins
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
-from dalembert.analysis.compile.pose_loads import TIME, coordinates
+from dalembert.analysis.compile.pose_loads import coordinates, parts
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.named_quantities import quantity
@@ -19,14 +22,14 @@ from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import stack_rows
-from dalembert.core.equilibrium import UNIQUE
+from dalembert.core.equilibrium import UNIQUE, Known
 from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing
 from dalembert.core.gear_rows import gearings
 from dalembert.core.layout import Gearing, Idle, Layout, Pose
 from dalembert.core.linear import PseudoInverse
 from dalembert.errors import ModelError
-from dalembert.kernel.graph import Graph, Node, trace_array
+from dalembert.kernel.graph import Graph, Node, node, trace_array
 from dalembert.kernel.trace import Problem, Traced, trace
 from dalembert.model import Mechanism, Schedule
 
@@ -105,7 +108,7 @@ def trace_analysis(
         graph=graph,
         layout=with_meshes(c.layout, like.layout),
         forcing=c.forcing,
-        known=c.known,
+        known=_known(inputs, c, functions_of(graph)),
         target=_targets(c.target, like.target, like.layout, inputs if phased else None),
         drives=drives,
         first=inputs.drives(description, "common"),
@@ -120,7 +123,7 @@ def trace_analysis(
         reversals=None if solved is None else inputs.reversals(c),
         margins=margins if moved else {},
         contacts=c.contacts,
-        at_pose=_pose_loads(inputs, c, moved, functions_of(graph)),
+        at_pose=_pose_loads(inputs, c, functions_of(graph)),
         moves=moves,
         side=inputs.side() if sided else None,
         redundant=repeated,
@@ -128,34 +131,28 @@ def trace_analysis(
         phased=phased,
     )
     motion = drives.position, drives.speed, drives.acceleration
-    catalogue = Catalogue(graph, c, _run(problem), motion, inputs)
+    traced = _run(problem)
+    catalogue = Catalogue(graph, replace(c, forcing=traced.forcing), traced, motion, inputs)
     return Trace(course, inputs, where, catalogue, inertia, repeated)
 
 
-def _pose_loads(
-    inputs: Inputs, c: Compiled, moved: list[Number], known: Tree
-) -> Callable[[Forcing, Pose], Forcing] | None:
-    """Loads that are expressions of the pose as nodes of it; tables are evaluated at the known motion."""
-    graph, names = inputs.graph, c.schedule.names
-    by_pose = {k: v for k, v in inputs.varying.items() if any("." in name for name in v.names)}
-    tables = {name: v.against for name, v in by_pose.items() if hasattr(v, "against")}
-    for name, against in tables.items() if moved else ():
-        what = f"{name} is a table against {against}, which {moved[0].path!r} moves: so that cannot vary"
-        raise ModelError(
-            what, "leave it out, or write the load as an expression, or against a drive", name.split(".")
-        )
-    if len(by_pose) == len(tables):
+def _pose_loads(inputs: Inputs, c: Compiled, known: Tree) -> Callable[[Forcing, Pose, Array], Forcing] | None:
+    """Loads that go by the pose, by speeds, or by the time of a constant speed, as nodes of these."""
+    graph = inputs.graph
+    _note_table_ends(inputs)
+    inside = {k: v for k, v in inputs.varying.items() if k.startswith("loads.") and inputs.inside(v)}
+    if not inside:
         return None
 
-    def at_pose(forcing: Forcing, pose: Pose) -> Forcing:
-        drives = dict(zip(names, c.schedule.position[0], strict=True))
-        places = {}
-        for name in by_pose.keys() - tables.keys():
-            at = coordinates(c, pose, by_pose[name].names)
-            at = {of: value + inputs.pose_turns(of) for of, value in at.items()}
-            time = {TIME: inputs.time()} if TIME in by_pose[name].names else {}
-            value = by_pose[name].at({**time, **drives, **at}, known)
-            places[inputs.named["channel", name].index] = value
+    def at_pose(forcing: Forcing, pose: Pose, twist: Array) -> Forcing:
+        driven = inputs.known()
+        names = {name for varying in inside.values() for name in varying.names if parts(name)}
+        at = coordinates(c, pose, sorted(names), twist)
+        at = {of: value + inputs.pose_turns(of) for of, value in at.items()}
+        places = {
+            inputs.named["channel", name].index: node(graph, varying.at({**driven, **at}, known))
+            for name, varying in inside.items()
+        }
         forces, couples = forcing.forces, forcing.couples
         return replace(
             forcing,
@@ -164,6 +161,26 @@ def _pose_loads(
         )
 
     return at_pose
+
+
+def _known(inputs: Inputs, c: Compiled, functions: Tree) -> Known:
+    """What is known of the efforts, those by speeds and by the time of a constant speed as nodes of these."""
+    places = {
+        inputs.named["channel", name].index: node(inputs.graph, varying.at(inputs.known(), functions))
+        for name, varying in inputs.varying.items()
+        if name.startswith("drives.") and inputs.inside(varying)
+    }
+    if not places:
+        return c.known
+    return replace(c.known, effort=_substituted(inputs.graph, c.known.effort, places))
+
+
+def _note_table_ends(inputs: Inputs) -> None:
+    """Note where tables over drives and time, which are computed outside, end."""
+    known = inputs.known()
+    for table in inputs.varying.values():
+        if is_table(table) and not inputs.inside(table) and table.against in known:
+            inputs.graph.outside += margins(table, known[table.against] - table.shift)
 
 
 def _substituted(graph: Graph, array: Array, places: dict[int, Node]) -> Array:

@@ -64,7 +64,17 @@ def varies(value: object) -> bool:
     """True if an expression or a table along the motion depends on a parameter that varies."""
     if isinstance(value, Expression):
         return any(isinstance(v, Node) for _, v in value.parameters or ())
-    return isinstance(value, Table) and any(isinstance(x, Node) for x in (value.times, *value.y))
+    return isinstance(value, Table) and any(isinstance(x, Node) for x in (value.times, value.shift, *value.y))
+
+
+def is_table(value: object) -> bool:
+    """True if a value along the motion is a table."""
+    return isinstance(value, Table)
+
+
+def is_shifted(value: object) -> bool:
+    """True if it is a table whose shift varies."""
+    return isinstance(value, Table) and isinstance(value.shift, Node)
 
 
 def traced(name: str, value: Expression | Table, graph: Graph, channel: Channel) -> Numeric:

@@ -238,6 +238,7 @@ def _range(result: Result, to: Printed, which: str) -> str:
 NOT_IN_FULL = {
     "redundant": "solved but for the reactions that are not unique",
     "self_locking": "solved, self-locking",
+    "outside_table": "solved, with a table at its end",
     "at_rest": "solved to an interval",
 }
 """Statuses that come with an answer all the same, in the words that count them."""

@@ -124,7 +124,7 @@ class Module:
         """The status code of each lane."""
         f, m = self.run, self.program.marks
         found = {"open": self.below(m.open), "rest": f.keep(self.below(m.rest))}
-        found["slope"] = self.below(m.slope, False)
+        found |= {"outside": self.below(m.outside), "slope": self.below(m.slope, False)}
         slips, locked = self.below(m.slips, False), f.keep(self.below(m.turned))
         if m.seldom:
             slips, found["jam"], locked = self._seldom(f.keep(slips), locked, found["rest"])

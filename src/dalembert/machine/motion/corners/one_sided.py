@@ -19,12 +19,10 @@ from dalembert.arrays import Array
 from dalembert.model.quantities.coordinates import TIME
 from dalembert.model.quantities.expression_trees import COMPARISONS, Apply, Functions, nodes, numpy_functions
 from dalembert.model.quantities.expressions import Expression
-from dalembert.model.quantities.tables import Table
+from dalembert.model.quantities.tables import FAR, Table
 
 SWITCHING = ("sign", "abs", "min", "max", *COMPARISONS)
 """Functions of expressions that have a corner or a jump."""
-BEYOND = 1e-5
-"""Part of a table's span by which a motion is placed beyond the table's end when it reaches it."""
 Sides = dict[int, float]
 """Side of each switch, by its order in the expression."""
 
@@ -106,14 +104,10 @@ class Sided:
         count, period = len(breaks) - 1, table.period or 0.0
         place = float(known[table.against]) - table.shift
         if 0 not in self.sides:
-            table.at(known)  # refused beyond its ends
             turn = np.floor((place - breaks[0]) / period) if period else 0.0
             piece = int(np.searchsorted(breaks, place - turn * period, "right")) - 1
             self.sides[0] = turn * count + min(max(piece, 0), count - 1)
-        turn, piece = divmod(int(self.sides[0]), count)
-        if turn and not period:
-            over = (breaks[-1] if turn > 0 else breaks[0]) + BEYOND * np.sign(turn) * np.ptp(breaks)
-            table.at({table.against: over + table.shift})
+        turn, piece = divmod(int(self.sides[0]), count) if period else (0, int(self.sides[0]))
         low, high = breaks[piece : piece + 2] + turn * period
         self.switches = [place - low, high - place]
         return float(first[piece] + slope[piece] * (place - low)) * table.times
@@ -121,4 +115,11 @@ class Sided:
     @cached_property
     def _pieces(self) -> tuple[Array, Array]:
         assert isinstance(self.value, Table)
-        return self.value.pieces()
+        breaks, (slope, first) = self.value.pieces()
+        if self.value.period is not None:
+            return breaks, np.stack([slope, first])
+        low, high, held = breaks[0], breaks[-1], self.value.outside != "zero"
+        last = first[-1] + slope[-1] * (high - breaks[-2])
+        far = FAR * (high - low)
+        breaks = np.concatenate([[low - far], breaks, [high + far]])
+        return breaks, np.stack([np.pad(slope, 1), np.concatenate([[held * first[0]], first, [held * last]])])

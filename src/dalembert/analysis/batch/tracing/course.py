@@ -1,0 +1,147 @@
+"""The mechanism at a list of positions, followed when its motion is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from copy import copy
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from dalembert.analysis.batch.over_positions import is_cycle
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.pose_loads import SPEED, TIME, counted_coordinates, parts
+from dalembert.analysis.engine.quick_pass import quick_answer
+from dalembert.analysis.positions import Positions, positions
+from dalembert.analysis.result.result import Result
+from dalembert.analysis.status.overflow import size_sentence
+from dalembert.arrays import Array, Tree
+from dalembert.core.friction.contact_equations import bearing
+from dalembert.core.layout import Pose
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism, Schedule
+
+
+@dataclass(frozen=True)
+class Course:
+    """The mechanism with the file's numbers at a list of positions, followed when its motion is asked for.
+
+    With the ``result`` of the general executor, which may be of another design, its motion is that.
+    """
+
+    mechanism: Mechanism
+    schedule: Schedule
+    result: Result | None = None
+    target: Mapping[str, Array] | None = None
+    """What each output is compared with (position, component)."""
+
+    def with_target(self, target: Mapping[str, Array]) -> Course:
+        """The same course, as far as it is followed."""
+        found = copy(self)
+        found.__dict__["target"] = target
+        return found
+
+    @cached_property
+    def compiled(self) -> Compiled:
+        return compile_mechanism(self.mechanism, self.schedule)
+
+    @cached_property
+    def followed(self) -> Positions:
+        beyond = size_sentence(self.compiled)
+        if beyond is not None:
+            raise ModelError(beyond, "", ("links",))
+        with np.errstate(all="ignore"):
+            found = quick_answer(self.compiled, inertia=True, forces=False)
+        return found if isinstance(found, Positions) else positions(self.compiled)
+
+    @cached_property
+    def cycle(self) -> bool:
+        """Whether its positions come round; raises ModelError where they are not even."""
+        drives = [self.mechanism.drives[name].turns for name in self.schedule.names]
+        return is_cycle(self.schedule.position, drives)
+
+    @cached_property
+    def pose(self) -> Pose:
+        """Its poses, NaN where it does not close."""
+        if self.result is not None:
+            return _poses_with_ground(self.result)
+        path = self.followed.path
+        assert path is not None
+        lost = ~path.reached
+        parts = [a.copy() for a in path.pose]
+        for a in parts:
+            a[lost] = np.nan
+        return Pose(*parts)
+
+    @cached_property
+    def first(self) -> int:
+        """The first position that closes."""
+        if self.result is not None:
+            return int(np.argmax(np.isfinite(self.pose.point).all(axis=(1, 2))))
+        path = self.followed.path
+        return int(np.argmax(path.reached)) if path is not None else 0
+
+    def going_by(self, names: Iterable[str]) -> Tree:
+        """Variables (P,) that a changing quantity depends on: drives, time, and the pose, the motion being known."""
+        found: Tree = {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
+        found |= {name + SPEED: self.schedule.speed[:, k] for k, name in enumerate(self.schedule.names)}
+        clock = self.schedule.clock
+        if TIME in names and clock is None:
+            raise ModelError(
+                "a load depends on time, but no times are given for these positions",
+                "leave them out, or give a drive a constant speed in place of a law",
+            )
+        by_pose = [name for name in names if parts(name)]
+        at = counted_coordinates(self.compiled, self.counted, self.pose, by_pose) if by_pose else {}
+        at = {name: np.where(np.isfinite(values), values, values[self.first]) for name, values in at.items()}
+        return {TIME: clock, **found, **at}
+
+    @cached_property
+    def slips(self) -> dict[tuple[str, str], Array]:
+        """Friction z (P,) of each contact of the result, by joint and kind: c z is its force or couple."""
+        f = None if self.result is None else self.result.friction
+        if self.result is None or f is None:
+            return {}
+        c = self.result.compiled
+        assert c.contacts is not None
+        z = np.nan_to_num(-f.sense * bearing(c.contacts, f.argument))
+        return dict(zip(contact_keys(c), z.T, strict=True))
+
+    @cached_property
+    def reversals(self) -> dict[tuple[str, str], Array]:
+        """Sense (P,) of each contact where it reverses in the result, 0 where its rate tells it."""
+        f = None if self.result is None else self.result.friction
+        if self.result is None or f is None:
+            return {}
+        sense = np.where(f.reversing, f.sense, 0.0)
+        return dict(zip(contact_keys(self.result.compiled), sense.T, strict=True))
+
+    @property
+    def counted(self) -> Compiled:
+        """The mechanism with the whole turns of its torsion springs counted along its motion."""
+        return self.followed.compiled if self.result is None else self.result.compiled
+
+    def at(self, positions: Array) -> Course:
+        """Another list of positions, at the same speeds and accelerations."""
+        count = len(positions)
+        rates = [np.repeat(a[:1], count, axis=0) for a in (self.schedule.speed, self.schedule.acceleration)]
+        schedule = replace(
+            self.schedule, position=positions, speed=rates[0], acceleration=rates[1], time=None
+        )
+        return Course(self.mechanism, schedule)
+
+
+def contact_keys(c: Compiled) -> list[tuple[str, str]]:
+    """Joint and kind of each contact, numbered from the second of a kind in a joint on."""
+    keys: list[tuple[str, str]] = []
+    for k, kind in zip(c.contacts.joint, c.contacts.kind, strict=True) if c.contacts is not None else ():
+        same = sum(joint == c.joints[k] and name.split()[0] == kind for joint, name in keys)
+        keys.append((c.joints[k], f"{kind} {same + 1}" if same else kind))
+    return keys
+
+
+def _poses_with_ground(result: Result) -> Pose:
+    """Poses of a result, with those of the ground."""
+    point = np.pad(result.point_array, ((0, 0), (0, 1), (0, 0)))
+    return Pose(point, *result.compiled.layout.algebra.with_ground(result.turn_array, result.rotation_array))
