@@ -210,3 +210,16 @@ def test_an_effort_goes_by_drives_only() -> None:
     drives = {"O": {**SLIDER["drives"]["O"], "effort": "joints.guide.slide"}}
     with pytest.raises(da.ModelError, match="an effort depends on drives, their speeds and time"):
         machine({"F": {**PUSH, "value": "unknown"}}, drives=drives)
+
+
+@pytest.mark.parametrize(
+    "text", ["-50*slide.guide.speed", "9 N*s*turn.A.speed", "2*angle.rod.speed*angle.rod - O.speed"]
+)
+@pytest.mark.parametrize("copy", [{"mirror": 90}, {"count": 2, "phase": {"ground": [0, 90]}}])
+def test_a_copy_has_loads_by_its_own_speeds(text: str, copy: Any) -> None:
+    copies = [{"of": ["crank", "rod", "block"], **copy}]
+    m = machine({"F": {**PUSH, "value": text}}, copies=copies)
+    value: Any = m.loads["F_2"].value  # type: ignore[union-attr]
+    assert all("_2" in name for name in value.names)
+    r = da.dynamics(m)
+    assert np.abs(r.effort("O_2")) == pytest.approx(np.abs(r.effort("O")), rel=1e-9, abs=1e-9)

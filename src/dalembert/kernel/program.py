@@ -21,7 +21,7 @@ STORED = 32
 longer, since stores then limit the speed."""
 PER_STORE = 12
 
-CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "outside": 14, "slope": 12}
+CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "slope": 12, "outside": 14}
 """The mark of a position, the first of these that applies, else 0; of many positions the first too."""
 
 
@@ -70,8 +70,8 @@ class Marks:
             "rest": self.rest,
             "jam": self.jam,
             "locked": self.turned,
-            "outside": self.outside,
             "slope": self.slope,
+            "outside": self.outside,
         }
         return [name for name, nodes in there.items() if nodes]
 

@@ -111,7 +111,7 @@ def marks(program: Program, name: Callable[[Node], str], indent: str) -> str:
             "}",
         ]
     tests = [("rest",) * 2, ("jam",) * 2, ("doubt",) * 2, ("locked",) * 2]
-    tests += [(below(m.outside), "outside"), (below(m.slope, False), "slope")]
+    tests += [(below(m.slope, False), "slope"), (below(m.outside), "outside")]
     then = "".join(f"{test} ? {code[mark]} : " for test, mark in tests)
     out.append(f"if (!here) here = {then}0;")
     return "\n".join(indent + line for line in "\n".join(out).splitlines())

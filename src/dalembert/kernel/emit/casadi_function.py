@@ -46,7 +46,7 @@ def _mark(ca: ModuleType, program: Program, done: dict[int, Expression]) -> Expr
     doubt = ca.logic_or(unsure(m.doubt), ca.logic_and(ca.logic_not(ca.logic_or(rest, jam)), slips))
     mark: Expression = ca.SX(0)
     found = {"open": below(m.open), "doubt": doubt, "rest": rest, "jam": jam, "locked": locked}
-    found |= {"outside": below(m.outside), "slope": unsure(m.slope)}
+    found |= {"slope": unsure(m.slope), "outside": below(m.outside)}
     for name, test in reversed(found.items()):
         mark = ca.if_else(test, CODES[name], mark)
     return mark

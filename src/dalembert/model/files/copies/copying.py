@@ -12,7 +12,7 @@ from dalembert.errors import ModelError
 from dalembert.model.files.copies.images import Image
 from dalembert.model.files.copies.likeness import Likeness
 from dalembert.model.links.link import GROUND, Link
-from dalembert.model.quantities.coordinates import SPEED, parts, path_of
+from dalembert.model.quantities.coordinates import SPEED, is_speed, parts, path_of
 from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.expressions import long_names, parse_expression
 from dalembert.model.quantities.figures import unit_vector
@@ -274,7 +274,7 @@ class Copying:
             rest = ""
         body = size.rstrip().removesuffix(rest)
         names = re.sub(
-            r"(?<![\w.])[^\W\d]\w*(?:\.\w+\.\w+|\.speed)?(?![\w.(])",
+            r"(?<![\w.])[^\W\d]\w*(?:\.\w+\.\w+(?:\.speed\b)?|\.speed)?(?![\w.(])",
             lambda m: self.renamed(m[0], named),
             long_names(body),
         )
@@ -286,6 +286,8 @@ class Copying:
         if found is not None:
             new, side, offset = found
             back = repr(offset) if not dimensional else f"{offset / math.pi!r}*pi"
+            if is_speed(new) and not offset:
+                return new if side == 1 else f"({side}*{new})"
             return new if side == 1 and not offset else f"({side}*({new} - {back}))"
         if name not in self.staying():
             return name
@@ -316,11 +318,12 @@ class Copying:
             straight = self.slides(joint, self.drives[drive])
             return (new, 1, 0.0) if straight else (new, side, 0.0 if rate else self.between(joint))
         if kind == "joints" and of in self.joints:
-            new = f"joints.{of}{end}.{which}"
-            return (new, 1, 0.0) if which.startswith("slide") else (new, side, self.between(of))
+            new = f"joints.{of}{end}.{which}{rate}"
+            straight = which.startswith("slide")
+            return (new, 1, 0.0) if straight else (new, side, 0.0 if rate else self.between(of))
         if kind == "links" and of in self.of:
             self.require_mirrors(name, GROUND)
-            return f"links.{of}{end}.angle", side, self.image.offset(GROUND)
+            return f"links.{of}{end}.angle{rate}", side, 0.0 if rate else self.image.offset(GROUND)
         return None
 
     def table(self, value: Mapping[str, object]) -> Mapping[str, object]:
