@@ -12,7 +12,7 @@ import pytest
 from cyclopts import App
 
 import dalembert as da
-from dalembert.cli import outputs
+from dalembert.cli import answer_files
 from dalembert.cli.app import MODULES, _command
 from dalembert.wrench import System
 from tests.answers.every_answer import made
@@ -121,7 +121,7 @@ def test_o_writes_what_the_ending_selects(run: Run, folder: Path) -> None:
 def test_what_cannot_be_written_is_refused_before_the_work(
     run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(outputs.Outputs, "deliver", None)
+    monkeypatch.setattr(answer_files.Outputs, "deliver", None)
     for option, path, message in (
         (
             "--drawing",

@@ -227,16 +227,17 @@ def written(folder: Path, text: str = FILE) -> Path:
 
 
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    from dalembert.cli.answer_files import LabelledOutputs
     from dalembert.cli.studies.optimize_command import optimize
 
     file, best = written(tmp_path), tmp_path / "best.yaml"
-    assert optimize(file, output=best) == 0
+    assert optimize(file, out=LabelledOutputs(output=best)) == 0
     same = da.optimize(da.four_bar(), BOX, "peak effort.O2", WHERE, starts=5)
     found = float(np.abs(da.dynamics(da.load(best))["effort.O2"]).max())
     assert found == pytest.approx(same.value, rel=1e-5)
     assert "peak effort.O2" in capsys.readouterr().out
     with pytest.raises(da.ModelError, match=r"is there already|exists"):
-        optimize(file, output=best)
+        optimize(file, out=LabelledOutputs(output=best))
     assert optimize(written(tmp_path, FILE.replace("33", "89"))) == 1
 
 

@@ -237,6 +237,6 @@ def test_the_command_runs_resumes_extends_shows_and_exports(
     assert own == pytest.approx(found["effort.O"][worst], rel=1e-12)
     assert main(["study", "show", "s.zarr", "--csv", "s.csv", "--units", "si"]) == 0
     head, *rows = Path("s.csv").read_text().splitlines()
-    assert head == "design,stroke,density,status,effort.O [N*m]"
+    assert head == "design,stroke [m],density [kg/m^3],status,effort.O [N*m]"
     assert len(rows) == 200
     assert float(rows[worst].split(",")[-1]) == found["effort.O"][worst]

@@ -247,8 +247,10 @@ class Worked(Answer):
     """Answer with a worked solution."""
 
     def sheet(self, notation: Notation | None = None) -> Sheet:
-        """Equations in letters and numbers, what is found, and the drawings."""
-        raise NotImplementedError
+        """Equations in letters and numbers if there are any, what is found, and the drawings."""
+        from dalembert.reports.machine_sections import answer_sheet
+
+        return answer_sheet(self, notation)
 
     def report(self, notation: Notation | None = None) -> Report:
         """The worked solution: ``answer.report().save("engine.pdf")``, or .html, .tex, .txt."""

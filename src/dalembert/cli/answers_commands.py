@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+from dalembert.cli.answer_files import NO_OUTPUTS, Outputs
 from dalembert.cli.options import AS_STATED, ModelFile, Static, Steady, flag, with_help
-from dalembert.cli.outputs import NO_OUTPUTS, Outputs
 from dalembert.errors import ModelError
 from dalembert.printing import table
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
+from dalembert.errors import ModelError
+
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
     from dalembert.views.notation import Notation
@@ -178,9 +180,26 @@ class Changes:
 
     def load(self, file: Path) -> Mechanism:
         """The description with what the command line says otherwise."""
-        from dalembert.cli.model_argument import load_model
+        from dalembert.model import load
 
-        return load_model(file, self)
+        m = with_settings(load(file), self.set or ())
+        return m.with_values({"friction.enabled": False}) if self.no_friction else m
+
+
+def with_settings(m: Mechanism, settings: Sequence[str]) -> Mechanism:
+    """The mechanism with the values of options `--set NAME=VALUE`; raises ModelError that names the option."""
+    values: dict[str, object] = {}
+    for said in settings:
+        path, equals, value = (part.strip() for part in said.partition("="))
+        if not (path and equals and value):
+            raise ModelError(f"--set {said} says no value", "write NAME=VALUE, for example --set r=50mm")
+        if path in values:
+            raise ModelError(f"--set gives {path!r} twice", "leave one of them out")
+        values[path] = {"true": True, "false": False}.get(value, value)
+    try:
+        return m.with_values(values) if values else m
+    except ModelError as error:
+        raise ModelError(f"--set {' --set '.join(settings)}: {error.what}", error.remedy) from None
 
 
 @Parameter(name="*")

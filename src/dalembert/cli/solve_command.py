@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Literal
 
+from dalembert.cli.answer_files import NO_RESULT, ResultOutputs
 from dalembert.cli.options import AS_GIVEN, ModelFile, Of, flag, with_help
-from dalembert.cli.outputs import NO_RESULT, ResultOutputs
 from dalembert.progress import progress
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal
 
+from dalembert.cli.answer_files import NO_DRAWN, DrawnOutputs
 from dalembert.cli.options import target, with_help
-from dalembert.cli.outputs import NO_DRAWN, DrawnOutputs
 
 EXAMPLES = """Examples:
   dalembert wrench plate.yaml

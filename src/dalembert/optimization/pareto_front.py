@@ -31,7 +31,6 @@ from dalembert.printing import Table
 
 if TYPE_CHECKING:
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
 
@@ -86,12 +85,6 @@ class Front(Labelled, Drawn, Worked):
         from dalembert.reports.machine_sections.optimum_section import front_scenes
 
         return front_scenes(self, notation)
-
-    def sheet(self, notation: Notation | None = None) -> Sheet:
-        """Both aims and the numbers of each design, and the drawings."""
-        from dalembert.reports.machine_sections.optimum_section import plain_sheet
-
-        return plain_sheet(self, "Front", notation)
 
 
 def pareto(

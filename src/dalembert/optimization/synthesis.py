@@ -37,7 +37,6 @@ from dalembert.printing import Table, number
 
 if TYPE_CHECKING:
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
 
@@ -99,12 +98,6 @@ class Synthesis(Labelled, Drawn, Worked, Remade):
     def drawings(self, notation: Notation | None = None) -> list[Scene]:
         """The mechanism found at the first target, with the paths of its points."""
         return [self.result.draw(notation=notation)]
-
-    def sheet(self, notation: Notation | None = None) -> Sheet:
-        """Numbers before and after, and the mechanism."""
-        from dalembert.reports.machine_sections.optimum_section import plain_sheet
-
-        return plain_sheet(self, "Synthesis", notation)
 
 
 def synthesize(

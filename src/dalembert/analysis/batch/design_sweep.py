@@ -15,11 +15,11 @@ from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
 from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds
 from dalembert.analysis.result.named_quantities import Quantity, component, names_of, quantity
-from dalembert.analysis.result.number_kinds import drive_kinds, in_plane
+from dalembert.analysis.result.number_kinds import in_plane
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
 from dalembert.answer.answer import Drawn, Labelled
-from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice, parts
+from dalembert.answer.column import Axes, Column, Scale, UnitChoice
 from dalembert.answer.named_answer import NamedAnswer, counted
 from dalembert.arrays import Array, Tree
 from dalembert.errors import SOLVED, STATUSES, ModelError
@@ -345,24 +345,9 @@ class Sweep(NamedAnswer, Labelled, Drawn):
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """A row a position of each design: number of both, what is varied, drives, status, quantities, reason."""
-        count, rows = self.status.shape[-1], self.status.size
-        yield Column("design", WORD, np.repeat(np.arange(rows // count) + 1, count))
-        yield Column("position", WORD, np.tile(np.arange(count) + 1, rows // count))
-        grid = np.indices(self.shape).reshape(len(self.shape), -1)
-        for k, (path, of) in enumerate(self.labels.items()):
-            values = np.array(of.values, float if of.unit or _is_number(of.values[0]) else object)
-            kind = WORD if values.dtype == object else of.kind
-            yield Column(path, kind, np.repeat(values[grid[0 if self.together else k]], count))
-        for k, drive in enumerate(self.nominal.drives):
-            kind = drive_kinds(self.nominal, drive)["position"]
-            yield Column(f"drive.{drive}", kind, self.answers.drives[..., k].reshape(-1))
-        yield Column("status", WORD, self.status.reshape(-1))
-        for before, arrays in (("", self.answers.arrays), ("after.", self.answers.after)):
-            for name, values in arrays.items():
-                flat = values.reshape((rows, *values.shape[self.status.ndim :]))
-                for part, numbers in parts(flat):
-                    yield Column(f"{before}{name}{part}", self.kinds[name], numbers)
-        yield Column("reason", WORD, self.answers.reasons.reshape(-1))
+        from dalembert.analysis.batch.sweep_columns import sweep_columns
+
+        return sweep_columns(self)
 
     def basis(self) -> dict[str, str]:
         """Title, source, and what the numbers of the first design rest on."""
@@ -380,22 +365,9 @@ class Sweep(NamedAnswer, Labelled, Drawn):
 
     def labelled(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
         """Quantities over the values of the paths, position and component, and coordinates."""
-        over_designs = ("design",) if self.together else self.paths
-        data: Tree = {"status": ((*over_designs, "position"), self.status.astype(str))}
-        for name, values in self.answers.arrays.items():
-            rest = ("component", "link_axis")[: values.ndim - len(self.shape) - 1]
-            over = (*over_designs, "position", *rest)
-            data[name] = (over, to(self.kinds[name], values), {"units": to.text(self.kinds[name])})
-        names: Tree = {"position": np.arange(1, self.status.shape[-1] + 1)}
-        names["component"] = list("xyz"[: self.mechanism.dimension])
-        for path, labels in self.labels.items():
-            shown = to(labels.kind, np.array(labels.values)) if labels.unit else list(labels.values)
-            names[path] = ("design" if self.together else path, shown, {"units": to.text(labels.kind)})
-        for k, drive in enumerate(self.nominal.drives):
-            kind = drive_kinds(self.nominal, drive)["position"]
-            values = to(kind, self.answers.drives[..., k])
-            names[f"drive_{drive}"] = ((*over_designs, "position"), values, {"units": to.text(kind)})
-        return data, names
+        from dalembert.analysis.batch.sweep_columns import sweep_arrays
+
+        return sweep_arrays(self, to)
 
     def drawings(self, notation: Notation | None = None) -> list[Scene]:
         """Curves over the cycle of every quantity that has one number or a size, in the units of the file."""

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from dalembert.machine.shaking import Shaking
     from dalembert.model import Schedule
     from dalembert.printing import Part
-    from dalembert.reports import Report
+    from dalembert.reports.sheet import Sheet
     from dalembert.views.draw import View
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
@@ -317,8 +317,6 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
         """Times (P,) of the positions, s, where the drives have a law of motion."""
         return self.schedule.time
 
-    # joints' freedoms
-
     def freedom(self, joint: str, kind: str) -> tuple[Array, Array, Array]:
         """Value, rate and second rate of a joint's freedom `slide` or `turn`, each (P,)."""
         from dalembert.analysis.result.joint_freedoms import freedom_motion
@@ -337,8 +335,6 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
         from dalembert.machine.whole_cycle import turning_angle
 
         return harmonics(self[of], turning_angle(self), orders)
-
-    # summaries, and what every format is made of
 
     def worst(self, quantity: Literal["effort", "reaction", "moment"], of: str) -> tuple[float, int]:
         """Largest magnitude over the positions, both sides of reversals counted, and the position (from 0) of it."""
@@ -395,8 +391,8 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
 
         return answer_text(self, units, **choice)
 
-    def report(self, notation: Notation | None = None) -> Report:
+    def sheet(self, notation: Notation | None = None) -> Sheet:
         """The worked solution of the first position; `da.report` has those of others."""
-        from dalembert.reports import report
+        from dalembert.reports.working import working
 
-        return report(self, notation=notation)
+        return working(self, notation=notation)

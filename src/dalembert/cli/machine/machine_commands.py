@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
+from dalembert.cli.answer_files import NO_LABELLED, LabelledOutputs
 from dalembert.cli.options import (
     AS_GIVEN,
     AS_IN_FILE,
@@ -21,7 +22,6 @@ from dalembert.cli.options import (
     target,
     with_help,
 )
-from dalembert.cli.outputs import NO_LABELLED, LabelledOutputs
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+from dalembert.cli.answer_files import NO_LABELLED, LabelledOutputs
 from dalembert.cli.machine.machine_commands import answer, cycle_of, number_of
 from dalembert.cli.options import AS_GIVEN, ModelFile, Of, numeric, several, target, with_help
-from dalembert.cli.outputs import NO_LABELLED, LabelledOutputs
 
 
 def members(

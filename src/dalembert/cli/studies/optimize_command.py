@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+from dalembert.cli.answer_files import NO_LABELLED, LabelledOutputs
 from dalembert.cli.options import with_help
-from dalembert.cli.outputs import NO_LABELLED, LabelledOutputs
 
 OPTIMIZE = """Examples:
   dalembert optimize optimize.yaml

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import App
 
+from dalembert.cli.answer_files import NO_LABELLED, LabelledOutputs
 from dalembert.cli.options import Force, flag, numeric, output, with_help
-from dalembert.cli.outputs import NO_LABELLED, LabelledOutputs
 from dalembert.errors import ModelError
 from dalembert.progress import progress
 

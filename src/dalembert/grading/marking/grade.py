@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from dalembert.arrays import Tree
     from dalembert.model import Answer, Mechanism
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
-    from dalembert.views.notation import Notation
 
 
 SHOWN = 10
@@ -82,15 +80,6 @@ class Marks(Worked):
     def tabs(self, units: UnitChoice = "file", axes: Axes = "ground") -> Iterator[Tab]:
         """Marks, figures, mistakes, what could not be read, and the rubric."""
         return marks_tabs(self.students, self.rubric)
-
-    def sheet(self, notation: Notation | None = None) -> Sheet:
-        """Marks, all mistakes, and every figure that lost some."""
-        from dalembert.reports.machine_sections import put_parts
-        from dalembert.reports.sheet import Sheet
-
-        sheet = Sheet("Marks")
-        put_parts(sheet, marks_parts(self.students))
-        return sheet
 
     def save_feedback(self, folder: str | Path, overwrite: bool = False) -> None:
         """A text of plain sentences for each student, in a folder."""

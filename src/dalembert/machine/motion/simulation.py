@@ -45,14 +45,11 @@ if TYPE_CHECKING:
     from dalembert.views.paper.scene import Scene
 
 TOLERANCE = 1e-12
-"""Relative tolerance of the integration, and the largest number of instants that are kept."""
+"""Relative tolerance of the integration."""
 CLOSE, DOUBT = 1e-10, 1e-5
-"""Gap of a check that needs no other measure; and that above which the answer says so: results are read to five digits
-at most."""
-
+"""Gap of a check that needs no other measure; and that above which the answer says so."""
 NOTHING = 1e-6
-"""Efforts are compared as if the largest had this part, at least, of the moments of inertia, weights and loads: below
-these they may be nothing but rounding."""
+"""Efforts are compared as if the largest had this part of the moments of inertia, weights and loads at least."""
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -79,12 +76,9 @@ class Simulation(NamedAnswer, MachineAnswer):
     pushed: Array = field(repr=False)  # efforts on what rests on a stop, else NaN
     on_joints: Array = field(repr=False)  # stops of joints, (T, J, 2)
     status: str = "ended"
-    """``ended`` by a time or a condition; ``not_met``: its conditions are not, within the limits or because it is at
-    rest for good; ``stopped`` where the motion cannot continue, ``interrupted`` by Ctrl-C: ``ended`` gives the reason
-    and the time."""
-    motion: Result | None = field(
-        repr=False, default=None
-    )  # where other freedoms have led: its poses and rates
+    """``ended`` by a time or a condition; ``not_met``: its conditions are not, within the limits or as it is at rest
+    for good; ``stopped`` where nothing goes on, ``interrupted`` by Ctrl-C: ``ended`` says why and when."""
+    motion: Result | None = field(repr=False, default=None)  # poses and rates where other freedoms have led
     evaluations: int = field(repr=False, default=0)
 
     @cached_property
@@ -262,18 +256,14 @@ class Simulation(NamedAnswer, MachineAnswer):
 
     def _columns_of_motion(self) -> Iterator[Column]:
         for k, drive in enumerate(self.drives):
-            yield Column(
-                f"applied_effort.{drive}", drive_kinds(self.result, drive)["effort"], self.applied[:, k]
-            )
+            kind = drive_kinds(self.result, drive)["effort"]
+            yield Column(f"applied_effort.{drive}", kind, self.applied[:, k])
             if self.stop_force[:, k].any():
-                yield Column(
-                    f"stop_force.{drive}", drive_kinds(self.result, drive)["effort"], self.stop_force[:, k]
-                )
-        for joint, (_, freedom) in zip(
-            self.joint_stop_force, joint_stops(self.result.mechanism), strict=True
-        ):
-            if self.joint_stop_force[joint].any():
-                yield Column(f"stop_force.{joint}", kind_of(freedom, "effort"), self.joint_stop_force[joint])
+                yield Column(f"stop_force.{drive}", kind, self.stop_force[:, k])
+        stops = zip(self.joint_stop_force.items(), joint_stops(self.result.mechanism), strict=True)
+        for (joint, force), (_, freedom) in stops:
+            if force.any():
+                yield Column(f"stop_force.{joint}", kind_of(freedom, "effort"), force)
         for name, values in self.works.items():
             yield Column(f"energy.work.{name}", "energy", values)
         yield Column("energy.kinetic", "energy", self.kinetic)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from dalembert.answer.answer import Drawn, Worked
 from dalembert.machine.output.machine_answer import MachineAnswer
 from dalembert.printing import Part
 from dalembert.reports.sheet import Sheet
@@ -20,6 +21,15 @@ def machine_sheet(answer: MachineAnswer, notation: Notation | None = None) -> Sh
     answer.section(sheet, shown)
     put_parts(sheet, answer.contents(shown.notation.units))
     sheet.figure(*answer.drawings(shown.notation))
+    return sheet
+
+
+def answer_sheet(answer: Worked, notation: Notation | None = None) -> Sheet:
+    """The page of an answer without equations: what is printed, and its drawings."""
+    shown, basis = notation or Notation(), answer.basis()
+    sheet = Sheet(basis["title"] or type(answer).__name__, basis.get("source", ""))
+    put_parts(sheet, answer.contents(shown.units))
+    sheet.figure(*(answer.drawings(shown) if isinstance(answer, Drawn) else ()))
     return sheet
 
 

@@ -9,8 +9,6 @@ import numpy as np
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.pareto_front import Front
-from dalembert.optimization.synthesis import Synthesis
-from dalembert.reports.machine_sections import put_parts
 from dalembert.reports.sheet import Sheet
 from dalembert.views import draw
 from dalembert.views.charts import along
@@ -55,13 +53,3 @@ def front_scenes(f: Front, notation: Notation | None = None) -> list[Scene]:
     )
     curve = curves_scene(x[0], {"front": y[0]}, x[1], y[1], "Front")
     return [curve, *(draw.mechanism(o.after, notation=notation) for o in (f.designs[0], f.designs[-1]))]
-
-
-def plain_sheet(answer: Front | Synthesis, heading: str, notation: Notation | None = None) -> Sheet:
-    """The page of an answer that has no equations: what is printed, and the drawings."""
-    shown = notation or Notation()
-    sheet = Sheet(answer.described.title or heading, answer.described.source_text)
-    sheet.heading(heading)
-    put_parts(sheet, answer.contents(shown.units))
-    sheet.figure(*answer.drawings(shown))
-    return sheet
