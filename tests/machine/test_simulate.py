@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from copy import copy, deepcopy
 from dataclasses import replace
 from pathlib import Path
@@ -327,3 +328,52 @@ def test_efforts_that_are_rounding_beside_the_machine_are_no_doubt() -> None:
     assert s.doubt == ""
     other = replace(s, given=np.full_like(s.given, 0.1))
     assert "prescribed, that motion asks for other efforts" in other.doubt
+
+
+SWING = """
+gravity: [0, -9.80665]
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], P: [0.3, 0]}, mass: 2, center: [0.2, 0], inertia: 0.01}
+joints: {O: {type: pin, links: [ground, arm]ROUGH}}
+drives: {O: DRIVE}
+start: {O: {position: -90 deg, speed: SPEED}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("drive", "speed", "why", "effort"),
+    [
+        ("{effort: 0}", "0.5 rad/s", "friction holds it", 0.0),
+        ("{motor: {stall: 2 N*m, no_load: 10 rad/s}}", "1 rad/s", "its motor stalls", 2.0),
+    ],
+)
+def test_what_comes_to_rest_says_what_holds_it(drive: str, speed: str, why: str, effort: float) -> None:
+    """Its weight's moment at rest with the friction of its pin, as two oracles of one line each have them."""
+    rough = ", friction: {coefficient: 0.3, radius: 0.1}"
+    text = SWING.replace("ROUGH", rough).replace("DRIVE", drive).replace("SPEED", speed)
+    s = da.simulate(da.loads(text), 2.0, count=5)
+    (event,) = s.events
+    found = re.fullmatch(
+        r"O comes to rest and stays: (.*); effort (\S+) N\*m, held from (\S+) N\*m to (\S+) N\*m",
+        event.sentence,
+    )
+    assert found, event.sentence
+    assert found[1] == why
+    at, low, high = (float(x) for x in found.groups()[1:])
+    assert at == pytest.approx(effort)
+    assert low <= at <= high
+    weight = 2 * 9.80665
+    level = weight * 0.2 * np.cos(float(s.position("O")[-1]))
+    circle = 0.1 * np.sin(np.arctan(0.3))
+    assert (low + high) / 2 == pytest.approx(level, rel=1e-4)
+    assert (high - low) / 2 == pytest.approx(weight * circle, rel=1e-4)
+
+
+@pytest.mark.parametrize("zero", ["0", "0 rad/s", "0.0 deg/s"])
+def test_a_condition_of_zero_needs_no_unit(zero: str) -> None:
+    text = SWING.replace("ROUGH", "").replace("DRIVE", "{effort: 0}").replace("SPEED", "3 rad/s")
+    s = da.simulate(da.loads(text), [f"O.speed = {zero}", 5.0])
+    height = (0.01 + 2 * 0.04) * 9 / 2 / (2 * 9.80665)
+    assert 0.2 * (1 + np.sin(float(s.position("O")[-1]))) == pytest.approx(height, rel=1e-6)
+    assert s.time[-1] < 5.0

@@ -41,6 +41,8 @@ class Labelled(str):
 
 def plain_label(self: Canvas, text: str, *near: Any, prefer: float | None = None, **more: Any) -> None:
     """A label amid the places it belongs to, with its direction in words."""
+    if not text:
+        return
     x, y = np.mean(near, axis=0)
     towards = "" if prefer is None else f" towards {round(math.degrees(prefer), 2) % 360:.2f}"
     look = {key: more[key] for key in ("size", "role") if key in more}
@@ -79,6 +81,8 @@ def plane_views() -> Iterator[tuple[str, Scene]]:
     at_rest = engine(mu=0.3, speed=0.0)
     yield "engine at rest", d.mechanism(da.statics(at_rest))
     yield "lift", d.mechanism(example("scissor_lift", positions=2), at=1, forces=True)
+    yield "bucket, velocities", d.velocity_polygon(example("bucket", positions=3), at=1)
+    yield "gear train, teeth", d.teeth(example("gear_train"))
     yield "bucket", d.free_bodies(example("bucket", positions=3), at=1)
 
 
@@ -100,7 +104,7 @@ def space_views() -> Iterator[tuple[str, Scene]]:
 
 def machine_views() -> Iterator[tuple[str, Scene]]:
     d, steady = da.draw, da.load(examples()["four_bar"]).with_values({"drives.O2.acceleration": 0.0})
-    r = da.dynamics(steady, positions=12)
+    r = da.dynamics(steady, positions=16)
     yield "shaking", d.machine(da.shaking(r))
     yield "balance", d.machine(da.balance(r, ["crank", "rocker"]))
     for name, other in (("four-bar linkage", r), ("linkage in space", space_machines.solved("rssr"))):

@@ -24,7 +24,7 @@ from tests.methods.test_drawn_alike import Seen, plane_machine
 from tests.methods.test_drawn_numbers import alike
 
 CHECKED = Path(__file__).with_name("page_numbers.txt")
-PROGRAM = ("version", "wasm", "style", "template", "text", "shown", "closure", "gradient")
+PROGRAM = ("version", "wasm", "style", "shown", "closure", "gradient")
 """Keys that hold machine code, looks or a whole file."""
 LONG = 12
 
