@@ -60,6 +60,8 @@ KINDS: dict[str, Kind] = {
     "angular_acceleration": _kind(
         "an angular acceleration", "rad/s^2", (0, 0, -2, 1), "angle time^-2", "-40 rad/s^2"
     ),
+    "jerk": _kind("a jerk", "m/s^3", (1, 0, -3, 0), "length time^-3", "50 m/s^3"),
+    "angular_jerk": _kind("an angular jerk", "rad/s^3", (0, 0, -3, 1), "angle time^-3", "200 rad/s^3"),
     "stiffness": _kind("a stiffness", "N/m", (0, 1, -2, 0), "force length^-1", "2000 N/m"),
     "damping": _kind("a damping", "N*s/m", (0, 1, -1, 0), "force time length^-1", "30 N*s/m"),
     "torsion_stiffness": _kind(

@@ -14,6 +14,7 @@ from dalembert.model.drives.end_stops import Stops, end_stops, stops_schema
 from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law_schema
 from dalembert.model.drives.laws import law as read_law
 from dalembert.model.drives.motors import MotorCurve, motor_curve, motor_schema
+from dalembert.model.drives.programmes import Programme
 from dalembert.model.part import Part, Reading, mapping, reading
 from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.figures import in_units
@@ -305,7 +306,8 @@ class Drive(Part):
         return {
             key: len(value) if isinstance(value, tuple) else value.count
             for key, value in values.items()
-            if isinstance(value, (tuple, Range, Rise, TimeTable))
+            if isinstance(value, (tuple, Range, Rise, TimeTable, Programme))
+            and not getattr(value, "over", "")
         }
 
     @field_serializer(
@@ -340,6 +342,6 @@ def _tree(value: Any, kind: str) -> object:
             "to": value_text(value.stop, kind),
             "count": value.count,
         }
-    if isinstance(value, (Rise, TimeTable, MotorCurve, Stops)):
+    if isinstance(value, (Rise, TimeTable, Programme, MotorCurve, Stops)):
         return value.tree(kind)
     return value if value is None or value == UNKNOWN else varying_tree(value, kind)

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.model.drives.programmes import Programme, programme, programme_schema
 from dalembert.model.part import Reading, mapping
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -117,15 +118,17 @@ class TimeTable:
         return tree | ({"periodic": True} if self.periodic else {})
 
 
-Law = Rise | TimeTable
+Law = Rise | TimeTable | Programme
 
 
 def law(value: object, kind: str, rules: Reading) -> Law:
     """The law that a tree describes; positions are of the kind `angle` or `length`."""
-    if isinstance(value, (Rise, TimeTable)):
+    if isinstance(value, (Rise, TimeTable, Programme)):
         return value
     if not isinstance(value, Mapping):
         raise ModelError(f"{quote_value(value)} is not a law of motion", f"write {EXAMPLES['rise']}")
+    if "segments" in value:
+        return programme(value, kind, rules)
     form = value.get("type")
     if form not in TYPES:
         found = "the key 'type' is missing" if form is None else f"unknown law {quote_value(form)}"
@@ -201,4 +204,4 @@ def law_schema() -> JsonSchema:
         "interpolate": {"const": "cubic", "description": "a cubic spline, the default"},
         "periodic": {"type": "boolean", "description": "the last position repeats the first; default false"},
     }
-    return {"anyOf": [object_schema(rise, *rise), object_schema(table, *list(table)[:4])]}
+    return {"anyOf": [object_schema(rise, *rise), object_schema(table, *list(table)[:4]), programme_schema()]}

@@ -11,7 +11,8 @@ from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.laws import MOST
-from dalembert.wording import quote_value
+from dalembert.model.drives.programmes import Programme
+from dalembert.wording import closest, quote_value
 
 Motion = tuple[Any, Any, Any, Any]
 """Time, if a law says it, position, speed and acceleration of a drive: arrays, lists or single numbers."""
@@ -88,7 +89,8 @@ def schedule(drives: Mapping[str, Drive], positions: AtPositions = None) -> Sche
     elif positions is not None:
         drives = _with_positions(drives, positions)
     size = _count(drives, count)
-    columns = {name: _motion(drive, size) for name, drive in drives.items()}
+    columns = {name: _motion(drive, size) for name, drive in drives.items() if not _master(drive)}
+    columns = _with_followers(drives, columns)
     shape = (size, len(drives))
     whole = np.empty((3, *shape))
     for k, column in enumerate(columns.values()):
@@ -199,6 +201,33 @@ def _motion(drive: Drive, size: int) -> Motion:
     elif isinstance(position, str):
         position = math.nan
     return None, position, drive.speed, drive.acceleration
+
+
+def _master(drive: Drive) -> str:
+    """The drive over whose position a law is; empty for none."""
+    return drive.law.over if isinstance(drive.law, Programme) else ""
+
+
+def _with_followers(drives: Mapping[str, Drive], known: dict[str, Motion]) -> dict[str, Motion]:
+    """The motions of all drives, those over another one's position among them."""
+    import numpy as np
+
+    waiting = {name: _master(drive) for name, drive in drives.items() if name not in known}
+    while ready := [name for name, master in waiting.items() if master in known]:
+        for name in ready:
+            law, master = drives[name].law, waiting.pop(name)
+            assert isinstance(law, Programme)
+            motion = np.broadcast_arrays(*(np.asarray(x, float) for x in known[master][1:]))
+            known[name] = (known[master][0], *law.following(*motion))
+    for name, master in waiting.items():
+        circle = master in drives
+        raise ModelError(
+            f"the law of drive {name!r} is over {quote_value(master)}, "
+            + ("and they are over each other in a circle" if circle else "which is not a drive"),
+            "let one of them depend on time" if circle else closest(master, [n for n in drives if n != name]),
+            ("drives", name, "law", "over"),
+        )
+    return {name: known[name] for name in drives}
 
 
 def _steps(span: Range, size: int, turns: bool) -> Array:
