@@ -136,6 +136,10 @@ STATUSES: dict[str, Status] = {
         "Friction changes its sense here: the numbers jump from those just before to those just after.",
         "",
     ),
+    "contact_lost": Status(
+        "A contact that only pushes would have to pull: it is lost.",
+        "Load or preload the contact, move more slowly, or write contact: holds for one that holds both ways.",
+    ),
     "at_rest": Status(
         "With friction and no motion the efforts are an interval, not a number.",
         "Give a speed to choose the sense.",

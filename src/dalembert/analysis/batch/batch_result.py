@@ -34,6 +34,7 @@ CODES = (
     "overflow",
     "no_derivative",
     "reversal",
+    "contact_lost",
 )
 """Statuses by the marks of the kernel; `undecided` goes to the general executor and does not come back."""
 

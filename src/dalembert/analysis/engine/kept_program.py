@@ -235,6 +235,7 @@ def problem_of(
         slips=None,
         reversals=None,
         margins={},
+        pushing=c.pushing,
     )
 
 

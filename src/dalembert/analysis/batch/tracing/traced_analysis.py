@@ -121,6 +121,7 @@ def trace_analysis(
         reversals=None if solved is None else inputs.reversals(c),
         margins=margins if moved else {},
         contacts=c.contacts,
+        pushing=c.pushing,
         at_pose=_pose_loads(inputs, c, moved, functions_of(graph)),
         moves=moves,
         side=inputs.side() if sided else None,
