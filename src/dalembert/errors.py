@@ -140,6 +140,10 @@ STATUSES: dict[str, Status] = {
         "A load is a table that ends before this position: the value at its end was used.",
         "Give the table more points, make it periodic, or say what it is outside: hold or zero.",
     ),
+    "contact_lost": Status(
+        "A contact that only pushes would have to pull: it is lost.",
+        "Load or preload the contact, move more slowly, or write contact: holds for one that holds both ways.",
+    ),
     "at_rest": Status(
         "With friction and no motion the efforts are an interval, not a number.",
         "Give a speed to choose the sense.",

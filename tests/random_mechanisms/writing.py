@@ -168,6 +168,8 @@ class _Writer:
             made["angle"] = self.angle(turn - (direction if j.type == "slider" else 0.0))
         if j.type == "circular_slot":
             made["radius"] = self.length(j.radii[0])
+        if j.type == "rolling":
+            made["contact"] = "holds"  # loads are random: half of them would lift the wheel off
         if j.type in ("gear", "rolling"):
             made |= self._wheels(j, swapped)
         if j.damping:

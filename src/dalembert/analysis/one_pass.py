@@ -192,7 +192,8 @@ def slice_forcing(c: Compiled, part: Index) -> tuple[Forcing, Known]:
 
 def _blank_without_answer(open_: Flags, status: tuple[str, ...], moved: _Moved, f: Forces) -> None:
     """NaN where a position has no pose, no rates or no forces."""
-    kinds = [(s not in KEPT, s == "undefined_load", s in ("jammed", "redundant")) for s in status]
+    blank = ("undefined_load", "contact_lost")
+    kinds = [(s not in KEPT, s in blank, s in ("jammed", "redundant")) for s in status]
     lost, undirected, unsolved = np.array(kinds).T
     _blank(open_, moved.point, moved.turn, moved.rotation)
     _blank(lost, moved.twist, moved.acceleration)

@@ -34,6 +34,7 @@ from dalembert.core.layout import Angle, Layout, Pose, System
 from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_places, held_wheels, phase_rows, with_rows
 from dalembert.core.position.newton import CLOSED, gap
+from dalembert.core.pushing import Pushing, contact_forces
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
 from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, is_zero, trace_array
@@ -91,6 +92,7 @@ class Problem:
     redundant: bool = False  # some rows repeat others
     whole: bool = False  # and where closed forms need a choice of these, Newton's steps take all
     phased: bool = False  # the phases of wheels are in the target
+    pushing: Pushing | None = None  # contacts that hold one way alone
 
 
 @dataclass(frozen=True)
@@ -174,12 +176,14 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
     if p.known.link.size:
         unit = load_rows(layout, p.known, pose)
         sources["asked"] = Source(unit.j, unit.on_j * found.load[:, None])
+    force, moment = force + friction.force, couple.reshape(friction.moment.shape) + friction.moment
+    pushes = p.pushing and contact_forces(layout, p.pushing, pose, force, moment)
     return Traced(
         pose=pose,
         twist=trace_array(g, moving.twist),
         acceleration=trace_array(g, moving.acceleration),
-        force=trace_array(g, force + friction.force),
-        moment=trace_array(g, couple.reshape(friction.moment.shape) + friction.moment),
+        force=trace_array(g, force),
+        moment=trace_array(g, moment),
         effort=trace_array(g, effort),
         load=trace_array(g, found.load),
         unbalanced=trace_array(g, reacted + friction.total),
@@ -195,6 +199,7 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
             *_short(p, layout, pose),
             *_turn_count_doubt(p, layout, pose),
             *_unheld(p.graph, layout, spins, friction.total),
+            *(() if pushes is None else trace_array(g, pushes)),
         ],
         friction=friction,
         flips=placed.flips,

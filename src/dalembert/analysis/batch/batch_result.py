@@ -35,6 +35,7 @@ CODES = (
     "no_derivative",
     "reversal",
     "outside_table",
+    "contact_lost",
 )
 """Statuses by the status codes of the kernel; `undecided` goes to the general executor and is not returned."""
 

@@ -15,6 +15,7 @@ from dalembert.analysis.compile import plane_rows as table
 from dalembert.analysis.compile.joint_rows import PlaneJoints, SpaceJoints
 from dalembert.analysis.compile.load_arrays import Setting, forcing, unknown_columns
 from dalembert.analysis.compile.pair_table import Geometry
+from dalembert.analysis.compile.pushing_contacts import pushing_contacts
 from dalembert.analysis.compile.table_ends import Beyond, beyond_ends
 from dalembert.arrays import Array, Tree
 from dalembert.core.equilibrium import Known
@@ -23,6 +24,7 @@ from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Layout, Rows
 from dalembert.core.position.first_pose_plane import Guess, Modes
 from dalembert.core.position.first_pose_space import Drawing
+from dalembert.core.pushing import Pushing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
 from dalembert.model.load_types import Directed
@@ -69,6 +71,7 @@ class Compiled:
     known: Known
     contacts: Contacts | None  # of the joints with friction; None without
     geometries: tuple[Geometry, ...] = ()  # of the joints, in space
+    pushing: Pushing | None = None  # contacts that hold one way alone
     passive: tuple[str, ...] = ()  # links whose spin moves nothing else, set to none
     pose_names: tuple[str, ...] = ()  # what loads go by that is known once the motion is
     counts: tuple[Count, ...] = ()  # of the whole turns of torsion springs, once the motion is known
@@ -255,6 +258,7 @@ def _lay_out(joined: _Joined, like: Compiled | None) -> Tree:
         "guess": jointing.guess() if like is None else like.guess,
         "contacts": jointing.contacts(fixed),
         "geometries": jointing.geometries,
+        "pushing": pushing_contacts(m, fixed) if m.dimension == 2 else None,
         "passive": jointing.passive,
     }
 

@@ -52,6 +52,8 @@ def flat_numbers(c: Compiled, pose: Pose | None = None) -> Numbers:
         known, numbers = _flat_rows(part)
         rows += known
         single += numbers
+    if c.pushing is not None:
+        rows += c.pushing.key
     for record in (c.forcing, c.known):
         _flatten(record, rows, single, along)
     if c.contacts is not None and pose is not None:

@@ -236,6 +236,7 @@ def problem_of(
         slips=None,
         reversals=None,
         margins={},
+        pushing=c.pushing,
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from dalembert.analysis.friction.friction_status import Check, alone, arc, friction_checks, reversal_checks
 from dalembert.analysis.status.closure_failure import open_sentence
+from dalembert.analysis.status.lost_contacts import contact_checks
 from dalembert.analysis.status.outside_tables import outside, outside_sentence
 from dalembert.analysis.status.overflow import FORCES, RATES, fast, not_finite, overflow_sentence, strong
 from dalembert.analysis.status.undefined_springs import find_undefined_springs, undefined_sentence
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 UNBALANCED = 1e-6
 """Residual above which a position has no equilibrium."""
 
-KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load")
+KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load", "contact_lost")
 """Statuses that keep the motion, and the available numbers of the forces."""
 
 
@@ -55,6 +56,7 @@ def statuses(
         checks += [
             ("overflow", not_finite(f) & held, lambda k: overflow_sentence(c, FORCES, c.joints, loaded, k)),
             ("no_balance", unbalanced, lambda k: no_balance_sentence(c, k)),
+            *contact_checks(c, path.pose, f),
             ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
             ("outside_table", outside(c), lambda k: outside_sentence(c, k)),
             *reversal_checks(c, f),

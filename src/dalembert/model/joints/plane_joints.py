@@ -10,6 +10,14 @@ from pydantic import Field, StrictBool, ValidationInfo, model_validator
 from dalembert.errors import ModelError
 from dalembert.model.drives.end_stops import STOPS, JointStops, Stops
 from dalembert.model.joints.bearing_keys import Bearing
+from dalembert.model.joints.contact_keys import (
+    PUSHES,
+    Contact,
+    Side,
+    check_contact,
+    contact_field,
+    side_field,
+)
 from dalembert.model.joints.friction_keys import GearFriction, GuideFriction, PinFriction, SlotFriction
 from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.joints.pairs import freedoms_of
@@ -112,6 +120,10 @@ class Slider(JointPart):
     friction: GuideFriction | None = Field(None, description="dry friction of the guide")
     damping: SlideDamping = Field(0.0, description="viscous force per speed")
     stops: Annotated[Stops, JointStops("length")] | None = Field(None, description=STOPS)
+    contact: Contact = contact_field()
+    side: Side = side_field()
+
+    _sides = model_validator(mode="before")(check_contact)
 
 
 class Slot(JointPart):
@@ -125,6 +137,10 @@ class Slot(JointPart):
         (0.0, 0.0), description="viscous force per speed along the slot, or {slide:, turn:}"
     )
     stops: Annotated[Stops, JointStops("length")] | None = Field(None, description=f"of the slide: {STOPS}")
+    contact: Contact = contact_field()
+    side: Side = side_field()
+
+    _sides = model_validator(mode="before")(check_contact)
 
 
 class CircularSlot(JointPart):
@@ -140,6 +156,10 @@ class CircularSlot(JointPart):
         description="of the slot's middle line about i's point, a length"
     )
     damping: TurnDamping = Field(0.0, description="viscous couple per angular speed of the pin")
+    contact: Contact = contact_field()
+    side: Side = side_field()
+
+    _sides = model_validator(mode="before")(check_contact)
 
     @property
     def apart(self) -> bool:
@@ -284,6 +304,7 @@ class Rolling(JointPart):
         None, description="of the circle on i and of the wheel on j, lengths"
     )
     internal: StrictBool = Field(False, description="true: one rolls inside the other")
+    contact: Contact = contact_field(PUSHES)
 
     @property
     def wheels(self) -> int:

@@ -76,7 +76,7 @@ class Inputs:
         return found | ({} if s.clock is None else {TIME: self.time()})
 
     def inside(self, varying: Any) -> bool:
-        """True if a changing quantity depends on something that a design's numbers may move: it is computed with the design."""
+        """True if a changing quantity depends on something that a design's numbers may move."""
         timed = TIME in varying.names and self.course.schedule.time is None
         return timed or is_shifted(varying) or any("." in name for name in varying.names)
 

@@ -124,6 +124,7 @@ def trace_analysis(
         margins=margins if moved else {},
         contacts=c.contacts,
         at_pose=_pose_loads(inputs, c, functions_of(graph)),
+        pushing=c.pushing,
         moves=moves,
         side=inputs.side() if sided else None,
         redundant=repeated,
