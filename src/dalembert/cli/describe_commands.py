@@ -130,7 +130,7 @@ def convert(
     force: Force = False,
 ) -> int:
     """Write a model file in another format: .yaml, .json or .toml."""
-    from dalembert.cli.model_argument import with_settings
+    from dalembert.cli.options import with_settings
     from dalembert.model import convert as convert_file
     from dalembert.model import load
 
