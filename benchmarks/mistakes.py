@@ -20,7 +20,7 @@ from tests.grading.marked_sheets import Made, mistaken_sheets, named_first, slip
 
 import dalembert as da
 from dalembert.bundled import cases, examples
-from dalembert.grading.mistakes import Problem
+from dalembert.grading.mistakes import SolvedProblem
 
 TRUE = "true figures called right"
 
@@ -44,7 +44,7 @@ def main(names: list[str]) -> None:
     rates = {name: Rate() for name in (*kinds, *(f"{k}, by this very sentence" for k in kinds), TRUE)}
     first, again = [], []
     for name in names:
-        problem = Problem(da.load((cases() | examples())[name]))
+        problem = SolvedProblem(da.load((cases() | examples())[name]))
         place = min(1, len(problem.result.status) - 1)
         sheet = true_sheet(problem, place, 3)
         for verdict in problem.verdicts(sheet):

@@ -308,7 +308,7 @@ def figures(folder: Path, torque: da.Optimum, shaking: da.Optimum, path: da.Synt
     r = da.kinematics(path.mechanism)
     marks = [(k, str(k + 1)) for k in range(len(CRANK))]
     made = polar_scene(
-        {"P": r["point.coupler.P"]}, "m", "The coupler point at ten angles of the crank", marks=marks
+        {"P": r["point.coupler.P"]}, "m", "The coupler point at ten angles of the crank", labels=marks
     )
     scene = stack_scenes([made, da.draw.mechanism(r, 2)], title="Four-bar through ten points")
     scene.save(folder / "synthesized_path.svg", overwrite=True)

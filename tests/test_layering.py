@@ -218,6 +218,15 @@ def test_no_two_files_have_one_name() -> None:
     assert not [name for name, count in counted.items() if count > 1]
 
 
+TWICE = {"Couple"}
+"""Public in two rooms: ``da.Couple`` is a load of a model, ``da.wrench.Couple`` a free vector."""
+
+
+def test_no_two_classes_have_one_name() -> None:
+    classes = [n for path in MODULES for n in ast.walk(tree(path)) if isinstance(n, ast.ClassDef)]
+    assert {name for name, count in Counter(n.name for n in classes).items() if count > 1} == TWICE
+
+
 HEAVY = (
     "numpy",
     "scipy",

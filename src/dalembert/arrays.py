@@ -30,22 +30,22 @@ Arrays = TypeVar("Arrays")
 """An array, or a NamedTuple of arrays and of such records over the same positions."""
 
 
-def at(whole: Arrays, where: object) -> Arrays:
+def at(arrays: Arrays, where: object) -> Arrays:
     """An array, or a record of arrays, at some positions."""
-    record: Any = whole
-    make: Callable[..., Arrays] = type(whole)
-    found: Arrays = make(*(at(a, where) for a in record)) if isinstance(record, tuple) else record[where]
-    return found
+    record: Any = arrays
+    make: Callable[..., Arrays] = type(arrays)
+    result: Arrays = make(*(at(a, where) for a in record)) if isinstance(record, tuple) else record[where]
+    return result
 
 
-def put(whole: Arrays, where: object, part: Arrays) -> Arrays:
+def put(arrays: Arrays, where: object, part: Arrays) -> Arrays:
     """A copy of an array, or of a record of arrays, with other values at some positions."""
-    record: Any = whole
-    make: Callable[..., Arrays] = type(whole)
+    record: Any = arrays
+    make: Callable[..., Arrays] = type(arrays)
     values: Any = part
     if isinstance(record, tuple):
-        found: Arrays = make(*(put(a, where, b) for a, b in zip(record, values, strict=True)))
-        return found
+        result: Arrays = make(*(put(a, where, b) for a, b in zip(record, values, strict=True)))
+        return result
     out: Any = np.array(record)
     out[where] = values
     return out  # type: ignore[no-any-return]

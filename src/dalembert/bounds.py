@@ -22,11 +22,11 @@ class Bound(NamedTuple):
     low: float
     high: float = LARGEST
     ends: tuple[bool, bool] = (True, True)
-    whole: bool = False
+    is_integer: bool = False
 
     def allows(self, value: object) -> bool:
         """True if a value is a number within the bounds; a truth value is not a number."""
-        if isinstance(value, bool) or not isinstance(value, Integral if self.whole else Real):
+        if isinstance(value, bool) or not isinstance(value, Integral if self.is_integer else Real):
             return False
         x = int(value) if isinstance(value, Integral) else float(value)
         above = self.low <= x if self.ends[0] else self.low < x
@@ -35,7 +35,7 @@ class Bound(NamedTuple):
 
     def remedy_for(self, value: object) -> str:
         """Remedy for a value outside the bounds."""
-        if self.whole or not isinstance(value, Real):
+        if self.is_integer or not isinstance(value, Real):
             return self.remedy
         size = abs(float(value))
         if not math.isfinite(size):
@@ -50,8 +50,8 @@ FINITE = Bound("give a finite number", -LARGEST)
 PART = Bound("give a number above 0 and below 1", 0.0, 1.0, (False, False))
 
 
-def _whole(low: int, high: int) -> Bound:
-    return Bound(f"give a whole number from {low} to {high}", low, high, whole=True)
+def _integer(low: int, high: int) -> Bound:
+    return Bound(f"give a whole number from {low} to {high}", low, high, is_integer=True)
 
 
 BOUNDS: dict[str, Bound] = {
@@ -89,24 +89,24 @@ BOUNDS: dict[str, Bound] = {
     "motor inertia": NOT_NEGATIVE,
     "rated torque": ABOVE,
     # counts
-    "orders": _whole(0, MILLION),
+    "orders": _integer(0, MILLION),
     "order": NOT_NEGATIVE,
-    "count": _whole(1, MILLION),
-    "variants": _whole(1, 1000),
-    "starts": _whole(1, MILLION),
-    "points": _whole(2, 1000),
-    "values": _whole(2, 1000),
-    "bins": _whole(1, MILLION),
-    "some": _whole(0, MILLION),
-    "positions": _whole(1, 10**7),
-    "steps": _whole(1, 1_000_000_000),
-    "instants": _whole(2, 100_000),
-    "lanes": _whole(1, 10**6),
-    "threads": _whole(1, 10**5),
-    "designs": _whole(1, 2**53),
-    "samples": _whole(2, 2**30),
-    "design": _whole(0, 2**53),
-    "seed": _whole(0, 2**63 - 1),
+    "count": _integer(1, MILLION),
+    "variants": _integer(1, 1000),
+    "starts": _integer(1, MILLION),
+    "points": _integer(2, 1000),
+    "values": _integer(2, 1000),
+    "bins": _integer(1, MILLION),
+    "some": _integer(0, MILLION),
+    "positions": _integer(1, 10**7),
+    "steps": _integer(1, 1_000_000_000),
+    "instants": _integer(2, 100_000),
+    "lanes": _integer(1, 10**6),
+    "threads": _integer(1, 10**5),
+    "designs": _integer(1, 2**53),
+    "samples": _integer(2, 2**30),
+    "design": _integer(0, 2**53),
+    "seed": _integer(0, 2**63 - 1),
     # percentages and tolerances
     "percentile": Bound("give a number from 0 to 100", 0.0, 100.0),
     "tolerance": Bound("give a number from 0 to 1: a part of the largest force", 0.0, 1.0),

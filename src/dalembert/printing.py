@@ -113,7 +113,7 @@ def tables(
     )
 
 
-class Table(NamedTuple):
+class TextTable(NamedTuple):
     """A table before it is text: heads, cells as text, how many columns are aligned left, a note under it.
 
     >>> print(Table(["joint", "x"], [["A", "1"]], note="in N"))
@@ -132,7 +132,7 @@ class Table(NamedTuple):
         return tables(self.heads, self.rows, self.left) + (f"\n{self.note}" if self.note else "")
 
 
-Part = str | Table
+Part = str | TextTable
 """A part of what a person reads: sentences or a table."""
 
 

@@ -71,15 +71,15 @@ def new_file(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator[
     What is overwritten keeps its permissions, a symbolic link goes on pointing where it did, and all names of a file
     that has several (hard links) name the new content. Pipes and devices are written into.
     """
-    asked = Path(path)
-    check_new(asked, overwrite)
-    stream = _kind(asked) in STREAMS
+    requested = Path(path)
+    check_new(requested, overwrite)
+    stream = _kind(requested) in STREAMS
     try:
-        target = asked if stream else Path(os.path.realpath(asked))
+        target = requested if stream else Path(os.path.realpath(requested))
         beside = Path(gettempdir()) if stream else target.parent
         temporary = beside / f".{target.stem[:40]}.{secrets.token_hex(8)}{target.suffix}"
     except (OSError, ValueError) as error:  # a ValueError where the name has the character 0
-        raise _unwritable(asked, error) from None
+        raise _unwritable(requested, error) from None
     try:  # the name is known before the file exists: an interruption at any moment leaves nothing behind
         os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600))
         yield temporary
@@ -90,7 +90,7 @@ def new_file(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator[
         else:
             temporary.replace(target)
     except OSError as error:
-        raise _unwritable(asked, error) from None
+        raise _unwritable(requested, error) from None
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -114,8 +114,8 @@ def _write_all(file: IO[bytes], content: bytes) -> None:
 
 
 def _unwritable(path: Path, error: OSError | ValueError) -> ModelError:
-    said = (getattr(error, "strerror", None) or str(error)).lower()
-    return ModelError(f"cannot write {path}: {said}", "name a file that can be written")
+    reason = (getattr(error, "strerror", None) or str(error)).lower()
+    return ModelError(f"cannot write {path}: {reason}", "name a file that can be written")
 
 
 def _umask() -> int:

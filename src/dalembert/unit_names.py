@@ -190,8 +190,8 @@ def _exponent(tokens: list[str], text: str) -> tuple[int, list[str]]:
 def _by_name(name: str, text: str) -> Unit:
     known = SYMBOLS.get(name) or _from_pint(name)
     if known is None:
-        whole = f" in {quote_value(text)}" if name != text.strip() else ""
-        raise ModelError(f"unknown unit {quote_value(name)}{whole}", closest(name, list(SYMBOLS), 8))
+        context = f" in {quote_value(text)}" if name != text.strip() else ""
+        raise ModelError(f"unknown unit {quote_value(name)}{context}", closest(name, list(SYMBOLS), 8))
     return known
 
 

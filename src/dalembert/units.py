@@ -107,10 +107,10 @@ class Units:
 
     def own(self, kind: str) -> str:
         """The unit that the file gives for this kind; torsional stiffness and damping follow the moment's unit."""
-        given = dict(self.derived)
-        if kind in given or kind not in PER_RADIAN or "moment" not in given:
-            return given.get(kind, "")
-        return given["moment"] + (f"*{_power(self.time, 1)}" if kind == "torsion_damping" else "")
+        stated = dict(self.derived)
+        if kind in stated or kind not in PER_RADIAN or "moment" not in stated:
+            return stated.get(kind, "")
+        return stated["moment"] + (f"*{_power(self.time, 1)}" if kind == "torsion_damping" else "")
 
     def of_texts(self) -> TextUnits:
         """The same for the numbers in texts only."""
@@ -310,30 +310,30 @@ def _unit_of(text: str, kind: str) -> Unit:
 
 def _check_dimension(unit_text: str, named: Unit, value: object, kind: str) -> None:
     wanted = KINDS[kind]
-    given = named.dimension
-    if given == wanted.dimension:
+    dimension = named.dimension
+    if dimension == wanted.dimension:
         return
-    if kind in PER_RADIAN and given == (*wanted.dimension[:3], 0):
+    if kind in PER_RADIAN and dimension == (*wanted.dimension[:3], 0):
         return
     raise ModelError(
-        f"{quote_value(value)} is {_phrase(given)}, and {wanted.phrase} is needed",
-        _remedy(unit_text, given, kind),
+        f"{quote_value(value)} is {_phrase(dimension)}, and {wanted.phrase} is needed",
+        _remedy(unit_text, dimension, kind),
     )
 
 
 def _phrase(dimension: Dimension) -> str:
-    found = [kind.phrase for kind in KINDS.values() if kind.dimension == dimension]
-    if found:
-        return found[0]
+    phrases = [kind.phrase for kind in KINDS.values() if kind.dimension == dimension]
+    if phrases:
+        return phrases[0]
     names = ("m", "kg", "s", "rad")
     powers = [f"{name}^{power}" for name, power in zip(names, dimension, strict=True) if power]
     return "in " + "*".join(powers).replace("^1", "")
 
 
-def _remedy(unit_text: str, given: Dimension, kind: str) -> str:
+def _remedy(unit_text: str, dimension: Dimension, kind: str) -> str:
     if re.search(r"\blb\b", unit_text) and "force" in KINDS[kind].file:
         return f"lb is a mass: say {re.sub(r'lb', 'lbf', unit_text)} (lbf is the force, lbm the mass)"
-    if kind == "angular_speed" and given == (0, 0, -1, 0):
+    if kind == "angular_speed" and dimension == (0, 0, -1, 0):
         return "Hz and 1/s do not say whether turns or radians are counted: say rev/s, rpm or rad/s"
     return _write(kind)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from dalembert.analysis.solution import solve
-from dalembert.grading.file_answers import Row, check_file
+from dalembert.grading.file_answers import ComparedAnswer, check_file
 from dalembert.model import load
 
 FILES = sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))
@@ -16,7 +16,7 @@ FILES = sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))
 every_case = pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 
 
-def line(row: Row) -> str:
+def line(row: ComparedAnswer) -> str:
     """One answer that is missed, as a person reads it."""
     exact = f", exact {row.exact}" if row.exact else ""
     published = f"published {row.published} within {row.tolerance}{exact}"

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.cli.draw_command import _at_last_position, _way
+from dalembert.cli.draw_command import _at_last_position, _path_to
 from dalembert.cli.method_text import MOST_STEPS, NOTHING, _rounding, fixed_point_text
-from dalembert.cli.options import whole
+from dalembert.cli.options import integer
 from dalembert.model.library import TEMPLATES
 from tests.friction.engines import pushed_slider
 
@@ -22,7 +22,7 @@ def test_a_drawing_at_another_value_is_of_the_pose_that_leads_there(template: st
     """In small steps from the file's own position, up or down, on its branch."""
     m = TEMPLATES[template].function()
     m = m.with_values({f"drives.{next(iter(m.drives))}.position": float(np.radians(60))})
-    way = _way(m, at)
+    way = _path_to(m, at)
     assert way is not None
     assert np.abs(np.diff(way)).max() <= 0.05 + 1e-12
     assert (way[0], way[-1]) == pytest.approx((np.radians(60), np.radians(float(at.split()[0]))))
@@ -37,7 +37,7 @@ def test_a_drawing_at_another_value_is_of_the_pose_that_leads_there(template: st
 
 def test_whole_numbers_have_fifteen_digits_at_most() -> None:
     def read(text: str) -> int:
-        return whole(1)(None, [SimpleNamespace(value=text)])
+        return integer(1)(None, [SimpleNamespace(value=text)])
 
     assert read("9" * 15) == 10**15 - 1
     for text in ("9" * 16, "-1", "0", "1.0", "²"):

@@ -10,7 +10,7 @@ import pytest
 import dalembert as da
 from dalembert.cli import main
 from dalembert.cli.method_text import _quantities
-from dalembert.notebook.plots import _whole
+from dalembert.notebook.plots import _vectors
 from dalembert.optimization.side_by_side import _direction
 
 
@@ -66,7 +66,7 @@ def test_quantities_are_named_once_without_their_components() -> None:
         "my",
     ]
     given = {name: np.zeros(2) for name in names}
-    assert _whole(given) == ["effort.O", "reaction.A", "angle.rod", "y", "my"]
+    assert _vectors(given) == ["effort.O", "reaction.A", "angle.rod", "y", "my"]
 
 
 def test_a_step_goes_downhill_and_through_no_bound() -> None:

@@ -14,7 +14,7 @@ from dalembert.analysis.compile import compiled_mechanism
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.engine import structures
 from dalembert.analysis.engine.flat_numbers import flat_numbers
-from dalembert.analysis.engine.kept_program import Outputs
+from dalembert.analysis.engine.kept_program import TracedOutputs
 from dalembert.analysis.engine.walk import walk_through
 from tests.engine.comparing import both, counted, difference
 
@@ -109,13 +109,13 @@ def test_residual_and_power_balance_would_show_a_wrong_program(monkeypatch: pyte
     m = da.four_bar()
     da.dynamics(m)
     with counted() as ways:
-        evaluate = Outputs.balance
+        evaluate = TracedOutputs.balance
 
         def corrupted(k: Any, layout: Any, out: Any) -> Any:
             out[k.rows["unbalanced"].start] += 1e-3 * np.abs(out[k.rows["force"]]).max()
             return evaluate(k, layout, out)
 
-        monkeypatch.setattr(Outputs, "balance", corrupted)
+        monkeypatch.setattr(TracedOutputs, "balance", corrupted)
         r = da.dynamics(m)
     assert ways == [""]
     assert r.ok.all()

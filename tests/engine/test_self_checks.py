@@ -13,7 +13,7 @@ from dalembert.analysis import one_pass
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.engine import first_way, quick_pass, structures, walk
 from dalembert.analysis.engine.flat_numbers import flat_numbers
-from dalembert.analysis.engine.kept_program import Outputs
+from dalembert.analysis.engine.kept_program import TracedOutputs
 from dalembert.analysis.positions import FARTHEST, positions
 from dalembert.analysis.status.statuses import UNBALANCED, statuses
 from dalembert.core.rank import singular_below
@@ -49,7 +49,7 @@ def test_a_residual_is_believed_up_to_its_limit(
         residual[3] = part * UNBALANCED
         return residual, np.zeros(out.shape[1])
 
-    monkeypatch.setattr(Outputs, "balance", balance)
+    monkeypatch.setattr(TracedOutputs, "balance", balance)
     assert (answered(m) == way) is sure
     assert da.dynamics(m).ok.all()
 
@@ -72,7 +72,7 @@ def test_an_output_that_says_doubt_is_heard(
     """At the last position of several."""
     m = da.four_bar(positions=COUNT) if way == "all" else cycle("four_bar", COUNT)
     assert answered(m) == way
-    evaluate = Outputs.run.func  # type: ignore[attr-defined]
+    evaluate = TracedOutputs.run.func  # type: ignore[attr-defined]
 
     def run(k: Any) -> Any:
         program = evaluate(k)
@@ -85,7 +85,7 @@ def test_an_output_that_says_doubt_is_heard(
 
         return doubting
 
-    monkeypatch.setattr(Outputs, "run", property(run))
+    monkeypatch.setattr(TracedOutputs, "run", property(run))
     assert answered(m) != way
 
 

@@ -11,7 +11,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
-from dalembert.exams.asked import Figure, asked_quantities, blanks, figure, key_value, stated_value
+from dalembert.exams.asked import ExpectedValue, blanks, figure, key_value, requested_quantities, stated_value
 from dalembert.exams.candidates import (
     ASIDE,
     CLEAR,
@@ -33,7 +33,7 @@ from dalembert.model import Answer
 def solved() -> tuple[Any, Any, Any]:
     m = da.four_bar().with_values({"drives.O2.position": 1.0, "loads.torque.value": 7.0})
     r = da.dynamics(m)
-    return m, r, asked_quantities(r, ["effort.O2", "reaction.A"], None)
+    return m, r, requested_quantities(r, ["effort.O2", "reaction.A"], None)
 
 
 def made(
@@ -158,7 +158,7 @@ def test_a_key_names_the_file_of_each_variant() -> None:
 def test_a_figure_is_the_value_asked_for(solved: tuple[Any, Any, Any]) -> None:
     _, r, asked = solved
     effort, force = (figure(r, a) for a in asked)
-    assert isinstance(effort, Figure)
+    assert isinstance(effort, ExpectedValue)
     assert (effort.kind, force.kind) == ("moment", "force")
     assert effort.value == pytest.approx(r.effort("O2")[0])
     assert force.value == pytest.approx(r.reaction("A")[0])
@@ -187,24 +187,24 @@ def test_what_is_asked_for_where_nothing_is_named() -> None:
 
     efforts = [("effort", d, None, None, 1, None) for d in ("O", "Q")]
     force = ("reaction", "O", "arm", None, 1, None)
-    assert rows(asked_quantities(r, [], None)) == [*efforts, force]
-    assert rows(asked_quantities(r, ["efforts"], "2")) == [(*e[:4], 2, None) for e in efforts]
-    assert rows(asked_quantities(r, ["reactions", "reactions"], None)) == [force]
+    assert rows(requested_quantities(r, [], None)) == [*efforts, force]
+    assert rows(requested_quantities(r, ["efforts"], "2")) == [(*e[:4], 2, None) for e in efforts]
+    assert rows(requested_quantities(r, ["reactions", "reactions"], None)) == [force]
     by = {"quantity": "reaction", "of": "O", "by": "arm"}
-    assert rows(asked_quantities(r, [by], 3)) == [("reaction", "O", "ground", None, 3, None)]
-    assert rows(asked_quantities(r, [{**by, "by": "ground", "extreme": "max"}], 3))[0][2:] == (
+    assert rows(requested_quantities(r, [by], 3)) == [("reaction", "O", "ground", None, 3, None)]
+    assert rows(requested_quantities(r, [{**by, "by": "ground", "extreme": "max"}], 3))[0][2:] == (
         *("arm", None, None),
         "max",
     )
-    assert rows(asked_quantities(r, ["reaction.Q"], None))[0][:3] == ("reaction", "Q", "idle")
+    assert rows(requested_quantities(r, ["reaction.Q"], None))[0][:3] == ("reaction", "Q", "idle")
     one = da.statics(r.mechanism.with_values({"drives.O.position": "20 deg"}))
-    assert {a.at for a in asked_quantities(one, [], None)} == {None}
+    assert {a.at for a in requested_quantities(one, [], None)} == {None}
     for ask, said in (
         ("torque.O", "unknown quantity 'torque'"),
         ("effort", "does not say of what; write"),
     ):
         with pytest.raises(da.ModelError, match=f"--ask {ask}.*{said}"):
-            asked_quantities(r, [ask], None)
+            requested_quantities(r, [ask], None)
 
 
 _DEG, _XYZ = ("direction", "°"), tuple((name, "mm") for name in "xyz")
@@ -223,7 +223,7 @@ _ROWS = [["1000.0" if k == row else "0.0" for k in range(3)] for row in range(3)
 )
 def test_a_figure_in_a_key_and_its_blanks(value: Any, key: str, stated: object, blank: object) -> None:
     """Millimetres; all digits; vectors in the plane by size and direction."""
-    found = Figure("length", np.array(value))
+    found = ExpectedValue("length", np.array(value))
     units = da.four_bar().with_values({"units": {"length": "mm", "force": "N"}}).units
     assert key_value(found, units) == key
     assert stated_value(found, units) == stated
@@ -277,7 +277,7 @@ def test_a_mistake_counts_at_the_position_that_is_asked(solved: tuple[Any, Any, 
     """Of a figure at one position and a largest one: every position is solved wrongly, each figure at its own."""
     m = da.four_bar(positions=5)
     r = da.dynamics(m)
-    asked = asked_quantities(r, [{"quantity": "effort", "of": "O2", "extreme": "max"}, "effort.O2"], 3)
+    asked = requested_quantities(r, [{"quantity": "effort", "of": "O2", "extreme": "max"}, "effort.O2"], 3)
     both = candidate(m, {}, asked)
     k = int(np.argmax(r.effort("O2")))
     assert [float(f.value) for f in both.figures] == pytest.approx([r.effort("O2")[k], r.effort("O2")[2]])
@@ -327,6 +327,6 @@ def test_reactions_that_are_rounding_or_not_unique_are_not_asked() -> None:
     assert r.unique("A").any()
     assert not r.unique("A").all()
     assert 0 < float(np.hypot(*r.reaction("C")[0])) < 1e-10
-    assert [a.quantity for a in asked_quantities(r, [], None)] == ["effort"]
+    assert [a.quantity for a in requested_quantities(r, [], None)] == ["effort"]
     large = da.statics(r.mechanism.with_values({"loads.H.value": [-7, 0.01]}))
-    assert [a.of for a in asked_quantities(large, ["reactions"], None)] == ["C"]
+    assert [a.of for a in requested_quantities(large, ["reactions"], None)] == ["C"]

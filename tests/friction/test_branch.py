@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from dalembert.core.friction.contact_equations import Response, SlipState
+from dalembert.core.friction.contact_equations import ContactResponse, SlipState
 from dalembert.core.friction.friction_solver import solve_friction
 
 Array = Any
@@ -21,7 +21,7 @@ Array = Any
 
 def system(
     count: int, tilting: float, strong: float, seed: int, across: float = 0.0, many: int = 200
-) -> tuple[Any, Response, Array]:
+) -> tuple[Any, ContactResponse, Array]:
     """Systems of guides (or pins, with forces across too) that rub with a coefficient of 1, and their senses."""
     rng = np.random.default_rng(seed)
     y, h = rng.normal(size=(many, 3, count)), strong * rng.normal(size=(many, 3, count, count))
@@ -33,7 +33,7 @@ def system(
         lever=ones,
         coefficient=ones,
         resting=ones,
-        led=np.arange(count),
+        leader=np.arange(count),
         signed=no,
         fixed=no,
         circle=no,
@@ -41,7 +41,7 @@ def system(
         grouped=False,
         around=no,
     )
-    r = Response(np.zeros((many, 1)), np.zeros((many, 1, count)), y, h)
+    r = ContactResponse(np.zeros((many, 1)), np.zeros((many, 1, count)), y, h)
     return contacts, r, np.sign(rng.normal(size=(many, count)))
 
 
@@ -132,7 +132,7 @@ def test_the_branch_is_that_of_its_exact_pieces(
     count: int, tilting: float, strong: float, seed: int, which: list[int]
 ) -> None:
     contacts, r, sense = system(count, tilting, strong, seed)
-    part = Response(*(a[which] for a in r))
+    part = ContactResponse(*(a[which] for a in r))
     found = solve_friction(contacts, part, moving(sense[which]))
     for k, n in enumerate(which):
         z, s = followed(r.y[n], r.h[n], sense[n])
@@ -173,7 +173,7 @@ def climbed(y: Array, h: Array, sense: Array) -> float:
 def test_the_branch_of_pins_ends_at_its_fold(n: int) -> None:
     """Two solutions meet there; beyond, and on the way back, there are others."""
     contacts, r, sense = system(2, 0.0, 1.0, 11, 1.0, 300)
-    part = Response(*(a[[n]] for a in r))
+    part = ContactResponse(*(a[[n]] for a in r))
     found = solve_friction(contacts, part, moving(sense[[n]]))
     assert found.critical[0] == pytest.approx(climbed(r.y[n], r.h[n], sense[n]), abs=1e-6)
     assert np.isnan(found.z).all()

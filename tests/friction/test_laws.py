@@ -258,7 +258,7 @@ def test_no_friction_within_its_limits_leaves_what_holds(seed: int) -> None:
     rng, count = np.random.default_rng(seed), 100
     part = rng.uniform(-1, 1, (count, contacts.count))
     part[: count // 2] = np.sign(part[: count // 2])
-    part = np.where(contacts.fixed, -1.0, part[:, contacts.led])
+    part = np.where(contacts.fixed, -1.0, part[:, contacts.leader])
     x = solve_friction(
         contacts, problem, told._replace(sense=part, open=np.broadcast_to(told.open, part.shape))
     ).x

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import dalembert as da
-from dalembert.grading.mistakes import Problem
+from dalembert.grading.mistakes import SolvedProblem
 from tests.grading.marked_sheets import Made, mistaken_sheets, named_first, slipped_sheets, true_sheet
 
 
@@ -30,7 +30,7 @@ def write_variants(folder: Path, mechanism: Any, path: str, values: list[Any]) -
         for k, value in enumerate(values, 1):
             m = mechanism.with_values({path: value})
             m.save(folder / f"{k:02}.yaml")
-            for answer in true_sheet(Problem(m), 0, 12):
+            for answer in true_sheet(SolvedProblem(m), 0, 12):
                 on = m.joints[answer.of].links[1] if answer.quantity == "reaction" else ""
                 table.writerow([f"{k:02}", f"{k:02}.yaml", answer.quantity, answer.of, on, answer.value, ""])
     return folder / "key.csv"
@@ -46,7 +46,7 @@ def write_class(folder: Path, key: Path, count: int, seed: int, share: float = 0
     for k in range(count):
         variant = names[int(rng.integers(len(names)))]
         if variant not in made:
-            problem = Problem(da.load(key.parent / f"{variant}.yaml"))
+            problem = SolvedProblem(da.load(key.parent / f"{variant}.yaml"))
             some = [*mistaken_sheets(problem, 0, 4), *slipped_sheets(problem, 0, 4)]
             shown = [one for one in some if named_first(one, problem.verdicts(one.answers)) is not None]
             made[variant] = true_sheet(problem, 0, 4), shown

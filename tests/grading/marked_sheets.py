@@ -11,7 +11,7 @@ import numpy as np
 import dalembert as da
 from dalembert.errors import DalembertError
 from dalembert.grading.figure import values_of
-from dalembert.grading.mistakes import Problem
+from dalembert.grading.mistakes import SolvedProblem
 from dalembert.grading.quantities import Series
 from dalembert.grading.value_errors import of_units, of_value
 from dalembert.grading.wrong_problems import WrongProblems
@@ -42,7 +42,7 @@ def written(value: Any, unit: str, digits: int) -> Any:
     return [f"{rounded(float(c), digits)} {unit}" for c in value]
 
 
-def asked(problem: Problem, place: int) -> list[tuple[str, str, str]]:
+def asked(problem: SolvedProblem, place: int) -> list[tuple[str, str, str]]:
     """Quantity, name and unit of every effort, unknown load and joint force that has a number."""
     r = problem.result
     found = [("effort", d) for d in r.drives] + [("unknown_load", n) for n in r.unknown_loads]
@@ -56,7 +56,7 @@ def asked(problem: Problem, place: int) -> list[tuple[str, str, str]]:
     return out
 
 
-def unit(problem: Problem, quantity: str, name: str) -> str:
+def unit(problem: SolvedProblem, quantity: str, name: str) -> str:
     from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 
     r = problem.result
@@ -65,7 +65,9 @@ def unit(problem: Problem, quantity: str, name: str) -> str:
     return "N*m" if kind == "moment" else "N"
 
 
-def answers_of(problem: Problem, result: Any, place: int, at: int, digits: int) -> list[da.Answer] | None:
+def answers_of(
+    problem: SolvedProblem, result: Any, place: int, at: int, digits: int
+) -> list[da.Answer] | None:
     """The sheet of one who has a result; None where it lacks a number."""
     out = []
     for quantity, name, units in asked(problem, place):
@@ -80,13 +82,13 @@ def answers_of(problem: Problem, result: Any, place: int, at: int, digits: int) 
     return out
 
 
-def true_sheet(problem: Problem, place: int, digits: int) -> list[da.Answer]:
+def true_sheet(problem: SolvedProblem, place: int, digits: int) -> list[da.Answer]:
     found = answers_of(problem, problem.result, place, place, digits)
     assert found is not None
     return found
 
 
-def mistaken_sheets(problem: Problem, place: int, digits: int) -> Iterator[Made]:
+def mistaken_sheets(problem: SolvedProblem, place: int, digits: int) -> Iterator[Made]:
     """A sheet for every known mistake in the problem; none where the mistaken problem has no answer."""
     wrong = WrongProblems(problem.result, [place])
     for _, sentence, solution in wrong:
@@ -96,7 +98,7 @@ def mistaken_sheets(problem: Problem, place: int, digits: int) -> Iterator[Made]
             yield Made(sentence, sheet)
 
 
-def slipped_sheets(problem: Problem, place: int, digits: int) -> Iterator[Made]:
+def slipped_sheets(problem: SolvedProblem, place: int, digits: int) -> Iterator[Made]:
     """The true sheet with one figure of it slipped: its sense, an axis, its unit."""
     sheet = true_sheet(problem, place, digits)
     for k, (quantity, name, units) in enumerate(asked(problem, place)):

@@ -13,7 +13,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.grading.answer_sheet import read_sheet
-from dalembert.grading.mistakes import Problem
+from dalembert.grading.mistakes import SolvedProblem
 from dalembert.model.files.model_files import read_file
 from tests.grading.marked_sheets import mistaken_sheets, named_first, slipped_sheets, true_sheet
 from tests.tiers import tiers
@@ -29,9 +29,9 @@ REST = sorted(BUNDLED.keys() - {*SAMPLE})
 
 
 @cache
-def solved(name: str) -> Problem:
+def solved(name: str) -> SolvedProblem:
     """A bundled problem solved once for all sheets."""
-    return Problem(da.load(BUNDLED[name]))
+    return SolvedProblem(da.load(BUNDLED[name]))
 
 
 def verdicts(name: str, tree: Any, **more: Any) -> list[Any]:
@@ -49,7 +49,7 @@ def test_a_known_mistake_is_named_first_and_true_figures_are_right(names: list[s
     """In 97 %; the rates over all cases are measured by `benchmarks/mistakes.py`."""
     named, false = [], []
     for name in names:
-        problem = Problem(da.load(BUNDLED[name]))
+        problem = SolvedProblem(da.load(BUNDLED[name]))
         place = min(1, len(problem.result.status) - 1)
         false += [v for v in problem.verdicts(true_sheet(problem, place, 3)) if not v.right]
         for made in (*mistaken_sheets(problem, place, 4), *slipped_sheets(problem, place, 4)):

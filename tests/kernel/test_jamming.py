@@ -10,7 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
-from dalembert.core.friction.contact_equations import Response, argument, bearing
+from dalembert.core.friction.contact_equations import ContactResponse, argument, bearing
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.jam_proof import jams
 from tests.friction.rough import cycle, rough_tree
@@ -39,7 +39,7 @@ def proofs(contacts: Any, y: np.ndarray, h: np.ndarray, sense: np.ndarray) -> np
             out[place] = graph.input("channel", str(place), array[place])
         return out
 
-    r = Response(np.zeros(0), np.zeros(0), channels(y), channels(h))
+    r = ContactResponse(np.zeros(0), np.zeros(0), channels(y), channels(h))
     node = jams(graph, contacts, r, channels(sense))
     return np.asarray(graph.evaluate([node], {})[0] < 0)
 
@@ -55,7 +55,7 @@ def test_where_there_is_a_solution_no_jam_is_proved(count: int, signed: int, bal
     y = rng.normal(size=(3, count, MANY)) * np.exp(rng.normal(size=(count, MANY)))
     z = -sense * np.stack([bearing(contacts, y[..., p]) for p in range(MANY)], axis=-1)
     y0 = y - np.einsum("cabp,bp->cap", h, z)
-    back = argument(Response(np.zeros(0), np.zeros(0), y0[..., 0], h[..., 0]), z[:, 0])
+    back = argument(ContactResponse(np.zeros(0), np.zeros(0), y0[..., 0], h[..., 0]), z[:, 0])
     assert back == pytest.approx(y[..., 0])
     assert not proofs(contacts, y0, h, sense).any()
 

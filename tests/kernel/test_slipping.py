@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.core.friction.contact_equations import Response
+from dalembert.core.friction.contact_equations import ContactResponse
 from dalembert.kernel.friction_trace import trace_slip
 from dalembert.kernel.graph import Graph, Node
 from dalembert.kernel.jam_proof import lever
@@ -45,7 +45,10 @@ def decided(pattern: Array, y: Array, h: Array, sense: Array) -> Verdict:
         for b in np.flatnonzero(pattern[a]):
             couplings[0, a, b] = channel(h[a, b], 0.01 * h[a, b])
     traced = trace_slip(
-        graph, some_contacts(count, 0), Response(*(np.zeros(0),) * 2, *_nodes(graph, first, couplings)), told
+        graph,
+        some_contacts(count, 0),
+        ContactResponse(*(np.zeros(0),) * 2, *_nodes(graph, first, couplings)),
+        told,
     )
     found, _, known = traced
     groups = (list(found), known.slips, known.unsure, known.sure, known.jam)

@@ -44,7 +44,9 @@ def test_poses_are_apart_whichever_comes_first() -> None:
     """In the plane whole turns count; in space the angle between two rotations."""
     one, two = np.array([0.1, 3.0]), np.array([0.4, 3.0 - 4 * np.pi])
     for a, b in ((one, two), (two, one)):
-        assert plane.apart(plane.rotation(a), plane.rotation(b), a, b) == pytest.approx([0.3, 4 * np.pi])
+        assert plane.angle_between(plane.rotation(a), plane.rotation(b), a, b) == pytest.approx(
+            [0.3, 4 * np.pi]
+        )
 
 
 def test_lines_meet_where_they_are_nearest() -> None:

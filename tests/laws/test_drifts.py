@@ -51,7 +51,7 @@ def family(kind: type, rng: np.random.Generator) -> Any:
         "ki": size[4],
         "kj": size[5],
         "outward": np.ones(COUNT),
-        "way": np.eye(3)[single % 3],
+        "direction": np.eye(3)[single % 3],
         "cone": unit(rng, 2),
         "stands": np.zeros(COUNT),
         "drawn": np.tile(space.IDENTITY, (COUNT, 1)),

@@ -208,7 +208,7 @@ def test_a_smooth_motion_is_marched_with_the_longest_steps() -> None:
         pose = first(c)
         pose.turn[0], pose.rotation[0] = start, plane.rotation(np.array(start))
         found = march(c.layout, pose, along, start, back)
-        assert found.whole
+        assert found.complete
         assert found.s == pytest.approx(expected)
         assert found.pose.turn[:, 0] == pytest.approx(found.s)
 
@@ -240,7 +240,7 @@ def test_a_march_ends_at_a_dead_centre() -> None:
     c = linkage((0.3, 0.15, 0.2, 0.2), {"from": 40, "to": 140, "count": 101}, {"coupler": 270})
     found = march(c.layout, first(c), course(c.layout, c.targets), 0.0)
     dead = np.arccos((0.3**2 + 0.2**2 - 0.35**2) / (2 * 0.3 * 0.2)) - 40 * DEG
-    assert not found.whole
+    assert not found.complete
     assert dead - 1e-6 < found.s[-1] <= dead
     assert len(found.s) < 25
 
@@ -249,7 +249,7 @@ def test_a_march_goes_straight_through_a_change_point() -> None:
     """A parallelogram stays one, where its other branch crosses; the steps close in on the place and open again."""
     c = linkage((0.1, 0.3, 0.1, 0.3), {"from": 20, "to": 340, "count": 100}, {"coupler": 0, "rocker": 20})
     found = march(c.layout, first(c), course(c.layout, c.targets), 0.0)
-    assert found.whole
+    assert found.complete
     assert found.pose.turn[:, :3] - 20 * DEG == pytest.approx(
         np.column_stack([found.s, 0 * found.s - 20 * DEG, found.s]), abs=1e-4
     )

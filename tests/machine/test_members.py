@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.methods.applied_forces import on_link, whole_actions
+from dalembert.analysis.methods.applied_forces import full_actions, on_link
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.machine.members.link_balance import LinkBalance
@@ -71,7 +71,7 @@ def cut_and_weld(m: Any, link: str, slender: bool) -> bool:
     e = f.curves[0].member
     feet = {
         a.of: e.foot(acting.place(a))[0]
-        for a in on_link(whole_actions(r), link)
+        for a in on_link(full_actions(r), link)
         if a.kind in ("joint", "load", "spring", "damper")
     }
     some = np.sort(np.concatenate([*feet.values(), [0.0, e.length, float(e.foot(acting.center)[0])]]))
@@ -89,8 +89,8 @@ def cut_and_weld(m: Any, link: str, slender: bool) -> bool:
     expected = np.concatenate([there[0] * [1, -1, 1], there[1]], axis=1)
     found = f.curves[0].at(s)[:, 0]
     length = r.compiled.layout.length
-    size = max(float(np.nanmax(np.abs(a.force), initial=1e-9)) for a in whole_actions(r))
-    size = max(size, *(float(np.nanmax(np.abs(a.couple), initial=0.0)) / length for a in whole_actions(r)))
+    size = max(float(np.nanmax(np.abs(a.force), initial=1e-9)) for a in full_actions(r))
+    size = max(size, *(float(np.nanmax(np.abs(a.couple), initial=0.0)) / length for a in full_actions(r)))
     gaps = np.abs(found - expected) / [1, 1, 1, length, length, length]
     assert np.nanmax(gaps, initial=0.0) < 1e-8 * size, (link, s, found, expected)
     assert (np.isnan(found) <= np.isnan(expected)).all()

@@ -10,7 +10,7 @@ import numpy as np
 
 from dalembert import unit_names
 from dalembert.reports.formula import plain, write_mixed
-from dalembert.reports.sheet import Equations, Heading, Matrix, Paragraph, Sheet, Table
+from dalembert.reports.sheet import Equations, Heading, Matrix, Paragraph, ReportSheet, SheetTable
 from dalembert.reports.writers.plain_writer import _equation
 from tests.methods.printed_equations import Read, Reader, size, times
 
@@ -19,7 +19,7 @@ EVERYWHERE = re.compile(r"[FGMTWNmIJ]_|a_G|\||work|[ωα]_(?!c)")
 """Signs that mean one number in the whole solution; arms, radii, springs and dampers are those of the link at hand."""
 
 
-def read_sheet(sheet: Sheet, figures: int = 4, units: Any = None) -> Reader:
+def read_sheet(sheet: ReportSheet, figures: int = 4, units: Any = None) -> Reader:
     """Every equation, table and matrix of a worked solution."""
     reader = Reader(figures, units)
     for b in sheet.blocks:
@@ -30,7 +30,7 @@ def read_sheet(sheet: Sheet, figures: int = 4, units: Any = None) -> Reader:
         if isinstance(b, Equations):
             for w in b.lines:
                 reader.line(re.sub(r" = 0 = ", " = ", " = ".join(t.strip() for t in _equation(w)), count=1))
-        if isinstance(b, Table):
+        if isinstance(b, SheetTable):
             rows = [["".join(write_mixed(cell, plain, str)) for cell in row] for row in (b.heads, *b.rows)]
             reader.learning = "ground axes" not in b.caption
             _units(reader, b.caption, rows[0])

@@ -13,8 +13,8 @@ from dalembert.reports.report_context import as_formula
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Circle, Line, Polygon
 from dalembert.views.space.camera import Camera
-from dalembert.views.space.painter import LONGEST, Piece, _cuts, _cylinder, _tube, _wire
-from dalembert.views.space.solids import Cylinder, Tube
+from dalembert.views.space.painter import LONGEST, DepthItem, _cuts, _cylinder, _tube, _wire
+from dalembert.views.space.solids import GlassTube, RoundBar
 from dalembert.views.space.space_mechanism import _off, mark_center
 
 SIDE = Camera(0.0, 0.0)
@@ -22,15 +22,15 @@ SIDE = Camera(0.0, 0.0)
 Y = np.array([0.0, 1.0, 0.0])
 
 
-def taken(pieces: Iterable[Piece]) -> list[tuple[float, Any]]:
+def taken(pieces: Iterable[DepthItem]) -> list[tuple[float, Any]]:
     """Depth and items of each."""
     return [(piece.depth, piece.items) for piece in pieces]
 
 
-def bar(length: float, slope: float = 0.0, whole: bool = False) -> Cylinder:
+def bar(length: float, slope: float = 0.0, whole: bool = False) -> RoundBar:
     """Along y, its end turned towards the eye by an angle."""
     end = length * np.array([math.sin(slope), math.cos(slope), 0.0])
-    return Cylinder(np.zeros(3), end, 1.0, "solid", whole)
+    return RoundBar(np.zeros(3), end, 1.0, "solid", whole)
 
 
 @pytest.mark.parametrize("slope", [0.3, -0.3])
@@ -67,12 +67,12 @@ def test_a_bar_is_filled_from_end_to_end(slope: float, capped: bool) -> None:
 
 
 def test_a_bar_seen_from_its_end_is_its_round_end() -> None:
-    (piece,) = taken(_cylinder(Cylinder(np.zeros(3), np.array([3.0, 0, 0]), 1.0), SIDE))
+    (piece,) = taken(_cylinder(RoundBar(np.zeros(3), np.array([3.0, 0, 0]), 1.0), SIDE))
     depth, (cap,) = piece
     assert depth == pytest.approx(3.0)
     assert cap.role == "solid-top"
     assert np.hypot(*np.array(cap.points).T) == pytest.approx(1.0)
-    assert list(_cylinder(Cylinder(np.zeros(3), np.zeros(3), 1.0), SIDE)) == []
+    assert list(_cylinder(RoundBar(np.zeros(3), np.zeros(3), 1.0), SIDE)) == []
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_what_is_long_is_cut_into_even_pieces(length: float, whole: bool, count:
 
 
 def test_a_tube_is_two_rings_and_two_lines() -> None:
-    pieces = taken(_tube(Tube(np.zeros(3), 2.0 * Y, 1.0, "tube"), SIDE))
+    pieces = taken(_tube(GlassTube(np.zeros(3), 2.0 * Y, 1.0, "tube"), SIDE))
     lines = np.array([items[0].points for _, items in pieces])
     along = lines[np.abs(np.diff(lines[:, :, 0], axis=1)[:, 0]) > 1.9]
     assert sorted(along[:, 0, 1]) == pytest.approx([-1.0, 1.0])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from dalembert.views.paper.canvas import LEADER, Canvas, crossings, overlapping, segments
-from dalembert.views.paper.frame import FINE, Frame, fit_frame, force_scale, round_up
+from dalembert.views.paper.frame import FINE, PaperFrame, fit_frame, force_scale, round_up
 from dalembert.views.paper.lettering import (
     BOLD,
     SMALL,
@@ -37,15 +37,15 @@ from dalembert.views.paper.scene import (
 @pytest.mark.parametrize(
     ("points", "factor", "frame"),
     [
-        ([(0, 0), (2.6, 1), (math.nan, 9), (9, math.nan)], 1.0, Frame(0.03, (1.3, 0.5))),
-        ([(0, 0), (-1, 2.6)], 1.0, Frame(0.04, (-0.5, 1.3))),
-        ([(1, 1), (1, 1.75)], 1.0, Frame(0.01, (1, 1.375))),
-        ([(0, 0), (25.4, 0)], 0.0254, Frame(10 * 0.0254, (12.7, 0))),
-        ([(2, 3), (2, 3)], 1.0, Frame(0.001, (2, 3))),
-        ([(math.nan, 0)], 1.0, Frame(1.0)),
+        ([(0, 0), (2.6, 1), (math.nan, 9), (9, math.nan)], 1.0, PaperFrame(0.03, (1.3, 0.5))),
+        ([(0, 0), (-1, 2.6)], 1.0, PaperFrame(0.04, (-0.5, 1.3))),
+        ([(1, 1), (1, 1.75)], 1.0, PaperFrame(0.01, (1, 1.375))),
+        ([(0, 0), (25.4, 0)], 0.0254, PaperFrame(10 * 0.0254, (12.7, 0))),
+        ([(2, 3), (2, 3)], 1.0, PaperFrame(0.001, (2, 3))),
+        ([(math.nan, 0)], 1.0, PaperFrame(1.0)),
     ],
 )
-def test_a_frame_holds_all_points_at_a_round_scale(points: Any, factor: float, frame: Frame) -> None:
+def test_a_frame_holds_all_points_at_a_round_scale(points: Any, factor: float, frame: PaperFrame) -> None:
     found = fit_frame(points, 100.0, 75.0, factor)
     assert (found.per_mm, *found.middle) == pytest.approx((frame.per_mm, *frame.middle))
     assert found((frame.middle[0] + 3, frame.middle[1] - 2)) == pytest.approx(

@@ -14,7 +14,7 @@ from dalembert.bundled import examples
 from dalembert.views.formats.glb import _extent, solid_model
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import FINE, Frame, round_up
+from dalembert.views.paper.frame import FINE, PaperFrame, round_up
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Polygon
 from dalembert.views.plane.force_polygons import (
     _inside,
@@ -112,7 +112,7 @@ def test_what_is_too_small_beside_the_largest_is_not_drawn() -> None:
 
     def drawn(*some: Action) -> list[Any]:
         canvas = Canvas()
-        draw_actions(canvas, r, list(some), 0, Frame(0.001), shown, 22.0)
+        draw_actions(canvas, r, list(some), 0, PaperFrame(0.001), shown, 22.0)
         return [i.value for i in canvas.items if isinstance(i, (Arc, Arrow))]
 
     least, o = shown.least["moment"], (0, 0)

@@ -13,10 +13,10 @@ from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.reports.report_context import METHODS, ReportContext
 from dalembert.reports.sections.given import knowns
-from dalembert.reports.sheet import Sheet
+from dalembert.reports.sheet import ReportSheet
 from dalembert.reports.writers.plain_writer import plain_text
 from dalembert.views.notation import Shown
-from dalembert.views.stated import as_given, drive_text, given_lines
+from dalembert.views.stated import as_stated, drive_text, stated_lines
 from tests.tiers import tiers
 
 FRICTION = "seed-002-7a-engine-friction-circles"
@@ -35,7 +35,7 @@ def falsified(r: da.Result) -> da.Result:
 
 
 def sheet_text(r: da.Result) -> str:
-    sheet, notation = Sheet("question"), as_given(None)
+    sheet, notation = ReportSheet("question"), as_stated(None)
     knowns(sheet, ReportContext(r, 0, Shown(r, notation), METHODS, "", notation, question=True))
     return plain_text(sheet)
 
@@ -136,8 +136,8 @@ def test_a_question_states_every_number_that_is_given() -> None:
         "Gravity 9.8 m/s² ∠ −90°.",
     ]
     rough, smooth = (
-        Shown(da.dynamics(m.with_values({"friction.enabled": on})), as_given(None)) for on in (True, False)
+        Shown(da.dynamics(m.with_values({"friction.enabled": on})), as_stated(None)) for on in (True, False)
     )
-    assert given_lines(rough, 0) == [*links, *joints, *loads]
-    assert given_lines(smooth, 0) == [*links, "Joint F: slider, along 11°.", *loads]
+    assert stated_lines(rough, 0) == [*links, *joints, *loads]
+    assert stated_lines(smooth, 0) == [*links, "Joint F: slider, along 11°.", *loads]
     assert drive_text(rough, 0, "O") == "50°, 3.1 rad/s, −2 rad/s²"

@@ -14,7 +14,7 @@ from dalembert.bundled import cases, examples
 from dalembert.cli.method_text import superposition_text, virtual_work_answer
 from dalembert.reports.sections import friction, given
 from dalembert.reports.sections.force_system_solution import force_system_sheet
-from dalembert.reports.sheet import Equations, Matrix, Sheet, Table
+from dalembert.reports.sheet import Equations, Matrix, ReportSheet, SheetTable
 from dalembert.reports.working import working
 from dalembert.units import Units
 from dalembert.views import draw
@@ -70,7 +70,7 @@ def no_drawings(monkeypatch: pytest.MonkeyPatch) -> None:
     """Drawings have no equations, and take most of the time."""
     for name in DRAWN:
         monkeypatch.setattr(draw, name, lambda *_, **__: Scene(()))
-    monkeypatch.setattr(given, "given_picture", lambda *_: Scene(()))
+    monkeypatch.setattr(given, "stated_picture", lambda *_: Scene(()))
     monkeypatch.setattr(friction, "friction_pictures", lambda *_: ())
 
 
@@ -89,7 +89,7 @@ ALONE = (
 """Equations with nothing to be compared with."""
 
 
-def read(sheet: Sheet, figures: int = 4, units: Units | None = None) -> Reader:
+def read(sheet: ReportSheet, figures: int = 4, units: Units | None = None) -> Reader:
     """Read all of it; none of its equations is left out, and each but those of `ALONE` is compared with something."""
     reader = read_sheet(sheet, figures, units)
     lines = [w for b in sheet.blocks if isinstance(b, Equations) for w in b.lines]
@@ -98,7 +98,7 @@ def read(sheet: Sheet, figures: int = 4, units: Units | None = None) -> Reader:
     return reader
 
 
-def worked(m: Any, **notation: Any) -> Sheet:
+def worked(m: Any, **notation: Any) -> ReportSheet:
     """Without drawings of the graphical method, which have no equations."""
     r = da.solve(m, positions=2) if any("count" in str(d) for d in m.drives.values()) else da.solve(m)
     return working(
@@ -168,7 +168,7 @@ def test_of_force_systems(seed: int, dimension: int) -> None:
         sheet = force_system_sheet(da.wrench.System(*s.parts, units=system))
         reader = read(sheet, units=system)
         assert reader.compared >= 3
-        assert any(isinstance(b, Table) for b in sheet.blocks)
+        assert any(isinstance(b, SheetTable) for b in sheet.blocks)
 
 
 NOISY = ("balance_position", "ba-01-rotor-with-four-masses", "sp-05-hooke-joint-greatest-acceleration")

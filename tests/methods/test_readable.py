@@ -8,7 +8,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
-from dalembert.reports.sheet import Figure
+from dalembert.reports.sheet import Drawings
 from dalembert.views.paper.scene import Scene
 from tests.methods.readable import text_over_lines, text_overlaps
 from tests.tiers import tiers
@@ -21,7 +21,7 @@ def drawings(r: da.Result) -> Iterator[Scene]:
     """Those of the report, of the motion, and the charts where there are some."""
     yield da.draw.mechanism(r, forces=True)
     for block in da.report(r).sheet.blocks:
-        if isinstance(block, Figure):
+        if isinstance(block, Drawings):
             yield from block.scenes
     if r.mechanism.dimension == 2 and r.drives:
         yield da.draw.motion(r)

@@ -13,7 +13,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.reports.sections.kinematics import acceleration_lines, loops, velocity_lines
-from dalembert.reports.sheet import Equations, Figure, Matrix, Sheet, Table
+from dalembert.reports.sheet import Drawings, Equations, Matrix, ReportSheet, SheetTable
 from dalembert.reports.working import working
 from dalembert.views.notation import Notation, Shown
 from tests.methods.readable import text_over_lines, text_overlaps
@@ -31,7 +31,7 @@ def text(name: str, **options: Any) -> str:
     return str(da.report(result(name), **options).to_bytes("txt").decode())
 
 
-def blocks(sheet: Sheet, kind: type) -> list[Any]:
+def blocks(sheet: ReportSheet, kind: type) -> list[Any]:
     return [b for b in sheet.blocks if isinstance(b, kind)]
 
 
@@ -75,11 +75,11 @@ def test_the_nine_equations_hold() -> None:
 @pytest.mark.parametrize("name", tiers(QUICK, [n for n in GALLERY if n not in QUICK]))
 def test_every_report_of_the_gallery(name: str) -> None:
     sheet = working(result(name))
-    for b in blocks(sheet, Figure):
+    for b in blocks(sheet, Drawings):
         for scene in b.scenes:
             assert text_overlaps(scene) == []
             assert text_over_lines(scene) == []
-    for b in blocks(sheet, Table):
+    for b in blocks(sheet, SheetTable):
         assert all(len(row) == len(b.heads) for row in b.rows)
 
 

@@ -18,7 +18,7 @@ from dalembert.reports.formula import latex, plain
 from dalembert.reports.sections import friction, given
 from dalembert.reports.sections.methods import cycle
 from dalembert.reports.sections.motion import inertia_shares
-from dalembert.reports.sheet import Equations, Heading, Paragraph, Sheet, Table
+from dalembert.reports.sheet import Equations, Heading, Paragraph, ReportSheet, SheetTable
 from dalembert.reports.working import working
 from dalembert.views import charts, draw
 from dalembert.views.paper.canvas import Canvas
@@ -39,21 +39,21 @@ def without_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(draw, name, lambda *a, **k: Scene(()))
     monkeypatch.setattr(charts, "effort_chart", lambda *a, **k: [])
     monkeypatch.setattr(charts, "reaction_charts", lambda *a, **k: [])
-    monkeypatch.setattr(given, "given_picture", lambda *a: Scene(()))
+    monkeypatch.setattr(given, "stated_picture", lambda *a: Scene(()))
     monkeypatch.setattr(friction, "friction_pictures", lambda *a: [])
     monkeypatch.setattr(Canvas, "label", lambda *a, **k: None)
 
 
-def words(sheet: Sheet) -> str:
+def words(sheet: ReportSheet) -> str:
     return " ".join(b.text for b in sheet.blocks if isinstance(b, (Paragraph, Heading)))
 
 
-def table(sheet: Sheet, head: str) -> Table:
-    (found,) = (b for b in sheet.blocks if isinstance(b, Table) and head in b.heads)
+def table(sheet: ReportSheet, head: str) -> SheetTable:
+    (found,) = (b for b in sheet.blocks if isinstance(b, SheetTable) and head in b.heads)
     return found
 
 
-def lines(sheet: Sheet) -> list[str]:
+def lines(sheet: ReportSheet) -> list[str]:
     """Equations as they are printed."""
     some = [w for b in sheet.blocks if isinstance(b, Equations) for w in b.lines]
     return [" = ".join(plain(t).strip() for t in (w.letters, w.numbers, w.result) if t) for w in some]
@@ -172,7 +172,7 @@ def test_a_joint_known_at_some_positions_is_in_the_cycle() -> None:
     from dalembert.reports.report_context import METHODS, ReportContext
     from dalembert.views.notation import Notation, Shown
 
-    sheet = Sheet("t")
+    sheet = ReportSheet("t")
     cycle(sheet, ReportContext(r, 0, Shown(r, Notation(), 0), METHODS, "", Notation()))
     assert [row[0] for row in table(sheet, "Largest").rows][1:] == [f"joint {n}" for n in r.joints]
 
@@ -296,7 +296,9 @@ def test_powers_are_rounded_beside_what_acts_at_the_machines_length() -> None:
 def test_of_inertia_off_the_diagonal_the_sign_is_said() -> None:
     minus = "off the diagonal J holds the products with a minus"
     for name, there in (("shaft", True), ("rssr", False)):
-        captions = [b.caption for b in working(space(name), 3, methods=()).blocks if isinstance(b, Table)]
+        captions = [
+            b.caption for b in working(space(name), 3, methods=()).blocks if isinstance(b, SheetTable)
+        ]
         assert any(minus in c for c in captions) == there
 
 
@@ -321,7 +323,7 @@ def test_rates_of_a_mesh_are_in_radians(angle: str, there: bool) -> None:
 
 def test_every_part_of_superposition_in_space_has_one_column() -> None:
     sheet = working(space("rssr"), 3, methods=("superposition",))
-    tables = [b for b in sheet.blocks if isinstance(b, Table) and b.heads[0] == "Source"]
+    tables = [b for b in sheet.blocks if isinstance(b, SheetTable) and b.heads[0] == "Source"]
     heads = [head for b in tables for head in b.heads[1:]]
     assert len(heads) == len(set(heads)) >= 13
     assert all(b.total and b.rows[-1][0] == "sum" for b in tables)

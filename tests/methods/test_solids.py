@@ -16,12 +16,12 @@ from dalembert.views.space.painter import LIGHT, LONGEST, _tone, paint
 from dalembert.views.space.solids import (
     Ball,
     Block,
-    Cylinder,
+    GlassTube,
     Pane,
     Plate,
     Ring,
+    RoundBar,
     Solid,
-    Tube,
     Wire,
     across,
     helix,
@@ -47,7 +47,7 @@ def ring_volume(radius: float, thick: float) -> float:
 
 
 BODIES: dict[str, tuple[Solid, float, float]] = {
-    "bar": (Cylinder(AT, BAR, 1.5), 7.0 * round_area(1.5), 1e-9),
+    "bar": (RoundBar(AT, BAR, 1.5), 7.0 * round_area(1.5), 1e-9),
     "ball": (Ball(AT, 2.0), 4 / 3 * math.pi * 8.0, 0.04),
     "block": (Block(AT, AXES, HALF), 8 * HALF.prod(), 1e-9),
     "mirrored block": (Block(AT, LEFT, HALF), 8 * HALF.prod(), 1e-9),
@@ -73,19 +73,19 @@ def test_a_mesh_encloses_its_body(name: str) -> None:
 
 
 def test_a_tube_is_the_side_of_its_cylinder_and_a_thread_winds_about_its_bar() -> None:
-    found = mesh(Tube(AT, BAR, 1.5), 0.8)
+    found = mesh(GlassTube(AT, BAR, 1.5), 0.8)
     corners = found.points[found.triangles]
     area = (
         np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
         / 2
     )
     assert area == pytest.approx(7.0 * AROUND * 2 * 1.5 * math.sin(math.pi / AROUND))
-    plain, cut = (len(mesh(Cylinder(AT, BAR, 1.5, thread=x), 0.8).points) for x in (0.0, 2.0))
-    steps = len(helix(Cylinder(AT, BAR, 1.5, thread=2.0), AROUND)) - 1
+    plain, cut = (len(mesh(RoundBar(AT, BAR, 1.5, thread=x), 0.8).points) for x in (0.0, 2.0))
+    steps = len(helix(RoundBar(AT, BAR, 1.5, thread=2.0), AROUND)) - 1
     assert steps == math.ceil(AROUND * 7.0 / 2.0)
     wire = mesh(Wire(np.array([AT, BAR])), 0.8)
     assert cut - plain == steps * len(wire.points)
-    thick = mesh(Cylinder(AT, BAR, 1.5, thread=2.0), 0.8).points[plain:]
+    thick = mesh(RoundBar(AT, BAR, 1.5, thread=2.0), 0.8).points[plain:]
     off = np.linalg.norm(np.cross(thick - AT, AXES[0]), axis=1)
     assert off.max() == pytest.approx(1.5 + 1.5 * WIRE * 0.8, rel=0.02)
 
@@ -96,7 +96,7 @@ def test_a_bar_has_the_corners_that_it_needs() -> None:
 
 def test_a_sleeve_is_painted_over_what_runs_in_it() -> None:
     """In one piece, as near as its nearer end; other bars piece by piece at their middles."""
-    sleeve, bar = Cylinder(AT, BAR, 1.5, "sleeve", whole=True), Cylinder(AT, BAR, 0.5, "bar")
+    sleeve, bar = RoundBar(AT, BAR, 1.5, "sleeve", whole=True), RoundBar(AT, BAR, 0.5, "bar")
     roles = [i.role.split("-")[0] for i in paint([sleeve, bar], EYE)]
     assert roles == sorted(roles)  # all of the bar, then the sleeve
 
@@ -128,7 +128,7 @@ def seen(*edges: Any) -> float:
 def test_a_bar_as_it_is_seen() -> None:
     """Its side is as wide as it is thick; the nearer end is whole, of the farther one half the edge shows."""
     for start, end in ((AT, BAR), (BAR, AT)):
-        items = paint([Cylinder(start, end, 1.5, "x")], EYE)
+        items = paint([RoundBar(start, end, 1.5, "x")], EYE)
         cap = round_area(1.5, 32) * abs(float(AXES[0] @ EYE.eye))
         found = areas(items)
         assert found["x-top"] == pytest.approx(cap)
@@ -147,9 +147,9 @@ def test_a_bar_as_it_is_seen() -> None:
 
 
 def test_a_bar_seen_from_its_end_is_its_end() -> None:
-    (cap,) = paint([Cylinder(-3 * EYE.eye, 4 * EYE.eye, 1.5, "x")], EYE)
+    (cap,) = paint([RoundBar(-3 * EYE.eye, 4 * EYE.eye, 1.5, "x")], EYE)
     assert areas([cap]) == {"x-top": pytest.approx(round_area(1.5, 32))}
-    assert paint([Cylinder(AT, AT, 1.5)], EYE) == []
+    assert paint([RoundBar(AT, AT, 1.5)], EYE) == []
 
 
 def test_a_block_as_it_is_seen() -> None:
@@ -199,11 +199,11 @@ def test_plates_panes_wires_and_tubes_as_they_are_seen() -> None:
     assert length(large, "x-edge") == pytest.approx(5 * seen(*sides))
     assert length(paint([Pane(FLAT, "x")], EYE), "x") == pytest.approx(seen(*sides))
     assert length(paint([Wire(FLAT, "x")], EYE), "x") == pytest.approx(seen(*sides[:3]))
-    tube = paint([Tube(AT, BAR, 1.5, "x")], EYE)
+    tube = paint([GlassTube(AT, BAR, 1.5, "x")], EYE)
     rims = [1.5 * 2 * math.sin(math.pi / 32) * np.array([-math.sin(t), math.cos(t)]) @ np.array(across(AXES[0]))
             for t in (np.arange(32) + 0.5) * 2 * math.pi / 32]  # fmt: skip
     assert length(tube, "x") == pytest.approx(2 * seen(7 * AXES[0]) + 2 * seen(*rims))
-    assert length(paint([Tube(AT, AT + 7 * EYE.eye, 1.5, "x")], EYE), "x") == pytest.approx(
+    assert length(paint([GlassTube(AT, AT + 7 * EYE.eye, 1.5, "x")], EYE), "x") == pytest.approx(
         2 * 32 * 3 * math.sin(math.pi / 32)
     )
 

@@ -25,15 +25,15 @@ from dalembert.views.space.painter import paint
 from dalembert.views.space.solids import (
     Ball,
     Block,
-    Cylinder,
+    GlassTube,
     Pane,
     Plate,
+    RoundBar,
     Solid,
-    Tube,
     Wire,
     helix,
 )
-from dalembert.views.space.space_mechanism import every_place, whole_sight
+from dalembert.views.space.space_mechanism import every_place, full_sight
 from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
 from tests.methods.readable import text_over_lines, text_overlaps
 from tests.methods.space_machines import MACHINES, solved
@@ -71,7 +71,7 @@ def test_places_are_to_scale(name: str) -> None:
     """A distance on paper is that across the view, divided by the scale."""
     r = solved(name)
     camera = Camera(0.4, 0.7)
-    s = whole_sight(r, 0, camera, 100.0, 80.0)
+    s = full_sight(r, 0, camera, 100.0, 80.0)
     for p, q in pairwise(every_place(r, 0)):
         across = (p - q) - float((p - q) @ camera.eye) * camera.eye
         assert math.dist(s(p), s(q)) * s.frame.per_mm == pytest.approx(
@@ -108,7 +108,7 @@ def extent(solid: Solid) -> Array:
     if isinstance(solid, Block):
         return block_corners(solid)
     reach = solid.radius + getattr(solid, "thickness", 0.0)
-    ends = [solid.start, solid.end] if isinstance(solid, (Cylinder, Tube)) else [solid.center]
+    ends = [solid.start, solid.end] if isinstance(solid, (RoundBar, GlassTube)) else [solid.center]
     return np.array([p + reach * e for p in ends for e in (*np.eye(3), *-np.eye(3))])
 
 
@@ -224,7 +224,7 @@ def test_near_things_cover_far_ones() -> None:
     """Of two crossing bars, and of balls one behind the other, the nearer is painted later."""
     x, y, z = np.eye(3)
     top = CAMERAS["top"]
-    bars = [Cylinder(-20 * x + 3 * z, 20 * x + 3 * z, 1.0, "outer"), Cylinder(-20 * y, 20 * y, 1.0, "inner")]
+    bars = [RoundBar(-20 * x + 3 * z, 20 * x + 3 * z, 1.0, "outer"), RoundBar(-20 * y, 20 * y, 1.0, "inner")]
     roles = [i.role for i in paint(bars, top) if isinstance(i, Polygon)]
     assert roles.index("inner-fill") < roles.index("outer-fill")
     balls = [Ball(k * np.array([1.0, 1.0, 1.0]), 1.0, role) for k, role in ((2, "a"), (0, "b"), (1, "c"))]
@@ -373,7 +373,7 @@ def test_the_shaking_force_is_unique_where_reactions_are_not() -> None:
 def test_a_thread_lies_on_its_cylinder(thread: float) -> None:
     """Right-handed where positive: it turns about its axis as it goes along, by one turn a lead."""
     start, along = np.array([1.0, 2.0, 3.0]), np.array([2.0, -1.0, 2.0]) / 3
-    points = helix(Cylinder(start, start + 10 * along, 1.5, "link", thread=thread)) - start
+    points = helix(RoundBar(start, start + 10 * along, 1.5, "link", thread=thread)) - start
     height = points @ along
     radial = points - height[:, None] * along
     assert (height[0], height[-1]) == pytest.approx((0, 10))

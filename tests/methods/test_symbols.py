@@ -18,10 +18,10 @@ from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arrow, Circle, Line, Polygon
 from dalembert.views.plane.joint_drawings import DRAWINGS
 from dalembert.views.space.camera import CAMERAS
-from dalembert.views.space.solids import Ball, Block, Cylinder, Pane, Wire
+from dalembert.views.space.solids import Ball, Block, Pane, RoundBar, Wire
 from dalembert.views.space.space_view import triad
 from dalembert.views.space.triangles import mesh
-from dalembert.views.symbols.pair_symbols import BALL, SYMBOLS, Setting, symbol
+from dalembert.views.symbols.pair_symbols import BALL, SYMBOLS, SymbolSetting, symbol
 from dalembert.views.symbols.plane_symbols import (
     BLOCK,
     PIN,
@@ -125,7 +125,7 @@ def test_blocks_of_symbols_are_in_the_middle(kind: str, end: int) -> None:
 
 
 def test_balls_touch_their_panes_and_pegs_are_amid_their_slots() -> None:
-    slides = Setting(low=np.array([-3.0, -2.0, -1.0]), high=np.array([4.0, 5.0, 6.0]))
+    slides = SymbolSetting(low=np.array([-3.0, -2.0, -1.0]), high=np.array([4.0, 5.0, 6.0]))
     panes = symbol("sphere_between_planes", slides).on_i
     assert [set(p.corners[:, 0]) for p in panes if isinstance(p, Pane)] == [{-BALL}, {BALL}]
     for pane in (p for p in panes if isinstance(p, Pane)):
@@ -133,7 +133,7 @@ def test_balls_touch_their_panes_and_pegs_are_amid_their_slots() -> None:
         assert pane.corners.max(axis=0)[1:].tolist() == [9.5, 10.5]
     for kind in ("slotted_sphere", "slotted_sphere_in_cylinder"):
         parts = symbol(kind, slides)
-        (peg,) = (p for p in parts.on_j if isinstance(p, Cylinder))
+        (peg,) = (p for p in parts.on_j if isinstance(p, RoundBar))
         wires = [p.points for p in parts.on_i if isinstance(p, Wire)]
         e = peg.end / np.linalg.norm(peg.end)
         assert len(wires) == 2

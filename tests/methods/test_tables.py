@@ -6,7 +6,7 @@ import pytest
 
 import dalembert as da
 from dalembert.reports.sections.sources import _tables
-from dalembert.reports.sheet import Equations, Sheet, Table
+from dalembert.reports.sheet import Equations, ReportSheet, SheetTable
 from dalembert.reports.space_sections.space_closure import closing_lines
 from dalembert.reports.working import working
 from dalembert.reports.writers.latex_writer import _table
@@ -16,17 +16,19 @@ from tests.methods.space_machines import solved
 
 
 def test_the_line_stands_before_the_sum() -> None:
-    lines = _table(Table(("Part", "N"), (("one", "1"), ("two", "2"), ("sum", "3")), total=True)).splitlines()
+    lines = _table(
+        SheetTable(("Part", "N"), (("one", "1"), ("two", "2"), ("sum", "3")), total=True)
+    ).splitlines()
     assert [line.split(" ")[0] for line in lines[1:9]] == [
         r"\toprule", "Part", r"\midrule", "one", "two", r"\midrule", "sum", r"\bottomrule",
     ]  # fmt: skip
-    plain = _table(Table(("Part", "N"), (("one", "1"), ("two", "2"))))
+    plain = _table(SheetTable(("Part", "N"), (("one", "1"), ("two", "2"))))
     assert plain.count("midrule") == 1
 
 
 def test_every_table_that_ends_with_a_sum_sets_it_apart() -> None:
     sheet = working(solved("rssr"), 1, ("matrix", "virtual-work", "superposition"))
-    tables = [block for block in sheet.blocks if isinstance(block, Table)]
+    tables = [block for block in sheet.blocks if isinstance(block, SheetTable)]
     summed = [t for t in tables if t.rows[-1][0] in ("sum", "Sum", "Σ")]
     assert summed
     assert all(t.total for t in summed)
@@ -47,7 +49,7 @@ def test_wide_tables_are_divided_by_whole_joints(
 
 @pytest.mark.parametrize(("moving", "orders"), [(False, 1), (True, 3)])
 def test_loops_close_in_lengths_and_where_it_moves_in_both_rates(moving: bool, orders: int) -> None:
-    r, sheet = solved("rssr"), Sheet("")
+    r, sheet = solved("rssr"), ReportSheet("")
     closing_lines(sheet, r, 0, Shown(r, Notation()), moving)
     assert len([b for b in sheet.blocks if isinstance(b, Equations)]) == orders  # of one loop
 

@@ -14,12 +14,12 @@ from hypothesis import strategies as st
 from dalembert import dynamics
 from dalembert.errors import ModelError
 from dalembert.model import Expression, loads
-from dalembert.model.part import Reading
+from dalembert.model.part import ReadingRules
 from dalembert.model.quantities.expression_trees import (
     ARGUMENTS,
     Apply,
-    Name,
-    Number,
+    NameNode,
+    NumberNode,
     Tree,
     evaluate,
     expression_text,
@@ -60,7 +60,7 @@ def test_an_expression_is_worth(text: str) -> None:
 
 @pytest.mark.parametrize("text", ["1e3*O2", "2e-3*sin(O2)", "1.5E+3*O2", ".5e1/O2", "2e3-O2", "3e2^2"])
 def test_a_number_with_an_exponent_begins_an_expression_too(text: str) -> None:
-    found = varying(text, "force", Reading(Units(force="kN")))
+    found = varying(text, "force", ReadingRules(Units(force="kN")))
     assert isinstance(found, Expression)
     assert found.at({"O2": 0.7}) == pytest.approx(
         1000 * eval(text.replace("^", "**"), {"sin": math.sin, "O2": 0.7})
@@ -69,7 +69,7 @@ def test_a_number_with_an_exponent_begins_an_expression_too(text: str) -> None:
 
 @pytest.mark.parametrize("text", ["1e3 N", "1e3N", "-2.5e-1 kN", "12 N", "4e2"])
 def test_a_quantity_is_no_expression(text: str) -> None:
-    assert isinstance(varying(text, "force", Reading(Units())), float)
+    assert isinstance(varying(text, "force", ReadingRules(Units())), float)
 
 
 @pytest.mark.parametrize("name", [*ARGUMENTS, *CONSTANTS])
@@ -84,7 +84,7 @@ def test_no_drive_has_a_name_that_expressions_know_but_links_joints_and_loads_ma
         loads(f"{named}{name}: {drive}}}}}")
 
 
-KILONEWTONS = Reading(Units(force="kN"), freedoms={"O": "turn", "S": "slide", "t": "turn"})
+KILONEWTONS = ReadingRules(Units(force="kN"), freedoms={"O": "turn", "S": "slide", "t": "turn"})
 AT = {"O": 0.5, "S": 0.1, "t": 2.0, "time": 0.01}
 LBF = 4.4482216152605
 
@@ -139,7 +139,7 @@ def test_why_an_expression_with_units_is_refused(text: str) -> None:
 def test_an_expression_with_its_unit_as_a_key_sees_parameters_and_units() -> None:
     inches = Units(length="in", force="lbf")
     parameters = read_parameters({"cut": 50, "r": "3 in"}, inches, {})
-    rules = Reading(inches, freedoms={"O": "turn"}, parameters=parameters)
+    rules = ReadingRules(inches, freedoms={"O": "turn"}, parameters=parameters)
     found = varying({"expression": "cut*(1+sign(r - 12 in*sin(O)))/2", "unit": "N"}, "force", rules)
     assert [float(value_at(found, {"O": angle})) for angle in (0.25, 0.26)] == pytest.approx([50, 0])
     with pytest.raises(ModelError, match="'in' is a length, and a force is needed"):
@@ -231,7 +231,7 @@ def test_over_values_of_another_kind() -> None:
 
 
 def trees() -> st.SearchStrategy[Tree]:
-    leaves = st.floats(0, 1e6).map(Number) | st.sampled_from(["a", "b"]).map(Name)
+    leaves = st.floats(0, 1e6).map(NumberNode) | st.sampled_from(["a", "b"]).map(NameNode)
     return st.recursive(
         leaves,
         lambda inner: (
@@ -239,7 +239,7 @@ def trees() -> st.SearchStrategy[Tree]:
                 lambda f, a, b: Apply(f, (a, b)), st.sampled_from(["+", "-", "*", "/", "max"]), inner, inner
             )
             | st.builds(lambda f, a: Apply(f, (a,)), st.sampled_from(["-", "sin", "abs"]), inner)
-            | st.builds(lambda a, n: Apply("^", (a, Number(float(n)))), inner, st.integers(0, 16))
+            | st.builds(lambda a, n: Apply("^", (a, NumberNode(float(n)))), inner, st.integers(0, 16))
         ),
         max_leaves=15,
     )
@@ -325,4 +325,4 @@ def test_where_it_has_no_value() -> None:
 
 def test_an_unknown_drive() -> None:
     with pytest.raises(ModelError, match="an expression uses 'O3', which is not a drive; there is only 'O2'"):
-        evaluate(Name("O3"), {"O2": 1.0}, {})
+        evaluate(NameNode("O3"), {"O2": 1.0}, {})

@@ -10,17 +10,17 @@ import pytest
 import dalembert as da
 from dalembert.errors import ModelError
 from dalembert.model import loads
-from dalembert.model.quantities.expression_trees import Number, expression_text
+from dalembert.model.quantities.expression_trees import NumberNode, expression_text
 from dalembert.model.quantities.figures import (
-    own_polar,
     plain,
     plain_vector,
     polar_text,
+    polar_units,
     quantity_fails,
     shortest,
     unit_vector,
-    whole,
-    with_own_unit,
+    with_kept_unit,
+    without_fraction,
 )
 from dalembert.unit_names import unit
 from dalembert.units import Units
@@ -70,21 +70,21 @@ def test_numbers_are_bare_where_that_is_short(number: float, kind: str, units: U
 
 
 def test_whole_numbers_have_no_point() -> None:
-    assert [repr(whole(x)) for x in (2.0, -3.0, 0.0, -0.0, 0.5, 1e14, 1e15)] == [
+    assert [repr(without_fraction(x)) for x in (2.0, -3.0, 0.0, -0.0, 0.5, 1e14, 1e15)] == [
         "2", "-3", "0", "-0.0", "0.5", "100000000000000", "1000000000000000.0",
     ]  # fmt: skip
     assert shortest(math.nan, unit("m")) is None
 
 
 def test_the_units_of_a_text_stay() -> None:
-    assert with_own_unit(math.radians(75), "angle", "60deg", Units()) == "75deg"
-    assert with_own_unit(0.2, "length", " 100  mm", Units()) == " 200  mm"
-    assert with_own_unit(0.2, "length", "5 kg", Units()) is None
-    assert with_own_unit(0.2, "length", "a word", Units()) is None
+    assert with_kept_unit(math.radians(75), "angle", "60deg", Units()) == "75deg"
+    assert with_kept_unit(0.2, "length", " 100  mm", Units()) == " 200  mm"
+    assert with_kept_unit(0.2, "length", "5 kg", Units()) is None
+    assert with_kept_unit(0.2, "length", "a word", Units()) is None
     assert not quantity_fails("5 mm", "length", Units())
     assert quantity_fails("5 kg", "length", Units())
-    assert own_polar("3 in @ 30 deg", "length", Units()) == ("in", "deg")
-    assert own_polar("3 @ 30", "length", Units()) == ("", "")
+    assert polar_units("3 in @ 30 deg", "length", Units()) == ("in", "deg")
+    assert polar_units("3 @ 30", "length", Units()) == ("", "")
 
 
 def test_numbers_of_expressions_are_those_that_were_written() -> None:
@@ -95,7 +95,7 @@ def test_numbers_of_expressions_are_those_that_were_written() -> None:
         (1e-13, "1e-13"),
         (0.1, "0.1"),
     ):
-        said = expression_text(Number(value))
+        said = expression_text(NumberNode(value))
         assert float(said) == value
         assert said == written or value == 1e-13
 

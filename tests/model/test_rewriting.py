@@ -18,7 +18,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, load, loads, read_text, tree_text
-from dalembert.model.files.rewriting import _own_text, file_tree, text_of
+from dalembert.model.files.rewriting import _file_text, file_tree, text_of
 from dalembert.model.library import TEMPLATES
 from dalembert.units import file_units
 from tests.model.parts import FOUR_BAR
@@ -70,7 +70,7 @@ def check_one_number(m: Mechanism, text: str, path: str, value: float) -> None:
     """One number changed: the text is read as the changed mechanism, and all other lines are as they were."""
     other = m.with_values({path: value * 1.01 if value else 0.25})
     assert m.source is not None
-    own, left_out = _own_text(other, m.source), len(m.parameters) - len(other.parameters)
+    own, left_out = _file_text(other, m.source), len(m.parameters) - len(other.parameters)
     if left_out and m.source.form == "toml":  # a table of TOML is not cut out of the text: it is written anew
         own = own or text_of(other, "toml")
         assert loads(own, "toml", m.source.name).to_tree() == other.to_tree()

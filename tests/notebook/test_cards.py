@@ -15,7 +15,7 @@ from dalembert.analysis.output.summary.printed_units import scale_for
 from dalembert.bundled import cases, examples
 from dalembert.notebook import html_card, html_views
 from dalembert.notebook.html_card import COLUMNS, LARGEST_DRAWING, LETTERS, ROWS, card
-from dalembert.printing import Table
+from dalembert.printing import TextTable
 from tests.tiers import tiers
 
 HOSTILE = '</style></svg><script>alert(1)</script><img src=x onerror="alert(2)">&amp;'
@@ -230,20 +230,20 @@ def test_a_force_systems_card_row_by_row() -> None:
 
 def test_the_bounds_of_a_card_from_both_sides() -> None:
     for rows, ends in ((ROWS, 0), (ROWS + 1, 4)):
-        shown = read(card("", Table(["n"], [[str(k)] for k in range(rows)], 0)))
+        shown = read(card("", TextTable(["n"], [[str(k)] for k in range(rows)], 0)))
         found = [row[0] for row in shown.rows[1:]]
         every = [str(k) for k in range(rows)]
         assert found == (every if not ends else [*every[: ROWS - 5], "...", *every[-ends:]])
     for columns, note in ((COLUMNS, ""), (COLUMNS + 3, "3 more columns. and\n")):
-        shown = read(card("", Table(["n"] * columns, [["1"] * columns], 0, "and" if note else "")))
+        shown = read(card("", TextTable(["n"] * columns, [["1"] * columns], 0, "and" if note else "")))
         assert ([len(row) for row in shown.rows], shown.text) == ([COLUMNS, COLUMNS], note)
     for letters, cut in ((LETTERS, False), (LETTERS + 1, True)):
         text = "x" * letters
         kept = "x" * (LETTERS - 3) + "..." if cut else text
-        shown = read(card(text, text, Table(["n"], [[text]], 0)))
+        shown = read(card(text, text, TextTable(["n"], [[text]], 0)))
         assert (shown.text, shown.rows[1]) == (f"{kept}\n{kept}\n", [kept])
     assert read(card("a  b\n c", "")).text == "a b c\n"
-    html = card("", Table(["one\ntwo", "b"], [["x\ny", "2"]], 1))
+    html = card("", TextTable(["one\ntwo", "b"], [["x\ny", "2"]], 1))
     assert '<th class="da-left">one<br>two</th><th>b</th>' in html
     assert '<td class="da-left">x<br>y</td><td>2</td>' in html
 
@@ -339,7 +339,7 @@ def test_hostile_names_stay_text() -> None:
 
 
 def test_cards_are_bounded() -> None:
-    wide = Table([f"c{k}" for k in range(900)], [[str(j)] * 900 for j in range(5000)], 1)
+    wide = TextTable([f"c{k}" for k in range(900)], [[str(j)] * 900 for j in range(5000)], 1)
     html = card("t" * 10_000, wide, "s " * 10_000)
     assert len(html) < 40_000
     found = read(html)

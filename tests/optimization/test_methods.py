@@ -10,7 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.optimization import optimizers, optimizing, pareto_front, polishing
-from dalembert.optimization.aims import Aim, Problem, Rows, Value, parse_aim, parse_condition
+from dalembert.optimization.aims import Aim, AimValue, DesignProblem, Margins, parse_aim, parse_condition
 from dalembert.optimization.optimizers import METHODS, find_method, polish_by, search_by
 from dalembert.optimization.polishing import _Design, polish
 from dalembert.optimization.side_by_side import minimize
@@ -190,12 +190,12 @@ def test_what_pymoo_is_asked(monkeypatch: pytest.MonkeyPatch) -> None:
     assert {f"pymoo.{place}" for place in places} <= set(met)
 
 
-def bowl(u: Any) -> Value:
+def bowl(u: Any) -> AimValue:
     """A narrow valley askew, least at (0.3, 0.8); the last number is at its bound 1."""
     off = u - [0.3, 0.8, 1.4]
     along, across = off[:, 0] + off[:, 1], off[:, 0] - off[:, 1]
     slope = np.stack([2 * along + 120 * across, 2 * along - 120 * across, 2 * off[:, 2]], axis=1)
-    return Value(along**2 + 60 * across**2 + off[:, 2] ** 2, slope)
+    return AimValue(along**2 + 60 * across**2 + off[:, 2] ** 2, slope)
 
 
 def test_starts_side_by_side_end_at_the_known_best_place() -> None:
@@ -233,9 +233,9 @@ class Known:
     def __call__(self, u: Any) -> Any:
         return SimpleNamespace(value=((u - self.best) ** 2).sum(axis=1))
 
-    def at(self, u: Any) -> Rows:
+    def at(self, u: Any) -> Margins:
         none = np.zeros((1, 0))
-        return Rows(none, none, np.array([[u[0] - self.least]]), none)
+        return Margins(none, none, np.array([[u[0] - self.least]]), none)
 
     def sharp(self, u: Any) -> tuple[float, Any]:
         return float(((u - self.best) ** 2).sum()), 2 * (u - self.best)
@@ -246,7 +246,7 @@ def test_a_condition_is_kept_but_for_rounding() -> None:
     p: Any = Known([0.0], [1.0], 0.5)
     for u, lacks in ((0.6, 0.0), (0.5, 0.0), (0.5 - 1.9e-6, 0.0), (0.5 - 2.1e-6, 1.05e-6), (0.3, 0.1)):
         assert optimizing.judge(p, np.array([u])) == pytest.approx((lacks, u * u))
-    p.at = lambda u: Rows(u, u, np.array([[np.nan]]), u)
+    p.at = lambda u: Margins(u, u, np.array([[np.nan]]), u)
     assert optimizing.judge(p, np.array([0.1]))[0] == np.inf
 
 
@@ -278,10 +278,10 @@ def test_of_steps_the_neighbour_that_keeps_the_condition() -> None:
 BOX = {"links.ground.points.O4.0": (0.28, 0.36), "links.rocker.points.B.0": (0.2, 0.29)}
 
 
-def problem(aim: str, rules: tuple[str, ...] = ("transmission.B >= 60 deg",)) -> Problem:
+def problem(aim: str, rules: tuple[str, ...] = ("transmission.B >= 60 deg",)) -> DesignProblem:
     m, (low, high) = da.four_bar(positions=7), np.array(list(BOX.values())).T
     conditions = tuple(map(parse_condition, rules))
-    return Problem(m, tuple(BOX), low, high, parse_aim(aim), conditions, m.schedule().position)
+    return DesignProblem(m, tuple(BOX), low, high, parse_aim(aim), conditions, m.schedule().position)
 
 
 @pytest.mark.parametrize("aim", ["peak effort.O2", "rms effort.O2"])
@@ -347,10 +347,10 @@ def test_of_a_round_bowl_the_second_step_is_the_last(curvature: float) -> None:
     """The first change of the slope gives the curvature of all directions, not only of its own."""
     best, seen = np.array([0.3, 0.6, 0.45]), list[Any]()
 
-    def round_bowl(u: Any) -> Value:
+    def round_bowl(u: Any) -> AimValue:
         off = (u - best) * [1.0, 1.001, 0.999]  # so that no single step ends there
         seen.append(np.abs(u - best).max())
-        return Value(curvature * (off**2).sum(axis=1) / 2, curvature * off * [1.0, 1.001, 0.999])
+        return AimValue(curvature * (off**2).sum(axis=1) / 2, curvature * off * [1.0, 1.001, 0.999])
 
     places, _ = minimize(round_bowl, np.array([[0.31, 0.5, 0.5]]))
     np.testing.assert_allclose(places[0], best, atol=1e-6)
@@ -364,12 +364,12 @@ def test_a_polish_of_a_peak_starts_where_both_its_signs_have_room(
     p, met = problem("peak effort.O2"), list[Any]()
     at = p.at
 
-    def turned(_: Any, u: Any) -> Rows:
+    def turned(_: Any, u: Any) -> Margins:
         """All of one sign."""
         rows = at(u)
         return rows._replace(aim=sign * np.abs(rows.aim))
 
-    monkeypatch.setattr(Problem, "at", turned)
+    monkeypatch.setattr(DesignProblem, "at", turned)
     monkeypatch.setattr(polishing, "polish_by", lambda *told: met.append(told) or told[3])
     u = np.array([0.31, 0.62])
     np.testing.assert_array_equal(polish(p, u), u)

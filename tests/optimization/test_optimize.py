@@ -12,7 +12,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases
 from dalembert.optimization import pareto_front
-from dalembert.optimization.aims import Problem, parse_aim, parse_condition
+from dalembert.optimization.aims import DesignProblem, parse_aim, parse_condition
 from dalembert.optimization.optimizers import METHODS
 from tests.tiers import tiers
 
@@ -66,7 +66,7 @@ def test_no_design_of_a_grid_is_better() -> None:
 def test_gradients_of_aim_and_conditions(aim: str) -> None:
     m, low, high = da.four_bar(), np.array([0.28, 0.2]), np.array([0.36, 0.28])
     conditions = tuple(map(parse_condition, ("transmission.B >= 60 deg", "reaction.A.magnitude <= 40")))
-    p = Problem(m, tuple(BOX), low, high, parse_aim(aim), conditions, m.schedule().position)
+    p = DesignProblem(m, tuple(BOX), low, high, parse_aim(aim), conditions, m.schedule().position)
     u = np.array([[0.31, 0.52], [0.7, 0.4]])
     for k, h in enumerate(np.eye(2) * 1e-6):
         slope = (p(u + h).value - p(u - h).value) / 2e-6

@@ -12,20 +12,20 @@ import pytest
 import dalembert as da
 from dalembert.errors import ModelError
 from dalembert.optimization import pareto_front
-from dalembert.optimization.aims import WEIGHT, Problem, parse_aim, parse_condition
+from dalembert.optimization.aims import WEIGHT, DesignProblem, parse_aim, parse_condition
 
 BOX = {"links.ground.points.O4.0": (0.28, 0.36), "links.rocker.points.B.0": (0.2, 0.29)}
 LOW, HIGH = np.array(list(BOX.values())).T
 CONDITIONS = ("transmission.B >= 60 deg", "peak effort.O2 <= 3 N*m")
 
 
-def problem(aim: str, conditions: tuple[str, ...] = CONDITIONS) -> Problem:
+def problem(aim: str, conditions: tuple[str, ...] = CONDITIONS) -> DesignProblem:
     m = da.four_bar(positions=9)
     parsed = tuple(map(parse_condition, conditions))
-    return Problem(m, tuple(BOX), LOW, HIGH, parse_aim(aim), parsed, m.schedule().position)
+    return DesignProblem(m, tuple(BOX), LOW, HIGH, parse_aim(aim), parsed, m.schedule().position)
 
 
-def analysed(p: Problem, u: Any) -> tuple[Any, Any]:
+def analysed(p: DesignProblem, u: Any) -> tuple[Any, Any]:
     """The effort, and both margins, of the analysis of a design."""
     r = da.dynamics(p.mechanism.with_values(dict(zip(BOX, (LOW + u * (HIGH - LOW)).tolist(), strict=True))))
     effort = r.effort("O2")
@@ -65,7 +65,7 @@ def test_an_aim_counts_by_its_usual_size_and_so_does_what_is_broken() -> None:
     )
     own = np.array([p.mechanism.links["ground"].points["O4"][0], p.mechanism.links["rocker"].points["B"][0]])
     np.testing.assert_allclose(p.nominal, np.clip((own - LOW) / (HIGH - LOW), 0, 1))
-    out = Problem(p.mechanism, p.vary, HIGH, HIGH + 0.1, p.aim, (), p.positions)
+    out = DesignProblem(p.mechanism, p.vary, HIGH, HIGH + 0.1, p.aim, (), p.positions)
     assert out.nominal.tolist() == [0.0, 0.0]  # the description's own numbers are below the box
 
 
@@ -115,7 +115,7 @@ def test_an_aim_that_some_numbers_do_not_change_is_one() -> None:
     p.check()
     vary = ("links.ground.points.O4.0", "links.rocker.mass")
     low, high = np.array([0.28, 0.1]), np.array([0.36, 0.9])
-    Problem(p.mechanism, vary, low, high, parse_aim("transmission.B"), (), p.positions).check()
+    DesignProblem(p.mechanism, vary, low, high, parse_aim("transmission.B"), (), p.positions).check()
 
 
 @pytest.mark.parametrize("points", [2, 3, 5])

@@ -14,7 +14,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.batch.batch_result import SOLVED
 from dalembert.analysis.batch.kernel_export import WasmModule
-from dalembert.analysis.methods.applied_forces import whole_actions
+from dalembert.analysis.methods.applied_forces import full_actions
 from dalembert.bundled import cases, examples
 from dalembert.model.library import TEMPLATES, template_text
 from dalembert.pages.html_page import html_text
@@ -57,8 +57,8 @@ def test_every_number_is_that_of_the_analyses(name: str) -> None:
     r = da.dynamics(swept) if m.has_speeds else da.statics(swept)
     r = r if r.after is None else r.after  # at a reversal the program by itself has the numbers just after
     right = r.ok & np.isin(out[-1], SOLVED)
-    there = {(a.of, a.kind, a.link): [] for a in whole_actions(r)}
-    for a in whole_actions(r):
+    there = {(a.of, a.kind, a.link): [] for a in full_actions(r)}
+    for a in full_actions(r):
         there[a.of, a.kind, a.link].append(a)
     sizes = [
         np.abs(x[right]).max(initial=0) for some in there.values() for a in some for x in (a.force, a.couple)

@@ -14,7 +14,7 @@ from dalembert.pages.mechanism_items import Items
 from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import Frame
+from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.plane.joint_drawings import draw_joint
 from tests.pages.test_page_data import FILES, run_page
 
@@ -343,7 +343,7 @@ def test_symbols_of_a_page_are_those_of_the_drawing(
     data = page_data(m)
     out, r = run_page(data), da.dynamics(m)
     board = data["views"]["mechanism"]
-    frame, seen = Frame(board["per_mm"], tuple(board["middle"])), set[str]()
+    frame, seen = PaperFrame(board["per_mm"], tuple(board["middle"])), set[str]()
     symbols = [i for i in board["items"] if i["t"] == "symbol"]
     for k in (0, len(r.status) - 1):
         placed = []

@@ -7,24 +7,24 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from dalembert.reports.sheet import Equations, Paragraph, Sheet, Table, Working
+from dalembert.reports.sheet import Equations, Paragraph, ReportSheet, SheetTable, Working
 
 
-def blocks(sheet: Sheet, kind: type) -> list[Any]:
+def blocks(sheet: ReportSheet, kind: type) -> list[Any]:
     return [b for b in sheet.blocks if isinstance(b, kind)]
 
 
-def lines(sheet: Sheet) -> list[Working]:
+def lines(sheet: ReportSheet) -> list[Working]:
     return [line for b in blocks(sheet, Equations) for line in b.lines]
 
 
-def table(sheet: Sheet, *heads: str) -> Table:
-    (found,) = (b for b in blocks(sheet, Table) if b.heads[: len(heads)] == heads)
-    assert isinstance(found, Table)
+def table(sheet: ReportSheet, *heads: str) -> SheetTable:
+    (found,) = (b for b in blocks(sheet, SheetTable) if b.heads[: len(heads)] == heads)
+    assert isinstance(found, SheetTable)
     return found
 
 
-def words(sheet: Sheet) -> str:
+def words(sheet: ReportSheet) -> str:
     return " ".join(b.text for b in blocks(sheet, Paragraph))
 
 

@@ -15,7 +15,7 @@ from dalembert.model import library
 from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.equilibrium_equations import link_equations
 from dalembert.reports.sections.sources import virtual_work
-from dalembert.reports.sheet import Figure, Heading, Matrix, Sheet, Table
+from dalembert.reports.sheet import Drawings, Heading, Matrix, ReportSheet, SheetTable
 from dalembert.reports.space_sections.space_mobility import degrees_of_freedom
 from dalembert.reports.space_sections.space_motion import space_inertia, space_motion
 from dalembert.reports.space_sections.space_order import order_and_solution
@@ -57,10 +57,10 @@ RESULTS: dict[str, Any] = {
 }
 SOON = ("rssr", "shaft", "hooke", "disk", "ladder", "bennett", "random 1", "random 2")
 """Those of every run of the tests; the others are long."""
-_made: dict[str, tuple[Any, int, Sheet]] = {}
+_made: dict[str, tuple[Any, int, ReportSheet]] = {}
 
 
-def made(name: str) -> tuple[Any, int, Sheet]:
+def made(name: str) -> tuple[Any, int, ReportSheet]:
     """A result, the position shown and its sheet, built once."""
     if name not in _made:
         seed = int(name.removeprefix("random ")) if name.startswith("random") else None
@@ -70,10 +70,10 @@ def made(name: str) -> tuple[Any, int, Sheet]:
     return _made[name]
 
 
-def without_drawings(r: Any, k: int) -> Sheet:
+def without_drawings(r: Any, k: int) -> ReportSheet:
     """The sections with figures of their own."""
     notation = Notation()
-    sheet, shown = Sheet(""), Shown(r, notation, k)
+    sheet, shown = ReportSheet(""), Shown(r, notation, k)
     c = ReportContext(r, k, shown, notation=notation)
     for section in (degrees_of_freedom, space_motion, space_inertia):
         section(sheet, c)
@@ -198,7 +198,7 @@ def test_motion_is_the_result(name: str) -> None:
     shown = Shown(r, Notation())
     fastest = max((np.abs(r.speed(n)[k]).max() for n in r.links), default=0.0)
     if not fastest > 1e-12:
-        assert not [t for t in sheet.blocks if isinstance(t, Table) and "omega" in "".join(t.heads)]
+        assert not [t for t in sheet.blocks if isinstance(t, SheetTable) and "omega" in "".join(t.heads)]
         return
     reads = (
         ("omega", "angular_speed", r.speed, 1e-9 * fastest),
@@ -244,7 +244,7 @@ def test_inertia_couples_are_the_sum_of_their_parts(name: str) -> None:
 @every
 def test_the_matrices_hold(name: str) -> None:
     r, k, _ = made(name)
-    sheet, notation = Sheet(""), Notation(figures=13)
+    sheet, notation = ReportSheet(""), Notation(figures=13)
     order_and_solution(sheet, ReportContext(r, k, Shown(r, notation, k), notation=notation))
     for matrix in blocks(sheet, Matrix):
         rows = np.array([[value(c) for c in row] for row in matrix.rows])
@@ -265,7 +265,7 @@ def test_degree_of_freedom_and_powers(name: str) -> None:
     assert f"Mobility {found.freedoms}" in words(sheet)
     for joint in found.redundant_joints:
         assert joint in words(sheet)
-    power = [b for b in blocks(sheet, Table) if b.heads[0] == "Power put in by"]
+    power = [b for b in blocks(sheet, SheetTable) if b.heads[0] == "Power put in by"]
     for b in power:
         rows = {row[0]: row[1] for row in b.rows}
         exact = float(r.effort_array[k] @ r.schedule.speed[k])
@@ -279,10 +279,10 @@ def test_degree_of_freedom_and_powers(name: str) -> None:
 @each(*RESULTS)
 def test_drawings_and_tables_of_a_report(name: str) -> None:
     _, _, sheet = made(name)
-    for scene in (s for b in blocks(sheet, Figure) for s in b.scenes):
+    for scene in (s for b in blocks(sheet, Drawings) for s in b.scenes):
         assert text_overlaps(scene) == []
         assert text_over_lines(scene) == []
-    for b in blocks(sheet, Table):
+    for b in blocks(sheet, SheetTable):
         assert all(len(row) == len(b.heads) for row in b.rows)
     for before, after in zip(sheet.blocks, sheet.blocks[1:], strict=False):
         assert not (

@@ -12,7 +12,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.model import library
-from dalembert.reports.sheet import Matrix, Table
+from dalembert.reports.sheet import Matrix, SheetTable
 from dalembert.reports.working import working
 from dalembert.views.notation import Notation
 from tests.methods.space_machines import solved
@@ -195,7 +195,7 @@ def test_friction_in_figures(name: str) -> None:
         if line.letters.startswith("sum "):
             adds_up(line.numbers)
     assert "Superposition is refused" in words(sheet)
-    assert "Power lost to friction at this position" in [b.caption for b in blocks(sheet, Table)]
+    assert "Power lost to friction at this position" in [b.caption for b in blocks(sheet, SheetTable)]
 
 
 def test_at_rest_both_ends_have_their_reactions() -> None:

@@ -14,7 +14,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import examples
 from dalembert.studies import Study, StudyResult
-from dalembert.studies.sampling import Plan, Sobol, permuted
+from dalembert.studies.sampling import DesignPlan, Sobol, permuted
 from dalembert.studies.spreads import Spread, read_spread
 
 VARY = {"stroke": "± 0.5 mm", "bore": "uniform ± 2 %", "pressure": "5.5..6.5 MPa", "density": "normal 1 %"}
@@ -90,7 +90,7 @@ def test_sobol_points_are_those_of_scipy() -> None:
 
 
 def test_a_latin_hypercube_has_one_design_in_each_layer() -> None:
-    plan = Plan(("a", "b"), (Spread("uniform", 0, 1), Spread("uniform", 0, 1)), "latin", 777, 3)
+    plan = DesignPlan(("a", "b"), (Spread("uniform", 0, 1), Spread("uniform", 0, 1)), "latin", 777, 3)
     layers = np.sort(np.floor(plan.values(0, 777) * 777), axis=0)
     assert np.array_equal(layers, np.stack([np.arange(777)] * 2, axis=1))
     assert not np.array_equal(permuted(np.arange(9), 9, 0, "a"), permuted(np.arange(9), 9, 0, "b"))
@@ -106,7 +106,7 @@ def test_a_latin_hypercube_has_one_design_in_each_layer() -> None:
     ],
 )
 def test_the_draw_has_the_spread(spread: Spread) -> None:
-    values = Plan(("p",), (spread,), "latin", 20_000, 1).values(0, 20_000)[:, 0]
+    values = DesignPlan(("p",), (spread,), "latin", 20_000, 1).values(0, 20_000)[:, 0]
     assert values.std() == pytest.approx(spread.sigma, rel=2e-3)
     assert values.mean() == pytest.approx(3 if spread.a == 3 else values.mean(), rel=1e-4)
     if spread.kind != "normal":

@@ -13,7 +13,7 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.units import Units
 from dalembert.views.force_system import (
-    Drawing,
+    SystemDrawing,
     clip_line,
     force_system_polygon_scene,
     force_system_scene,
@@ -283,7 +283,7 @@ def test_one_line_of_forces_in_space_is_a_single_force() -> None:
 
 
 def test_coordinates_that_are_rounding_beside_others_are_zero() -> None:
-    drawing = Drawing(System(*PLATE), Figures(Units(), Notation()), None)
+    drawing = SystemDrawing(System(*PLATE), Figures(Units(), Notation()), None)
     assert drawing.coordinates(np.array([-1e12, -1.0])) == "(−1.000e+12, 0) m"
     assert drawing.coordinates(np.array([1e-12, -1.0])) == "(0, −1.000) m"
 

@@ -123,7 +123,7 @@ def from_coordinates(q: Array, turn: Array) -> tuple[Array, Array, Array]:
     return q[..., :d].copy(), q[..., -1].copy(), rotation(q[..., -1])
 
 
-def apart(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
+def angle_between(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
     """Angle (..., L+1) between poses, whole turns included; ``a`` and ``b``, their rotations, are not needed."""
     return np.asarray(np.abs(turn_a - turn_b))
 

@@ -259,7 +259,7 @@ def _direction(v: Array) -> Array:
     return np.asarray(v / np.sqrt(dot(v, v))[..., None])
 
 
-def apart(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
+def angle_between(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
     """Angle (..., L+1) between rotations a and b: its chord, 2 sin of half of it."""
     return np.asarray(np.sqrt(((a - b) ** 2).sum(axis=-1) / 2))
 

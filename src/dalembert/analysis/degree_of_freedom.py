@@ -53,12 +53,12 @@ def mobility_at(c: Compiled, pose: Pose, special: bool = False) -> Mobility:
     drives = len(c.schedule.names)
     if well_driven(c.layout, pose):
         return Mobility(c.layout.unknowns - c.layout.constraints.count, drives, 0, (), c.passive)
-    found = rank(c.layout, pose)
-    at = c.layout.constraints.joint[found.repeated]
-    joints = tuple(dict.fromkeys(c.joints[k] for k in at[at >= 0])) if found.redundant else ()
-    result = Mobility(found.freedoms, drives, found.redundant, joints, c.passive)
-    if not (special and found.freedoms == drives):
-        check_drives(c, found, result)
+    ranked = rank(c.layout, pose)
+    at = c.layout.constraints.joint[ranked.repeated]
+    joints = tuple(dict.fromkeys(c.joints[k] for k in at[at >= 0])) if ranked.redundant else ()
+    result = Mobility(ranked.freedoms, drives, ranked.redundant, joints, c.passive)
+    if not (special and ranked.freedoms == drives):
+        check_drives(c, ranked, result)
     return result
 
 
@@ -68,7 +68,7 @@ NAMED = 6
 """Freedoms that are named at most."""
 
 
-def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
+def check_drives(c: Compiled, ranked: Rank, mobility: Mobility) -> None:
     """Drives must equal freedoms."""
     missing = mobility.freedoms - mobility.drives
     path = ("drives",) if mobility.drives else ("joints",)
@@ -78,9 +78,9 @@ def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
     if missing < 0:
         names = ", ".join(c.schedule.names)
         raise ModelError(counts, f"leave out {_count(-missing, 'drive')} of {names}", path)
-    if missing > 0 or found.loose.any():
-        loose = ", ".join(name for name, moves in zip(c.links, found.loose, strict=True) if moves)
-        free = [f"{j} ({kind})" for (j, kind), moves in zip(c.freedoms, found.free, strict=True) if moves]
+    if missing > 0 or ranked.loose.any():
+        loose = ", ".join(name for name, moves in zip(c.links, ranked.loose, strict=True) if moves)
+        free = [f"{j} ({kind})" for (j, kind), moves in zip(c.freedoms, ranked.free, strict=True) if moves]
         where = f" at {'one' if missing <= 1 else 'some'} of {', '.join(free[:NAMED])}" if free else ""
         remedy = ADD.format(drives=_count(max(missing, 1), "drive"), where=where, loose=loose)
         raise ModelError(counts, remedy, path)
@@ -88,17 +88,17 @@ def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
 
 def check_knowns(c: Compiled) -> None:
     """Checks the given efforts and unknown loads: one given effort for every unknown load."""
-    given = int((~c.known.asked).sum())
+    known_efforts = int((~c.known.requested).sum())
     unknown = len(c.unknown_loads)
-    if given == unknown:
+    if known_efforts == unknown:
         return
-    efforts = _count(given, "drive effort") + (" is" if given <= 1 else " are") + " given"
+    efforts = _count(known_efforts, "drive effort") + (" is" if known_efforts <= 1 else " are") + " given"
     loads = _count(unknown, "load") + (" is" if unknown <= 1 else " are") + " unknown"
-    if given > unknown:
-        more = _count(given - unknown, "load")
+    if known_efforts > unknown:
+        more = _count(known_efforts - unknown, "load")
         remedy = f"make {more} unknown (`value: unknown` with a direction) or leave the efforts out"
         raise ModelError(f"{efforts} but {loads}", remedy, ("drives",))
-    remedy = f"give the effort of {_count(unknown - given, 'drive')} or the values of the loads"
+    remedy = f"give the effort of {_count(unknown - known_efforts, 'drive')} or the values of the loads"
     if not c.schedule.names:
         remedy = (
             "a structure holds any load: leave out the joint in whose place the load is to hold, and give the freedom "

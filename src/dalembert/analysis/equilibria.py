@@ -32,9 +32,9 @@ def equilibria(m: Mechanism, schedule: Schedule, inertia: bool) -> Result:
     g, scale = scan.excess(q)
     solved = np.isfinite(g)
     if solved.any() and np.nanmax(np.abs(g)) <= EQUAL * scale:
-        found = scan.at(q[:1])
+        result = scan.at(q[:1])
         sentence = "Every position of the range is an equilibrium (indifferent): the first is given."
-        return replace(found, stability=("neutral",), reasons=(sentence,))
+        return replace(result, stability=("neutral",), reasons=(sentence,))
     roots = _distinct(
         np.concatenate([_crossings(scan, q, g, scale), _touches(scan, q, g, scale)]), q[1] - q[0]
     )
@@ -42,9 +42,9 @@ def equilibria(m: Mechanism, schedule: Schedule, inertia: bool) -> Result:
         roots = roots[:-1]
     if not roots.size:
         return _none(scan, q, g)
-    found = scan.at(roots)
-    found.effort_array[:, scan.drive] = scan.given(found)
-    return replace(found, stability=_stability(scan, roots, scale))
+    result = scan.at(roots)
+    result.effort_array[:, scan.drive] = scan.known_effort(result)
+    return replace(result, stability=_stability(scan, roots, scale))
 
 
 class _Scan:
@@ -75,13 +75,13 @@ class _Scan:
     def excess(self, q: Array) -> tuple[Array, float]:
         """g at q, NaN where unsolved, and the largest effort met."""
         result, where = self.result(q)
-        needed, given = result.effort(self.name), self.given(result)
+        needed, known = result.effort(self.name), self.known_effort(result)
         forces = np.abs(result.force_array).max(initial=0.0, where=np.isfinite(result.force_array))
         reference = forces * result.compiled.layout.length
-        scale = max(float(np.nanmax(np.abs(np.append(needed[np.isfinite(needed)], given)))), reference * 1e-3)
-        return (needed - given)[where], scale
+        scale = max(float(np.nanmax(np.abs(np.append(needed[np.isfinite(needed)], known)))), reference * 1e-3)
+        return (needed - known)[where], scale
 
-    def given(self, result: Result) -> Array:
+    def known_effort(self, result: Result) -> Array:
         """The given effort at the positions of a result."""
         drives = {n: result.schedule.position[:, k] for k, n in enumerate(result.drives)}
         effort: Any = self.m.drives[self.name].effort
@@ -179,16 +179,16 @@ def _stability(scan: _Scan, roots: Array, scale: float) -> tuple[str | None, ...
 def _none(scan: _Scan, q: Array, g: Array) -> Result:
     """No root: one position without values, and the range of efforts that would be met."""
     nearest = int(np.nanargmin(np.abs(g))) if np.isfinite(g).any() else 0
-    found = scan.at(q[[nearest]])
-    arrays = {n: v for n, v in vars(found).items() if isinstance(v, np.ndarray) and v.dtype.kind == "f"}
+    result = scan.at(q[[nearest]])
+    arrays = {n: v for n, v in vars(result).items() if isinstance(v, np.ndarray) and v.dtype.kind == "f"}
     blank: Tree = {n: np.full_like(v, np.nan) for n, v in arrays.items()}
-    position = np.full_like(found.schedule.position, np.nan)
-    compiled = replace(found.compiled, schedule=replace(found.schedule, position=position))
+    position = np.full_like(result.schedule.position, np.nan)
+    compiled = replace(result.compiled, schedule=replace(result.schedule, position=position))
     low, high = (float(np.nanmin(g)), float(np.nanmax(g))) if np.isfinite(g).any() else (np.nan, np.nan)
     sentence = (
         f"No position of {scan.name} in its range is in equilibrium: the effort needed differs from the given one by "
         f"{low:.6g} to {high:.6g}. Change the effort or widen the range."
     )
     return replace(
-        found, compiled=compiled, status=("no_balance",), reasons=(sentence,), stability=(None,), **blank
+        result, compiled=compiled, status=("no_balance",), reasons=(sentence,), stability=(None,), **blank
     )

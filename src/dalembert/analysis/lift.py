@@ -250,8 +250,8 @@ class _Lift:
         from dalembert.analysis.solution import kinematics
 
         result = kinematics(self.m)
-        found = np.flatnonzero(np.isfinite(result.point_array).all(axis=(1, 2)))
-        return result, int(found[0]) if found.size else -1
+        closed = np.flatnonzero(np.isfinite(result.point_array).all(axis=(1, 2)))
+        return result, int(closed[0]) if closed.size else -1
 
     def _turn_offset(self, load: str) -> float:
         """Contribution of the planar mechanism's count of full turns to the angle of a torsion spring between the

@@ -15,9 +15,9 @@ from dalembert.analysis.engine.structures import known_forces
 from dalembert.analysis.friction.friction_equilibrium import block_size, friction_equilibrium
 from dalembert.analysis.friction.friction_problem import FrictionProblem
 from dalembert.analysis.positions import Positions, positions
-from dalembert.analysis.result.force_arrays import Forces, at_places, concatenate_blocks, forces_of
-from dalembert.analysis.result.joint_freedoms import whole_pose
-from dalembert.analysis.result.reaction_axes import marks
+from dalembert.analysis.result.force_arrays import SolvedForces, at_places, concatenate_blocks, forces_of
+from dalembert.analysis.result.joint_freedoms import full_pose
+from dalembert.analysis.result.reaction_axes import uniqueness
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.analysis.status.overflow import size_sentence
@@ -59,7 +59,7 @@ def at_poses(c: Compiled, like: Result, which: Index, inertia: bool) -> Result:
     """Analysis at some positions of another result's, in its poses: of a mechanism that differs from that one in loads,
     masses, friction or rates, not in its geometry."""
     with np.errstate(all="ignore"):
-        pose = whole_pose(like, which)
+        pose = full_pose(like, which)
         reached: Flags = np.asarray(np.isfinite(pose.point).all(axis=(1, 2)))
         path = Path(pose, reached, np.zeros(len(reached), np.intp))
         followed = Positions(some_positions(c, which), path, like.mobility, like.mode)
@@ -81,12 +81,12 @@ def _along(followed: Positions, path: Path, inertia: bool, forces: bool, method:
     """Rates, forces and statuses where the poses are known."""
     c, pose = followed.compiled, path.pose
     program = known_forces(c, pose, inertia) if forces and method == "auto" else None
-    moved, found = (
+    moved, solved = (
         _blocks(c, pose, inertia, forces) if program is None else _with_careful(c, pose, inertia, program)
     )
-    status, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, found, forces)
-    _blank_without_answer(~path.reached, status, moved, found)
-    return _result(followed, moved, found, inertia, status, reasons)
+    status, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, solved, forces)
+    _blank_without_answer(~path.reached, status, moved, solved)
+    return _result(followed, moved, solved, inertia, status, reasons)
 
 
 class _Moved(NamedTuple):
@@ -102,7 +102,7 @@ class _Moved(NamedTuple):
 
 def _blocks(
     c: Compiled, pose: Pose, inertia: bool, forces: bool, where: Ints | None = None
-) -> tuple[_Moved, Forces]:
+) -> tuple[_Moved, SolvedForces]:
     """Motion and forces (of some positions), in blocks of positions that fit the processor's cache."""
     size, count = block_size(c, BLOCK), len(c.targets) if where is None else len(where)
     places = [slice(k, k + size) for k in range(0, count, size)]
@@ -114,7 +114,7 @@ def _concatenate(parts: list[_Moved]) -> _Moved:
     return _Moved(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def _with_careful(c: Compiled, pose: Pose, inertia: bool, program: ForceBlock) -> tuple[_Moved, Forces]:
+def _with_careful(c: Compiled, pose: Pose, inertia: bool, program: ForceBlock) -> tuple[_Moved, SolvedForces]:
     """Answer of a program where it is certain, and of the careful path elsewhere."""
     places = np.ones(len(program.sure))
     moved = _Moved(*_stands(c, pose), program.twist, program.acceleration, places)
@@ -122,17 +122,17 @@ def _with_careful(c: Compiled, pose: Pose, inertia: bool, program: ForceBlock) -
     if not doubt.size:
         return moved, program.forces
     sure = np.flatnonzero(program.sure)
-    there, found = _blocks(c, pose, inertia, forces=True, where=doubt)
+    careful, careful_forces = _blocks(c, pose, inertia, forces=True, where=doubt)
     order = np.argsort(np.concatenate([sure, doubt]))
-    forces = concatenate_blocks([at_places(program.forces, sure), found])
-    return at(_concatenate([at(moved, sure), there]), order), at_places(forces, order)
+    forces = concatenate_blocks([at_places(program.forces, sure), careful_forces])
+    return at(_concatenate([at(moved, sure), careful]), order), at_places(forces, order)
 
 
 def _block(
-    c: Compiled, whole: Pose, part: slice | Ints, inertia: bool, forces: bool
-) -> tuple[_Moved, Forces]:
+    c: Compiled, poses: Pose, part: slice | Ints, inertia: bool, forces: bool
+) -> tuple[_Moved, SolvedForces]:
     """Motion J v = rates, J a = rates - drift; forces A x + w = 0 with or without friction."""
-    layout, pose, schedule = c.layout, whole.at(part), c.schedule
+    layout, pose, schedule = c.layout, poses.at(part), c.schedule
     moving, rows, solver = motion(layout, pose, schedule.speed[part], schedule.acceleration[part])
     moved = _Moved(*_stands(c, pose), moving.twist[:, :-1], moving.acceleration[:, :-1], moving.rcond)
     if not forces:
@@ -144,10 +144,10 @@ def _block(
         return moved, friction_equilibrium(p)
     w = total_wrench(layout, *sources.values())
     w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
-    found = balance(layout, forcing, known, pose, moving, rows, solver, w)
-    force, couple = reactions(layout, pose, rows, found)
+    equilibrium = balance(layout, forcing, known, pose, moving, rows, solver, w)
+    force, couple = reactions(layout, pose, rows, equilibrium)
     moment = couple.reshape((*couple.shape[:-1], *_couple_shape(c)))
-    return moved, forces_of(found, force, moment, marks(c, pose, rows, found.free))
+    return moved, forces_of(equilibrium, force, moment, uniqueness(c, pose, rows, equilibrium.free))
 
 
 def _stands(c: Compiled, pose: Pose) -> tuple[Array, Array, Array]:
@@ -155,9 +155,9 @@ def _stands(c: Compiled, pose: Pose) -> tuple[Array, Array, Array]:
     return pose.point[:, :-1], c.layout.algebra.without_ground(pose.turn), pose.rotation[:, :-1]
 
 
-def _no_forces(c: Compiled, count: int) -> Forces:
+def _no_forces(c: Compiled, count: int) -> SolvedForces:
     layout = c.layout
-    return Forces(
+    return SolvedForces(
         force=_nan(count, layout.joints, layout.algebra.d),
         moment=_nan(count, layout.joints, *_couple_shape(c)),
         effort=_nan(count, len(layout.driven)),
@@ -190,7 +190,7 @@ def slice_forcing(c: Compiled, part: Index) -> tuple[Forcing, Known]:
     return loads, replace(k, effort=k.effort[part])
 
 
-def _blank_without_answer(open_: Flags, status: tuple[str, ...], moved: _Moved, f: Forces) -> None:
+def _blank_without_answer(open_: Flags, status: tuple[str, ...], moved: _Moved, f: SolvedForces) -> None:
     """NaN where a position has no pose, no rates or no forces."""
     blank = ("undefined_load", "contact_lost")
     kinds = [(s not in KEPT, s in blank, s in ("jammed", "redundant")) for s in status]
@@ -214,14 +214,14 @@ def _blank(where: Flags, *arrays: Array) -> None:
 def _result(
     followed: Positions,
     moved: _Moved,
-    f: Forces,
+    f: SolvedForces,
     inertia: bool,
     status: tuple[str, ...],
     reasons: tuple[str | None, ...],
 ) -> Result:
     """The answer, with a separate one for either end of an interval and for the other side of reversals."""
 
-    def result_of(e: Forces) -> Result:
+    def result_of(e: SolvedForces) -> Result:
         return Result(
             compiled=followed.compiled,
             inertia=inertia,

@@ -18,16 +18,16 @@ from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobilit
 from dalembert.analysis.status.closure_failure import drive_text
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
-from dalembert.core.gear_rows import Misfit, mesh_wheels
+from dalembert.core.gear_rows import MeshMisfit, mesh_wheels
 from dalembert.core.layout import Mesh, Pose
 from dalembert.core.position.assembly_modes import Wanted, closing, stated_sides
 from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.dyads import sides
 from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows, without_phase
-from dalembert.core.position.first_pose_space import Drawing
+from dalembert.core.position.first_pose_space import PoseGuess
 from dalembert.core.position.motion_path import BLOCK, Path, path
 from dalembert.core.position.newton import CLOSED, close_loops
-from dalembert.core.position.path_parameter import Course, course
+from dalembert.core.position.path_parameter import PathSamples, course
 from dalembert.core.rank import is_rigid, rank
 from dalembert.errors import ModelError
 
@@ -58,11 +58,11 @@ def positions(c: Compiled) -> Positions:
     """Follow the mechanism over its schedule."""
     if not isinstance(c.guess, Guess):
         _refuse_far(c)
-    found = _first(c)
-    if found is None:
+    first_pose = _first(c)
+    if first_pose is None:
         _refuse_overdriven(c)
         return Positions(c, None, None, None)
-    place, first = found
+    place, first = first_pose
     stood = first.pose.at(0)
     c = _with_phase(c, first.pose.at(0))
     along = course(c.layout, c.targets)
@@ -78,36 +78,36 @@ def positions(c: Compiled) -> Positions:
     if mobility.redundant:
         c = replace(c, layout=replace(c.layout, redundant=True))
     motion = path(c.layout, first.pose.at(0), along, start, c.period, c.guess)
-    said = [part for part in (mode_sentence(c, first), _ranges(c, motion)) if part]
+    sentences = [part for part in (mode_sentence(c, first), _ranges(c, motion)) if part]
     c = with_pose_loads(wound(c, (place, stood), motion), motion)
-    return Positions(c, motion, mobility, "; ".join(said) or None)
+    return Positions(c, motion, mobility, "; ".join(sentences) or None)
 
 
 def _first(c: Compiled) -> tuple[int, Modes] | None:
     """The first position that closes on the branches that `assembly` gives, else on others, and its modes."""
     other: tuple[int, Modes] | None = None
     for k in _places_to_try(c):
-        found = c.first_modes if k == 0 else c.guess.modes(c.layout, c.targets[k])
-        if found is None:
+        modes = c.first_modes if k == 0 else c.guess.modes(c.layout, c.targets[k])
+        if modes is None:
             continue
-        if on_stated_sides(c, c.targets[k], found):
-            return int(k), found
-        other = other or (int(k), found)
+        if on_stated_sides(c, c.targets[k], modes):
+            return int(k), modes
+        other = other or (int(k), modes)
     return other
 
 
-def on_stated_sides(c: Compiled, target: Array, found: Modes) -> bool:
+def on_stated_sides(c: Compiled, target: Array, modes: Modes) -> bool:
     """True if no group of the chosen mode is on another side than `assembly` states."""
-    if not isinstance(c.guess, Guess) or found.chosen_by in ("given", "drawn"):
+    if not isinstance(c.guess, Guess) or modes.chosen_by in ("given", "drawn"):
         return True
     free, held = without_phase(c.layout, target, c.guess, hold=True)
-    way = plan(free)
-    if way is None or not way.closed:
+    groups = plan(free)
+    if groups is None or not groups.closed:
         return True
-    stated = stated_sides(free, way, held, Wanted(c.guess.turn, c.guess.point, None))
-    first, nothing = found.pose.at(slice(0, 1)), np.full((1, len(held)), np.nan)
+    stated = stated_sides(free, groups, held, Wanted(c.guess.turn, c.guess.point, None))
+    first, nothing = modes.pose.at(slice(0, 1)), np.full((1, len(held)), np.nan)
     with np.errstate(all="ignore"):
-        return not (sides(way, first.turn, first.point, nothing)[0] * stated < 0).any()
+        return not (sides(groups, first.turn, first.point, nothing)[0] * stated < 0).any()
 
 
 def _places_to_try(c: Compiled) -> Iterator[int]:
@@ -118,13 +118,13 @@ def _places_to_try(c: Compiled) -> Iterator[int]:
     if not isinstance(c.guess, Guess):
         return
     free, start = without_phase(c.layout, c.targets[0], c.guess, hold=True)
-    way, constant = plan(free), start[: free.constraints.count]
-    if way is not None and way.closed:
+    groups, constant = plan(free), start[: free.constraints.count]
+    if groups is not None and groups.closed:
         drives = c.targets[:, c.layout.constraints.count :]
         targets = np.column_stack([np.broadcast_to(constant, (len(drives), len(constant))), drives])
         blocks = range(0, len(targets), BLOCK)
         yield from places_to_sample(
-            np.concatenate([k + closing(way, targets[k : k + BLOCK]) for k in blocks])
+            np.concatenate([k + closing(groups, targets[k : k + BLOCK]) for k in blocks])
         )
 
 
@@ -134,28 +134,28 @@ def places_to_sample(places: Ints) -> Ints:
     return np.asarray(places[kept])
 
 
-def _beside(c: Compiled, along: Course, start: float, first: Modes) -> tuple[float, Modes | None]:
+def _beside(c: Compiled, along: PathSamples, start: float, first: Modes) -> tuple[float, Modes | None]:
     """The mode nearest to the first pose a little further on: the first may be a change point, where the mobility
     cannot be determined, and from which the motion cannot be continued."""
     near = c.guess.near(first.pose.at(0))
     if along.end > 0:
         step = min(0.02, along.end / 2)
         places = [s for s in (start + step, start - step) if 0 <= s <= along.end]
-        found = ((s, _in_phase(c, along.target(s)[0], near)) for s in places)
-        return next(((s, modes) for s, modes in found if modes is not None), (start, None))
+        candidates = ((s, _in_phase(c, along.target(s)[0], near)) for s in places)
+        return next(((s, modes) for s, modes in candidates if modes is not None), (start, None))
     angular = c.layout.freedoms.angular[c.layout.driven]
     nudge = np.concatenate([np.zeros(len(c.target)), 0.05 * np.where(angular, 1.0, c.layout.length)])
     sides = (_in_phase(c, c.targets[0] + sign * nudge, near) for sign in (1, -1))
-    return start, next((found for found in sides if found is not None), None)
+    return start, next((candidates for candidates in sides if candidates is not None), None)
 
 
-def _in_phase(c: Compiled, target: Array, near: Guess | Drawing) -> Modes | None:
+def _in_phase(c: Compiled, target: Array, near: Guess | PoseGuess) -> Modes | None:
     """Modes near a pose, the first of them with its meshes in the phase they already have."""
-    found = near.modes(c.layout, target)
-    if found is None or not phase_rows(c.layout.constraints).size:
-        return found
-    pose, missing = close_loops(c.layout, found.pose.at(slice(0, 1)), target[None])
-    return found._replace(pose=pose) if missing[0] <= CLOSED * c.layout.length else None
+    modes = near.modes(c.layout, target)
+    if modes is None or not phase_rows(c.layout.constraints).size:
+        return modes
+    pose, missing = close_loops(c.layout, modes.pose.at(slice(0, 1)), target[None])
+    return modes._replace(pose=pose) if missing[0] <= CLOSED * c.layout.length else None
 
 
 def _with_phase(c: Compiled, first: Pose) -> Compiled:
@@ -185,16 +185,16 @@ def _check_meshes(c: Compiled, first: Pose) -> None:
             continue
         a = first.point[f.i] + g.rotate(first.rotation[f.i], f.ui)
         b = first.point[f.j] + g.rotate(first.rotation[f.j], f.uj)
-        for k, found in enumerate(np.hypot(*(b - a).T)):
+        for k, distance in enumerate(np.hypot(*(b - a).T)):
             wanted = float(f.ri[k] + f.rj[k])
-            if abs(found - wanted) > MESH * wanted:
+            if abs(distance - wanted) > MESH * wanted:
                 name = c.joints[constraints.joint[f.row[k]]]
-                numbers = (found, abs(f.ri[k]), abs(f.rj[k]), wanted)
+                numbers = (distance, abs(f.ri[k]), abs(f.rj[k]), wanted)
                 what = GEAR.format(repr(name), *(f"{x:.6g}" for x in numbers))
                 raise ModelError(what, GEAR_REMEDY, ("joints", name))
 
 
-def _check_misfit(c: Compiled, misfit: Misfit) -> None:
+def _check_misfit(c: Compiled, misfit: MeshMisfit) -> None:
     """Wheels in space touch at their pitch point, but for what rounded figures leave."""
     for row, scale, gap, inside in zip(*misfit, strict=True):
         name = c.joints[c.layout.constraints.joint[row]]
@@ -214,7 +214,7 @@ def _check_misfit(c: Compiled, misfit: Misfit) -> None:
             raise ModelError(what, remedy, ("joints", name, "internal"))
 
 
-def _refuse_endless(c: Compiled, along: Course) -> None:
+def _refuse_endless(c: Compiled, along: PathSamples) -> None:
     """Nobody waits for a motion of millions of turns between two positions: it is a slip of the pen or of the unit."""
     steps = np.diff(along.s)
     if not steps.size or (steps <= FARTHEST).all():
@@ -242,20 +242,20 @@ def _refuse_far(c: Compiled) -> None:
 def _refuse_overdriven(c: Compiled) -> None:
     """Checks, where no pose closes, whether there are more drives than freedoms."""
     layout = replace(c.layout, driven=np.zeros(0, np.intp))
-    found = c.guess.modes(layout, c.target)
-    if found is None:
+    modes = c.guess.modes(layout, c.target)
+    if modes is None:
         return
-    free = rank(layout, found.pose.at(0))
+    free = rank(layout, modes.pose.at(0))
     if free.freedoms < len(c.schedule.names):
         check_drives(c, free, Mobility(free.freedoms, len(c.schedule.names), free.redundant, ()))
 
 
-def mode_sentence(c: Compiled, found: Modes) -> str | None:
+def mode_sentence(c: Compiled, modes: Modes) -> str | None:
     """Chosen assembly mode, and the others; None where the file chose it and it is the only one."""
-    if found.chosen_by in ("given", "drawn"):
+    if modes.chosen_by in ("given", "drawn"):
         return None
-    names = _mode_names(c, found.pose)
-    why = "nearest to the file's assembly" if found.chosen_by == "nearest" else "from a search"
+    names = _mode_names(c, modes.pose)
+    why = "nearest to the file's assembly" if modes.chosen_by == "nearest" else "from a search"
     others = (
         f"; other modes (the file's `assembly` chooses): {' | '.join(names[1:5])}" if len(names) > 1 else ""
     )
@@ -263,13 +263,13 @@ def mode_sentence(c: Compiled, found: Modes) -> str | None:
     return f"assembly mode {names[0]} ({why}){others}{more}"
 
 
-def _ranges(c: Compiled, found: Path) -> str | None:
+def _ranges(c: Compiled, motion: Path) -> str | None:
     """Ranges that no motion from the first pose reaches, by the positions at which they were entered."""
-    if not found.entered:
+    if not motion.entered:
         return None
     at = [
         " and ".join(f"{n} = {drive_text(c, k, d)}" for d, n in enumerate(c.schedule.names))
-        for k in found.entered
+        for k in motion.entered
     ]
     many = "a range is" if len(at) == 1 else f"{len(at)} ranges are"
     at = at[:NAMED] + [f"{len(at) - NAMED} more"] * (len(at) > NAMED)

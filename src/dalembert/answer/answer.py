@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from dalembert.answer.workbook import Tab
     from dalembert.reports import Report
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
 
@@ -246,7 +246,7 @@ class Drawn(Answer):
 class Worked(Answer):
     """Answer with a worked solution."""
 
-    def sheet(self, notation: Notation | None = None) -> Sheet:
+    def sheet(self, notation: Notation | None = None) -> ReportSheet:
         """Equations in letters and numbers if there are any, what is found, and the drawings."""
         from dalembert.reports.machine_sections import answer_sheet
 

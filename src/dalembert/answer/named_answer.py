@@ -102,8 +102,8 @@ class NamedAnswer(Compared):
     @property
     def outcome(self) -> str:
         """Counts by status."""
-        found = Counter(np.ravel(np.asarray(self.codes, object)).tolist())
-        return ", ".join(f"{n:,} {status}" for status, n in found.items())
+        counts = Counter(np.ravel(np.asarray(self.codes, object)).tolist())
+        return ", ".join(f"{n:,} {status}" for status, n in counts.items())
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {self.subject}: {self.extent}, {self.outcome}>"

@@ -85,13 +85,13 @@ def _run(arguments: list[str]) -> int:
     from dalembert.saving import DATA_FOLDER
 
     arguments, folder = _data_folder(arguments)
-    asked = arguments[0] if arguments else "--help"
-    if asked in ("--help", "-h"):
+    first = arguments[0] if arguments else "--help"
+    if first in ("--help", "-h"):
         print(overview())
         return 0
     token = DATA_FOLDER.set(folder)
     try:
-        status = command_line(asked)(
+        status = command_line(first)(
             _name_streams(arguments), exit_on_error=False, print_error=False, result_action="return_value"
         )
     except CycloptsError as error:

@@ -34,52 +34,56 @@ def check_answers(
 ) -> int:
     """Compare your answers with the computed ones, and name the mistakes that explain the differences."""
     from dalembert.grading.answer_sheet import read_sheet
-    from dalembert.grading.mistakes import Problem
+    from dalembert.grading.mistakes import SolvedProblem
     from dalembert.model.files.model_files import read_file
 
-    problem = Problem(of.load(file), of.static)
+    problem = SolvedProblem(of.load(file), of.static)
     if interactive:
         sheet = read_sheet(_ask_figures(problem.result))
     elif answers is None:
         raise ModelError("check-answers needs a file of answers", "name one, or answer with --interactive")
     else:
         sheet = read_sheet(*read_file(answers))
-    found = problem.verdicts_of(sheet, tolerance)
-    print(_text(found, sheet.file))
-    return 0 if all(v.right for v in found) else 1
+    verdicts = problem.verdicts_of(sheet, tolerance)
+    print(_text(verdicts, sheet.file))
+    return 0 if all(v.right for v in verdicts) else 1
 
 
 def _ask_figures(r: Result) -> dict[str, Tree]:
     """Ask for every effort and joint force; an empty line skips one, the end of the input all that follow."""
     m = r.mechanism
     form = "size @ angle" if m.dimension == 2 else "x, y, z"
-    asked = [("effort", d, f"Effort of {d} (a number, or with its unit; empty to skip): ") for d in r.drives]
-    asked += [("unknown_load", name, f"Load {name}: ") for name in r.unknown_loads]
+    questions = [
+        ("effort", d, f"Effort of {d} (a number, or with its unit; empty to skip): ") for d in r.drives
+    ]
+    questions += [("unknown_load", name, f"Load {name}: ") for name in r.unknown_loads]
     for joint in r.joints:
         i, j = m.joints[joint].links
-        asked.append(("reaction", joint, f"Joint {joint}, force of {i} on {j} ({form}): "))
+        questions.append(("reaction", joint, f"Joint {joint}, force of {i} on {j} ({form}): "))
     out: dict[str, Tree] = {"effort": {}, "unknown_load": {}, "reaction": {}}
-    for quantity, name, question in asked:
+    for quantity, name, question in questions:
         try:
-            said = input(question).strip()
+            reply = input(question).strip()
         except EOFError:
             print()
             break
-        if said:
-            parts = [part.strip() for part in said.strip("[]").split(",")]
-            out[quantity][name] = parts if quantity == "reaction" and len(parts) > 1 else said
+        if reply:
+            parts = [part.strip() for part in reply.strip("[]").split(",")]
+            out[quantity][name] = parts if quantity == "reaction" and len(parts) > 1 else reply
     return out
 
 
-def _text(found: list[Verdict], file: str) -> str:
-    rows = [[v.quantity, v.given, v.computed, _verdict(v)] for v in found]
-    where = [f"{file}:{v.line}: " if file else "" for v in found]
-    said = [f"{at}{v.quantity}: {v.mistake}." for at, v in zip(where, found, strict=True) if not v.right]
-    right = sum(v.right for v in found)
+def _text(verdicts: list[Verdict], file: str) -> str:
+    rows = [[v.quantity, v.given, v.computed, _verdict(v)] for v in verdicts]
+    where = [f"{file}:{v.line}: " if file else "" for v in verdicts]
+    sentences = [
+        f"{at}{v.quantity}: {v.mistake}." for at, v in zip(where, verdicts, strict=True) if not v.right
+    ]
+    right = sum(v.right for v in verdicts)
     parts = [
         table(["answer", "yours", "computed", "verdict"], rows, left=1),
-        *said,
-        f"{right} of {len(found)} right.",
+        *sentences,
+        f"{right} of {len(verdicts)} right.",
     ]
     return "\n\n".join(parts[:1]) + "\n\n" + "\n".join(parts[1:])
 
@@ -117,13 +121,13 @@ def grade(
     out.check(answers)
     if feedback is not None:
         check_new_folder(feedback, out.force)
-    marks = graded(answers, key, rubric, tolerance, static)
+    results = graded(answers, key, rubric, tolerance, static)
     if feedback is not None:
-        marks.save_feedback(feedback, out.force)
-    out.deliver(marks)
-    for said in (said for s in marks.students for said in s.problems):
-        print(said, file=sys.stderr)
-    return 1 if any(s.problems for s in marks.students) else 0
+        results.save_feedback(feedback, out.force)
+    out.deliver(results)
+    for problem in (problem for s in results.students for problem in s.problems):
+        print(problem, file=sys.stderr)
+    return 1 if any(s.problems for s in results.students) else 0
 
 
 COMMANDS: dict[Callable[..., int], str] = {

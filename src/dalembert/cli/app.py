@@ -90,8 +90,8 @@ class HelpLayout:
         return getattr(Hanging(), name)
 
 
-def command_line(asked: str) -> App:
-    """The parser of a command line that begins with the word `asked`: of that command, or of all."""
+def command_line(first: str) -> App:
+    """The parser of a command line that begins with the word `first`: of that command, or of all."""
     app = App(
         name="dalembert",
         version=__version__,
@@ -100,7 +100,7 @@ def command_line(asked: str) -> App:
         default_parameter=Parameter(show_default=False),
         suppress_keyboard_interrupt=False,
     )
-    for name in [asked] if asked in MODULES else MODULES:
+    for name in [first] if first in MODULES else MODULES:
         module, command = _command(name)
         if isinstance(command, App):
             app.command(command)
@@ -142,19 +142,19 @@ def _paragraphs(lines: Iterable[str], width: int) -> list[str]:
 
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
     """The sentence for a wrong command line, and where to read more."""
-    asked = arguments[0] if arguments else ""
-    command = f" {asked}" if asked in MODULES else ""
-    return f"dalembert: {_report_error(error, asked)}; see `dalembert{command} --help`"
+    first = arguments[0] if arguments else ""
+    command = f" {first}" if first in MODULES else ""
+    return f"dalembert: {_report_error(error, first)}; see `dalembert{command} --help`"
 
 
-def _report_error(error: CycloptsError, asked: str) -> str:
+def _report_error(error: CycloptsError, first: str) -> str:
     if isinstance(error, UnknownCommandError):
-        meant = next((name for name, words in FIELD_WORDS.items() if asked.lower() in words.split()), asked)
-        return f"unknown command {asked!r}; {closest(meant, list(MODULES))}"
+        meant = next((name for name, words in FIELD_WORDS.items() if first.lower() in words.split()), first)
+        return f"unknown command {first!r}; {closest(meant, list(MODULES))}"
     if isinstance(error, UnusedCliTokensError):
         return (
             f"{' '.join(error.unused_tokens or ())!r} is an unexpected argument; quote arguments with spaces"
         )
     missing = isinstance(error, MissingArgumentError) and re.search(r"parameter (\S+) requires", str(error))
-    sentence = f"{asked} needs {missing[1]}" if missing else str(error).strip().rstrip(".")
+    sentence = f"{first} needs {missing[1]}" if missing else str(error).strip().rstrip(".")
     return sentence[:1].lower() + sentence[1:]

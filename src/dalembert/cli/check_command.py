@@ -14,7 +14,7 @@ from dalembert.printing import table, wrap
 from dalembert.progress import progress
 
 if TYPE_CHECKING:
-    from dalembert.grading.file_answers import Row
+    from dalembert.grading.file_answers import ComparedAnswer
 
 ENDINGS = (".yaml", ".yml", ".json", ".toml")
 
@@ -33,10 +33,10 @@ def check(
     """Compare the published answers in model files with the computed ones."""
     if not files:
         raise ModelError("check needs a file or a folder", "for example: dalembert check four_bar.yaml")
-    found = list(_model_files(files))
-    rows, wrong = _compare(found, changes)
+    paths = list(_model_files(files))
+    rows, wrong = _compare(paths, changes)
     if rows or not wrong:
-        print(_text(rows, every or len(found) == 1))
+        print(_text(rows, every or len(paths) == 1))
     return 2 if wrong else 0 if all(row.ok for row in rows) else 1
 
 
@@ -45,14 +45,14 @@ def validate() -> int:
     from dalembert.bundled import cases
 
     started = time.perf_counter()
-    found = cases()
-    rows, wrong = _compare(list(found.values()))
+    problems = cases()
+    rows, wrong = _compare(list(problems.values()))
     failed = [row for row in rows if not row.ok]
     print(_text(rows, every=True))
     print(_installation())
     seconds = time.perf_counter() - started
     good = bool(rows) and not failed and not wrong
-    counted = f"{len(found)} problems, {f'{wrong} of them not read, ' if wrong else ''}{len(rows)} answers"
+    counted = f"{len(problems)} problems, {f'{wrong} of them not read, ' if wrong else ''}{len(rows)} answers"
     print(f"{'PASSED' if good else 'FAILED'}: {counted}, {seconds:.1f} s")
     return 0 if good else 1
 
@@ -68,12 +68,12 @@ def _model_files(named: Iterable[Path]) -> Iterator[Path]:
             yield path
 
 
-def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list[Row], int]:
+def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list[ComparedAnswer], int]:
     """Rows of all files, and how many files are wrong; wrong files are reported at once."""
     from dalembert.grading.file_answers import check
     from dalembert.model.gravity import gravity_doubt
 
-    rows: list[Row] = []
+    rows: list[ComparedAnswer] = []
     wrong = 0
     with progress("Checking", len(files)) as step:
         for done, path in enumerate(files):
@@ -89,7 +89,7 @@ def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list
     return rows, wrong
 
 
-def _text(rows: Sequence[Row], every: bool) -> str:
+def _text(rows: Sequence[ComparedAnswer], every: bool) -> str:
     """One line a case; with `every` one line an answer; then those that disagree, in full."""
     if not rows:
         return "No answers to compare."
@@ -102,7 +102,7 @@ def _text(rows: Sequence[Row], every: bool) -> str:
     return "\n\n".join(parts)
 
 
-def _answers_table(rows: Sequence[Row]) -> str:
+def _answers_table(rows: Sequence[ComparedAnswer]) -> str:
     """One line per answer; the names of cases are above theirs."""
     cells = []
     for row in rows:
@@ -121,8 +121,8 @@ def _answers_table(rows: Sequence[Row]) -> str:
     return "\n".join(shown)
 
 
-def _case_table(rows: Sequence[Row]) -> str:
-    by_case: dict[str, list[Row]] = {}
+def _case_table(rows: Sequence[ComparedAnswer]) -> str:
+    by_case: dict[str, list[ComparedAnswer]] = {}
     for row in rows:
         by_case.setdefault(row.case, []).append(row)
     cells = []
@@ -136,15 +136,15 @@ def _mark(ok: bool) -> str:
     return "yes" if ok else "NO"
 
 
-def _failure(row: Row) -> str:
+def _failure(row: ComparedAnswer) -> str:
     """Answers that disagree, by how much, and their places."""
     place = f"{row.case}, line {row.line}" if row.line else row.case
-    said = f"{place}: {row.quantity}: published {row.published}, computed {row.computed}"
-    said += f", {row.deviation} apart" if row.deviation else ""
-    said += f", tolerance {row.tolerance}" if row.tolerance else ""
-    said += f" ({row.why})" if row.why else ""
-    said += f"; exact {row.exact}" if row.exact else ""
-    return wrap(said + (f". {row.problem}" if row.problem else ""), "  ")
+    sentence = f"{place}: {row.quantity}: published {row.published}, computed {row.computed}"
+    sentence += f", {row.deviation} apart" if row.deviation else ""
+    sentence += f", tolerance {row.tolerance}" if row.tolerance else ""
+    sentence += f" ({row.why})" if row.why else ""
+    sentence += f"; exact {row.exact}" if row.exact else ""
+    return wrap(sentence + (f". {row.problem}" if row.problem else ""), "  ")
 
 
 def _installation() -> str:

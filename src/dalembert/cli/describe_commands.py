@@ -107,10 +107,10 @@ def example_text(name: str) -> str:
     """The file of a bundled example, or of a bundled published problem."""
     from dalembert.bundled import cases, examples
 
-    found = {**cases(), **examples()}
-    if name not in found:
+    files = {**cases(), **examples()}
+    if name not in files:
         raise ModelError(f"unknown example {name!r}", closest(name, list(examples())))
-    return found[name].read_text(encoding="utf-8")
+    return files[name].read_text(encoding="utf-8")
 
 
 def _title(path: Path) -> str:

@@ -124,17 +124,17 @@ def _first_page(r: Result, at: str | None, notation: Notation, camera: Any) -> t
     from dalembert.views import draw
     from dalembert.views.paper.pages import fits
 
-    whole, left = draw.mechanism(r, at, notation, camera=camera), list[str]()
+    page, left = draw.mechanism(r, at, notation, camera=camera), list[str]()
     for name in draw.together(r)[1:]:
-        more = draw.beside([whole, draw.view(r, name, at, notation, camera)], r.mechanism.title, 180.0)
+        more = draw.beside([page, draw.view(r, name, at, notation, camera)], r.mechanism.title, 180.0)
         if fits(more):
-            whole = more
+            page = more
         else:
             left.append(name)
     left += ["friction"] if r.friction is not None else []
     plane = r.mechanism.dimension == 2
     left += ["teeth"] if plane and any(joint.TOOTHED for joint in r.mechanism.joints.values()) else []
-    return whole, left + (["motion"] if plane and r.drives else [])
+    return page, left + (["motion"] if plane and r.drives else [])
 
 
 def _paper(output: Path, paper: str | None) -> str | None:
@@ -218,7 +218,7 @@ def _solve_at(m: Mechanism, at: str | None, static: bool, positions: int | None)
 
     if at is None or at.strip().isdigit() or positions is not None or len(m.drives) != 1:
         return solve(m, static=static, positions=positions), at
-    values = _way(m, at)
+    values = _path_to(m, at)
     if values is None:
         return solve(m, static=static), at
     return solve(_at_last_position(m, values), static=static), None
@@ -230,10 +230,10 @@ def _at_last_position(m: Mechanism, values: list[float]) -> Mechanism:
 
     path = f"drives.{next(iter(m.drives))}.position"
     r = kinematics(m.with_values({path: values}))
-    there: Tree = {path: values[-1]}
+    changes: Tree = {path: values[-1]}
     if all(map(math.isfinite, r.point_array[-1].ravel())):
-        there["assembly"] = {link: _pose(r, link) for link in r.links}
-    return m.with_values(there)
+        changes["assembly"] = {link: _pose(r, link) for link in r.links}
+    return m.with_values(changes)
 
 
 def _pose(r: Result, link: str) -> object:
@@ -248,7 +248,7 @@ def _pose(r: Result, link: str) -> object:
     return {"position": position, "axis": [x, y, z] if size else [0, 0, 1], "angle": 2 * math.atan2(size, w)}
 
 
-def _way(m: Mechanism, at: str) -> list[float] | None:
+def _path_to(m: Mechanism, at: str) -> list[float] | None:
     """Positions in small steps from the file's only one to a value of its drive; None where the file has more."""
     import numpy as np
 

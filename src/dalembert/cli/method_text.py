@@ -105,8 +105,8 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
             "virtual work needs a drive, and this structure does not move",
             "leave --method out",
         )
-    found, to, k = virtual_work(result), print_scale(result, units), _first(result)
-    blocks = _all_powers(found, k, to)
+    work, to, k = virtual_work(result), print_scale(result, units), _first(result)
+    blocks = _all_powers(work, k, to)
     if result.status[k] == "at_rest":
         blocks = []
         for name, pair in zip(unknown_names(result), result.ends, strict=True):
@@ -119,29 +119,29 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
         behind = _all_powers(virtual_work(result.sides[1]), k, to)
         blocks = ["Just before the reversal:", *blocks, "Just after it:", *behind]
     where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
-    return found.answer, "\n\n".join([f"Virtual work{where}", *blocks, *_agreement(found)])
+    return work.answer, "\n\n".join([f"Virtual work{where}", *blocks, *_agreement(work)])
 
 
-def _agreement(found: VirtualWork) -> list[str]:
+def _agreement(work: VirtualWork) -> list[str]:
     """Agreement of the matrix answer with virtual work."""
     words = []
-    if not found.independent:
+    if not work.independent:
         words.append(
             "The work of friction contains the reactions of the matrix answer: with friction virtual work checks "
             "that answer; it is not an independent solution."
         )
-    if np.isfinite(found.gap).any():
-        gap = remainder(float(np.nanmax(found.gap)), 1)
+    if np.isfinite(work.gap).any():
+        gap = remainder(float(np.nanmax(work.gap)), 1)
         words.append(
             f"No reaction appears. The matrix answer agrees within {gap}."
-            if found.independent
+            if work.independent
             else f"They agree within {gap}."
         )
     return [wrap(" ".join(words))] if words else []
 
 
-def _all_powers(found: VirtualWork, k: int, to: Printed) -> list[str]:
-    return [_powers(found, n, k, to) for n in range(len(found.result.drives))]
+def _all_powers(work: VirtualWork, k: int, to: Printed) -> list[str]:
+    return [_powers(work, n, k, to) for n in range(len(work.result.drives))]
 
 
 HEADS = ["load", "force x", "y", "couple", "moves x", "y", "turns", "work"]
@@ -151,34 +151,34 @@ SPACE_HEADS = [
 ]
 
 
-def _powers(found: VirtualWork, drive: int, k: int, to: Printed) -> str:
-    r = found.result
+def _powers(work: VirtualWork, drive: int, k: int, to: Printed) -> str:
+    r = work.result
     name = r.drives[drive]
     angular = drive_kinds(r, name)["effort"] == "moment"
     kind = "moment" if angular else "force"
-    found_effort = with_unit(float(to(kind, significant(r, kind, found.effort[:, drive])[k])), to.text(kind))
-    effort = f"Effort that balances the work: {name} = {found_effort}"
-    if not found.actions:
+    effort_text = with_unit(float(to(kind, significant(r, kind, work.effort[:, drive])[k])), to.text(kind))
+    effort = f"Effort that balances the work: {name} = {effort_text}"
+    if not work.actions:
         return f"{NOTHING_ACTS}.\n\n{effort}"
     unit = "rad" if angular else to.text("length")
     per = to("length", 1.0) if angular else 1.0
     length = r.compiled.layout.length
     reach = 1.0 if angular else 1 / length  # the turn that moves a link's ends by its length, or the drive's
-    force = np.array([a.force[k] for a in found.actions])
-    couple = np.array([a.couple[k] for a in found.actions])
+    force = np.array([a.force[k] for a in work.actions])
+    couple = np.array([a.couple[k] for a in work.actions])
     load = max(_largest(force), _largest(couple) / length)
     columns = (
         (force, to("force", 1.0), load),
         (couple, to("moment", 1.0), load * length),
-        (found.velocity[:, k, drive], per, reach * length),
-        (found.spin[:, k, drive], 1.0 if angular else 1 / to("length", 1.0), reach),
-        (found.power[:, k, drive], to(kind, 1.0), load * reach * length),
+        (work.velocity[:, k, drive], per, reach * length),
+        (work.spin[:, k, drive], 1.0 if angular else 1 / to("length", 1.0), reach),
+        (work.power[:, k, drive], to(kind, 1.0), load * reach * length),
     )
     numbers = [
-        _cells(values * factor, len(found.actions), least * factor) for values, factor, least in columns
+        _cells(values * factor, len(work.actions), least * factor) for values, factor, least in columns
     ]
-    rows = [[a.source, *(x for part in numbers for x in part[n])] for n, a in enumerate(found.actions)]
-    total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
+    rows = [[a.source, *(x for part in numbers for x in part[n])] for n, a in enumerate(work.actions)]
+    total = float(work.power[:, k, drive].sum()) * to(kind, 1.0)
     heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
     beside = load * reach * length * to(kind, 1.0)
     rows.append(["sum", *[""] * (len(heads) - 2), number(round_components([total], beside)[0])])
@@ -235,9 +235,9 @@ def other_solutions_text(result: Result, units: UnitChoice) -> str:
     """Solutions of friction's equations beside the physical one, where that is not proved to be the only one."""
     from dalembert.analysis.friction.other_solutions import SOUGHT, every_other_solution
 
-    found, to, kinds = every_other_solution(result), print_scale(result, units), unknown_kinds(result)
-    if not any(found.values()):
-        proved = "proved not to exist" if not found else "none detected"
+    others, to, kinds = every_other_solution(result), print_scale(result, units), unknown_kinds(result)
+    if not any(others.values()):
+        proved = "proved not to exist" if not others else "none detected"
         if not any(s in SOUGHT for s in result.status):
             proved = "searched only where the senses of friction are given, at no position of this result"
         return wrap(f"Other solutions of friction: {proved}.")
@@ -245,7 +245,7 @@ def other_solutions_text(result: Result, units: UnitChoice) -> str:
     heads.append("determinant\nratio")
     rows = [
         [str(k + 1), *(number(float(to(kinds[n], v))) for n, v in s.unknowns.items()), number(s.determinant)]
-        for k, some in found.items()
+        for k, some in others.items()
         for s in some
     ]
     words = (

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from dalembert.views.notation import Notation
 
 
-def whole(least: int, most: int | None = None) -> Callable[..., int]:
+def integer(least: int, most: int | None = None) -> Callable[..., int]:
     """A reader of integers within limits."""
 
     def read(_: Any, tokens: Sequence[Any]) -> int:
@@ -39,7 +39,7 @@ def bounded(key: str) -> Callable[..., Any]:
     def read(_: Any, tokens: Sequence[Any]) -> int | float:
         text = tokens[0].value
         try:
-            number: object = int(text) if bound.whole else float(text)
+            number: object = int(text) if bound.is_integer else float(text)
         except ValueError:
             number = text
         if not bound.allows(number):
@@ -84,7 +84,7 @@ NewFile = Annotated[Path | None, output("File to write (default: print).")]
 Positions = Annotated[
     int | None,
     Parameter(
-        converter=whole(1),
+        converter=integer(1),
         allow_leading_hyphen=True,
         help="Number of positions over the range of the drives (default: as in the file).",
     ),
@@ -119,7 +119,7 @@ Theme = Annotated[
     Literal["light", "dark", "print"],
     with_help("Colour theme: light, dark, or print (black and white)."),
 ]
-Figures = Annotated[int, Parameter(converter=whole(1, 15), help="Significant figures.")]
+Figures = Annotated[int, Parameter(converter=integer(1, 15), help="Significant figures.")]
 Static = Annotated[bool, flag("Ignore inertia, even if the file has speeds.")]
 NoFriction = Annotated[bool, flag("Ignore friction.")]
 Set = Annotated[
@@ -147,7 +147,7 @@ class Style:
     decimals: Annotated[
         int | None,
         Parameter(
-            converter=whole(0, 15),
+            converter=integer(0, 15),
             allow_leading_hyphen=True,
             help="Decimals, instead of significant figures.",
         ),

@@ -61,11 +61,11 @@ def variants(
     check_folder(output, force)
     choices = dict(map(read_option, vary))
     m = of.load(file)
-    found = drawn(m, choices, count, seed, ask or (), at, of.static, tolerance)
-    found.save(output, force)
-    rows = [[v.name, *(value_text(v.values[path]) for path in choices)] for v in found]
+    exam = drawn(m, choices, count, seed, ask or (), at, of.static, tolerance)
+    exam.save(output, force)
+    rows = [[v.name, *(value_text(v.values[path]) for path in choices)] for v in exam]
     print(tables(["variant", *choices], rows, 1))
-    print(f"Written: {output}; --seed {found.seed} draws the same again.", file=sys.stderr)
+    print(f"Written: {output}; --seed {exam.seed} draws the same again.", file=sys.stderr)
     return 0
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
-from dalembert.core.layout import System
+from dalembert.core.layout import ConstraintRows
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_array
@@ -40,7 +40,9 @@ class Bands(NamedTuple):
     low: Flags
     place: Ints
 
-    def least_squares(self, rows: System, scale: Array, column: Array, right: Array, damping: float) -> Array:
+    def least_squares(
+        self, rows: ConstraintRows, scale: Array, column: Array, right: Array, damping: float
+    ) -> Array:
         """Solution of (J^T J + damping) x = J^T right at a single position (1, ...), times the columns' scale; NaN
         where rounding makes it singular."""
         from scipy.linalg.lapack import dpbsv
@@ -53,8 +55,8 @@ class Bands(NamedTuple):
         normal = np.bincount(self.place, products, (self.width + 1) * size).reshape(-1, size)
         normal[0] += damping
         wanted = np.bincount(self.entry.ravel(), (j * right[:, None]).ravel(), len(along))[:size]
-        _, found, failed = dpbsv(normal, wanted, lower=True)
-        return np.asarray(np.where(failed, np.nan, found)[self.unknown] * column)
+        _, solution, failed = dpbsv(normal, wanted, lower=True)
+        return np.asarray(np.where(failed, np.nan, solution)[self.unknown] * column)
 
 
 class BandedLU:
@@ -84,7 +86,7 @@ class BandedLU:
         )
 
 
-def bands_of(rows: System, links: int, n: int) -> Bands | None:
+def bands_of(rows: ConstraintRows, links: int, n: int) -> Bands | None:
     """The bands of some rows; None where they are wide."""
     return _bands(rows.i.tobytes(), rows.j.tobytes(), links, n)
 

@@ -18,6 +18,7 @@ from dalembert.core.geometry import arm, point_motion, span, span_motion
 from dalembert.core.layout import (
     Along,
     Angle,
+    ConstraintRows,
     Distance,
     Family,
     Gearing,
@@ -29,7 +30,6 @@ from dalembert.core.layout import (
     Perpendicular,
     Pose,
     Rows,
-    System,
     Turn,
 )
 
@@ -60,17 +60,17 @@ def drift(g: Algebra, rows: Rows, pose: Pose, twist: Array) -> Array:
     return out
 
 
-def system(g: Algebra, rows: Rows, pose: Pose) -> System:
+def system(g: Algebra, rows: Rows, pose: Pose) -> ConstraintRows:
     """The rows with their wrenches at a pose."""
-    return System(*rows.ends, rows.angular, *wrenches(g, rows, pose))
+    return ConstraintRows(*rows.ends, rows.angular, *wrenches(g, rows, pose))
 
 
-def stack_rows(layout: Layout, pose: Pose) -> System:
+def stack_rows(layout: Layout, pose: Pose) -> ConstraintRows:
     """The constraint rows, then the drives' rows."""
     return system(layout.algebra, layout.stack, pose)
 
 
-def dense(layout: Layout, rows: System) -> Array:
+def dense(layout: Layout, rows: ConstraintRows) -> Array:
     """J, dense: (..., K, n L); its transpose is A. Velocities of the measures are J v."""
     n, k = layout.algebra.n, np.arange(len(rows.i))
     lead = rows.on_j.shape[:-2]
@@ -80,7 +80,7 @@ def dense(layout: Layout, rows: System) -> Array:
     return full[..., : layout.links, :].reshape((*lead, len(k), layout.links * n))
 
 
-def rates(rows: System, twist: Array) -> Array:
+def rates(rows: ConstraintRows, twist: Array) -> Array:
     """Velocities of the measures (..., K) for twists (..., L+1, n) of all links."""
     return np.asarray((rows.on_i * twist[..., rows.i, :] + rows.on_j * twist[..., rows.j, :]).sum(axis=-1))
 

@@ -20,9 +20,9 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import drift, rates, stack_rows
 from dalembert.core.factor import factor
-from dalembert.core.forcing import Forcing, Source, pair, total_wrench
+from dalembert.core.forcing import Forcing, WrenchSource, pair, total_wrench
 from dalembert.core.geometry import arm
-from dalembert.core.layout import Gearing, Helix, Layout, Mesh, Pose, Rows, System
+from dalembert.core.layout import ConstraintRows, Gearing, Helix, Layout, Mesh, Pose, Rows
 from dalembert.core.linear import Factor, PseudoInverse, compliant
 
 
@@ -30,11 +30,12 @@ from dalembert.core.linear import Factor, PseudoInverse, compliant
 class Known:
     """Known efforts of drives and unknown loads.
 
-    effort (P, D), NaN where unknown; ``asked`` (D,) flags the unknown ones; unknown loads: unit force ``direction`` (U,
-    d) at ``at`` on ``link``, in link axes where ``follows``, or a unit couple ``about`` (U, n - d) where ``couple``.
+    effort (P, D), NaN where unknown; ``requested`` (D,) flags the unknown ones; unknown loads: unit force ``direction``
+    (U, d) at ``at`` on ``link``, in link axes where ``follows``, or a unit couple ``about`` (U, n - d) where
+    ``couple``.
     """
 
-    asked: Flags
+    requested: Flags
     effort: Array
     link: Ints
     at: Array
@@ -44,7 +45,7 @@ class Known:
     couple: Flags
 
 
-class Motion(NamedTuple):
+class LinkMotions(NamedTuple):
     """Twists and accelerations of all links (..., L+1, n), V (..., D, L+1, n), and the scaled rcond of J (...)."""
 
     twist: Array
@@ -53,7 +54,7 @@ class Motion(NamedTuple):
     rcond: Array
 
 
-class Balance(NamedTuple):
+class Equilibrium(NamedTuple):
     """Solved equilibrium: multipliers and their checks.
 
     constraint (..., K), effort (..., D), load (..., U), residual and power_balance (...), free (..., X, X) the
@@ -76,7 +77,9 @@ def with_ground(twist: Array) -> Array:
     return np.concatenate([twist, np.zeros_like(twist[..., :1, :])], axis=-2)
 
 
-def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tuple[Motion, System, Factor]:
+def motion(
+    layout: Layout, pose: Pose, speed: Array, acceleration: Array
+) -> tuple[LinkMotions, ConstraintRows, Factor]:
     """Velocities and accelerations from the drives' speeds and accelerations (..., D): A^T v = rates."""
     rows = stack_rows(layout, pose)
     solver = factor(layout, rows)
@@ -96,12 +99,12 @@ def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tup
     unit = np.eye(len(layout.driven))
     virtual = [twists(prescribed(e)) for e in unit]
     stack = np.stack(virtual, axis=-3) if virtual else np.zeros((*lead, 0, *v.shape[-2:]))
-    return Motion(v, a, stack, solver.rcond), rows, solver
+    return LinkMotions(v, a, stack, solver.rcond), rows, solver
 
 
 def known_sources(
-    layout: Layout, forcing: Forcing, pose: Pose, moving: Motion, inertia: bool
-) -> dict[str, Source]:
+    layout: Layout, forcing: Forcing, pose: Pose, moving: LinkMotions, inertia: bool
+) -> dict[str, WrenchSource]:
     """Every known wrench by kind: dampers at the speeds of the motion, inertia where asked for."""
     twist = moving.twist
     sources = {
@@ -122,22 +125,24 @@ class Statement(NamedTuple):
     """Equilibrium system A x + w = 0: the rows with unknown multipliers, A factored, and w with the known efforts (...,
     L, n)."""
 
-    unknown: System
+    unknown: ConstraintRows
     forces: Factor
     w: Array
 
 
-def statement(layout: Layout, known: Known, pose: Pose, rows: System, solver: Factor, w: Array) -> Statement:
+def statement(
+    layout: Layout, known: Known, pose: Pose, rows: ConstraintRows, solver: Factor, w: Array
+) -> Statement:
     """Unknowns and known terms, from total wrenches w (..., L, n) of loads."""
     unknown = _unknowns(layout, known, pose, rows)
-    if known.asked.all() and not known.link.size:
+    if known.requested.all() and not known.link.size:
         return Statement(unknown, _yielding(layout, unknown, solver), w)
-    given = rows.rows(layout.constraints.count + np.flatnonzero(~known.asked))
-    w = w + total_wrench(layout, pair(given, known.effort[..., ~known.asked]))
+    known_rows = rows.rows(layout.constraints.count + np.flatnonzero(~known.requested))
+    w = w + total_wrench(layout, pair(known_rows, known.effort[..., ~known.requested]))
     return Statement(unknown, _yielding(layout, unknown, factor(layout, unknown)), w)
 
 
-def _yielding(layout: Layout, unknown: System, forces: Factor) -> Factor:
+def _yielding(layout: Layout, unknown: ConstraintRows, forces: Factor) -> Factor:
     """The factored system with the joints' compliances, where reactions are not unique and some joint has a
     compliance."""
     if layout.compliance is None or not isinstance(forces, PseudoInverse):
@@ -151,11 +156,11 @@ def balance(
     forcing: Forcing,
     known: Known,
     pose: Pose,
-    moving: Motion,
-    rows: System,
+    moving: LinkMotions,
+    rows: ConstraintRows,
     solver: Factor,
     w: Array,
-) -> Balance:
+) -> Equilibrium:
     """Solution of A x + w = 0 for total wrenches w (..., L, n)."""
     s = statement(layout, known, pose, rows, solver, w)
     x, total = _solve_balance(layout, forcing, pose, s.forces, s.w)
@@ -167,36 +172,36 @@ def check_equilibrium(
     forcing: Forcing,
     known: Known,
     pose: Pose,
-    moving: Motion,
+    moving: LinkMotions,
     s: Statement,
     x: Array,
     total: Array,
-) -> Balance:
+) -> Equilibrium:
     """Multipliers x by their meaning, with the residual and virtual power under total wrenches (..., L, n)."""
-    count, asked = layout.constraints.count, int(known.asked.sum())
+    count, count_efforts = layout.constraints.count, int(known.requested.sum())
     if layout.constraints.idle.size:
         x = x.copy()
         x[..., layout.constraints.idle] = 0.0
-    effort = np.broadcast_to(known.effort, (*x.shape[:-1], len(known.asked))).copy()
-    effort[..., known.asked] = x[..., count : count + asked]
+    effort = np.broadcast_to(known.effort, (*x.shape[:-1], len(known.requested))).copy()
+    effort[..., known.requested] = x[..., count : count + count_efforts]
     sources = [pair(s.unknown, x)]
     residual, largest = _residual(layout, sources, total)
     power = _power(layout, known, moving, s.unknown, x, total, largest)
     free = s.forces.null if isinstance(s.forces, PseudoInverse) else None
     pushed = fc.separation(layout, pose, forcing.separation, x)
-    parts = (x[..., :count], effort, x[..., count + asked :])
-    return Balance(*parts, residual, power, s.forces.rcond, free, pushed)
+    parts = (x[..., :count], effort, x[..., count + count_efforts :])
+    return Equilibrium(*parts, residual, power, s.forces.rcond, free, pushed)
 
 
-def _unknowns(layout: Layout, known: Known, pose: Pose, rows: System) -> System:
+def _unknowns(layout: Layout, known: Known, pose: Pose, rows: ConstraintRows) -> ConstraintRows:
     """Rows with unknown multipliers."""
     count = layout.constraints.count
-    kept = np.concatenate([np.arange(count), count + np.flatnonzero(known.asked)])
-    asked = rows.rows(kept)
-    return asked + load_rows(layout, known, pose) if known.link.size else asked
+    kept = np.concatenate([np.arange(count), count + np.flatnonzero(known.requested)])
+    unknown_rows = rows.rows(kept)
+    return unknown_rows + load_rows(layout, known, pose) if known.link.size else unknown_rows
 
 
-def load_rows(layout: Layout, known: Known, pose: Pose) -> System:
+def load_rows(layout: Layout, known: Known, pose: Pose) -> ConstraintRows:
     """Unit unknown loads as rows between ground and their links."""
     g, size = layout.algebra, len(known.link)
     r = arm(g, pose, known.link, known.at)
@@ -206,7 +211,7 @@ def load_rows(layout: Layout, known: Known, pose: Pose) -> System:
     about = np.where(known.follows[:, None], turned, known.about)
     wrench = np.concatenate([np.broadcast_to(force, r.shape), g.cross(r, force) + about], axis=-1)
     ground = np.full(size, layout.links)
-    return System(ground, known.link, known.couple, np.zeros_like(wrench), wrench)
+    return ConstraintRows(ground, known.link, known.couple, np.zeros_like(wrench), wrench)
 
 
 def _solve_balance(
@@ -231,7 +236,7 @@ def _solve_balance(
     return x, total
 
 
-def _residual(layout: Layout, sources: list[Source], w: Array) -> tuple[Array, Array]:
+def _residual(layout: Layout, sources: list[WrenchSource], w: Array) -> tuple[Array, Array]:
     """Largest out-of-balance force or moment (over length) relative to the largest force, and that force."""
     scale = layout.wrench_scale
     out = np.abs((total_wrench(layout, *sources) + w) * scale).max(axis=(-2, -1), initial=0.0)
@@ -242,7 +247,13 @@ def _residual(layout: Layout, sources: list[Source], w: Array) -> tuple[Array, A
 
 
 def _power(
-    layout: Layout, known: Known, moving: Motion, unknown: System, x: Array, w: Array, largest: Array
+    layout: Layout,
+    known: Known,
+    moving: LinkMotions,
+    unknown: ConstraintRows,
+    x: Array,
+    w: Array,
+    largest: Array,
 ) -> Array:
     """Virtual power of all loads and efforts at unit speed of each drive, over force times velocity; no reactions."""
     if not moving.virtual.shape[-3]:
@@ -253,16 +264,18 @@ def _power(
     return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))
 
 
-def virtual_power(layout: Layout, v: Array, unknown: System, x: Array, w: Array) -> Array:
+def virtual_power(layout: Layout, v: Array, unknown: ConstraintRows, x: Array, w: Array) -> Array:
     """Virtual power (..., D) of all loads and efforts at unit speed of each drive."""
     count = layout.constraints.count
     power = (v[..., :-1, :] * w[..., None, :, :]).sum(axis=(-2, -1))
-    asked = unknown.rows(slice(count, None))
-    applied = System(*asked[:3], asked.on_i[..., None, :, :], asked.on_j[..., None, :, :])
+    requested = unknown.rows(slice(count, None))
+    applied = ConstraintRows(*requested[:3], requested.on_i[..., None, :, :], requested.on_j[..., None, :, :])
     return np.asarray(power + (rates(applied, v) * x[..., None, count:]).sum(axis=-1))
 
 
-def _screw_rows(g: Algebra, constraints: Rows, pose: Pose, rows: System) -> Iterator[tuple[int, Array]]:
+def _screw_rows(
+    g: Algebra, constraints: Rows, pose: Pose, rows: ConstraintRows
+) -> Iterator[tuple[int, Array]]:
     """Row of each screw, and the couple that accompanies its force, at j's point."""
     for f in constraints.families:
         if isinstance(f, Helix):
@@ -271,19 +284,23 @@ def _screw_rows(g: Algebra, constraints: Rows, pose: Pose, rows: System) -> Iter
                 yield int(row), rows.on_j[..., row, g.d :] - about[..., k, :]
 
 
-def reactions(layout: Layout, pose: Pose, rows: System, found: Balance) -> tuple[Array, Array]:
+def reactions(
+    layout: Layout, pose: Pose, rows: ConstraintRows, equilibrium: Equilibrium
+) -> tuple[Array, Array]:
     """Force (..., joints, d) and couple (..., joints, n - d) of each joint on its link j, at j's point (contact)."""
     g, constraints = layout.algebra, layout.constraints
-    lead = found.constraint.shape[:-1]
-    dtype = found.constraint.dtype
+    lead = equilibrium.constraint.shape[:-1]
+    dtype = equilibrium.constraint.dtype
     force = np.zeros((*lead, layout.joints, g.d), dtype)
     couple = np.zeros((*lead, layout.joints, g.n - g.d), dtype)
-    for turns, own in constraints.lots:
+    for turns, lot in constraints.lots:
         into, kind = (couple, slice(g.d, None)) if turns else (force, slice(None, g.d))
-        into[..., constraints.joint[own], :] += found.constraint[..., own, None] * rows.on_j[..., own, kind]
+        into[..., constraints.joint[lot], :] += (
+            equilibrium.constraint[..., lot, None] * rows.on_j[..., lot, kind]
+        )
     for row, part in _screw_rows(g, constraints, pose, rows):
-        couple[..., constraints.joint[row], :] += found.constraint[..., row, None] * part
-    for f, pushed, _ in found.separation:
+        couple[..., constraints.joint[row], :] += equilibrium.constraint[..., row, None] * part
+    for f, pushed, _ in equilibrium.separation:
         for k, row in enumerate(f.row):
             force[..., constraints.joint[row], :] += pushed[..., k, :]
     return force, couple
@@ -294,7 +311,7 @@ def unique(shift: Array) -> Array:
     return np.asarray(np.abs(shift).max(axis=-1, initial=0.0) < UNIQUE)
 
 
-def shifts(layout: Layout, pose: Pose, rows: System, free: Array) -> tuple[Array, Array]:
+def shifts(layout: Layout, pose: Pose, rows: ConstraintRows, free: Array) -> tuple[Array, Array]:
     """Change of the reactions (..., joints, n, X) with each free multiplier, and which other unknowns (..., X - K)
     none of them changes."""
     g, constraints = layout.algebra, layout.constraints

@@ -15,7 +15,7 @@ import numpy as np
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.bands import BandedLU, Bands, bands_of
 from dalembert.core.constraints import dense
-from dalembert.core.layout import Layout, System
+from dalembert.core.layout import ConstraintRows, Layout
 from dalembert.core.linear import Factor, inverse, pseudo_inverse, solve_square
 
 if TYPE_CHECKING:
@@ -30,11 +30,11 @@ def row_scale(layout: Layout, angular: Flags) -> Array:
     return np.where(angular, layout.length, 1.0)
 
 
-def factor(layout: Layout, rows: System) -> Factor:
+def factor(layout: Layout, rows: ConstraintRows) -> Factor:
     """Factors J of some rows with the solver that suits it."""
     if layout.solver is not None:
-        found: Factor = layout.solver(layout, rows)
-        return found
+        result: Factor = layout.solver(layout, rows)
+        return result
     row, column = row_scale(layout, rows.angular), layout.column_scale
     if layout.redundant or len(row) != layout.unknowns:
         return pseudo_inverse(dense(layout, rows), row, column)
@@ -43,7 +43,7 @@ def factor(layout: Layout, rows: System) -> Factor:
     return inverse(dense(layout, rows), row, column)
 
 
-def displacement(layout: Layout, rows: System, scaled_gap: Array) -> Array:
+def displacement(layout: Layout, rows: ConstraintRows, scaled_gap: Array) -> Array:
     """One solution of J dq = gap (gap scaled), without keeping factors: a Newton step. 0 where J is singular."""
     if _is_square(layout, rows) and layout.unknowns <= SPARSE:
         j = dense(layout, rows)
@@ -57,18 +57,18 @@ def displacement(layout: Layout, rows: System, scaled_gap: Array) -> Array:
     return dq
 
 
-def _is_square(layout: Layout, rows: System) -> bool:
+def _is_square(layout: Layout, rows: ConstraintRows) -> bool:
     return len(rows.i) == layout.unknowns and not layout.redundant
 
 
-def _unconditioned(layout: Layout, rows: System, scaled_gap: Array) -> Array:
+def _unconditioned(layout: Layout, rows: ConstraintRows, scaled_gap: Array) -> Array:
     """Solutions of J dq = gap (gap scaled), the condition of large systems not estimated."""
-    scale, whole = row_scale(layout, rows.angular), _is_square(layout, rows) and layout.unknowns > SPARSE
-    found = sparse(layout, rows, scale, layout.column_scale, False) if whole else factor(layout, rows)
-    return found.motion(scaled_gap / scale)
+    scale, unsplit = row_scale(layout, rows.angular), _is_square(layout, rows) and layout.unknowns > SPARSE
+    solver = sparse(layout, rows, scale, layout.column_scale, False) if unsplit else factor(layout, rows)
+    return solver.motion(scaled_gap / scale)
 
 
-def displacements(layout: Layout, rows: System, scaled_gaps: Array) -> tuple[Array, Array | None]:
+def displacements(layout: Layout, rows: ConstraintRows, scaled_gaps: Array) -> tuple[Array, Array | None]:
     """Solutions (R, n L) of J dq = gap for several gaps (R, K), scaled, at a single pose (1, ...): one elimination.
 
     Also J itself (K, n L), its rows scaled; None where it is too large to be handled dense.
@@ -86,7 +86,9 @@ def displacements(layout: Layout, rows: System, scaled_gaps: Array) -> tuple[Arr
     return np.asarray(np.where(np.isfinite(dq), dq, 0.0)), j
 
 
-def damped_step(layout: Layout, rows: System, weight: Array, scaled_gap: Array, damping: float) -> Array:
+def damped_step(
+    layout: Layout, rows: ConstraintRows, weight: Array, scaled_gap: Array, damping: float
+) -> Array:
     """Least squares of J dq = gap (gap scaled, rows weighted) with a damping, at a single pose (1, ...)."""
     scale, column = row_scale(layout, rows.angular) * weight, layout.column_scale
     right = scaled_gap * weight
@@ -139,19 +141,21 @@ class Sparse:
         return out.reshape((*lead, size))
 
 
-def sparse(layout: Layout, rows: System, row: Array, column: Array, condition: bool = True) -> Sparse:
+def sparse(layout: Layout, rows: ConstraintRows, row: Array, column: Array, condition: bool = True) -> Sparse:
     """Sparse LU of square systems J, position by position; without ``condition`` its number is not estimated."""
     matrices, bands = (
         _sparse_matrices(layout, rows, row, column),
         bands_of(rows, layout.links, layout.algebra.n),
     )
-    found = [_lu(matrix, bands, condition) for matrix in matrices]
+    factored = [_lu(matrix, bands, condition) for matrix in matrices]
     lead = rows.on_j.shape[:-2]
-    solvers, rcond = tuple(lu for lu, _ in found), np.array([reciprocal for _, reciprocal in found])
+    solvers, rcond = tuple(lu for lu, _ in factored), np.array([reciprocal for _, reciprocal in factored])
     return Sparse(solvers, matrices, lead, row, column, rcond.reshape(lead))
 
 
-def _sparse_matrices(layout: Layout, rows: System, row: Array, column: Array) -> tuple[csc_array, ...]:
+def _sparse_matrices(
+    layout: Layout, rows: ConstraintRows, row: Array, column: Array
+) -> tuple[csc_array, ...]:
     """Scaled J (K, n L) of each position in compressed columns; ground's columns left out."""
     from scipy.sparse import csc_array
 

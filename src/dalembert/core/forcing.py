@@ -1,6 +1,6 @@
 """Wrenches on the links that are known once the motion is: loads, weights, springs, dampers, inertia (D'Alembert).
 
-Every function returns a ``Source``: wrenches (..., k, n) about the reference points of the links they act on, one per
+Every function returns a ``WrenchSource``: wrenches (..., k, n) about the reference points of their links, one per
 contribution, so that superposition and virtual work can separate them; ``total_wrench`` sums them per link.
 
 Mechanics: docs/theory.md 4.
@@ -19,7 +19,7 @@ from dalembert.core import gear_rows
 from dalembert.core.branchless import any_traced, sign
 from dalembert.core.constraints import measure, rates, system
 from dalembert.core.geometry import arm, span
-from dalembert.core.layout import Gearing, Layout, Mesh, Pose, System
+from dalembert.core.layout import ConstraintRows, Gearing, Layout, Mesh, Pose
 
 MANY = 100
 """Contributions above which one indexed addition is faster than a loop over them."""
@@ -39,7 +39,7 @@ class Inertia:
 
 
 @dataclass(frozen=True)
-class Forces:
+class PointForces:
     """Forces on links at points: arms (k, d) in link axes; components (P, k, d), in link axes where ``follows``."""
 
     link: Ints
@@ -93,40 +93,42 @@ class Forcing:
     """All loads on the links, except the drives' efforts."""
 
     inertia: Inertia
-    forces: Forces
+    forces: PointForces
     couples: Couples
     springs: Springs
     resistances: Resistances
     separation: Array  # tan(alpha) of each mesh
 
 
-class Source(NamedTuple):
+class WrenchSource(NamedTuple):
     """Wrenches (..., k, n) on links (k,), about their reference points."""
 
     link: Ints
     wrench: Array
 
 
-def total_wrench(layout: Layout, *sources: Source) -> Array:
+def total_wrench(layout: Layout, *sources: WrenchSource) -> Array:
     """Total wrench on each moving link (..., L, n)."""
     lead = np.broadcast_shapes(*(s.wrench.shape[:-2] for s in sources))
     out = np.zeros((*lead, layout.links + 1, layout.algebra.n), np.result_type(*(s.wrench for s in sources)))
     for source in sources:
         if len(source.link) > MANY:
-            whole = np.broadcast_to(source.wrench, (*lead, *source.wrench.shape[-2:]))
-            np.add.at(np.moveaxis(out, -2, 0), source.link, np.moveaxis(whole, -2, 0))
+            wrench = np.broadcast_to(source.wrench, (*lead, *source.wrench.shape[-2:]))
+            np.add.at(np.moveaxis(out, -2, 0), source.link, np.moveaxis(wrench, -2, 0))
             continue
         for k, link in enumerate(source.link):
             out[..., link, :] += source.wrench[..., k, :]
     return out[..., :-1, :]
 
 
-def weight(layout: Layout, inertia: Inertia, pose: Pose) -> Source:
+def weight(layout: Layout, inertia: Inertia, pose: Pose) -> WrenchSource:
     """m g at the mass centres."""
     return _at_center(layout, inertia, pose, inertia.mass[..., None] * inertia.gravity, None)
 
 
-def inertia_wrench(layout: Layout, inertia: Inertia, pose: Pose, twist: Array, acceleration: Array) -> Source:
+def inertia_wrench(
+    layout: Layout, inertia: Inertia, pose: Pose, twist: Array, acceleration: Array
+) -> WrenchSource:
     """D'Alembert's wrench: -m a_G at the mass centre and -(I alpha + omega x I omega)."""
     g = layout.algebra
     _, _, a = center_motion(layout, inertia, pose, twist, acceleration)
@@ -146,10 +148,12 @@ def center_motion(
     return pose.point[..., :-1, :] + r, v + g.spin(w, r), accelerated
 
 
-def _at_center(layout: Layout, inertia: Inertia, pose: Pose, force: Array, couple: Array | None) -> Source:
+def _at_center(
+    layout: Layout, inertia: Inertia, pose: Pose, force: Array, couple: Array | None
+) -> WrenchSource:
     g, links = layout.algebra, np.arange(layout.links)
     r = arm(g, pose, links, inertia.center)
-    return Source(links, _wrench(g, r, force, couple))
+    return WrenchSource(links, _wrench(g, r, force, couple))
 
 
 def _wrench(g: Algebra, r: Array, force: Array, couple: Array | None = None) -> Array:
@@ -161,23 +165,23 @@ def _wrench(g: Algebra, r: Array, force: Array, couple: Array | None = None) -> 
     return np.concatenate([force, moment], axis=-1)
 
 
-def force_wrench(layout: Layout, forces: Forces, pose: Pose) -> Source:
+def force_wrench(layout: Layout, forces: PointForces, pose: Pose) -> WrenchSource:
     """Forces at points of links."""
     g = layout.algebra
     r = arm(g, pose, forces.link, forces.at)
     turned = g.rotate(pose.rotation[..., forces.link, :], forces.value)
-    return Source(forces.link, _wrench(g, r, np.where(forces.follows[:, None], turned, forces.value)))
+    return WrenchSource(forces.link, _wrench(g, r, np.where(forces.follows[:, None], turned, forces.value)))
 
 
-def couple_wrench(layout: Layout, couples: Couples, pose: Pose) -> Source:
+def couple_wrench(layout: Layout, couples: Couples, pose: Pose) -> WrenchSource:
     """Couples on links."""
     turned = layout.algebra.rotate_couple(pose.rotation[..., couples.link, :], couples.value)
     value = np.where(couples.follows[:, None], turned, couples.value)
     zero = np.zeros((*value.shape[:-1], layout.algebra.d))
-    return Source(couples.link, np.concatenate([zero, value], axis=-1))
+    return WrenchSource(couples.link, np.concatenate([zero, value], axis=-1))
 
 
-def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) -> Source:
+def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) -> WrenchSource:
     """Springs and dampers between points: on a towards b, on b the opposite."""
     g = layout.algebra
     ra, rb, span, square = _spans(layout, springs, pose)
@@ -187,7 +191,7 @@ def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) ->
     extended = np.sqrt(square) - springs.free_length
     tension = springs.stiffness * extended + springs.force + springs.damping * g.dot(e, vb - va)
     pull = tension[..., None] * e
-    return Source(
+    return WrenchSource(
         np.concatenate([springs.a, springs.b]),
         np.concatenate([_wrench(g, ra, pull), _wrench(g, rb, -pull)], axis=-2),
     )
@@ -214,8 +218,8 @@ def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rat
     gone = (square == 0) | (needed & (square <= _vanished(layout)))
     speed = np.sqrt((rate * rate).sum(axis=-1))
     moving = rate / np.where(speed > 0, speed, 1.0)[..., None]
-    there = np.where(pushes_at_zero_length(springs)[..., None], np.nan, moving)
-    return np.where(gone[..., None], there, span / np.sqrt(np.where(gone, 1.0, square))[..., None])
+    at_zero = np.where(pushes_at_zero_length(springs)[..., None], np.nan, moving)
+    return np.where(gone[..., None], at_zero, span / np.sqrt(np.where(gone, 1.0, square))[..., None])
 
 
 def pushes_at_zero_length(springs: Springs) -> Flags:
@@ -240,7 +244,7 @@ def away(layout: Layout, springs: Springs, pose: Pose) -> Array:
     return np.asarray(_spans(layout, springs, pose)[-1] - _vanished(layout))
 
 
-def resistance_wrench(layout: Layout, resistances: Resistances, pose: Pose, twist: Array) -> Source:
+def resistance_wrench(layout: Layout, resistances: Resistances, pose: Pose, twist: Array) -> WrenchSource:
     """Springs and dampers in freedoms."""
     rows = system(layout.algebra, layout.freedoms, pose).rows(resistances.row)
     value = measure(layout.algebra, layout.freedoms, pose)[..., resistances.row] + resistances.turns
@@ -248,13 +252,13 @@ def resistance_wrench(layout: Layout, resistances: Resistances, pose: Pose, twis
     return pair(rows, effort)
 
 
-def pair(rows: System, multiplier: Array) -> Source:
+def pair(rows: ConstraintRows, multiplier: Array) -> WrenchSource:
     """Wrenches of rows on both their links for multipliers (..., K)."""
     both = [multiplier[..., None] * rows.on_i, multiplier[..., None] * rows.on_j]
-    return Source(np.concatenate([rows.i, rows.j]), np.concatenate(both, axis=-2))
+    return WrenchSource(np.concatenate([rows.i, rows.j]), np.concatenate(both, axis=-2))
 
 
-def separation_wrench(layout: Layout, pose: Pose, tangent: Array, multiplier: Array) -> Source:
+def separation_wrench(layout: Layout, pose: Pose, tangent: Array, multiplier: Array) -> WrenchSource:
     """Radial tooth forces |F_t| tan(alpha) on both wheels of each mesh; they push the wheels apart for either sense of
     F_t.
 
@@ -266,7 +270,7 @@ def separation_wrench(layout: Layout, pose: Pose, tangent: Array, multiplier: Ar
         links += [f.i, f.j]
         for link, force in ((f.i, -pushed), (f.j, pushed)):
             parts.append(_wrench(g, at - pose.point[..., link, :], force))
-    return Source(np.concatenate(links), np.concatenate(parts, axis=-2))
+    return WrenchSource(np.concatenate(links), np.concatenate(parts, axis=-2))
 
 
 def meshes(layout: Layout) -> list[Mesh | Gearing]:

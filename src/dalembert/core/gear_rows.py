@@ -70,11 +70,15 @@ def _cross(g: Algebra, a: _Vector, b: _Vector) -> _Vector:
     return _Vector(g.cross(a.at, b.at), g.cross(a.rate, b.at) + g.cross(a.at, b.rate))
 
 
-def _towards(g: Algebra, f: Gearing, span: _Vector, own: _Vector, other: _Vector, normal: _Vector) -> _Vector:
+def _towards(
+    g: Algebra, f: Gearing, span: _Vector, axis: _Vector, other: _Vector, normal: _Vector
+) -> _Vector:
     """e of one wheel."""
-    ways = (span, other, normal)
-    at, rate = (sum(f.way[:, k, None] * way[part] for k, way in enumerate(ways)) for part in (0, 1))
-    return _across(g, _Vector(np.asarray(at), np.asarray(rate)), own)
+    parts = (span, other, normal)
+    at, rate = (
+        sum(f.direction[:, k, None] * component[part] for k, component in enumerate(parts)) for part in (0, 1)
+    )
+    return _across(g, _Vector(np.asarray(at), np.asarray(rate)), axis)
 
 
 def _axes(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> tuple[_Vector, _Vector, _Vector, _Vector]:
@@ -145,7 +149,7 @@ def separation(g: Algebra, f: Gearing, pose: Pose) -> tuple[Array, Array]:
     return m.normal * f.outward[:, None], m.contact.at
 
 
-def own_axes(g: Algebra, f: Gearing, pose: Pose) -> Array:
+def wheel_axes(g: Algebra, f: Gearing, pose: Pose) -> Array:
     """Axes of the meshes (..., k, 3, 3), one per row: radial, from the axis of wheel i to C; tangential, the direction
     in which its teeth move at C as it turns; and that axis. They follow the line of centres, not the wheels."""
     a, e, _, _ = _axes(g, f, pose, _still(pose))
@@ -153,7 +157,7 @@ def own_axes(g: Algebra, f: Gearing, pose: Pose) -> Array:
     return np.stack([radial, g.cross(a.at, radial), a.at], axis=-2)
 
 
-class Misfit(NamedTuple):
+class MeshMisfit(NamedTuple):
     """Changes that make a mesh fit (k,): factor on the radii, minus 1; remaining gap over the radii.
 
     ``inside`` is positive where one wheel is within the other, 0 where one is flat.
@@ -170,26 +174,26 @@ def gearings(layout: Layout) -> list[Gearing]:
     return [f for f in layout.constraints.families if isinstance(f, Gearing)]
 
 
-def mesh_wheels(layout: Layout, pose: Pose) -> tuple[Layout, list[Misfit]]:
+def mesh_wheels(layout: Layout, pose: Pose) -> tuple[Layout, list[MeshMisfit]]:
     """The layout with its wheels in mesh at a pose (L+1, ...), and how well they fit.
 
     The centres are moved along their axes and the radii by a common factor so that the pitch points coincide; that
     holds while the axes keep their relative places, as with bearings in one carrier.
     """
-    found = gearings(layout)
-    if not found:
+    meshes = gearings(layout)
+    if not meshes:
         return layout, []
-    fitted = [_fit_mesh(layout, f, pose.at(None)) for f in found]
-    families = tuple(_swap_family(f, found, fitted) for f in layout.constraints.families)
+    fitted = [_fit_mesh(layout, f, pose.at(None)) for f in meshes]
+    families = tuple(_swap_family(f, meshes, fitted) for f in layout.constraints.families)
     constraints = replace(layout.constraints, families=families)
     return replace(layout, constraints=constraints), [misfit for _, misfit in fitted]
 
 
-def _swap_family(f: Family, found: list[Gearing], fitted: list[tuple[Gearing, Misfit]]) -> Family:
-    return next((new for old, (new, _) in zip(found, fitted, strict=True) if old is f), f)
+def _swap_family(f: Family, meshes: list[Gearing], fitted: list[tuple[Gearing, MeshMisfit]]) -> Family:
+    return next((new for old, (new, _) in zip(meshes, fitted, strict=True) if old is f), f)
 
 
-def _fit_mesh(layout: Layout, f: Gearing, pose: Pose) -> tuple[Gearing, Misfit]:
+def _fit_mesh(layout: Layout, f: Gearing, pose: Pose) -> tuple[Gearing, MeshMisfit]:
     g = layout.algebra
     parts = [_one(g, f, pose, k) for k in range(len(f.i))]
     changed = {name: np.array([part[name] for part, _ in parts]) for name in parts[0][0]}
@@ -199,7 +203,7 @@ def _fit_mesh(layout: Layout, f: Gearing, pose: Pose) -> tuple[Gearing, Misfit]:
     kj = made.rj * g.dot(g.cross(aj.at, ej.at), mesh.n.at)[0]
     outward, inside = _sides(made, mesh, ei.at, ej.at)
     scale, gap = (np.array([misfit[m] for _, misfit in parts]) for m in (0, 1))
-    return replace(made, ki=ki, kj=kj, outward=outward), Misfit(f.row, scale, gap, inside)
+    return replace(made, ki=ki, kj=kj, outward=outward), MeshMisfit(f.row, scale, gap, inside)
 
 
 def _sides(f: Gearing, mesh: _Mesh, ei: Array, ej: Array) -> tuple[Array, Array]:
@@ -227,12 +231,12 @@ def _one(g: Algebra, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Array], 
     normal = np.cross(ai, aj)
     parallel = np.linalg.norm(normal) < PARALLEL
     meeting = not parallel and abs(span @ normal) / np.linalg.norm(normal) < MEETING * radii
-    way = np.array([parallel, meeting, not (parallel or meeting)], float)
+    weight = np.array([parallel, meeting, not (parallel or meeting)], float)
     ei, ej = (
         _unit(v - (v @ a) * a, 1e-9 * radii)
         for v, a in (
-            (way[0] * span + way[1] * aj + way[2] * normal, ai),
-            (way[0] * span + way[1] * ai + way[2] * normal, aj),
+            (weight[0] * span + weight[1] * aj + weight[2] * normal, ai),
+            (weight[0] * span + weight[1] * ai + weight[2] * normal, aj),
         )
     )
     best = min(
@@ -248,7 +252,7 @@ def _one(g: Algebra, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Array], 
         "uj": f.uj[k] + sj * f.aj[k],
         "ri": ri,
         "rj": rj,
-        "way": way,
+        "direction": weight,
         "cone": cone,
     }
     return changed, (scale - 1, gap / radii)

@@ -192,7 +192,7 @@ class Gearing:
     ri: Array
     rj: Array
     helix: Array
-    way: Array  # (k, 3)
+    direction: Array  # (k, 3)
     cone: Array  # (k, 2)
     outward: Array
     ki: Array
@@ -216,21 +216,21 @@ class Rows:
     @cached_property
     def idle(self) -> Ints:
         """Rows of spins set to zero; they carry no load."""
-        found = [f.row for f in self.families if isinstance(f, Idle)]
-        return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
+        idle = [f.row for f in self.families if isinstance(f, Idle)]
+        return np.concatenate([*idle, np.zeros(0, np.intp)]).astype(np.intp)
 
     @cached_property
     def lots(self) -> list[tuple[bool, Ints]]:
         """Rows of joints in batches, angular ones or not, no two rows of a joint in one batch, so that a batch is
         summed at once."""
-        found = []
+        lots = []
         for turns in (False, True):
             left = np.flatnonzero((self.joint >= 0) & (self.angular == turns))
             while left.size:
                 first = np.unique(self.joint[left], return_index=True)[1]
-                found.append((turns, left[first]))
+                lots.append((turns, left[first]))
                 left = np.delete(left, first)
-        return found
+        return lots
 
     @cached_property
     def ends(self) -> tuple[Ints, Ints]:
@@ -242,7 +242,7 @@ class Rows:
         return i, j
 
 
-class System(NamedTuple):
+class ConstraintRows(NamedTuple):
     """Rows between links i and j (K,), with their wrenches on them (..., K, n): the columns of A, row by row."""
 
     i: Ints
@@ -251,13 +251,13 @@ class System(NamedTuple):
     on_i: Array
     on_j: Array
 
-    def __add__(self, other: System) -> System:  # type: ignore[override]
+    def __add__(self, other: ConstraintRows) -> ConstraintRows:  # type: ignore[override]
         """Both, one after the other."""
         lead = np.broadcast_shapes(self.on_j.shape[:-2], other.on_j.shape[:-2])
         wide = [
             np.broadcast_to(a, lead + a.shape[-2:]) for a in (self.on_i, other.on_i, self.on_j, other.on_j)
         ]
-        return System(
+        return ConstraintRows(
             np.concatenate([self.i, other.i]),
             np.concatenate([self.j, other.j]),
             np.concatenate([self.angular, other.angular]),
@@ -265,14 +265,14 @@ class System(NamedTuple):
             np.concatenate(wide[2:], axis=-2),
         )
 
-    def at(self, where: Index) -> System:
+    def at(self, where: Index) -> ConstraintRows:
         """The rows at some positions."""
         return self._replace(on_i=self.on_i[where], on_j=self.on_j[where])
 
-    def rows(self, which: Index) -> System:
+    def rows(self, which: Index) -> ConstraintRows:
         """Some of the rows."""
         on_i, on_j = self.on_i[..., which, :], self.on_j[..., which, :]
-        return System(self.i[which], self.j[which], self.angular[which], on_i, on_j)
+        return ConstraintRows(self.i[which], self.j[which], self.angular[which], on_i, on_j)
 
 
 def select_rows(rows: Rows, kept: Ints, first: int = 0) -> list[Family]:
@@ -320,7 +320,7 @@ class Layout:
     redundant: bool
     reference: Array = field(repr=False)  # (L+1, d) reference point of each link in its axes
     compliance: Array | None = field(repr=False, default=None)  # (K,) of each constraint, 0 where it is rigid
-    solver: Callable[[Layout, System], Any] | None = field(
+    solver: Callable[[Layout, ConstraintRows], Any] | None = field(
         repr=False, default=None
     )  # factors systems that are not made of numbers (the kernel's)
 

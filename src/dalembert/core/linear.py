@@ -124,20 +124,20 @@ class PseudoInverse:
         return apply(np.swapaxes(self.pinv, -1, -2), wrench * self.column) * self.row
 
 
-def compliant(found: PseudoInverse, compliance: Array) -> Compliant:
+def compliant(system: PseudoInverse, compliance: Array) -> Compliant:
     """The same system, its free multipliers x chosen so that the sum of compliance x^2 is least.
 
     ``compliance`` (K,) is 0 where a multiplier belongs to something rigid. Multipliers that this leaves undetermined
     stay least-norm.
     """
-    weight = compliance * found.row**2
+    weight = compliance * system.row**2
     largest = weight.max(initial=0.0)
     weight = weight / (largest if largest > 0 else 1.0)
-    free = found.null
+    free = system.null
     energy = free @ (weight[..., :, None] * free)
     inverse = np.linalg.pinv(energy, rcond=1e-10, hermitian=True)
     settled = inverse @ (free * weight)  # the energy's inverse lies within the free multipliers
-    values = vars(found) | {"null": free - inverse @ energy}
+    values = vars(system) | {"null": free - inverse @ energy}
     return Compliant(**values, settled=settled)
 
 

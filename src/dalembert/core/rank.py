@@ -59,8 +59,8 @@ def rank(layout: Layout, pose: Pose) -> Rank:
     redundant = layout.constraints.count - int(alone.rank[0])
     repeated = np.abs(alone.null[0]).max(axis=-1, initial=0.0) > 1e-6
     rows = stack_rows(layout, pose)
-    whole = pseudo_inverse(dense(layout, rows), row_scale(layout, rows.angular), column, TOLERANCE)
-    held = whole.pinv[0] @ (dense(layout, rows) * row_scale(layout, rows.angular)[:, None] * column)[0]
+    inverse = pseudo_inverse(dense(layout, rows), row_scale(layout, rows.angular), column, TOLERANCE)
+    held = inverse.pinv[0] @ (dense(layout, rows) * row_scale(layout, rows.angular)[:, None] * column)[0]
     idle = (np.eye(layout.unknowns) - held).reshape(layout.links, -1, layout.unknowns)
     loose = np.abs(idle).max(axis=(1, 2), initial=0.0) > 1e-6
     return Rank(

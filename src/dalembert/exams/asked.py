@@ -32,22 +32,22 @@ NOTHING = 1e-9
 FORMS = "write effort.O2, reaction.A, reaction.A.coupler, reaction.A.magnitude, angle.rocker.speed or point.rod.P.x"
 
 
-class Figure(NamedTuple):
+class ExpectedValue(NamedTuple):
     """The value of a required quantity, SI: a number, a vector or a rotation, of a kind of ``units.KINDS``."""
 
     kind: str
     value: Array
 
 
-def asked_quantities(r: Result, ask: Sequence[object], at: int | str | None) -> tuple[Answer, ...]:
+def requested_quantities(r: Result, ask: Sequence[object], at: int | str | None) -> tuple[Answer, ...]:
     """Required quantities of a problem: those in ``ask``, else its ``answers``, else all efforts and reactions.
 
     ``at`` is the position of quantities that do not name one, the first one by default.
     """
-    found = [a for one in ask for a in _named(r, one)] or _of_file(r) or _forces(r)
+    requested = [a for one in ask for a in _named(r, one)] or _of_file(r) or _forces(r)
     many = len(r.status) > 1
     out: list[Answer] = []
-    for a in found:
+    for a in requested:
         change: dict[str, object] = {}
         if a.quantity in ("reaction", "moment") and a.of in r.joints and a.on is None:
             i, j = r.mechanism.joints[a.of].links
@@ -62,13 +62,15 @@ def asked_quantities(r: Result, ask: Sequence[object], at: int | str | None) -> 
     return tuple(out)
 
 
-def figure(r: Result, answer: Answer) -> Figure:
+def figure(r: Result, answer: Answer) -> ExpectedValue:
     """The required figure, just before a reversal where two values exist; rounding is 0."""
     side = sides_of(r, answer)[0]
     series = read(side, answer)
     k = position_of(side, answer, series)
     value = np.asarray(series.values[k], dtype=float)
-    return Figure(series.kind, np.where(np.abs(value) < least(side, k).get(series.kind, 0.0), 0.0, value))
+    return ExpectedValue(
+        series.kind, np.where(np.abs(value) < least(side, k).get(series.kind, 0.0), 0.0, value)
+    )
 
 
 def place_of_answer(r: Result, answer: Answer) -> int:
@@ -134,49 +136,49 @@ def question_words(shown: Shown, answer: Answer) -> str:
     return words + (f": {answer.component}" if answer.component else "")
 
 
-def blanks(answer: Answer, found: Figure, units: object) -> tuple[tuple[str, str], ...]:
+def blanks(answer: Answer, right: ExpectedValue, units: object) -> tuple[tuple[str, str], ...]:
     """Blanks to fill in: the name of each number and its unit."""
-    own = pretty(Printed(units).text(found.kind))
-    if found.value.ndim == 0:
-        return (("", own),)
-    if found.value.shape == (2,):
-        return (("size", own), ("direction", "°"))
-    return tuple(("xyz"[k] if found.value.ndim == 1 else f"row {k + 1}", own) for k in range(3))
+    unit = pretty(Printed(units).text(right.kind))
+    if right.value.ndim == 0:
+        return (("", unit),)
+    if right.value.shape == (2,):
+        return (("size", unit), ("direction", "°"))
+    return tuple(("xyz"[k] if right.value.ndim == 1 else f"row {k + 1}", unit) for k in range(3))
 
 
-def key_value(found: Figure, units: object) -> str:
+def key_value(right: ExpectedValue, units: object) -> str:
     """A figure in the file's units with all its digits: 243.23, 154.8 @ 220.32, [x, y, z]."""
     scale = Printed(units)
 
     def text(kind: str, x: float) -> str:
         return repr(float(f"{float(scale(kind, x)):.14g}") + 0.0)
 
-    v = found.value
+    v = right.value
     if v.shape == (2,):
-        return f"{text(found.kind, float(np.hypot(*v)))} @ {text('angle', float(np.arctan2(v[1], v[0])))}"
+        return f"{text(right.kind, float(np.hypot(*v)))} @ {text('angle', float(np.arctan2(v[1], v[0])))}"
     if v.ndim == 2:
-        return f"[{', '.join(key_value(Figure(found.kind, row), units) for row in v)}]"
+        return f"[{', '.join(key_value(ExpectedValue(right.kind, row), units) for row in v)}]"
     if v.ndim == 1:
-        return f"[{', '.join(text(found.kind, float(x)) for x in v)}]"
-    return text(found.kind, float(v))
+        return f"[{', '.join(text(right.kind, float(x)) for x in v)}]"
+    return text(right.kind, float(v))
 
 
-def stated_value(found: Figure, units: object) -> object:
+def stated_value(right: ExpectedValue, units: object) -> object:
     """A figure as the `answers` of a model file have it; None of a rotation."""
-    if found.value.ndim > 1:
+    if right.value.ndim > 1:
         return None
-    if found.value.shape == (3,):
-        return [stated_value(Figure(found.kind, x), units) for x in found.value]
-    return f"{key_value(found, units)} {Printed(units).text(found.kind)}".strip()
+    if right.value.shape == (3,):
+        return [stated_value(ExpectedValue(right.kind, x), units) for x in right.value]
+    return f"{key_value(right, units)} {Printed(units).text(right.kind)}".strip()
 
 
 COLUMNS = table_files.COLUMNS[1:]
 """Columns of a key, one row an asked figure."""
 
 
-def key_row(answer: Answer, found: Figure, units: object) -> dict[str, object]:
+def key_row(answer: Answer, right: ExpectedValue, units: object) -> dict[str, object]:
     """A required figure as a row of the key, without empty cells."""
     row = {name: getattr(answer, name) for name in table_files.KEYS}
     row["axes"] = None if answer.axes == "ground" else answer.axes
-    row |= {"value": key_value(found, units), "unit": Printed(units).text(found.kind)}
+    row |= {"value": key_value(right, units), "unit": Printed(units).text(right.kind)}
     return {name: value for name, value in row.items() if value not in (None, "")}

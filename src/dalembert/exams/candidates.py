@@ -13,7 +13,7 @@ from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.errors import NUMBERED, STATUSES, DalembertError
-from dalembert.exams.asked import Figure, figure, place_of_answer
+from dalembert.exams.asked import ExpectedValue, figure, place_of_answer
 from dalembert.exams.titles import variant_title
 from dalembert.grading.figure import values_of
 from dalembert.grading.file_answers import describe_answer
@@ -46,7 +46,7 @@ class Candidate:
     values: Mapping[str, object]
     mechanism: Mechanism
     result: Result
-    figures: tuple[Figure, ...]
+    figures: tuple[ExpectedValue, ...]
     mistakes: Mapping[str, float]
 
     @property
@@ -86,12 +86,12 @@ class Unfit(Exception):  # noqa: N818
     """A set of values makes no sound problem: the sentence says why."""
 
 
-def figure_size(f: Figure) -> float:
+def figure_size(f: ExpectedValue) -> float:
     """Size of a number, vector or rotation."""
     return float(np.linalg.norm(f.value))
 
 
-def difference(right: Figure, value: Array) -> float:
+def difference(right: ExpectedValue, value: Array) -> float:
     """Relative difference of a value from a figure; of an angle in radians."""
     return Closeness(right.value, right.kind, NEAR, (), False).off(value)
 
@@ -99,7 +99,7 @@ def difference(right: Figure, value: Array) -> float:
 def candidate(
     m: Mechanism,
     values: Mapping[str, object],
-    asked: Sequence[Answer],
+    questions: Sequence[Answer],
     near: float = NEAR,
     static: bool = False,
 ) -> Candidate:
@@ -109,17 +109,17 @@ def candidate(
         if (title := variant_title(m, changed, values)) != m.title:
             changed = changed.with_values({"title": title})
         r = solve(changed, static=static)
-        figures = tuple(figure(r, a) for a in asked)
-        places = [place_of_answer(r, a) for a in asked]
+        figures = tuple(figure(r, a) for a in questions)
+        places = [place_of_answer(r, a) for a in questions]
     except DalembertError as error:
         raise Unfit(f"the problem cannot be solved: {error}") from None
     for k in sorted(set(places)):
         _check_position(r, k, static)
-    for a, f in zip(asked, figures, strict=True):
+    for a, f in zip(questions, figures, strict=True):
         if not np.isfinite(f.value).all():
             raise Unfit(f"{describe_answer(a)} has no value")
     by: dict[str, float] = {}
-    for sentence, off in _mistakes(r, asked, figures, places):
+    for sentence, off in _mistakes(r, questions, figures, places):
         by[sentence] = max(by.get(sentence, 0.0), off / near)
     return Candidate(values, changed, r, figures, by)
 
@@ -161,13 +161,13 @@ def _beside(r: Result, k: int, drive: str, static: bool) -> list[float]:
 
 
 def _mistakes(
-    r: Result, asked: Sequence[Answer], figures: Sequence[Figure], places: Sequence[int]
+    r: Result, questions: Sequence[Answer], figures: Sequence[ExpectedValue], places: Sequence[int]
 ) -> Iterator[tuple[str, float]]:
     """Every known mistake and how far it takes each figure; infinitely far where it leads to none."""
-    which = [*range(len(r.status))] if any(a.extreme for a in asked) else sorted(set(places))
+    which = [*range(len(r.status))] if any(a.extreme for a in questions) else sorted(set(places))
     for problem in WrongProblems(r, which):
         other = problem.solution()
-        asks = zip(asked, figures, map(which.index, places), strict=True)
+        asks = zip(questions, figures, map(which.index, places), strict=True)
         yield problem.sentence, max(np.inf if other is None else _change(other, *one) for one in asks)
     for f in figures:
         for slip in of_value(Series(f.kind, f.value[None]), f.value) if f.value.ndim < 2 else ():
@@ -175,7 +175,7 @@ def _mistakes(
                 yield slip.sentence, difference(f, slip.value)
 
 
-def _change(other: Result, answer: Answer, right: Figure, place: int) -> float:
+def _change(other: Result, answer: Answer, right: ExpectedValue, place: int) -> float:
     """Distance of the figure of a wrong problem from the right one."""
     try:
         values, _ = values_of(other, answer, place)

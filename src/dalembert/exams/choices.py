@@ -43,13 +43,13 @@ def read_choices(vary: Mapping[str, object]) -> list[Choices]:
     >>> read_choices({"loads.P.value": "1..2"})[0].values
     ('1', '1.2', '1.4', '1.6', '1.8', '2')
     """
-    found = [Choices(path, tuple(_values(path, given))) for path, given in vary.items()]
-    for path, values in found:
+    choices = [Choices(path, tuple(_values(path, texts))) for path, texts in vary.items()]
+    for path, values in choices:
         if len({str(v) for v in values}) < 2:
             raise ModelError(f"--vary {path}: there is one value only, and nothing to draw", FORMS)
-    if not found:
+    if not choices:
         raise ModelError("no number varies", FORMS)
-    return found
+    return choices
 
 
 def read_option(text: str) -> tuple[str, str]:
@@ -60,15 +60,15 @@ def read_option(text: str) -> tuple[str, str]:
     return path.strip(), values.strip()
 
 
-def _values(path: str, given: object) -> Sequence[object]:
-    if isinstance(given, str) and given.lstrip().startswith("["):
-        given = as_in_file(given)
-    if isinstance(given, (list, tuple)):
-        return _within_limits(path, len(given), given)
-    found = RANGE.fullmatch(str(given).replace("\u2212", "-"))
-    if found is None:
-        raise ModelError(f"--vary {path}: {quote_value(given)} is neither a range nor a list", FORMS)
-    start, first, stop, last, step, each = found.groups()
+def _values(path: str, stated: object) -> Sequence[object]:
+    if isinstance(stated, str) and stated.lstrip().startswith("["):
+        stated = as_in_file(stated)
+    if isinstance(stated, (list, tuple)):
+        return _within_limits(path, len(stated), stated)
+    match = RANGE.fullmatch(str(stated).replace("\u2212", "-"))
+    if match is None:
+        raise ModelError(f"--vary {path}: {quote_value(stated)} is neither a range nor a list", FORMS)
+    start, first, stop, last, step, each = match.groups()
     named = last or first
     if first and first != named:
         raise ModelError(f"--vary {path}: the range begins in {first} and ends in {named}", "write one unit")

@@ -62,8 +62,8 @@ def _strange(folder: Path) -> str:
 
 
 def write_folder(
-    found: Sequence[Variant],
-    asked: Sequence[Answer],
+    problems: Sequence[Variant],
+    questions: Sequence[Answer],
     key: list[Tree],
     record: Tree,
     folder: Path,
@@ -71,20 +71,20 @@ def write_folder(
 ) -> None:
     """Writes all sheets beside the folder and moves them into place when all are complete."""
     check_folder(folder, overwrite)
-    with new_folder(folder) as beside, progress("Sheets", len(found)) as step:
+    with new_folder(folder) as beside, progress("Sheets", len(problems)) as step:
         for part in PARTS:
             (beside / part).mkdir()
-        for k, one in enumerate(found):
+        for k, one in enumerate(problems):
             step(k, one.name)
-            _write_variant(one, asked, beside)
+            _write_variant(one, questions, beside)
         _write_key(key, record, beside)
 
 
-def _write_variant(v: Variant, asked: Sequence[Answer], folder: Path) -> None:
+def _write_variant(v: Variant, questions: Sequence[Answer], folder: Path) -> None:
     v.mechanism.save(folder / "problems" / f"{v.name}.yaml")
     _copy_meshes(v.mechanism, folder / "problems")
     for part, sheet in (("questions", question_sheet), ("solutions", solution_sheet)):
-        made = sheet(v.result, asked, v.name)
+        made = sheet(v.result, questions, v.name)
         for ending in PARTS[part]:
             made.save(folder / part / f"{v.name}{ending}")
     rows = [{**row, "variant": v.name, "value": ""} for row in v.key]

@@ -9,9 +9,9 @@ from dalembert.exams.asked import blanks, figure, place_of_answer, question_word
 from dalembert.reports import Report, report
 from dalembert.reports.report_context import METHODS, ReportContext
 from dalembert.reports.sections.given import knowns
-from dalembert.reports.sheet import Blanks, Sheet
+from dalembert.reports.sheet import Blanks, ReportSheet
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.stated import as_given
+from dalembert.views.stated import as_stated
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,25 +21,25 @@ if TYPE_CHECKING:
 
 
 def question_sheet(
-    r: Result, asked: Sequence[Answer], name: str = "", notation: Notation | None = None
+    r: Result, questions: Sequence[Answer], name: str = "", notation: Notation | None = None
 ) -> Report:
     """Given data, the figure to scale without computed values, and the questions, with space for each number."""
-    notation, k = as_given(notation), place_of_answer(r, asked[0])
+    notation, k = as_stated(notation), place_of_answer(r, questions[0])
     c = ReportContext(r, k, Shown(r, notation), METHODS, "", notation, question=True)
-    sheet = Sheet(r.mechanism.title or "Force analysis", "", f"Variant {name}" if name else "")
+    sheet = ReportSheet(r.mechanism.title or "Force analysis", "", f"Variant {name}" if name else "")
     sheet.blocks.append(Blanks((("", (("Name", ""), ("Date", ""))),)))
     knowns(sheet, c)
     sheet.heading("Find")
     units = r.mechanism.units
-    rows = [(question_words(c.shown, a), blanks(a, figure(r, a), units)) for a in asked]
+    rows = [(question_words(c.shown, a), blanks(a, figure(r, a), units)) for a in questions]
     sheet.blocks.append(Blanks(tuple(rows)))
     sheet.heading("Working", room=True)
     return Report(sheet)
 
 
 def solution_sheet(
-    r: Result, asked: Sequence[Answer], name: str = "", notation: Notation | None = None
+    r: Result, questions: Sequence[Answer], name: str = "", notation: Notation | None = None
 ) -> Report:
     """The worked report of the position of the question, with the variant's name."""
-    worked = report(r, place_of_answer(r, asked[0]) + 1, notation=notation).sheet
+    worked = report(r, place_of_answer(r, questions[0]) + 1, notation=notation).sheet
     return Report(replace(worked, subtitle=f"Variant {name}, solution. {worked.subtitle}"))

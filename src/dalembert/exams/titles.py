@@ -58,7 +58,7 @@ def _size(m: Mechanism, path: str) -> tuple[float, tuple[float | None, ...]] | N
     tree: Any = m.to_tree()
     for key in path.split("."):
         tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
-    found = [si_quantity(item) for item in (tree if isinstance(tree, list) else [tree])]
-    if not found or found[0] is None:
+    parts = [si_quantity(item) for item in (tree if isinstance(tree, list) else [tree])]
+    if not parts or parts[0] is None:
         return None
-    return math.hypot(*(pair[0] for pair in found if pair)), tuple(KINDS[found[0][1]].dimension)
+    return math.hypot(*(pair[0] for pair in parts if pair)), tuple(KINDS[parts[0][1]].dimension)

@@ -15,7 +15,7 @@ import numpy as np
 
 from dalembert.bounds import require
 from dalembert.errors import ModelError
-from dalembert.exams.asked import asked_quantities, key_row, stated_value
+from dalembert.exams.asked import key_row, requested_quantities, stated_value
 from dalembert.exams.candidates import Candidate, Unfit, Variant, candidate, figure_size
 from dalembert.exams.choices import Choices, read_choices
 from dalembert.grading.file_answers import describe_answer
@@ -107,33 +107,35 @@ def variants(
     for path, some in choices:
         for value in (some[0], some[-1]):
             mechanism.with_values({path: value})
-    there_are = prod(len(c.values) for c in choices)
-    if there_are < count:
-        what = f"the values allow {there_are} different problems, but {count} are requested"
+    possible = prod(len(c.values) for c in choices)
+    if possible < count:
+        what = f"the values allow {possible} different problems, but {count} are requested"
         raise ModelError(what, "give more values, or smaller steps")
-    asked = asked_quantities(solve(mechanism, static=static), ask, at)
+    questions = requested_quantities(solve(mechanism, static=static), ask, at)
     seed = secrets.randbelow(10**6) if seed is None else seed
-    pool = _Pool(mechanism, asked, near, static)
+    pool = _Pool(mechanism, questions, near, static)
     with progress("Variants", count) as step:
-        for tried, values in enumerate(_draws(choices, there_are, random.Random(seed))):
+        for tried, values in enumerate(_draws(choices, possible, random.Random(seed))):
             if len(pool.sound(count)) >= count or tried >= TRIES * count:
                 break
             pool.add(values)
             step(len(pool.sound(count)))
-    found = pool.sound(count)
-    if len(found) < count:
-        raise ModelError(pool.why_so_few(len(found), count, there_are), "give other values, or ask for fewer")
+    sound = pool.sound(count)
+    if len(sound) < count:
+        raise ModelError(pool.why_so_few(len(sound), count, possible), "give other values, or ask for fewer")
     width = max(2, len(str(count)))
     return Variants(
-        tuple(_variant(f"{k + 1:0{width}d}", c, asked, tolerance) for k, c in enumerate(found)), asked, seed
+        tuple(_variant(f"{k + 1:0{width}d}", c, questions, tolerance) for k, c in enumerate(sound)),
+        questions,
+        seed,
     )
 
 
-def _draws(choices: Sequence[Choices], there_are: int, chance: random.Random) -> Iterator[dict[str, object]]:
+def _draws(choices: Sequence[Choices], possible: int, chance: random.Random) -> Iterator[dict[str, object]]:
     """Sets of values in a random order, none twice: a shuffle of all, of which only the requested part is made."""
     moved: dict[int, int] = {}
-    for k in range(there_are):
-        other = k + int(chance.random() * (there_are - k))
+    for k in range(possible):
+        other = k + int(chance.random() * (possible - k))
         number, moved[other] = moved.get(other, other), moved.get(k, k)
         values = {}
         for path, some in choices:
@@ -145,8 +147,8 @@ def _draws(choices: Sequence[Choices], there_are: int, chance: random.Random) ->
 class _Pool:
     """The sets of values tried, and what they say together: which mistakes there are to show, how large figures are."""
 
-    def __init__(self, m: Mechanism, asked: Sequence[Answer], near: float, static: bool) -> None:
-        self.m, self.asked, self.near, self.static = m, asked, near, static
+    def __init__(self, m: Mechanism, questions: Sequence[Answer], near: float, static: bool) -> None:
+        self.m, self.asked, self.near, self.static = m, questions, near, static
         self.tried: list[Candidate] = []
         self.unfit: list[str] = []
         self._sound: list[Candidate] | None = None
@@ -155,11 +157,11 @@ class _Pool:
         """Try a set of values."""
         self._sound = None
         try:
-            found = candidate(self.m, values, self.asked, self.near, self.static)
+            tested = candidate(self.m, values, self.asked, self.near, self.static)
         except Unfit as reason:
             self.unfit.append(str(reason))
             return
-        self.tried.append(found)
+        self.tried.append(tested)
 
     def sound(self, count: int) -> list[Candidate]:
         """The first of the sound ones, all different: those before are judged by what those behind have shown."""
@@ -188,24 +190,24 @@ class _Pool:
             return f"no asked figure shows the mistake '{hidden[0]}'"
         return "the figures are those of another one" if any(one.same(o, self.near) for o in others) else ""
 
-    def why_so_few(self, found: int, count: int, there_are: int) -> str:
+    def why_so_few(self, sound_count: int, count: int, possible: int) -> str:
         """A sentence for too few variants, with the most frequent reasons."""
         usual, kept = self._usual(), self.sound(count)
         reasons = Counter(self.unfit)
         reasons.update(f for c in self.tried if c not in kept and (f := self._fault(c, usual, kept)))
-        said = "; ".join(f"{n} where {reason}" for reason, n in reasons.most_common(3))
+        reasons_text = "; ".join(f"{n} where {reason}" for reason, n in reasons.most_common(3))
         tried = len(self.tried) + len(self.unfit)
-        were = f"{found} of {count} variants were drawn from {tried} sets of values"
-        return f"{were}, of {there_are} possible ones; rejected: {said}"
+        were = f"{sound_count} of {count} variants were drawn from {tried} sets of values"
+        return f"{were}, of {possible} possible ones; rejected: {reasons_text}"
 
 
-def _variant(name: str, c: Candidate, asked: Sequence[Answer], tolerance: str) -> Variant:
+def _variant(name: str, c: Candidate, questions: Sequence[Answer], tolerance: str) -> Variant:
     """A sound candidate with its answers in the file's units."""
     units = c.mechanism.units
     key, answers = [], []
-    for answer, found in zip(asked, c.figures, strict=True):
-        key.append(key_row(answer, found, units) | ({"tolerance": tolerance} if tolerance else {}))
-        value = stated_value(found, units)
+    for answer, right in zip(questions, c.figures, strict=True):
+        key.append(key_row(answer, right, units) | ({"tolerance": tolerance} if tolerance else {}))
+        value = stated_value(right, units)
         plain = {n: v for n, v in key[-1].items() if n not in ("value", "unit", "tolerance")}
         answers += [plain | {"value": value}] if value is not None else []
     return Variant(name, c.values, c.mechanism.with_values({"answers": answers}), c.result, tuple(key))

@@ -24,7 +24,7 @@ ABOUT = ("student", "variant", "tolerance")
 
 
 @dataclass(frozen=True)
-class Sheet:
+class AnswerSheet:
     """Figures, their lines, the tolerance of those that give none, the student and the variant."""
 
     answers: tuple[Answer, ...]
@@ -39,7 +39,7 @@ class Sheet:
         return self.lines[number] if self.lines else 0
 
 
-def read_sheet(tree: object, source: Locator | None = None) -> Sheet:
+def read_sheet(tree: object, source: Locator | None = None) -> AnswerSheet:
     """The sheet of a file's tree; ModelError with file and line where it is wrong.
 
     In the short form a single number for a vector is its magnitude.
@@ -59,13 +59,13 @@ def read_sheet(tree: object, source: Locator | None = None) -> Sheet:
         raise error.at_source(source) from None
     lines = tuple(source.line(path) for path, _ in items) if source else ()
     name, tolerance = source.name if source else "", about["tolerance"] or None
-    return Sheet(tuple(answers), lines, tolerance, about["student"], about["variant"], name)
+    return AnswerSheet(tuple(answers), lines, tolerance, about["student"], about["variant"], name)
 
 
 def about_sheet(tree: object) -> dict[str, str]:
     """Keys of a sheet beside its figures; empty where it has none."""
-    found = {key: tree.get(key) for key in ABOUT} if isinstance(tree, Mapping) else dict.fromkeys(ABOUT)
-    return {key: "" if value is None else str(value) for key, value in found.items()}
+    entries = {key: tree.get(key) for key in ABOUT} if isinstance(tree, Mapping) else dict.fromkeys(ABOUT)
+    return {key: "" if value is None else str(value) for key, value in entries.items()}
 
 
 def without_value(answer: Answer) -> Answer:
@@ -100,8 +100,8 @@ def answer_of(item: Tree) -> Answer:
     from dalembert.model import Answer
 
     if item.get("quantity") not in KNOWN:
-        said = f"unknown quantity {item.get('quantity')!r}"
-        raise ModelError(said, closest(str(item.get("quantity")), [*KNOWN], 40))
+        problem = f"unknown quantity {item.get('quantity')!r}"
+        raise ModelError(problem, closest(str(item.get("quantity")), [*KNOWN], 40))
     return Answer(**item)
 
 
@@ -126,8 +126,8 @@ def _short(tree: Mapping[Any, object]) -> Iterator[tuple[Path, Tree]]:
 def short_item(quantity: str, of: str, value: object) -> Tree:
     """A figure of a name and a value: a single number for a vector is its magnitude."""
     single = isinstance(value, int | float) or (isinstance(value, str) and "@" not in value)
-    whole = quantity.startswith(VECTORS) and single and value != ""
-    component = {"component": "magnitude"} if whole else {}
+    is_size = quantity.startswith(VECTORS) and single and value != ""
+    component = {"component": "magnitude"} if is_size else {}
     return {"quantity": quantity, "of": of, "value": value} | component
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from dalembert.arrays import Array, Tree
 from dalembert.errors import DalembertError
-from dalembert.grading.figure import Figure, values_of
+from dalembert.grading.figure import StudentValue, values_of
 from dalembert.grading.value_errors import Hypothesis, of_units, of_value
 from dalembert.grading.wrong_problems import WrongProblem, WrongProblems
 
@@ -61,7 +61,7 @@ class _Option:
     cost: float
     off: float
     order: int
-    found: dict[int, Explanation] = field(default_factory=dict)
+    explained: dict[int, Explanation] = field(default_factory=dict)
 
     @property
     def is_exact(self) -> bool:
@@ -69,7 +69,7 @@ class _Option:
         return self.cost <= 1 and self.off <= SAME
 
 
-def explain(figures: Sequence[Figure], problems: WrongProblems | None) -> dict[int, Explanation]:
+def explain(figures: Sequence[StudentValue], problems: WrongProblems | None) -> dict[int, Explanation]:
     """Explanation of each wrong figure, by its number; without a problem only slips in the values are considered."""
     wrong = [n for n, f in enumerate(figures) if f.judged and not f.met]
     out = {n: Explanation(figures[n].impossible, "sign") for n in wrong if figures[n].impossible}
@@ -77,7 +77,7 @@ def explain(figures: Sequence[Figure], problems: WrongProblems | None) -> dict[i
     if not wrong:
         return out
     sheet = _Sheet(figures, wrong, problems)
-    return out | _best(sheet.options()).found
+    return out | _best(sheet.options()).explained
 
 
 def _best(options: list[_Option]) -> _Option:
@@ -92,7 +92,9 @@ def _best(options: list[_Option]) -> _Option:
 class _Sheet:
     """The figures of a sheet that are wrong, and those that are not, beside wrong problems."""
 
-    def __init__(self, figures: Sequence[Figure], wrong: list[int], problems: WrongProblems | None) -> None:
+    def __init__(
+        self, figures: Sequence[StudentValue], wrong: list[int], problems: WrongProblems | None
+    ) -> None:
         self.figures, self.wrong, self.problems = figures, wrong, problems
         self.met = [n for n, f in enumerate(figures) if f.judged and f.met]
         places = {int(k): n for n, k in enumerate(problems.which)} if problems else {0: 0}
@@ -100,18 +102,18 @@ class _Sheet:
 
     def options(self) -> list[_Option]:
         """Explanations, without a wrong problem and with each; none further where no later one can be better."""
-        found = [self._covered(None if self.problems is None else self.problems.result, {}, 0.0, 0)]
-        if self.problems is None or (found[0].order == 0 and found[0].is_exact):
-            return found
+        tried = [self._covered(None if self.problems is None else self.problems.result, {}, 0.0, 0)]
+        if self.problems is None or (tried[0].order == 0 and tried[0].is_exact):
+            return tried
         for problem in self.problems:
-            if problem.order > found[0].order and found[0].is_exact:
+            if problem.order > tried[0].order and tried[0].is_exact:
                 break
             option = self._under(problem)
             if option is not None:
-                found.append(option)
+                tried.append(option)
                 if option.is_exact:
                     break
-        return found
+        return tried
 
     def _under(self, problem: WrongProblem) -> _Option | None:
         """The sheet as the work of one who solved a wrong problem; None if a right figure speaks against it, or no
@@ -144,7 +146,7 @@ class _Sheet:
             return None
         return 0.0 if any(f.close.is_rounded(v) for v in values) else min(offs)
 
-    def _explains(self, f: Figure, value: Array) -> bool:
+    def _explains(self, f: StudentValue, value: Array) -> bool:
         """So many mistakes are tried that some come near any figure: one that is itself nearly right is explained only
         by a mistake that comes much nearer."""
         return f.close.off(value) <= f.off / MUCH if f.off <= SMALL else f.close.holds(value)
@@ -157,7 +159,7 @@ class _Sheet:
         slips = {n: self._slips(result, n) for n in rest}
         option = _Option(0.0, off, order, dict(named))
         while True:
-            left = [n for n in rest if n not in option.found]
+            left = [n for n in rest if n not in option.explained]
             by: dict[str, list[int]] = {}
             for n in left:
                 for sentence in slips[n]:
@@ -174,10 +176,10 @@ class _Sheet:
             option.cost += 1
             for n in by[best]:
                 slip = slips[n][best]
-                option.found[n] = Explanation(best, slip.kind)
+                option.explained[n] = Explanation(best, slip.kind)
                 option.off, option.order = max(option.off, slip.off), max(option.order, slip.order)
         for n in left:
-            option.found[n], cost = _unexplained(self.figures[n])
+            option.explained[n], cost = _unexplained(self.figures[n])
             option.cost += cost
         return option
 
@@ -209,17 +211,17 @@ class _Sheet:
                 yield 2, Hypothesis(sentence, value)
 
 
-def _unexplained(f: Figure) -> tuple[Explanation, float]:
+def _unexplained(f: StudentValue) -> tuple[Explanation, float]:
     """Explanation of a figure that no mistake explains, and its cost."""
     if f.off <= SMALL:
         return Explanation("close: rounded too early, or a small slip", "rounding"), ROUNDED
-    said = "none of the usual mistakes explains it"
+    sentence = "none of the usual mistakes explains it"
     if f.off <= GRAPHICAL and not f.close.stated:
-        said += f"; it is {100 * f.off:.2g} % off, which a drawing may be: state a tolerance if it is one"
-    return Explanation(said, "unknown"), UNEXPLAINED
+        sentence += f"; it is {100 * f.off:.2g} % off, which a drawing may be: state a tolerance if it is one"
+    return Explanation(sentence, "unknown"), UNEXPLAINED
 
 
-def others(result: Result, f: Figure) -> Iterator[tuple[Tree, str]]:
+def others(result: Result, f: StudentValue) -> Iterator[tuple[Tree, str]]:
     """The right value of something else: another joint, component, or axes."""
     answer = f.answer
     if answer.quantity in ("reaction", "moment"):

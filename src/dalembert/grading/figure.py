@@ -38,7 +38,7 @@ NOTHING = 1e-9
 
 
 @dataclass(frozen=True)
-class Figure:
+class StudentValue:
     """A figure as given, and the values (SI) that are right: of an interval its two ends."""
 
     answer: Answer
@@ -98,24 +98,32 @@ class Figure:
         return value_text(self.answer.value)
 
 
-def figure(result: Result, answer: Answer, tolerance: object = None) -> Figure:
+def figure(result: Result, answer: Answer, tolerance: object = None) -> StudentValue:
     """A student's figure beside the computed values; ModelError where it cannot be read."""
     series = read(sides_of(result, answer)[0], answer)
     units = file_units(result.mechanism.units)
     position = position_of(result, answer, series)
-    given = target(answer.value, series, units, "value")
-    if not np.isfinite(given.value).all():
+    student = target(answer.value, series, units, "value")
+    if not np.isfinite(student.value).all():
         raise ModelError(f"{value_text(answer.value)!r} is not a finite number", "write one", ("value",))
-    close = closeness(answer, given, series.kind, units, tolerance, floor(result, series.kind))
+    close = closeness(answer, student, series.kind, units, tolerance, floor(result, series.kind))
     right, interval = values_of(result, answer, position)
-    shown = [computed_text(v, given, series.kind, units, answer.value) for v in right]
+    shown = [computed_text(v, student, series.kind, units, answer.value) for v in right]
     text = (" to " if interval else " or ").join(dict.fromkeys(shown)) or "-"
-    return Figure(
-        answer, series, position, given, close, right, interval, text, "" if right else why(result, position)
+    return StudentValue(
+        answer,
+        series,
+        position,
+        student,
+        close,
+        right,
+        interval,
+        text,
+        "" if right else why(result, position),
     )
 
 
-def figure_of_key(answer: Answer, right: Answer, tolerance: object = None) -> Figure:
+def figure_of_key(answer: Answer, right: Answer, tolerance: object = None) -> StudentValue:
     """A student's figure beside the value of a key alone; the unit of that value gives its kind."""
     units = Units()
     kind = _kind_of(right.value)
@@ -124,12 +132,12 @@ def figure_of_key(answer: Answer, right: Answer, tolerance: object = None) -> Fi
     series = Series(kind, np.zeros((1, size)) if vector else np.zeros(1))
     known = target(right.value, series, units, "value").value
     if answer.component != right.component:
-        whole = component(Series(kind, known[None]), answer.component)
-        series, known = Series(whole.kind, np.zeros(1)), np.asarray(whole.values[0])
-    given = target(answer.value, series, units, "value")
-    close = closeness(answer, given, series.kind, units, tolerance)
-    text = computed_text(known, given, series.kind, units, answer.value)
-    return Figure(answer, series, 0, given, close, (known,), False, text, "")
+        known_series = component(Series(kind, known[None]), answer.component)
+        series, known = Series(known_series.kind, np.zeros(1)), np.asarray(known_series.values[0])
+    student = target(answer.value, series, units, "value")
+    close = closeness(answer, student, series.kind, units, tolerance)
+    text = computed_text(known, student, series.kind, units, answer.value)
+    return StudentValue(answer, series, 0, student, close, (known,), False, text, "")
 
 
 def _kind_of(value: object) -> str:
@@ -156,8 +164,8 @@ def values_of(result: Result, answer: Answer, position: int) -> tuple[tuple[Arra
         return some, False
     if answer.quantity in ("effort", "unknown_load"):
         ends = component(Series("", result.interval(str(answer.of))[position]), answer.component)
-        found = _numbers(list(ends.values))
-        return found, answer.component is None and len(found) == 2
+        numbers = _numbers(list(ends.values))
+        return numbers, answer.component is None and len(numbers) == 2
     return _numbers([read(end, answer).values[position] for pair in result.ends for end in pair]), False
 
 

@@ -37,7 +37,7 @@ SAME_POSITION = 1e-6
 """Difference, in radians or metres, up to which a drive's position is the one that an answer names."""
 
 
-class Row(NamedTuple):
+class ComparedAnswer(NamedTuple):
     """One answer compared: as published, as computed, how far apart and how far they may be; ok, and why not."""
 
     case: str
@@ -53,7 +53,7 @@ class Row(NamedTuple):
     line: int = 0
 
 
-def check_file(path: str | Path) -> list[Row]:
+def check_file(path: str | Path) -> list[ComparedAnswer]:
     """The answers of a model file compared with what is computed; raises ModelError where the file is wrong.
 
     >>> from dalembert.bundled import examples
@@ -65,7 +65,7 @@ def check_file(path: str | Path) -> list[Row]:
     return check(load(path), Path(path).stem)
 
 
-def check(mechanism: Mechanism, case: str = "") -> list[Row]:
+def check(mechanism: Mechanism, case: str = "") -> list[ComparedAnswer]:
     """The answers of a mechanism compared with what is computed: one row an answer."""
     from dalembert.analysis.solution import solve
 
@@ -75,7 +75,7 @@ def check(mechanism: Mechanism, case: str = "") -> list[Row]:
     return [_row(result, answer, k, case or mechanism.title) for k, answer in enumerate(mechanism.answers)]
 
 
-def _row(result: Result, answer: Answer, number: int, case: str) -> Row:
+def _row(result: Result, answer: Answer, number: int, case: str) -> ComparedAnswer:
     source = result.mechanism.source
     path = ("answers", number)
     try:
@@ -86,7 +86,7 @@ def _row(result: Result, answer: Answer, number: int, case: str) -> Row:
     return row._replace(line=source.line(path) if source else 0)
 
 
-def _compare(result: Result, answer: Answer, case: str) -> Row:
+def _compare(result: Result, answer: Answer, case: str) -> ComparedAnswer:
     if answer.quantity in WHOLE:
         return _word(answer, case, WHOLE[answer.quantity](result), "")
     if answer.quantity in WORDS:
@@ -111,11 +111,11 @@ def sides_of(result: Result, answer: Answer) -> tuple[Result, ...]:
         return (result,)
     if answer.extreme is None:
         return result.sides
-    found = []
+    largest = []
     for side in result.sides:
         values = BY[answer.extreme](size(read(side, answer)))
-        found.append(float(np.nanmax(values)) if np.isfinite(values).any() else -math.inf)
-    return (result.sides[int(np.argmax(found))],)
+        largest.append(float(np.nanmax(values)) if np.isfinite(values).any() else -math.inf)
+    return (result.sides[int(np.argmax(largest))],)
 
 
 def describe_answer(answer: Answer) -> str:
@@ -136,11 +136,11 @@ def _at_text(at: object) -> str:
 # words and counts
 
 
-def _word(answer: Answer, case: str, found: str | int | None, problem: str) -> Row:
-    published, computed = _plain(answer.value), "-" if found is None else str(found)
+def _word(answer: Answer, case: str, value: str | int | None, problem: str) -> ComparedAnswer:
+    published, computed = _plain(answer.value), "-" if value is None else str(value)
     ok = computed == published
-    why, said = answer.why or "", "" if ok else problem
-    return Row(case, describe_answer(answer), published, "", computed, "", "", ok, why, said)
+    why, sentence = answer.why or "", "" if ok else problem
+    return ComparedAnswer(case, describe_answer(answer), published, "", computed, "", "", ok, why, sentence)
 
 
 def _plain(value: object) -> str:
@@ -191,16 +191,16 @@ def _position_name(result: Result, at: object) -> int:
     kind = drive_kinds(result, drive)["position"]
     with errors_at("at"):
         wanted = quantity(at, kind, file_units(result.mechanism.units))
-    away = np.abs(_apart(result.drive_position(drive), wanted, kind))
+    away = np.abs(_subtract(result.drive_position(drive), wanted, kind))
     if not away.min() < SAME_POSITION:
-        said = f"no position has {drive} = {at}"
-        raise ModelError(said, "number the position, or give the drive that value", ("at",))
+        problem = f"no position has {drive} = {at}"
+        raise ModelError(problem, "number the position, or give the drive that value", ("at",))
     return int(away.argmin())
 
 
-def _apart(found: Array, wanted: object, kind: str) -> Array:
+def _subtract(value: Array, wanted: object, kind: str) -> Array:
     """Difference of two values; angles a full turn apart are the same."""
-    difference = found - wanted
+    difference = value - wanted
     return np.asarray(np.angle(np.exp(1j * difference)) if kind == "angle" else difference)
 
 
@@ -209,10 +209,10 @@ def _apart(found: Array, wanted: object, kind: str) -> Array:
 
 def target(value: object, series: Series, units: Units, key: str) -> Target:
     """A value as written in the file, read as the kind of the series."""
-    from dalembert.model.part import Reading
+    from dalembert.model.part import ReadingRules
     from dalembert.model.quantities.values import at_item, check_vector, vector
 
-    rules = Reading(units, dimension=series.values.shape[-1])
+    rules = ReadingRules(units, dimension=series.values.shape[-1])
     depth = series.values.ndim - 1
     with errors_at(key):
         if depth == 2:
@@ -233,39 +233,41 @@ def _unit_of(value: object, kind: str, units: Units) -> str:
     return units.text(kind)
 
 
-def _difference(result: Result, answer: Answer, series: Series, case: str) -> Row:
+def _difference(result: Result, answer: Answer, series: Series, case: str) -> ComparedAnswer:
     units = file_units(result.mechanism.units)
     position = position_of(result, answer, series)
     published = target(answer.value, series, units, "value")
     exact = None if answer.exact is None else target(answer.exact, series, units, "exact")
-    found = _same_turn(np.asarray(series.values[position], dtype=float), published.value, series.kind)
+    value = _same_turn(np.asarray(series.values[position], dtype=float), published.value, series.kind)
     scale = _scale((exact or published).value, series)
-    away = _away(found, published.value, series.kind)
-    allowed, said = _tolerance(answer.tolerance, scale, series.kind, units, TOLERANCE, "tolerance")
-    met = exact is None or _meets_exact(found, exact, answer, series, units)
+    away = _away(value, published.value, series.kind)
+    allowed, allowed_text = _tolerance(answer.tolerance, scale, series.kind, units, TOLERANCE, "tolerance")
+    met = exact is None or _meets_exact(value, exact, answer, series, units)
     problem = reason_at(result, position) or ("" if met else "The exact value is missed.")
     texts = value_text(answer.value), "" if exact is None else _shorten(value_text(answer.exact))
-    computed = computed_text(found, published, series.kind, units, answer.value)
+    computed = computed_text(value, published, series.kind, units, answer.value)
     off = _deviation(away, _size(published.value) and scale, series.kind, published.unit)
     ok = away <= allowed and met
     why, problem = answer.why or "", "" if ok else problem
-    return Row(case, describe_answer(answer), *texts, computed, said, off, ok, why, problem)
+    return ComparedAnswer(
+        case, describe_answer(answer), *texts, computed, allowed_text, off, ok, why, problem
+    )
 
 
-def _meets_exact(found: Array, exact: Target, answer: Answer, series: Series, units: Units) -> bool:
+def _meets_exact(value: Array, exact: Target, answer: Answer, series: Series, units: Units) -> bool:
     scale = _scale(exact.value, series)
     allowed, _ = _tolerance(answer.exact_tolerance, scale, series.kind, units, EXACT, "exact_tolerance")
-    return _away(found, exact.value, series.kind) <= allowed
+    return _away(value, exact.value, series.kind) <= allowed
 
 
-def _same_turn(found: Array, wanted: Array, kind: str) -> Array:
+def _same_turn(angle: Array, wanted: Array, kind: str) -> Array:
     """An angle in the turn that the published one is in."""
-    return found + 2 * np.pi * np.round((wanted - found) / (2 * np.pi)) if kind == "angle" else found
+    return angle + 2 * np.pi * np.round((wanted - angle) / (2 * np.pi)) if kind == "angle" else angle
 
 
-def _away(found: Array, wanted: Array, kind: str) -> float:
+def _away(value: Array, wanted: Array, kind: str) -> float:
     """Distance of two numbers or vectors."""
-    return _size(_apart(found, wanted, kind))
+    return _size(_subtract(value, wanted, kind))
 
 
 def _size(value: Array) -> float:
@@ -279,15 +281,15 @@ def _scale(wanted: Array, series: Series) -> float:
 
 
 def _tolerance(
-    given: object, scale: float, kind: str, units: Units, default: float, key: str
+    stated: object, scale: float, kind: str, units: Units, default: float, key: str
 ) -> tuple[float, str]:
     """Allowed distance in SI, and as text: relative (`0.3 %`) or a quantity of the same kind."""
-    if given is None:
+    if stated is None:
         return default * scale, f"{default:g}"
-    if isinstance(given, str) and given.strip().endswith("%"):
-        return percent(given, key, None) * scale, given.strip()
+    if isinstance(stated, str) and stated.strip().endswith("%"):
+        return percent(stated, key, None) * scale, stated.strip()
     with errors_at(key):
-        return quantity(given, kind, units), value_text(given)
+        return quantity(stated, kind, units), value_text(stated)
 
 
 # as text
@@ -302,23 +304,23 @@ def value_text(value: object) -> str:
 
 def _shorten(text: str) -> str:
     """The same with no more digits than a computed value is shown with."""
-    return re.sub(rf"(?<![\w.]){NUMBER}", lambda found: f"{float(found[0]):.{DIGITS}g}", text)
+    return re.sub(rf"(?<![\w.]){NUMBER}", lambda match: f"{float(match[0]):.{DIGITS}g}", text)
 
 
-def computed_text(found: Array, published: Target, kind: str, units: Units, form: object = "") -> str:
+def computed_text(value: Array, published: Target, kind: str, units: Units, form: object = "") -> str:
     """A computed value in the unit and the form of the published one, its direction in the turn of that."""
-    if not np.isfinite(found).all():
+    if not np.isfinite(value).all():
         return "-"
-    own = unit(published.unit).of_si if published.unit else float
+    to_unit = unit(published.unit).of_si if published.unit else float
     behind = "" if published.unit in ("", units.text(kind)) else f" {published.unit}"
-    if found.ndim == 0:
-        return f"{own(float(found)):.{DIGITS}g}{behind}"
+    if value.ndim == 0:
+        return f"{to_unit(float(value)):.{DIGITS}g}{behind}"
     if published.polar:
-        turn = float(np.angle(complex(*found) * complex(*published.value).conjugate()))
+        turn = float(np.angle(complex(*value) * complex(*published.value).conjugate()))
         angle = units.unit("angle").of_si(_direction(form, units, published.value) + turn)
-        return f"{own(float(np.hypot(*found))):.{DIGITS}g}{behind} @ {angle:.6g}"
-    clean = np.where(np.abs(found) < 1e-12 * np.abs(found).max(), 0.0, found)
-    return _bracket(clean, own) + behind
+        return f"{to_unit(float(np.hypot(*value))):.{DIGITS}g}{behind} @ {angle:.6g}"
+    clean = np.where(np.abs(value) < 1e-12 * np.abs(value).max(), 0.0, value)
+    return _bracket(clean, to_unit) + behind
 
 
 def _direction(form: object, units: Units, vector: Array) -> float:
@@ -331,9 +333,9 @@ def _direction(form: object, units: Units, vector: Array) -> float:
     return angle + 2 * math.pi * round((written - angle) / (2 * math.pi))
 
 
-def _bracket(values: Array, own: Callable[[float], float]) -> str:
+def _bracket(values: Array, to_unit: Callable[[float], float]) -> str:
     """Numbers in brackets; of a rotation one bracket per row."""
-    inner = [f"{own(float(v)):.{DIGITS}g}" if v.ndim == 0 else _bracket(v, own) for v in values]
+    inner = [f"{to_unit(float(v)):.{DIGITS}g}" if v.ndim == 0 else _bracket(v, to_unit) for v in values]
     return "[" + ", ".join(inner) + "]"
 
 

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from dalembert.errors import ModelError, errors_at
-from dalembert.grading.answer_sheet import Sheet
+from dalembert.grading.answer_sheet import AnswerSheet
 from dalembert.grading.explanation import Explanation, explain
-from dalembert.grading.figure import Figure, figure
+from dalembert.grading.figure import StudentValue, figure
 from dalembert.grading.file_answers import describe_answer, position_of, value_text
 from dalembert.grading.quantities import WHOLE, WORDS
 from dalembert.grading.tolerance import percent
@@ -53,10 +53,10 @@ def check_answers(
     'the sense is opposite: action mistaken for reaction'
     """
     mechanism = as_mechanism(mechanism)
-    return Problem(mechanism, static).verdicts(answers, tolerance)
+    return SolvedProblem(mechanism, static).verdicts(answers, tolerance)
 
 
-class Problem:
+class SolvedProblem:
     """A mechanism solved once, for many sheets; wrong solutions are kept with it."""
 
     def __init__(self, mechanism: Mechanism, static: bool = False) -> None:
@@ -69,27 +69,29 @@ class Problem:
         """Verdicts on the figures of one sheet."""
         if tolerance is not None:
             percent(tolerance)
-        found = []
+        compared = []
         for k, answer in enumerate(answers):
             with errors_at(k):
-                found.append(self.compare(answer, tolerance))
-        some = [f for f in found if isinstance(f, Figure)]
-        said = explain(some, self.wrong_problems(some))
+                compared.append(self.compare(answer, tolerance))
+        some = [f for f in compared if isinstance(f, StudentValue)]
+        explanations = explain(some, self.wrong_problems(some))
         numbers = iter(range(len(some)))
-        return [f if isinstance(f, Verdict) else verdict_of(f, said.get(next(numbers))) for f in found]
+        return [
+            f if isinstance(f, Verdict) else verdict_of(f, explanations.get(next(numbers))) for f in compared
+        ]
 
-    def verdicts_of(self, sheet: Sheet, tolerance: str | None = None) -> list[Verdict]:
+    def verdicts_of(self, sheet: AnswerSheet, tolerance: str | None = None) -> list[Verdict]:
         """Verdicts with the lines of the sheet; ``tolerance`` replaces the sheet's."""
         try:
-            found = self.verdicts(sheet.answers, tolerance or sheet.tolerance)
+            verdicts = self.verdicts(sheet.answers, tolerance or sheet.tolerance)
         except ModelError as error:
             number = error.path[0] if error.path else None
             if sheet.file and not error.file and isinstance(number, int):
                 raise error.at_line(sheet.file, sheet.line(number)) from None
             raise
-        return [v._replace(line=sheet.line(k)) for k, v in enumerate(found)]
+        return [v._replace(line=sheet.line(k)) for k, v in enumerate(verdicts)]
 
-    def compare(self, answer: Answer, tolerance: str | None = None) -> Figure | Verdict:
+    def compare(self, answer: Answer, tolerance: str | None = None) -> StudentValue | Verdict:
         """A figure beside what is computed, or the verdict on a word or a count."""
         r = self.result
         if answer.quantity in WHOLE:
@@ -102,7 +104,7 @@ class Problem:
         """The result at one position alone."""
         return self.result if len(self.result.status) == 1 else WrongProblems(self.result, (place,)).result
 
-    def wrong_problems(self, some: Sequence[Figure]) -> WrongProblems:
+    def wrong_problems(self, some: Sequence[StudentValue]) -> WrongProblems:
         """The wrong problems at the positions that a sheet asks for."""
         r, which = self.result, tuple(sorted({f.position for f in some}))
         s = r.schedule
@@ -114,19 +116,19 @@ class Problem:
         return self._wrong[key]
 
 
-def verdict_of(f: Figure, said: Explanation | None) -> Verdict:
+def verdict_of(f: StudentValue, explanation: Explanation | None) -> Verdict:
     """The verdict on a figure, with what explains it."""
     if not f.judged:
-        said_open = f"it cannot be judged: {f.reason}"
-        return Verdict(f.words, f.written, f.computed, f.off, False, said_open, "open")
-    mistake, kind = ("", "right") if f.met else said or ("", "unknown")
+        open_sentence = f"it cannot be judged: {f.reason}"
+        return Verdict(f.words, f.written, f.computed, f.off, False, open_sentence, "open")
+    mistake, kind = ("", "right") if f.met else explanation or ("", "unknown")
     return Verdict(f.words, f.written, f.computed, f.off, f.met, mistake, kind)
 
 
 def verdict_on_word(answer: Answer, right: object) -> Verdict:
     """The verdict on a word or a count."""
-    given, known = (value_text(value).strip().removesuffix(".0") for value in (answer.value, right))
-    met = given == known
-    said = "" if met else "another count" if known.isdigit() else "another word"
+    answered, known = (value_text(value).strip().removesuffix(".0") for value in (answer.value, right))
+    met = answered == known
+    mistake = "" if met else "another count" if known.isdigit() else "another word"
     off, kind = (0.0, "right") if met else (1.0, "unknown")
-    return Verdict(describe_answer(answer), given, known, off, met, said, kind)
+    return Verdict(describe_answer(answer), answered, known, off, met, mistake, kind)

@@ -48,7 +48,7 @@ def _energy_fluctuation(r: Result, answer: Answer) -> Series:
     return Series("energy", np.full(len(r.status), flywheel(r, answer.of, inertia=1.0).size.energy))
 
 
-def _parts(r: Result, answer: Answer) -> names.Name:
+def _parts(r: Result, answer: Answer) -> names.QuantityName:
     """The name of an answer taken apart; ModelError with the names that its thing may have."""
     word = NAMES[answer.quantity].partition(".")[0]
     if (
@@ -57,7 +57,7 @@ def _parts(r: Result, answer: Answer) -> names.Name:
         and "" not in names.things(r, CATALOGUE[word].of)
     ):
         raise ModelError(f"{answer.quantity} needs `of`", closest("", _things(r, word)))
-    parts = names.take_apart(r, answer.name)
+    parts = names.split_name(r, answer.name)
     if parts is None and CATALOGUE[word].of == "points":
         raise ModelError(f"{answer.of!r} names no point of a moving link", "write of: link.point", ("of",))
     if parts is None:

@@ -110,21 +110,23 @@ class Closeness:
             turned = abs(math.remainder(math.atan2(y, x) - math.atan2(b, a), math.tau))
             straight = turned <= EDGE * max(near, min(self.halves[1], DIRECTION))
             return straight and abs(math.hypot(x, y) - size) <= room(self.halves[0])
-        apart = np.abs(value - self.given).ravel().tolist()
-        return all(d <= room(h) for d, h in zip(apart, self.halves, strict=True))
+        distances = np.abs(value - self.given).ravel().tolist()
+        return all(d <= room(h) for d, h in zip(distances, self.halves, strict=True))
 
 
 def closeness(
-    answer: Answer, given: Target, kind: str, units: Units, tolerance: object = None, floor: float = 0.0
+    answer: Answer, target: Target, kind: str, units: Units, tolerance: object = None, floor: float = 0.0
 ) -> Closeness:
     """Allowed distance of a value from an answer: by its tolerance, or that of the sheet, if one is given, else by its
     digits."""
-    own = answer.tolerance if answer.tolerance is not None else tolerance
-    halves = _halves(answer.value, given, kind, units)
-    if own is None:
-        return Closeness(given.value, kind, NEAR, halves, given.polar, floor=floor)
-    size = math.hypot(*given.value.ravel().tolist())
-    return Closeness(given.value, kind, relative(own, size, kind, units), halves, given.polar, True, floor)
+    stated = answer.tolerance if answer.tolerance is not None else tolerance
+    halves = _halves(answer.value, target, kind, units)
+    if stated is None:
+        return Closeness(target.value, kind, NEAR, halves, target.polar, floor=floor)
+    size = math.hypot(*target.value.ravel().tolist())
+    return Closeness(
+        target.value, kind, relative(stated, size, kind, units), halves, target.polar, True, floor
+    )
 
 
 def relative(tolerance: object, size: float, kind: str, units: Units) -> float:
@@ -158,33 +160,33 @@ def percent(tolerance: object, key: str = "tolerance", most: float | None = MOST
     return float(number[1]) / 100
 
 
-def _halves(value: object, given: Target, kind: str, units: Units) -> tuple[float, ...]:
+def _halves(value: object, target: Target, kind: str, units: Units) -> tuple[float, ...]:
     """Half units of the last digits in SI: of each component, or of a size and a direction."""
-    if given.value.ndim > 1:
+    if target.value.ndim > 1:
         return ()
-    if given.polar:
+    if target.polar:
         size, _, direction = str(value).partition("@")
-        size_half = _in_si(size, float(np.hypot(*given.value)))
+        size_half = _in_si(size, float(np.hypot(*target.value)))
         return (size_half, _angle_half(direction, str(value), units))
     if kind == "angle":
         return (_angle_half(str(value), str(value), units),)
     parts = value if isinstance(value, (list, tuple)) else [value]
-    return tuple(_in_si(str(p), float(v)) for p, v in zip(parts, np.atleast_1d(given.value), strict=True))
+    return tuple(_in_si(str(p), float(v)) for p, v in zip(parts, np.atleast_1d(target.value), strict=True))
 
 
 def _in_si(text: str, value: float) -> float:
     """Half a unit of the last digit of a text whose number represents a value; 0 where that is 0."""
-    found = re.search(NUMBER, text)
-    if found is None or not float(found[0]):
+    match = re.search(NUMBER, text)
+    if match is None or not float(match[0]):
         return 0.0
-    return half_unit(found[0]) * abs(value / float(found[0]))
+    return half_unit(match[0]) * abs(value / float(match[0]))
 
 
-def _angle_half(text: str, whole: str, units: Units) -> float:
-    found = re.search(NUMBER, text)
-    if found is None:
+def _angle_half(text: str, unit_text: str, units: Units) -> float:
+    match = re.search(NUMBER, text)
+    if match is None:
         return 0.0
-    return radians(half_unit(found[0]), whole, units)
+    return radians(half_unit(match[0]), unit_text, units)
 
 
 def radians(angle: float, text: str, units: Units) -> float:

@@ -67,8 +67,8 @@ def changes(r: Result) -> Iterator[Mistake]:
         pull = [*[0.0] * (m.dimension - 1), -STANDARD]
         gravity = change_numbers("forcing.inertia", gravity=lambda _: np.array(pull))
         yield "gravity is counted, and the problem has none", gravity
-    given = [name for name, load in m.loads_on("point").items() if not load.unknown]
-    for k, name in enumerate(given):
+    known = [name for name, load in m.loads_on("point").items() if not load.unknown]
+    for k, name in enumerate(known):
         yield from _force_changes(r, k, name)
     for k, drive in enumerate(r.drives):
         yield from _rate_changes(r, k, drive)
@@ -104,8 +104,8 @@ def _force_changes(r: Result, k: int, name: str) -> Iterator[Mistake]:
     base = r.compiled.layout.reference[int(r.compiled.forcing.forces.link[k])]
     for point in [*m.points(on), "center"]:
         if point != load.at:  # type: ignore[union-attr]
-            there = with_row(k, np.subtract(m.point(on, point), base))
-            change = change_numbers("forcing.forces", at=there)
+            moved = with_row(k, np.subtract(m.point(on, point), base))
+            change = change_numbers("forcing.forces", at=moved)
             yield f"the moment arm of {name} is wrong: the load is applied at {point}", change
     other = "link" if load.axes == "ground" else "ground"  # type: ignore[union-attr]
     turned = change_numbers("forcing.forces", follows=lambda a: a ^ (np.arange(len(a)) == k))
@@ -158,16 +158,16 @@ def _gravity_changes(r: Result) -> Iterator[Mistake]:
     """The book's g for the file's, where weights or masses make it count."""
     m = r.mechanism
     pull = np.array(m.gravity_vector)
-    own = float(magnitude(pull)) or m.g
+    in_file = float(magnitude(pull)) or m.g
     weighed = any(m.links[link].weight is not None for link in r.links)
     system = "ft" if file_units(m.units).text("length") in ("ft", "in") else "m"
     for g, text in BOOKS_G[system].items() if weighed or pull.any() else ():
-        if not 1e-9 < abs(g / own - 1) < 0.05:
+        if not 1e-9 < abs(g / in_file - 1) < 0.05:
             continue
         change: Tree = {"g": g} if weighed else {}
         if pull.any():
-            change["gravity"] = (pull * g / own).tolist()
-        yield f"g is taken as {text}, not {_in_units(r, own)}", change
+            change["gravity"] = (pull * g / in_file).tolist()
+        yield f"g is taken as {text}, not {_in_units(r, in_file)}", change
 
 
 def _in_units(r: Result, g: float) -> str:
@@ -198,8 +198,8 @@ def _friction_changes(r: Result) -> Iterator[Mistake]:
         resting = change_numbers("contacts", coefficient=lambda _: mu)
         yield "the coefficient at rest is mistaken for that of motion", resting
     joints = dict.fromkeys(contacts.joint[rough].tolist())
-    apart = {f" of joint {r.joints[k]}": contacts.joint == k for k in joints} if len(joints) > 1 else {}
-    for words, here in ({"": rough} | apart).items():
+    by_joint = {f" of joint {r.joints[k]}": contacts.joint == k for k in joints} if len(joints) > 1 else {}
+    for words, here in ({"": rough} | by_joint).items():
         some, round_ = rough & here, circles & here
         if words:
             yield f"the friction{words} is left out", _friction(some, coefficient=0.0)

@@ -53,8 +53,8 @@ class WrongProblems:
     def _linear(self) -> list[WrongProblem]:
         """Loads, weights and inertia left out, reversed or scaled."""
         try:
-            found = _with_factor(self.result)
-            return [WrongProblem(1, words, partial(_same, result)) for words, result in found]
+            variants = _with_factor(self.result)
+            return [WrongProblem(1, words, partial(_same, result)) for words, result in variants]
         except ModelError:  # with friction parts do not add
             return self._each(1, _scaled(self.result))
 
@@ -80,8 +80,8 @@ class WrongProblems:
                 return self._at(r.compiled, r, inertia=False)
             m = r.mechanism.with_values(change)
             if "assembly" in change:
-                whole = (dynamics if r.inertia else statics)(m)
-                return self._at(whole.compiled, whole)
+                result = (dynamics if r.inertia else statics)(m)
+                return self._at(result.compiled, result)
             return self._at(compile_mechanism(m, m.schedule(), r.compiled.layout.redundant), r)
         except DalembertError:
             return None
@@ -217,9 +217,9 @@ def _of_kinds(
 def _gravities(r: Result) -> list[tuple[float, str]]:
     """g as a number in the file's units, and 9.81."""
     units = file_units(r.mechanism.units)
-    own = units.unit("acceleration").of_si(r.mechanism.g)
-    out = [(own, units.text("acceleration"))]
-    return out if abs(own - 9.80665) < 0.1 else [*out, (9.80665, "m/s2")]
+    in_file = units.unit("acceleration").of_si(r.mechanism.g)
+    out = [(in_file, units.text("acceleration"))]
+    return out if abs(in_file - 9.80665) < 0.1 else [*out, (9.80665, "m/s2")]
 
 
 def _other_modes(r: Result) -> Iterator[dict[str, float]]:
@@ -228,9 +228,9 @@ def _other_modes(r: Result) -> Iterator[dict[str, float]]:
 
     c = r.compiled
     shape = np.shape(c.layout.reference)
-    found = Guess(np.full(shape[0], np.nan), np.full(shape, np.nan)).modes(c.layout, c.targets[0])
-    if found is None:
+    modes = Guess(np.full(shape[0], np.nan), np.full(shape, np.nan)).modes(c.layout, c.targets[0])
+    if modes is None:
         return
-    for turn in found.pose.turn[:, :-1]:
+    for turn in modes.pose.turn[:, :-1]:
         if np.abs(np.angle(np.exp(1j * (turn - r.turn_array[0])))).max() > 1e-6:
             yield dict(zip(r.links, map(float, turn), strict=True))

@@ -83,8 +83,8 @@ def _reverse(graph: Graph, output: Node, inputs: Sequence[Node]) -> list[Node]:
 def _forward(graph: Graph, outputs: Sequence[Node], inputs: Sequence[Node]) -> list[list[Node]]:
     order = graph.order(outputs)
     columns = []
-    for given in inputs:
-        rate: dict[int, Node] = {given.index: graph.one}
+    for variable in inputs:
+        rate: dict[int, Node] = {variable.index: graph.one}
         for node in order:
             if node.a is None or node.op == "detach":
                 continue

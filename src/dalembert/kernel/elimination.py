@@ -26,7 +26,7 @@ Matrix = list[list[Scalar]]
 
 
 @dataclass
-class Step:
+class PivotBlock:
     """Pivot block: rows, columns, its inverse, and the blocks to its right and below it."""
 
     rows: tuple[int, ...]
@@ -90,7 +90,7 @@ class Structural:
 
     size: int
     count: int
-    steps: list[Step]
+    steps: list[PivotBlock]
     pivots: list[Scalar] = field(default_factory=list)
 
     @property
@@ -164,7 +164,7 @@ def structural(graph: Graph, rows: list[Row], size: int, scale: Array | None = N
     comparable; raises ValueError where its structure is singular."""
     if len(rows) != size and (scale is None or len(rows) < size):
         raise ValueError(f"{len(rows)} equations for {size} unknowns")
-    work = _Work(graph, [{c: x for c, x in row.items() if not is_zero(x)} for row in rows])
+    work = _Elimination(graph, [{c: x for c, x in row.items() if not is_zero(x)} for row in rows])
     work.unit_pivots()
     if scale is not None and len(rows) > size:
         work.repeated_rows(scale)
@@ -174,7 +174,7 @@ def structural(graph: Graph, rows: list[Row], size: int, scale: Array | None = N
     return Structural(size, len(rows), work.steps, work.pivots)
 
 
-class _Work:
+class _Elimination:
     """The part not yet eliminated, and the steps taken."""
 
     def __init__(self, graph: Graph, rows: list[Row]) -> None:
@@ -183,19 +183,19 @@ class _Work:
         for r, row in self.rows.items():
             for c in row:
                 self.columns.setdefault(c, set()).add(r)
-        self.steps: list[Step] = []
+        self.steps: list[PivotBlock] = []
         self.pivots: list[Scalar] = []
 
     def unit_pivots(self) -> None:
         best = {r: self.unit_pivot(r) for r in self.rows}
-        least = [(found[0], r) for r, found in best.items() if found is not None]
+        least = [(pivot[0], r) for r, pivot in best.items() if pivot is not None]
         heapify(least)
         while least:
             fill, r = heappop(least)
-            found = best[r] if r in self.rows else None
-            if found is None or found[0] != fill:  # outdated: another row was removed since
+            pivot = best[r] if r in self.rows else None
+            if pivot is None or pivot[0] != fill:  # outdated: another row was removed since
                 continue
-            _, c, sign = found
+            _, c, sign = pivot
             near = set().union(*(self.columns[other] for other in self.rows[r])) - {r}
             self.eliminate((r,), (c,), [[sign]])
             for i in near:
@@ -219,25 +219,25 @@ class _Work:
         self.rows = {r: row for r, row in self.rows.items() if row}
         match = maximum_matching({r: set(row) for r, row in self.rows.items()})
         owner = {c: r for r, c in match.items()}
-        found = [r for r in self.rows if r not in match]
-        for r in found:
-            found += [owner[c] for c in self.rows[r] if owner[c] not in found]
-        if not found:
+        surplus = [r for r in self.rows if r not in match]
+        for r in surplus:
+            surplus += [owner[c] for c in self.rows[r] if owner[c] not in surplus]
+        if not surplus:
             return
-        columns = sorted({c for r in found for c in self.rows[r]})
+        columns = sorted({c for r in surplus for c in self.rows[r]})
         place = {c: k for k, c in enumerate(columns)}
-        block = [{place[c]: x for c, x in self.rows[r].items()} for r in found]
-        weights = [float(scale[r]) ** 2 for r in found]
+        block = [{place[c]: x for c, x in self.rows[r].items()} for r in surplus]
+        weights = [float(scale[r]) ** 2 for r in surplus]
         normal: list[Row] = [{} for _ in columns]
         for row, weight in zip(block, weights, strict=True):
             for a, x in row.items():
                 for b, y in row.items():
                     normal[a][b] = normal[a].get(b, 0.0) + weight * (x * y)
-        inner = _Work(self.graph, normal)
+        inner = _Elimination(self.graph, normal)
         inner.diagonal_pivots()
         self.pivots += inner.pivots
         factors = Structural(len(columns), len(columns), inner.steps)
-        self.eliminate(tuple(found), tuple(columns), LeastSquares(block, weights, factors))
+        self.eliminate(tuple(surplus), tuple(columns), LeastSquares(block, weights, factors))
 
     def diagonal_pivots(self) -> None:
         """Diagonal pivots of a positive definite system, least fill first."""
@@ -255,7 +255,7 @@ class _Work:
             for c in row:
                 self.columns[c].discard(r)
         touched = sorted(set().union(*(self.columns.pop(c) for c in columns)))
-        step = Step(rows, columns, inverse, right, [])
+        step = PivotBlock(rows, columns, inverse, right, [])
         for i in touched:
             row = self.rows[i]
             factors = [row.pop(c, 0.0) for c in columns]
@@ -345,18 +345,18 @@ def _blocks(rows: dict[int, Row]) -> list[tuple[list[int], list[int]]]:
     blocks = block_triangular([[place[c] for c in rows[r]] for r in names], len(columns))
     if blocks is None:
         raise ValueError("structurally singular")
-    return [(sorted(names[r] for r in group), [columns[c] for c in own]) for group, own in blocks]
+    return [(sorted(names[r] for r in group), [columns[c] for c in members]) for group, members in blocks]
 
 
 def maximum_matching(wants: dict[int, set[int]]) -> dict[int, int]:
     """A largest matching of rows to columns."""
-    own = match_columns([sorted(columns) for columns in wants.values()])
-    return {r: c for r, c in zip(wants, own, strict=True) if c >= 0}
+    match = match_columns([sorted(columns) for columns in wants.values()])
+    return {r: c for r, c in zip(wants, match, strict=True) if c >= 0}
 
 
 def components(graph: dict[int, set[int]]) -> list[list[int]]:
     """Strongly connected components, those that depend on nothing else first."""
     names = list(graph)
     place = {name: k for k, name in enumerate(names)}
-    found = strong_components([[place[other] for other in sorted(graph[name])] for name in names])
-    return [[names[k] for k in part] for part in found]
+    parts = strong_components([[place[other] for other in sorted(graph[name])] for name in names])
+    return [[names[k] for k in part] for part in parts]

@@ -19,11 +19,11 @@ import numpy as np
 
 from dalembert.arrays import Array, Tree
 from dalembert.core.branchless import above, top, where
-from dalembert.core.equilibrium import Motion, Statement
+from dalembert.core.equilibrium import LinkMotions, Statement
 from dalembert.core.forcing import pair, total_wrench
 from dalembert.core.friction.contact_equations import (
+    ContactResponse,
     Contacts,
-    Response,
     SlipState,
     argument,
     bearing,
@@ -38,11 +38,11 @@ from dalembert.core.friction.contact_equations import (
 )
 from dalembert.core.friction.losses import dry_wrenches, power_reversed, viscous_wrenches
 from dalembert.core.friction.reversal import crossing
-from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.layout import ConstraintRows, Layout, Pose
 from dalembert.kernel.elimination import components, structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
 from dalembert.kernel.jam_proof import jams, lever
-from dalembert.kernel.program import Marks
+from dalembert.kernel.program import KernelFlags
 
 FEWEST, MOST = 3, 7
 """Least and largest number of Newton's steps."""
@@ -65,9 +65,9 @@ POWER = 12
 class Slip(NamedTuple):
     """Rows that the contacts act along, their senses and rates, the response to c z, and c z (E,)."""
 
-    along: System
+    along: ConstraintRows
     state: SlipState
-    r: Response
+    r: ContactResponse
     cz: Array
 
 
@@ -80,7 +80,7 @@ class FrictionTrace:
     total: Array
     force: Array
     moment: Array
-    marks: Marks
+    flags: KernelFlags
     slip: Slip | None = None
 
 
@@ -89,24 +89,24 @@ def trace_friction(
     layout: Layout,
     contacts: Contacts,
     pose: Pose,
-    moving: Motion,
+    moving: LinkMotions,
     s: Statement,
     still: Array | None,
     slips: Array | None = None,
     reversals: Array | None = None,
     side: Node | None = None,
-    given: Array | None = None,
+    friction: Array | None = None,
 ) -> FrictionTrace:
     """Multipliers with friction; ``still``: wrenches on the links without inertia, None if the same.
 
     ``slips``: z of each contact where the solution is known; then no verdicts are computed, as they are known too, and
     ``reversals`` has the sense of contacts that reverse, else 0. ``side``: -1 just before reversals, 1 just after.
-    ``given``: c z of each contact, whatever its law; then no verdicts are computed either.
+    ``friction``: c z of each contact, whatever its law; then no verdicts are computed either.
     """
     contacts = _trace_contacts(graph, contacts)
     twist = trace_array(graph, moving.twist)  # without motion they are numbers
-    along, found = response(layout, contacts, pose, s.forces, s.w, twist)
-    r = Response(*(trace_array(graph, a) for a in found))
+    along, arrays = response(layout, contacts, pose, s.forces, s.w, twist)
+    r = ContactResponse(*(trace_array(graph, a) for a in arrays))
     state = senses(layout, contacts, along, twist)
     if side is not None:
         state = _at_side(layout, contacts, along, pose, moving, state, side)
@@ -114,17 +114,17 @@ def trace_friction(
         moves = 1.0 - np.abs(reversals)
         open_: Any = moves * trace_array(graph, state.open)
         state = state._replace(sense=reversals + moves * state.sense, open=open_)
-    if given is not None:
-        total = s.w + total_wrench(layout, pair(along, given))
-        wrenches = dry_wrenches(layout, contacts, pose, along, np.where(contacts.fixed, 0.0, given))
-        x, slip = multiplier(r, given), Slip(along, state, r, given)
-        return FrictionTrace(x, total, *wrenches, Marks(), slip)
+    if friction is not None:
+        total = s.w + total_wrench(layout, pair(along, friction))
+        wrenches = dry_wrenches(layout, contacts, pose, along, np.where(contacts.fixed, 0.0, friction))
+        x, slip = multiplier(r, friction), Slip(along, state, r, friction)
+        return FrictionTrace(x, total, *wrenches, KernelFlags(), slip)
     sense, c = trace_array(graph, state.sense), trace_array(graph, strength(contacts, 1.0, sense=state.sense))
-    z, bears, marks = trace_slip(graph, contacts, with_strength(r, c), sense, slips)
+    z, bears, flags = trace_slip(graph, contacts, with_strength(r, c), sense, slips)
     x = multiplier(r, c * z)
     unknown = layout.constraints.count < len(x) and slips is None
 
-    def turning(problem: Response, x: Array, w: Array) -> Node:
+    def turning(problem: ContactResponse, x: Array, w: Array) -> Node:
         bare = problem.x  # separating forces of teeth have no power: the centres keep their distance
         flag: Node = -trace_array(graph, power_reversed(layout, s.unknown, moving.twist, w, x, bare)).item()
         return flag
@@ -132,10 +132,10 @@ def trace_friction(
     turns = turning(r, x, s.w) if unknown else graph.zero
     if still is not None and not is_zero(turns):
         other = under(layout, contacts, pose, s.forces, still, state.rate, r)
-        other = Response(*(trace_array(graph, a) for a in other))
+        other = ContactResponse(*(trace_array(graph, a) for a in other))
         alone, _, doubt = trace_slip(graph, contacts, with_strength(other, c), sense)
         locked = turning(other, multiplier(other, c * alone), still)
-        marks = marks if locked is turns else replace(marks, still=doubt.slips, locked=(locked,))
+        flags = flags if locked is turns else replace(flags, still=doubt.slips, locked=(locked,))
     force, moment = dry_wrenches(layout, contacts, pose, along, np.where(contacts.fixed, 0.0, c * z))
     viscous_force, viscous_moment, _ = viscous_wrenches(layout, contacts, pose, moving.twist)
     rest, idle = _at_rest(graph, trace_array(graph, state.open), bears, top(np.abs(r.y), 2))
@@ -144,18 +144,24 @@ def trace_friction(
         total=s.w + total_wrench(layout, pair(along, c * z)),
         force=force + viscous_force,
         moment=moment + viscous_moment,
-        marks=replace(marks, slips=(*marks.slips, *idle), rest=rest, turned=_nonzero(turns)),
+        flags=replace(flags, slips=(*flags.slips, *idle), rest=rest, turned=_nonzero(turns)),
         slip=Slip(along, state, r, c * z),
     )
 
 
 def _at_side(
-    layout: Layout, contacts: Contacts, along: System, pose: Pose, moving: Motion, now: SlipState, side: Node
+    layout: Layout,
+    contacts: Contacts,
+    along: ConstraintRows,
+    pose: Pose,
+    moving: LinkMotions,
+    now: SlipState,
+    side: Node,
 ) -> SlipState:
     """Senses just before or just after; open where the second rates do not determine them either."""
-    found = crossing(layout, contacts, along, pose, moving, now, np.ones(contacts.count, bool))
-    sense = where(np.array(side.positive(), object), found.after, found.before)
-    unknown = ~found.here & ~found.slow
+    sides = crossing(layout, contacts, along, pose, moving, now, np.ones(contacts.count, bool))
+    sense = where(np.array(side.positive(), object), sides.after, sides.before)
+    unknown = ~sides.here & ~sides.slow
     return now._replace(sense=where(unknown, now.sense, sense), open=now.open & unknown)
 
 
@@ -181,8 +187,8 @@ def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[
 
 
 def trace_slip(
-    graph: Graph, contacts: Contacts, r: Response, sense: Array, slips: Array | None = None
-) -> tuple[Array, Array, Marks]:
+    graph: Graph, contacts: Contacts, r: ContactResponse, sense: Array, slips: Array | None = None
+) -> tuple[Array, Array, KernelFlags]:
     """z and S of each contact (E,) for known senses, from the response with H after z, and flags for doubt and jams;
     ``slips`` are z where it is known."""
     count, largest = contacts.count, trace_array(graph, top(np.abs(r.y), 2))
@@ -218,10 +224,12 @@ def trace_slip(
         single.append(sure)
         stuck.append(jams(graph, part, inner, sense[k]) * known)
         right |= dict.fromkeys(block, known * last.positive() * rough.positive().larger(sure.positive()))
-    marks = Marks(slips=_varying(doubt), unsure=_varying(unsure), sure=_varying(single), jam=_varying(stuck))
-    if not (marks.unsure and marks.sure):  # in doubt, or jammed, only where both are
-        marks = Marks(slips=marks.slips)
-    return z, bears, marks
+    flags = KernelFlags(
+        slips=_varying(doubt), unsure=_varying(unsure), sure=_varying(single), jam=_varying(stuck)
+    )
+    if not (flags.unsure and flags.sure):  # in doubt, or jammed, only where both are
+        flags = KernelFlags(slips=flags.slips)
+    return z, bears, flags
 
 
 def _varying(nodes: list[Node]) -> tuple[Node, ...]:
@@ -246,7 +254,7 @@ def _contraction(graph: Graph, bound: Array, sense: Array) -> tuple[Node, Node]:
 def _newton(
     graph: Graph,
     contacts: Contacts,
-    r: Response,
+    r: ContactResponse,
     sense: Array,
     largest: Array,
     sure: Node,
@@ -282,7 +290,7 @@ def _newton(
 
 def _small(graph: Graph, change: Array, scale: Array, sure: Node) -> bool:
     """True if a change is small everywhere in the file's motion."""
-    found = graph.evaluate([change.item(), scale.item(), sure], {})
-    size, force, single = np.broadcast_arrays(*found)
+    values = graph.evaluate([change.item(), scale.item(), sure], {})
+    size, force, single = np.broadcast_arrays(*values)
     with np.errstate(all="ignore"):
         return not bool(((size > ENOUGH * force) & (single > 0)).any())

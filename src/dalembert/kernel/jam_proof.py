@@ -21,7 +21,7 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags
 from dalembert.core.branchless import larger
-from dalembert.core.friction.contact_equations import Contacts, Response, bearing, slope
+from dalembert.core.friction.contact_equations import ContactResponse, Contacts, bearing, slope
 from dalembert.kernel.graph import Graph, Node, trace_array
 
 TIMES = 3
@@ -39,15 +39,15 @@ def lever(h: Array, ball: Flags) -> Array:
     larger of its components and 0.415 of both."""
     first, second, third = np.abs(h)
     force = _length(first, second)
-    whole = _length(force, third) if ball.any() else force
-    return np.where(ball[:, None], whole, larger(force, third))
+    length = _length(force, third) if ball.any() else force
+    return np.where(ball[:, None], length, larger(force, third))
 
 
 def _length(a: Array, b: Array) -> Array:
     return np.asarray(0.586 * larger(a, b) + 0.415 * (a + b))
 
 
-def jams(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Node:
+def jams(graph: Graph, contacts: Contacts, r: ContactResponse, sense: Array) -> Node:
     """Negative where a block of contacts is proved to have no solution; from the response with H after z."""
     contacts, y0, k = _without_signed(graph, contacts, r.y, -r.h * sense)
     s: Array = trace_array(graph, np.ones(y0.shape[1]))
@@ -66,11 +66,11 @@ def _without_signed(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tup
     signed = contacts.signed
     y, k = trace_array(graph, y), trace_array(graph, k)
     for a in np.flatnonzero(signed):
-        row, own = k[0, a].copy(), k[:, :, a].copy()
+        row, column = k[0, a].copy(), k[:, :, a].copy()
         over = 1.0 / (1.0 - row[a])
         row[a] = graph.zero
-        y = y + own * (over * y[0, a])
-        k = k + own[:, :, None] * (over * row)
+        y = y + column * (over * y[0, a])
+        k = k + column[:, :, None] * (over * row)
         k[:, :, a] = graph.zero
     kept = np.flatnonzero(~signed)
     contacts = replace(contacts, signed=signed[kept], ball=contacts.ball[kept])
@@ -82,9 +82,9 @@ def _prove(graph: Graph, w: Array, pulled: Array, loads: Array, size: Array, bou
     NaN."""
     zero = trace_array(graph, np.zeros(len(w)))
     d = trace_array(graph, pulled - (1 + MARGIN) * w)
-    own = np.diag(bound)
-    lacking = larger(zero, -d) / larger(np.full(len(w), LEAST), 1.0 - own)
-    rest = larger(d, zero) - lacking @ (bound - np.diag(own))
+    diagonal = np.diag(bound)
+    lacking = larger(zero, -d) / larger(np.full(len(w), LEAST), 1.0 - diagonal)
+    rest = larger(d, zero) - lacking @ (bound - np.diag(diagonal))
     sum_ = (w * loads).sum() - (lacking * size).sum() - MARGIN * (w * size).sum()
     proved: Any = trace_array(graph, sum_).item().positive()
     for x in trace_array(graph, rest):

@@ -47,12 +47,12 @@ def result_array(shape: tuple[int, ...]) -> tuple[Array, bool]:
     count = math.prod(shape)
     size, again = count + LINE // 8, False
     if 8 * count < FRESH:
-        whole = np.empty(size)
+        buffer = np.empty(size)
     else:
         pages = _Pages(size)
-        whole, again = np.asarray(pages), pages.again and 8 * count >= LARGE
-    first = -address(whole) % LINE // 8
-    return whole[first : first + count].reshape(shape), again
+        buffer, again = np.asarray(pages), pages.again and 8 * count >= LARGE
+    first = -address(buffer) % LINE // 8
+    return buffer[first : first + count].reshape(shape), again
 
 
 def aligned_array(shape: tuple[int, ...]) -> Array:
@@ -65,22 +65,22 @@ def address(array: Any) -> int:
     try:  # several times as fast
         return ctypes.addressof(ctypes.c_char.from_buffer(array))
     except (TypeError, ValueError):  # not to be written to, or empty
-        found: int = array.__array_interface__["data"][0]
-        return found
+        start: int = array.__array_interface__["data"][0]
+        return start
 
 
 def available() -> float:
     """Bytes that a result may take: free or reclaimable memory, on Linux, within a container's limit; elsewhere the
     total, infinite where the system does not report it."""
-    found = math.inf
+    free_bytes = math.inf
     with suppress(AttributeError, ValueError, OSError):  # not on Windows; not every system knows the names
-        found = float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+        free_bytes = float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
     free = _read("/proc/meminfo").get("MemAvailable:")
     limit = _read("/sys/fs/cgroup/memory.max", "limit").get("limit")
     if limit is not None:
         used = _read("/sys/fs/cgroup/memory.current", "used").get("used", 0)
         limit += _read("/sys/fs/cgroup/memory.stat").get("inactive_file", 0) - used
-    return min(found, math.inf if free is None else 1024 * free, math.inf if limit is None else limit)
+    return min(free_bytes, math.inf if free is None else 1024 * free, math.inf if limit is None else limit)
 
 
 def _read(path: str, name: str = "") -> dict[str, int]:

@@ -42,9 +42,9 @@ def path_array(columns: Array, common: Array, lanes: int, weighted: bool) -> tup
     if weighted:
         weight = (np.arange(blocks * lanes) < count).astype(float).reshape(blocks, 1, lanes)
         out = np.concatenate([out, weight], axis=1)
-    whole = aligned_array((out.size + len(common),))
-    whole[: out.size], whole[out.size :] = out.ravel(), common
-    return whole, blocks
+    channels = aligned_array((out.size + len(common),))
+    channels[: out.size], channels[out.size :] = out.ravel(), common
+    return channels, blocks
 
 
 def row_length(blocks: int, lanes: int) -> int:
@@ -107,13 +107,13 @@ def run_pairs(
     def part(which: slice) -> None:
         mine = to_blocks(np.asarray(values[which], float), lanes)
         path, blocks = path_array(columns[which], common, lanes, weighted=False)
-        found = aligned_array((blocks, out.shape[1], lanes))
-        marks = np.empty((blocks, lanes), np.uint8)
+        results = aligned_array((blocks, out.shape[1], lanes))
+        flags = np.empty((blocks, lanes), np.uint8)
         counts = (values.shape[1], columns.shape[1], 0, blocks)
-        machine(mine, path, found, marks, counts)
+        machine(mine, path, results, flags, counts)
         count = len(out[which])
-        out[which] = found.swapaxes(1, 2).reshape(-1, out.shape[1])[:count]
-        code[which] = marks.ravel()[:count]
+        out[which] = results.swapaxes(1, 2).reshape(-1, out.shape[1])[:count]
+        code[which] = flags.ravel()[:count]
 
     in_parts(part, len(values), part_size(len(values), PAIR, threads), threads, progress)
 
@@ -138,15 +138,15 @@ def run_designs(
     def part(which: slice) -> None:
         mine = to_blocks(np.asarray(values[which], float), lanes)
         place = slice(which.start, which.start + len(mine) * lanes)
-        found, marks = aligned_array((len(mine), outputs, lanes)), np.empty((len(mine), lanes), np.uint8)
+        results, flags = aligned_array((len(mine), outputs, lanes)), np.empty((len(mine), lanes), np.uint8)
         counts = (values.shape[1], columns.shape[1], 0, len(mine))
         for k, row in enumerate(columns):
             same = np.broadcast_to(row[None, :, None], (len(mine), len(row), lanes))
             path = aligned_array((same.size + len(common),))
             path[: same.size], path[same.size :] = same.ravel(), common
-            machine(mine, path, found, marks, counts)
-            out[:, k, place].reshape(outputs, len(mine), lanes)[:] = found.swapaxes(0, 1)
-            code[k, place] = marks.ravel()
+            machine(mine, path, results, flags, counts)
+            out[:, k, place].reshape(outputs, len(mine), lanes)[:] = results.swapaxes(0, 1)
+            code[k, place] = flags.ravel()
 
     in_parts(part, count, step, threads, progress)
     return out[..., :count].transpose(2, 0, 1), code[:, :count].T

@@ -26,7 +26,7 @@ CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "slope": 12, "
 
 
 @dataclass(frozen=True)
-class Marks:
+class KernelFlags:
     """Nodes that decide whether the outputs are valid, each negative where it applies.
 
     open: the linkage does not close. doubt (below zero, or no number): the general executor decides. rest: friction
@@ -64,7 +64,7 @@ class Marks:
     @property
     def names(self) -> list[str]:
         """Flags that can occur; the first takes precedence."""
-        there: dict[str, Sequence[Node]] = {
+        flags: dict[str, Sequence[Node]] = {
             "open": self.open,
             "doubt": [*self.doubt, *self.slips, *self.sure, *self.still],
             "rest": self.rest,
@@ -73,7 +73,7 @@ class Marks:
             "slope": self.slope,
             "outside": self.outside,
         }
-        return [name for name, nodes in there.items() if nodes]
+        return [name for name, nodes in flags.items() if nodes]
 
 
 @dataclass(frozen=True)
@@ -82,12 +82,12 @@ class Program:
 
     graph: Graph
     outputs: tuple[Node, ...]
-    marks: Marks = Marks()
+    flags: KernelFlags = KernelFlags()
 
     @cached_property
     def order(self) -> list[Node]:
         """Every node needed, arguments first."""
-        return self.graph.order([*self.outputs, *self.marks.always, *self.marks.seldom, *self.marks.jam])
+        return self.graph.order([*self.outputs, *self.flags.always, *self.flags.seldom, *self.flags.jam])
 
     @cached_property
     def design(self) -> list[Node]:
@@ -97,18 +97,18 @@ class Program:
     @cached_property
     def position(self) -> list[Node]:
         """Operations of every position."""
-        always = self.graph.order([*self.outputs, *self.marks.always])
+        always = self.graph.order([*self.outputs, *self.flags.always])
         return [n for n in always if n.a is not None and n.level & POSITION]
 
     @cached_property
     def seldom(self) -> list[Node]:
         """Operations of the rarely evaluated flags."""
-        return self._beyond(self.marks.seldom, self.position)
+        return self._beyond(self.flags.seldom, self.position)
 
     @cached_property
     def rare(self) -> list[Node]:
         """Operations of the proof of a jam."""
-        return self._beyond(self.marks.jam, [*self.position, *self.seldom])
+        return self._beyond(self.flags.jam, [*self.position, *self.seldom])
 
     def _beyond(self, nodes: Sequence[Node], done: list[Node]) -> list[Node]:
         """Operations of every position that some nodes need in addition to those done."""

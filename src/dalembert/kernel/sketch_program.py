@@ -40,8 +40,8 @@ class PoseInputs:
 
 def origins(layout: Layout, pose: Pose) -> Array:
     """Origins (..., L, d) of the links' axes at poses of the core."""
-    own = pose.point - layout.algebra.rotate(pose.rotation, layout.reference) + layout.reference[-1]
-    return np.asarray(own[..., :-1, :])
+    points = pose.point - layout.algebra.rotate(pose.rotation, layout.reference) + layout.reference[-1]
+    return np.asarray(points[..., :-1, :])
 
 
 def pose_inputs(graph: Graph, layout: Layout, like: Layout, known: Pose) -> PoseInputs:
@@ -142,15 +142,15 @@ def _periods(rows: Rows) -> Iterator[tuple[int, object]]:
 
 def _entries(graph: Graph, layout: Layout, rows: Rows, pose: Pose) -> list[list[tuple[int, Node]]]:
     """For each row the columns and entries that are not always zero: wrenches about the origins of the links' axes."""
-    g, found = layout.algebra, list[list[tuple[int, Node]]]([] for _ in range(rows.count))
+    g, entries = layout.algebra, list[list[tuple[int, Node]]]([] for _ in range(rows.count))
     arms = g.rotate(pose.rotation, trace_array(graph, layout.reference))
     for links, on in zip(rows.ends, wrenches(g, rows, pose), strict=True):
         on = trace_array(graph, on)
         on[:, g.d :] = on[:, g.d :] + g.cross(arms[links], on[:, : g.d])
         for k, link in enumerate(links.tolist()):
             if link < layout.links:
-                found[k] += [(g.n * link + c, x) for c, x in enumerate(on[k]) if not is_zero(x)]
-    return found
+                entries[k] += [(g.n * link + c, x) for c, x in enumerate(on[k]) if not is_zero(x)]
+    return entries
 
 
 def elimination_order(layout: Layout) -> list[int]:

@@ -16,7 +16,7 @@ from dalembert.arrays import Array
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import measure
 from dalembert.core.equilibrium import (
-    Balance,
+    Equilibrium,
     Known,
     Statement,
     known_sources,
@@ -26,11 +26,11 @@ from dalembert.core.equilibrium import (
     statement,
     virtual_power,
 )
-from dalembert.core.equilibrium import Motion as Moving
-from dalembert.core.forcing import Forcing, Source, pair, total_wrench
+from dalembert.core.equilibrium import LinkMotions as Moving
+from dalembert.core.forcing import Forcing, WrenchSource, pair, total_wrench
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.geometry import span
-from dalembert.core.layout import Angle, Layout, Pose, System
+from dalembert.core.layout import Angle, ConstraintRows, Layout, Pose
 from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_places, held_wheels, phase_rows, with_rows
 from dalembert.core.position.newton import CLOSED, gap
@@ -39,10 +39,10 @@ from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
 from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, is_zero, trace_array
 from dalembert.kernel.position.closed_forms import newton_correction, positions
-from dalembert.kernel.position.rigid_parts import Motion, Placed
+from dalembert.kernel.position.rigid_parts import PlacedPose, TracePlan
 from dalembert.kernel.position.space_positions import space_correction, space_positions
 from dalembert.kernel.position.unrolled_newton import solver
-from dalembert.kernel.program import Marks
+from dalembert.kernel.program import KernelFlags
 
 PASSES = 40
 """Largest number of repetitions for tooth forces that push movable centres."""
@@ -60,13 +60,12 @@ class Drives:
 
 
 @dataclass(frozen=True)
-class Problem:
+class TracedProblem:
     """A compiled mechanism whose numbers are nodes; ``like`` is the same with the file's numbers, ``like_target`` its
     stacked targets at the first position. With ``slips``, the friction of each contact, the known motion is the
-    solution (``reversals`` is the sense of a contact where it reverses); one step of Newton remains, which carries the
-    derivatives. ``margins`` are, by freedom, the differences between the turns of springs and those of the known motion
-    within which the count of whole turns is the same. ``moves``: the drives move on from the known motion, and the
-    friction of each contact is an input, not yet known."""
+    solution (``reversals``: the sense where a contact reverses); one step of Newton remains, which carries the
+    derivatives. ``margins``: by freedom, how far springs' turns may differ from the known motion's for the same count.
+    ``moves``: the drives move on from it, and friction is an input."""
 
     graph: Graph
     layout: Layout
@@ -90,20 +89,17 @@ class Problem:
     moves: bool = False
     side: Node | None = None  # -1 just before reversals, 1 just after
     redundant: bool = False  # some rows repeat others
-    whole: bool = False  # and where closed forms need a choice of these, Newton's steps take all
+    unsplit: bool = False  # and where closed forms need a choice of these, Newton's steps take all
     phased: bool = False  # the phases of wheels are in the target
     pushing: Pushing | None = None  # contacts that hold one way alone
 
 
 @dataclass(frozen=True)
 class Traced:
-    """All possible outputs as nodes: arrays as in a ``Result`` without the position axis.
-
-    closure: the doubts that are squares of quantities that vanish at a dead centre, or fourth powers where constraints
-    are redundant. unbalanced and loads (L, n): the residual of all wrenches on a link, and the sum of those that are
-    not reactions; virtual (D, L+1, n) twists at unit speed of each drive, power (D,) of loads and efforts there.
-    sources: wrenches of loads by kind, one by one, `asked` the unknown ones.
-    """
+    """All possible outputs as nodes: arrays as in a ``Result`` without the position axis. closure: doubts that are
+    squares of what vanishes at a dead centre, or fourth powers where constraints are redundant; unbalanced, loads (L, n):
+    residual of all wrenches on a link, sum of those that are not reactions; virtual (D, L+1, n): twists at unit speed of
+    each drive; power (D,) of loads and efforts there; sources: wrenches of loads by kind, `asked` the unknown ones."""
 
     pose: Pose
     twist: Array
@@ -121,7 +117,7 @@ class Traced:
     doubt: list[Node]
     friction: FrictionTrace
     flips: bool
-    sources: dict[str, Source]
+    sources: dict[str, WrenchSource]
     forcing: Forcing
     graph: Graph
     scale: Array
@@ -133,29 +129,24 @@ class Traced:
         return _largest(self.graph, out) / (_largest(self.graph, size) + 1e-300)
 
 
-def trace(p: Problem) -> Traced:
+def trace(p: TracedProblem) -> Traced:
     """Positions, motion and equilibrium of one position of one design."""
-    layout, decided = replace(p.layout, solver=solver(p.graph)), _decided(p)
-    target, apart = _with_phase(p, layout)
+    layout, decided = replace(p.layout, solver=solver(p.graph)), _decided(p.graph)
+    target, gaps = _with_phase(p, layout)
     placed = _trace_pose(p, layout, target, p.drives, p.path)
     if p.redundant:
         placed.open.append(_closed(p, layout, placed.pose, target))
     if p.phased:
-        apart = _centres_apart(p, layout, placed)
-    return _trace_at(p, layout, placed, [*apart, *decided])
+        gaps = _centre_gaps(p, layout, placed)
+    return _trace_at(p, layout, placed, [*gaps, *decided])
 
 
-def trace_at(p: Problem, pose: Pose) -> Traced:
+def trace_at(p: TracedProblem, pose: Pose) -> Traced:
     """Motion and equilibrium of one position where the pose is known."""
-    return _trace_at(p, replace(p.layout, solver=solver(p.graph)), Placed(pose), _decided(p))
+    return _trace_at(p, replace(p.layout, solver=solver(p.graph)), PlacedPose(pose), _decided(p.graph))
 
 
-def _decided(p: Problem) -> list[Node]:
-    """Nodes that are negative where the description decides otherwise, as which of two wheels is inside the other."""
-    return [n for n in p.graph.decisions if n.level != CONSTANT]
-
-
-def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> Traced:
+def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[Node]) -> Traced:
     pose = placed.pose
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
     if p.at_pose is not None:
@@ -165,17 +156,17 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
     x, idle = friction.x, layout.constraints.idle
     spins = trace_array(p.graph, x[idle])
     x[idle] = 0.0
-    count, asked = layout.constraints.count, int(p.known.asked.sum())
+    count, count_efforts = layout.constraints.count, int(p.known.requested.sum())
     effort = p.known.effort[0].astype(object)
-    effort[p.known.asked] = x[count : count + asked]
+    effort[p.known.requested] = x[count : count + count_efforts]
     pushed = fc.separation(layout, pose, p.forcing.separation, x)
-    found = Balance(x[:count], effort, x[count + asked :], *(np.zeros(0),) * 3, None, pushed)
-    force, couple = reactions(layout, pose, rows, found)
+    balance = Equilibrium(x[:count], effort, x[count + count_efforts :], *(np.zeros(0),) * 3, None, pushed)
+    force, couple = reactions(layout, pose, rows, balance)
     g, singular = p.graph, _singular(p, factors, s.forces)
     reacted = total_wrench(layout, pair(s.unknown, x))
     if p.known.link.size:
         unit = load_rows(layout, p.known, pose)
-        sources["asked"] = Source(unit.j, unit.on_j * found.load[:, None])
+        sources["asked"] = WrenchSource(unit.j, unit.on_j * balance.load[:, None])
     force, moment = force + friction.force, couple.reshape(friction.moment.shape) + friction.moment
     pushes = p.pushing and contact_forces(layout, p.pushing, pose, force, moment)
     return Traced(
@@ -185,7 +176,7 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
         force=trace_array(g, force),
         moment=trace_array(g, moment),
         effort=trace_array(g, effort),
-        load=trace_array(g, found.load),
+        load=trace_array(g, balance.load),
         unbalanced=trace_array(g, reacted + friction.total),
         loads=trace_array(g, friction.total),
         virtual=trace_array(g, moving.virtual),
@@ -193,7 +184,7 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
         open=placed.open,
         closure=[*placed.doubt, *singular] if p.redundant else placed.doubt,
         doubt=[
-            *apart,
+            *gaps,
             *placed.doubt,
             *singular,
             *_short(p, layout, pose),
@@ -211,55 +202,60 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
 
 
 def _trace_equilibrium(
-    p: Problem,
+    p: TracedProblem,
     layout: Layout,
     pose: Pose,
     moving: Moving,
-    rows: System,
+    rows: ConstraintRows,
     factors: Factor,
-    sources: dict[str, Source],
+    sources: dict[str, WrenchSource],
 ) -> tuple[Statement, FrictionTrace]:
     """Equilibrium system, and its multipliers, with friction where contacts have any."""
 
     def statement_of(*kinds: str) -> Statement:
         loads = total_wrench(layout, *(sources[kind] for kind in kinds))
-        found = statement(layout, p.known, pose, rows, factors, loads)
-        return found._replace(w=found.w.reshape(found.w.shape[-2:]))
+        equations = statement(layout, p.known, pose, rows, factors, loads)
+        return equations._replace(w=equations.w.reshape(equations.w.shape[-2:]))
 
     s = statement_of(*sources)
     if p.contacts is None:
         x, total = _multipliers(p, layout, pose, s)
         d = layout.algebra.d
         none = np.zeros((layout.joints, d)), np.zeros((layout.joints, 3) if d == 3 else layout.joints)
-        return s, FrictionTrace(x, total, *none, Marks())
+        return s, FrictionTrace(x, total, *none, KernelFlags())
     still = statement_of(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
     known = p.slips, p.reversals, p.side
     count = p.contacts.count if p.moves else 0
-    given = np.array([p.graph.input("channel", f"friction {e}", 0.0) for e in range(count)], object)
+    friction = np.array([p.graph.input("channel", f"friction {e}", 0.0) for e in range(count)], object)
     return s, trace_friction(
-        p.graph, layout, p.contacts, pose, moving, s, still, *known, given if p.moves else None
+        p.graph, layout, p.contacts, pose, moving, s, still, *known, friction if p.moves else None
     )
 
 
 def _trace_pose(
-    p: Problem, layout: Layout, target: Array, drives: Drives, path: Callable[[str, int], Node]
-) -> Placed:
+    p: TracedProblem, layout: Layout, target: Array, drives: Drives, path: Callable[[str, int], Node]
+) -> PlacedPose:
     """Poses at the drives' positions."""
     count = layout.constraints.count
     angular = layout.freedoms.angular[layout.driven]
-    turns = {int(r): (_cos(target[r]), _sin(target[r])) for r in np.flatnonzero(layout.constraints.angular)}
+    turns = {
+        int(r): (_circular("cos", target[r]), _circular("sin", target[r]))
+        for r in np.flatnonzero(layout.constraints.angular)
+    }
     turns |= {count + int(k): (drives.cosine[k], drives.sine[k]) for k in np.flatnonzero(angular)}
-    whole = trace_array(p.graph, np.concatenate([target, drives.position]))
-    ways = (positions, newton_correction) if layout.algebra.d == 2 else (space_positions, space_correction)
-    place = ways[p.slips is not None]
-    own = Motion(p.graph, layout, whole, turns, path, p.signs, moves=p.moves, redundant=p.redundant)
-    found = place(own)
-    if p.whole and layout.algebra.d == 2 and found.doubt:  # of a choice of rows, not of all
-        return place(replace(own, placed=set(), whole=True))
-    return found
+    inputs = trace_array(p.graph, np.concatenate([target, drives.position]))
+    methods = (positions, newton_correction) if layout.algebra.d == 2 else (space_positions, space_correction)
+    place = methods[p.slips is not None]
+    known_motion = TracePlan(
+        p.graph, layout, inputs, turns, path, p.signs, moves=p.moves, redundant=p.redundant
+    )
+    pose = place(known_motion)
+    if p.unsplit and layout.algebra.d == 2 and pose.doubt:  # of a choice of rows, not of all
+        return place(replace(known_motion, placed=set(), unsplit=True))
+    return pose
 
 
-def _closed(p: Problem, layout: Layout, pose: Pose, target: Array) -> Node:
+def _closed(p: TracedProblem, layout: Layout, pose: Pose, target: Array) -> Node:
     """Nodes that are negative where some constraint is not met: redundant ones may have been left out."""
     rest = replace(layout, driven=np.zeros(0, np.intp))
     off = np.delete(gap(rest, pose, trace_array(p.graph, target)), layout.constraints.idle)
@@ -267,15 +263,11 @@ def _closed(p: Problem, layout: Layout, pose: Pose, target: Array) -> Node:
     return margin
 
 
-def _cos(angle: Scalar) -> Scalar:
-    return angle.cos() if type(angle) is Node else np.cos(float(angle))
+def _circular(name: str, angle: Scalar) -> Scalar:
+    return getattr(angle, name)() if type(angle) is Node else getattr(np, name)(float(angle))  # type: ignore[no-any-return]
 
 
-def _sin(angle: Scalar) -> Scalar:
-    return angle.sin() if type(angle) is Node else np.sin(float(angle))
-
-
-def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
+def _with_phase(p: TracedProblem, layout: Layout) -> tuple[Array, list[Node]]:
     """Targets of meshes and rolling wheels, their measures at the first position of each design; and nodes that are
     negative where wheels do not meet."""
     rows = phase_rows(layout.constraints)
@@ -296,15 +288,15 @@ def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
     first = _trace_pose(p, with_rows(layout, kept, held, places), target, p.first, p.first_path)
     out = p.target.astype(object)
     out[rows] = measure(layout.algebra, layout.constraints, first.pose)[rows]
-    return out, _apart(p, layout, first)
+    return out, _mesh_gaps(p, layout, first)
 
 
-def _apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
+def _mesh_gaps(p: TracedProblem, layout: Layout, first: PlacedPose) -> list[Node]:
     """Conditions that meshing wheels are at the sum of their pitch radii and that the first position is valid."""
-    return [n for n in (*first.doubt, *first.open) if n.level != CONSTANT] + _centres_apart(p, layout, first)
+    return [n for n in (*first.doubt, *first.open) if n.level != CONSTANT] + _centre_gaps(p, layout, first)
 
 
-def _centres_apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
+def _centre_gaps(p: TracedProblem, layout: Layout, first: PlacedPose) -> list[Node]:
     """Negative where the distance of two centres is not the sum of the pitch radii."""
     out: list[Node] = []
     for f in fc.meshes(layout):
@@ -320,7 +312,7 @@ MESH = 1e-3
 """Relative error of a centre distance that a mesh tolerates, as in the general executor."""
 
 
-def _multipliers(p: Problem, layout: Layout, pose: Pose, s: Statement) -> tuple[Array, Array]:
+def _multipliers(p: TracedProblem, layout: Layout, pose: Pose, s: Statement) -> tuple[Array, Array]:
     """Multipliers and total wrenches; tooth forces push the wheels apart by the size of the tangential ones."""
     x, total, tangent = s.forces.forces(-s.w.reshape(-1)), s.w, p.forcing.separation
     if not tangent.size or not tangent.any():
@@ -336,6 +328,10 @@ def _multipliers(p: Problem, layout: Layout, pose: Pose, s: Statement) -> tuple[
     return x, total
 
 
+def _decided(graph: Graph) -> list[Node]:
+    return [n for n in graph.decisions if n.level != CONSTANT]
+
+
 def _largest(graph: Graph, array: Array) -> Node:
     top = graph.zero
     for x in array.ravel():
@@ -347,7 +343,7 @@ NEAR = 1e-5
 """Squared pivot over its size in the file's motion below which a position is left to the general executor."""
 
 
-def _singular(p: Problem, *factors: object) -> list[Node]:
+def _singular(p: TracedProblem, *factors: object) -> list[Node]:
     """Nodes that are negative near a singular configuration; known solutions are exempt."""
     if p.slips is not None:
         return []
@@ -360,7 +356,7 @@ def _singular(p: Problem, *factors: object) -> list[Node]:
     return out
 
 
-def _turn_count_doubt(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
+def _turn_count_doubt(p: TracedProblem, layout: Layout, pose: Pose) -> list[Node]:
     """Nodes that are negative where a design turns a spring so far from the known motion that its whole turns may
     differ."""
     if p.slips is not None or not p.margins:
@@ -392,7 +388,7 @@ def _unheld(graph: Graph, layout: Layout, spins: Array, w: Array) -> list[Node]:
     return [size - abs(x) for x in spins if not is_zero(x)]
 
 
-def _short(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
+def _short(p: TracedProblem, layout: Layout, pose: Pose) -> list[Node]:
     """Not positive where a spring or damper whose direction matters has zero length."""
     springs = p.forcing.springs
     nodes = trace_array(p.graph, fc.away(layout, springs, pose))[fc.needs_direction(springs)]

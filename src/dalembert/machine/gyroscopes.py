@@ -63,11 +63,11 @@ def gyroscopic(r: Result, rotor: str, carrier: str = GROUND) -> Gyroscopic:
             f"{rotor} does not spin in {carrier} everywhere", "drive it, or name another carrier"
         )
     e = relative / size[:, None]
-    own, turned = turning(r, rotor), r.rotation(rotor)
+    motion, turned = turning(r, rotor), r.rotation(rotor)
     axis = (np.swapaxes(turned, 1, 2) @ e[..., None])[..., 0]
-    inertia = np.einsum("pi,ij,pj->p", axis, own.inertia, axis)
+    inertia = np.einsum("pi,ij,pj->p", axis, motion.inertia, axis)
     spin = (w * e).sum(axis=1)
     precession = held - (held * e).sum(axis=1)[:, None] * e
     couple = (inertia * spin)[:, None] * np.cross(precession, e)
-    exact = (turned @ (own.rate + own.gyroscopic)[..., None])[..., 0]
+    exact = (turned @ (motion.rate + motion.gyroscopic)[..., None])[..., 0]
     return Gyroscopic(r, rotor, carrier, e, spin, precession, couple, exact)

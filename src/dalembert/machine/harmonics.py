@@ -86,12 +86,12 @@ def harmonics(values: Array | Sequence[float], angle: Array, orders: int | Seque
         raise ModelError(
             f"position {k + 1} has no value, and harmonics need them all", "change the range or the machine"
         )
-    asked = _orders(orders, turns, len(y))
-    found = _coefficients(y, np.asarray(angle), asked)
-    half = len(y) % 2 == 0 and (asked < len(y) / turns / 4).all()
-    coarse = _coefficients(y[::2], np.asarray(angle)[::2], asked) if half else np.zeros_like(found)
-    aliasing = float(np.abs(found - coarse).max(initial=0.0)) if half else math.nan
-    return Harmonics(asked, found[0], found[1], turns, aliasing)
+    wanted = _orders(orders, turns, len(y))
+    coefficients = _coefficients(y, np.asarray(angle), wanted)
+    half = len(y) % 2 == 0 and (wanted < len(y) / turns / 4).all()
+    coarse = _coefficients(y[::2], np.asarray(angle)[::2], wanted) if half else np.zeros_like(coefficients)
+    aliasing = float(np.abs(coefficients - coarse).max(initial=0.0)) if half else math.nan
+    return Harmonics(wanted, coefficients[0], coefficients[1], turns, aliasing)
 
 
 def whole_turns(angle: Array) -> int:
@@ -119,14 +119,14 @@ def _orders(orders: int | Sequence[float], turns: int, count: int) -> Array:
             require("order", order)
     else:
         require("orders", orders)
-    asked = np.arange(orders * turns + 1) / turns if isinstance(orders, int) else np.array(orders, float)
-    steps = asked * turns
-    if not np.allclose(steps, np.round(steps)) or (asked < 0).any():
+    terms = np.arange(orders * turns + 1) / turns if isinstance(orders, int) else np.array(orders, float)
+    steps = terms * turns
+    if not np.allclose(steps, np.round(steps)) or (terms < 0).any():
         raise ModelError(
-            f"a period of {turns} turn{'s' * (turns > 1)} has no harmonic of each order in {[float(k) for k in asked]}",
+            f"a period of {turns} turn{'s' * (turns > 1)} has no harmonic of each order in {[float(k) for k in terms]}",
             f"its orders are multiples of 1/{turns}" if turns > 1 else "its orders are integers",
         )
-    most = float(asked.max(initial=0.0))
+    most = float(terms.max(initial=0.0))
     if 2 * most * turns >= count:
         raise ModelError(
             f"order {number(most)} needs more than {number(2 * most * turns)} positions, and there are {count}",
@@ -139,5 +139,5 @@ def _coefficients(y: Array, q: Array, orders: Array) -> Array:
     """Cosine and sine coefficients (2, K, ...)."""
     waves = np.stack([np.cos(np.outer(orders, q)), np.sin(np.outer(orders, q))])
     weight = np.where(orders == 0, 1.0, 2.0) / len(q)
-    found = np.tensordot(waves, y, axes=1)
-    return np.asarray(found * weight.reshape(-1, *[1] * (y.ndim - 1)))
+    sums = np.tensordot(waves, y, axes=1)
+    return np.asarray(sums * weight.reshape(-1, *[1] * (y.ndim - 1)))

@@ -24,17 +24,17 @@ class LinkAxes:
         self.rotation[:, :d, :d] = r.rotation(link)
         self.rate, self.turning = np.zeros((count, 3, 3)), np.zeros((0, 3))
         if r.inertia:
-            alpha, w = (self.own_couple(v) for v in (r.acceleration(link), r.speed(link)))
+            alpha, w = (self.couple_to_link(v) for v in (r.acceleration(link), r.speed(link)))
             self.rate = _cross(alpha) + _cross(w) @ _cross(w)
             self.turning = np.concatenate([alpha, w])
 
-    def own(self, v: Array) -> Array:
+    def to_link(self, v: Array) -> Array:
         """Vectors (P, d) of ground axes in link axes (P, 3)."""
         return np.asarray(np.einsum("pji,pj->pi", self.rotation, in_space(v)))
 
-    def own_couple(self, v: Array) -> Array:
+    def couple_to_link(self, v: Array) -> Array:
         """The same of a couple or a turning: (P,) in the plane."""
-        return self.own(couple_in_space(v))
+        return self.to_link(couple_in_space(v))
 
 
 def in_space(vector: Sequence[float] | Array) -> Array:

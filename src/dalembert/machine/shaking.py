@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -103,8 +103,8 @@ class Shaking(MachineAnswer):
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """Every number: the first drives' positions, force and moment, and their parts."""
         yield from self.drive_columns()
-        whole = {"shaking": (self.force, self.moment)}
-        for name, wrench in (whole | self.parts).items():
+        totals = {"shaking": (self.force, self.moment)}
+        for name, wrench in (totals | self.parts).items():
             for kind, numbers in zip(("force", "moment"), wrench, strict=True):
                 yield from (Column(f"{name}_{kind}{axis}", kind, v) for axis, v in parts(numbers))
         if self.couple is not None:
@@ -113,8 +113,8 @@ class Shaking(MachineAnswer):
 
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""
-        said = {"links": self.links, "about": self.about, "whole": self.whole, "outside": self.outside}
-        return {"shaking": {**said, "point": to("length", self.point)}}
+        stated = {"links": self.links, "about": self.about, "whole": self.whole, "outside": self.outside}
+        return {"shaking": {**stated, "point": to("length", self.point)}}
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
         """What a person reads, in the units of a scale."""
@@ -128,7 +128,7 @@ class Shaking(MachineAnswer):
 
         return shaking_scenes(self, notation)
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         from dalembert.reports.machine_sections.shaking_section import shaking_section
 
@@ -174,11 +174,11 @@ def _couple(r: Result, loads: Sequence[Action]) -> Array | None:
 
 
 def _chosen(r: Result, links: Iterable[str] | None) -> tuple[str, ...]:
-    asked = r.links if links is None else tuple([links] if isinstance(links, str) else links)
-    for link in asked:
+    names = r.links if links is None else tuple([links] if isinstance(links, str) else links)
+    for link in names:
         if link not in r.links:
             raise ModelError(f"unknown moving link {link!r}", closest(link, list(r.links)))
-    return tuple(link for link in r.links if link in asked)
+    return tuple(link for link in r.links if link in names)
 
 
 def fixed_point(r: Result, about: About) -> tuple[str, Array]:

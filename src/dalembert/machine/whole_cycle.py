@@ -94,13 +94,13 @@ def sampled(r: Result, changes: Mapping[str, float], what: str = "Means and grea
     count = len(r.status)
     if count == 1:
         return ""
-    said = f"{what} are those of the {count} positions, not of the motion between them"
+    text = f"{what} are those of the {count} positions, not of the motion between them"
     worst = max(
         (name for name in changes if np.isfinite(changes[name])), key=lambda name: changes[name], default=""
     )
     if not worst:
-        return f"{said}."
-    return f"{said}: with half of the positions they differ by {number(100 * changes[worst], 2)} % at most ({worst})."
+        return f"{text}."
+    return f"{text}: with half of the positions they differ by {number(100 * changes[worst], 2)} % at most ({worst})."
 
 
 def sampling(
@@ -111,9 +111,9 @@ def sampling(
     ``of(at)`` gives them for some positions; ``peaks``: of those that are the greatest of
     values (P,), these: where a parabola through a peak and its neighbours goes further beyond it, that counts.
     """
-    whole, some = of(np.arange(len(r.status))), [of(at) for at in halves(r)]
+    full, some = of(np.arange(len(r.status))), [of(at) for at in halves(r)]
     out = {}
-    for name, value in whole.items():
+    for name, value in full.items():
         off = max((abs(v[name] - value) for v in some), default=math.nan)
         if name in peaks and some:
             off = max(off, _beyond(np.abs(peaks[name]), _closed(r)))

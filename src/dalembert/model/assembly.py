@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
-from dalembert.model.part import Reading, mapping, reading
+from dalembert.model.part import ReadingRules, mapping, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
-    Value,
+    ValueField,
     Vector,
     at_item,
     direction_vector,
@@ -34,7 +34,7 @@ class SpacePose:
 Pose = float | tuple[float, float, float] | SpacePose
 
 
-class PoseValue(Value):
+class PoseValue(ValueField):
     """An angle, `[x, y, angle]`, in space `{position, axis, angle}`."""
 
     def read(self, value: object, info: ValidationInfo) -> Pose:
@@ -82,11 +82,11 @@ class PoseValue(Value):
         return {"anyOf": [NUMBER_OR_TEXT, pose, space]}
 
 
-def _axis(value: object, rules: Reading) -> Vector:
+def _axis(value: object, rules: ReadingRules) -> Vector:
     return direction_vector(vector(value, "number", rules))
 
 
-def _in_space(keys: Mapping[str, object], rules: Reading) -> SpacePose:
+def _in_space(keys: Mapping[str, object], rules: ReadingRules) -> SpacePose:
     return SpacePose(
         at_item("position", vector, keys.get("position", (0.0, 0.0, 0.0)), "length", rules),
         at_item("axis", _axis, keys.get("axis", (0.0, 0.0, 1.0)), rules),

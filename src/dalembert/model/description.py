@@ -19,14 +19,14 @@ from dalembert.model.drives.schedule import AtPositions, Schedule, schedule
 from dalembert.model.drives.starting import Start, StartValue, drives_at_start
 from dalembert.model.files.copies.likeness import Likeness
 from dalembert.model.files.messages import of_originals, together
-from dalembert.model.files.source import Source
+from dalembert.model.files.source import FileSource
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
 from dalembert.model.joints.friction_keys import FrictionDefaults
 from dalembert.model.joints.plane_joints import Joint, refuse_unfinished
 from dalembert.model.links.link import CENTER, GROUND, Link
 from dalembert.model.links.shapes import MassProperties
 from dalembert.model.load_types import Load, SpanLoad
-from dalembert.model.part import Part, Reading
+from dalembert.model.part import Part, ReadingRules
 from dalembert.model.paths import (
     ancestors,
     as_in_file,
@@ -99,12 +99,12 @@ class Mechanism(Part):
         description="position and speed at time 0 of the drives that forces move: used by simulate",
     )
     answers: tuple[Answer, ...] = Field((), description="published answers, compared by `check`")
-    _source: Source | None = PrivateAttr(None)
+    _source: FileSource | None = PrivateAttr(None)
     _changes: Mapping[str, object] = PrivateAttr({})
     _likenesses: tuple[Likeness, ...] = PrivateAttr(())
 
     @classmethod
-    def _rules(cls, keys: Mapping[str, object]) -> Reading:
+    def _rules(cls, keys: Mapping[str, object]) -> ReadingRules:
         return _reading(keys, None)
 
     @classmethod
@@ -139,9 +139,9 @@ class Mechanism(Part):
     def _names(self) -> Self:
         from dalembert.model.plane_checks import problems
 
-        found = problems(self)
-        if found:
-            raise together(found)
+        errors = problems(self)
+        if errors:
+            raise together(errors)
         return self
 
     def __eq__(self, other: object) -> bool:
@@ -180,7 +180,7 @@ class Mechanism(Part):
         return first_pose(self, positions)
 
     @property
-    def source(self) -> Source | None:
+    def source(self) -> FileSource | None:
         """The file it came from, which knows the line of each path."""
         return self._source
 
@@ -230,8 +230,8 @@ class Mechanism(Part):
         part = self.links[link]
         if not part.shapes:
             return part.inertia
-        found = self._of_shape(link).inertia
-        rows = found.tolist()
+        inertia = self._of_shape(link).inertia
+        rows = inertia.tolist()
         return rows[2][2] if self.dimension == 2 else tuple(map(tuple, rows))
 
     def _of_shape(self, link: str) -> MassProperties:
@@ -277,28 +277,32 @@ class Mechanism(Part):
         depends on parameters becomes a plain number once it is replaced by its path; a parameter that is no longer used
         is left out. Raises ModelError for a path that does not exist.
         """
-        given = {path: as_in_file(value, path) for path, value in values.items()}
+        new_values = {path: as_in_file(value, path) for path, value in values.items()}
         known = self.parameters
-        named = {path: name for path in given if known and (name := parameter_name(path, known, self.keys()))}
-        rules = self._later_rules({name: given[path] for path, name in named.items()})
-        found = self
+        named = {
+            path: name for path in new_values if known and (name := parameter_name(path, known, self.keys()))
+        }
+        rules = self._later_rules({name: new_values[path] for path, name in named.items()})
+        result = self
         if named:
             new = {name: p.value for name, p in rules.parameters.items()}
-            found = with_dependents(self, lambda leaf: with_new(leaf, new), rules)
+            result = with_dependents(self, lambda leaf: with_new(leaf, new), rules)
         for path in (
-            path for path in given if path not in named
+            path for path in new_values if path not in named
         ):  # in their order: lists' lengths must agree
-            found = replace_value(found, path.split("."), given[path], rules)
+            result = replace_value(result, path.split("."), new_values[path], rules)
         if known:
-            names = {*used_parameters(found, rules.parameters), *unused_parameters(self)}
+            names = {*used_parameters(result, rules.parameters), *unused_parameters(self)}
             kept = ancestors(names, rules.parameters)
             rules = replace(rules, parameters={n: p for n, p in rules.parameters.items() if n in kept})
-        changed = Mechanism.model_validate(fields(found), context=rules)
-        paths = {f"parameters.{named[path]}" if path in named else path: given[path] for path in given}
+        changed = Mechanism.model_validate(fields(result), context=rules)
+        paths = {
+            f"parameters.{named[path]}" if path in named else path: new_values[path] for path in new_values
+        }
         changed._source, changed._changes = self._source, latest(self._changes, paths)
-        own = [path.split(".")[1] for path in given if path.startswith("assembly.")]
+        stated = [path.split(".")[1] for path in new_values if path.startswith("assembly.")]
         ends = {name: joint.links for name, joint in self.joints.items()}
-        changed._likenesses = tuple(alike.without(own, ends) for alike in self._likenesses)
+        changed._likenesses = tuple(alike.without(stated, ends) for alike in self._likenesses)
         return changed
 
     @property
@@ -311,7 +315,7 @@ class Mechanism(Part):
         """Path -> value of what `with_values` has replaced since the mechanism was read."""
         return self._changes
 
-    def _later_rules(self, parameters: Mapping[str, object]) -> Reading:
+    def _later_rules(self, parameters: Mapping[str, object]) -> ReadingRules:
         """The rules by which values are read that come later, with other values of parameters."""
         freedoms = drive_freedoms({"drives": self.drives, "joints": self.joints})
         source = self._source
@@ -320,7 +324,7 @@ class Mechanism(Part):
         known = (
             change_parameters(self.parameters, parameters, units, freedoms) if parameters else self.parameters
         )
-        return Reading(units, freedoms, self.dimension, folder, known, data)
+        return ReadingRules(units, freedoms, self.dimension, folder, known, data)
 
     def to_tree(self) -> Tree:
         """The description as a file's tree, every quantity as text with its SI unit; reads back equal."""
@@ -338,19 +342,21 @@ class Mechanism(Part):
         save_text(text_of(self, format_of(path), os.path.dirname(path)), path, overwrite)
 
 
-def file_rules(tree: Mapping[str, object], folder: str = "", data: str = "") -> Reading:
+def file_rules(tree: Mapping[str, object], folder: str = "", data: str = "") -> ReadingRules:
     """Rules of a file: its units, its drives' freedoms, plane or space, and the folders of the file and of its data."""
     return _reading(tree, at_item("units", file_units, tree.get("units", {})), folder, data)
 
 
-def _reading(tree: Mapping[str, object], units: Units | None, folder: str = "", data: str = "") -> Reading:
-    freedoms, given = drive_freedoms(tree), tree.get("parameters") or {}
+def _reading(
+    tree: Mapping[str, object], units: Units | None, folder: str = "", data: str = ""
+) -> ReadingRules:
+    freedoms, parameters = drive_freedoms(tree), tree.get("parameters") or {}
     drives = dict.fromkeys((str(name) for name, _ in _items(tree.get("drives"))), "turn") | freedoms
-    known = read_parameters(given, units, drives, Mechanism.keys()) if given else {}
-    return Reading(units, freedoms, 3 if tree.get("space") == "space" else 2, folder, known, data)
+    known = read_parameters(parameters, units, drives, Mechanism.keys()) if parameters else {}
+    return ReadingRules(units, freedoms, 3 if tree.get("space") == "space" else 2, folder, known, data)
 
 
-def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mechanism:
+def mechanism(tree: Mapping[str, object], source: FileSource | None = None) -> Mechanism:
     """The mechanism that a file's tree describes, by the file's rules: its units, angles in degrees.
 
     >>> mechanism({"links": {"ground": {}, "bar": {"mass": 1}}, "units": {"mass": "lbm"}}).mass("bar")
@@ -370,16 +376,16 @@ def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mecha
         alike: tuple[Likeness, ...] = ()
         if "copies" in tree:
             tree, source, alike = _with_copies(tree, source, file_rules(tree, *folders))
-        found = Mechanism.model_validate(tree, context=file_rules(tree, *folders))
+        result = Mechanism.model_validate(tree, context=file_rules(tree, *folders))
     except ModelError as error:
         raise (of_originals(error, source.copied) if source else error).at_source(source) from None
-    found._source, found._likenesses = source, alike
-    return found
+    result._source, result._likenesses = source, alike
+    return result
 
 
 def _with_copies(
-    tree: Mapping[str, object], source: Source | None, rules: Reading
-) -> tuple[Mapping[str, object], Source | None, tuple[Likeness, ...]]:
+    tree: Mapping[str, object], source: FileSource | None, rules: ReadingRules
+) -> tuple[Mapping[str, object], FileSource | None, tuple[Likeness, ...]]:
     """The tree with its copies, and the source that knows which line each is from."""
     from dalembert.model.files.copies.expansion import expand
 

@@ -9,7 +9,14 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.part import reading
-from dalembert.model.quantities.values import JsonSchema, Value, Vector, vector, vector_schema, vector_text
+from dalembert.model.quantities.values import (
+    JsonSchema,
+    ValueField,
+    Vector,
+    vector,
+    vector_schema,
+    vector_text,
+)
 from dalembert.wording import closest, quote_value
 
 STANDARD = 9.80665
@@ -21,7 +28,7 @@ LEAST, MOST = 1.0, 30.0
 Gravity = Vector | Literal["standard"] | None
 
 
-class GravityValue(Value):
+class GravityValue(ValueField):
     """`none`, `standard`, or a vector of accelerations."""
 
     def read(self, value: object, info: ValidationInfo) -> Gravity:

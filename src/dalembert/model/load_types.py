@@ -9,7 +9,7 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
-from dalembert.model.part import Part, Reading, reading
+from dalembert.model.part import Part, ReadingRules, reading
 from dalembert.model.quantities.expression_trees import Functions
 from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.values import (
@@ -17,7 +17,7 @@ from dalembert.model.quantities.values import (
     JsonSchema,
     Name,
     Scalar,
-    Value,
+    ValueField,
     Vector,
     at_item,
     check_vector,
@@ -36,7 +36,7 @@ from dalembert.wording import quote_value
 UNKNOWN: Literal["unknown"] = "unknown"
 
 
-class ForceValue(Value):
+class ForceValue(ValueField):
     """A vector whose components may change, a scalar along `direction`, or unknown."""
 
     kind, form, least = "force", "[x, y] or polar text r @ angle", 2
@@ -46,7 +46,7 @@ class ForceValue(Value):
         if value == UNKNOWN:
             return UNKNOWN
         if isinstance(value, (list, tuple)):
-            items = check_vector(value, Reading(dimension=3) if self.least == 3 else rules, self.form)
+            items = check_vector(value, ReadingRules(dimension=3) if self.least == 3 else rules, self.form)
             return tuple(at_item(i, varying, item, self.kind, rules) for i, item in enumerate(items))
         return varying(value, self.kind, rules)
 
@@ -69,12 +69,12 @@ class CoupleValue(ForceValue):
     kind, form, least = "moment", "[x, y, z]", 3
 
 
-class Direction(Value):
+class Direction(ValueField):
     """An angle; in space a vector."""
 
     def read(self, value: object, info: ValidationInfo) -> float | Vector:
         if isinstance(value, (list, tuple)):
-            return direction_vector(vector(value, "number", Reading(dimension=3)))
+            return direction_vector(vector(value, "number", ReadingRules(dimension=3)))
         return Scalar("angle").read(value, info)
 
     def write(self, value: float | Vector) -> object:
@@ -85,7 +85,7 @@ class Direction(Value):
         return {"anyOf": [Scalar("angle").json_schema(), components]}
 
 
-class Spot(Value):
+class LoadPoint(ValueField):
     """A point of the link by name, or a vector in link axes."""
 
     def read(self, value: object, info: ValidationInfo) -> str | Vector:
@@ -100,7 +100,7 @@ class Spot(Value):
         return {"anyOf": [{"type": ["string", "integer"]}, vector_schema()]}
 
 
-class Ends(Value):
+class Ends(ValueField):
     """`[link.point, link.point]`."""
 
     def read(self, value: object, info: ValidationInfo) -> tuple[tuple[str, str], tuple[str, str]]:
@@ -201,7 +201,7 @@ class ForceLoad(Directed):
     ON: ClassVar = "point"
     type: Literal["force"] = "force"
     on: Name = Field(description="the link it acts on")
-    at: Annotated[str | Vector, Spot()] = Field(
+    at: Annotated[str | Vector, LoadPoint()] = Field(
         description="the point it acts at: a name, center, or a vector in link axes"
     )
     value: Annotated[Varying | tuple[Varying, ...] | Literal["unknown"], ForceValue()] = Field(
@@ -261,7 +261,7 @@ class Couple(Directed):
     ON: ClassVar = "link"
     type: Literal["couple"] = "couple"
     on: Name = Field(description="the link it acts on")
-    at: Annotated[str | Vector, Spot()] | None = Field(
+    at: Annotated[str | Vector, LoadPoint()] | None = Field(
         None,
         description="where inside the link, for its inner forces: as of a force; left out: the mass centre",
     )

@@ -28,7 +28,7 @@ from dalembert.wording import closest, quote_value
 
 
 @dataclass(frozen=True)
-class Reading:
+class ReadingRules:
     """The rules by which values are read.
 
     units:     of bare numbers; None is Python's rule, SI and radians
@@ -53,9 +53,9 @@ class Reading:
         if not isinstance(value, str):
             return quantity(value, kind, self.units)
         if uses(value, self.parameters) or units_inside(value):
-            found = of_parameters(value, kind, self.units, self.parameters, {})
-            assert isinstance(found, float)
-            return found
+            number = of_parameters(value, kind, self.units, self.parameters, {})
+            assert isinstance(number, float)
+            return number
         try:
             return quantity(value, kind, self.units)
         except ModelError:
@@ -65,13 +65,13 @@ class Reading:
             raise
 
 
-PYTHON = Reading()
+PYTHON = ReadingRules()
 
 
-def reading(info: ValidationInfo | None) -> Reading:
+def reading(info: ValidationInfo | None) -> ReadingRules:
     """The rules that apply while a value is validated."""
     context = info.context if info is not None else None
-    return context if isinstance(context, Reading) else PYTHON
+    return context if isinstance(context, ReadingRules) else PYTHON
 
 
 class Part(BaseModel):
@@ -109,7 +109,7 @@ class Part(BaseModel):
         return [name for name in super().__dir__() if name not in taken or name.startswith("__")]
 
     @classmethod
-    def _rules(cls, keys: Mapping[str, object]) -> Reading:
+    def _rules(cls, keys: Mapping[str, object]) -> ReadingRules:
         return PYTHON
 
     @classmethod

@@ -9,7 +9,7 @@ from typing import Any
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
-from dalembert.model.part import Part, Reading
+from dalembert.model.part import Part, ReadingRules
 from dalembert.model.quantities.dependent_numbers import Dependent, parameters_of
 from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.parameters import Parameter, Parameters
@@ -18,7 +18,7 @@ from dalembert.wording import closest
 
 
 def replace_value(
-    part: object, keys: Sequence[str], value: object, rules: Reading, walked: tuple[str, ...] = ()
+    part: object, keys: Sequence[str], value: object, rules: ReadingRules, walked: tuple[str, ...] = ()
 ) -> Any:
     """The part with the value at the path replaced; raises ModelError where the path does not exist."""
     key, rest = keys[0], keys[1:]
@@ -78,16 +78,16 @@ def dependents(part: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple
 
 
 def with_dependents(
-    part: Any, change: Callable[[Any], Any], rules: Reading | None, walked: tuple[str, ...] = ()
+    part: Any, change: Callable[[Any], Any], rules: ReadingRules | None, walked: tuple[str, ...] = ()
 ) -> Any:
     """The part with `change` of each value that follows from parameters; checked by the rules, if there are any."""
     if isinstance(part, (Dependent, Expression)):
         return change(part)
     new = {}
     for key, value in _inside(part):
-        found = with_dependents(value, change, rules, (*walked, key))
-        if found is not value:
-            new[key] = found
+        changed = with_dependents(value, change, rules, (*walked, key))
+        if changed is not value:
+            new[key] = changed
     if not new:
         return part
     if isinstance(part, Mapping):
@@ -105,40 +105,40 @@ def with_dependents(
         raise ModelError(f"{'.'.join(walked)}: {error.what}", error.remedy, where) from None
 
 
-def parameter_name(path: str, given: Parameters, others: Sequence[str]) -> str:
+def parameter_name(path: str, parameters: Parameters, others: Sequence[str]) -> str:
     """The parameter that a path names: `r`, `parameters.r` or `parameters.r.value`; empty for another path.
 
     Raises ModelError for a single word that is neither a parameter nor one of the others, which are a file's keys.
     """
     keys = path.split(".")
-    if given and len(keys) == 1 and path not in (*given, *others):
-        raise ModelError(f"unknown parameter {path!r}", closest(path, list(given)), ("parameters",))
+    if parameters and len(keys) == 1 and path not in (*parameters, *others):
+        raise ModelError(f"unknown parameter {path!r}", closest(path, list(parameters)), ("parameters",))
     name = keys[1] if keys[0] == "parameters" and len(keys) > 1 else keys[0]
-    whole = keys in ([name], ["parameters", name], ["parameters", name, "value"])
-    if keys[0] == "parameters" and not (whole and name in given):
+    complete = keys in ([name], ["parameters", name], ["parameters", name, "value"])
+    if keys[0] == "parameters" and not (complete and name in parameters):
         raise ModelError(
-            f"the path {path!r} names no parameter's value", closest(name, list(given)), ("parameters",)
+            f"the path {path!r} names no parameter's value", closest(name, list(parameters)), ("parameters",)
         )
-    return name if whole and name in given else ""
+    return name if complete and name in parameters else ""
 
 
-def used_parameters(m: object, given: Parameters) -> dict[str, Parameter]:
+def used_parameters(m: object, parameters: Parameters) -> dict[str, Parameter]:
     """The parameters that something in a description follows from, and those that these follow from."""
     used = (
-        ancestors((name for _, leaf in dependents(m) for name in parameters_of(leaf)), given)
-        if given
+        ancestors((name for _, leaf in dependents(m) for name in parameters_of(leaf)), parameters)
+        if parameters
         else set()
     )
-    return {name: p for name, p in given.items() if name in used}
+    return {name: p for name, p in parameters.items() if name in used}
 
 
-def ancestors(names: Iterable[str], given: Parameters) -> set[str]:
+def ancestors(names: Iterable[str], parameters: Parameters) -> set[str]:
     """The parameters named, and all that these follow from."""
-    waiting, found = set(names), set[str]()
+    waiting, result = set(names), set[str]()
     while waiting:
-        found |= waiting
-        waiting = {name for known in waiting for name in parameters_of(given[known].value)} - found
-    return found
+        result |= waiting
+        waiting = {name for known in waiting for name in parameters_of(parameters[known].value)} - result
+    return result
 
 
 def reached(m: Any, path: str) -> list[str]:
@@ -213,14 +213,14 @@ def _mirror(rows: tuple[tuple[Numeric, ...], ...], keys: Sequence[str]) -> tuple
     return (*rows[:j], other, *rows[j + 1 :])
 
 
-def latest(earlier: Mapping[str, object], given: Mapping[str, object]) -> dict[str, object]:
+def latest(earlier: Mapping[str, object], new: Mapping[str, object]) -> dict[str, object]:
     """Changes by path, each with what replaced it last; what lies within a value given later is gone."""
     kept = {
         path: value
         for path, value in earlier.items()
-        if not any(path == new or path.startswith(f"{new}.") for new in given)
+        if not any(path == new or path.startswith(f"{new}.") for new in new)
     }
-    return {**kept, **given}
+    return {**kept, **new}
 
 
 def fields(part: Part) -> dict[str, object]:
@@ -244,7 +244,7 @@ def _require_known(key: str, choices: list[str], here: tuple[str, ...]) -> None:
         )
 
 
-def _rebuilt(part: Part, name: str, inner: object, rules: Reading, here: tuple[str, ...]) -> Part:
+def _rebuilt(part: Part, name: str, inner: object, rules: ReadingRules, here: tuple[str, ...]) -> Part:
     """The part with one field replaced; the complete mechanism is rebuilt once, by its method."""
     if len(here) == 1:
         return part.model_copy(update={name: inner})
@@ -272,10 +272,10 @@ def value_at(part: object, keys: Sequence[str], walked: tuple[str, ...] = ()) ->
         return value_at(part[int(keys[0])], keys[1:], here)
     if isinstance(part, Table) and list(keys) == ["times"]:
         return part.times
-    own = getattr(part, "keys", None)  # of a motor, of a start
-    if isinstance(own, dict) and len(keys) == 1:
-        _require_known(keys[0], list(own), here)
-        return own[keys[0]]
+    entries = getattr(part, "keys", None)  # of a motor, of a start
+    if isinstance(entries, dict) and len(keys) == 1:
+        _require_known(keys[0], list(entries), here)
+        return entries[keys[0]]
     raise ModelError(
         f"the path {'.'.join([*here, *keys[1:]])!r} goes into a single value", "leave out its end", walked
     )

@@ -83,9 +83,9 @@ def _link(m: Mechanism, link: str, user: str, path: tuple[str | int, ...]) -> It
 def _point(
     m: Mechanism, link: str, point: str, user: str, path: tuple[str | int, ...]
 ) -> Iterator[ModelError]:
-    found = list(_link(m, link, user, path))
-    yield from found
-    if not found and point != CENTER and point not in m.links[link].points:
+    errors = list(_link(m, link, user, path))
+    yield from errors
+    if not errors and point != CENTER and point not in m.links[link].points:
         points = list(m.links[link].points)
         yield ModelError(
             f"{user} needs a point {point!r} of link {link!r}, which has {', '.join(points) or 'none'}",
@@ -238,36 +238,38 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
 
 def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...]) -> Iterator[ModelError]:
     """Checks a name that is not a drive: it must be time, or an existing coordinate."""
-    found, of = parts(name), name.removesuffix(SPEED)
+    coordinate, of = parts(name), name.removesuffix(SPEED)
     if of in m.drives:
         return
-    if found is None and name != TIME:
+    if coordinate is None and name != TIME:
         remedy = _drive_remedy(name, list(m.drives))
         yield ModelError(f"{what} uses {name!r}, which is not a drive", remedy, path)
-    elif path[0] == "drives" and found:
+    elif path[0] == "drives" and coordinate:
         remedy = "an effort depends on drives, their speeds and time: write it as a load, or against a drive"
         yield ModelError(f"{what} uses {name!r}", remedy, path)
-    elif found is None:
+    elif coordinate is None:
         moved = (x is not None for d in m.drives.values() for x in (d.law, d.motor, d.effort))
         if not m.start and not any(moved) and not any(d.moves for d in m.drives.values()):
             remedy = "give a drive a constant speed or a law, which says when it is where, or go by the drive"
             yield ModelError(
                 f"{what} depends on time, but no drive has a law of motion or a speed", remedy, path
             )
-    elif found[0] == "links":
-        if found[1] == GROUND or m.dimension == 3:
-            why = "which does not turn" if found[1] == GROUND else "which in space is not a single number"
+    elif coordinate[0] == "links":
+        if coordinate[1] == GROUND or m.dimension == 3:
+            why = (
+                "which does not turn" if coordinate[1] == GROUND else "which in space is not a single number"
+            )
             yield ModelError(f"{what} uses {name!r}, {why}", "write joints.NAME.turn", path)
-        yield from _link(m, found[1], what, path)
-    elif found[1] not in m.joints:
-        remedy = closest(found[1], list(m.joints))
-        yield ModelError(f"{what} uses the joint {found[1]!r}, which does not exist", remedy, path)
-    elif found[2] not in m.joints[found[1]].freedoms:
-        freedoms = " or ".join(m.joints[found[1]].freedoms) or "none"
+        yield from _link(m, coordinate[1], what, path)
+    elif coordinate[1] not in m.joints:
+        remedy = closest(coordinate[1], list(m.joints))
+        yield ModelError(f"{what} uses the joint {coordinate[1]!r}, which does not exist", remedy, path)
+    elif coordinate[2] not in m.joints[coordinate[1]].freedoms:
+        freedoms = " or ".join(m.joints[coordinate[1]].freedoms) or "none"
         yield ModelError(
             f"{what} uses {name!r}, and the freedoms of that joint are {freedoms}", "name one", path
         )
-    elif m.joints[found[1]].ball:
+    elif m.joints[coordinate[1]].ball:
         yield ModelError(
             f"{what} uses {name!r}, of a joint that can turn about any axis",
             "drive it, and name the drive",
@@ -349,9 +351,9 @@ def _torsion(m: Mechanism, load: TurnLoad, user: str, path: tuple[str, ...]) -> 
             at,
         )
     elif joint.turn_of(load.freedom) is None:
-        asked = f", which has no {load.freedom}" if load.freedom else f", which has {len(turns)} turns"
+        hint = f", which has no {load.freedom}" if load.freedom else f", which has {len(turns)} turns"
         yield ModelError(
-            f"{what}{asked}",
+            f"{what}{hint}",
             f"write freedom: {' or '.join(turns)}",
             (*path, *(["freedom"] if load.freedom else [])),
         )

@@ -124,22 +124,22 @@ def parts_of_name(name: str) -> dict[str, str]:
     >>> parts_of_name("speed.rod") == parts_of_name("angle.rod.speed")
     True
     """
-    whole, _, last = name.rpartition(".")
-    part = {"component": last} if last in _COMPONENTS and "." in whole else {}
+    stem, _, last = name.rpartition(".")
+    part = {"component": last} if last in _COMPONENTS and "." in stem else {}
     fits = {
-        word: re.fullmatch(re.escape(form).replace(r"\{of\}", "(.+)"), whole if part else name)
+        word: re.fullmatch(re.escape(form).replace(r"\{of\}", "(.+)"), stem if part else name)
         for word, form in NAMES.items()
     }
-    found = {word: match[1] for word, match in fits.items() if match and match.re.groups}
-    word, _, of = (whole if part else name).partition(".")
-    found = found or ({word: of} if word in NAMES and of else {})  # in the words of the first format
-    if not found:
+    keys = {word: match[1] for word, match in fits.items() if match and match.re.groups}
+    word, _, of = (stem if part else name).partition(".")
+    keys = keys or ({word: of} if word in NAMES and of else {})  # in the words of the first format
+    if not keys:
         raise ModelError(
             f"unknown quantity {name!r}",
             "write effort.NAME, reaction.NAME.x or another of docs/quantities.md",
         )
-    best = min(found, key=lambda word: len(found[word]))
-    return {"quantity": best, "of": found[best], **part}
+    best = min(keys, key=lambda word: len(keys[word]))
+    return {"quantity": best, "of": keys[best], **part}
 
 
 def _frozen(value: object) -> object:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from html import escape
 
 from dalembert.errors import DalembertError
-from dalembert.printing import Part, Table
+from dalembert.printing import Part, TextTable
 from dalembert.views.formats.svg import rule
 from dalembert.views.formats.themes import BACKGROUND, THEMES
 from dalembert.views.paper.scene import Scene
@@ -50,7 +50,7 @@ def card(title: str, *parts: Part | Scene | Callable[[], Scene]) -> str:
 def _part(part: Part | Scene | Callable[[], Scene]) -> str:
     if isinstance(part, str):
         return f"<p>{escape(_cut(part))}</p>" if part else ""
-    return _table(part) if isinstance(part, Table) else _drawing(part)
+    return _table(part) if isinstance(part, TextTable) else _drawing(part)
 
 
 def _cut(text: str) -> str:
@@ -59,7 +59,7 @@ def _cut(text: str) -> str:
     return line if len(line) <= LETTERS else line[: LETTERS - 3] + "..."
 
 
-def _table(t: Table) -> str:
+def _table(t: TextTable) -> str:
     """First rows of a table and the last one; if it has very many columns, the first ones."""
     rows = list(t.rows)
     if len(rows) > ROWS:

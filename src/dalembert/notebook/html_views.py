@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.answer.column import Scale
 from dalembert.notebook.html_card import card
-from dalembert.printing import Part, Table, number, with_unit
+from dalembert.printing import Part, TextTable, number, with_unit
 
 if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
@@ -42,20 +42,22 @@ def mechanism_html(m: Mechanism) -> str:
     """Links with mass properties, joints, drives and loads, and the drawing at the first position."""
     to = Scale(m.units)
     heads = ["link", *(f"{n}\n{to.text(k)}" for n, k in (("mass", "mass"), ("center", "length")))]
-    links = Table([*heads, f"inertia\n{to.text('inertia')}", "points"], [_link(m, n, to) for n in m.links], 1)
-    joints = Table(
+    links = TextTable(
+        [*heads, f"inertia\n{to.text('inertia')}", "points"], [_link(m, n, to) for n in m.links], 1
+    )
+    joints = TextTable(
         ["joint", "type", "links"], [[n, j.type, ", ".join(j.links)] for n, j in m.joints.items()], 3
     )
     parts: list[Part] = [m.source_text, links, joints]
     if m.drives:
         parts.append(
-            Table(["drive", "of joint", "from", "to", "positions"], [_drive(m, n) for n in m.drives], 2)
+            TextTable(["drive", "of joint", "from", "to", "positions"], [_drive(m, n) for n in m.drives], 2)
         )
     if m.parameters:
         known = [[n, f"{p.in_unit():.6g} {p.unit}".strip(), p.about] for n, p in m.parameters.items()]
-        parts.insert(1, Table(["parameter", "value", "what it is"], known, 3))
+        parts.insert(1, TextTable(["parameter", "value", "what it is"], known, 3))
     if m.loads:
-        parts.append(Table(["load", "type"], [[n, load.type] for n, load in m.loads.items()], 2))
+        parts.append(TextTable(["load", "type"], [[n, load.type] for n, load in m.loads.items()], 2))
     return card(m.title or "Mechanism", *parts, *([] if _large(m) else [m.draw]))
 
 
@@ -87,7 +89,7 @@ def first_pose(m: Mechanism, positions: AtPositions = None) -> Scene:
 
 def kernel_html(k: Kernel) -> str:
     """The varied numbers with their values in the description, the outputs, and the requests for them."""
-    numbers = Table(
+    numbers = TextTable(
         ["number", "as described, SI"], [[p, number(v)] for p, v in zip(k.numbers, k.nominal, strict=True)]
     )
     about = [

@@ -58,7 +58,7 @@ def plot(r: Result, names: Sequence[str], ax: Any, against: str | None, notation
         values = stepped_series(r, methodcaller("__getitem__", name))
         panels.setdefault(kind, {}).update(_parts(name, values * shown.value(kind, 1.0)))
     curves = [
-        Curves(x, x_label, angle, series, label(kind, shown.unit(kind)), ", ".join(_whole(series)))
+        Curves(x, x_label, angle, series, label(kind, shown.unit(kind)), ", ".join(_vectors(series)))
         for kind, series in panels.items()
     ]
     if ax is None:
@@ -94,7 +94,7 @@ def _parts(name: str, values: Array) -> dict[str, Array]:
     return {f"{name}.{part}": curve for part, curve in parts.items()}
 
 
-def _whole(names: Mapping[str, Array]) -> list[str]:
+def _vectors(names: Mapping[str, Array]) -> list[str]:
     """Quantities without their components, each once."""
     first = (name for name in names if name[-2:] not in (".y", ".z"))
     return list(dict.fromkeys(name.removesuffix(".magnitude").removesuffix(".x") for name in first))
@@ -113,8 +113,8 @@ def polar(r: Result, joints: Sequence[str], axes: Axes, ax: Any, notation: Notat
     shown = Shown(r, notation or Notation())
     for joint in chosen:
         x, y = polar_path(r, joint, axes, shown)[1].T
-        whole = ax.name == "polar"
-        ax.plot(*((np.arctan2(y, x), np.hypot(x, y)) if whole else (x, y)), label=joint)
+        is_polar = ax.name == "polar"
+        ax.plot(*((np.arctan2(y, x), np.hypot(x, y)) if is_polar else (x, y)), label=joint)
     unit = shown.unit("force")
     if ax.name != "polar":
         ax.set(xlabel=f"Force x in {unit}", ylabel=f"Force y in {unit}", aspect="equal")

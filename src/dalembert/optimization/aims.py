@@ -32,7 +32,7 @@ class Aim(NamedTuple):
     of: str
 
 
-class Condition(NamedTuple):
+class Constraint(NamedTuple):
     """Constraint at every position: an expression that must not be negative."""
 
     text: str
@@ -61,7 +61,7 @@ def _first_word(text: str) -> tuple[str, str]:
     return "", text.strip()
 
 
-def parse_condition(text: str) -> Condition:
+def parse_condition(text: str) -> Constraint:
     """A condition at every position: two expressions with >= or <= between; `peak X` is bounded above, in both signs.
 
     >>> parse_condition("transmission.B >= 33 deg").margin
@@ -84,10 +84,10 @@ def parse_condition(text: str) -> Condition:
             f"{text!r} bounds a {word}", "a condition holds at every position: leave it out, or write peak"
         )
     below = f"abs({small[1]})" if small[0] else small[1]
-    return Condition(text.strip(), f"({big[1]}) - ({below})")
+    return Constraint(text.strip(), f"({big[1]}) - ({below})")
 
 
-class Value(NamedTuple):
+class AimValue(NamedTuple):
     """Aim of many designs over its initial value with its gradient, and the penalties of violated
     conditions on both."""
 
@@ -95,7 +95,7 @@ class Value(NamedTuple):
     slope: Array  # (design, number)
 
 
-class Rows(NamedTuple):
+class Margins(NamedTuple):
     """Aim's quantity (P,) and margins (condition, P) of one design, with their gradients in a last axis."""
 
     aim: Array
@@ -105,7 +105,7 @@ class Rows(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Problem:
+class DesignProblem:
     """An aim and conditions of a mechanism over numbers in a box; its designs are points u of the unit box."""
 
     mechanism: Mechanism
@@ -113,7 +113,7 @@ class Problem:
     low: Array
     high: Array
     aim: Aim
-    conditions: tuple[Condition, ...]
+    conditions: tuple[Constraint, ...]
     positions: Array
     static: bool = False
     method: str = DEFAULT
@@ -170,16 +170,16 @@ class Problem:
     @cached_property
     def scale(self) -> float:
         """Usual size of the aim's quantity: its root mean square at the description's numbers."""
-        found = self.at(self.nominal).aim
-        return (float(np.sqrt(np.nanmean(found**2))) or 1.0) if np.isfinite(found).any() else 1.0
+        aims = self.at(self.nominal).aim
+        return (float(np.sqrt(np.nanmean(aims**2))) or 1.0) if np.isfinite(aims).any() else 1.0
 
     @cached_property
     def sizes(self) -> Array:
         """Usual size of each margin, at the description's numbers."""
-        found = self.at(self.nominal).margin
-        return np.array([np.nanmax(np.abs(m), initial=0.0) or 1.0 for m in found])
+        margins = self.at(self.nominal).margin
+        return np.array([np.nanmax(np.abs(m), initial=0.0) or 1.0 for m in margins])
 
-    def __call__(self, u: Array) -> Value:
+    def __call__(self, u: Array) -> AimValue:
         """The aim and the penalties of violated conditions, for many points (design, number)."""
         values = self.numbers(u)
         r = self.smooth(values, self.positions, redo=False)
@@ -191,15 +191,15 @@ class Problem:
                 slope = slope + WEIGHT / size**2 * b.gradient(name)
         slope = slope * self.span
         ok = np.isfinite(value) & np.isfinite(slope).all(axis=1)
-        return Value(np.where(ok, value, np.inf), np.where(ok[:, None], slope, 0.0))
+        return AimValue(np.where(ok, value, np.inf), np.where(ok[:, None], slope, 0.0))
 
-    def at(self, u: Array) -> Rows:
+    def at(self, u: Array) -> Margins:
         """Quantity and margins at every position of one design; NaN where unsolved."""
         r = self.rows(self.numbers(u[None]), self.positions, threads=1)
         margin = [r.value(m)[0] for m in self.margins]
         slope = [r.gradient(m)[0] * self.span for m in self.margins]
         count, n = len(self.positions), len(self.low)
-        return Rows(
+        return Margins(
             r.value(self.aim.of)[0],
             r.gradient(self.aim.of)[0] * self.span,
             np.array(margin).reshape(-1, count),

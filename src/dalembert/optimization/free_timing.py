@@ -20,7 +20,7 @@ from dalembert.analysis.batch.own_positions import OwnPositions
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.errors import ModelError
 from dalembert.machine.whole_cycle import over_a_turn
-from dalembert.optimization.least_squares import Errors, Misfit, wanted
+from dalembert.optimization.least_squares import Errors, TargetErrors, wanted
 
 TURN = 2 * np.pi
 STATIONS = 72
@@ -34,18 +34,18 @@ BLOCK = 1000
 
 
 @dataclass(frozen=True)
-class FreeTiming(Misfit):
+class FreeTiming(TargetErrors):
     """A least-squares problem whose unknowns include the drive's positions, after the numbers, increasing along
     ``sense``."""
 
-    own: OwnPositions
+    samples: OwnPositions
     sense: float
-    whole: bool
+    closed: bool
     """True if the drive turns fully, so that the first target follows the last one."""
 
     @classmethod
     def of(
-        cls, k: Kernel, low: Array, span: Array, targets: Mapping[str, ArrayLike], given: ArrayLike | None
+        cls, k: Kernel, low: Array, span: Array, targets: Mapping[str, ArrayLike], positions: ArrayLike | None
     ) -> FreeTiming:
         """Timing of targets between the first and last of the given positions; default: those of the file,
         or a turn."""
@@ -54,27 +54,35 @@ class FreeTiming(Misfit):
             raise ModelError(
                 f"free timing needs one drive, and the mechanism has {len(drives)}", 'give timing="given"'
             )
-        q = m.schedule(over_a_turn(m)).position if given is None else drive_values(m, given)
+        q = m.schedule(over_a_turn(m)).position if positions is None else drive_values(m, positions)
         q = k.course(q).schedule.position[:, 0]
         turns, step = m.drives[drives[0]].turns, q[-1] - q[0]
         step = step / max(len(q) - 1, 1)
         target, spread = wanted(k, targets, None)
-        whole = bool(turns and abs(q[-1] - q[0]) > TURN - 1.01 * abs(step))
+        closed = bool(turns and abs(q[-1] - q[0]) > TURN - 1.01 * abs(step))
         count = max(STATIONS, 6 * len(target))
-        ends = (q[0], q[0] + np.sign(step) * TURN) if whole else (q[0], q[-1])
-        own = OwnPositions(k, np.linspace(*ends, count, endpoint=not whole))
+        ends = (q[0], q[0] + np.sign(step) * TURN) if closed else (q[0], q[-1])
+        samples = OwnPositions(k, np.linspace(*ends, count, endpoint=not closed))
         return cls(
-            k, low, span, target, spread, own.stations[:, None], own, float(np.sign(step) or 1.0), whole
+            k,
+            low,
+            span,
+            target,
+            spread,
+            samples.stations[:, None],
+            samples,
+            float(np.sign(step) or 1.0),
+            closed,
         )
 
     def __call__(self, x: Array) -> Errors:
         n = len(self.span)
-        found = self.own(self.low + x[:, :n] * self.span, self.sense * x[:, n:])
+        answer = self.samples(self.low + x[:, :n] * self.span, self.sense * x[:, n:])
         count = len(self.target)
-        slope = np.zeros((*found.slope.shape[:-1], n + count))
-        slope[..., :n] = found.slope[..., :n] * self.span
-        slope[:, range(count), :, range(n, n + count)] = self.sense * found.slope[..., -1].swapaxes(0, 1)
-        return self.errors(np.where(found.ok[..., None], found.value, np.nan), slope)
+        slope = np.zeros((*answer.slope.shape[:-1], n + count))
+        slope[..., :n] = answer.slope[..., :n] * self.span
+        slope[:, range(count), :, range(n, n + count)] = self.sense * answer.slope[..., -1].swapaxes(0, 1)
+        return self.errors(np.where(answer.ok[..., None], answer.value, np.nan), slope)
 
     def answers(self, u: Array) -> Flags:
         return np.asarray(self._at(u, self.positions).ok.all(axis=1))
@@ -89,20 +97,20 @@ class FreeTiming(Misfit):
     def _timing(self, u: Array) -> Array:
         """Positions where designs are nearest to the targets, one after the other (design, P), in the sense of the
         drive."""
-        r, count = self._at(u, self.positions), len(self.own.stations)
+        r, count = self._at(u, self.positions), len(self.samples.stations)
         value = np.concatenate([r.value(n).reshape(len(u), count, -1) for n in self.kernel.outputs], axis=2)
         cost = (((value[:, None] - self.target[:, None]) / self.spread[:, None]) ** 2).sum(axis=3)
         best, least = np.zeros(cost.shape[:2]), np.full(len(u), np.inf)
-        for first in np.argsort(cost[:, 0], axis=1)[:, : FIRST if self.whole else 1].T:
-            there, begun = cost, first[:, None] * self.whole
-            if self.whole:
-                there = np.take_along_axis(cost, (begun + np.arange(count))[:, None] % count, axis=2)
-                there[:, 0, 1:] = np.inf
-            total, at = _in_order(there)
+        for first in np.argsort(cost[:, 0], axis=1)[:, : FIRST if self.closed else 1].T:
+            costs, begun = cost, first[:, None] * self.closed
+            if self.closed:
+                costs = np.take_along_axis(cost, (begun + np.arange(count))[:, None] % count, axis=2)
+                costs[:, 0, 1:] = np.inf
+            total, at = _in_order(costs)
             better = total < least
             best[better], least[better] = (begun + at)[better], total[better]
-        step = abs(self.own.stations[1] - self.own.stations[0])
-        return np.asarray(self.sense * self.own.stations[0] + best * step)
+        step = abs(self.samples.stations[1] - self.samples.stations[0])
+        return np.asarray(self.sense * self.samples.stations[0] + best * step)
 
     def held(self, x: Array, down: Array) -> Flags:
         held = super().held(x, down)
@@ -111,8 +119,8 @@ class FreeTiming(Misfit):
 
     def moved(self, x: Array, step: Array) -> Array:
         n = len(self.span)
-        t, low, high = x[:, n:], *np.sort(self.sense * self.own.stations[[0, -1]])
-        if self.whole:
+        t, low, high = x[:, n:], *np.sort(self.sense * self.samples.stations[[0, -1]])
+        if self.closed:
             low, high = t[:, -1:] - TURN, t[:, :1] + TURN
         edges = np.hstack([np.broadcast_to(low, (len(t), 1)), t, np.broadcast_to(high, (len(t), 1))])
         gaps = np.diff(edges, axis=1) * NEARER

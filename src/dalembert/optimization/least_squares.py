@@ -31,8 +31,8 @@ def wanted(k: Kernel, targets: Mapping[str, ArrayLike], count: int | None) -> tu
     """Targets (P, component) side by side, and the spread of each; as many as for the first one if no count is
     given."""
     columns, spreads = list[Array](), list[Array]()
-    for name, given in targets.items():
-        value, width = checked(f"targets of {name}", given), len(k.nodes[name])
+    for name, values in targets.items():
+        value, width = checked(f"targets of {name}", values), len(k.nodes[name])
         count = len(value) if count is None and value.ndim else count
         shapes = [(count, width), (count,)][: 2 if width == 1 else 1]
         if value.shape not in shapes or not value.size or not np.isfinite(value).all():
@@ -56,7 +56,7 @@ class Errors(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Misfit:
+class TargetErrors:
     """Errors over the spread of the targets, as a function of points in the unit box."""
 
     kernel: Kernel
@@ -116,7 +116,7 @@ class Misfit:
         return np.asarray(self._at(x, between).ok.all(axis=1))
 
 
-def least_squares(f: Misfit, x: Array) -> tuple[Array, Array]:
+def least_squares(f: TargetErrors, x: Array) -> tuple[Array, Array]:
     """Points (start, number) and costs from solvable starts; damped steps within the bounds."""
     x, (cost, error, slope) = x.copy(), f(x)
     damping, going = np.full(len(x), 1e-2), np.ones(len(x), bool)

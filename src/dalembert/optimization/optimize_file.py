@@ -51,17 +51,17 @@ def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
         if not isinstance(text, str):
             what = f"condition {k + 1} is {quote_value(text)}"
             raise ModelError(what, "write one like transmission.B >= 33 deg", ("where", k))
-    bounds = {str(name): _bounds(str(name), given) for name, given in vary.items()}
+    bounds = {str(name): _bounds(str(name), ends) for name, ends in vary.items()}
     options = plain_options(tree, {"starts": 1, "seed": 0, "positions": 1}, ("static",))
     if "method" in tree:
         options["method"] = tree["method"]
     return {"vary": bounds, "least": least, "where": where, **options}
 
 
-def _bounds(name: str, given: object) -> list[str]:
+def _bounds(name: str, ends: object) -> list[str]:
     """Texts, read as in the model file: for vectors [x, y]."""
-    if not isinstance(given, list) or len(given) not in (2, 3):
+    if not isinstance(ends, list) or len(ends) not in (2, 3):
         raise ModelError(
-            f"the bounds of {name!r} are {quote_value(given)}", "write [low, high]", ("vary", name)
+            f"the bounds of {name!r} are {quote_value(ends)}", "write [low, high]", ("vary", name)
         )
-    return [str(end).replace("'", "") for end in given]
+    return [str(end).replace("'", "") for end in ends]

@@ -49,14 +49,14 @@ Rules = tuple[Callable[[Array], Array], Callable[[Array], Array]]
 def find_method(name: object, *does: str) -> str:
     """The full name of a method for one of some roles; for a package name, its first method. Raises ModelError if it is
     unknown, or its package is not installed."""
-    there = [n for n, (what, _) in METHODS.items() if what in does]
-    found = next((n for n in there if name in (n, n.partition(".")[0])), "")
-    if not found:
-        raise ModelError(f"unknown method {name!r} for this problem", closest(str(name), there), ("method",))
-    package = found.partition(".")[0]
+    suited = [n for n, (what, _) in METHODS.items() if what in does]
+    full_name = next((n for n in suited if name in (n, n.partition(".")[0])), "")
+    if not full_name:
+        raise ModelError(f"unknown method {name!r} for this problem", closest(str(name), suited), ("method",))
+    package = full_name.partition(".")[0]
     if find_spec(package) is None:
-        raise ModelError(f"method {found!r} needs {package}", f"pip install {package}", ("method",))
-    return found
+        raise ModelError(f"method {full_name!r} needs {package}", f"pip install {package}", ("method",))
+    return full_name
 
 
 def polish_by(name: str, aim: Valued, rules: Rules | None, start: Array, high: Array) -> Array:
@@ -67,15 +67,15 @@ def polish_by(name: str, aim: Valued, rules: Rules | None, start: Array, high: A
     from scipy.optimize import minimize
 
     solver: Any = minimize
-    given = [{"type": "ineq", "fun": rules[0], "jac": rules[1]}] if rules else []
+    conditions = [{"type": "ineq", "fun": rules[0], "jac": rules[1]}] if rules else []
     options = {"maxiter": STEPS, "ftol": 1e-10}
     bounds = [(0.0, float(end)) for end in high]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # scipy warns where a step leaves the bounds by rounding
-        found = solver(
-            aim, start, jac=True, method="SLSQP", bounds=bounds, constraints=given, options=options
+        optimum = solver(
+            aim, start, jac=True, method="SLSQP", bounds=bounds, constraints=conditions, options=options
         )
-    return np.asarray(found.x)
+    return np.asarray(optimum.x)
 
 
 def search_by(name: str, value: Callable[[Array], Array], starts: Array, seed: int) -> Array:
@@ -98,9 +98,9 @@ def _nlopt(name: str, aim: Valued, rules: Rules | None, start: Array, high: Arra
 
     def value(x: Array, slope: Array) -> float:
         last[0] = x.copy()
-        found, rate = aim(x)
+        size, rate = aim(x)
         slope[:] = rate if slope.size else 0.0
-        return found
+        return size
 
     solver = nlopt.opt(getattr(nlopt, METHODS[name][1]), len(start))
     solver.set_lower_bounds(np.zeros(len(start)))
@@ -136,5 +136,5 @@ def evolve(
     )
     begun = np.concatenate([starts, np.random.default_rng(seed).random((POPULATION, starts.shape[1]))])
     method = algorithm(pop_size=POPULATION, sampling=begun[:POPULATION])
-    found = import_module("pymoo.optimize").minimize(problem, method, ("n_gen", GENERATIONS), seed=seed)
-    return np.atleast_2d(np.asarray((found.pop if aims == 1 else found.opt).get("X"), float))
+    evolved = import_module("pymoo.optimize").minimize(problem, method, ("n_gen", GENERATIONS), seed=seed)
+    return np.atleast_2d(np.asarray((evolved.pop if aims == 1 else evolved.opt).get("X"), float))

@@ -11,14 +11,14 @@ from itertools import product
 
 import numpy as np
 
-from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds, numbers
+from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, number_kinds, numbers
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Flags
 from dalembert.bounds import require
 from dalembert.errors import ModelError, errors_at
 from dalembert.machine.whole_cycle import over_a_turn
 from dalembert.model import AtPositions, Mechanism, ModelOrPath, as_mechanism
-from dalembert.optimization.aims import Condition, Problem, parse_aim, parse_condition
+from dalembert.optimization.aims import Constraint, DesignProblem, parse_aim, parse_condition
 from dalembert.optimization.optimizers import DEFAULT, METHODS, find_method, search_by
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.polishing import polish
@@ -70,51 +70,51 @@ def optimize(
     """
     mechanism = as_mechanism(mechanism)
     name = find_method(method, "polish", "search")
-    p, steps, found = problem_of(mechanism, vary, least, where, positions, static)
+    p, steps, varied = problem_of(mechanism, vary, least, where, positions, static)
     p = replace(p, method=name)
-    return _best(p, steps, found, starts, seed)
+    return _best(p, steps, varied, starts, seed)
 
 
 def problem_of(
     m: Mechanism, vary: Bounds, least: str, where: str | Sequence[str], positions: AtPositions, static: bool
-) -> tuple[Problem, Array, tuple[Number, ...]]:
+) -> tuple[DesignProblem, Array, tuple[VariedNumber, ...]]:
     """The problem, the steps of its numbers (NaN for none), and the numbers."""
-    found, low, high, steps = bounds_of(m, vary)
+    varied, low, high, steps = bounds_of(m, vary)
     texts = [where] if isinstance(where, str) else where
     with errors_at("positions"):
         at = over_a_turn(m, positions)
         place = m.schedule(at).position
     with errors_at("least"):
         aim = parse_aim(least)
-    conditions = list[Condition]()
+    conditions = list[Constraint]()
     for k, text in enumerate(texts):
         with errors_at("where", k):
             conditions.append(parse_condition(text))
-    problem = Problem(m, tuple(vary), low, high, aim, tuple(conditions), place, static, requested=at)
+    problem = DesignProblem(m, tuple(vary), low, high, aim, tuple(conditions), place, static, requested=at)
     problem.check()
-    return problem, steps, found
+    return problem, steps, varied
 
 
-def bounds_of(m: Mechanism, vary: Bounds) -> tuple[tuple[Number, ...], Array, Array, Array]:
+def bounds_of(m: Mechanism, vary: Bounds) -> tuple[tuple[VariedNumber, ...], Array, Array, Array]:
     """The varied numbers, their low and high ends, and their steps (NaN for none)."""
     if not vary:
         raise ModelError("no number varies", 'give vary={"links.crank.points.A.0": (0.1, 0.15)}')
-    found, ends = list[Number](), list[tuple[Array, Array, Array]]()
-    for path, given in vary.items():
+    varied, ends = list[VariedNumber](), list[tuple[Array, Array, Array]]()
+    for path, ends_of in vary.items():
         try:
-            known, found = len(found), list(numbers(m, list(vary)[: len(ends) + 1]))
-            ends.append(_ends(m, path, given, len(found) - known))
+            known, varied = len(varied), list(numbers(m, list(vary)[: len(ends) + 1]))
+            ends.append(_ends(m, path, ends_of, len(varied) - known))
         except ModelError as error:  # with the line of the request, not the model file's
             raise ModelError(error.what, error.remedy, ("vary", path)) from None
     low, high, steps = (np.concatenate(of) for of in zip(*ends, strict=True))
-    return tuple(found), low, high, steps
+    return tuple(varied), low, high, steps
 
 
-def _ends(m: Mechanism, path: str, given: Sequence[object], count: int) -> tuple[Array, Array, Array]:
+def _ends(m: Mechanism, path: str, bounds: Sequence[object], count: int) -> tuple[Array, Array, Array]:
     """Low, high and step (count,) of the numbers at a path."""
-    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) not in (2, 3):
+    if not isinstance(bounds, Sequence) or isinstance(bounds, str) or len(bounds) not in (2, 3):
         raise ModelError(
-            f"the bounds of {path!r} are {quote_value(given)}", "give (low, high) or (low, high, step)"
+            f"the bounds of {path!r} are {quote_value(bounds)}", "give (low, high) or (low, high, step)"
         )
 
     def read(value: object) -> Array:
@@ -122,17 +122,19 @@ def _ends(m: Mechanism, path: str, given: Sequence[object], count: int) -> tuple
             return np.array([n.value for n in numbers(m.with_values({path: value}), [path])])
         return np.broadcast_to(np.asarray(value, float), (count,))
 
-    low, high = read(given[0]), read(given[1])
-    step = np.full(count, np.nan) if len(given) == 2 else read(given[2])
+    low, high = read(bounds[0]), read(bounds[1])
+    step = np.full(count, np.nan) if len(bounds) == 2 else read(bounds[2])
     if not np.isfinite([low, high]).all() or (low > high).any() or (step <= 0).any():
         raise ModelError(
-            f"the bounds of {path!r} go from {quote_value(given[0])} to {quote_value(given[1])}",
+            f"the bounds of {path!r} go from {quote_value(bounds[0])} to {quote_value(bounds[1])}",
             "use (low, high, step) with low <= high and step > 0",
         )
     return low, high, step
 
 
-def _best(p: Problem, steps: Array, found: tuple[Number, ...], starts: int, seed: int) -> Optimum:
+def _best(
+    p: DesignProblem, steps: Array, varied: tuple[VariedNumber, ...], starts: int, seed: int
+) -> Optimum:
     places = started = starts_of(p, starts, seed)
     if METHODS[p.method][0] == "search":
         places = search_by(p.method, lambda u: p(u).value, places, seed)
@@ -150,27 +152,27 @@ def _best(p: Problem, steps: Array, found: tuple[Number, ...], starts: int, seed
     judged = [judge(p, u) for u in ends]
     best = min(range(len(ends)), key=lambda k: judged[k])
     alike = [j for j in judged[: len(order)] if j[0] <= 0 and j[1] <= judged[best][1] * (1 + SAME)]
-    return optimum_of(p, ends[best], found, judged[best][0] <= 0, len(alike), len(order), len(started))
+    return optimum_of(p, ends[best], varied, judged[best][0] <= 0, len(alike), len(order), len(started))
 
 
-def starts_of(p: Problem, count: int, seed: int) -> Array:
+def starts_of(p: DesignProblem, count: int, seed: int) -> Array:
     """Solvable points: the description's, then random ones."""
     return random_places(lambda u: np.isfinite(p(u).value), p.nominal, count, seed)
 
 
-def random_places(answers: Callable[[Array], Flags], own: Array, count: int, seed: int) -> Array:
+def random_places(answers: Callable[[Array], Flags], nominal: Array, count: int, seed: int) -> Array:
     """Solvable points (start, number) in the unit box: a given one, then random ones."""
     require("starts", count, path=("starts",))
     require("seed", seed, path=("seed",))
     draw, got, drawn = np.random.default_rng(seed), 0, 0
-    found = [own[None][answers(own[None])]]
+    accepted = [nominal[None][answers(nominal[None])]]
     while got < count and drawn < MOST_DRAWN * count:
-        u = draw.random((max(count, 64), len(own)))
+        u = draw.random((max(count, 64), len(nominal)))
         drawn += len(u)
         u = u[answers(u)][: count - got]
         got += len(u)
-        found.append(u)
-    places = np.concatenate(found)
+        accepted.append(u)
+    places = np.concatenate(accepted)
     if not len(places):
         raise ModelError(
             f"none of {drawn:,} random designs within the bounds can be solved at every position",
@@ -180,14 +182,14 @@ def random_places(answers: Callable[[Array], Flags], own: Array, count: int, see
     return places
 
 
-def judge(p: Problem, u: Array) -> tuple[float, float]:
+def judge(p: DesignProblem, u: Array) -> tuple[float, float]:
     """Largest violation of a condition, zero if all hold, and the aim; the smaller the pair, the better."""
     r = p.at(u)
     lacks = float(-(r.margin / p.sizes[:, None]).min(initial=0.0)) if np.isfinite(r.margin).all() else np.inf
     return (lacks if lacks > KEPT else 0.0), p.sharp(u)[0]
 
 
-def _stepped(p: Problem, u: Array, steps: Array) -> Array:
+def _stepped(p: DesignProblem, u: Array, steps: Array) -> Array:
     """The point with stepped numbers on their steps, its other numbers polished again."""
     free = np.isnan(steps)
     if free.all():
@@ -212,15 +214,21 @@ def _on(u: Array, which: Flags, values: Array) -> Array:
 
 
 def optimum_of(
-    p: Problem, u: Array, found: tuple[Number, ...], feasible: bool, alike: int, polished: int, started: int
+    p: DesignProblem,
+    u: Array,
+    varied: tuple[VariedNumber, ...],
+    feasible: bool,
+    alike: int,
+    polished: int,
+    started: int,
 ) -> Optimum:
     m, values = p.mechanism, p.numbers(u)
-    best = m.with_values({n.path: float(v) for n, v in zip(found, values, strict=True)})
+    best = m.with_values({n.path: float(v) for n, v in zip(varied, values, strict=True)})
     return Optimum(
         mechanism=best,
-        numbers=tuple(n.path for n in found),
+        numbers=tuple(n.path for n in varied),
         values=values,
-        nominal=np.array([n.value for n in found]),
+        nominal=np.array([n.value for n in varied]),
         bounds=np.stack([p.low, p.high], axis=1),
         aim=p.aim,
         conditions=p.conditions,
@@ -230,5 +238,5 @@ def optimum_of(
         found=alike,
         polished=polished,
         started=started,
-        kinds=number_kinds(m, found),
+        kinds=number_kinds(m, varied),
     )

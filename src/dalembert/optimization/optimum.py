@@ -16,12 +16,12 @@ from dalembert.answer.answer import Drawn, Labelled, Remade, Worked
 from dalembert.answer.column import Axes, Column, Scale, UnitChoice, parts
 from dalembert.arrays import Array, Tree
 from dalembert.model import Mechanism
-from dalembert.optimization.aims import Aim, Condition, parse_aim
-from dalembert.printing import Table
+from dalembert.optimization.aims import Aim, Constraint, parse_aim
+from dalembert.printing import TextTable
 
 if TYPE_CHECKING:
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
 
@@ -41,7 +41,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
     nominal: Array
     bounds: Array = field(repr=False)  # (number, 2)
     aim: Aim
-    conditions: tuple[Condition, ...]
+    conditions: tuple[Constraint, ...]
     before: Result = field(repr=False)
     after: Result = field(repr=False)
     feasible: bool
@@ -145,8 +145,8 @@ class Optimum(Labelled, Drawn, Worked, Remade):
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
         """Before and after, and how sure it is."""
-        yield Table(["", "before", "after", "from", "to"], self.number_rows(units))
-        yield Table(["", "before", "after"], self.aim_rows(units))
+        yield TextTable(["", "before", "after", "from", "to"], self.number_rows(units))
+        yield TextTable(["", "before", "after"], self.aim_rows(units))
         yield self.words
 
     def drawings(self, notation: Notation | None = None) -> list[Scene]:
@@ -155,7 +155,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
 
         return optimum_scenes(self, notation)
 
-    def sheet(self, notation: Notation | None = None) -> Sheet:
+    def sheet(self, notation: Notation | None = None) -> ReportSheet:
         """Numbers, the aim and its conditions, before and after, and the drawings."""
         from dalembert.reports.machine_sections.optimum_section import optimum_sheet
 

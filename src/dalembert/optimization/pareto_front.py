@@ -27,7 +27,7 @@ from dalembert.optimization.aims import parse_aim
 from dalembert.optimization.optimizers import DEFAULT, METHODS, OPEN, evolve, find_method
 from dalembert.optimization.optimizing import Bounds, judge, optimize, optimum_of, problem_of, starts_of
 from dalembert.optimization.optimum import Optimum
-from dalembert.printing import Table
+from dalembert.printing import TextTable
 
 if TYPE_CHECKING:
     from dalembert.printing import Part
@@ -78,7 +78,7 @@ class Front(Labelled, Drawn, Worked):
             ]
             for o, both in zip(self.designs, self.values, strict=True)
         ]
-        yield Table([*self.aims, *(row[0] for row in self.designs[0].number_rows(units))], rows)
+        yield TextTable([*self.aims, *(row[0] for row in self.designs[0].number_rows(units))], rows)
 
     def drawings(self, notation: Notation | None = None) -> list[Scene]:
         """The second aim over the first; the first design and the last."""
@@ -131,16 +131,16 @@ def pareto(
         optimize(mechanism, vary, least[0], [*rules, f"peak {second.of} <= {float(bound)!r}"], **options)
         for bound in np.linspace(high, low, points)[1:-1]
     ]
-    found = [o for o in (ends[0], *between, ends[1]) if o.feasible]
-    return _front(least, found)
+    optima = [o for o in (ends[0], *between, ends[1]) if o.feasible]
+    return _front(least, optima)
 
 
-def _front(least: Sequence[str], found: Sequence[Optimum]) -> Front:
-    if not found:
+def _front(least: Sequence[str], optima: Sequence[Optimum]) -> Front:
+    if not optima:
         raise ModelError("no design meets every condition", "widen the bounds, or leave a condition out")
-    values = np.array([[o.size_of(parse_aim(aim)) for aim in least] for o in found])
+    values = np.array([[o.size_of(parse_aim(aim)) for aim in least] for o in optima])
     kept = _undominated(values)
-    return Front((least[0], least[1]), tuple(found[k] for k in kept), values[kept])
+    return Front((least[0], least[1]), tuple(optima[k] for k in kept), values[kept])
 
 
 def _evolved(
@@ -156,8 +156,8 @@ def _evolved(
 
     def of(u: Array) -> dict[str, Array]:
         values = p.numbers(u)
-        found = [k(values, p.positions, redo=False).value(a.of) for k, a in zip(kernels, aims, strict=True)]
-        out = {"F": np.nan_to_num(np.stack(found, axis=1), nan=OPEN * p.scale)}
+        outputs = [k(values, p.positions, redo=False).value(a.of) for k, a in zip(kernels, aims, strict=True)]
+        out = {"F": np.nan_to_num(np.stack(outputs, axis=1), nan=OPEN * p.scale)}
         if p.conditions:
             lacks = p.broken(values, p.positions, redo=False)
             out["G"] = np.stack(

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dalembert.arrays import Array, Flags
-from dalembert.optimization.aims import Problem, Rows
+from dalembert.optimization.aims import DesignProblem, Margins
 from dalembert.optimization.optimizers import OPEN, polish_by
 
 
@@ -21,10 +21,10 @@ class _Design:
     """One design as an SLSQP problem: x are its free numbers u in the unit box, and for a peak t over its
     usual size."""
 
-    p: Problem
+    p: DesignProblem
     u: Array
     free: Flags
-    last: tuple[bytes, Rows] | None = None
+    last: tuple[bytes, Margins] | None = None
 
     @property
     def peak(self) -> bool:
@@ -36,7 +36,7 @@ class _Design:
         place[self.free] = np.clip(x[: self.free.sum()], 0.0, 1.0)
         return place
 
-    def rows(self, x: Array) -> Rows:
+    def rows(self, x: Array) -> Margins:
         """Quantity and margins at every position, cached for the last x, since values and slopes are
         evaluated in turn."""
         place = self.place(x)
@@ -72,7 +72,7 @@ class _Design:
         return value / self.p.scale, slope[self.free] / self.p.scale
 
 
-def polish(p: Problem, u: Array, free: Flags | None = None) -> Array:
+def polish(p: DesignProblem, u: Array, free: Flags | None = None) -> Array:
     """A better point than u (number,) in the unit box; numbers that are not free stay. Returns u itself if none is
     better."""
     d = _Design(p, u, np.ones(len(u), bool) if free is None else free)

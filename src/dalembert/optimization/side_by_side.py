@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.optimization.aims import Value
+from dalembert.optimization.aims import AimValue
 
 ENOUGH = 1e-4
 """Fraction of the decrease predicted by the slope that a step must achieve."""
@@ -23,11 +23,14 @@ SMALLEST = 1e-9
 
 
 def minimize(
-    of: Callable[[Array], Value], u: Array, steps: int = 150, progress: Callable[[int], object] | None = None
+    of: Callable[[Array], AimValue],
+    u: Array,
+    steps: int = 150,
+    progress: Callable[[int], object] | None = None,
 ) -> tuple[Array, Array]:
     """Points (start, number) and values, from solvable starts in the unit box."""
-    u, found = u.copy(), of(u)
-    value, slope = found.value.copy(), found.slope.copy()
+    u, answer = u.copy(), of(u)
+    value, slope = answer.value.copy(), answer.slope.copy()
     n = u.shape[1]
     inverse = np.broadcast_to(np.eye(n), (len(u), n, n)).copy()
     fresh, length, tries = np.ones(len(u), bool), np.ones(len(u)), np.zeros(len(u), int)
@@ -36,9 +39,9 @@ def minimize(
         k = np.flatnonzero(going)
         if not k.size:
             break
-        way = _direction(u[k], slope[k], inverse[k])
-        unit = np.where(fresh[k], FIRST / np.maximum(np.abs(way).max(axis=1), 1e-300), 1.0)
-        trial = np.clip(u[k] + (unit * length[k])[:, None] * way, 0.0, 1.0)
+        direction = _direction(u[k], slope[k], inverse[k])
+        unit = np.where(fresh[k], FIRST / np.maximum(np.abs(direction).max(axis=1), 1e-300), 1.0)
+        trial = np.clip(u[k] + (unit * length[k])[:, None] * direction, 0.0, 1.0)
         moved = trial - u[k]
         new = of(trial)
         promised = (slope[k] * moved).sum(axis=1)
@@ -63,10 +66,10 @@ def _direction(u: Array, slope: Array, inverse: Array) -> Array:
     """Descent directions (start, number), zero through a bound where the slope pushes against it."""
     held = ((u <= 0) & (slope > 0)) | ((u >= 1) & (slope < 0))
     free = np.where(held, 0.0, slope)
-    way = -np.einsum("sij,sj->si", inverse, free)
-    way = np.where(held, 0.0, way)
-    uphill = (way * free).sum(axis=1) >= 0
-    return np.where(uphill[:, None], -free, way)
+    direction = -np.einsum("sij,sj->si", inverse, free)
+    direction = np.where(held, 0.0, direction)
+    uphill = (direction * free).sum(axis=1) >= 0
+    return np.where(uphill[:, None], -free, direction)
 
 
 def _update(inverse: Array, fresh: Array, k: Array, s: Array, y: Array) -> None:

@@ -30,10 +30,10 @@ from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.optimization.free_timing import FreeTiming
-from dalembert.optimization.least_squares import Misfit, least_squares, wanted
+from dalembert.optimization.least_squares import TargetErrors, least_squares, wanted
 from dalembert.optimization.optimizing import Bounds, bounds_of, random_places
 from dalembert.optimization.optimum import row_of
-from dalembert.printing import Table, number
+from dalembert.printing import TextTable, number
 
 if TYPE_CHECKING:
     from dalembert.printing import Part
@@ -92,7 +92,7 @@ class Synthesis(Labelled, Drawn, Worked, Remade):
         """Numbers before and after, and how near the outputs come."""
         to = Printed(None if units == "SI" else self.mechanism.units)
         columns = zip(self.numbers, self.kinds, self.nominal, self.values, strict=True)
-        yield Table(["", "before", "after"], [row_of(to, *each) for each in columns])
+        yield TextTable(["", "before", "after"], [row_of(to, *each) for each in columns])
         yield self.words
 
     def drawings(self, notation: Notation | None = None) -> list[Scene]:
@@ -125,7 +125,7 @@ def synthesize(
     True
     """
     mechanism = as_mechanism(mechanism)
-    found, low, high, steps = bounds_of(mechanism, vary)
+    varied, low, high, steps = bounds_of(mechanism, vary)
     if not np.isnan(steps).all():
         raise ModelError("a synthesis takes no steps", "give (low, high)")
     if not targets:
@@ -134,8 +134,8 @@ def synthesize(
         raise ModelError(f"timing is {timing!r}", 'give "given" or "free"')
     k = compile(mechanism, tuple(vary), list(targets), derivatives=True, static=True)
     f = _misfit(k, low, high - low, targets, positions, timing == "free")
-    own = np.clip((k.nominal - low) / np.where(high > low, high - low, 1.0), 0, 1)
-    x, cost = least_squares(f, f.begin(random_places(f.answers, own, starts, seed)))
+    nominal = np.clip((k.nominal - low) / np.where(high > low, high - low, 1.0), 0, 1)
+    x, cost = least_squares(f, f.begin(random_places(f.answers, nominal, starts, seed)))
     cost = np.where(f.moves(x), cost, np.inf)
     best = int(np.argmin(cost))
     if not np.isfinite(cost[best]):
@@ -147,7 +147,7 @@ def synthesize(
     error = np.sqrt(2 * cost / len(f.target))
     r = k(values, place)
     return Synthesis(
-        mechanism=mechanism.with_values({n.path: float(v) for n, v in zip(found, values, strict=True)}),
+        mechanism=mechanism.with_values({n.path: float(v) for n, v in zip(varied, values, strict=True)}),
         numbers=k.numbers,
         values=values,
         nominal=k.nominal,
@@ -156,7 +156,7 @@ def synthesize(
         started=len(x),
         positions=k.course(place).schedule.position,
         found={name: r.value(name)[0] for name in targets},
-        kinds=number_kinds(mechanism, found),
+        kinds=number_kinds(mechanism, varied),
     )
 
 
@@ -167,10 +167,10 @@ def _misfit(
     targets: Mapping[str, ArrayLike],
     positions: ArrayLike | None,
     free: bool,
-) -> Misfit:
+) -> TargetErrors:
     """Least-squares problem, with the drives' positions given or free."""
     if free:
         return FreeTiming.of(k, low, size, targets, positions)
     place = None if positions is None else drive_values(k.mechanism, positions)
     count = len(k.course(place).schedule.position)
-    return Misfit(k, low, size, *wanted(k, targets, count), place)
+    return TargetErrors(k, low, size, *wanted(k, targets, count), place)

@@ -13,18 +13,18 @@ from functools import cached_property
 import numpy as np
 
 from dalembert.algebra import plane, space
-from dalembert.analysis.methods.applied_forces import Action, joint_place, magnitude, whole_actions
+from dalembert.analysis.methods.applied_forces import Action, full_actions, joint_place, magnitude
 from dalembert.analysis.methods.members import members
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Numeric, Tree
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.pages.mechanism_items import Items
-from dalembert.pages.rows import Rows
+from dalembert.pages.rows import NodeRows
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.frame import FINE, force_scale, round_up
 from dalembert.views.plane.force_polygons import chain_order
-from dalembert.views.plane.mechanism_view import is_drawn, role_of, unit_size, whole_frame
+from dalembert.views.plane.mechanism_view import full_frame, is_drawn, role_of, unit_size
 from dalembert.views.plane.outline import link_points
 
 CURVES = 6
@@ -35,10 +35,10 @@ class Boards:
     """Complete contents for one mechanism; ``actions`` in nodes."""
 
     def __init__(
-        self, known: Result, rows: Rows, actions: Sequence[Action], items: Items | None = None
+        self, known: Result, rows: NodeRows, actions: Sequence[Action], items: Items | None = None
     ) -> None:
         self.known, self.rows, self.actions, self.d = known, rows, actions, known._d
-        self.items = items or Items(rows.r, known, rows, whole_frame(known, 0, 120.0, 90.0))
+        self.items = items or Items(rows.r, known, rows, full_frame(known, 0, 120.0, 90.0))
         self.frame = self.items.frame
         self.shown = Shown(known, Notation())
         self.numbered = _numbered(known, actions)
@@ -88,12 +88,12 @@ class Boards:
     def _free_body(self, link: str) -> Tree:
         d, m = self.items, self.known.mechanism
         parts, labels = d.link(link), list[Tree]()
-        own = [n for n in self.known.joints if link in m.joints[n].links]
-        for name in own:
+        joints = [n for n in self.known.joints if link in m.joints[n].links]
+        for name in joints:
             parts += d.joint(name, link)
             u = self.rows.r.mechanism.joint_points(name)[m.joints[name].links.index(link)]
             labels.append({"text": name, "p": self.rows.place(link, u), "role": "title", "kind": "joint"})
-        parts += d.center(link) + d.circles(own)
+        parts += d.center(link) + d.circles(joints)
         mine = [k for k, a in enumerate(self.actions) if a.link == link]
         return {
             "link": link,
@@ -105,7 +105,7 @@ class Boards:
             "labels": labels,
             "arrows": [x for k in mine for x in self.arrows(k, tangent=True)],
             "force": self.scale(26.0),
-            "equations": self._equations(link, mine, own),
+            "equations": self._equations(link, mine, joints),
         }
 
     def _size(self, link: str) -> float:
@@ -116,11 +116,11 @@ class Boards:
         size = unit_size(self.known, "length")
         return round_up(max(span, 5 * self.frame.per_mm) / 46.0 / size, FINE) * size
 
-    def _equations(self, link: str, mine: Sequence[int], own: Sequence[str]) -> Tree:
+    def _equations(self, link: str, mine: Sequence[int], joints: Sequence[str]) -> Tree:
         """Sums of forces and of moments about the link's first joint, or its mass centre: a term for each action."""
         r, terms = self.rows.r, list[Tree]()
         cross = (plane if self.d == 2 else space).cross
-        at = joint_place(r, own[0])[0] if own else r.center(link)[0]
+        at = joint_place(r, joints[0])[0] if joints else r.center(link)[0]
         for k in mine:
             a, force = self.actions[k], self.actions[k].force[0]
             couple = np.ravel(a.couple)
@@ -134,7 +134,7 @@ class Boards:
                         "m": self.rows.vector(moment),
                     }
                 )
-        return {"about": own[0] if own else "G", "terms": terms}
+        return {"about": joints[0] if joints else "G", "terms": terms}
 
     def _has(self, values: Iterable[Numeric]) -> bool:
         """True if any node is not identically zero."""
@@ -191,8 +191,8 @@ class Boards:
             curve = {"row": self.rows.of(value), "name": name, "role": role, "of": f"{of}.{name}"}
             out.append({"title": title, "kind": kind, "curves": [curve]})
 
-        for drive, asked in zip(r.drives, r.compiled.known.asked, strict=True):
-            if asked:
+        for drive, is_unknown in zip(r.drives, r.compiled.known.requested, strict=True):
+            if is_unknown:
                 kind = drive_kinds(r, drive)["effort"]
                 one("effort", drive, kind, "effort", f"Effort of {drive}", s.effort(drive)[0])
         for name in r.unknown_loads:
@@ -240,12 +240,12 @@ class Boards:
 
 def _numbered(known: Result, actions: Sequence[Action]) -> list[Action]:
     """The action of the result for each traced one; zero where it does not exist at the file's numbers."""
-    there = {_key(a): a for a in whole_actions(known)}
+    by_key = {_key(a): a for a in full_actions(known)}
     count = len(known.status)
     d = known._d
     vector, couple = np.zeros((count, d)), np.zeros(count if d == 2 else (count, 3))
     nothing: Tree = {"at": vector, "force": vector, "couple": couple}
-    return [there.get(_key(a)) or replace(a, **nothing) for a in actions]
+    return [by_key.get(_key(a)) or replace(a, **nothing) for a in actions]
 
 
 def _key(a: Action) -> tuple[str, str, str, str]:

@@ -26,8 +26,8 @@ from dalembert.views.notation import pretty
 
 def numbers_of(m: Mechanism) -> list[str]:
     """Paths of the numbers that a reader may change: parameters, geometry, masses, loads, friction, speeds."""
-    own = (name for name, p in m.parameters.items() if not isinstance(p.value, Dependent))
-    free = [name for name in own if may_vary(m, name)]
+    independent = (name for name, p in m.parameters.items() if not isinstance(p.value, Dependent))
+    free = [name for name in independent if may_vary(m, name)]
     return free + [path for path, value in _candidates(m) if _plain(value) and not _follows(m, path)]
 
 
@@ -79,8 +79,8 @@ def _sources(m: Mechanism, values: Iterable[object]) -> list[str]:
     out: list[str] = []
     for value in values:
         for name in sorted(value.names) if isinstance(value, Dependent) else ():
-            given = m.parameters[name].value
-            out += _sources(m, [given]) if isinstance(given, Dependent) else [name]
+            stated = m.parameters[name].value
+            out += _sources(m, [stated]) if isinstance(stated, Dependent) else [name]
     return list(dict.fromkeys(out))
 
 
@@ -167,8 +167,8 @@ def handles(b: Boards, k: Kernel) -> list[Tree]:
 
     ``n``: the indices of the numbers that change. ``at``, ``axes``: rows of the origin and unit vectors of their axes.
     """
-    found = _Handles(b, {n.path: i for i, n in enumerate(k.trace.numbers)})
-    return [*found.joints(), *found.points(), *found.loads(), *found.directions()]
+    movable = _Handles(b, {n.path: i for i, n in enumerate(k.trace.numbers)})
+    return [*movable.joints(), *movable.points(), *movable.loads(), *movable.directions()]
 
 
 class _Handles:
@@ -206,18 +206,20 @@ class _Handles:
                 at = self.b.items.at(name)
                 yield from [{"kind": "joint", "name": name, "p": at, "ends": [], "by": by}] if by else []
                 continue
-            own = [
+            point_paths = [
                 (link, path)
                 for link, path in zip(joint.links, paths, strict=True)
                 if not self._slides(link, name)
             ]
-            ends = [end for link, path in own if (end := self._end(link, path))]
+            ends = [end for link, path in point_paths if (end := self._end(link, path))]
             about = {
-                k: v for link, path in own for k, v in self._wheels_about(link, path.split(".")[-1]).items()
+                k: v
+                for link, path in point_paths
+                for k, v in self._wheels_about(link, path.split(".")[-1]).items()
             }
             if ends and len(about) < 2:
-                found: Tree = {"kind": "joint", "name": name, "p": self.b.items.at(name), "ends": ends}
-                yield found | ({"about": next(iter(about.values()))} if about else {})
+                handle: Tree = {"kind": "joint", "name": name, "p": self.b.items.at(name), "ends": ends}
+                yield handle | ({"about": next(iter(about.values()))} if about else {})
 
     def _wheels_about(self, link: str, point: str) -> dict[tuple[float, ...], list[int]]:
         """Rows of the centres about which a point of a link moves, by their place: where it is the centre of a
@@ -302,7 +304,7 @@ def channel_fields(k: Kernel, names: dict[int, str], channels: list[Node]) -> li
     course, inputs = k.trace.course, k.trace.inputs
     count, out = len(course.schedule.position), []
     for n in channels:
-        values = np.broadcast_to(np.asarray(inputs.found[n](course), float), (count,))
+        values = np.broadcast_to(np.asarray(inputs.sources[n](course), float), (count,))
         field: Tree = {"name": names[n.index], "values": series(values)}
         varying = inputs.varying.get(names[n.index])
         if isinstance(varying, Table):
@@ -324,9 +326,9 @@ JUMPS = ("counted", "speed", "acceleration", "known reversal")
 
 def only_at_positions(k: Kernel, names: dict[int, str], channels: list[Node]) -> bool:
     """True if the page may stop only at the listed positions, as some input is unknown in between."""
-    course, found = k.trace.course, k.trace.inputs.found
+    course, readers = k.trace.course, k.trace.inputs.sources
     return any(
-        names[n.index].startswith(JUMPS) and float(np.ptp(np.asarray(found[n](course), float))) > 0
+        names[n.index].startswith(JUMPS) and float(np.ptp(np.asarray(readers[n](course), float))) > 0
         for n in channels
     )
 

@@ -19,10 +19,10 @@ from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.friction.contact_equations import strength
 from dalembert.model import GROUND, Mechanism
-from dalembert.pages.rows import Rows
+from dalembert.pages.rows import NodeRows
 from dalembert.pages.symbolic_result import SymbolicResult
 from dalembert.views.formats.svg import Writer
-from dalembert.views.paper.frame import Frame
+from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item
 from dalembert.views.plane.joint_drawings import round_slot
 from dalembert.views.plane.outline import link_paths, wheel_paths
@@ -38,8 +38,8 @@ class Items:
 
     r: SymbolicResult
     known: Result
-    rows: Rows
-    frame: Frame
+    rows: NodeRows
+    frame: PaperFrame
     roles: set[str] = field(default_factory=set)
 
     @property

@@ -33,7 +33,7 @@ from dalembert.pages.inputs import (
 from dalembert.pages.messages.number_reading import limits, reading, sign_sentences
 from dalembert.pages.messages.position_sentences import position_sentences
 from dalembert.pages.modules import module
-from dalembert.pages.rows import Rows
+from dalembert.pages.rows import NodeRows
 from dalembert.pages.saved_text import template
 from dalembert.pages.sketch_data import page_pose, pose_result, sketch_data
 from dalembert.pages.space_boards import SpaceBoards
@@ -76,12 +76,15 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
     r = symbolic_result(k)
     known = at_schedule(m, k.trace.course.schedule, inertia)
     pose = page_pose(k)
-    rows, shown = Rows(k.trace.catalogue.graph, r), Rows(k.trace.catalogue.graph, pose_result(r, pose))
+    rows, shown = (
+        NodeRows(k.trace.catalogue.graph, r),
+        NodeRows(k.trace.catalogue.graph, pose_result(r, pose)),
+    )
     b, views, dragged, drives = _shown(known, rows, k)
     _shown(known, shown, k)
     names, channels = k.trace.catalogue.graph.names, []
-    beside = Rows(rows.graph, r, rows.nodes, rows.places)  # the same rows, without drawings
-    limited, said = limits(m, k, beside), position_sentences(known, k, beside)
+    beside = NodeRows(rows.graph, r, rows.nodes, rows.places)  # the same rows, without drawings
+    limited, sentences = limits(m, k, beside), position_sentences(known, k, beside)
     program = plain(k, rows.nodes)
     data: Tree = {
         "format": FORMAT,
@@ -99,7 +102,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
         "handles": dragged,
         "views": views,
         "statuses": _statuses(),
-        "sentences": said,
+        "sentences": sentences,
         "assumptions": known.assumptions,
         "style": {theme: _style(b, theme) for theme in ("light", "dark")},
     }
@@ -109,16 +112,16 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
         channels = gradient["channels"]
     channels = list(dict.fromkeys([*program.inputs_in_use("channel"), *channels]))
     data["sketch"] = sketch_data(k, rows, shown, pose, {names[n.index] for n in channels})
-    given, more = k.trace.inputs.named, data["sketch"]["shown"]["channels"]
+    inputs, more = k.trace.inputs.named, data["sketch"]["shown"]["channels"]
     channels = list(
-        dict.fromkeys([*channels, *(given["channel", n] for n in more if ("channel", n) in given)])
+        dict.fromkeys([*channels, *(inputs["channel", n] for n in more if ("channel", n) in inputs)])
     )
     data["channels"] = channel_fields(k, names, channels)
     data["only_at_positions"] = only_at_positions(k, names, channels)
     return data
 
 
-def _shown(known: Result, rows: Rows, k: Kernel) -> tuple[Boards, Tree, list[Tree], list[Tree]]:
+def _shown(known: Result, rows: NodeRows, k: Kernel) -> tuple[Boards, Tree, list[Tree], list[Tree]]:
     """Complete contents, with the handles and the drives."""
     m = known.mechanism
     b = (SpaceBoards if m.dimension == 3 else Boards)(known, rows, symbolic_actions(rows.r, k))
@@ -186,8 +189,10 @@ def _statuses() -> list[Tree]:
     out = list[Tree]()
     for mark, status in enumerate(CODES):
         known = STATUSES.get(status)
-        said = UNDECIDED if known is None else "" if not mark else f"{known.sentence} {known.remedy}".strip()
-        out.append({"status": status, "sentence": said, "numbered": mark in NUMBERED})
+        sentence = (
+            UNDECIDED if known is None else "" if not mark else f"{known.sentence} {known.remedy}".strip()
+        )
+        out.append({"status": status, "sentence": sentence, "numbered": mark in NUMBERED})
     return out
 
 

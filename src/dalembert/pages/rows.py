@@ -14,14 +14,14 @@ from dalembert.pages.symbolic_result import SymbolicResult
 
 
 @dataclass
-class Rows:
-    """Nodes in the order of their first request, each once; ``asked``: the row of each request."""
+class NodeRows:
+    """Nodes in the order of their first request, each once; ``requested``: the row of each request."""
 
     graph: Graph
     r: SymbolicResult
     nodes: list[Node] = field(default_factory=list)
     places: dict[int, int] = field(default_factory=dict)
-    asked: list[int] = field(default_factory=list)
+    requested: list[int] = field(default_factory=list)
 
     def of(self, x: Numeric) -> int:
         """The row of a number or node."""
@@ -29,8 +29,8 @@ class Rows:
         if node.index not in self.places:
             self.places[node.index] = len(self.nodes)
             self.nodes.append(node)
-        self.asked.append(self.places[node.index])
-        return self.asked[-1]
+        self.requested.append(self.places[node.index])
+        return self.requested[-1]
 
     def vector(self, v: Iterable[Numeric]) -> list[int]:
         """The rows of a vector's components."""

@@ -35,10 +35,10 @@ SAME = 1e-9
 
 def template(m: Mechanism, k: Kernel) -> list[Part]:
     """The parts of the text."""
-    return _own_template(m, k) or _si_template(m, k)
+    return _file_template(m, k) or _si_template(m, k)
 
 
-def _own_template(m: Mechanism, k: Kernel) -> list[Part] | None:
+def _file_template(m: Mechanism, k: Kernel) -> list[Part] | None:
     """The author's text with placeholders; None where the places of the numbers cannot be determined.
 
     Two mechanisms with other numbers are written, and the differences between the texts show the place of each number.
@@ -73,13 +73,13 @@ def _written(m: Mechanism, k: Kernel, text: str, values: list[float]) -> list[Ch
 def _other_numbers(m: Mechanism, k: Kernel, rough: set[int]) -> tuple[list[float], list[float]]:
     """Two lists of numbers near the file's, each number with a different ratio; short in the file's units, the
     ``rough`` ones in SI."""
-    own = [n.value for n in k.trace.numbers]
+    nominals = [n.value for n in k.trace.numbers]
     kinds = [*number_kinds(m, k.trace.numbers), *(_pose_kind(path) for path in assembly_paths(k))]
     draw, ratios, out = random.Random(1), set[float](), list[tuple[float, float]]()
     for n, kind in enumerate(kinds):
-        plain = n in rough or n >= len(own) or m.units.refuses_bare(kind)
+        plain = n in rough or n >= len(nominals) or m.units.refuses_bare(kind)
         size = 1.0 if plain else quantity(1.0, kind, m.units)
-        nominal = (own[n] if n < len(own) else 0.5) / size or 1.0
+        nominal = (nominals[n] if n < len(nominals) else 0.5) / size or 1.0
         while True:
             pair = [float(f"{nominal * draw.uniform(1.01, 1.3):.4g}") for _ in range(2)]
             one, two = pair if plain else [quantity(x, kind, m.units) for x in pair]
@@ -133,8 +133,8 @@ def _number(x: str, y: str, a: list[float], b: list[float]) -> int | None:
         ratio = float(x) / float(y)
     except (ValueError, ZeroDivisionError):
         return None
-    found = [n for n, (p, q) in enumerate(zip(a, b, strict=True)) if abs(p - ratio * q) < SAME * abs(p)]
-    return found[0] if len(found) == 1 else None
+    matches = [n for n, (p, q) in enumerate(zip(a, b, strict=True)) if abs(p - ratio * q) < SAME * abs(p)]
+    return matches[0] if len(matches) == 1 else None
 
 
 def _si_template(m: Mechanism, k: Kernel) -> list[Part]:
@@ -176,10 +176,10 @@ def _put_parameter(parameters: Tree, name: str, text: str) -> None:
 
 
 def _put(tree: Any, keys: list[str], text: str, m: Mechanism) -> None:
-    *way, last = keys
-    if last.isdigit() and not isinstance(_at(tree, way), list):
-        _put(tree, way, [0, 0], m)  # type: ignore[arg-type]
-    holder = _at(tree, way)
+    *holder_keys, last = keys
+    if last.isdigit() and not isinstance(_at(tree, holder_keys), list):
+        _put(tree, holder_keys, [0, 0], m)  # type: ignore[arg-type]
+    holder = _at(tree, holder_keys)
     holder[int(last) if isinstance(holder, list) else last] = text
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
-from dalembert.analysis.batch.tracing.course import Course
+from dalembert.analysis.batch.tracing.course import PositionPath
 from dalembert.analysis.batch.tracing.traced_analysis import with_meshes
 from dalembert.analysis.positions import places_to_sample
 from dalembert.arrays import Array, Tree
@@ -25,7 +25,7 @@ from dalembert.kernel.graph import INPUTS, Node, trace_array
 from dalembert.kernel.program import Program
 from dalembert.kernel.sketch_program import PARTS, PoseInputs, Sketch, elimination_order, pose_inputs, sketch
 from dalembert.pages.modules import module
-from dalembert.pages.rows import Rows
+from dalembert.pages.rows import NodeRows
 from dalembert.pages.symbolic_result import SymbolicResult
 
 
@@ -47,7 +47,7 @@ def page_pose(k: Kernel) -> PoseInputs:
     return pose_inputs(graph, layout, motion.compiled.layout, motion.pose)
 
 
-def sketch_data(k: Kernel, rows: Rows, shown: Rows, pose: PoseInputs, used: set[str]) -> Tree:
+def sketch_data(k: Kernel, rows: NodeRows, shown: NodeRows, pose: PoseInputs, used: set[str]) -> Tree:
     """Programs and data; ``shown`` contains the same numbers as ``rows``, at the poses that are inputs.
 
     used: names of the channels of the page's other programs.
@@ -112,8 +112,8 @@ def _known(k: Kernel, layout: Layout, pose: PoseInputs) -> Iterator[tuple[str, N
             part, place = "rotation", ("cos", "sin").index(what[2])
         elif len(what) == 4:
             place = int(what[2])
-        found = getattr(pose.core, part)[int(what[-1])]
-        yield name, found if part == "turn" else found[place]
+        part_nodes = getattr(pose.core, part)[int(what[-1])]
+        yield name, part_nodes if part == "turn" else part_nodes[place]
 
 
 def _line_angle(k: Kernel, layout: Layout, pose: PoseInputs, row: int) -> Node:
@@ -127,29 +127,29 @@ def _line_angle(k: Kernel, layout: Layout, pose: PoseInputs, row: int) -> Node:
     return angle
 
 
-def _drawn(rows: Rows, shown: Rows, pose: PoseInputs) -> dict[int, Node]:
+def _drawn(rows: NodeRows, shown: NodeRows, pose: PoseInputs) -> dict[int, Node]:
     """Rows that depend on the pose and the numbers alone, each at the external pose."""
-    graph, given = rows.graph, {n.index for n in pose.nodes}
+    graph, pose_nodes = rows.graph, {n.index for n in pose.nodes}
     fit = dict[int, bool]()
     for n in graph.order(shown.nodes):
         if n.op in INPUTS:
-            fit[n.index] = n.op == "number" or n.index in given
+            fit[n.index] = n.op == "number" or n.index in pose_nodes
         else:
             fit[n.index] = all(fit[x.index] for x in (n.a, n.b) if x is not None)
-    if len(rows.asked) != len(shown.asked):
+    if len(rows.requested) != len(shown.requested):
         raise ValueError("the items drawn at a pose differ from those of the closed forms")
-    pairs = dict(zip(reversed(rows.asked), reversed(shown.asked), strict=True))
+    pairs = dict(zip(reversed(rows.requested), reversed(shown.requested), strict=True))
     return {row: shown.nodes[other] for row, other in sorted(pairs.items()) if fit[shown.nodes[other].index]}
 
 
-def _ends(shown: Rows) -> dict[str, list[Node]]:
+def _ends(shown: NodeRows) -> dict[str, list[Node]]:
     """The places of each joint on both of its links, of joints that hold points together."""
-    m, found = shown.r.mechanism, dict[str, list[Node]]()
+    m, by_joint = shown.r.mechanism, dict[str, list[Node]]()
     for name, joint in m.joints.items():
         if not joint.apart and not joint.wheels:
             ends = zip(joint.links, m.joint_points(name), strict=True)
-            found[name] = [shown.nodes[row] for link, u in ends for row in shown.place(link, u)]
-    return found
+            by_joint[name] = [shown.nodes[row] for link, u in ends for row in shown.place(link, u)]
+    return by_joint
 
 
 def _structure(k: Kernel, layout: Layout, s: Sketch) -> Tree:
@@ -190,7 +190,7 @@ def _first(k: Kernel, layout: Layout, pose: PoseInputs) -> Tree:
         for part in PARTS
     }
     along = course(c.layout, c.targets)
-    found: Tree = {
+    first_pose: Tree = {
         "pose": at,
         "place": motion.first,
         "course": along.order.tolist(),
@@ -198,10 +198,10 @@ def _first(k: Kernel, layout: Layout, pose: PoseInputs) -> Tree:
         "counted": dict(_counted(motion)),
     }
     period = c.period
-    return found | ({} if period is None else {"cycle": period[c.layout.constraints.count :].tolist()})
+    return first_pose | ({} if period is None else {"cycle": period[c.layout.constraints.count :].tolist()})
 
 
-def _counted(motion: Course) -> Iterator[tuple[str, float]]:
+def _counted(motion: PositionPath) -> Iterator[tuple[str, float]]:
     """Whole turns, in radians, that a torsion spring counts beyond its links' angles, by the link that names them."""
     c = motion.counted
     turns = np.atleast_2d(c.forcing.resistances.turns)

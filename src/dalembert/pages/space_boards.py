@@ -14,8 +14,8 @@ from dalembert.model import GROUND
 from dalembert.model.joints.pairs import AXES, PAIRS
 from dalembert.pages.boards import Boards
 from dalembert.pages.mechanism_items import Items
-from dalembert.pages.rows import Rows
-from dalembert.views.paper.frame import Frame
+from dalembert.pages.rows import NodeRows
+from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.plane.outline import load_places
 
 SHAPES = {
@@ -61,8 +61,8 @@ class SpaceBoards(Boards):
     A couple is an arrow with two heads along its axis.
     """
 
-    def __init__(self, known: Result, rows: Rows, actions: Sequence[Action]) -> None:
-        super().__init__(known, rows, actions, SpaceItems(rows.r, known, rows, Frame(1e-3)))
+    def __init__(self, known: Result, rows: NodeRows, actions: Sequence[Action]) -> None:
+        super().__init__(known, rows, actions, SpaceItems(rows.r, known, rows, PaperFrame(1e-3)))
 
     def _size(self, link: str) -> float:
         return self.frame.per_mm

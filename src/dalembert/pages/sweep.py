@@ -32,36 +32,36 @@ def with_cycle(m: Mechanism) -> Mechanism:
     name, d = next(iter(single.items()))
     assert isinstance(d.position, float)
     if d.turns:
-        ways = d.position + np.linspace(0, 2 * np.pi, TURN + 1) - np.pi
+        values = d.position + np.linspace(0, 2 * np.pi, TURN + 1) - np.pi
     else:
-        ways = d.position + np.linspace(-1, 1, STROKE + 1) * 0.25 * _reach(m)
-    own = len(ways) // 2
-    closes = _closing(m, name, ways, own)
+        values = d.position + np.linspace(-1, 1, STROKE + 1) * 0.25 * _reach(m)
+    middle = len(values) // 2
+    closes = _closing(m, name, values, middle)
     if closes.all() and d.turns:
         return _over(m, name, d.position, d.position + 2 * np.pi, TURN)
-    low = own - int(np.argmin([*closes[own::-1], False])) + 1
-    high = own + int(np.argmin([*closes[own:], False])) - 1
-    return _over(m, name, ways[low], ways[high], high - low + 1) if high > low else m
+    low = middle - int(np.argmin([*closes[middle::-1], False])) + 1
+    high = middle + int(np.argmin([*closes[middle:], False])) - 1
+    return _over(m, name, values[low], values[high], high - low + 1) if high > low else m
 
 
 def _over(m: Mechanism, drive: str, low: float, high: float, count: int) -> Mechanism:
     return m.with_values({f"drives.{drive}.position": Range(float(low), float(high), count)})
 
 
-def _closing(m: Mechanism, drive: str, ways: Array, own: int) -> Flags:
+def _closing(m: Mechanism, drive: str, values: Array, middle: int) -> Flags:
     """True where the linkage closes on the file's branch; True everywhere if only following the motion can decide."""
-    step = NEAR * (ways[-1] - ways[0])
+    step = NEAR * (values[-1] - values[0])
     try:
-        trace = trace_analysis(_over(m, drive, ways[own] - step, ways[own] + step, 3), (), False)
+        trace = trace_analysis(_over(m, drive, values[middle] - step, values[middle] + step, 3), (), False)
     except ModelError:
-        return np.asarray(np.arange(len(ways)) == own)
+        return np.asarray(np.arange(len(values)) == middle)
     program = plain(Kernel(m, trace, (), None, False, 1), [], marked=True)
     channels = program.inputs_in_use("channel")
     graph = program.graph
     if [graph.names[n.index] for n in channels] != [f"position {drive}"]:
-        return np.ones(len(ways), bool)
-    tests = graph.evaluate(program.marks.open, {channels[0].index: ways})
-    return np.asarray(np.array([np.broadcast_to(np.asarray(t) >= 0, len(ways)) for t in tests]).all(axis=0))
+        return np.ones(len(values), bool)
+    tests = graph.evaluate(program.flags.open, {channels[0].index: values})
+    return np.asarray(np.array([np.broadcast_to(np.asarray(t) >= 0, len(values)) for t in tests]).all(axis=0))
 
 
 def _reach(m: Mechanism) -> float:

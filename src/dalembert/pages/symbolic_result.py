@@ -18,7 +18,7 @@ from dalembert.analysis.methods.applied_forces import (
 from dalembert.analysis.result.force_arrays import Friction
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
-from dalembert.core.equilibrium import Motion
+from dalembert.core.equilibrium import LinkMotions
 from dalembert.core.layout import Pose
 
 
@@ -67,6 +67,6 @@ def symbolic_actions(r: SymbolicResult, k: Kernel) -> tuple[Action, ...]:
     point = np.concatenate([r.point_array, t.pose.point[None, -1:]], axis=1)
     pose = Pose(point, *g.with_ground(r.turn_array, r.rotation_array))
     nothing: Any = None  # virtual velocities, rows and factors are not needed
-    moving = Motion(t.twist[None], t.acceleration[None], nothing, nothing)
+    moving = LinkMotions(t.twist[None], t.acceleration[None], nothing, nothing)
     known = known_actions(r, State(pose, moving, nothing, nothing))
     return (*joint_actions(r, split=False), *effort_actions(r), *known, *unknown_load_actions(r))

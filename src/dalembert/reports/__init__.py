@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from dalembert.answer.answer import Worked
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation
 
 FORMATS = (".pdf", ".html", ".tex", ".txt")
@@ -20,7 +20,7 @@ FORMATS = (".pdf", ".html", ".tex", ".txt")
 class Report:
     """A worked solution, ready to be written or shown in a notebook."""
 
-    def __init__(self, sheet: Sheet) -> None:
+    def __init__(self, sheet: ReportSheet) -> None:
         self.sheet = sheet
 
     def to_bytes(self, kind: str) -> bytes:

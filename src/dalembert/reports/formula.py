@@ -17,7 +17,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 
-class Word(NamedTuple):
+class NotatedName(NamedTuple):
     """A name in the three notations."""
 
     typst: str
@@ -27,16 +27,16 @@ class Word(NamedTuple):
 
 _GREEK = "alpha α, beta β, gamma γ, delta δ, theta θ, omega ω, phi φ, mu μ, pi π, eta η, sigma σ, tau τ"
 
-WORDS: dict[str, Word] = {
-    **{name: Word(name, "\\" + name, sign) for name, sign in map(str.split, _GREEK.split(","))},
-    **{name: Word(name, "\\" + name, name) for name in ("cos", "sin", "tan", "arcsin", "arctan")},
-    "sum": Word("sum", "\\sum", "Σ"),
-    "cdot": Word("dot.c", "\\cdot", "·"),
-    "times": Word("times", "\\times", "×"),
-    "deg": Word("degree", "{}^\\circ", "°"),
-    "dot": Word("dot", "\\dot", "d/dt "),
-    "quad": Word("quad", "\\quad", "   "),
-    "angle": Word("angle", "\\angle", "∠"),
+WORDS: dict[str, NotatedName] = {
+    **{name: NotatedName(name, "\\" + name, sign) for name, sign in map(str.split, _GREEK.split(","))},
+    **{name: NotatedName(name, "\\" + name, name) for name in ("cos", "sin", "tan", "arcsin", "arctan")},
+    "sum": NotatedName("sum", "\\sum", "Σ"),
+    "cdot": NotatedName("dot.c", "\\cdot", "·"),
+    "times": NotatedName("times", "\\times", "×"),
+    "deg": NotatedName("degree", "{}^\\circ", "°"),
+    "dot": NotatedName("dot", "\\dot", "d/dt "),
+    "quad": NotatedName("quad", "\\quad", "   "),
+    "angle": NotatedName("angle", "\\angle", "∠"),
 }
 
 _TOKEN = re.compile(r'"[^"]*"|[_^]\{[^}]*\}|frac\(|[^\W\d_]+|\d[\d.]*(?:e[−+-]?\d+)?|\s+|.', re.DOTALL)

@@ -12,7 +12,7 @@ from dalembert.views.space.camera import ISOMETRIC
 from dalembert.views.space.space_mechanism import space_mechanism_scene
 
 
-def given_picture(c: ReportContext) -> Scene:
+def stated_picture(c: ReportContext) -> Scene:
     """The mechanism with its loads, without friction; in a question without the unknowns."""
     if c.question:
         seen = ISOMETRIC if c.r.mechanism.dimension == 3 else None
@@ -28,5 +28,5 @@ def friction_pictures(c: ReportContext) -> list[Scene]:
         return [draw.free_body(c.r, link, c.k + 1, c.notation) for link in c.r.links]
     if c.r.friction is None:
         return [mechanism_scene(c.r, c.k, c.notation)]
-    whole = mechanism_scene(c.r, c.k, c.notation, details=False)
-    return [whole, *detail_scenes(c.r, c.k, None, c.shown)]
+    main = mechanism_scene(c.r, c.k, c.notation, details=False)
+    return [main, *detail_scenes(c.r, c.k, None, c.shown)]

@@ -41,7 +41,7 @@ class Equations:
 
 
 @dataclass(frozen=True)
-class Table:
+class SheetTable:
     """Columns under their heads; cells may hold formulas between dollar signs. ``total`` sets the last row apart."""
 
     heads: tuple[str, ...]
@@ -62,7 +62,7 @@ class Matrix:
 
 
 @dataclass(frozen=True)
-class Figure:
+class Drawings:
     """Drawings side by side."""
 
     scenes: tuple[Scene, ...]
@@ -76,11 +76,11 @@ class Blanks:
     rows: tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 
 
-Block = Heading | Paragraph | Equations | Table | Matrix | Figure | Blanks
+Block = Heading | Paragraph | Equations | SheetTable | Matrix | Drawings | Blanks
 
 
 @dataclass
-class Sheet:
+class ReportSheet:
     """Title, source and blocks in order."""
 
     title: str
@@ -107,9 +107,9 @@ class Sheet:
     ) -> None:
         """A table, if it has rows."""
         if rows:
-            self.blocks.append(Table(tuple(heads), tuple(tuple(row) for row in rows), caption, total))
+            self.blocks.append(SheetTable(tuple(heads), tuple(tuple(row) for row in rows), caption, total))
 
     def figure(self, *scenes: Scene, caption: str = "") -> None:
         """Drawings side by side."""
         if scenes:
-            self.blocks.append(Figure(scenes, caption))
+            self.blocks.append(Drawings(scenes, caption))

@@ -19,14 +19,14 @@ from dalembert.reports.sections.given import knowns
 from dalembert.reports.sections.methods import checks, cycle, graphical
 from dalembert.reports.sections.motion import inertia, motion
 from dalembert.reports.sections.sources import shown_name, superposition, virtual_work
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.reports.space_sections.space_friction_laws import space_friction
 from dalembert.reports.space_sections.space_mobility import degrees_of_freedom
 from dalembert.reports.space_sections.space_motion import space_inertia, space_motion
 from dalembert.reports.space_sections.space_order import order_and_solution
 from dalembert.reports.space_sections.space_reactions import reaction_tables
 from dalembert.views import both_ends, draw
-from dalembert.views.notation import Notation, Shown, own_name
+from dalembert.views.notation import Notation, Shown, load_sign
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -41,7 +41,7 @@ def working(
     methods: tuple[Method, ...] = METHODS,
     notation: Notation | None = None,
     about: str = "",
-) -> Sheet:
+) -> ReportSheet:
     """The worked solution of one position of a result, with charts where there are more."""
     notation = notation or Notation()
     plane = r.mechanism.dimension == 2
@@ -52,7 +52,7 @@ def working(
         )
     c = ReportContext(r, position_at(r, at), Shown(r, notation, position_at(r, at)), methods, about, notation)
     m = r.mechanism
-    sheet = Sheet(m.title or "Force analysis", m.source_text, _where(c))
+    sheet = ReportSheet(m.title or "Force analysis", m.source_text, _where(c))
     knowns(sheet, c)
     if not plane:
         degrees_of_freedom(sheet, c)
@@ -65,7 +65,7 @@ def working(
         return sheet
     if r.reasons[c.k]:
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
-    whole, c = c, replace(c, r=r.before) if r.reverses[c.k] else c
+    cycle_context, c = c, replace(c, r=r.before) if r.reverses[c.k] else c
     (motion if plane else space_motion)(sheet, c)
     (inertia if plane else space_inertia)(sheet, c)
     (friction.friction if plane else space_friction)(sheet, c)
@@ -77,14 +77,14 @@ def working(
         superposition(sheet, c)
     if "virtual-work" in methods:
         virtual_work(sheet, c)
-    if whole is not c:
+    if cycle_context is not c:
         _just_after(sheet, replace(c, r=r.sides[1]))
-    cycle(sheet, whole)
+    cycle(sheet, cycle_context)
     checks(sheet, c)
     return sheet
 
 
-def _just_after(sheet: Sheet, c: ReportContext) -> None:
+def _just_after(sheet: ReportSheet, c: ReportContext) -> None:
     """Values that differ just after contacts have reversed; all before them in the sheet are just before."""
     sheet.heading("Just after the reversal")
     sheet.text("The motion and the loads are the same, the friction of what reversed has its other sense.")
@@ -102,7 +102,7 @@ def _where(c: ReportContext) -> str:
     return (f"Position {', '.join(parts)}" if parts else "Structure") + many
 
 
-def _bodies(sheet: Sheet, c: ReportContext) -> None:
+def _bodies(sheet: ReportSheet, c: ReportContext) -> None:
     r, shown = c.r, c.shown
     sheet.heading("Free bodies and their equations")
     sheet.figure(*(draw.free_body(r, link, c.k + 1, c.notation) for link in r.links))
@@ -121,30 +121,30 @@ def _bodies(sheet: Sheet, c: ReportContext) -> None:
     for link in r.links:
         lines, about = equilibrium_equations.link_equations(r, link, c.k, shown, c.about)
         place = "the mass centre G" if about.name == "G" else f"joint {about.name}"
-        own = f" (in {shown.arm_unit})" if shown.arm_unit != shown.unit("length") else ""
+        arm_unit = f" (in {shown.arm_unit})" if shown.arm_unit != shown.unit("length") else ""
         sheet.text(
-            f"Link {shown.heading(link)}, moments about {place}; R{own} from that point to each force:"
+            f"Link {shown.heading(link)}, moments about {place}; R{arm_unit} from that point to each force:"
         )
         sheet.equations(lines)
     if r.mechanism.dimension == 3:
         order_and_solution(sheet, c)
         return
-    found = matrix.matrix_equation(r, c.k, shown, c.about)
-    if found is not None:
-        sheet.heading(f"The {len(found.unknowns)} equations as one", 2)
+    equation = matrix.matrix_equation(r, c.k, shown, c.about)
+    if equation is not None:
+        sheet.heading(f"The {len(equation.unknowns)} equations as one", 2)
         units = (
             f"forces in {shown.unit('force')}, lengths in {shown.arm_unit}, moments in {shown.unit('moment')}"
         )
         words = f"The knowns are on the right ({units}){in_ground(c)}, the solution after it."
-        sheet.blocks.append(replace(found, caption=words))
+        sheet.blocks.append(replace(equation, caption=words))
 
 
-def _answers(sheet: Sheet, c: ReportContext) -> None:
+def _answers(sheet: ReportSheet, c: ReportContext) -> None:
     sheet.heading("Joint forces and efforts" if c.r.mechanism.dimension == 2 else "Reactions and efforts")
     _joint_forces(sheet, c)
 
 
-def _joint_forces(sheet: Sheet, c: ReportContext) -> None:
+def _joint_forces(sheet: ReportSheet, c: ReportContext) -> None:
     """Table of the joint forces, then the efforts and unknown loads."""
     if c.r.mechanism.dimension == 3:
         reaction_tables(sheet, c)
@@ -184,6 +184,6 @@ def _efforts(c: ReportContext) -> list[Working]:
     """Efforts and unknown loads with their values."""
     r, k = c.r, c.k
 
-    found = [(shown_name(c, "effort", d), drive_kinds(r, d)["effort"], r.effort(d)[k]) for d in r.drives]
-    found += [(own_name(u), load_kind(r, u), r.unknown_load(u)[k]) for u in r.unknown_loads]
-    return [Working(f"{name} = {figure(c.shown, kind, float(value))}") for name, kind, value in found]
+    rows = [(shown_name(c, "effort", d), drive_kinds(r, d)["effort"], r.effort(d)[k]) for d in r.drives]
+    rows += [(load_sign(u), load_kind(r, u), r.unknown_load(u)[k]) for u in r.unknown_loads]
+    return [Working(f"{name} = {figure(c.shown, kind, float(value))}") for name, kind, value in rows]

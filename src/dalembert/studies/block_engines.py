@@ -83,12 +83,12 @@ class KernelEngine:
 
     @property
     def _program(self) -> Any:
-        return self.kernel.runner.machine(self.kernel.runner.way(self.positions))
+        return self.kernel.runner.machine(self.kernel.runner.method(self.positions))
 
     def block(self, values: Array) -> Block:
-        found = self.kernel(values, self.at, threads=1, redo=False)
-        parts = {name: found.value(name) for name in self.outputs} | {"status": found.code}
-        unsure = among(found.code, UNSURE)
+        answer = self.kernel(values, self.at, threads=1, redo=False)
+        parts = {name: answer.value(name) for name in self.outputs} | {"status": answer.code}
+        unsure = among(answer.code, UNSURE)
         again = np.flatnonzero(unsure.any(axis=tuple(range(1, unsure.ndim))))
         if len(again):
             with ONE_AT_A_TIME:
@@ -116,7 +116,7 @@ class AnalysisEngine:
         return len(solve(self.mechanism, self.static, self.count).status)
 
     @property
-    def marks(self) -> tuple[int, ...]:
+    def shape(self) -> tuple[int, ...]:
         """Axes of the status codes of a design."""
         return () if self.reduce else (self.positions,)
 
@@ -147,29 +147,29 @@ class AnalysisEngine:
         """Outputs and status codes of one design."""
         result = solve(m, self.static, self.count)
         codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
-        found = np.array(codes, np.uint8)
-        unique = among(found, [CODES.index("redundant")])
+        statuses = np.array(codes, np.uint8)
+        unique = among(statuses, [CODES.index("redundant")])
         for name in self.outputs if unique.any() else ():
-            unique &= np.isfinite(quantity(result, name).values.reshape(len(found), -1)).all(axis=1)
-        found[unique] = 0  # as a kernel's, it is the status of the outputs
-        return self._reduced(result), first_mark(found) if self.reduce else found
+            unique &= np.isfinite(quantity(result, name).values.reshape(len(statuses), -1)).all(axis=1)
+        statuses[unique] = 0  # as a kernel's, it is the status of the outputs
+        return self._reduced(result), first_mark(statuses) if self.reduce else statuses
 
     def block(self, values: Array) -> Block:
         parts = {name: np.full((len(values), *shape), np.nan) for name, shape in self.shapes.items()}
-        marks = np.full((len(values), *self.marks), CODES.index("failed"), np.uint8)
+        statuses = np.full((len(values), *self.shape), CODES.index("failed"), np.uint8)
         with ONE_AT_A_TIME:
             for d, design in enumerate(values):
                 try:
-                    given = dict(zip(self.numbers, design.tolist(), strict=True))
-                    own, marks[d] = self.one(self.mechanism.with_values(given))
+                    by_path = dict(zip(self.numbers, design.tolist(), strict=True))
+                    outputs, statuses[d] = self.one(self.mechanism.with_values(by_path))
                 except DalembertError:
                     continue
-                good = among(np.asarray(marks[d]), NUMBERED)
-                for name, value in own.items():
+                good = among(np.asarray(statuses[d]), NUMBERED)
+                for name, value in outputs.items():
                     parts[name][d] = np.where(
                         good.reshape(good.shape + (1,) * (value.ndim - good.ndim)), value, np.nan
                     )
-        return parts | {"status": marks}
+        return parts | {"status": statuses}
 
 
 def make_engine(
@@ -206,9 +206,9 @@ def _defaults(r: Result) -> list[str]:
 
 def program_print(engine: Engine, values: Array) -> str:
     """A print of the program and of the bits that it gives for some designs on this processor."""
-    found: dict[str, Any] = engine.block(values[: PROBED if not engine.why else 1])
+    arrays: dict[str, Any] = engine.block(values[: PROBED if not engine.why else 1])
     total = hashlib.sha256(engine.text.encode())
     total.update(np.ascontiguousarray(values[:PROBED]).tobytes())
-    for name in sorted(found):
-        total.update(np.ascontiguousarray(found[name]).tobytes())
+    for name in sorted(arrays):
+        total.update(np.ascontiguousarray(arrays[name]).tobytes())
     return total.hexdigest()[:16]

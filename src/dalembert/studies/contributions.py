@@ -16,7 +16,7 @@ from dalembert.analysis.batch.over_positions import PLACES
 from dalembert.arrays import Array
 from dalembert.bounds import require
 from dalembert.errors import ModelError
-from dalembert.studies.sampling import Plan
+from dalembert.studies.sampling import DesignPlan
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ class WorstCase(NamedTuple):
     assumed: str
 
 
-class Response(NamedTuple):
+class ResponseCurve(NamedTuple):
     """An output along one number, or over two: paths, their values, and the output's (first[, second]), SI."""
 
     output: str
@@ -90,12 +90,12 @@ def _answers(study: Study, output: str, values: Array) -> Array:
     """One number a design (design,)."""
     size = max(1, study.block_size())
     parts = (np.ascontiguousarray(values[k : k + size]) for k in range(0, len(values), size))
-    found = np.concatenate([study.engine.block(part)[output] for part in parts])
-    if found.ndim > 1:
+    numbers = np.concatenate([study.engine.block(part)[output] for part in parts])
+    if numbers.ndim > 1:
         raise ModelError(
-            f"{output} has {found[0].size} numbers a design", "ask for a scalar, as reaction.A.magnitude"
+            f"{output} has {numbers[0].size} numbers a design", "ask for a scalar, as reaction.A.magnitude"
         )
-    return found
+    return numbers
 
 
 def _middle(study: Study) -> Array:
@@ -107,8 +107,8 @@ def slopes(study: Study, output: str) -> Array:
     """Derivatives of an output with respect to the numbers at the middle: central differences of tiny steps."""
     middle, sigma = _middle(study), np.array([s.sigma for s in study.plan.spreads])
     steps = np.diag(STEP * sigma)
-    found = _answers(study, output, np.concatenate([middle + steps, middle - steps]))
-    high, low = np.split(found, 2)
+    both = _answers(study, output, np.concatenate([middle + steps, middle - steps]))
+    high, low = np.split(both, 2)
     return np.asarray((high - low) / np.where(sigma > 0, 2 * STEP * sigma, 1.0))
 
 
@@ -129,15 +129,15 @@ def _linear(study: Study, output: str) -> Contributions:
 def _trust(study: Study, output: str, linear: float) -> str:
     """Reasons why the linear answer misleads: the peak is at another position in other designs, or the spread
     differs."""
-    plan = Plan(study.paths, study.plan.spreads, "random", SAMPLE, study.plan.seed)
+    plan = DesignPlan(study.paths, study.plan.spreads, "random", SAMPLE, study.plan.seed)
     values = plan.values(0, SAMPLE)
-    found = _answers(study, output, values)
-    sampled = float(np.nanstd(found))
-    said = f"the linear standard deviation is {linear:.4g}, of {SAMPLE} designs {sampled:.4g} (SI)"
+    answers = _answers(study, output, values)
+    sampled = float(np.nanstd(answers))
+    comparison = f"the linear standard deviation is {linear:.4g}, of {SAMPLE} designs {sampled:.4g} (SI)"
     if study.reduce == "peak" and output not in study.end_kinds and (jump := _jump(study, output, values)):
-        return f'{jump}: {said}; trust by="sobol"'
+        return f'{jump}: {comparison}; trust by="sobol"'
     if np.isfinite(sampled) and abs(sampled - linear) > 0.25 * max(sampled, linear):
-        return f'it is not linear: {said}; trust by="sobol"'
+        return f'it is not linear: {comparison}; trust by="sobol"'
     return ""
 
 
@@ -166,7 +166,7 @@ def _sobol(study: Study, output: str, designs: int) -> Contributions:
     d, n = len(study.paths), designs
     if n < 2 or n & (n - 1):
         raise ModelError(f"the number of designs, {n}, is not a power of two", "use 4096, for example")
-    both = Plan(
+    both = DesignPlan(
         tuple(f"{path} {half}" for half in "AB" for path in study.paths),
         study.plan.spreads * 2,
         "sobol",
@@ -206,17 +206,17 @@ def worst_case(study: Study, output: str) -> WorstCase:
         up = slopes(study, output) >= 0
         corners = np.array([np.where(up, ends[:, 1], ends[:, 0])])
         assumed = "the output is monotonic in each number: one corner, chosen by the signs of the derivatives"
-    found = _answers(study, output, corners)
-    lost = int((~np.isfinite(found)).sum())
+    answers = _answers(study, output, corners)
+    lost = int((~np.isfinite(answers)).sum())
     if lost:
         assumed += f"; {lost} corners have no value"
-    if lost == len(found):
+    if lost == len(answers):
         raise ModelError(f"no corner has a value of {output}", "make the spreads smaller")
-    k = int(np.nanargmax(found))
-    return WorstCase(float(found[k]), dict(zip(study.paths, corners[k].tolist(), strict=True)), assumed)
+    k = int(np.nanargmax(answers))
+    return WorstCase(float(answers[k]), dict(zip(study.paths, corners[k].tolist(), strict=True)), assumed)
 
 
-def response(study: Study, output: str, paths: Sequence[str], count: int) -> Response:
+def response(study: Study, output: str, paths: Sequence[str], count: int) -> ResponseCurve:
     """Implementation of `Study.response`."""
     _check_output(study, output)
     for path in paths:
@@ -230,8 +230,8 @@ def response(study: Study, output: str, paths: Sequence[str], count: int) -> Res
     rows = np.repeat(_middle(study)[None], count ** len(paths), axis=0)
     for k, values in zip(places, np.meshgrid(*axes, indexing="ij"), strict=True):
         rows[:, k] = values.ravel()
-    found = _answers(study, output, rows).reshape((count,) * len(paths))
-    return Response(output, tuple(paths), axes, found)
+    answers = _answers(study, output, rows).reshape((count,) * len(paths))
+    return ResponseCurve(output, tuple(paths), axes, answers)
 
 
 def idle(study: Study) -> tuple[str, ...]:
@@ -247,13 +247,13 @@ def idle(study: Study) -> tuple[str, ...]:
             moved = middle.copy()
             moved[j] = end[j]
             rows.append(moved)
-    found = study.engine.block(np.array(rows))
+    block = study.engine.block(np.array(rows))
     out = []
     for j, path in enumerate(study.paths):
         same = all(
             np.array_equal(a[[0, 0]], a[1 + 2 * j : 3 + 2 * j], equal_nan=a.dtype != np.uint8)
-            for a in found.values()
+            for a in block.values()
         )
-        if same and among(np.ravel(found["status"])[:1], NUMBERED)[0]:
+        if same and among(np.ravel(block["status"])[:1], NUMBERED)[0]:
             out.append(path)
     return tuple(out)

@@ -24,8 +24,8 @@ from dalembert.errors import ModelError
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.studies.block_engines import Block, Engine, KernelEngine, make_engine, program_print
 from dalembert.studies.limits import Limit, output_kinds, read_limit
-from dalembert.studies.motion_engines import Motion, end_kinds, make_motion_engine, read_motion
-from dalembert.studies.sampling import Plan, triangle_of
+from dalembert.studies.motion_engines import SimulationPlan, end_kinds, make_motion_engine, read_motion
+from dalembert.studies.sampling import DesignPlan, triangle_of
 from dalembert.studies.spreads import Spread
 from dalembert.studies.varied_numbers import check_twofold, columns_of, spreads_of, varied_numbers
 
@@ -83,16 +83,16 @@ def study(
         mechanism, motion = read_motion(mechanism, simulate)
     if motion is None or reduce != "final":
         over_positions.check(reduce)
-    whole = int(designs) if isinstance(designs, float) and float(designs).is_integer() else designs
-    asked = {"lanes": lanes, "positions": positions, "designs": whole, "seed": seed}
-    for key, value in asked.items():
+    number = int(designs) if isinstance(designs, float) and float(designs).is_integer() else designs
+    counts = {"lanes": lanes, "positions": positions, "designs": number, "seed": seed}
+    for key, value in counts.items():
         require(key, value, path=(key,))
-    given = dict.fromkeys(vary, "") if not isinstance(vary, Mapping) else dict(vary)
+    spread_texts = dict.fromkeys(vary, "") if not isinstance(vary, Mapping) else dict(vary)
     table = dict(draw) if isinstance(draw, Mapping) else None
-    if table is None and not given:
+    if table is None and not spread_texts:
         raise ModelError("no number varies", "give path: spread, as stroke: ± 0.1 mm", ("vary",))
     numbers, spreads, rows = (
-        spreads_of(mechanism, given) if table is None else columns_of(mechanism, given, table)
+        spreads_of(mechanism, spread_texts) if table is None else columns_of(mechanism, spread_texts, table)
     )
     check_twofold(mechanism, numbers)
     if motion is None and (of := next((n.path for n in numbers if of_motion(n.path)), "")):
@@ -100,17 +100,17 @@ def study(
     paths = tuple(n.path for n in numbers)
     how = "table" if table is not None else str(draw)
     mixing = triangle_of(paths, correlation or {}, how)
-    plan = Plan(paths, spreads, how, int(whole), int(seed), rows, mixing)
+    plan = DesignPlan(paths, spreads, how, int(number), int(seed), rows, mixing)
     names = (outputs,) if isinstance(outputs, str) else tuple(outputs) if outputs else None
     if names and len(set(names)) < len(names):
         raise ModelError("an output is named twice", "leave one of them out", ("outputs",))
-    found = Study(mechanism, plan, names, reduce, static, positions, keep, lanes, motion=motion)
-    _ = found.engine  # what cannot be computed is refused here
-    return found.with_limits(limits or {})
+    planned = Study(mechanism, plan, names, reduce, static, positions, keep, lanes, motion=motion)
+    _ = planned.engine  # what cannot be computed is refused here
+    return planned.with_limits(limits or {})
 
 
-def _refuse_beside_motion(**given: object) -> None:
-    for name, value in given.items():
+def _refuse_beside_motion(**options: object) -> None:
+    for name, value in options.items():
         if value:
             raise ModelError(f"{name} is given, and the study simulates", f"leave {name} out", (name,))
 
@@ -121,8 +121,8 @@ class Study:
     anywhere."""
 
     mechanism: Mechanism
-    plan: Plan
-    asked: tuple[str, ...] | None
+    plan: DesignPlan
+    requested: tuple[str, ...] | None
     reduce: str | None = "peak"
     static: bool = False
     positions: int | None = None
@@ -130,7 +130,7 @@ class Study:
     lanes: int | None = None
     limits: tuple[Limit, ...] = ()
     cache: dict[str, Any] = field(default_factory=dict, repr=False, compare=False)
-    motion: Motion | None = None
+    motion: SimulationPlan | None = None
 
     def __getstate__(self) -> Tree:
         return {**self.__dict__, "cache": {}}
@@ -143,9 +143,9 @@ class Study:
     def engine(self) -> Engine:
         """Engine that computes a block."""
         if "engine" not in self.cache:
-            self.cache["engine"] = self.engine_for(self.asked, self.reduce)
-        found: Engine = self.cache["engine"]
-        return found
+            self.cache["engine"] = self.engine_for(self.requested, self.reduce)
+        engine: Engine = self.cache["engine"]
+        return engine
 
     def engine_for(self, outputs: Sequence[str] | None, reduce: str | None) -> Engine:
         """Engine that computes blocks of any outputs of the same designs."""
@@ -166,7 +166,7 @@ class Study:
     @property
     def outputs(self) -> tuple[str, ...]:
         """Outputs of each design."""
-        return self.asked if self.asked is not None else self.engine.outputs
+        return self.requested if self.requested is not None else self.engine.outputs
 
     @property
     def kinds(self) -> dict[str, str]:
@@ -176,8 +176,8 @@ class Study:
             rest = [name for name in self.outputs if name not in known]
             kinds = known | (output_kinds(self.answer(self.mechanism), rest, self.reduce) if rest else {})
             self.cache["kinds"] = {name: kinds[name] for name in self.outputs}
-        found: dict[str, str] = self.cache["kinds"]
-        return found
+        stored: dict[str, str] = self.cache["kinds"]
+        return stored
 
     @property
     def end_kinds(self) -> dict[str, str]:
@@ -198,7 +198,7 @@ class Study:
 
     def with_limits(self, limits: Mapping[str, str]) -> Study:
         """The same study with other limits: output -> what it has to keep, as ``"< 45 N*m"``."""
-        read = tuple(read_limit(str(name), said, self.kinds, self.mechanism) for name, said in limits.items())
+        read = tuple(read_limit(str(name), text, self.kinds, self.mechanism) for name, text in limits.items())
         return replace(self, limits=read, cache=self.cache)
 
     @property
@@ -226,10 +226,10 @@ class Study:
         """Arrays of designs ``start`` to ``stop``, and the milliseconds they took."""
         begun = time.perf_counter()
         values = self.plan.values(start, stop)
-        found = self.engine.block(values)
+        arrays = self.engine.block(values)
         if self.keep:
-            found |= {path: np.ascontiguousarray(values[:, j]) for j, path in enumerate(self.paths)}
-        return found, (time.perf_counter() - begun) * 1e3
+            arrays |= {path: np.ascontiguousarray(values[:, j]) for j, path in enumerate(self.paths)}
+        return arrays, (time.perf_counter() - begun) * 1e3
 
     def design(self, n: int) -> dict[str, float]:
         """The numbers of a design by path, SI; designs are numbered from 0."""
@@ -259,18 +259,18 @@ class Study:
         tree = self.mechanism.to_tree()
         for key in ("title", "source", "answers"):
             tree.pop(key, None)
-        for name, given in tree.get("parameters", {}).items():
-            tree["parameters"][name] = given["value"] if isinstance(given, dict) else given
-        asked = self.tree()
+        for name, stated in tree.get("parameters", {}).items():
+            tree["parameters"][name] = stated["value"] if isinstance(stated, dict) else stated
+        question = self.tree()
         if self.plan.extendable:
-            asked.pop("designs")
-        asked.pop("limits")
+            question.pop("designs")
+        question.pop("limits")
         if self.plan.table is not None:
-            asked["table"] = _print(np.ascontiguousarray(self.plan.table).tobytes())
+            question["table"] = _print(np.ascontiguousarray(self.plan.table).tobytes())
         first = self.plan.values(0, 64 if self.plan.extendable else min(64, self.count))
         return {
             "model": _print(json.dumps(tree, sort_keys=True).encode()),
-            "study": _print(json.dumps(asked, sort_keys=True).encode()),
+            "study": _print(json.dumps(question, sort_keys=True).encode()),
             "program": program_print(self.engine, first),
         }
 
@@ -329,7 +329,7 @@ class Study:
 
     def response(self, output: str, *paths: str, count: int = 33) -> Any:
         """An output along one number, or over two, between the ends of their spreads, the others at the middle of
-        theirs: a `Response`."""
+        theirs: a `ResponseCurve`."""
         from dalembert.studies.contributions import response
 
         return response(self, output, paths, count)
@@ -345,11 +345,13 @@ def study_of_tree(m: Mechanism, tree: Tree, table: Array | None = None) -> Study
     """The study that `Study.tree` describes."""
     spreads = tuple(Spread(s["kind"], s["a"], s["b"], tuple(s["levels"])) for s in tree["spreads"])
     mixing = None if tree["mixing"] is None else np.array(tree["mixing"])
-    plan = Plan(tuple(tree["vary"]), spreads, tree["draw"], tree["designs"], tree["seed"], table, mixing)
+    plan = DesignPlan(
+        tuple(tree["vary"]), spreads, tree["draw"], tree["designs"], tree["seed"], table, mixing
+    )
     options = (tree["reduce"], tree["static"], tree["positions"], tree["keep"], tree["lanes"])
     motion = read_motion(m, tree["simulate"])[1] if "simulate" in tree else None
-    found = Study(m, plan, tuple(tree["outputs"]), *options, motion=motion)
-    return found.with_limits(tree["limits"])
+    rebuilt = Study(m, plan, tuple(tree["outputs"]), *options, motion=motion)
+    return rebuilt.with_limits(tree["limits"])
 
 
 def _print(text: bytes) -> str:

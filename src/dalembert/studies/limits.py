@@ -15,7 +15,7 @@ from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
-from dalembert.model.part import Reading
+from dalembert.model.part import ReadingRules
 from dalembert.units import NUMBER
 from dalembert.wording import closest, quote_value
 
@@ -39,16 +39,16 @@ class Limit(NamedTuple):
 
 def output_kinds(nominal: Result, outputs: Sequence[str], reduce: str | None) -> dict[str, str]:
     """Kind of each output, from `units.KINDS`; those unknown to a result are numbers."""
-    found = {}
+    kinds = {}
     for name in outputs:
         try:
-            found[name] = "number" if reduce in PLACES else quantity(nominal, name).kind
+            kinds[name] = "number" if reduce in PLACES else quantity(nominal, name).kind
         except ModelError:
-            found[name] = "number"
-    return found
+            kinds[name] = "number"
+    return kinds
 
 
-def read_limit(name: str, said: object, kinds: Mapping[str, str], m: Mechanism) -> Limit:
+def read_limit(name: str, limit: object, kinds: Mapping[str, str], m: Mechanism) -> Limit:
     """Limit of an output from its text; raises ModelError."""
     if name not in kinds:
         raise ModelError(
@@ -56,9 +56,9 @@ def read_limit(name: str, said: object, kinds: Mapping[str, str], m: Mechanism) 
             closest(name, list(kinds)),
             ("limits", name),
         )
-    text = " ".join(str(said).split())
+    text = " ".join(str(limit).split())
     try:
-        low, high = _ends(text, kinds[name], Reading(m.units, parameters=m.parameters))
+        low, high = _ends(text, kinds[name], ReadingRules(m.units, parameters=m.parameters))
     except ModelError as error:
         raise ModelError(f"limit of {name}: {error.what}", error.remedy, ("limits", name)) from None
     if not low < high:
@@ -66,9 +66,9 @@ def read_limit(name: str, said: object, kinds: Mapping[str, str], m: Mechanism) 
     return Limit(name, low, high, text)
 
 
-def _ends(text: str, kind: str, rules: Reading) -> tuple[float, float]:
-    if found := BETWEEN.fullmatch(text):
-        low, first, high, last = found.groups()
+def _ends(text: str, kind: str, rules: ReadingRules) -> tuple[float, float]:
+    if match := BETWEEN.fullmatch(text):
+        low, first, high, last = match.groups()
         a = rules.quantity(f"{low} {first or last}".strip(), kind)
         return a, rules.quantity(f"{high} {last or first}".strip(), kind)
     sign = re.match(r"<=?|>=?|≤|≥", text)

@@ -37,7 +37,7 @@ SENTENCES = {
 
 
 @dataclass(frozen=True)
-class Motion:
+class SimulationPlan:
     """Settings of the simulation of each design: its end, number of instants, tolerance."""
 
     until: tuple[str | float, ...]
@@ -57,35 +57,35 @@ class Motion:
         return f"each simulated until {ends}, {self.count} instants"
 
 
-def read_motion(m: Mechanism, given: object) -> tuple[Mechanism, Motion]:
+def read_motion(m: Mechanism, tree: object) -> tuple[Mechanism, SimulationPlan]:
     """Settings in ``simulate:`` of a study; the mechanism with its start."""
     with errors_at("simulate"):
-        if not isinstance(given, Mapping) or "until" not in given:
+        if not isinstance(tree, Mapping) or "until" not in tree:
             raise ModelError("the motion does not say until when", "write simulate: {until: 2 s}")
-        check_keys(given, list(KEYS))
-        until, count, tolerance = given["until"], given.get("count", 201), given.get("tolerance", 1e-9)
+        check_keys(tree, list(KEYS))
+        until, count, tolerance = tree["until"], tree.get("count", 201), tree.get("tolerance", 1e-9)
         several = (until,) if isinstance(until, (str, int, float)) else tuple(until)
         with errors_at("until"):
             end, _ = read_end(m, several, ())
             if not np.isfinite(end):
                 raise ModelError("a motion whose condition is never met has no end", "add a time: [5 s, ...]")
         with errors_at("start"):
-            if starts := read_start(m, given.get("start")):
+            if starts := read_start(m, tree.get("start")):
                 m = m.with_values({"start": {**m.start, **starts}})
         with errors_at("count"):
             check_choices(count, 1e-9)
         with errors_at("tolerance"):
-            check_choices(2, found := read_quantity(tolerance, "number"))
-    return m, Motion(several, count, found)
+            check_choices(2, error := read_quantity(tolerance, "number"))
+    return m, SimulationPlan(several, count, error)
 
 
 def end_kinds(m: Mechanism) -> dict[str, str]:
     """Names of what a motion ends with, and of which kind it is, of `units.KINDS`."""
-    found = {"time": "time"}
+    names = {"time": "time"}
     for name, drive in m.drives.items():
         kinds = TURN if drive.turns else SLIDE
-        found |= {f"{name}.position": kinds[""], f"{name}.speed": kinds["speed"]}
-    return found
+        names |= {f"{name}.position": kinds[""], f"{name}.speed": kinds["speed"]}
+    return names
 
 
 def ends(m: Mechanism, time: Array, position: Array, speed: Array) -> Block:
@@ -119,24 +119,24 @@ class MotionEngine:
         return f"{block.code.machine.text}{block.machine.text}{block.conditions}{block.end}{block.tolerance}"
 
     def block(self, values: Array) -> Block:
-        found = self.kernel(values, threads=1)
-        parts = ends(self.kernel.mechanism, found.time, found.position, found.speed) | found.arrays
-        marks = np.where(found.ok, 0, CODES.index("undecided")).astype(np.uint8)
-        return {name: np.ascontiguousarray(parts[name]) for name in self.outputs} | {"status": marks}
+        answer = self.kernel(values, threads=1)
+        parts = ends(self.kernel.mechanism, answer.time, answer.position, answer.speed) | answer.arrays
+        statuses = np.where(answer.ok, 0, CODES.index("undecided")).astype(np.uint8)
+        return {name: np.ascontiguousarray(parts[name]) for name in self.outputs} | {"status": statuses}
 
 
 @dataclass(frozen=True)
 class SimulationEngine(AnalysisEngine):
     """`da.simulate` of one design after the other: friction, brakes, stops, whatever it does."""
 
-    motion: Motion
+    motion: SimulationPlan
 
     @property
     def positions(self) -> int:
         return self.motion.count
 
     @property
-    def marks(self) -> tuple[int, ...]:
+    def shape(self) -> tuple[int, ...]:
         return ()
 
     @property
@@ -148,10 +148,10 @@ class SimulationEngine(AnalysisEngine):
         last = (x[-1:] for x in (s.time, s.result.schedule.position, s.result.schedule.speed))
         parts = {name: x[0] for name, x in ends(m, *last).items()}
         parts |= {name: self._over_time(s, name) for name in self.outputs if name not in parts}
-        found = {name: np.asarray(parts[name]) for name in self.outputs}
-        known = all(np.isfinite(x).all() for x in found.values())
+        outputs = {name: np.asarray(parts[name]) for name in self.outputs}
+        known = all(np.isfinite(x).all() for x in outputs.values())
         mark = "failed" if s.ended.startswith("stopped") else "ok" if known else "at_rest"
-        return found, np.array(CODES.index(mark), np.uint8)
+        return outputs, np.array(CODES.index(mark), np.uint8)
 
     def _over_time(self, s: Simulation, name: str) -> Array:
         """An output reduced over the instants: greatest values with those of events, else evenly from start to end;
@@ -169,10 +169,14 @@ class SimulationEngine(AnalysisEngine):
 
 
 def make_motion_engine(
-    m: Mechanism, paths: Sequence[str], asked: Sequence[str] | None, reduce: str | None, motion: Motion
+    m: Mechanism,
+    paths: Sequence[str],
+    requested: Sequence[str] | None,
+    reduce: str | None,
+    motion: SimulationPlan,
 ) -> Engine:
     """Compiled motions where they reach, else simulations, with the sentence why; raises ModelError where neither."""
-    names = tuple(end_kinds(m) if asked is None else asked)
+    names = tuple(end_kinds(m) if requested is None else requested)
     outputs = tuple(name for name in names if name not in end_kinds(m))
     if wrong := next((name for name in outputs if name.split(".")[0] in m.drives), ""):
         raise ModelError(f"unknown output {wrong!r}", closest(wrong, list(end_kinds(m))))

@@ -98,11 +98,11 @@ class ByFsspec:
     def keys(self, prefix: str) -> list[str]:
         self.fs.invalidate_cache()
         try:
-            found = self.fs.find(self._path(prefix))
+            paths = self.fs.find(self._path(prefix))
         except FileNotFoundError:
             return []
-        found = (path[len(self._path("")) :] for path in found if not path.endswith(".partial"))
-        return sorted(found)
+        paths = (path[len(self._path("")) :] for path in paths if not path.endswith(".partial"))
+        return sorted(paths)
 
 
 class ByObstore:
@@ -204,11 +204,11 @@ class Objects:
         An incomplete one has a group with this program's name in its attributes, and no `blocks_of`, written last.
         """
         with self._reached():
-            found = self.objects.read(f"{self.name}/zarr.json")
-            if found is None and not self.objects.keys(f"{self.name}/"):
+            metadata = self.objects.read(f"{self.name}/zarr.json")
+            if metadata is None and not self.objects.keys(f"{self.name}/"):
                 return False
         try:
-            attributes = json.loads(found or b"{}").get("attributes", {})
+            attributes = json.loads(metadata or b"{}").get("attributes", {})
         except ValueError:
             attributes = {}
         if "dalembert" not in attributes:
@@ -250,9 +250,9 @@ class Objects:
         except ModelError:
             raise
         except Exception as error:  # whatever a service, its credentials or the network say
-            said = str(error).strip().splitlines() or [type(error).__name__]
+            lines = str(error).strip().splitlines() or [type(error).__name__]
             raise ModelError(
-                f"{self} cannot be reached: {said[0]}", "see the address, the credentials and the network"
+                f"{self} cannot be reached: {lines[0]}", "see the address, the credentials and the network"
             ) from None
 
 
@@ -273,8 +273,8 @@ class Lease:
             objects.write(self.key, self._record(), new=True)
         except FileExistsError:
             self._refuse(self._last()[1])
-        if (found := self._last()[1]).get("token") != self.token:  # where nothing is created exclusively
-            self._refuse(found)
+        if (holder := self._last()[1]).get("token") != self.token:  # where nothing is created exclusively
+            self._refuse(holder)
         objects.remove([key for key in objects.keys(folder) if key < self.key])
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._renew, daemon=True)
@@ -287,12 +287,12 @@ class Lease:
     def _last(self) -> tuple[int, dict[str, Any]]:
         """Number of the last one, and what it says; nothing where there is none."""
         keys = self.objects.keys(self.folder)
-        found = self.objects.read(keys[-1]) if keys else None
+        text = self.objects.read(keys[-1]) if keys else None
         try:
-            said = dict(json.loads(found)) if found else {}
+            record = dict(json.loads(text)) if text else {}
         except ValueError:  # cut, where a file system does not write whole files
-            said = {}
-        return int(keys[-1].rpartition("/")[2]) if keys else 0, said
+            record = {}
+        return int(keys[-1].rpartition("/")[2]) if keys else 0, record
 
     def _refuse(self, held: dict[str, Any]) -> None:
         end = time.strftime("%H:%M:%S", time.localtime(float(held.get("until", time.time() + LEASE))))

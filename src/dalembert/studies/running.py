@@ -20,7 +20,7 @@ from dalembert.kernel.parallel_runs import cores
 from dalembert.model.files.rewriting import text_of
 from dalembert.studies.block_engines import Block
 from dalembert.studies.design_study import Study
-from dalembert.studies.store import FIELDS, Layout, Store, ledger_row
+from dalembert.studies.store import FIELDS, Store, StoredArray, ledger_row
 from dalembert.studies.store_folder import unwritable
 from dalembert.studies.study_result import StudyResult
 from dalembert.units import KINDS
@@ -115,7 +115,7 @@ def attributes(study: Study) -> Tree:
     }
 
 
-def layout(study: Study) -> dict[str, Layout]:
+def layout(study: Study) -> dict[str, StoredArray]:
     """The arrays of a store, from a block of one design."""
     probe, _ = study.block(0, 1)
     kinds, out, along = study.kinds, {}, "position" if study.motion is None else "instant"
@@ -129,11 +129,11 @@ def layout(study: Study) -> dict[str, Layout]:
             last = []
         names += [f"component_{size}" if size != study.mechanism.dimension else "component" for size in rest]
         about = {"units": KINDS[kinds[name]].si, "reduce": study.reduce or "none"}
-        out[name] = Layout(shape, "f8", (*names, *last), about)
+        out[name] = StoredArray(shape, "f8", (*names, *last), about)
     flags = {"flag_values": list(range(len(CODES))), "flag_meanings": " ".join(CODES)}
-    out["status"] = Layout(probe["status"].shape[1:], "u1", (along,) * (probe["status"].ndim - 1), flags)
+    out["status"] = StoredArray(probe["status"].shape[1:], "u1", (along,) * (probe["status"].ndim - 1), flags)
     for path in study.paths if study.keep else ():
-        out[path] = Layout((), "f8", (), {"units": "SI"})
+        out[path] = StoredArray((), "f8", (), {"units": "SI"})
     return out
 
 
@@ -143,8 +143,8 @@ class _Target:
     def __init__(self, store: Store, block: int, count: int) -> None:
         self.store, self.block, self.count = store, block, count
 
-    def put(self, b: int, found: Block, ms: float) -> None:
-        self.store.put(b, self.block, self.count, found, ms)
+    def put(self, b: int, arrays: Block, ms: float) -> None:
+        self.store.put(b, self.block, self.count, arrays, ms)
 
 
 class InMemory:
@@ -164,10 +164,10 @@ class InMemory:
         self.blocks = -(-self.count // self.block)
         self.rows: Ints = np.zeros((self.blocks, len(FIELDS)), np.int64)
 
-    def put(self, b: int, found: Block, ms: float) -> None:
-        for name, values in found.items():
+    def put(self, b: int, arrays: Block, ms: float) -> None:
+        for name, values in arrays.items():
             self.arrays[name][b * self.block : b * self.block + len(values)] = values
-        self.rows[b] = ledger_row(found, ms)
+        self.rows[b] = ledger_row(arrays, ms)
 
 
 def _compute(
@@ -237,9 +237,9 @@ def _on_dask(
     check_installed("distributed", "a study on a scheduler", "study")
     from distributed import Client, as_completed
 
-    own = isinstance(scheduler, str)
+    connected = isinstance(scheduler, str)
     try:
-        client = Client(scheduler, set_as_default=False) if own else scheduler
+        client = Client(scheduler, set_as_default=False) if connected else scheduler
     except (OSError, ValueError) as error:
         raise ModelError(
             f"no dask scheduler answers at {scheduler}: {error}", "start one: dask scheduler"
@@ -256,14 +256,14 @@ def _on_dask(
         width = IN_FLIGHT * max(1, sum(client.nthreads().values()))
         waiting = as_completed([send(b) for b in _some(rest, width)], loop=client.loop)
         for future in waiting:
-            b, found, ms = future.result()
-            target.put(b, found, ms)
+            b, arrays, ms = future.result()
+            target.put(b, arrays, ms)
             tell(b)
             future.release()
             for more in _some(rest, 1):
                 waiting.add(send(more))
     finally:
-        if own:
+        if connected:
             client.close()
 
 

@@ -35,14 +35,16 @@ SHARE, SCORE = Spread("uniform", 0, 1), Spread("normal", 0, 1)
 """Spreads whose value is the share, and the normal score."""
 
 
-def triangle_of(paths: Sequence[str], given: Mapping[tuple[str, str], float], draw: str) -> Array | None:
+def triangle_of(
+    paths: Sequence[str], correlations: Mapping[tuple[str, str], float], draw: str
+) -> Array | None:
     """The triangle that makes correlated normal scores."""
-    if not given:
+    if not correlations:
         return None
     if draw in ("table", "factorial"):
         raise ModelError(f"a {draw} has no correlation", "leave it out, or draw at random", ("correlation",))
     matrix = np.eye(len(paths))
-    for pair, r in given.items():
+    for pair, r in correlations.items():
         for path in pair:
             if path not in paths:
                 raise ModelError(
@@ -71,7 +73,7 @@ def triangle_of(paths: Sequence[str], given: Mapping[tuple[str, str], float], dr
 
 
 @dataclass(frozen=True)
-class Plan:
+class DesignPlan:
     """Plan of the designs: values (design, number) in SI by the number of the design, from 0."""
 
     paths: tuple[str, ...]

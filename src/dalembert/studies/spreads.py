@@ -76,7 +76,7 @@ class Spread:
 
 
 def read_spread(
-    given: object, nominal: float, si: Callable[[object], float], limits: tuple[float, float] | None = None
+    stated: object, nominal: float, si: Callable[[object], float], limits: tuple[float, float] | None = None
 ) -> Spread:
     """The spread that a text or a list says about a number that is ``nominal``; ``si`` reads a quantity.
 
@@ -87,25 +87,25 @@ def read_spread(
     >>> read_spread("70..90 in 3", 80.0, float).levels
     (70.0, 80.0, 90.0)
     """
-    if isinstance(given, Spread):
-        return given
-    if isinstance(given, (list, tuple, np.ndarray)):
-        return _levels(given, si)
-    text = " ".join(str(given).replace("\u2212", "-").split()) if isinstance(given, str) else ""
+    if isinstance(stated, Spread):
+        return stated
+    if isinstance(stated, (list, tuple, np.ndarray)):
+        return _levels(stated, si)
+    text = " ".join(str(stated).replace("\u2212", "-").split()) if isinstance(stated, str) else ""
     if text == "range":
         if limits is None:
             raise ModelError("it states no range", "only a parameter with range: [LOW, HIGH] does; " + FORMS)
         return Spread("uniform", *limits)
     counted = COUNT.fullmatch(text)  # not the inches of "2..3 in"
-    if found := RANGE.fullmatch(counted[1] if counted else text):
-        return _range(found, counted[2] if counted else None, si)
+    if match := RANGE.fullmatch(counted[1] if counted else text):
+        return _range(match, counted[2] if counted else None, si)
     kind, rest = "tolerance", text
     for word in ("uniform", "normal"):
         if text.startswith(word):
             kind, rest = word, text.removeprefix(word).strip()
     sign = PLUS_MINUS.match(rest)
     if not rest or (kind != "normal" and not sign) or (kind == "normal" and sign):
-        raise ModelError(f"{quote_value(given)} says no spread", FORMS)
+        raise ModelError(f"{quote_value(stated)} says no spread", FORMS)
     half = _size(rest[sign.end() :] if sign else rest, nominal, si)
     return (
         Spread("uniform", nominal - half, nominal + half)
@@ -118,16 +118,16 @@ def _size(text: str, nominal: float, si: Callable[[object], float]) -> float:
     """A tolerance or standard deviation; a percentage is relative to the nominal value."""
     text = text.strip()
     percent = re.fullmatch(rf"({NUMBER})\s*%", text)
-    found = abs(nominal) * float(percent[1]) / 100 if percent else si(text)
+    size = abs(nominal) * float(percent[1]) / 100 if percent else si(text)
     if percent and nominal == 0 and float(percent[1]):
         raise ModelError(f"{text} of a number that is 0 is nothing", "give it with a unit, as ± 0.05 mm")
-    if not found > 0:
+    if not size > 0:
         raise ModelError(f"a tolerance of {quote_value(text)} is not positive", "give one above zero")
-    return found
+    return size
 
 
-def _range(found: re.Match[str], count: str | None, si: Callable[[object], float]) -> Spread:
-    low, first, high, last = (part.strip() for part in found.groups())
+def _range(match: re.Match[str], count: str | None, si: Callable[[object], float]) -> Spread:
+    low, first, high, last = (part.strip() for part in match.groups())
     if first and last and first != last:
         raise ModelError(f"the range begins in {first} and ends in {last}", "write one unit")
     a, b = si(f"{low} {first or last}".strip()), si(f"{high} {last or first}".strip())
@@ -140,10 +140,10 @@ def _range(found: re.Match[str], count: str | None, si: Callable[[object], float
     return Spread("levels", levels=tuple(np.linspace(a, b, int(count)).tolist()))
 
 
-def _levels(given: object, si: Callable[[object], float]) -> Spread:
-    found = tuple(si(value) for value in list(given))  # type: ignore[call-overload]
-    if not found or len(found) > MOST:
-        raise ModelError(f"a list of {len(found)} values says no levels", f"give 1 to {MOST}")
-    if len(set(found)) < len(found):
+def _levels(values: object, si: Callable[[object], float]) -> Spread:
+    levels = tuple(si(value) for value in list(values))  # type: ignore[call-overload]
+    if not levels or len(levels) > MOST:
+        raise ModelError(f"a list of {len(levels)} values says no levels", f"give 1 to {MOST}")
+    if len(set(levels)) < len(levels):
         raise ModelError("a value occurs twice in the list", "leave one of them out")
-    return Spread("levels", levels=found)
+    return Spread("levels", levels=levels)

@@ -25,7 +25,7 @@ FIELDS = ("check", "ms", *CODES)
 """A row of the ledger: CRC-32 of the block's arrays plus one (0: not done), milliseconds, designs by status."""
 
 
-class Layout(NamedTuple):
+class StoredArray(NamedTuple):
     """An array of the store: what each design has, its dimensions' names, and attributes."""
 
     shape: tuple[int, ...]
@@ -40,16 +40,16 @@ def checksum(block: Mapping[str, Array]) -> int:
     >>> checksum({"a": np.zeros(3)}) == checksum({"a": np.zeros(2)})
     False
     """
-    found = 0
+    crc = 0
     for name in sorted(block):
-        found = zlib.crc32(np.ascontiguousarray(block[name]).data, found)
-    return found + 1
+        crc = zlib.crc32(np.ascontiguousarray(block[name]).data, crc)
+    return crc + 1
 
 
 def ledger_row(block: Mapping[str, Array], ms: float) -> Ints:
     """Row of a block in the ledger."""
-    marks = block["status"] if block["status"].ndim == 1 else first_mark(block["status"])
-    return np.array([checksum(block), round(ms), *np.bincount(marks, minlength=len(CODES))], np.int64)
+    codes = block["status"] if block["status"].ndim == 1 else first_mark(block["status"])
+    return np.array([checksum(block), round(ms), *np.bincount(codes, minlength=len(CODES))], np.int64)
 
 
 class Store:
@@ -73,7 +73,7 @@ class Store:
         return self.place.locked()
 
     def create(
-        self, attributes: Tree, count: int, block: int, layout: Mapping[str, Layout], table: Any
+        self, attributes: Tree, count: int, block: int, layout: Mapping[str, StoredArray], table: Any
     ) -> None:
         """Make it, without a block."""
         self.place.create(lambda target: _fill(target, attributes, count, block, layout, table))
@@ -86,11 +86,11 @@ class Store:
             raise MissingFileError(str(self), "dalembert study run FILE makes one")
         try:
             self.group = zarr.open_group(self.place.group(), mode=mode, zarr_format=3)
-            found = dict(self.group.attrs)
-            self.arrays = {name: self.group[name] for name in [*found["blocks_of"], "ledger"]}
+            attributes = dict(self.group.attrs)
+            self.arrays = {name: self.group[name] for name in [*attributes["blocks_of"], "ledger"]}
         except (KeyError, ValueError, TypeError, OSError) as error:
             raise self.unreadable(error) from None
-        return found
+        return attributes
 
     def unreadable(self, error: Exception) -> ModelError:
         """The sentence for a group whose attributes or arrays are not those of a study."""
@@ -119,12 +119,12 @@ class Store:
             rest = "/0" * (self.arrays[name].ndim - 1)
             self.place.remove(f"{name}/c/{b}{rest}")
 
-    def put(self, b: int, block: int, count: int, found: Mapping[str, Array], ms: float) -> Ints:
+    def put(self, b: int, block: int, count: int, arrays: Mapping[str, Array], ms: float) -> Ints:
         """Write a block, the ledger's row last."""
         self.place.check()
         which = slice(b * block, min((b + 1) * block, count))
-        row = ledger_row(found, ms)
-        for name, values in found.items():
+        row = ledger_row(arrays, ms)
+        for name, values in arrays.items():
             self.arrays[name][which] = values
         self.arrays["ledger"][b] = row
         return row
@@ -146,10 +146,10 @@ class Store:
         """True if the stored data of a block agree with the checksum in its row of the ledger."""
         which = slice(b * block, min((b + 1) * block, count))
         try:
-            found = ledger_row({name: self.arrays[name][which] for name in self.names}, float(row[1]))
+            stored = ledger_row({name: self.arrays[name][which] for name in self.names}, float(row[1]))
         except Exception:  # of a chunk that was cut or is unreadable
             return False
-        return np.array_equal(found, row)
+        return np.array_equal(stored, row)
 
 
 def _fill(
@@ -157,7 +157,7 @@ def _fill(
     attributes: Tree,
     count: int,
     block: int,
-    layout: Mapping[str, Layout],
+    layout: Mapping[str, StoredArray],
     table: Any,
 ) -> None:
     """The group and its arrays; the attributes last: one without them is half-made."""
@@ -188,10 +188,10 @@ def _fill(
         dimension_names=("block", "field"),
         attributes={"fields": list(FIELDS)},
     )
-    own = {
+    described = {
         "block": block,
         "designs": count,
         "blocks_of": list(layout),
         "created": time.strftime("%Y-%m-%dT%H:%M:%S"),
     }
-    group.attrs.update({**attributes, **own})
+    group.attrs.update({**attributes, **described})

@@ -120,5 +120,5 @@ def _lock_on_windows(file: int) -> None:
 
 def unwritable(place: object, error: Exception) -> ModelError:
     """The sentence for a disk that is full, read-only, or gone; and for an object store that does not answer."""
-    said = getattr(error, "strerror", None) or str(error).strip() or type(error).__name__
-    return ModelError(f"{place} cannot be written: {said[:1].lower()}{said[1:].splitlines()[0]}", KEPT)
+    reason = getattr(error, "strerror", None) or str(error).strip() or type(error).__name__
+    return ModelError(f"{place} cannot be written: {reason[:1].lower()}{reason[1:].splitlines()[0]}", KEPT)

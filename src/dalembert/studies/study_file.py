@@ -122,9 +122,9 @@ def _options(tree: Mapping[str, object]) -> Tree:
     if "limits" in tree:
         out["limits"] = _mapping(tree, "limits", "effort.O2: < 45 N*m")
     if "simulate" in tree:
-        said = _mapping(tree, "simulate", "until: 2 s")
-        given = {key: _texts(said[key]) for key in said if key in ("until", "start")}
-        out["simulate"] = {**said, **given, **_counted(said)}
+        motion = _mapping(tree, "simulate", "until: 2 s")
+        texts = {key: _texts(motion[key]) for key in motion if key in ("until", "start")}
+        out["simulate"] = {**motion, **texts, **_counted(motion)}
     if "correlation" in tree:
         out["correlation"] = dict(map(_pair, _mapping(tree, "correlation", "'stroke, bore': 0.5").items()))
     return out
@@ -149,19 +149,19 @@ def _mapping(tree: Mapping[str, object], key: str, example: str) -> dict[str, ob
     return dict(value)
 
 
-def _counted(said: Mapping[str, object]) -> dict[str, object]:
+def _counted(options: Mapping[str, object]) -> dict[str, object]:
     with errors_at("simulate"):
-        return plain_options(said, {"count": 2}, ())
+        return plain_options(options, {"count": 2}, ())
 
 
-def _texts(given: Any) -> Any:
+def _texts(value: Any) -> Any:
     """Bare numbers, in lists and mappings too, as texts, for which the file's units count."""
-    if isinstance(given, Mapping):
-        return {key: _texts(value) for key, value in given.items()}
-    if isinstance(given, list):
-        return [_texts(value) for value in given]
-    number = isinstance(given, (int, float)) and not isinstance(given, bool) and given != 0
-    return repr(given) if number else given
+    if isinstance(value, Mapping):
+        return {key: _texts(value) for key, value in value.items()}
+    if isinstance(value, list):
+        return [_texts(value) for value in value]
+    number = isinstance(value, (int, float)) and not isinstance(value, bool) and value != 0
+    return repr(value) if number else value
 
 
 def _table(path: Path) -> dict[str, list[str]]:
@@ -171,8 +171,10 @@ def _table(path: Path) -> dict[str, list[str]]:
             raise ModelError(f"{path} is larger than {LARGEST // 10**6} MB", "leave designs out", ("table",))
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        said = getattr(error, "strerror", None) or "it is not UTF-8"
-        raise ModelError(f"cannot read {path}: {str(said).lower()}", "name a .csv file", ("table",)) from None
+        reason = getattr(error, "strerror", None) or "it is not UTF-8"
+        raise ModelError(
+            f"cannot read {path}: {str(reason).lower()}", "name a .csv file", ("table",)
+        ) from None
     rows = [(k, row) for k, row in enumerate(csv.reader(lines), 1) if any(cell.strip() for cell in row)]
     if len(rows) < 2:
         raise ModelError(

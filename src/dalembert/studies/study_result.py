@@ -24,7 +24,7 @@ from dalembert.wording import closest
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
 
@@ -80,9 +80,9 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
         check: blocks that do not match their checksums count as not done; a resumed run repairs them.
         """
         store = Store(path)
-        found = store.open("r")
+        attributes = store.open("r")
         try:
-            study, block = stored_study(store, found), int(found["block"])
+            study, block = stored_study(store, attributes), int(attributes["block"])
         except (KeyError, TypeError, ValueError) as error:
             raise store.unreadable(error) from None
         ledger = store.ledger()
@@ -155,8 +155,8 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
 
     @property
     def _marks(self) -> Array:
-        marks = self["status"]
-        return marks if marks.ndim == 1 else np.where(marks[:, 0] == 255, 255, first_mark(marks))
+        codes = self["status"]
+        return codes if codes.ndim == 1 else np.where(codes[:, 0] == 255, 255, first_mark(codes))
 
     @property
     def ok(self) -> Flags:
@@ -180,8 +180,8 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
 
     def values(self, name: str) -> Array:
         """The finite numbers of an output of one number a design, in the order of the designs."""
-        found = self._single(name)
-        return found[np.isfinite(found)]
+        numbers = self._single(name)
+        return numbers[np.isfinite(numbers)]
 
     def _single(self, name: str) -> Array:
         return one_number(name, self[name], True)
@@ -195,18 +195,18 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
         return self._extreme(name, np.nanargmin)
 
     def _extreme(self, name: str, where: Callable[[Array], np.intp]) -> int:
-        found = self._single(name)
-        if not np.isfinite(found).any():
+        numbers = self._single(name)
+        if not np.isfinite(numbers).any():
             raise ModelError(f"no design has a value of {name}", "see failed()")
-        return int(where(found))
+        return int(where(numbers))
 
     def percentiles(self, name: str, of: tuple[float, ...] = PERCENTILES) -> dict[float, float]:
         """Percent -> value that this percentage of the solved designs does not exceed."""
         for percent in of:
             require("percentile", percent)
         values = self.values(name)
-        found = np.percentile(values, of) if len(values) else np.full(len(of), np.nan)
-        return dict(zip(of, found.tolist(), strict=True))
+        levels = np.percentile(values, of) if len(values) else np.full(len(of), np.nan)
+        return dict(zip(of, levels.tolist(), strict=True))
 
     def histogram(self, name: str, bins: int = 40) -> tuple[Ints, Array]:
         """Designs in each of some equal intervals, and the intervals' ends."""
@@ -226,19 +226,19 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
 
     def capability(self, output: str, limit: str) -> float:
         """Process capability Cpk: the least distance of the mean from a limit over three standard deviations."""
-        found = read_limit(output, limit, self.kinds, self.study.mechanism)
+        bounds = read_limit(output, limit, self.kinds, self.study.mechanism)
         values = self.values(output)
         mean, sigma = float(values.mean()), float(values.std())
-        return min(found.high - mean, mean - found.low) / (3 * sigma) if sigma > 0 else np.inf
+        return min(bounds.high - mean, mean - bounds.low) / (3 * sigma) if sigma > 0 else np.inf
 
     def shares(self) -> dict[str, float]:
         """The same for the limits of the study, and under "all" of the designs that keep them all together."""
         done, limits = self.done, self.study.limits
         kept = [limit.kept(self[limit.output])[done] for limit in limits]
-        found = {
+        by_output = {
             f"{limit.output} {limit.text}": float(k.mean()) for limit, k in zip(limits, kept, strict=True)
         }
-        return found | ({"all": float(np.logical_and.reduce(kept).mean())} if len(kept) > 1 else {})
+        return by_output | ({"all": float(np.logical_and.reduce(kept).mean())} if len(kept) > 1 else {})
 
     @property
     def kinds(self) -> dict[str, str]:
@@ -283,7 +283,7 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
 
         return [histogram_scene(self, row[0]) for row in output_rows(self)[1]]
 
-    def sheet(self, notation: Notation | None = None) -> Sheet:
+    def sheet(self, notation: Notation | None = None) -> ReportSheet:
         """All that the designs say as a page."""
         from dalembert.studies.output.study_report import study_sheet
 
@@ -301,35 +301,35 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
         return data, {path: ("design", to(kind, v), {"units": to.text(kind)}) for path, kind, v in named}
 
 
-def stored_study(store: Store, found: Mapping[str, Any]) -> Study:
+def stored_study(store: Store, attributes: Mapping[str, Any]) -> Study:
     """The study that a store's attributes describe, of as many designs as it has."""
     from dalembert.model import loads
 
-    m = loads(found["model"], name=f"the model in {store}")
+    m = loads(attributes["model"], name=f"the model in {store}")
     table = np.asarray(store.group["table"][:]) if "table" in store.group else None
-    tree = {**found["study"], "designs": found["designs"]}
+    tree = {**attributes["study"], "designs": attributes["designs"]}
     return study_of_tree(m, tree, table)
 
 
-def failures(r: StudyResult, marks: Array, some: int) -> list[Failure]:
+def failures(r: StudyResult, codes: Array, some: int) -> list[Failure]:
     """Each reason why designs are not solved, by the status codes of all designs (255 where not computed)."""
-    out, there, solved = [], marks != 255, np.flatnonzero(among(marks, SOLVED))
+    out, computed, solved = [], codes != 255, np.flatnonzero(among(codes, SOLVED))
     known = {} if r.study.motion is None else SENTENCES
-    for mark in np.unique(marks[~among(marks, (*SOLVED, 255))]):
-        where = np.flatnonzero(marks == mark)
+    for mark in np.unique(codes[~among(codes, (*SOLVED, 255))]):
+        where = np.flatnonzero(codes == mark)
         code = CODES[mark]
         sentence = STATUSES[code].sentence if code in STATUSES else REFUSED
-        first, share = tuple(where[:some].tolist()), len(where) / int(there.sum())
+        first, share = tuple(where[:some].tolist()), len(where) / int(computed.sum())
         reason = _reason(r.study, first[0], code) if r.study.motion is None else ""
         differs = _difference(r.study, where, solved)
         out.append(Failure(code, len(where), first, known.get(code, sentence), share, reason, differs))
     return out
 
 
-def unsolved(marks: Array) -> tuple[int, int]:
+def unsolved(codes: Array) -> tuple[int, int]:
     """Number of computed designs, and number of those without numbers."""
-    there = marks != 255
-    return int(there.sum()), int((there & ~among(marks, NUMBERED)).sum())
+    computed = codes != 255
+    return int(computed.sum()), int((computed & ~among(codes, NUMBERED)).sum())
 
 
 def _reason(study: Study, n: int, status: str) -> str:
@@ -346,8 +346,8 @@ def _difference(study: Study, failing: Ints, answered: Ints) -> Difference | Non
     if not (len(failing) and len(answered)):
         return None
     one, other = (_values(study, of) for of in (failing, answered))
-    found = [_apart(path, one[:, k], other[:, k]) for k, path in enumerate(study.paths)]
-    best = max(found, key=lambda of: of.failing - of.answered)
+    differences = [_distance(path, one[:, k], other[:, k]) for k, path in enumerate(study.paths)]
+    best = max(differences, key=lambda of: of.failing - of.answered)
     gap = best.failing - best.answered
     sure = gap * np.sqrt(len(one) * len(other) / (len(one) + len(other))) >= CERTAIN
     return best if sure and gap >= LEAST else None
@@ -358,7 +358,7 @@ def _values(study: Study, designs: Ints) -> Array:
     return np.concatenate([study.plan.values(n, n + 1) for n in kept.tolist()])
 
 
-def _apart(path: str, one: Array, other: Array) -> Difference:
+def _distance(path: str, one: Array, other: Array) -> Difference:
     """Largest difference of the empirical distributions of two samples, and the side on which the first one lies."""
     ends = np.unique(np.concatenate([one, other]))
     below = [np.searchsorted(np.sort(of), ends, side="right") / len(of) for of in (one, other)]

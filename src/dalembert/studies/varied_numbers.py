@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.analysis.batch.tracing.symbolic_model import (
     DRIVEN,
-    Number,
+    VariedNumber,
     number_kinds,
     numbers,
     refuse_twofold,
@@ -22,30 +22,30 @@ from dalembert.units import quantity
 from dalembert.wording import quote_value
 
 
-def varied_numbers(m: Mechanism, path: str) -> list[Number]:
+def varied_numbers(m: Mechanism, path: str) -> list[VariedNumber]:
     """The numbers behind a path: of a vector its components; a drive's position too, which no kernel varies,
     and where a motion starts."""
     keys = path.split(".")
     if name := parameter_name(path, m.parameters, m.keys()):
-        return [Number(name, float(m.parameters[name].value), parameter=True)]
+        return [VariedNumber(name, float(m.parameters[name].value), parameter=True)]
     value = value_at(m, keys)
     if keys[0] in ("drives", "start") and isinstance(value, (int, float)) and not isinstance(value, bool):
-        return [Number(path, float(value))]
+        return [VariedNumber(path, float(value))]
     if keys[0] == "drives" and keys[2:3] and keys[2] in DRIVEN:
         raise ModelError(f"{path!r} is not a single number", "leave it out: a single position may vary", keys)
     return list(numbers(m, [path]))
 
 
-def check_twofold(m: Mechanism, found: Iterable[Number]) -> None:
+def check_twofold(m: Mechanism, varied: Iterable[VariedNumber]) -> None:
     """Raise ModelError for a number that is varied twice, or follows from another."""
-    refuse_twofold(m, list(found))
-    paths = [n.path for n in found]
+    refuse_twofold(m, list(varied))
+    paths = [n.path for n in varied]
     twice = next((p for p in paths if paths.count(p) > 1), "")
     if twice:
         raise ModelError(f"{twice!r} is varied twice", "name it once", (twice,))
 
 
-def reader(m: Mechanism, number: Number) -> Callable[[object], float]:
+def reader(m: Mechanism, number: VariedNumber) -> Callable[[object], float]:
     """A reader of quantities at a number's place: texts by the file's units, plain numbers in SI."""
     nameless = number.parameter and m.parameters[number.path].kind is None
     (kind,) = number_kinds(m, [number])
@@ -67,39 +67,39 @@ def _at(path: str, error: ModelError) -> ModelError:
     return ModelError(what, error.remedy, ("vary", path))
 
 
-Found = tuple[list[Number], tuple[Spread, ...], Array | None]
+Found = tuple[list[VariedNumber], tuple[Spread, ...], Array | None]
 """Numbers, how each spreads, and the designs of a table."""
 
 
-def spreads_of(m: Mechanism, given: Mapping[str, object]) -> Found:
+def spreads_of(m: Mechanism, stated: Mapping[str, object]) -> Found:
     """Numbers and spreads of what varies."""
     numbers, spreads = [], []
-    for path, said in given.items():
+    for path, text in stated.items():
         try:
             for number in varied_numbers(m, str(path)):
                 limits = m.parameters[number.path].range if number.parameter else None
-                spreads.append(read_spread(said, number.value, reader(m, number), limits))
+                spreads.append(read_spread(text, number.value, reader(m, number), limits))
                 numbers.append(number)
         except ModelError as error:
             raise _at(str(path), error) from None
     return numbers, tuple(spreads), None
 
 
-def columns_of(m: Mechanism, given: Mapping[str, object], table: Mapping[str, Sequence[object]]) -> Found:
+def columns_of(m: Mechanism, stated: Mapping[str, object], table: Mapping[str, Sequence[object]]) -> Found:
     """The designs of a table: path -> values."""
-    if extra := [path for path in given if path not in table]:
+    if extra := [path for path in stated if path not in table]:
         raise ModelError(f"the table has no column {extra[0]!r}", f"it has: {', '.join(table)}", ("vary",))
     numbers, columns = [], list[list[float]]()
     for path, values in table.items():
         try:
-            own = varied_numbers(m, path)
-            if len(own) != 1:
-                raise ModelError(f"{path!r} is a vector", f"give a column of {own[0].path!r}, and so on")
-            si = reader(m, own[0])
+            parts = varied_numbers(m, path)
+            if len(parts) != 1:
+                raise ModelError(f"{path!r} is a vector", f"give a column of {parts[0].path!r}, and so on")
+            si = reader(m, parts[0])
             columns.append([si(v.item() if isinstance(v, np.generic) else v) for v in values])
         except ModelError as error:
             raise _at(path, error) from None
-        numbers += own
+        numbers += parts
     if not columns or len({len(c) for c in columns}) > 1 or not columns[0]:
         raise ModelError(
             "a table of designs needs columns of one length", "give a value of each path for each"

@@ -18,7 +18,7 @@ from dalembert.machine.harmonics import whole_turns
 from dalembert.machine.shaking import shaking_force
 from dalembert.model import GROUND
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.paper.diagrams import Marks, curves_scene, inner_ticks, polar_scene
+from dalembert.views.paper.diagrams import Ticks, curves_scene, inner_ticks, polar_scene
 from dalembert.views.paper.scene import Scene
 from dalembert.views.space.space_view import NOTHING
 
@@ -91,8 +91,8 @@ def mean_effort(r: Result, drive: str) -> float | None:
     place = stepped_series(r, methodcaller("drive_position", drive))
     if len(place) > 2 and drive_kinds(r, drive)["effort"] == "moment":
         try:
-            whole = math.copysign(2 * math.pi * whole_turns(r.drive_position(drive)), place[-1] - place[0])
-            effort, place = np.append(effort, effort[0]), np.append(place, place[0] + whole)
+            turned = math.copysign(2 * math.pi * whole_turns(r.drive_position(drive)), place[-1] - place[0])
+            effort, place = np.append(effort, effort[0]), np.append(place, place[0] + turned)
         except ModelError:
             pass
     travel = float(place[-1] - place[0])
@@ -130,10 +130,10 @@ def components_chart(
     shown = Shown(r, notation or Notation())
     space = r.mechanism.dimension == 3
     axes: Axes = "joint" if space else "ground"
-    found = stepped_series(r, methodcaller(READS[kind], joint, axes=axes)) / shown.size(kind)
+    components = stepped_series(r, methodcaller(READS[kind], joint, axes=axes)) / shown.size(kind)
     on = shown.heading(r.mechanism.joints[joint].links[1])
     title = f"Joint {joint}: {kind} on link {on}" + (", joint's axes" if space else "")
-    return vector_chart(r, found, kind, title, shown)
+    return vector_chart(r, components, kind, title, shown)
 
 
 def vector_chart(r: Result, vectors: Array, kind: str, title: str, shown: Shown) -> Scene:
@@ -143,7 +143,7 @@ def vector_chart(r: Result, vectors: Array, kind: str, title: str, shown: Shown)
     return curves_scene(x, series, label, f"{kind.capitalize()} in {shown.unit(kind)}", title, angle)
 
 
-def crank_marks(r: Result, shown: Shown) -> Marks:
+def crank_ticks(r: Result, shown: Shown) -> Ticks:
     """Positions nearest to round values of the first drive, with those values, for polar diagrams."""
     if not r.drives:
         return ()
@@ -153,8 +153,8 @@ def crank_marks(r: Result, shown: Shown) -> Marks:
         return ()
     low, high, step = float(known.min()), float(known.max()), float(np.nanmax(np.abs(np.diff(x))))
     unit = "°" if angle else f" {label.rpartition(' in ')[2]}"
-    marks = [(int(np.nanargmin(np.abs(x - t))), t) for t in inner_ticks(low, high, 12, angle)]
-    return [(k, f"{t:g}{unit}".replace("-", "−")) for k, t in marks if abs(float(x[k]) - t) <= 0.51 * step]
+    ticks = [(int(np.nanargmin(np.abs(x - t))), t) for t in inner_ticks(low, high, 12, angle)]
+    return [(k, f"{t:g}{unit}".replace("-", "−")) for k, t in ticks if abs(float(x[k]) - t) <= 0.51 * step]
 
 
 def polar_path(r: Result, joint: str, axes: str, shown: Shown) -> tuple[str, Array]:
@@ -178,7 +178,7 @@ def polar_chart(
         title = f"Joint {joint} on link {shown.heading(on)}" if len(joints) == 1 else title
     whose = "the link's axes" if len(joints) == 1 else "axes of the link"
     title = f"{title}, {'ground axes' if axes == 'ground' else whose}"
-    return polar_scene(paths, shown.unit("force"), title, marks=crank_marks(r, shown))
+    return polar_scene(paths, shown.unit("force"), title, labels=crank_ticks(r, shown))
 
 
 def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
@@ -187,7 +187,7 @@ def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
     total, title = stepped_series(r, shaking_force) * shown.value("force", 1.0), "Shaking force on the ground"
     if r.mechanism.dimension == 3:
         return vector_chart(r, total, "force", title, shown)
-    return polar_scene({"shaking force": total}, shown.unit("force"), title, marks=crank_marks(r, shown))
+    return polar_scene({"shaking force": total}, shown.unit("force"), title, labels=crank_ticks(r, shown))
 
 
 def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:

@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from dalembert.analysis.methods.applied_forces import whole_actions
+from dalembert.analysis.methods.applied_forces import full_actions
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.analysis.result.position_lookup import PositionChoice, position_at
 from dalembert.errors import ModelError
@@ -80,7 +80,7 @@ def mechanism(
             return mechanism_scene(end, k, notation, forces)
         return space_mechanism_scene(end, k, seen, notation, forces)
 
-    return _whole(r, at, notation, render)
+    return _both_ends(r, at, notation, render)
 
 
 def question(
@@ -101,13 +101,13 @@ def free_body(
             return free_body_scene(end, _link(r, link), k, notation)
         return space_free_body_scene(end, _link(r, link), k, seen, notation)
 
-    return _whole(r, at, notation, render)
+    return _both_ends(r, at, notation, render)
 
 
 def components(r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Joint forces of a link along and across it."""
     refuse_space(r.mechanism, "a drawing along and across a link", FREE_BODIES)
-    return _whole(r, at, notation, lambda end, k: components_scene(end, _link(r, link), k, notation))
+    return _both_ends(r, at, notation, lambda end, k: components_scene(end, _link(r, link), k, notation))
 
 
 def force_polygon(
@@ -115,7 +115,9 @@ def force_polygon(
 ) -> Scene:
     """The forces on a link head to tail; ``case`` names one source of the superposition to draw alone."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
-    return _whole(r, at, notation, lambda end, k: force_polygon_scene(end, _link(r, link), k, notation, case))
+    return _both_ends(
+        r, at, notation, lambda end, k: force_polygon_scene(end, _link(r, link), k, notation, case)
+    )
 
 
 def force_chain(
@@ -123,7 +125,7 @@ def force_chain(
 ) -> Scene:
     """The polygons of all links on the sides they share, in the order of solution."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
-    return _whole(r, at, notation, lambda end, k: force_chain_scene(end, k, notation, case))
+    return _both_ends(r, at, notation, lambda end, k: force_chain_scene(end, k, notation, case))
 
 
 def lines_of_action(
@@ -131,7 +133,7 @@ def lines_of_action(
 ) -> Scene:
     """Concurrency of a link's forces: their lines of action meet in one point."""
     refuse_space(r.mechanism, "a drawing of lines of action", FREE_BODIES)
-    return _whole(
+    return _both_ends(
         r, at, notation, lambda end, k: lines_of_action_scene(end, _link(r, link), k, notation, case)
     )
 
@@ -177,7 +179,7 @@ def free_bodies(
             return stack_scenes(free_body_scenes(end, k, notation), title=title)
         return stack_scenes([space_free_body_scene(end, n, k, seen, notation) for n in r.links], title=title)
 
-    return _whole(r, at, notation, render, "Free bodies")
+    return _both_ends(r, at, notation, render, "Free bodies")
 
 
 def force_polygons(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
@@ -185,11 +187,11 @@ def force_polygons(r: Result, at: PositionChoice = None, notation: Notation | No
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
 
     def render(end: Result, k: int) -> Scene:
-        some, title = whole_actions(end), _title(r, k, "Force polygons", notation)
+        some, title = full_actions(end), _title(r, k, "Force polygons", notation)
         scenes = [force_polygon_scene(end, link, k, notation, some=some) for link in r.links]
         return stack_scenes([*scenes, force_chain_scene(end, k, notation)], title=title)
 
-    return _whole(r, at, notation, render, "Force polygons")
+    return _both_ends(r, at, notation, render, "Force polygons")
 
 
 def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Scene:
@@ -327,13 +329,15 @@ def friction(
     def render(end: Result, k: int) -> Scene:
         return friction_scene(end, k, Shown(end, notation or Notation(), k), seen)
 
-    return _whole(r, at, notation, render)
+    return _both_ends(r, at, notation, render)
 
 
 def teeth(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Gears in mesh: pitch and base circles, the line of action, the force of the teeth and its components."""
     refuse_space(r.mechanism, "a drawing of teeth", FREE_BODIES)
-    return _whole(r, at, notation, lambda end, k: teeth_scene(end, k, Shown(end, notation or Notation(), k)))
+    return _both_ends(
+        r, at, notation, lambda end, k: teeth_scene(end, k, Shown(end, notation or Notation(), k))
+    )
 
 
 def _camera(r: Result, camera: Sighted) -> Camera | None:
@@ -357,7 +361,7 @@ def _link(r: Result, link: str) -> str:
     return _known(link, r.links, "link")
 
 
-def _whole(
+def _both_ends(
     r: Result,
     at: PositionChoice,
     notation: Notation | None,

@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action
 from dalembert.arrays import Array, Tree
-from dalembert.views.notation import Figures, Notation, own_name, pretty
+from dalembert.views.notation import Figures, Notation, load_sign, pretty
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import fit_frame, force_scale
 from dalembert.views.paper.lettering import text_width
@@ -30,10 +30,10 @@ NEAR = 1.5
 
 def force_system_scene(s: System, notation: Notation | None = None, camera: Camera | None = None) -> Scene:
     """Forces at their points, couples beside them, the resultant on its line; lengths and forces to scale."""
-    d = Drawing(s, Figures(s.units, notation or Notation()), camera)
+    d = SystemDrawing(s, Figures(s.units, notation or Notation()), camera)
     d.axes()
     d.points()
-    d.given()
+    d.known_links()
     notes = [d.describe_result(), *d.resultant()]
     d.couples(s.couples, [n for n, p in zip(s.names, s.parts, strict=True) if isinstance(p, Couple)])
     notes += ["Couples are free vectors, drawn below."] if s.couples else []
@@ -44,17 +44,17 @@ def reduced_scene(
     s: System, at: Vector, notation: Notation | None = None, camera: Camera | None = None
 ) -> Scene:
     """The force and the couple at a point that the system is equivalent to."""
-    d = Drawing(s, Figures(s.units, notation or Notation()), camera, [s.reduced(at).at])
-    found = s.reduced(at)
+    d = SystemDrawing(s, Figures(s.units, notation or Notation()), camera, [s.reduced(at).at])
+    reduction = s.reduced(at)
     d.axes()
     for f in s.forces:
         d.canvas.add(Circle(d.place(f.at), 0.6, "center"))
     d.points()
-    d.canvas.add(Circle(d.place(found.at), 0.8, "mark"))
-    force, couple = found.parts
+    d.canvas.add(Circle(d.place(reduction.at), 0.8, "mark"))
+    force, couple = reduction.parts
     d.force("R", force, "resultant-force")
-    d.couple("M", couple, d.place(found.at), "resultant-force")
-    return d.scene(f"Force and couple at {d.place_name(found.at)}", [d.reduction(found)])
+    d.couple("M", couple, d.place(reduction.at), "resultant-force")
+    return d.scene(f"Force and couple at {d.place_name(reduction.at)}", [d.reduction(reduction)])
 
 
 def force_system_polygon_scene(s: System, notation: Notation | None = None) -> Scene:
@@ -86,7 +86,7 @@ def _action(name: str, f: Force) -> Action:
     return Action(name, f.kind, "", "", None, f.at[None], f.vector[None], np.zeros(1))  # type: ignore[arg-type]
 
 
-class Drawing:
+class SystemDrawing:
     """One drawing of a system under construction: maps places and vectors, planar or spatial, to paper."""
 
     def __init__(self, s: System, shown: Figures, camera: Camera | None, more: Sequence[Array] = ()) -> None:
@@ -184,7 +184,7 @@ class Drawing:
             self.canvas.add(Circle(at, 0.6, "center"))
             self.canvas.label(name, at, size=3.2, role="title")
 
-    def given(self) -> None:
+    def known_links(self) -> None:
         """All forces at their points, the farthest first; in space with the box of their components."""
         named = [(n, p) for n, p in zip(self.s.names, self.s.parts, strict=True) if isinstance(p, Force)]
         if self.camera is not None and named:
@@ -206,7 +206,7 @@ class Drawing:
         self.canvas.add(Arrow(tail, head, role, name, kind, seen))
         spots = along(tail, head, 1.0, 0.8, 0.6)
         away = math.atan2(head[1] - tail[1], head[0] - tail[0])
-        text = f"{own_name(name)} = {self.shown.text('force', f.size)}"
+        text = f"{load_sign(name)} = {self.shown.text('force', f.size)}"
         self.canvas.label(text, *spots, prefer=away, size=2.8, role=role)
 
     def _components(self, tail: Point, vector: Array) -> None:
@@ -226,7 +226,7 @@ class Drawing:
         x = left + 8.0
         for name, c in zip(names, couples, strict=True):
             self.couple(name, c, (x, bottom - 16.0), role_of(c.kind))
-            text = f"{own_name(name)} = {self.shown.text('moment', c.size)}"
+            text = f"{load_sign(name)} = {self.shown.text('moment', c.size)}"
             x += max(18.0, text_width(text, 2.8) + 6.0)
 
     def couple(self, name: str, c: Couple, at: Point, role: str) -> None:
@@ -241,7 +241,7 @@ class Drawing:
             self._two_heads(at, head, role, name)
             spots = along(at, head, 1.0, 0.5)
         self.canvas.label(
-            f"{own_name(name)} = {self.shown.text('moment', c.size)}", *spots, size=2.8, role=role
+            f"{load_sign(name)} = {self.shown.text('moment', c.size)}", *spots, size=2.8, role=role
         )
 
     def _two_heads(self, tail: Point, head: Point, role: str, name: str) -> None:
@@ -319,9 +319,9 @@ class Drawing:
         pitch = text("length", self.central.pitch)
         return f"The system is a wrench: {words}, {through}; M = {text('moment', self.central.moment)}, pitch {pitch}."
 
-    def reduction(self, found: ForceCouple) -> str:
+    def reduction(self, pair: ForceCouple) -> str:
         """A force and couple at a point, as text."""
-        return f"R = {self.vector(found.force, 'force')}, M = {self.vector(found.vector, 'moment')}."
+        return f"R = {self.vector(pair.force, 'force')}, M = {self.vector(pair.vector, 'moment')}."
 
     def vector(self, v: Array, kind: str) -> str:
         """Components with their unit."""

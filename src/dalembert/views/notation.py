@@ -158,8 +158,8 @@ class Figures:
 
         With mm, kg and N it is 0.001 from a mass times an acceleration to a force, as 1 N = 1000 kg mm/s2.
         """
-        found = math.prod(map(self.size, of)) / self.size(kind)
-        return 1.0 if math.isclose(found, 1.0, rel_tol=1e-9) else found
+        ratio = math.prod(map(self.size, of)) / self.size(kind)
+        return 1.0 if math.isclose(ratio, 1.0, rel_tol=1e-9) else ratio
 
     def with_factor(self, numbers: str, kind: str, *of: str) -> str:
         """A product in the reader's units, followed by the conversion factor if needed: '−2 (−10, 4) / 1000'."""
@@ -174,10 +174,10 @@ class Figures:
 
     def conversion(self, factor: float) -> str:
         """A factor between units as printed in a formula: 1000, 32.17, 10^{9}."""
-        whole, power = round(factor), round(math.log10(factor))
+        integer, power = round(factor), round(math.log10(factor))
         if power > 5 and math.isclose(factor, 10.0**power, rel_tol=1e-9):
             return f"10^{{{power}}}"
-        return str(whole) if math.isclose(factor, whole, rel_tol=1e-9) else self.notation.number(factor)
+        return str(integer) if math.isclose(factor, integer, rel_tol=1e-9) else self.notation.number(factor)
 
     def text(self, kind: str, value: float, floor: float = 0.0) -> str:
         """The number with its unit."""
@@ -203,7 +203,7 @@ class Figures:
 
     def symbol(self, a: Action) -> str:
         """Symbol of an action: its name."""
-        return own_name(a.of)
+        return load_sign(a.of)
 
 
 def _with_gap(number: str, unit: str) -> str:
@@ -251,7 +251,7 @@ class Shown(Figures):
         pair = self.pair(i if on == j else j, on)
         pairs = (self.pair(i, j), self.pair(j, i))
         signs = {f"{letter}_{{{p}}}" for letter in (self.notation.letter, "M") for p in pairs}
-        loads = signs & {own_name(n) for n in self.r.mechanism.loads}
+        loads = signs & {load_sign(n) for n in self.r.mechanism.loads}
         return pair + (f",{joint}" if len(twin) > 1 or loads else "")
 
     def symbol(self, a: Action) -> str:
@@ -270,7 +270,7 @@ class Shown(Figures):
             return f"W_{{{self.link(a.link)}}}"
         if a.kind == "inertia":
             return f"{'T' if turning else 'F'}_{{I{self.link(a.link)}}}"
-        return own_name(a.of)
+        return load_sign(a.of)
 
     def _part(self, sign: str, part: str) -> str:
         """N_{14} for the normal part of F_{14}; F_{14,ahead} at a corner."""
@@ -318,7 +318,7 @@ def along(sign: str, axis: str) -> str:
     return f"{head}_{{{index}{',' if ',' in index else ''}{axis}}}"
 
 
-def own_name(name: str) -> str:
+def load_sign(name: str) -> str:
     """A load's name as a symbol: F_P gives F_{P}, T4 gives T_{4}.
 
     >>> own_name("F_P"), own_name("T_4"), own_name("F2"), own_name("gas")

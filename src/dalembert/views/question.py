@@ -27,7 +27,7 @@ from dalembert.views.space.camera import Camera
 from dalembert.views.space.space_arrows import Arrows
 from dalembert.views.space.space_mechanism import HEIGHT, WIDTH, draw_machine, draw_names, every_place
 from dalembert.views.space.space_view import sight, triad
-from dalembert.views.stated import as_given, drive_text, given_lines
+from dalembert.views.stated import as_stated, drive_text, stated_lines
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -51,21 +51,21 @@ def question_scene(
     Computed efforts, reactions, speeds and angles are left out, and so are the senses of efforts and unknown loads;
     ``data`` lists the given data below. Equilibrium positions are unknowns and are not drawn.
     """
-    title, notation = r.mechanism.title or "Mechanism", as_given(notation)
+    title, notation = r.mechanism.title or "Mechanism", as_stated(notation)
     stated = [f"Drive {d}: {drive_text(Shown(r, notation), k, d)}." for d in r.drives]
     sought = [d for d in r.drives if r.mechanism.drives[d].unknown]
     if sought:
         r, k = _elsewhere(r), 0
     shown = Shown(r, notation)
     canvas = Canvas()
-    given, asked = _sort(r, sought)
+    known, unknown = _sort(r, sought)
     if camera is None:
-        notes, scales = _draw_plane(canvas, k, shown, given, asked)
+        notes, scales = _draw_plane(canvas, k, shown, known, unknown)
     else:
-        notes, scales = _draw_space(canvas, k, shown, camera, given, asked)
-    notes += [UNNUMBERED] * bool(asked) + [ELSEWHERE] * bool(sought)
+        notes, scales = _draw_space(canvas, k, shown, camera, known, unknown)
+    notes += [UNNUMBERED] * bool(unknown) + [ELSEWHERE] * bool(sought)
     heading = title if sought else place_title(r, k, title, shown)
-    lines = [*stated, *given_lines(shown, k)] if data else []
+    lines = [*stated, *stated_lines(shown, k)] if data else []
     return canvas.scene(heading, notes=[*notes, *lines], scales=scales)
 
 
@@ -87,41 +87,41 @@ def _elsewhere(r: Result) -> Result:
 def _sort(r: Result, without: Sequence[str]) -> tuple[list[Action], list[Action]]:
     """Known and unknown loads and efforts, the unknown ones with the value 1; without those of some drives."""
     ones = replace(r, effort_array=np.ones_like(r.effort_array), load_array=np.ones_like(r.load_array))
-    given: list[Action] = []
-    asked: list[Action] = []
+    stated: list[Action] = []
+    unknown: list[Action] = []
     for old, new in zip(other_actions(r), other_actions(ones), strict=True):
         if old.kind in ("load", "effort") and is_drawn(r, old) and old.of not in without:
             known = bool(old.source)
-            (given if known else asked).append(old if known else new)
-    return given, asked
+            (stated if known else unknown).append(old if known else new)
+    return stated, unknown
 
 
 def _draw_plane(
-    canvas: Canvas, k: int, shown: Shown, given: list[Action], asked: list[Action]
+    canvas: Canvas, k: int, shown: Shown, known: list[Action], unknown: list[Action]
 ) -> tuple[list[str], dict[str, float]]:
     """The mechanism and its loads; notes and scales."""
     r = shown.r
     frame = fit_frame(every_path(r)[:, k], 120.0, 90.0, unit_size(r, "length"))
     draw_links(canvas, r, k, frame)
     canvas_names(canvas, r, k, frame, shown)
-    per_mm = draw_actions(canvas, r, given, k, frame, shown, 22.0, clear=True)
-    draw_actions(canvas, r, asked, k, frame, shown, ASKED, per_mm=1 / ASKED, values=False, clear=True)
+    per_mm = draw_actions(canvas, r, known, k, frame, shown, 22.0, clear=True)
+    draw_actions(canvas, r, unknown, k, frame, shown, ASKED, per_mm=1 / ASKED, values=False, clear=True)
     return scale_notes(shown, frame, per_mm)
 
 
 def _draw_space(
-    canvas: Canvas, k: int, shown: Shown, camera: Camera, given: list[Action], asked: list[Action]
+    canvas: Canvas, k: int, shown: Shown, camera: Camera, known: list[Action], unknown: list[Action]
 ) -> tuple[list[str], dict[str, float]]:
     """The same in space."""
     r = shown.r
     s = sight(camera, every_place(r, k), WIDTH, HEIGHT, unit_size(r, "length"))
     draw_machine(canvas, r, k, s)
     draw_names(canvas, r, k, s, shown)
-    arrows = Arrows(canvas, r, s, shown, given, k)
-    for a in given:
+    arrows = Arrows(canvas, r, s, shown, known, k)
+    for a in known:
         arrows.action(a, k)
-    others = Arrows(canvas, r, s, shown, asked, k, ASKED, values=False)
-    for a in asked:
+    others = Arrows(canvas, r, s, shown, unknown, k, ASKED, values=False)
+    for a in unknown:
         others.action(a, k)
     left, bottom, _, _ = Scene(tuple(canvas.items)).bounds
     triad(canvas, camera, (left - 12.0, bottom))

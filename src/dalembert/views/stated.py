@@ -17,7 +17,7 @@ from dalembert.model import GROUND
 from dalembert.model.joints.plane_joints import Joint
 from dalembert.model.part import Part
 from dalembert.model.quantities.values import Scalar
-from dalembert.views.notation import Notation, Shown, own_name
+from dalembert.views.notation import Notation, Shown, load_sign
 
 
 class AsGiven(Notation):
@@ -39,7 +39,7 @@ class AsGiven(Notation):
         return self.number(0.0 if abs(angle) < PART else math.degrees(angle))
 
 
-def as_given(notation: Notation | None) -> AsGiven:
+def as_stated(notation: Notation | None) -> AsGiven:
     """A notation with numbers as they were given."""
     return AsGiven(**vars(notation or Notation()))
 
@@ -55,9 +55,9 @@ def stated_numbers(part: Part, shown: Shown) -> list[str]:
     return out
 
 
-def _scalars(marks: tuple[object, ...]) -> Iterator[str]:
+def _scalars(metadata: tuple[object, ...]) -> Iterator[str]:
     """Kinds of the numbers in a field, from its annotations."""
-    for mark in marks:
+    for mark in metadata:
         if isinstance(mark, Scalar):
             yield mark.kind
         elif hasattr(mark, "__metadata__"):
@@ -145,8 +145,8 @@ def mass_text(shown: Shown, link: str, named: bool = False) -> str:
 def weights_text(shown: Shown) -> str:
     """Note on the divisor of weights, where a file gives weights and its g."""
     m = shown.r.mechanism
-    given = m.g_override is not None and any(link.weight is not None for link in m.links.values())
-    return f"Weights are divided by g = {shown.text('acceleration', m.g)}" if given else ""
+    divides = m.g_override is not None and any(link.weight is not None for link in m.links.values())
+    return f"Weights are divided by g = {shown.text('acceleration', m.g)}" if divides else ""
 
 
 def joint_text(shown: Shown, joint: str) -> str:
@@ -175,8 +175,8 @@ def axes_text(joint: Any) -> str:
     parts = [f"axis {_components(joint.axis)}"] if getattr(joint, "axis", None) else []
     frames = getattr(joint, "axes", None)
     for link, frame in zip(joint.links, (frames.i, frames.j), strict=True) if frames else ():
-        own = [f"{e} {_components(v)}" for e, v in (("x", frame.x), ("z", frame.z)) if v]
-        parts += [f"on {link} {', '.join(own)}"] if own else []
+        axes = [f"{e} {_components(v)}" for e, v in (("x", frame.x), ("z", frame.z)) if v]
+        parts += [f"on {link} {', '.join(axes)}"] if axes else []
     return "".join(f", {part}" for part in parts)
 
 
@@ -196,11 +196,11 @@ OWN_MEASURES = (
 
 def _friction(shown: Shown, joint: Joint) -> str:
     """The friction of a joint as given: '; μ = 0.4, R = 0.07 m'."""
-    r, f, given = shown.r, getattr(joint, "friction", None), shown.notation.given
+    r, f, as_written = shown.r, getattr(joint, "friction", None), shown.notation.given
     if f is None or r.friction is None:
         return ""
     mu, still = coefficient(r.mechanism, joint), resting_coefficient(r.mechanism, joint)
-    parts = [f"μ = {given(mu)}", f"at rest {given(still)}" if still != mu else ""]
+    parts = [f"μ = {as_written(mu)}", f"at rest {as_written(still)}" if still != mu else ""]
     for key, sign in (("radius", "R"), ("half_height", "half height"), ("arm", "arm")):
         value = getattr(f, key, None)
         parts.append(f"{sign} = {shown.text('length', value)}" if value else "")
@@ -210,7 +210,7 @@ def _friction(shown: Shown, joint: Joint) -> str:
     return f"; {', '.join(p for p in parts if p)}"
 
 
-def given_lines(shown: Shown, k: int) -> list[str]:
+def stated_lines(shown: Shown, k: int) -> list[str]:
     """All given data except the drives, one line per part: links, joints, loads."""
     r, m = shown.r, shown.r.mechanism
     lines = []
@@ -225,9 +225,9 @@ def given_lines(shown: Shown, k: int) -> list[str]:
                 f"{shown.heading(link)}, local axes, in {shown.unit('length')}: {'; '.join(points)}."
             )
     for name, joint in m.joints.items():
-        own = joint_text(shown, name) + axes_text(joint)
-        lines += [f"Joint {name}: {joint.type.replace('_', ' ')}{own}."] if own else []
-    lines += [f"{own_name(name)}: {load_text(shown, k, name)}." for name in m.loads]
+        details = joint_text(shown, name) + axes_text(joint)
+        lines += [f"Joint {name}: {joint.type.replace('_', ' ')}{details}."] if details else []
+    lines += [f"{load_sign(name)}: {load_text(shown, k, name)}." for name in m.loads]
     lines += [f"{weights_text(shown)}."] if weights_text(shown) else []
     if any(m.gravity_vector):
         lines.append(f"Gravity {vector_text(shown, 'acceleration', np.array(m.gravity_vector))}.")

@@ -43,10 +43,10 @@ def concurrency(system: System, tolerance: float = EXACT) -> Array | None:
     forces = [f for f in system.forces if f.size > 0]
     if len(forces) < 2:
         return None
-    found = meeting_point(np.array([f.at for f in forces]), np.array([f.line.direction for f in forces]))
-    if found is None:
+    meeting = meeting_point(np.array([f.at for f in forces]), np.array([f.line.direction for f in forces]))
+    if meeting is None:
         return None
-    point, away = found
+    point, away = meeting
     reach = max(system.length, float(np.linalg.norm(point - system.middle)))
     return read_only(point) if away <= tolerance * reach else None
 

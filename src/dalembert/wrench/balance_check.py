@@ -72,8 +72,8 @@ def _which(parts: tuple[float, float], tolerance: float) -> str:
 
 
 def _missing(parts: tuple[Force | Couple, ...], units: Units) -> str:
-    said = " and ".join(_describe(part, units) for part in parts)
-    return f"{said[0].upper()}{said[1:]} {'is' if len(parts) == 1 else 'are'} missing."
+    parts_text = " and ".join(_describe(part, units) for part in parts)
+    return f"{parts_text[0].upper()}{parts_text[1:]} {'is' if len(parts) == 1 else 'are'} missing."
 
 
 def _describe(part: Force | Couple, units: Units) -> str:

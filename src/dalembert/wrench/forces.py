@@ -268,8 +268,8 @@ class Couple:
         self, moment: Vector | Number, name: str = "", kind: str = "load", units: UnitNames = None
     ) -> None:
         value = read_only(moment_components(moment, units))
-        for key, given in (("vector", value), ("name", name), ("kind", kind)):
-            object.__setattr__(self, key, given)
+        for key, attribute in (("vector", value), ("name", name), ("kind", kind)):
+            object.__setattr__(self, key, attribute)
 
     @classmethod
     def of_forces(cls, force: Force, at: Vector, name: str = "") -> Self:
@@ -337,11 +337,11 @@ def components(force: Vector, *axes: Vector | Number) -> Array:
     unit = np.array([reading.direction(axis, len(f)) for axis in axes]).reshape(-1, len(f))
     if len(unit) > len(f) or not len(unit) or np.linalg.svd(unit, compute_uv=False)[-1] < 1e-9:
         raise ModelError("the axes do not point in independent directions", f"give up to {len(f)} that do")
-    found = np.linalg.lstsq(unit.T, f, rcond=None)[0]
-    left = math.hypot(*(f - found @ unit))
+    parts = np.linalg.lstsq(unit.T, f, rcond=None)[0]
+    left = math.hypot(*(f - parts @ unit))
     if left > 1e-9 * math.hypot(*f):
         raise ModelError(
             f"the force does not lie in the axes' {'plane' if len(unit) == 2 else 'line'}: {left:.4g} N are left",
             f"give {len(f)} axes",
         )
-    return read_only(found)
+    return read_only(parts)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.model.part import Reading
+from dalembert.model.part import ReadingRules
 from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.values import vector as components_of
 from dalembert.units import Units, file_units, quantity
@@ -32,11 +32,11 @@ def number(value: object, kind: str, units: UnitNames = None) -> float:
     (2.5, 2000.0, 3.141592653589793)
     """
     plain = value.item() if isinstance(value, np.generic) else value
-    found = quantity(plain, kind, _rules(plain, units))
+    read = quantity(plain, kind, _rules(plain, units))
     largest = LARGEST**2 if kind == "moment" else LARGEST
-    if abs(found) > largest:
+    if abs(read) > largest:
         raise ModelError(f"{quote_value(plain)} is too large", f"write a number below {largest:g}")
-    return found
+    return read
 
 
 def vector(value: Vector, kind: str, units: UnitNames = None, dimension: int | None = None) -> Array:
@@ -46,8 +46,8 @@ def vector(value: Vector, kind: str, units: UnitNames = None, dimension: int | N
     array([   0., 2000.])
     """
     if isinstance(value, str) and "@" in value:
-        found = components_of(value, kind, Reading(_rules(value, units), dimension=dimension))
-        return read_only([number(x, kind) for x in found])
+        parts = components_of(value, kind, ReadingRules(_rules(value, units), dimension=dimension))
+        return read_only([number(x, kind) for x in parts])
     if isinstance(value, str):
         items: Sequence[object] = _items(value)
         units = _rules(value, units)
@@ -116,11 +116,11 @@ def cosines(angles: Sequence[Number]) -> Array:
     array([ 0.5  ,  0.707, -0.5  ])
     """
     _count(angles, 3)
-    given = np.array([math.cos(number(a, "angle")) for a in angles])
-    total = float(given @ given)
+    cosine = np.array([math.cos(number(a, "angle")) for a in angles])
+    total = float(cosine @ cosine)
     if abs(total - 1.0) > 0.01:
         raise ModelError(
             f"the squares of the three direction cosines add to {total:.4g}, not to 1",
             "two angles leave two values for the third: check them",
         )
-    return read_only(given / math.sqrt(total))
+    return read_only(cosine / math.sqrt(total))

@@ -23,7 +23,7 @@ from dalembert.wrench.reading import UnitNames, Vector, read_only
 
 if TYPE_CHECKING:
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
 
@@ -135,11 +135,11 @@ class System(Drawn, Worked):
         return len(self.parts)
 
     def __getitem__(self, name: str) -> Force | Couple:
-        found = [part for part in self.parts if part.name == name]
-        if not found:
+        matches = [part for part in self.parts if part.name == name]
+        if not matches:
             names = [part.name for part in self.parts if part.name]
             raise ModelError(f"the system has no part {name!r}", closest(name, names))
-        return found[0]
+        return matches[0]
 
     def __add__(self, other: System | Force | Couple) -> System:
         more = other.parts if isinstance(other, System) else (other,)
@@ -233,7 +233,7 @@ class System(Drawn, Worked):
 
         return [draw.force_system(self, self.about, notation, self.camera)]
 
-    def sheet(self, notation: Notation | None = None) -> Sheet:
+    def sheet(self, notation: Notation | None = None) -> ReportSheet:
         """The reduction in letters and numbers."""
         from dalembert.reports.sections.force_system_solution import force_system_sheet
 
@@ -357,10 +357,10 @@ class System(Drawn, Worked):
             return ()
         if kind == "couple":
             return (Couple(-self._moment(self.middle), "E"),)
-        found = self.central_axis(tolerance, length)
-        force = Force(-found.force, found.axis.point, "E")
+        screw = self.central_axis(tolerance, length)
+        force = Force(-screw.force, screw.axis.point, "E")
         return (
-            (force,) if kind == "single force" else (force, Couple(-found.moment * found.axis.direction, "E"))
+            (force,) if kind == "single force" else (force, Couple(-screw.moment * screw.axis.direction, "E"))
         )
 
     def equilibrium(self, tolerance: float = EXACT, length: float | None = None) -> Balance:

@@ -11,8 +11,8 @@ from dalembert.errors import ModelError
 from dalembert.model.description import file_rules
 from dalembert.model.drives.driven_freedoms import refuse_empty
 from dalembert.model.files.model_files import FilePath, read_file, read_text
-from dalembert.model.files.source import Source
-from dalembert.model.load_types import Spot
+from dalembert.model.files.source import FileSource
+from dalembert.model.load_types import LoadPoint
 from dalembert.model.part import Part, reading
 from dalembert.model.quantities.units_and_parameters import UnitsValue
 from dalembert.model.quantities.values import (
@@ -20,7 +20,7 @@ from dalembert.model.quantities.values import (
     JsonSchema,
     Name,
     Scalar,
-    Value,
+    ValueField,
     Vector,
     numbers,
     vector,
@@ -33,7 +33,7 @@ from dalembert.wrench.reading import direction as unit_along
 from dalembert.wrench.system import System
 
 
-class Along(Value):
+class VectorForm(ValueField):
     """A vector of any length, in the plane also an angle."""
 
     def read(self, value: object, info: ValidationInfo) -> Vector:
@@ -50,7 +50,7 @@ class Along(Value):
         return {"type": ["number", "string", "array"]}
 
 
-class ToAxes(Value):
+class ToAxes(ValueField):
     """Angles to the x, y and z axes, as direction cosines."""
 
     def read(self, value: object, info: ValidationInfo) -> Vector:
@@ -60,7 +60,7 @@ class ToAxes(Value):
         return {"type": "array", "minItems": 3, "maxItems": 3}
 
 
-class Moment(Value):
+class Moment(ValueField):
     """A number in the plane, a vector in space."""
 
     def read(self, value: object, info: ValidationInfo) -> Vector:
@@ -78,30 +78,30 @@ class GivenForce(Part):
 
     value: Annotated[Vector, Components("force")] | None = None
     size: Annotated[float, Scalar("force")] | None = None
-    direction: Annotated[Vector, Along()] | None = None
+    direction: Annotated[Vector, VectorForm()] | None = None
     angles: Annotated[Vector, ToAxes()] | None = None
-    start: Annotated[str | Vector, Spot()] | None = Field(None, alias="from")
-    end: Annotated[str | Vector, Spot()] | None = Field(None, alias="to")
-    at: Annotated[str | Vector, Spot()] | None = None
+    start: Annotated[str | Vector, LoadPoint()] | None = Field(None, alias="from")
+    end: Annotated[str | Vector, LoadPoint()] | None = Field(None, alias="to")
+    at: Annotated[str | Vector, LoadPoint()] | None = None
 
     @model_validator(mode="after")
-    def _one_way(self) -> Self:
-        ways = {
+    def _one_direction(self) -> Self:
+        forms = {
             "value": self.value,
             "direction": self.direction,
             "angles": self.angles,
             "from and to": None if self.start is None and self.end is None else (self.start, self.end),
         }
-        given = [way for way, found in ways.items() if found is not None]
-        if len(given) != 1:
-            found = f"{' and '.join(given)} are given" if given else "it has no direction"
-            raise ModelError(found, "give one of value, direction, angles (space), from and to")
+        stated = [form for form, description in forms.items() if description is not None]
+        if len(stated) != 1:
+            description = f"{' and '.join(stated)} are given" if stated else "it has no direction"
+            raise ModelError(description, "give one of value, direction, angles (space), from and to")
         if (self.value is None) == (self.size is None):
             raise ModelError(
                 "size and value are both given" if self.size is not None else "it has no size",
                 "write value: [x, y], or size: with direction, angles, or from and to",
             )
-        if given == ["from and to"] and None in (self.start, self.end):
+        if stated == ["from and to"] and None in (self.start, self.end):
             raise ModelError("only one of from and to is given", "give both points")
         return self
 
@@ -127,31 +127,31 @@ class GivenSystem(Part):
             raise ModelError(f"{where} names the point {at!r}", closest(at, list(self.points)), path)
         return self.points[at]
 
-    def force(self, name: str, given: GivenForce) -> Force:
+    def force(self, name: str, stated: GivenForce) -> Force:
         """One of its forces; a force along a line is at the line's first point where no `at` is given."""
-        here: Any = given.at if given.at is not None else given.start
+        here: Any = stated.at if stated.at is not None else stated.start
         at = (
             None
             if here is None
-            else self.place(here, ("forces", name, "at" if given.at is not None else "from"))
+            else self.place(here, ("forces", name, "at" if stated.at is not None else "from"))
         )
-        if given.value is not None:
-            return Force(given.value, at, name)
-        along = given.direction or given.angles
+        if stated.value is not None:
+            return Force(stated.value, at, name)
+        along = stated.direction or stated.angles
         if along is None:
-            assert given.start is not None
-            assert given.end is not None
-            start = self.place(given.start, ("forces", name, "from"))
-            end = self.place(given.end, ("forces", name, "to"))
+            assert stated.start is not None
+            assert stated.end is not None
+            start = self.place(stated.start, ("forces", name, "from"))
+            end = self.place(stated.end, ("forces", name, "to"))
             along = tuple(b - a for a, b in zip(start, end, strict=True))
         try:
-            return Force.directed(given.size or 0.0, along, at, name)
+            return Force.directed(stated.size or 0.0, along, at, name)
         except ModelError as error:
             raise ModelError(f"force {name!r}: {error.what}", error.remedy, ("forces", name)) from None
 
     def system(self) -> System:
         """The system described by the file."""
-        forces = [self.force(name, given) for name, given in self.forces.items()]
+        forces = [self.force(name, stated) for name, stated in self.forces.items()]
         couples = [Couple(list(value), name) for name, value in self.couples.items()]
         about = {"title": self.title, "source": self.source}
         return System(*forces, *couples, units=self.units, points=self.points, **about)
@@ -177,7 +177,7 @@ def loads(text: str, form: str = "yaml", name: str = "text") -> System:
     return _system(*read_text(text, form, name))
 
 
-def _system(tree: object, source: Source) -> System:
+def _system(tree: object, source: FileSource) -> System:
     try:
         if not isinstance(tree, Mapping):
             raise ModelError(f"{quote_value(tree)} is not a mapping", "write forces: ...")

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.output.summary.printed_units import scale_for
 from dalembert.answer.column import UnitChoice
 from dalembert.arrays import Array
-from dalembert.printing import Part, Table, number
+from dalembert.printing import Part, TextTable, number
 from dalembert.wrench.forces import Couple
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def system_parts(s: System, units: UnitChoice) -> Iterator[Part]:
     named = {"force": total.force, "length": total.at, "moment": total.vector}
     sums = [cell for kind, vector in named.items() for cell in _cells(to(kind, vector))]
     rows = [[*row, *[""] * (len(heads) - len(row))] for row in [*rows, ["sum at the origin", *sums]]]
-    yield Table(heads, rows, 1)
+    yield TextTable(heads, rows, 1)
     yield f"It reduces to: {s.kind()}. {s.equilibrium().sentence}"
 
 

@@ -50,16 +50,16 @@ BLOCK = 1 << 26
 """Bytes of the results of a block of designs."""
 
 
-def among(marks: NDArray[np.uint8], some: Sequence[int]) -> Flags:
+def among(codes: NDArray[np.uint8], some: Sequence[int]) -> Flags:
     """True where a code is one of some, for many codes twenty times as fast as np.isin."""
-    return np.asarray(np.logical_or.reduce([marks == mark for mark in some]))
+    return np.asarray(np.logical_or.reduce([codes == mark for mark in some]))
 
 
-def first_mark(marks: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def first_mark(codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Status code of several positions (..., position): the first in the list above, of those without numbers if one
     occurs; 0 where all are ok."""
-    later = 100 * among(marks, NUMBERED) + 100 * (marks == 0)
-    return np.asarray((marks + later).min(axis=-1) % 100, np.uint8)
+    later = 100 * among(codes, NUMBERED) + 100 * (codes == 0)
+    return np.asarray((codes + later).min(axis=-1) % 100, np.uint8)
 
 
 def not_finite(code: NDArray[np.uint8], arrays: dict[str, Array]) -> Flags:

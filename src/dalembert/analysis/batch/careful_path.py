@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED, first_mark
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.course import Course
-from dalembert.analysis.batch.tracing.symbolic_model import Number, with_numbers
+from dalembert.analysis.batch.tracing.course import PositionPath
+from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, with_numbers
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.named_quantities import quantity as read_quantity
 from dalembert.analysis.result.result import Result
@@ -40,35 +40,35 @@ def redone(
     k: Kernel,
     d: int,
     values: Array,
-    course: Course,
+    course: PositionPath,
     undecided: Flags,
-    found: Sides,
+    answer: Sides,
 ) -> None:
     """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
-    code = found.code
-    marks, result = analyse_design(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
+    code = answer.code
+    codes, result = analyse_design(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
     if k.trace.redundant:  # the outputs there are unique
-        marks = np.where(marks == CODES.index("redundant"), np.uint8(0), marks)
-    here = np.ones(len(marks), bool) if k.reduce else undecided
-    for rates in (found.rates, found.after_rates):
+        codes = np.where(codes == CODES.index("redundant"), np.uint8(0), codes)
+    here = np.ones(len(codes), bool) if k.reduce else undecided
+    for rates in (answer.rates, answer.after_rates):
         for rate in rates.values():
             rate[d][... if k.reduce else here] = np.nan
-    code[d] = first_mark(marks) if k.reduce else np.where(here, marks, code[d])
+    code[d] = first_mark(codes) if k.reduce else np.where(here, codes, code[d])
     if result is None or (k.reduce and code[d] not in NUMBERED):
         return
     sides = [{name: quantity(side, name) for name in k.outputs} for side in result.sides]
-    numbered = bool(np.isin(marks[here], NUMBERED).any())
+    numbered = bool(np.isin(codes[here], NUMBERED).any())
     slopes_ = [
-        slopes(k, values, replace(course, result=side), one, here) if found.rates and numbered else {}
+        slopes(k, values, replace(course, result=side), one, here) if answer.rates and numbered else {}
         for side, one in zip(result.sides, sides, strict=True)
     ]
     if k.reduce:
-        reduce_design(k, d, sides, slopes_, found, course)
+        reduce_design(k, d, sides, slopes_, answer, course)
         return
     if len(sides) > 1:
-        found.open_after()
-    places = ((found.arrays, found.rates), (found.after, found.after_rates))
-    for n, (arrays, rates) in enumerate(places[: 1 + bool(found.after)]):
+        answer.open_after()
+    places = ((answer.arrays, answer.rates), (answer.after, answer.after_rates))
+    for n, (arrays, rates) in enumerate(places[: 1 + bool(answer.after)]):
         for name, value in sides[min(n, len(sides) - 1)].items():
             arrays[name][d, here] = value[here].reshape(arrays[name][d, here].shape)
         for name, rate in slopes_[min(n, len(sides) - 1)].items():
@@ -80,15 +80,15 @@ def reduce_design(
     d: int,
     sides: list[dict[str, Array]],
     rates: list[dict[str, Array]],
-    found: Sides,
-    course: Course,
+    answer: Sides,
+    course: PositionPath,
 ) -> None:
     """Reductions over the positions, those with two numbers taken twice."""
     assert k.reduce is not None
     cycle = k.reduce in over_positions.REFINED and course.cycle
     if course.target is not None:
         sides = [{name: side[name] - course.target[name] for name in side} for side in sides]
-    for name, array in found.arrays.items():
+    for name, array in answer.arrays.items():
         values = [side[name] for side in sides]
         array[d] = over_positions.reduce_sides(k.reduce, values, cycle).reshape(array[d].shape)
         if rates[0]:
@@ -98,11 +98,11 @@ def reduce_design(
                 value, rate = (over_positions.larger_side(values, some) for some in (values, each))
             slope = over_positions.slope(k.reduce, value, rate, cycle)
             slope = slope / len(sides) if k.reduce == "squares" else slope
-            found.rates[name][d] = slope.reshape(found.rates[name][d].shape)
+            answer.rates[name][d] = slope.reshape(answer.rates[name][d].shape)
 
 
 def slopes(
-    k: Kernel, values: Array, course: Course, found: dict[str, Array], here: Flags
+    k: Kernel, values: Array, course: PositionPath, outputs: dict[str, Array], here: Flags
 ) -> dict[str, Array]:
     """Derivatives (position, component, number) at some positions of a course that has been solved; NaN in doubt."""
     runner = k.general_program.runner
@@ -111,17 +111,17 @@ def slopes(
     many = np.repeat(values[None], here.sum(), axis=0)
     out, doubt = runner.at_pairs(program, machine, many, columns[here], common, 1)
     again, rates = runner.by_output(out.T[None])
-    largest = max(np.nanmax(np.abs(value), initial=0.0) for value in found.values())
-    for name, value in found.items():
-        own = max(np.nanmax(np.abs(value), initial=0.0), NOTHING * largest)
+    largest = max(np.nanmax(np.abs(value), initial=0.0) for value in outputs.values())
+    for name, value in outputs.items():
+        size = max(np.nanmax(np.abs(value), initial=0.0), NOTHING * largest)
         off = np.abs(again[name].reshape(value[here].shape) - value[here]).max(axis=1)
         rates[name] = rates[name].reshape((*value[here].shape, -1))
-        rates[name][~(np.isin(doubt, NUMBERED) & (off <= AGREES * own))] = np.nan
+        rates[name][~(np.isin(doubt, NUMBERED) & (off <= AGREES * size))] = np.nan
     return dict(rates)
 
 
 def analyse_design(
-    m: Mechanism, numbers: Sequence[Number], values: Array, schedule: Schedule, inertia: bool
+    m: Mechanism, numbers: Sequence[VariedNumber], values: Array, schedule: Schedule, inertia: bool
 ) -> tuple[NDArray[np.uint8], Result | None]:
     """Codes (position,) of one design, and its result; all failed, and none, where the design is refused."""
     count = len(schedule.position)
@@ -132,18 +132,21 @@ def analyse_design(
         result = at_schedule(design, _schedule(design, schedule), inertia, method="careful")
     except DalembertError:
         return np.full(count, CODES.index("failed"), np.uint8), None
-    marks = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
-    return np.array(marks, np.uint8), result
+    codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
+    return np.array(codes, np.uint8), result
 
 
 def _schedule(design: Mechanism, schedule: Schedule) -> Schedule:
     """Requested positions, at the speeds of the design."""
-    own, count = design.schedule(), len(schedule.position)
-    rates = [a if len(a) == count else np.repeat(a[:1], count, axis=0) for a in (own.speed, own.acceleration)]
+    nominal, count = design.schedule(), len(schedule.position)
+    rates = [
+        a if len(a) == count else np.repeat(a[:1], count, axis=0)
+        for a in (nominal.speed, nominal.acceleration)
+    ]
     return replace(schedule, speed=rates[0], acceleration=rates[1])
 
 
 def quantity(result: Result, output: str) -> Array:
     """One output of a result (position, component)."""
-    found = read_quantity(result, output).values
-    return found.reshape(len(found), -1)
+    values = read_quantity(result, output).values
+    return values.reshape(len(values), -1)

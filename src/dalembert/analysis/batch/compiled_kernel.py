@@ -28,7 +28,7 @@ from dalembert.analysis.batch.checked_input import (
     targets,
 )
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.course import Course
+from dalembert.analysis.batch.tracing.course import PositionPath
 from dalembert.analysis.batch.tracing.symbolic_model import chooses_motion
 from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
@@ -103,8 +103,8 @@ def _check_count(name: str, count: object) -> None:
 def _products(nodes: Sequence[Node]) -> list[Node]:
     """Products of pairs of nodes: not finite where one of them is not, with half as many operations as their
     squares."""
-    found = list(dict.fromkeys(n for n in nodes if n.level != CONSTANT))
-    return [a * b for a, b in zip(found[::2], found[1::2], strict=False)] + found[len(found) & ~1 :]
+    factors = list(dict.fromkeys(n for n in nodes if n.level != CONSTANT))
+    return [a * b for a, b in zip(factors[::2], factors[1::2], strict=False)] + factors[len(factors) & ~1 :]
 
 
 def lanes_here() -> int:
@@ -128,8 +128,8 @@ class Kernel:
     lanes: int
 
     def __reduce__(self) -> tuple[object, ...]:  # pickled by its recipe, and compiled anew with as many lanes
-        own = self.mechanism, self.numbers, self.outputs, self.reduce, self.derivatives
-        return compile, (*own, not self.trace.inertia, self.lanes)
+        arguments = self.mechanism, self.numbers, self.outputs, self.reduce, self.derivatives
+        return compile, (*arguments, not self.trace.inertia, self.lanes)
 
     def _repr_html_(self) -> str:
         from dalembert.notebook.html_views import kernel_html
@@ -161,8 +161,8 @@ class Kernel:
         graph = self.trace.catalogue.graph
         inputs = self.number_nodes
         flat = [n for nodes in self.nodes.values() for n in nodes]
-        found = iter(gradients(graph, flat, inputs))
-        return {name: [next(found) for _ in nodes] for name, nodes in self.nodes.items()}
+        rates = iter(gradients(graph, flat, inputs))
+        return {name: [next(rates) for _ in nodes] for name, nodes in self.nodes.items()}
 
     @cached_property
     def number_nodes(self) -> list[Node]:
@@ -172,15 +172,15 @@ class Kernel:
 
     def program(self, nodes: Sequence[Node], values: int | None = None) -> Program:
         """The program of some outputs: first values (default all requested ones), then derivatives."""
-        found = self.trace.catalogue.traced
-        marks = replace(found.friction.marks, open=tuple(found.open), doubt=tuple(found.doubt))
-        marks = replace(marks, outside=tuple(n for n in found.graph.outside if n.level != CONSTANT))
+        traced = self.trace.catalogue.traced
+        flags = replace(traced.friction.flags, open=tuple(traced.open), doubt=tuple(traced.doubt))
+        flags = replace(flags, outside=tuple(n for n in traced.graph.outside if n.level != CONSTANT))
         values = sum(len(of) for of in self.nodes.values()) if values is None else values
         slope = [] if self.reduce else nodes[values:]
         known = self.trace.course.result is not None
         finite = () if known else self._finite(_products(nodes[:values]))
-        marks = replace(marks, slips=(*marks.slips, *finite), slope=self._finite([abs(n) for n in slope]))
-        return Program(self.trace.catalogue.graph, tuple(nodes), marks)
+        flags = replace(flags, slips=(*flags.slips, *finite), slope=self._finite([abs(n) for n in slope]))
+        return Program(self.trace.catalogue.graph, tuple(nodes), flags)
 
     def _finite(self, nodes: Sequence[Node]) -> tuple[Node, ...]:
         """Below zero, or no number, where some node is not finite, or their sum."""
@@ -215,32 +215,32 @@ class Kernel:
         """Compiles now the code for the file's positions."""
         self.runner.prepare(len(self.trace.course.schedule.position))
 
-    def course(self, positions: ArrayLike | None) -> Course:
+    def course(self, positions: ArrayLike | None) -> PositionPath:
         """The mechanism at other positions than the file's; those of the last call are kept."""
         known = self.trace.course
         if positions is None:
             return known
-        given = drive_values(self.mechanism, positions)
+        values = drive_values(self.mechanism, positions)
         drives = len(known.schedule.names)
-        if given.ndim < 2 and given.size % max(drives, 1) == 0:
-            given = given.reshape(-1, drives)
+        if values.ndim < 2 and values.size % max(drives, 1) == 0:
+            values = values.reshape(-1, drives)
         last = self._last_course
-        if last and np.array_equal(last[0].schedule.position, given):
+        if last and np.array_equal(last[0].schedule.position, values):
             return last[0]
-        check_positions(given, known.schedule)
-        last[:] = [known.at(given.copy())]
+        check_positions(values, known.schedule)
+        last[:] = [known.at(values.copy())]
         return last[0]
 
     def _course_to(
         self, positions: ArrayLike | None, target: ArrayLike | Mapping[str, ArrayLike] | None
-    ) -> Course:
+    ) -> PositionPath:
         """The mechanism at positions, with the values that its outputs are compared with."""
         course = self.course(positions)
         shapes = {name: (len(course.schedule.position), len(of)) for name, of in self.nodes.items()}
         return course if target is None else course.with_target(read_target(target, shapes, self.reduce))
 
     @cached_property
-    def _last_course(self) -> list[Course]:
+    def _last_course(self) -> list[PositionPath]:
         return []
 
     def __call__(
@@ -264,8 +264,8 @@ class Kernel:
         on disk by ``np.memmap`` too, or arrays by output (of derivatives by ``gradient.`` and the output). target: what
         ``squares`` compares an output with (position[, component]), or arrays by output; default 0.
         """
-        given, course = design_values(values, self.numbers, self.nominal), self._course_to(positions, target)
-        return self.answer(given, course, threads, progress, redo, device, out)
+        rows, course = design_values(values, self.numbers, self.nominal), self._course_to(positions, target)
+        return self.answer(rows, course, threads, progress, redo, device, out)
 
     def blocks(
         self,
@@ -278,15 +278,15 @@ class Kernel:
         """Answers in blocks of ``size`` designs, default as many as take 64 MB, so that memory is bounded whatever the
         number of designs. ``options`` are the other arguments of a call."""
         _check_count("size", size)
-        given, course = design_values(values, self.numbers, self.nominal), self._course_to(positions, target)
+        rows, course = design_values(values, self.numbers, self.nominal), self._course_to(positions, target)
         each = 8 * max(1, len(self.flat)) * (1 if self.reduce else len(course.schedule.position))
         step = size or max(1, BLOCK // each)
-        return (self.answer(given[k : k + step], course, **options) for k in range(0, len(given), step))
+        return (self.answer(rows[k : k + step], course, **options) for k in range(0, len(rows), step))
 
     def answer(
         self,
-        given: Array,
-        course: Course,
+        designs: Array,
+        course: PositionPath,
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
         redo: bool = True,
@@ -299,9 +299,9 @@ class Kernel:
         _check_count("threads", threads)
         if device not in ("cpu", "cuda"):
             raise ModelError(f"unknown device {device!r}", "use cpu or cuda")
-        into = self._targets(out, len(given), len(course.schedule.position))
+        into = self._targets(out, len(designs), len(course.schedule.position))
         try:
-            found = Sides(*self.runner(device, given, course, threads, progress, into))
+            sides = Sides(*self.runner(device, designs, course, threads, progress, into))
         except MemoryError:
             from dalembert.analysis.batch.runner import TOO_MUCH
 
@@ -310,17 +310,17 @@ class Kernel:
             if device == "cpu":  # of whoever watches the progress
                 raise
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
-        code, again = found.code, 0
-        if (other := self.may_change_branch(given)) is not None:
+        code, again = sides.code, 0
+        if (other := self.may_change_branch(designs)) is not None:
             code[other] = CODES.index("undecided")
-        if not np.isfinite(given).all():
-            code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
-        settle_reversals(self, given, course, found, threads)
-        if np.count_nonzero(code) or not (self.reduce is None or found.finite):
-            again = self._settle(given, course, found, redo)
-        whole = (self, given, course.schedule.position.copy(), code)
-        after = BatchResult(*whole, found.after, found.after_rates) if found.after else None
-        return BatchResult(*whole, found.arrays, found.rates, again, after)
+        if not np.isfinite(designs).all():
+            code[~np.isfinite(designs).all(axis=1)] = CODES.index("failed")
+        settle_reversals(self, designs, course, sides, threads)
+        if np.count_nonzero(code) or not (self.reduce is None or sides.finite):
+            again = self._settle(designs, course, sides, redo)
+        common = (self, designs, course.schedule.position.copy(), code)
+        after = BatchResult(*common, sides.after, sides.after_rates) if sides.after else None
+        return BatchResult(*common, sides.arrays, sides.rates, again, after)
 
     def to_c(self, name: str = "mechanism") -> str:
         """C source, needing nothing but math.h, of a function of one position: numbers, drives' quantities, outputs."""
@@ -370,15 +370,15 @@ class Kernel:
             for name, nodes in self.nodes.items()
         }
         slopes = {n: (*shape, len(self.trace.numbers)) for n, shape in shapes.items() if self.derivatives}
-        found = targets(out, shapes | {f"gradient.{n}": shape for n, shape in slopes.items()})
-        return {n: found[n] for n in shapes}, {n: found[f"gradient.{n}"] for n in slopes}
+        arrays = targets(out, shapes | {f"gradient.{n}": shape for n, shape in slopes.items()})
+        return {n: arrays[n] for n in shapes}, {n: arrays[f"gradient.{n}"] for n in slopes}
 
-    def _settle(self, values: Array, course: Course, found: Sides, redo: bool) -> int:
+    def _settle(self, values: Array, course: PositionPath, sides: Sides, redo: bool) -> int:
         """Uses the general executor where the kernel is not sure, and removes numbers where a design is not solved;
         returns the number of designs it was used for."""
         from dalembert.analysis.batch.careful_path import redone
 
-        code, arrays, rates = found.code, found.arrays, found.rates
+        code, arrays, rates = sides.code, sides.arrays, sides.rates
         if redo:
             moves = course.schedule.moves if code.ndim > 1 else course.schedule.moves.any()
             code[(code == CODES.index("at_rest")) & moves] = CODES.index("undecided")
@@ -387,12 +387,12 @@ class Kernel:
         undecided = code == CODES.index("undecided")
         again = np.flatnonzero(undecided.any(axis=tuple(range(1, code.ndim)))) if redo else np.zeros(0, int)
         for d in again:
-            redone(self, int(d), values[d], course, undecided[d], found)
+            redone(self, int(d), values[d], course, undecided[d], sides)
             if self.reduce is None:
-                for side in ((arrays, rates), (found.after, found.after_rates)):
+                for side in ((arrays, rates), (sides.after, sides.after_rates)):
                     mark_overflow(code[d], *({n: a[d] for n, a in of.items()} for of in side))
         if self.reduce is not None:
             mark_overflow(code, arrays, rates)
         if np.count_nonzero(code):
-            found.blank(~among(code, NUMBERED))
+            sides.blank(~among(code, NUMBERED))
         return len(again)

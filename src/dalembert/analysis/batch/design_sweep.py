@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
-from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds
+from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, number_kinds
 from dalembert.analysis.result.named_quantities import Quantity, component, names_of, quantity
 from dalembert.analysis.result.number_kinds import in_plane
 from dalembert.analysis.result.result import Result
@@ -69,11 +69,11 @@ def sweep(
     ((3, 72), (3,))
     """
     m = as_mechanism(m)
-    given = _given(vary, values)
-    shape = _shape(given, together)
-    designs = list(zip(*given.values(), strict=True) if together else product(*given.values()))
-    labels = {path: _labels(m, path, of) for path, of in given.items()}
-    nominal = _analysis(m, tuple(given), designs[0], static, positions)
+    varied = _values_by_path(vary, values)
+    shape = _shape(varied, together)
+    designs = list(zip(*varied.values(), strict=True) if together else product(*varied.values()))
+    labels = {path: _labels(m, path, of) for path, of in varied.items()}
+    nominal = _analysis(m, tuple(varied), designs[0], static, positions)
     wanted = [outputs] if isinstance(outputs, str) else outputs
     names = _kept(nominal) if wanted is None else wanted
     like = {name: quantity(nominal, name) for name in names}
@@ -84,20 +84,20 @@ def sweep(
             if progress is not None:
                 progress(done, designs)
 
-        compiled = positions is None and len(designs) >= MANY and _all_numbers(given)
-        if any(path.startswith("drives.") or path in m.parameters for path in given):
+        compiled = positions is None and len(designs) >= MANY and _all_numbers(varied)
+        if any(path.startswith("drives.") or path in m.parameters for path in varied):
             compiled = compiled and (
                 nominal.inertia or static
             )  # else designs behind the first may have inertia
-        found = _compiled(nominal, tuple(given), designs, like, tell) if compiled else None
-        if found is None:
-            results = (_analysis(m, tuple(given), design, static, positions) for design in designs)
-            found = _collected(results, like, len(designs), tell)
+        answers = _compiled(nominal, tuple(varied), designs, like, tell) if compiled else None
+        if answers is None:
+            results = (_analysis(m, tuple(varied), design, static, positions) for design in designs)
+            answers = _collected(results, like, len(designs), tell)
     kinds = {name: q.kind for name, q in like.items()}
-    return Sweep(m, dict(labels), together, kinds, nominal, found.shaped(shape))
+    return Sweep(m, dict(labels), together, kinds, nominal, answers.shaped(shape))
 
 
-def _given(vary: str | Values, values: Sequence[object] | None) -> dict[str, list[object]]:
+def _values_by_path(vary: str | Values, values: Sequence[object] | None) -> dict[str, list[object]]:
     """Values by path, as plain Python has them."""
     if isinstance(vary, str) == (values is None) or isinstance(values, str):
         raise ModelError("a sweep needs values for its path", 'da.sweep(m, "links.rod.mass", [1, 2, 3])')
@@ -108,16 +108,16 @@ def _given(vary: str | Values, values: Sequence[object] | None) -> dict[str, lis
     }
 
 
-def _shape(given: Values, together: bool) -> tuple[int, ...]:
-    counts = {path: len(of) for path, of in given.items()}
+def _shape(varied: Values, together: bool) -> tuple[int, ...]:
+    counts = {path: len(of) for path, of in varied.items()}
     if not counts or not all(counts.values()):
         raise ModelError("a sweep needs at least one value for each path", "give a list of values")
-    said = ", ".join(f"{count} of {path}" for path, count in counts.items())
+    text = ", ".join(f"{count} of {path}" for path, count in counts.items())
     if together and len(set(counts.values())) > 1:
-        raise ModelError(f"values cannot be paired: {said}", "give equally many of each")
+        raise ModelError(f"values cannot be paired: {text}", "give equally many of each")
     shape = tuple(counts.values())[:1] if together else tuple(counts.values())
     if math.prod(shape) > MOST:
-        raise ModelError(f"{math.prod(shape)} designs are too many: {said}", f"ask for at most {MOST}")
+        raise ModelError(f"{math.prod(shape)} designs are too many: {text}", f"ask for at most {MOST}")
     return shape
 
 
@@ -127,7 +127,7 @@ class Labels(NamedTuple):
 
     values: tuple[object, ...]
     kind: str
-    given: tuple[object, ...]
+    inputs: tuple[object, ...]
 
     @property
     def unit(self) -> str:
@@ -137,28 +137,28 @@ class Labels(NamedTuple):
     @property
     def texts(self) -> list[str]:
         """The values with their unit: a text as it was given."""
-        return [f"{v:.6g} {self.unit}".strip() if _is_number(v) else str(v) for v in self.given]
+        return [f"{v:.6g} {self.unit}".strip() if _is_number(v) else str(v) for v in self.inputs]
 
 
-def _labels(m: Mechanism, path: str, given: Sequence[Any]) -> Labels:
-    plain = all(map(_is_number, given))
-    changed = [m.with_values({path: v}) for v in ((min(given), max(given)) if plain else given)]
+def _labels(m: Mechanism, path: str, values: Sequence[Any]) -> Labels:
+    plain = all(map(_is_number, values))
+    changed = [m.with_values({path: v}) for v in ((min(values), max(values)) if plain else values)]
     name = path.removeprefix("parameters.")
-    number = Number(name if name in m.parameters else path, 0.0, name in m.parameters)
-    found = given if plain else [value_at(one, number.keys) for one in changed]
-    found = [value.value if isinstance(value, Parameter) else value for value in found]
-    if all(map(_is_number, found)):
-        return Labels(tuple(map(float, found)), number_kinds(changed[-1], [number])[0], tuple(given))
-    return Labels(tuple(map(str, given)), "number", tuple(given))
+    number = VariedNumber(name if name in m.parameters else path, 0.0, name in m.parameters)
+    shown = values if plain else [value_at(one, number.keys) for one in changed]
+    shown = [value.value if isinstance(value, Parameter) else value for value in shown]
+    if all(map(_is_number, shown)):
+        return Labels(tuple(map(float, shown)), number_kinds(changed[-1], [number])[0], tuple(values))
+    return Labels(tuple(map(str, values)), "number", tuple(values))
 
 
 def _is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _all_numbers(given: Values) -> bool:
+def _all_numbers(varied: Values) -> bool:
     """True if a compiled analysis can take them."""
-    return all(map(_is_number, [v for of in given.values() for v in of]))
+    return all(map(_is_number, [v for of in varied.values() for v in of]))
 
 
 def _kept(r: Result) -> list[str]:
@@ -206,8 +206,8 @@ def _collected(results: Iterator[Result], like: Mapping[str, Quantity], count: i
         tell(k + 1, count)
     status, reasons, drives, first, last, two = zip(*parts, strict=True)
     arrays = [dict(zip(like, map(np.stack, zip(*of, strict=True)), strict=True)) for of in (first, last)]
-    said, why = (np.array(of, object) for of in (status, reasons))
-    return _Answers(said, why, np.stack(drives), arrays[0], arrays[1] if any(two) else {})
+    statuses, why = (np.array(of, object) for of in (status, reasons))
+    return _Answers(statuses, why, np.stack(drives), arrays[0], arrays[1] if any(two) else {})
 
 
 def _compiled(
@@ -220,18 +220,18 @@ def _compiled(
         return None
     if kernel.trace.redundant:
         return None  # a kernel's status is that of its outputs, a sweep's that of the analysis
-    found = kernel(np.array(designs, float), progress=tell)
-    if (found.code == CODES.index("failed")).any():
+    batch = kernel(np.array(designs, float), progress=tell)
+    if (batch.code == CODES.index("failed")).any():
         return None  # the analysis of that design says why
     sides = [
-        {n: of.value(n).reshape(found.code.shape + q.values.shape[1:]) for n, q in like.items()}
-        for of in (found, found.after)
+        {n: of.value(n).reshape(batch.code.shape + q.values.shape[1:]) for n, q in like.items()}
+        for of in (batch, batch.after)
         if of is not None
     ]
     position = nominal.schedule.position
     drives = np.broadcast_to(position, (len(designs), *position.shape))
-    reasons = np.full(found.code.shape, None, object)
-    return _Answers(found.status, reasons, drives, sides[0], sides[1] if len(sides) > 1 else {})
+    reasons = np.full(batch.code.shape, None, object)
+    return _Answers(batch.status, reasons, drives, sides[0], sides[1] if len(sides) > 1 else {})
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -334,13 +334,13 @@ class Sweep(NamedAnswer, Labelled, Drawn):
         out, count = [], self.status.shape[-1]
         reasons = self.answers.reasons.reshape(-1, count)
         for values, status, why in zip(self.designs, self.status.reshape(-1, count), reasons, strict=True):
-            said = ", ".join(f"{path} = {value}" for path, value in zip(self.paths, values, strict=True))
+            text = ", ".join(f"{path} = {value}" for path, value in zip(self.paths, values, strict=True))
             for (code, reason), run in groupby(enumerate(zip(status, why, strict=True), 1), lambda p: p[1]):
                 where = [k for k, _ in run]
                 if code not in SOLVED:
                     which = f"{where[0]}" + (f"-{where[-1]}" if where[1:] else "")
                     known = STATUSES[code].sentence if code in STATUSES else code
-                    out.append((f"{said}: position {which}", code, reason or known))
+                    out.append((f"{text}: position {which}", code, reason or known))
         return out
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
@@ -355,7 +355,10 @@ class Sweep(NamedAnswer, Labelled, Drawn):
 
     def record(self, to: Scale) -> Tree:
         """What is varied, as it was given."""
-        return {"vary": {path: list(of.given) for path, of in self.labels.items()}, "together": self.together}
+        return {
+            "vary": {path: list(of.inputs) for path, of in self.labels.items()},
+            "together": self.together,
+        }
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
         """A row a design: what was varied, the positions solved, the largest size of each quantity; problems."""

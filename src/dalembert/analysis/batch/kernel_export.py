@@ -15,7 +15,7 @@ from dalembert.errors import ModelError
 from dalembert.kernel.emit import c_text
 from dalembert.kernel.emit.wasm.module import LANES, emit_wasm
 from dalembert.kernel.graph import Node
-from dalembert.kernel.program import Marks, Program
+from dalembert.kernel.program import KernelFlags, Program
 from dalembert.model.quantities.expression_trees import Functions
 from dalembert.model.quantities.expressions import Expression
 
@@ -49,14 +49,14 @@ def plain(
             value = value if isinstance(value, Node) else graph.constant(value)
             if not any(n.op in without for n in graph.order([value])):
                 places[node.index] = value
-        elif kind == "common" or (what == "counted" and np.ptp(inputs.found[node](k.trace.course)) == 0):
-            places[node.index] = graph.constant(np.ravel(inputs.found[node](k.trace.course))[0])
+        elif kind == "common" or (what == "counted" and np.ptp(inputs.sources[node](k.trace.course)) == 0):
+            places[node.index] = graph.constant(np.ravel(inputs.sources[node](k.trace.course))[0])
     program = k.program(k.flat) if nodes is None else k.program(nodes, len(nodes))
     program = program if marked else Program(graph, program.outputs)
-    groups = [program.outputs, *(getattr(program.marks, f.name) for f in fields(Marks))]
-    found = iter(graph.substitute([n for group in groups for n in group], places))
-    outputs, *marks = (tuple(next(found) for _ in group) for group in groups)
-    return Program(graph, outputs, Marks(*marks))
+    groups = [program.outputs, *(getattr(program.flags, f.name) for f in fields(KernelFlags))]
+    substituted = iter(graph.substitute([n for group in groups for n in group], places))
+    outputs, *flags = (tuple(next(substituted) for _ in group) for group in groups)
+    return Program(graph, outputs, KernelFlags(*flags))
 
 
 _LETTERS = "use letters, digits and single _, a letter first"
@@ -82,7 +82,7 @@ def _comment(k: Kernel, program: Program, name: str) -> str:
     inputs = [f"c[{i}] = {graph.names[n.index]}" for i, n in enumerate(program.inputs_in_use("channel"))]
     outputs = [f"out[{i}] = {what}" for i, what in enumerate(output_names(k))]
     title = k.mechanism.title or "A mechanism"
-    said = f"{title}: {name}(v, c, out) at one position, SI and radians; made by dalembert."
+    heading = f"{title}: {name}(v, c, out) at one position, SI and radians; made by dalembert."
     result = (
         "Returns 0; 1 where the linkage does not close; 2 where the numbers may be poor (near a dead centre, or "
         "friction may jam or have several solutions);"
@@ -91,7 +91,7 @@ def _comment(k: Kernel, program: Program, name: str) -> str:
         "3 where friction leaves an interval (a contact at rest); 7 where it jams; "
         "9 where it is self-locking (the numbers hold)."
     )
-    return "\n".join([said, result, more, *numbers, *inputs, *outputs])
+    return "\n".join([heading, result, more, *numbers, *inputs, *outputs])
 
 
 def output_names(k: Kernel) -> list[str]:
@@ -136,10 +136,10 @@ def wasm_module(k: Kernel, row: int | None) -> WasmModule:
 
 def wasm_channels(k: Kernel, row: int) -> Array:
     """Content of ``path`` (channel, row) for the file's positions; the last is repeated to fill the row."""
-    course, found = k.trace.course, k.trace.inputs.found
+    course, channels = k.trace.course, k.trace.inputs.sources
     count = len(course.schedule.position)
     nodes = plain(k).inputs_in_use("channel")
-    values = [np.broadcast_to(np.asarray(found[n](course), float), count) for n in nodes]
+    values = [np.broadcast_to(np.asarray(channels[n](course), float), count) for n in nodes]
     return np.array([np.pad(a, (0, row - count), mode="edge") for a in values]).reshape(len(nodes), row)
 
 

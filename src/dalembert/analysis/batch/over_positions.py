@@ -69,8 +69,8 @@ def is_cycle(position: Array, turns: Sequence[bool]) -> bool:
         raise ModelError(
             "the positions are not evenly spaced, and a peak is refined between even ones", 'reduce by "peak"'
         )
-    whole = len(position) * steps.mean(axis=0)
-    over = np.where(turns, whole - 2 * np.pi * np.rint(whole / (2 * np.pi)), whole)
+    advance = len(position) * steps.mean(axis=0)
+    over = np.where(turns, advance - 2 * np.pi * np.rint(advance / (2 * np.pi)), advance)
     return bool((np.abs(over) <= 1e-6 * np.maximum(size, 1e-300)).all())
 
 
@@ -105,18 +105,18 @@ def neighbours(place: Ints, count: int, cycle: bool) -> tuple[Ints, Flags]:
 
 def refine(reduce: str, place: Array, values: Array, inner: Flags, count: int) -> Array:
     """The refined peak, or its place, from values (3, ...) at a place and its neighbours."""
-    found = parabola(values, inner)
+    peak = parabola(values, inner)
     if reduce == "refined_peak":
-        return np.asarray(np.abs((found.weights * values).sum(axis=0)))
-    return np.asarray((place + found.place) % count)
+        return np.asarray(np.abs((peak.weights * values).sum(axis=0)))
+    return np.asarray((place + peak.place) % count)
 
 
 def refined_slope(reduce: str, values: Array, rates: Array, inner: Flags) -> Array:
     """Derivatives (..., number) of that, from those of the values (3, ..., number)."""
-    found = parabola(values, inner)
+    peak = parabola(values, inner)
     if reduce == "refined_peak":
-        return np.asarray(np.sign(values[1])[..., None] * (found.weights[..., None] * rates).sum(axis=0))
-    return np.asarray((found.place_slope[..., None] * rates).sum(axis=0))
+        return np.asarray(np.sign(values[1])[..., None] * (peak.weights[..., None] * rates).sum(axis=0))
+    return np.asarray((peak.place_slope[..., None] * rates).sum(axis=0))
 
 
 def _refined(reduce: str, values: Array, cycle: bool) -> tuple[Ints, Array, Flags]:
@@ -134,8 +134,8 @@ def reduce_positions(reduce: str, values: Array, cycle: bool = False) -> Array:
     if reduce in REFINED:
         table = values.reshape(len(values), -1)
         three, near, inner = _refined(reduce, table, cycle)
-        found = refine(reduce, three[1], near, inner, len(values))
-        return np.where(np.isnan(table).any(axis=0), np.nan, found).reshape(values.shape[1:])
+        reduced = refine(reduce, three[1], near, inner, len(values))
+        return np.where(np.isnan(table).any(axis=0), np.nan, reduced).reshape(values.shape[1:])
     size = np.abs(values)
     if reduce == "peak":
         return np.asarray(size.max(axis=0))
@@ -158,10 +158,10 @@ def reduce_sides(reduce: str, sides: Sequence[Array], cycle: bool = False) -> Ar
     positions. No parabola goes from one side to the other; of squares each side has half."""
     if reduce in REFINED:
         return reduce_positions(reduce, larger_side(sides, sides), cycle)
-    found = reduce_positions(reduce, np.concatenate(sides))
+    reduced = reduce_positions(reduce, np.concatenate(sides))
     if reduce == "squares":
-        return found / len(sides)
-    return found % len(sides[0]) if reduce == "argpeak" else found
+        return reduced / len(sides)
+    return reduced % len(sides[0]) if reduce == "argpeak" else reduced
 
 
 def larger_side(by: Sequence[Array], sides: Sequence[Array]) -> Array:

@@ -24,7 +24,7 @@ OF_MOTION = ("known", "way", "counted")
 """First words of the names of inputs of the known motion: its branch, the start of Newton's steps, full turns."""
 
 
-class Found(NamedTuple):
+class BatchOutputs(NamedTuple):
     """Outputs (design, position, component) side by side, their derivatives by numbers and position (..., number + 1),
     and where there is an answer (design, position)."""
 
@@ -79,23 +79,23 @@ class OwnPositions:
             )
         return columns, common, used
 
-    def __call__(self, values: Array, positions: Array) -> Found:
+    def __call__(self, values: Array, positions: Array) -> BatchOutputs:
         """Outputs of designs (D, number) at positions (D, P) of the drive."""
         columns, common, used = self.columns
         order = np.argsort(self.stations)
         middles = (self.stations[order][1:] + self.stations[order][:-1]) / 2
         q = positions.ravel()
-        given = columns[order[np.searchsorted(middles, q)]]
+        channels = columns[order[np.searchsorted(middles, q)]]
         for what, column in zip(OF_DRIVE, (q, np.cos(q), np.sin(q)), strict=True):
             if f"{what} {self.drive}" in used:
-                given[:, used.index(f"{what} {self.drive}")] = column
+                channels[:, used.index(f"{what} {self.drive}")] = column
         count = positions.shape[1]
         out, code = self.kernel.runner.at_pairs(
-            *self.machine[:2], np.repeat(values, count, axis=0), given, common, None
+            *self.machine[:2], np.repeat(values, count, axis=0), channels, common, None
         )
         flat = sum(len(nodes) for nodes in self.kernel.nodes.values())
         out = out.reshape(*positions.shape, -1)
         ok = among(code, NUMBERED).reshape(positions.shape)
         other = self.kernel.may_change_branch(values)
         ok = ok & np.isfinite(out).all(axis=2) & (True if other is None else ~other[:, None])
-        return Found(out[..., :flat], out[..., flat:].reshape(*positions.shape, flat, -1), ok)
+        return BatchOutputs(out[..., :flat], out[..., flat:].reshape(*positions.shape, flat, -1), ok)

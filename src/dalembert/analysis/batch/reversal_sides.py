@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import BLOCK, CODES, NUMBERED, among, first_mark
 from dalembert.analysis.batch.careful_path import reduce_design
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.tracing.course import Course
+from dalembert.analysis.batch.tracing.course import PositionPath
 from dalembert.arrays import Array, Ints
 
 if TYPE_CHECKING:
@@ -24,23 +24,25 @@ BUILDING = threading.Lock()
 """One thread compiles."""
 
 
-def settle_reversals(k: Kernel, values: Array, course: Course, found: Sides, threads: int | None) -> None:
+def settle_reversals(
+    k: Kernel, values: Array, course: PositionPath, answer: Sides, threads: int | None
+) -> None:
     """Replaces the status `at_rest` by both sides of a reversal where the machine moves; without second rates it
     stays."""
     moves = course.schedule.moves
     if k.reduce is None:
-        designs, positions = np.nonzero((found.code == AT_REST) & moves)
+        designs, positions = np.nonzero((answer.code == AT_REST) & moves)
         if len(designs):
-            _settle_pairs(k, values, course, found, designs, positions, threads)
+            _settle_pairs(k, values, course, answer, designs, positions, threads)
     elif moves.any():
-        _settle_reduced(k, values, course, found, np.flatnonzero(found.code == AT_REST), threads)
+        _settle_reduced(k, values, course, answer, np.flatnonzero(answer.code == AT_REST), threads)
 
 
 def _settle_pairs(
     k: Kernel,
     values: Array,
-    course: Course,
-    found: Sides,
+    course: PositionPath,
+    answer: Sides,
     designs: Ints,
     positions: Ints,
     threads: int | None,
@@ -65,17 +67,17 @@ def _settle_pairs(
         return
     locked = (both[0][1] == LOCKED) | (both[1][1] == LOCKED)
     here = designs[good], positions[good]
-    found.code[here] = np.where(locked, LOCKED, REVERSAL)[good]
-    found.open_after()
-    places = ((found.arrays, found.rates), (found.after, found.after_rates))
+    answer.code[here] = np.where(locked, LOCKED, REVERSAL)[good]
+    answer.open_after()
+    places = ((answer.arrays, answer.rates), (answer.after, answer.after_rates))
     for wholes, (out, _) in zip(places, both, strict=True):
-        for whole, part in zip(wholes, runner.by_output(out[good].T[None]), strict=True):
+        for target, part in zip(wholes, runner.by_output(out[good].T[None]), strict=True):
             for name, numbers in part.items():
-                whole[name][here] = numbers[0]
+                target[name][here] = numbers[0]
 
 
 def _settle_reduced(
-    k: Kernel, values: Array, course: Course, found: Sides, designs: Ints, threads: int | None
+    k: Kernel, values: Array, course: PositionPath, answer: Sides, designs: Ints, threads: int | None
 ) -> None:
     """Reductions of some designs, from both sides of all their positions."""
     plain, count = k.runner.unreduced, len(course.schedule.position)
@@ -83,14 +85,14 @@ def _settle_reduced(
     for some in np.split(designs, range(step, len(designs), step)):
         r = plain.answer(values[some], course, threads, redo=False)
         after = r.after or r
-        found.code[some] = first_mark(r.code)
+        answer.code[some] = first_mark(r.code)
         for n, d in enumerate(some):
-            if found.code[d] in NUMBERED:
+            if answer.code[d] in NUMBERED:
                 sides = [
                     {name: a[n].reshape(len(a[n]), -1) for name, a in of.arrays.items()} for of in (r, after)
                 ]
                 rates = [_rates(of.gradients, sides[0], n) for of in (r, after)]
-                reduce_design(k, int(d), sides, rates, found, course)
+                reduce_design(k, int(d), sides, rates, answer, course)
 
 
 def _rates(gradients: dict[str, Array], like: dict[str, Array], n: int) -> dict[str, Array]:

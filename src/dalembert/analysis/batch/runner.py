@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.batch import over_positions
-from dalembert.analysis.batch.tracing.course import Course
+from dalembert.analysis.batch.tracing.course import PositionPath
 from dalembert.analysis.batch.tracing.kernel_inputs import target_values
 from dalembert.analysis.batch.tracing.traced_analysis import trace_analysis
 from dalembert.arrays import Array
@@ -48,7 +48,7 @@ class Job(NamedTuple):
     into where they are given."""
 
     values: Array
-    course: Course
+    course: PositionPath
     threads: int | None
     progress: Progress | None
     into: Arrays | None
@@ -60,7 +60,7 @@ class Runner:
     def __init__(self, kernel: Any) -> None:
         self.k = kernel
         self.machine = cache(self._machine)
-        self.known: dict[int, tuple[Course, Array, Array]] = {}
+        self.known: dict[int, tuple[PositionPath, Array, Array]] = {}
         self.path: tuple[Array, Machine, tuple[Array, int]] | None = None
         self.places = self._places()
 
@@ -68,7 +68,7 @@ class Runner:
         """Program and machine code of one mode of running it."""
         k = self.k
         if kind == "gradient":  # derivatives alone, at chosen positions
-            rates = [n for found in k.rates.values() for row in found for n in row]
+            rates = [n for components in k.rates.values() for row in components for n in row]
             return self.pairs(k.program([*(n for nodes in k.nodes.values() for n in nodes), *rates]))
         if kind == "pairs":
             return self.pairs(k.program(k.flat))
@@ -87,13 +87,13 @@ class Runner:
         """Values to be reduced, outputs first, then what the gradients of means are made of."""
         k = self.k
         parts = over_positions.with_places(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
-        nodes = [n for found in k.nodes.values() for n in found]
+        nodes = [n for components in k.nodes.values() for n in components]
         if k.reduce == "squares":
             nodes = [n - self._target(name, j) for name, of in k.nodes.items() for j, n in enumerate(of)]
         slots = [(m, p) for m in range(len(nodes)) for p in parts]
         if k.derivatives and k.reduce in over_positions.SUMS:
             power = over_positions.SUMS[k.reduce] - 1
-            rates = [row for found in k.rates.values() for row in found]
+            rates = [row for components in k.rates.values() for row in components]
             for value, row in zip(list(nodes), rates, strict=True):
                 weight = value**power if power else 1.0
                 nodes += [weight * rate for rate in row]
@@ -103,8 +103,8 @@ class Runner:
     def _target(self, name: str, component: int) -> Node:
         """Value that one component of an output is compared with."""
         value = partial(target_values, output=name, component=component)
-        found: Node = self.k.trace.inputs.make("channel", f"target {component} {name}", value)
-        return found
+        node: Node = self.k.trace.inputs.make("channel", f"target {component} {name}", value)
+        return node
 
     @cached_property
     def sided(self) -> Any:
@@ -118,25 +118,25 @@ class Runner:
         """The kernel that keeps all positions."""
         return replace(self.k, reduce=None)
 
-    def way(self, positions: int) -> str:
+    def method(self, positions: int) -> str:
         if self.k.reduce is not None:
             return "reduce"
         return "pairs" if positions < FEW and self.k.lanes > 1 else "grid"
 
     def prepare(self, positions: int) -> None:
-        self.machine(self.way(positions))
+        self.machine(self.method(positions))
 
-    def inputs(self, program: Program, course: Course) -> tuple[Array, Array]:
+    def inputs(self, program: Program, course: PositionPath) -> tuple[Array, Array]:
         """Channels (position, channel) and common inputs that a program uses; those of its last call are kept."""
         known = self.known.get(id(program))
         if known is None or known[0] is not course:
             self.known[id(program)] = known = course, *self._inputs(program, course)
         return known[1], known[2]
 
-    def _inputs(self, program: Program, course: Course) -> tuple[Array, Array]:
-        found = self.k.trace.inputs.found
-        columns = [np.asarray(found[n](course), float) for n in program.inputs_in_use("channel")]
-        common = np.array([float(found[n](course)) for n in program.inputs_in_use("common")])
+    def _inputs(self, program: Program, course: PositionPath) -> tuple[Array, Array]:
+        sources = self.k.trace.inputs.sources
+        columns = [np.asarray(sources[n](course), float) for n in program.inputs_in_use("channel")]
+        common = np.array([float(sources[n](course)) for n in program.inputs_in_use("common")])
         count = len(course.schedule.position)
         return np.stack(columns, axis=1) if columns else np.zeros((count, 0)), common
 
@@ -145,32 +145,32 @@ class Runner:
     ) -> tuple[NDArray[np.uint8], dict[str, Array], dict[str, Array]]:
         """Codes, arrays by output, gradients by output, of what makes a ``Job``."""
         job = Job(*call)
-        few = "grid" if device == "cuda" else self.way(len(job.course.schedule.position))
-        way = "reduce" if self.k.reduce else few
-        program, machine, slots = self.machine(way)
+        few = "grid" if device == "cuda" else self.method(len(job.course.schedule.position))
+        method = "reduce" if self.k.reduce else few
+        program, machine, slots = self.machine(method)
         columns, common = self.inputs(program, job.course)
         out: Array | None
         if device == "cuda":
             from dalembert.kernel.emit import cuda
 
             out, code = cuda.run(program, slots, job.values, columns, common, job.progress)
-        elif way == "pairs":
+        elif method == "pairs":
             out, code = self._run_all_pairs(job, program, machine, columns, common)
         else:
             out, code = self._run_grid(job, program, machine, slots, columns, common)
         if out is None:
             assert job.into is not None
             return code, *job.into
-        found = self._reduced_result(job, slots, out, len(columns)) if slots else self.by_output(out)
+        results = self._reduced_result(job, slots, out, len(columns)) if slots else self.by_output(out)
         if job.into is None:
-            return code, *found
-        self._store(job, slice(None), found)
+            return code, *results
+        self._store(job, slice(None), results)
         return code, *job.into
 
-    def _store(self, job: Job, which: slice, found: Arrays) -> None:
+    def _store(self, job: Job, which: slice, results: Arrays) -> None:
         """Put results of some designs where they go."""
         assert job.into is not None
-        for parts, wholes in zip(found, job.into, strict=True):
+        for parts, wholes in zip(results, job.into, strict=True):
             for name, part in parts.items():
                 for of in np.ndindex(part.shape[2:]):  # components stand side by side there, not here
                     wholes[name][(which, slice(None), *of)[: part.ndim]] = part[(..., *of)]
@@ -194,7 +194,10 @@ class Runner:
             machine = self.machine("past cache")[1] if again and not slots else machine
         else:
             out = None
-            into = shape, lambda which, found: self._store(job, which, self.by_output(found[..., :positions]))
+            into = (
+                shape,
+                lambda which, results: self._store(job, which, self.by_output(results[..., :positions])),
+            )
         run_grid(machine, job.values, path, channels, into, code, job.threads, job.progress)
         return out, code if slots else code[:, :positions]
 
@@ -209,8 +212,10 @@ class Runner:
         code, step = np.empty((designs, count), np.uint8), max(1, 100_000 // count)
         for k in range(0, designs, step):
             which = slice(k, min(k + step, designs))
-            found, code[which] = run_designs(machine, job.values[which], columns, common, width, job.threads)
-            self._store(job, which, self.by_output(found))
+            results, code[which] = run_designs(
+                machine, job.values[which], columns, common, width, job.threads
+            )
+            self._store(job, which, self.by_output(results))
             if job.progress is not None:
                 job.progress(which.stop, designs)
         return None, code
@@ -267,19 +272,19 @@ class Runner:
             slot += 2 if key[1] in PLACED else 1
         if k.reduce in over_positions.REFINED:
             return self._refined(job, places)
-        found, arrays, node = {}, {}, 0
+        nodes_by_name, arrays, node = {}, {}, 0
         wanted = over_positions.with_places(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
         for name, nodes in k.nodes.items():
             each = []
             for m in range(node, node + len(nodes)):
                 source = places if k.reduce == "argpeak" else parts
                 each.append(over_positions.finish_reduction(k.reduce, [source[m, p] for p in wanted], count))
-            found[name] = range(node, node + len(nodes))
+            nodes_by_name[name] = range(node, node + len(nodes))
             arrays[name] = each[0].copy() if len(nodes) == 1 else np.stack(each, axis=1)
             node += len(nodes)
         if not k.derivatives:
             return arrays, {}
-        return arrays, slopes(self, job, found, parts, places, count)
+        return arrays, slopes(self, job, nodes_by_name, parts, places, count)
 
     def _refined(self, job: Job, places: dict[tuple[int, str], Array]) -> Arrays:
         """Peaks between the positions and their places, and gradients: each from three positions."""
@@ -326,7 +331,7 @@ def _room(job: Job, each: tuple[int, ...]) -> int:
 def slopes(
     runner: Runner,
     job: Job,
-    found: dict[str, range],
+    ranges: dict[str, range],
     parts: dict[tuple[int, str], Array],
     places: dict[tuple[int, str], Array],
     count: int,
@@ -335,7 +340,7 @@ def slopes(
     k, out = runner.k, {}
     nodes_of = [n for nodes in k.nodes.values() for n in nodes]
     flat = len(nodes_of)
-    for name, nodes in found.items():
+    for name, nodes in ranges.items():
         each = []
         for m in nodes:
             if k.reduce in ("peak", "envelope"):

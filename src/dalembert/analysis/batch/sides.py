@@ -33,7 +33,7 @@ class Sides:
 
     def blank(self, lost: Flags) -> None:
         """Replaces numbers by NaN where unsolved."""
-        for found in (self.arrays, self.rates, self.after, self.after_rates):
-            for array in found.values():
+        for arrays in (self.arrays, self.rates, self.after, self.after_rates):
+            for array in arrays.values():
                 if array.dtype.kind == "f":
                     array[lost] = np.nan

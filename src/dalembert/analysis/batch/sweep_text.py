@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.output.summary.printed_units import scale_for
 from dalembert.answer.column import UnitChoice
-from dalembert.printing import Part, Table, number
+from dalembert.printing import Part, TextTable, number
 
 if TYPE_CHECKING:
     from dalembert.analysis.batch.design_sweep import Sweep
@@ -35,5 +35,5 @@ def sweep_parts(s: Sweep, units: UnitChoice) -> Iterator[Part]:
     ]
     sentences = [f"{status}: {which}: {sentence}" for which, status, sentence in s.problems()[:MOST_SAID]]
     yield repr(s).strip("<>")
-    yield Table(heads, rows, len(s.paths) + 1)
+    yield TextTable(heads, rows, len(s.paths) + 1)
     yield from sentences

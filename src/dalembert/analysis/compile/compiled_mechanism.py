@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.algebra import plane, space
 from dalembert.analysis.compile import plane_rows as table
 from dalembert.analysis.compile.joint_rows import PlaneJoints, SpaceJoints
-from dalembert.analysis.compile.load_arrays import Setting, forcing, unknown_columns
+from dalembert.analysis.compile.load_arrays import LoadSetting, forcing, unknown_columns
 from dalembert.analysis.compile.pair_table import Geometry
 from dalembert.analysis.compile.pushing_contacts import pushing_contacts
 from dalembert.analysis.compile.table_ends import Beyond, beyond_ends
@@ -23,7 +23,7 @@ from dalembert.core.forcing import Forcing
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Layout, Rows
 from dalembert.core.position.first_pose_plane import Guess, Modes
-from dalembert.core.position.first_pose_space import Drawing
+from dalembert.core.position.first_pose_space import PoseGuess
 from dalembert.core.pushing import Pushing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
@@ -66,7 +66,7 @@ class Compiled:
     unknown_loads: tuple[str, ...]
     layout: Layout
     target: Array
-    guess: Guess | Drawing
+    guess: Guess | PoseGuess
     forcing: Forcing
     known: Known
     contacts: Contacts | None  # of the joints with friction; None without
@@ -130,9 +130,9 @@ def compile_mechanism(
     numbers in their places.
     """
     joined = _Joined(m, schedule.names, redundant)
-    found = _geometry(joined) if like is None else _lay_out(joined, like)
+    geometry = _geometry(joined) if like is None else _lay_out(joined, like)
     pose_names, standing = _without_pose_loads(m)
-    setting = _setting(standing, schedule, found)
+    setting = _setting(standing, schedule, geometry)
     unknown = tuple(name for name, load in m.loads.items() if load.unknown)
     return Compiled(
         mechanism=m,
@@ -142,7 +142,7 @@ def compile_mechanism(
         known=unknown_columns(setting, schedule, unknown),
         pose_names=pose_names,
         beyond=beyond_ends(m, setting.drives),
-        **found,
+        **geometry,
     )
 
 
@@ -190,11 +190,11 @@ class _Unplaced:
 @lru_cache(maxsize=32)
 def _geometry(joined: _Joined) -> Tree:
     """Geometries met lately, for all threads."""
-    like, found = _first_placed(_Unplaced(joined))
+    like, geometry = _first_placed(_Unplaced(joined))
     if like.key == joined.key:
-        return found
-    whole = joined.m.dimension == 3 or found["contacts"] or np.isfinite(found["guess"].point).any()
-    return _lay_out(joined, None) if whole else found | {"layout": _moved(joined, found)}
+        return geometry
+    complete = joined.m.dimension == 3 or geometry["contacts"] or np.isfinite(geometry["guess"].point).any()
+    return _lay_out(joined, None) if complete else geometry | {"layout": _moved(joined, geometry)}
 
 
 @lru_cache(maxsize=32)
@@ -203,11 +203,11 @@ def _first_placed(unplaced: _Unplaced) -> tuple[_Joined, Tree]:
     return unplaced.joined, _lay_out(unplaced.joined, None)
 
 
-def _moved(joined: _Joined, found: Tree) -> Layout:
+def _moved(joined: _Joined, geometry: Tree) -> Layout:
     """The layout of the same joints in the plane, without friction, at other points of their links."""
     m, at = joined.m, joined.at
-    layout: Layout = found["layout"]
-    index = _numbers(found["links"])
+    layout: Layout = geometry["layout"]
+    index = _numbers(geometry["links"])
     reference = _references(m, index, at)
     ends = np.array([[index[link] for link in joint.links] for joint in m.joints.values()], np.intp)
     arms = table.numbers(list(at.values())).reshape(-1, 2, 2) - reference[ends.reshape(-1, 2)]
@@ -268,28 +268,28 @@ def _numbers(links: tuple[str, ...]) -> dict[str, int]:
     return {name: k for k, name in enumerate((*links, GROUND))}
 
 
-def setting_of(c: Compiled) -> Setting:
+def setting_of(c: Compiled) -> LoadSetting:
     """Setting in which the loads of a compiled mechanism were compiled."""
     return _setting(c.mechanism, c.schedule, vars(c))
 
 
-def _setting(m: Mechanism, schedule: Schedule, found: Tree) -> Setting:
-    layout, count = found["layout"], len(schedule.position)
-    index, drives = _numbers(found["links"]), _drives(schedule)
-    return Setting(m, layout.algebra, index, layout.reference, found["freedoms"], drives, count)
+def _setting(m: Mechanism, schedule: Schedule, geometry: Tree) -> LoadSetting:
+    layout, count = geometry["layout"], len(schedule.position)
+    index, drives = _numbers(geometry["links"]), _drives(schedule)
+    return LoadSetting(m, layout.algebra, index, layout.reference, geometry["freedoms"], drives, count)
 
 
 def _drives(schedule: Schedule) -> dict[str, Array]:
     """What changing quantities may go by: time, where it is known; the drives' positions and speeds."""
     time = schedule.clock
-    found = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
-    found |= {f"{name}{SPEED}": schedule.speed[:, k] for k, name in enumerate(schedule.names)}
-    return found if time is None else {TIME: time} | found
+    values = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
+    values |= {f"{name}{SPEED}": schedule.speed[:, k] for k, name in enumerate(schedule.names)}
+    return values if time is None else {TIME: time} | values
 
 
 def _without_pose_loads(m: Mechanism) -> tuple[tuple[str, ...], Mechanism]:
     """Variables of loads that only the pose gives, and the mechanism with 1 instead of their values."""
-    found: dict[str, None] = {}
+    names: dict[str, None] = {}
     loads = {}
     for name, load in m.loads.items():
         if not isinstance(load, Directed):
@@ -297,9 +297,9 @@ def _without_pose_loads(m: Mechanism) -> tuple[tuple[str, ...], Mechanism]:
         used = [n for value in load.varying for n in getattr(value, "names", ()) if parts(n)]
         if used:
             one = tuple(1.0 for _ in load.value) if isinstance(load.value, tuple) else 1.0
-            found |= dict.fromkeys(used)
+            names |= dict.fromkeys(used)
             loads[name] = load.model_copy(update={"value": one})
-    return tuple(sorted(found)), m.model_copy(update={"loads": {**m.loads, **loads}}) if loads else m
+    return tuple(sorted(names)), m.model_copy(update={"loads": {**m.loads, **loads}}) if loads else m
 
 
 Places = dict[str, tuple[Vector, Vector]]

@@ -31,9 +31,9 @@ Read = Mapping[Any, float]
 class Contact:
     """One contact of a joint, with the keys of ``core.friction.contact_equations.Contacts``.
 
-    ``read``: its arguments; ``led``: which contact gives its sense, 0 for itself and -1 for the previous one; ``group``
-    of the contacts of the joint that share a slip, 0 for those that do not; ``viscous``: damping of the slide before
-    it, whose force it carries, None where it carries none."""
+    ``read``: its arguments; ``leader``: which contact gives its sense, 0 for itself and -1 for the previous one;
+    ``group`` of the contacts of the joint that share a slip, 0 for those that do not; ``viscous``: damping of the
+    slide before it, whose force it carries, None where it carries none."""
 
     kind: str
     row: Row
@@ -43,7 +43,7 @@ class Contact:
     signed: bool = False
     ball: bool = False
     fixed: bool = False
-    led: int = 0
+    leader: int = 0
     reach: float = 0.0
     group: int = 0
     reckoned: float = 1.0
@@ -69,8 +69,8 @@ def has_friction(m: Mechanism, joint: object) -> bool:
 
 def coefficient(m: Mechanism, joint: Any) -> Numeric:
     """Coefficient of friction in motion."""
-    own, top = joint.friction.coefficient, m.friction.coefficient
-    return (top or 0.0) if own is None else own
+    local, top = joint.friction.coefficient, m.friction.coefficient
+    return (top or 0.0) if local is None else local
 
 
 def resting_coefficient(m: Mechanism, joint: Any) -> Numeric:
@@ -104,7 +104,7 @@ def contacts(
     if not friction_on(m):
         return None
     rows = table.RowBuilder(constraints.links, m.dimension)
-    found: list[tuple[int, Joint, Contact]] = []
+    entries: list[tuple[int, Joint, Contact]] = []
     read: list[Array] = []
     for k, joint in enumerate(m.joints.values()):
         touching, rough = kinds.get(joint.type), has_friction(m, joint)
@@ -112,9 +112,9 @@ def contacts(
             continue
         place = places(joint, int(np.flatnonzero(constraints.joint == k)[0]))
         for contact in touching(joint, at[k], rough and circle(m, joint) == "sin"):
-            kind, given = contact.row
-            rows.add(kind, k, ends[k], **given)
-            found.append((k, joint, contact))
+            kind, columns = contact.row
+            rows.add(kind, k, ends[k], **columns)
+            entries.append((k, joint, contact))
             read.append(np.zeros((3, constraints.count), object))
             for part, sums in enumerate(contact.read):
                 for name, factor in sums.items():
@@ -122,28 +122,28 @@ def contacts(
     numbers = table.numbers(np.array(read).reshape(-1, 3, constraints.count).swapaxes(0, 1).tolist())
     return Contacts(
         rows=rows.rows(),
-        joint=np.array([k for k, _, _ in found], np.intp),
-        read=numbers.reshape(3, len(found), -1),
+        joint=np.array([k for k, _, _ in entries], np.intp),
+        read=numbers.reshape(3, len(entries), -1),
         link=np.array(ends, np.intp)[:, 1],
         at=table.numbers([uj for _, uj in arms]),
         damping=damping,
-        **_columns(m, found),
+        **_columns(m, entries),
     )
 
 
-def _columns(m: Mechanism, found: list[tuple[int, Joint, Contact]]) -> Tree:
+def _columns(m: Mechanism, entries: list[tuple[int, Joint, Contact]]) -> Tree:
     """Data of contacts that do not depend on others."""
-    of = [c for _, _, c in found]
+    of = [c for _, _, c in entries]
 
     def coefficients(mu: Callable[[Mechanism, Joint], float]) -> Array:
-        return table.numbers([0.0 if c.fixed else mu(m, joint) for _, joint, c in found])
+        return table.numbers([0.0 if c.fixed else mu(m, joint) for _, joint, c in entries])
 
     return {
         "kind": tuple(c.kind for c in of),
         "coefficient": coefficients(coefficient),
         "resting": coefficients(resting_coefficient),
-        "led": np.array([e + c.led for e, c in enumerate(of)], np.intp),
-        "group": _groups(found),
+        "leader": np.array([e + c.leader for e, c in enumerate(of)], np.intp),
+        "group": _groups(entries),
         "carried": np.array([-1 if c.viscous is None else e - 1 for e, c in enumerate(of)], np.intp),
         "viscous": table.numbers([0.0 if c.viscous is None else c.viscous for c in of]),
         **{name: table.numbers([getattr(c, name) for c in of]) for name in ("lever", "reach", "reckoned")},
@@ -154,9 +154,9 @@ def _columns(m: Mechanism, found: list[tuple[int, Joint, Contact]]) -> Tree:
 FLAGS = ("circle", "signed", "ball", "fixed", "around")
 
 
-def _groups(found: list[tuple[int, Joint, Contact]]) -> Ints:
+def _groups(entries: list[tuple[int, Joint, Contact]]) -> Ints:
     """One number for contacts of one joint and group; contacts of group 0 are separate."""
-    keys = [(k, c.group, 0 if c.group else n) for n, (k, _, c) in enumerate(found)]
+    keys = [(k, c.group, 0 if c.group else n) for n, (k, _, c) in enumerate(entries)]
     return np.array([keys.index(key) for key in keys], np.intp)
 
 
@@ -176,7 +176,7 @@ def _slider(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact
         tilting = {0: -(ahead - behind) / (behind + ahead), 1: 2 / (behind + ahead)}
     yield Contact("guide", _slide(joint, at), ({0: 1.0}, {}, tilting))
     if f.half_height:
-        yield Contact("faces", TURN, ({0: 1.0},), f.half_height, signed=True, led=-1)
+        yield Contact("faces", TURN, ({0: 1.0},), f.half_height, signed=True, leader=-1)
 
 
 def _slot(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:

@@ -18,7 +18,7 @@ from dalembert.arrays import Array, Ints
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Idle, Rows
 from dalembert.core.position.first_pose_plane import Guess
-from dalembert.core.position.first_pose_space import Drawing
+from dalembert.core.position.first_pose_space import PoseGuess
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.model.assembly import SpacePose
@@ -66,9 +66,9 @@ class _Joints:
         out = np.zeros(fixed.count)
         for k, stiffness in yielding.items():
             for row, kind, axis, share in self.reactions(k, np.flatnonzero(fixed.joint == k), fixed):
-                given = getattr(stiffness, kind)
-                if given is not None:
-                    out[row] += share**2 / (given[axis] if isinstance(given, tuple) else given)
+                value = getattr(stiffness, kind)
+                if value is not None:
+                    out[row] += share**2 / (value[axis] if isinstance(value, tuple) else value)
         return out
 
     def reactions(self, k: int, rows: Ints, fixed: Rows) -> Iterator[tuple[int, str, int, float]]:
@@ -109,16 +109,16 @@ class PlaneJoints(_Joints):
         """Angles and places of the links that the file gives."""
         m, index, reference = self.m, self.index, self.reference
         turn, point = np.full(len(index), np.nan), np.full((len(index), 2), np.nan)
-        for link, given in m.assembly.items():
+        for link, pose in m.assembly.items():
             k = index[link]
-            if isinstance(given, float):
-                turn[k] = given
+            if isinstance(pose, float):
+                turn[k] = pose
                 continue
-            if not isinstance(given, tuple):
+            if not isinstance(pose, tuple):
                 raise ModelError(
                     "a pose in space means nothing in the plane", "give an angle", ("assembly", link)
                 )
-            x, y, angle = given
+            x, y, angle = pose
             turn[k] = angle
             arm = plane.rotate(plane.rotation(np.array(angle)), reference[k])
             point[k] = np.array([x, y]) + arm - reference[-1]
@@ -144,14 +144,14 @@ class SpaceJoints(_Joints):
         axes = (d.axis for key, d in self.m.drives.items() if self.m.drive_joint(key) == name)
         axis = next((axis for axis in axes if axis is not None), None)
         self.freedoms.counted = max(self.freedoms.counted, self.constraints.counted)
-        found = pair_table.add_freedom(self.freedoms, k, joint, self.ends[k], at, axis)
+        freedoms = pair_table.add_freedom(self.freedoms, k, joint, self.ends[k], at, axis)
         self.constraints.counted = self.freedoms.counted
-        self.names += [(name, freedom) for freedom in found]
+        self.names += [(name, freedom) for freedom in freedoms]
 
     def add_passive(self) -> tuple[str, ...]:
         """Links that can spin about the line of their two ball joints: set to no spin."""
         driven = {self.m.drive_joint(name) for name, drive in self.m.drives.items() if drive.turns}
-        found = []
+        links = []
         for link, number in self.index.items():
             ends = [
                 (name, joint, joint.links.index(link))
@@ -169,17 +169,17 @@ class SpaceJoints(_Joints):
                     ("joints", ends[1][0]),
                 )
             line = (b - a) / np.linalg.norm(b - a)
-            given = self.m.assembly.get(link)
+            pose = self.m.assembly.get(link)
             drawn = space.IDENTITY
-            if isinstance(given, SpacePose):
-                drawn = space.rotation(np.array(given.angle), given.axis)
+            if isinstance(pose, SpacePose):
+                drawn = space.rotation(np.array(pose.angle), pose.axis)
             # a ball in a guide of the link moves in it, and the line with it
             stands = all(not joint.slides or side == 1 for _, joint, side in ends)
             self.constraints.add(
                 Idle, -1, (len(self.index) - 1, number), p=line, drawn=drawn, stands=float(stands)
             )
-            found.append(link)
-        return tuple(found)
+            links.append(link)
+        return tuple(links)
 
     def reactions(self, k: int, rows: Ints, fixed: Rows) -> Iterator[tuple[int, str, int, float]]:
         """Each row of a joint, force or moment, its local axis, and how much of it a unit of the row is."""
@@ -200,23 +200,23 @@ class SpaceJoints(_Joints):
                 raise ModelError(what, "leave it out", ("joints", name, "friction"))
         return self.contacts_of(fixed, self.geometries, SPACE_FRICTION, pair_table.reaction_rows)
 
-    def guess(self) -> Drawing:
+    def guess(self) -> PoseGuess:
         """Poses of the links that the file gives, and how the joints place the others."""
         count = len(self.index)
         rotation, point = np.full((count, 9), np.nan), np.full((count, 3), np.nan)
         axis, angle = np.zeros((count, 3)), np.append(np.full(count - 1, np.nan), 0.0)
-        for link, given in self.m.assembly.items():
-            if not isinstance(given, SpacePose):
+        for link, pose in self.m.assembly.items():
+            if not isinstance(pose, SpacePose):
                 raise ModelError(
                     "a pose in space needs a position, an axis and an angle",
                     "write {position: [0, 0, 0], axis: [0, 0, 1], angle: 30 deg}",
                     ("assembly", link),
                 )
             k = self.index[link]
-            rotation[k] = space.rotation(np.array(given.angle), given.axis)
-            axis[k], angle[k] = np.array(given.axis) / np.linalg.norm(given.axis), given.angle
+            rotation[k] = space.rotation(np.array(pose.angle), pose.axis)
+            axis[k], angle[k] = np.array(pose.axis) / np.linalg.norm(pose.axis), pose.angle
             point[k] = (
-                np.array(given.position) + space.rotate(rotation[k], self.reference[k]) - self.reference[-1]
+                np.array(pose.position) + space.rotate(rotation[k], self.reference[k]) - self.reference[-1]
             )
         hinges = []
         for k, (name, joint) in enumerate(self.m.joints.items()):
@@ -228,4 +228,4 @@ class SpaceJoints(_Joints):
                 if self.m.drive_joint(d) == name
             }
             hinges.append(pair_table.hinge(joint, self.ends[k], self.geometries[k], drives))
-        return Drawing(rotation, point, tuple(hinges), axis, angle)
+        return PoseGuess(rotation, point, tuple(hinges), axis, angle)

@@ -13,7 +13,7 @@ from dalembert.algebra.protocol import Algebra
 from dalembert.analysis.compile.plane_rows import numbers
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.equilibrium import Known
-from dalembert.core.forcing import Couples, Forces, Forcing, Inertia, Resistances, Springs
+from dalembert.core.forcing import Couples, Forcing, Inertia, PointForces, Resistances, Springs
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.joints.plane_joints import Joint
@@ -22,7 +22,7 @@ from dalembert.model.quantities.values import Vector
 
 
 @dataclass(frozen=True)
-class Setting:
+class LoadSetting:
     """Data needed to compile loads: numbers and reference points of the links, freedoms by name, drives' positions."""
 
     m: Mechanism
@@ -46,12 +46,12 @@ def point_of(m: Mechanism, link: str, at: str | Vector, path: tuple[str | int, .
     raise ModelError(f"link {link!r} has no point {at!r}", f"it has {', '.join(points) or 'none'}", path)
 
 
-def load_forces(s: Setting) -> tuple[Forces, Couples]:
+def load_forces(s: LoadSetting) -> tuple[PointForces, Couples]:
     """The loads that are forces and couples."""
     return _forces(s, _known_on(s.m, "point")), _couples(s, _known_on(s.m, "link"))
 
 
-def forcing(s: Setting) -> Forcing:
+def forcing(s: LoadSetting) -> Forcing:
     """Everything that loads the links, but for the drives' efforts."""
     m, g = s.m, s.g
     forces, couples = load_forces(s)
@@ -78,12 +78,12 @@ def _known_on(m: Mechanism, what: Literal["point", "link"]) -> Tree:
 
 def _inertia(m: Mechanism, link: str) -> Numeric:
     """One number in the plane; in space the matrix row by row."""
-    given = m.inertia(link)
+    inertia = m.inertia(link)
     if m.dimension == 2:
-        return given
-    if isinstance(given, tuple):
-        return np.ravel(given if isinstance(given[0], tuple) else np.diag(given))
-    return (given * np.eye(3)).ravel()
+        return inertia
+    if isinstance(inertia, tuple):
+        return np.ravel(inertia if isinstance(inertia[0], tuple) else np.diag(inertia))
+    return (inertia * np.eye(3)).ravel()
 
 
 def _mesh_tangents(m: Mechanism) -> list[float]:
@@ -95,7 +95,7 @@ def _mesh_tangents(m: Mechanism) -> list[float]:
     return out
 
 
-def _forces(s: Setting, loads: Tree) -> Forces:
+def _forces(s: LoadSetting, loads: Tree) -> PointForces:
     link, at, value = [], [], []
     for name, load in loads.items():
         link.append(s.index[load.on])
@@ -104,7 +104,7 @@ def _forces(s: Setting, loads: Tree) -> Forces:
         value += load.force({} if constant else s.drives)
     follows = np.array([load.axes == "link" for load in loads.values()], bool)
     values = _along(value, s.count).reshape(s.count, len(loads), s.g.d)
-    return Forces(np.array(link, np.intp), numbers(at).reshape(-1, s.g.d), follows, values)
+    return PointForces(np.array(link, np.intp), numbers(at).reshape(-1, s.g.d), follows, values)
 
 
 def _along(values: list[Numeric], count: int) -> Array:
@@ -114,7 +114,7 @@ def _along(values: list[Numeric], count: int) -> Array:
     return numbers([np.broadcast_to(value, (count,)) for value in values]).T
 
 
-def _couples(s: Setting, loads: Tree) -> Couples:
+def _couples(s: LoadSetting, loads: Tree) -> Couples:
     size = s.g.n - s.g.d
     value = []
     for load in loads.values():
@@ -127,7 +127,7 @@ def _couples(s: Setting, loads: Tree) -> Couples:
     return Couples(link, values, follows)
 
 
-def _springs(s: Setting) -> Springs:
+def _springs(s: LoadSetting) -> Springs:
     """Loads along a span: each number of ``Springs`` is the key of that name, 0 of a load without it."""
     loads = s.m.loads_on("span")
     if not loads:
@@ -145,7 +145,7 @@ def _no_springs(d: int) -> Springs:
     return Springs(*(np.zeros(0, np.intp),) * 2, *(np.zeros((0, d)),) * 2, *(np.zeros(0),) * 4)
 
 
-def _resistances(s: Setting) -> Resistances:
+def _resistances(s: LoadSetting) -> Resistances:
     """Torsion springs, torsion dampers and the joints' damping, each in its freedom."""
     rows: list[tuple[int, float, float, float]] = []
     for load in s.m.loads_on("turn").values():
@@ -192,21 +192,21 @@ def joint_damping(joint: Joint) -> dict[str, float]:
     return {k: v for k, v in zip(joint.freedoms, damping, strict=True) if v}
 
 
-def _effort(s: Setting, name: str, schedule: Schedule) -> Array:
+def _effort(s: LoadSetting, name: str, schedule: Schedule) -> Array:
     """Given effort of a drive at each position, NaN where it is unknown."""
-    given = s.m.drives[name].effort
-    if given is None or schedule.unknown is not None:
+    effort = s.m.drives[name].effort
+    if effort is None or schedule.unknown is not None:
         return np.full(s.count, np.nan)
-    return np.broadcast_to(given.at(s.drives) if hasattr(given, "at") else given, (s.count,))
+    return np.broadcast_to(effort.at(s.drives) if hasattr(effort, "at") else effort, (s.count,))
 
 
-def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) -> Known:
+def unknown_columns(s: LoadSetting, schedule: Schedule, unknown: tuple[str, ...]) -> Known:
     """Given efforts and unknown loads."""
     g = s.g
     if not unknown and all(s.m.drives[n].effort is None for n in schedule.names):
-        return _efforts_asked(len(schedule.names), s.count, g.d, g.n)
+        return _requested_efforts(len(schedule.names), s.count, g.d, g.n)
     effort = [_effort(s, name, schedule) for name in schedule.names]
-    asked = np.array(
+    requested = np.array(
         [s.m.drives[n].effort is None or schedule.unknown is not None for n in schedule.names], bool
     )
     loads: list[Any] = [s.m.loads[name] for name in unknown]
@@ -219,7 +219,7 @@ def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) ->
     direction = [load.force({}) if load.ON == "point" else (0.0,) * g.d for load in loads]
     about = [_about(load) if load.ON == "link" else (0.0,) * (g.n - g.d) for load in loads]
     return Known(
-        asked=asked,
+        requested=requested,
         effort=numbers(effort).reshape(len(effort), s.count).T,
         link=np.array([s.index[load.on] for load in loads], np.intp),
         at=numbers(at).reshape(-1, g.d),
@@ -231,7 +231,7 @@ def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) ->
 
 
 @lru_cache(maxsize=32)
-def _efforts_asked(drives: int, count: int, d: int, n: int) -> Known:
+def _requested_efforts(drives: int, count: int, d: int, n: int) -> Known:
     """All efforts asked for, and no loads."""
     none, never = np.zeros((0, d)), np.zeros(0, bool)
     effort = np.broadcast_to(np.nan, (count, drives))

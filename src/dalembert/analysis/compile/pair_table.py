@@ -89,7 +89,7 @@ def add_gear(rows: RowBuilder, index: int, joint: Gear, ends: tuple[int, int], a
     ri, rj = signed_radii(joint)
     axes: Tree = {"ai": at.on_i[2], "aj": at.on_j[2], "bi": at.on_i[0], "bj": at.on_j[0]}
     count = (rows.next_counted_angle(), rows.next_counted_angle())
-    unknown: Tree = {"way": np.zeros(3), "cone": np.array([1.0, 0.0]), "ki": np.nan, "kj": np.nan}
+    unknown: Tree = {"direction": np.zeros(3), "cone": np.array([1.0, 0.0]), "ki": np.nan, "kj": np.nan}
     sizes: Tree = {"ri": ri, "rj": rj, "helix": joint.helix_angle, "outward": 1.0}
     rows.add(Gearing, index, ends, ui=at.ui, uj=at.uj, count=count, **axes, **sizes, **unknown)
 

@@ -70,9 +70,9 @@ class RowBuilder:
 def _family(kind: type, entries: list[Tree]) -> Family:
     columns: Tree = {}
     for name in entries[0]:
-        whole = name in ("row", "i", "j", "count")
+        is_index = name in ("row", "i", "j", "count")
         values = [e[name] for e in entries]
-        columns[name] = np.array(values, np.intp) if whole else numbers(values)
+        columns[name] = np.array(values, np.intp) if is_index else numbers(values)
     family: Family = kind(**columns)
     return family
 

@@ -55,12 +55,12 @@ def _everywhere(values: Array, reached: Flags) -> Array:
     return np.where(known, values, values[np.argmax(known)] if known.any() else 0.0)
 
 
-def with_pose_loads(c: Compiled, found: Path) -> Compiled:
+def with_pose_loads(c: Compiled, path: Path) -> Compiled:
     """The mechanism with the values of its loads that depend on the pose, along a motion."""
-    if not c.pose_names or not found.reached.any():
+    if not c.pose_names or not path.reached.any():
         return c
-    at = counted_coordinates(c, c, found.pose, c.pose_names)
-    at = {name: _everywhere(values, found.reached) for name, values in at.items()}
+    at = counted_coordinates(c, c, path.pose, c.pose_names)
+    at = {name: _everywhere(values, path.reached) for name, values in at.items()}
     setting = setting_of(c)
     setting = replace(setting, m=c.mechanism, drives={**setting.drives, **at})
     forces, couples = load_forces(setting)

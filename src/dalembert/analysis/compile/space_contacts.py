@@ -41,9 +41,9 @@ def _ends(guide: tuple[float, float] | None, axis: int) -> list[tuple[Read, Read
     if guide is None:
         return [({f"F{u}": 1.0}, {f"F{v}": 1.0})]
     behind, ahead = guide
-    whole = behind + ahead
-    last = ({f"M{v}": 1 / whole, f"F{u}": behind / whole}, {f"M{u}": -1 / whole, f"F{v}": behind / whole})
-    near = ({f"M{v}": -1 / whole, f"F{u}": ahead / whole}, {f"M{u}": 1 / whole, f"F{v}": ahead / whole})
+    length = behind + ahead
+    last = ({f"M{v}": 1 / length, f"F{u}": behind / length}, {f"M{u}": -1 / length, f"F{v}": behind / length})
+    near = ({f"M{v}": -1 / length, f"F{u}": ahead / length}, {f"M{u}": 1 / length, f"F{v}": ahead / length})
     return [near, last]
 
 

@@ -22,14 +22,14 @@ from dalembert.core.constraints import measure
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Angle, Pose
 from dalembert.core.position.first_pose_plane import Guess
-from dalembert.core.position.first_pose_space import ALONG, Drawing
+from dalembert.core.position.first_pose_space import ALONG, PoseGuess
 from dalembert.core.position.motion_path import Path
 from dalembert.core.position.whole_turns import (
     Way,
     phase_freedoms,
     phase_links,
     rigid_turns,
-    way,
+    straight_path,
     whole_turns,
 )
 from dalembert.errors import ModelError
@@ -45,20 +45,22 @@ DOUBTFUL = np.radians(20)
 """An angle this near to half a turn from what it is counted by could as well be meant a turn further."""
 
 
-def wound(c: Compiled, first: tuple[int, Pose], found: Path) -> Compiled:
+def wound(c: Compiled, first: tuple[int, Pose], path: Path) -> Compiled:
     """The mechanism with the full turns of its torsion springs and of the angles that its loads depend on, ``first``
     being the first position and its pose."""
     loads, rows = c.mechanism.loads_on("turn"), c.forcing.resistances.row
     names = list(loads)
-    asked = [k for k, load in enumerate(loads.values()) if load.FORCE == "spring" and _open(c, int(rows[k]))]
+    springs = [
+        k for k, load in enumerate(loads.values()) if load.FORCE == "spring" and _open(c, int(rows[k]))
+    ]
     of_loads = {name: angle for name in c.pose_names if (angle := _angle_of(c, name)) is not None}
     of_loads = {name: angle for name, angle in of_loads.items() if _open(c, angle)}
-    if not (asked or of_loads) or not found.reached.any():
+    if not (springs or of_loads) or not path.reached.any():
         return c
-    counting = _Counting(c, first, found)
-    turns = np.zeros((len(found.reached), len(rows)))
+    counting = _Counting(c, first, path)
+    turns = np.zeros((len(path.reached), len(rows)))
     counts = []
-    for k in asked:
+    for k in springs:
         turns[:, k], count = counting.offset_and_count(names[k], k, int(rows[k]))
         counts.append(count)
     resistances = replace(c.forcing.resistances, turns=turns)
@@ -98,11 +100,11 @@ def _open(c: Compiled, angle: Counted) -> bool:
 class _Counting:
     """Positions at which the turns of one mechanism are counted."""
 
-    def __init__(self, c: Compiled, first: tuple[int, Pose], found: Path) -> None:
-        self.c, self.found, (self.place, self.first) = c, found, first
+    def __init__(self, c: Compiled, first: tuple[int, Pose], path: Path) -> None:
+        self.c, self.path, (self.place, self.first) = c, path, first
         g, self.freedoms = c.layout.algebra, c.layout.freedoms
-        self.given = _stated_pose(c)
-        stated = measure(g, self.freedoms, self.given)[c.layout.driven]
+        self.guess = _stated_pose(c)
+        stated = measure(g, self.freedoms, self.guess)[c.layout.driven]
         self.wanted = np.where(np.isfinite(stated), stated, 0.0)
         self.phased = phase_freedoms(c.layout, self.first)
         self.ways: dict[tuple[int, bytes], Way] = {}
@@ -111,22 +113,22 @@ class _Counting:
     def _pieces(self) -> list[Ints]:
         """Positions that are counted together: those of a stretch. With several drives, paths on either side of a
         singular place may count turns differently, so every position has a separate path, if there are not too many."""
-        found = self.found
-        if len(self.wanted) > 1 and found.reached.sum() <= MANY:
-            return [np.array([k]) for k in np.flatnonzero(found.reached)]
-        numbers = np.unique(found.stretch[found.reached])
-        return [np.flatnonzero(found.reached & (found.stretch == n)) for n in numbers]
+        path = self.path
+        if len(self.wanted) > 1 and path.reached.sum() <= MANY:
+            return [np.array([k]) for k in np.flatnonzero(path.reached)]
+        numbers = np.unique(path.stretch[path.reached])
+        return [np.flatnonzero(path.reached & (path.stretch == n)) for n in numbers]
 
     def offset_and_count(self, what: str, k: int, angle: Counted) -> tuple[Array, Count]:
         """Number of turns that the count adds to an angle at each position (P,), and how it was made."""
-        found, with_phase = self.found, self._has_phase(angle)
-        turns, margin = np.zeros((2, len(found.reached)))
+        path, with_phase = self.path, self._has_phase(angle)
+        turns, margin = np.zeros((2, len(path.reached)))
         for number, mask in reversed(list(enumerate(self.pieces))):  # the first is told of
             wanted, near, stated = self._where(what, angle, number, mask)
             end = self._at_first() if with_phase else self._end(what, number, mask, wanted)
             phi = self._value(end, angle)
-            whole = whole_turns(phi, np.array(near))
-            turns[mask] = -2 * np.pi * whole
+            counts = whole_turns(phi, np.array(near))
+            turns[mask] = -2 * np.pi * counts
             margin[mask] = np.pi - abs(phi + turns[mask] - near)
         at = None if with_phase else wanted
         return turns, Count(what, k, near, stated, at, end.met, margin)
@@ -160,44 +162,44 @@ class _Counting:
         if key not in self.ways:
             c = self.c
             scale = np.where(c.layout.freedoms.angular[c.layout.driven], 1.0, c.layout.length)
-            apart = np.abs((c.schedule.position[where] - wanted) / scale).max(axis=1, initial=0.0)
-            self._refuse_endless(what, float(apart.min()))
-            there = np.concatenate([c.target, wanted])
-            order = where[np.argsort(apart, kind="stable")]
+            distances = np.abs((c.schedule.position[where] - wanted) / scale).max(axis=1, initial=0.0)
+            self._refuse_endless(what, float(distances.min()))
+            targets = np.concatenate([c.target, wanted])
+            order = where[np.argsort(distances, kind="stable")]
             for k in dict.fromkeys(
                 (order[0], order[-1])
             ):  # from the farthest too: the nearest may stand at the end itself
-                self.ways[key] = way(c.layout, self.found.pose.at(k), c.targets[k], there)
+                self.ways[key] = straight_path(c.layout, self.path.pose.at(k), c.targets[k], targets)
                 if self.ways[key].met:
                     break
         return self.ways[key]
 
-    def _refuse_endless(self, of: str, apart: float) -> None:
-        if apart > FARTHEST:
+    def _refuse_endless(self, of: str, distance: float) -> None:
+        if distance > FARTHEST:
             heading = of if "." in of else f"torsion spring {of!r}"
             what = (
                 f"{heading}: its turns are counted from {_drives(self.c, self.wanted)} on, and the "
-                f"positions are {apart:.3g} rad or link lengths away"
+                f"positions are {distance:.3g} rad or link lengths away"
             )
             raise ModelError(what, f"check their unit; {FARTHEST:.0e} of them can be followed", ("drives",))
 
     def _near(self, row: Counted, actual: Pose) -> tuple[float, bool]:
         """Reference value of the count of a turn, at a pose of the motion; whether the file gives it."""
-        c, given = self.c, self.given
+        c, guess = self.c, self.guess
         if isinstance(row, str):
-            stated = float(given.turn[c.links.index(row)])
+            stated = float(guess.turn[c.links.index(row)])
             return (stated, True) if np.isfinite(stated) else (0.0, False)
         ends = [int(end[row]) for end in self.freedoms.ends]
-        known = [bool(np.isfinite(given.rotation[k]).all()) for k in ends]
+        known = [bool(np.isfinite(guess.rotation[k]).all()) for k in ends]
         if not any(k != c.layout.links and here for k, here in zip(ends, known, strict=True)):
             return 0.0, False
         g, turn = c.layout.algebra, actual.turn
-        rotation = np.where(np.isfinite(given.rotation), given.rotation, actual.rotation)
+        rotation = np.where(np.isfinite(guess.rotation), guess.rotation, actual.rotation)
         if g.d == 2:  # a link that is not named, nor settled by drives, is within half a turn of 0
             together = rigid_turns(c.layout)
             free = together != together[-1]
             turn = turn - 2 * np.pi * np.where(free, whole_turns(turn, np.array(0.0)), 0.0)
-            mixed = Pose(actual.point, np.where(np.isfinite(given.turn), given.turn, turn), rotation)
+            mixed = Pose(actual.point, np.where(np.isfinite(guess.turn), guess.turn, turn), rotation)
         else:
             mixed = _as_written(c, Pose(actual.point, turn, rotation))
         return float(measure(g, self.freedoms, mixed)[row]), True
@@ -227,22 +229,22 @@ def _as_written(c: Compiled, pose: Pose) -> Pose:
             continue
         axes = arm(c.layout.algebra, pose, f.i, f.a)
         for row, place, i, j, axis in zip(f.row, f.count, f.i, f.j, axes, strict=True):
-            (angle_i, whole_i), (angle_j, whole_j) = (_about(c, int(link), axis) for link in (i, j))
+            (angle_i, turns_i), (angle_j, turns_j) = (_about(c, int(link), axis) for link in (i, j))
             both = angle_j - angle_i
-            turn[place] = np.nan_to_num(both if np.isfinite(both) else raw[row] + whole_j - whole_i)
+            turn[place] = np.nan_to_num(both if np.isfinite(both) else raw[row] + turns_j - turns_i)
     return pose._replace(turn=turn)
 
 
 def _about(c: Compiled, link: int, axis: Array) -> tuple[float, float]:
     """Angle of a link's stated pose about an axis, NaN where none is given, and the full turns written."""
-    assert isinstance(c.guess, Drawing)
+    assert isinstance(c.guess, PoseGuess)
     angle, along = float(c.guess.angle[link]), float(np.dot(c.guess.axis[link], axis))
     if angle == 0.0:
         return 0.0, 0.0
     if not abs(along) > 1 - ALONG:
         return np.nan, 0.0
-    whole = 2 * np.pi * float(whole_turns(np.array(angle), np.array(0.0)))
-    return float(np.sign(along)) * angle, float(np.sign(along)) * whole
+    turns = 2 * np.pi * float(whole_turns(np.array(angle), np.array(0.0)))
+    return float(np.sign(along)) * angle, float(np.sign(along)) * turns
 
 
 def _drives(c: Compiled, at: Array) -> str:
@@ -256,8 +258,8 @@ def _drives(c: Compiled, at: Array) -> str:
 def count_turns(c: Compiled, pose: Pose) -> dict[str, Array]:
     """Turn (P,) of each torsion spring that counts full turns."""
     values = measure(c.layout.algebra, c.layout.freedoms, pose) if c.counts else np.zeros(0)
-    own = c.forcing.resistances
-    return {n.spring: values[:, own.row[n.place]] + own.turns[:, n.place] for n in c.counts}
+    resistances = c.forcing.resistances
+    return {n.spring: values[:, resistances.row[n.place]] + resistances.turns[:, n.place] for n in c.counts}
 
 
 def count_notes(c: Compiled, pose: Pose) -> dict[str, str]:
@@ -286,7 +288,7 @@ def _note(c: Compiled, n: Count, turn: Array) -> str:
     else:
         where = f" where the motion towards {_drives(c, n.at)} ends"
     text = f"{_angle(c, turn[k])}{here}, counted to within half a turn of {near}{where}"
-    if not two_ways(c, n, turn):
+    if not two_directions(c, n, turn):
         return text
     others = " or ".join(_angle(c, turn[k] + step) for step in (-2 * np.pi, 2 * np.pi))
     return f"{text}; {others} could be meant too: the angles written in `assembly` choose"
@@ -296,7 +298,7 @@ def _angle(c: Compiled, value: float) -> str:
     return quantity_text(c, "angle", float(value))
 
 
-def two_ways(c: Compiled, n: Count, turn: Array) -> bool:
+def two_directions(c: Compiled, n: Count, turn: Array) -> bool:
     """True if another full turn is as likely meant: deflected by more than half a turn, near the edge of the half turn
     where it is counted or away from it, or counted where the motion ends."""
     known = turn[np.isfinite(turn)]

@@ -22,7 +22,7 @@ AGREES = 1e-6
 class First(NamedTuple):
     """Branches of the groups, the links' angles (L,), and the sentence on the assembly mode."""
 
-    ways: tuple[float, ...]
+    branches: tuple[float, ...]
     turn: Array
     mode: str | None
 
@@ -34,46 +34,46 @@ REMEMBERED = 32
 """First poses of a structure that are remembered."""
 
 
-def first_way(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
+def first_branch(k: KeptProgram, c: Compiled, inputs: list[object]) -> First | None:
     """The branches that the careful path takes at the first position; None where a check is in doubt."""
-    key = _key(k, c, given)
-    found: First | None = k.known.get(key)
-    if found is None and key not in k.known:
-        found = _by_given_angles(k, c, given) or _by_search(k, c, given)
-        remember(k, c, given, found)
-    return found
+    key = _key(k, c, inputs)
+    first: First | None = k.known.get(key)
+    if first is None and key not in k.known:
+        first = _by_known_angles(k, c, inputs) or _by_search(k, c, inputs)
+        remember(k, c, inputs, first)
+    return first
 
 
-def remember(k: KeptProgram, c: Compiled, given: list[object], first: First | None) -> None:
+def remember(k: KeptProgram, c: Compiled, inputs: list[object], first: First | None) -> None:
     """Keeps the result for the next analysis that starts from the same pose."""
     if len(k.known) >= REMEMBERED:
         k.known.clear()
-    k.known[_key(k, c, given)] = first
+    k.known[_key(k, c, inputs)] = first
 
 
-def _key(k: KeptProgram, c: Compiled, given: list[object]) -> tuple[object, ...]:
+def _key(k: KeptProgram, c: Compiled, inputs: list[object]) -> tuple[object, ...]:
     """All that decides a first pose, and names it."""
     guess = c.guess
     assert isinstance(guess, Guess)
-    return c.links, tuple(given[place] for place in k.decisive), guess.turn.tobytes(), guess.point.tobytes()
+    return c.links, tuple(inputs[place] for place in k.decisive), guess.turn.tobytes(), guess.point.tobytes()
 
 
-def _tried(k: KeptProgram, given: list[object], ways: Array) -> tuple[Array, Array]:
+def _tried(k: KeptProgram, inputs: list[object], branches: Array) -> tuple[Array, Array]:
     """Cosines and sines (2, L, W) of the first position for branches (G, W), and closure (M, W); NaN where it does not
     close."""
     rotation, closure = k.nodes["rotation"], k.nodes["closure"]
-    out = np.full((rotation.size + closure.size, ways.shape[1]), np.nan)
-    if ways.shape[1] > FEW:
+    out = np.full((rotation.size + closure.size, branches.shape[1]), np.nan)
+    if branches.shape[1] > FEW:
         with np.errstate(all="ignore"):
-            k.try_ways([*given, *ways], out)
+            k.try_branches([*inputs, *branches], out)
     else:
-        for column, way in zip(out.T, ways.T.tolist(), strict=True):
+        for column, branch in zip(out.T, branches.T.tolist(), strict=True):
             with suppress(ArithmeticError, ValueError):
-                k.try_ways([*given, *way], column, one=True)
+                k.try_branches([*inputs, *branch], column, one=True)
     return out[: rotation.size].reshape(*rotation.shape, -1), out[rotation.size :]
 
 
-def _by_given_angles(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
+def _by_known_angles(k: KeptProgram, c: Compiled, inputs: list[object]) -> First | None:
     """The branches taken when it was traced, where they put all given links near their angles and no others do.
 
     Every other set of branches differs first in some group, the groups before it having the same pose.
@@ -81,22 +81,22 @@ def _by_given_angles(k: KeptProgram, c: Compiled, given: list[object]) -> First 
     guess = c.guess
     assert isinstance(guess, Guess)
     wanted = guess.turn[:-1].tolist()
-    told = [math.isfinite(x) for x in wanted]
+    stated = [math.isfinite(x) for x in wanted]
     loose = (k.counted & ~k.fixed).tolist()
-    if not any(told) or any(x and not y for x, y in zip(loose, told, strict=True)):
+    if not any(stated) or any(x and not y for x, y in zip(loose, stated, strict=True)):
         return None
     if np.isfinite(guess.point[:-1]).any():
         return None
-    count = len(k.ways)
+    count = len(k.branches)
     rotation, closure = _tried(
-        k, given, np.array(k.ways)[:, None] * (1.0 - 2.0 * np.eye(count, count + 1, 1))
+        k, inputs, np.array(k.branches)[:, None] * (1.0 - 2.0 * np.eye(count, count + 1, 1))
     )
     if not (closure[:, 0] >= 0).all():
         return None
     cosine, sine = rotation.tolist()
-    last, ways = k.last.tolist(), [list[float]() for _ in range(count)]
+    last, offsets = k.last.tolist(), [list[float]() for _ in range(count)]
     turn, missed = [], 0.0
-    for link, known in enumerate(told):
+    for link, known in enumerate(stated):
         angle = math.atan2(sine[link][0], cosine[link][0])
         if known:
             off = _wrapped(angle - wanted[link])
@@ -104,13 +104,13 @@ def _by_given_angles(k: KeptProgram, c: Compiled, given: list[object]) -> First 
             group = last[link]
             if group >= 0:
                 other = math.atan2(sine[link][group + 1], cosine[link][group + 1])
-                ways[group].append(abs(_wrapped(other - wanted[link])))
+                offsets[group].append(abs(_wrapped(other - wanted[link])))
         turn.append(wanted[link] + off if known and k.counted[link] else angle)
     if not missed < NEAR**2 or any(
-        not (all(map(math.isfinite, w)) and max(w, default=0.0) > NEAR) for w in ways
+        not (all(map(math.isfinite, w)) and max(w, default=0.0) > NEAR) for w in offsets
     ):
         return None
-    return First(k.ways, np.array(turn), None)
+    return First(k.branches, np.array(turn), None)
 
 
 def _wrapped(angle: float) -> float:
@@ -118,22 +118,22 @@ def _wrapped(angle: float) -> float:
     return angle - 2 * math.pi * math.ceil(angle / (2 * math.pi) - 0.5) if math.isfinite(angle) else angle
 
 
-def _by_search(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
+def _by_search(k: KeptProgram, c: Compiled, inputs: list[object]) -> First | None:
     """Branches of the pose from a search for the first pose."""
     modes = c.first_modes
     if modes is None or not on_stated_sides(c, c.first_target, modes):
         return None
     pose = modes.pose.at(0)
     stands = pose.rotation[:-1].T[..., None]
-    own = np.array(k.ways)
-    for group in range(len(own)):
-        ways = np.stack([own, own], axis=1)
-        ways[group, 1] *= -1
-        rotation, _ = _tried(k, given, ways)
+    branches = np.array(k.branches)
+    for group in range(len(branches)):
+        both = np.stack([branches, branches], axis=1)
+        both[group, 1] *= -1
+        rotation, _ = _tried(k, inputs, both)
         off = np.abs(rotation - stands)[:, k.last == group].max(axis=(0, 1), initial=0.0)
         if off[1] < off[0]:
-            own = ways[:, 1]
-    rotation, closure = _tried(k, given, own[:, None])
+            branches = both[:, 1]
+    rotation, closure = _tried(k, inputs, branches[:, None])
     if not ((closure >= 0).all() and (np.abs(rotation - stands) < AGREES).all()):
         return None
-    return First(tuple(own.tolist()), pose.turn[:-1], mode_sentence(c, modes))
+    return First(tuple(branches.tolist()), pose.turn[:-1], mode_sentence(c, modes))

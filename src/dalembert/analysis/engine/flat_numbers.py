@@ -13,15 +13,15 @@ import numpy as np
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.arrays import Array, Flags, Ints, Tree
 from dalembert.core.equilibrium import Known
-from dalembert.core.forcing import Couples, Forces, Inertia, Resistances, Springs
+from dalembert.core.forcing import Couples, Inertia, PointForces, Resistances, Springs
 from dalembert.core.layout import Pose, Rows
 from dalembert.core.position.whole_turns import rigid_turns
 from dalembert.kernel.graph import Graph, Node, trace_array
 
-RECORDS = (Inertia, Forces, Couples, Springs, Resistances, Rows)
+RECORDS = (Inertia, PointForces, Couples, Springs, Resistances, Rows)
 """Records inside of others."""
 
-ALONG = {(Forces, "value"), (Couples, "value"), (Known, "effort")}
+ALONG = {(PointForces, "value"), (Couples, "value"), (Known, "effort")}
 """Arrays with an axis of positions; the turns of torsion springs may have one too."""
 
 VARIES = 2.0
@@ -71,8 +71,8 @@ def flat_numbers(c: Compiled, pose: Pose | None = None) -> Numbers:
     constant[: len(c.schedule.names)] = VARIES
     if pose is not None:
         held = _held(c, pose)
-        own = columns[len(columns) - len(held) :, 0]
-        constant[len(columns) - len(held) :] = np.where(held & _fixed(own), own, VARIES)
+        held_values = columns[len(columns) - len(held) :, 0]
+        constant[len(columns) - len(held) :] = np.where(held & _fixed(held_values), held_values, VARIES)
     key = (
         *rows,
         which.tobytes(),
@@ -112,12 +112,12 @@ def _flat_rows(part: Rows) -> tuple[list[object], list[Array]]:
     return [tuple(rows)], [np.concatenate([*single, np.zeros(0)])]
 
 
-def _flatten(whole: object, rows: list[object], single: list[Array], along: list[Array]) -> None:
+def _flatten(record: object, rows: list[object], single: list[Array], along: list[Array]) -> None:
     """Put the numbers of a record into lists, in the order of its fields, and what else is part of the structure."""
-    kind = type(whole)
+    kind = type(record)
     rows.append(kind)
     for part in FIELDS.get(kind) or _fields(kind):
-        value = getattr(whole, part)
+        value = getattr(record, part)
         if isinstance(value, np.ndarray):
             if value.dtype.kind != "f":
                 rows.append(value.tobytes())
@@ -167,28 +167,28 @@ class _Nodes:
             return self.along(like)
         changes = _changes(kind, part, like)
         source, shape = (self.columns, (1, *like.shape[1:])) if changes else (self.single, like.shape)
-        found = list(islice(source, math.prod(shape)))
-        out = np.array(found, object if any(type(x) is Node for x in found) else float)
+        items = list(islice(source, math.prod(shape)))
+        out = np.array(items, object if any(type(x) is Node for x in items) else float)
         return out.reshape(shape)
 
     def along(self, like: Array) -> Array:
         """One position of an array along the positions."""
         return np.array([next(self.columns) for _ in range(like[0].size)], object).reshape(like.shape[1:])
 
-    def record(self, whole: Any) -> Any:
+    def record(self, record: Any) -> Any:
         """The same record on nodes."""
         parts: Tree = {}
-        for part in _fields(type(whole)):
-            value = getattr(whole, part)
+        for part in _fields(type(record)):
+            value = getattr(record, part)
             if isinstance(value, np.ndarray):
-                parts[part] = self.array(type(whole), part, value)
+                parts[part] = self.array(type(record), part, value)
             elif type(value) in RECORDS:
                 parts[part] = self.record(value)
             elif part == "families":
                 parts[part] = tuple(map(self.record, value))
             else:
                 parts[part] = value
-        return type(whole)(**parts)
+        return type(record)(**parts)
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.flat_numbers import Numbers, values, with_nodes
-from dalembert.analysis.engine.kept_program import CHECKS, Outputs, force_nodes, problem_of
-from dalembert.analysis.result.force_arrays import Forces, Friction
+from dalembert.analysis.engine.kept_program import CHECKS, TracedOutputs, force_nodes, problem_of
+from dalembert.analysis.result.force_arrays import Friction, SolvedForces
 from dalembert.analysis.status.statuses import UNBALANCED
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.core.branchless import top
@@ -35,7 +35,7 @@ from dalembert.core.layout import Pose
 from dalembert.kernel.elimination import structural
 from dalembert.kernel.friction_trace import trace_slip
 from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
-from dalembert.kernel.trace import Problem, Traced, trace_at
+from dalembert.kernel.trace import Traced, TracedProblem, trace_at
 
 KEPT = ("twist", "acceleration", "effort", "load", "force", "moment")
 SAMPLES = 24
@@ -49,12 +49,12 @@ class ForceBlock(NamedTuple):
 
     twist: Array
     acceleration: Array
-    forces: Forces
+    forces: SolvedForces
     sure: Flags
 
 
 @dataclass(frozen=True)
-class ForceProgram(Outputs):
+class ForceProgram(TracedOutputs):
     """A structure from its poses to all forces; inputs: numbers, then columns."""
 
     friction: bool
@@ -68,31 +68,31 @@ def trace_forces(c: Compiled, pose: Pose, numbers: Numbers, inertia: bool) -> Fo
     symbols = with_nodes(graph, c, numbers._replace(columns=numbers.columns[:, some]), pose)
     assert symbols.pose is not None
 
-    def none(*given: object) -> Node:
-        raise KeyError(given)
+    def none(*names: object) -> Node:
+        raise KeyError(names)
 
     problem = problem_of(graph, symbols, c, inertia, none, none)
     try:
         t = trace_at(problem, symbols.pose)
     except (ValueError, TypeError, KeyError):
         return None
-    found, friction = force_nodes(t), _friction_nodes(problem, symbols.pose, t)
-    marks = t.friction.marks
-    found["margin"] = _varying(t.doubt, marks.slips, marks.rest)
-    nodes = friction | {name: found[name] for name in KEPT} | {name: found[name] for name in CHECKS}
-    nodes |= {f"mark {name}": _varying(getattr(marks, name)) for name in MARKS}
+    outputs, friction = force_nodes(t), _friction_nodes(problem, symbols.pose, t)
+    flags = t.friction.flags
+    outputs["margin"] = _varying(t.doubt, flags.slips, flags.rest)
+    nodes = friction | {name: outputs[name] for name in KEPT} | {name: outputs[name] for name in CHECKS}
+    nodes |= {f"mark {name}": _varying(getattr(flags, name)) for name in MARKS}
     graph.samples.clear()
     return ForceProgram(graph, symbols.inputs, nodes, bool(friction))
 
 
 def _varying(*nodes: Sequence[Node]) -> Array:
-    found: dict[int, Node] = {
+    varying: dict[int, Node] = {
         n.index: n for some in nodes for n in some if n.level != CONSTANT or not n.value >= 0
     }
-    return np.array([*found.values(), None], object)[:-1]
+    return np.array([*varying.values(), None], object)[:-1]
 
 
-def _friction_nodes(p: Problem, pose: Pose, t: Traced) -> dict[str, Array]:
+def _friction_nodes(p: TracedProblem, pose: Pose, t: Traced) -> dict[str, Array]:
     """Data that a ``Friction`` keeps, by name; none without contacts."""
     contacts, slip, g = p.contacts, t.friction.slip, p.graph
     if contacts is None or slip is None:
@@ -102,10 +102,10 @@ def _friction_nodes(p: Problem, pose: Pose, t: Traced) -> dict[str, Array]:
     force, moment = dry_wrenches(layout, contacts, pose, slip.along, dry)
     viscous = viscous_wrenches(layout, contacts, pose, t.twist)
     bare = _without_friction(p, t)
-    count, asked = layout.constraints.count, int(p.known.asked.sum())
+    count, efforts = layout.constraints.count, int(p.known.requested.sum())
     effort = p.known.effort[0].astype(object)
-    effort[p.known.asked] = bare[count : count + asked]
-    found = {
+    effort[p.known.requested] = bare[count : count + efforts]
+    arrays = {
         "dry_force": force,
         "dry_moment": moment,
         "viscous_force": viscous[0],
@@ -118,12 +118,12 @@ def _friction_nodes(p: Problem, pose: Pose, t: Traced) -> dict[str, Array]:
         "argument": argument(slip.r, slip.cz),
         "determinant": _determinant(p, t),
         "bare_effort": effort,
-        "bare_load": bare[count + asked :],
+        "bare_load": bare[count + efforts :],
     }
-    return {name: trace_array(g, array) for name, array in found.items()}
+    return {name: trace_array(g, array) for name, array in arrays.items()}
 
 
-def _without_friction(p: Problem, t: Traced) -> Array:
+def _without_friction(p: TracedProblem, t: Traced) -> Array:
     """Multipliers without friction; the teeth's separation stays."""
     contacts, slip = p.contacts, t.friction.slip
     assert contacts is not None
@@ -136,7 +136,7 @@ def _without_friction(p: Problem, t: Traced) -> Array:
     return multiplier(slip.r, c * z)
 
 
-def _determinant(p: Problem, t: Traced) -> Node:
+def _determinant(p: TracedProblem, t: Traced) -> Node:
     """det(A + J) / det(A): above zero where the solution is the only one."""
     contacts, slip, g = p.contacts, t.friction.slip, p.graph
     assert contacts is not None
@@ -174,7 +174,7 @@ def force_blocks(c: Compiled, k: ForceProgram, numbers: Numbers, size: int) -> F
     arrays: Tree = {name: k.part(name, out) for name in names}
     friction = _friction(c, k, out, locked) if k.friction else None
     ones = np.ones(count)
-    forces = Forces(
+    forces = SolvedForces(
         **arrays,
         residual=residual,
         power_balance=power,
@@ -208,7 +208,7 @@ def _friction(c: Compiled, k: ForceProgram, out: Array, locked: Flags) -> Fricti
     }
     count, never = len(locked), np.zeros(len(locked), bool)
     none = np.zeros(same["cz"].shape, bool)
-    unknowns = int(c.known.asked.sum()) + len(c.known.link)
+    unknowns = int(c.known.requested.sum()) + len(c.known.link)
     return Friction(
         **same,
         force=k.part("dry_force", out),

@@ -21,7 +21,7 @@ from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.assembly_modes import counted_links
 from dalembert.kernel.emit.numpy_program import NumpyProgram
 from dalembert.kernel.graph import CONSTANT, INPUTS, Graph, Node, Scalar, trace_array
-from dalembert.kernel.trace import Drives, Problem, Traced, trace
+from dalembert.kernel.trace import Drives, Traced, TracedProblem, trace
 
 POSE = ("closure", "point", "rotation", "turn")
 KEPT = (*POSE, "twist", "acceleration", "effort", "load", "force", "moment")
@@ -38,7 +38,7 @@ CACHED = 500_000
 
 
 @dataclass(frozen=True, eq=False)
-class Outputs:
+class TracedOutputs:
     """A traced structure: its inputs, and arrays of nodes by name, in the order of its outputs."""
 
     graph: Graph
@@ -82,8 +82,8 @@ class Outputs:
     def part(self, name: str, out: Array) -> Array:
         """One array (P, ...) of outputs (N, P)."""
         shape = self.nodes[name].shape
-        whole = out[self.rows[name]].reshape(*shape, out.shape[1])
-        return whole.transpose(len(shape), *range(len(shape)))
+        array = out[self.rows[name]].reshape(*shape, out.shape[1])
+        return array.transpose(len(shape), *range(len(shape)))
 
     def sure(self, out: Array) -> Flags:
         """True where the squares of rates are numbers and no check is in doubt, at each place."""
@@ -118,7 +118,7 @@ class Outputs:
 
 
 @dataclass(frozen=True, eq=False)
-class KeptProgram(Outputs):
+class KeptProgram(TracedOutputs):
     """Program of a structure from its drives' positions to all forces: inputs (numbers, columns, then branches), and
     the branches it was traced on.
 
@@ -129,9 +129,9 @@ class KeptProgram(Outputs):
     recent first poses, by the numbers that decide them.
     """
 
-    ways: tuple[float, ...]
+    branches: tuple[float, ...]
     squares: int
-    whole: bool
+    complete: bool
     fixed: Flags
     counted: Flags
     last: Ints
@@ -156,7 +156,7 @@ class KeptProgram(Outputs):
         return NumpyProgram(self.graph, self.inputs, self.outputs(*POSE))
 
     @cached_property
-    def try_ways(self) -> NumpyProgram:
+    def try_branches(self) -> NumpyProgram:
         """Rotations, then closure, of one position for several sets of branches side by side."""
         return NumpyProgram(self.graph, self.inputs, self.outputs("rotation", "closure"), many=True)
 
@@ -165,7 +165,7 @@ class KeptProgram(Outputs):
         """The places, among the values of the inputs, of those that rotations depend on."""
         needed = {n.index for n in self.graph.order(self.outputs("rotation", "closure"))}
         return [
-            k for k, n in enumerate(self.inputs[: len(self.inputs) - len(self.ways)]) if n.index in needed
+            k for k, n in enumerate(self.inputs[: len(self.inputs) - len(self.branches)]) if n.index in needed
         ]
 
 
@@ -180,7 +180,7 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
     numbers = numbers._replace(columns=numbers.columns[:, 0])
     symbols = with_nodes(graph, c, numbers)
     known: dict[tuple[str, int], Node] = {}
-    ways = _Ways(graph, pose)
+    branches = _Ways(graph, pose)
 
     def path(what: str, which: int) -> Node:
         if (what, which) not in known:
@@ -191,11 +191,11 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
         return known[what, which]
 
     try:
-        traced = trace(problem_of(graph, symbols, c, inertia, path, ways))
+        traced = trace(problem_of(graph, symbols, c, inertia, path, branches))
     except (ValueError, TypeError, KeyError):  # no closed form, or none that its numbers alone decide
         return None
     graph.samples.clear()
-    return _kept(graph, symbols, traced, ways, c)
+    return _kept(graph, symbols, traced, branches, c)
 
 
 def problem_of(
@@ -205,7 +205,7 @@ def problem_of(
     inertia: bool,
     path: Callable[[str, int], Node],
     signs: Callable[..., Node],
-) -> Problem:
+) -> TracedProblem:
     """Problem of a mechanism on nodes for the kernel."""
     symbolic, (position, speed, acceleration) = symbols.compiled, symbols.drives
     angular = c.layout.freedoms.angular[c.layout.driven]
@@ -217,7 +217,7 @@ def problem_of(
         for f in ("cos", "sin")
     )
     drives = Drives(position, cosine, sine, speed, acceleration)
-    return Problem(
+    return TracedProblem(
         graph=graph,
         layout=symbolic.layout,
         forcing=symbolic.forcing,
@@ -271,14 +271,14 @@ class _Ways:
         return self.inputs[-1]
 
 
-def _kept(graph: Graph, symbols: Symbols, t: Traced, ways: _Ways, c: Compiled) -> KeptProgram | None:
-    inputs = (*symbols.inputs, *ways.inputs)
-    needs = _needs(graph, ways.inputs, {n.index for n in inputs})
+def _kept(graph: Graph, symbols: Symbols, t: Traced, branches: _Ways, c: Compiled) -> KeptProgram | None:
+    inputs = (*symbols.inputs, *branches.inputs)
+    needs = _needs(graph, branches.inputs, {n.index for n in inputs})
     fixed = np.array([needs[n.index] >= 0 for n in t.pose.turn[:-1]], bool)
     squares = {n.index: n for n in t.closure if n.level != CONSTANT}
     closure = squares | {n.index: n for n in (*t.open, *graph.decisions) if n.level != CONSTANT}
     margin = {n.index: n for n in t.doubt if n.level != CONSTANT}
-    whole = {
+    outputs = {
         "closure": np.array(list(closure.values()), object),
         "point": t.pose.point[:-1],
         "rotation": t.pose.rotation[:-1].T,  # cosines, then sines
@@ -286,20 +286,20 @@ def _kept(graph: Graph, symbols: Symbols, t: Traced, ways: _Ways, c: Compiled) -
         **force_nodes(t),
         "margin": np.array([n for k, n in margin.items() if k not in closure], object),
     }
-    nodes = {name: whole[name] for name in (*KEPT, *CHECKS)}
+    nodes = {name: outputs[name] for name in (*KEPT, *CHECKS)}
     known_all = {name: all(needs[n.index] >= 0 for n in a.ravel()) for name, a in nodes.items()}
     if not all(known_all[name] for name in POSE):
         return None
     last = [max(needs[n.index].bit_length() for n in pair) - 1 for pair in t.pose.rotation[:-1]]
-    found = tuple(float(graph.nominal[n.index]) for n in ways.inputs)
+    nominal = tuple(float(graph.nominal[n.index]) for n in branches.inputs)
     driven = tuple(k for k, q in enumerate(symbols.drives[0]) if q.op in INPUTS)
     return KeptProgram(
         graph=graph,
         inputs=inputs,
         nodes=nodes,
-        ways=found,
+        branches=nominal,
         squares=len(squares),
-        whole=all(known_all.values()),
+        complete=all(known_all.values()),
         fixed=fixed,
         counted=counted_links(c.layout),
         last=np.array(last, np.intp),
@@ -316,9 +316,9 @@ def force_nodes(t: Traced) -> dict[str, Array]:
     return motion | {name: getattr(t, name) for name in names}
 
 
-def _needs(graph: Graph, ways: list[Node], known: set[int]) -> list[int]:
+def _needs(graph: Graph, branches: list[Node], known: set[int]) -> list[int]:
     """The branches that each node depends on, as bits; -1 where it needs an input that is not known."""
-    bits = {n.index: 1 << k for k, n in enumerate(ways)}
+    bits = {n.index: 1 << k for k, n in enumerate(branches)}
     out: list[int] = []
     for n in graph.nodes:
         if n.a is None:

@@ -23,25 +23,25 @@ from dalembert.core.position.motion_path import Path
 def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions | None:
     """Answer of a planar mechanism with every position ok; its motion where no forces are requested, or where its
     program gives none; None where some position may not be ok."""
-    found = ready(c, inertia)
-    if found is None:
+    program = ready(c, inertia)
+    if program is None:
         return None
     known = not c.pose_names and not c.beyond
-    whole = found.program.whole and c.contacts is None and c.layout.compliance is None and known
-    outputs = _follow(found, c, pose_only=not (forces and whole))
+    complete = program.program.complete and c.contacts is None and c.layout.compliance is None and known
+    outputs = _follow(program, c, pose_only=not (forces and complete))
     if outputs is None:
         return None
-    return _result(found, c, outputs, inertia) if forces and whole else _positions(found, c, outputs)
+    return _result(program, c, outputs, inertia) if forces and complete else _positions(program, c, outputs)
 
 
-def _positions(found: Ready, c: Compiled, outputs: _Outputs) -> Positions:
-    k, count = found.program, c.schedule.count
+def _positions(program: Ready, c: Compiled, outputs: _Outputs) -> Positions:
+    k, count = program.program, c.schedule.count
     out = outputs.out[:, :count]
     turned = c.layout.algebra.with_ground(k.part("turn", out), k.part("rotation", out).swapaxes(1, 2))
     pose = Pose(np.pad(k.part("point", out), ((0, 0), (0, 1), (0, 0))), *turned)
     path = Path(pose, np.ones(count, bool), np.zeros(count, np.intp))
     c = with_pose_loads(wound(c, (0, pose.at(0)), path), path)
-    return Positions(c, path, _mobility(c), found.first.mode)
+    return Positions(c, path, _mobility(c), program.first.mode)
 
 
 class _Outputs(NamedTuple):
@@ -56,14 +56,14 @@ def _follow(r: Ready, c: Compiled, pose_only: bool) -> _Outputs | None:
     """The positions of a list, and in between as close as it takes to be sure that the motion is one."""
     k = r.program
     for step in (STEP, STEP / 8, STEP / 64):
-        way = walk_through(c, step)
-        if way is None:
+        walk = walk_through(c, step)
+        if walk is None:
             return None
-        found = _evaluate(r, c, with_between(k, r.columns, way), pose_only)
-        if found is None:
+        outputs = _evaluate(r, c, with_between(k, r.columns, walk), pose_only)
+        if outputs is None:
             return None
-        if count_turns(k, found.out, way, r.first.turn) and is_steady(k, found.out, way):
-            return found
+        if count_turns(k, outputs.out, walk, r.first.turn) and is_steady(k, outputs.out, walk):
+            return outputs
     return None
 
 
@@ -78,7 +78,7 @@ def _evaluate(r: Ready, c: Compiled, columns: Array, pose_only: bool) -> _Output
         part = slice(start, start + BLOCK)
         here = work[:, : min(BLOCK, count - start)]
         try:
-            run([*r.single, *_at(columns, part), *r.first.ways], here, one=count == 1)
+            run([*r.single, *_at(columns, part), *r.first.branches], here, one=count == 1)
         except (ArithmeticError, ValueError):
             return None
         if not (np.isfinite(here.sum()) and (here[k.rows["closure"]] >= 0).all()):
@@ -103,10 +103,10 @@ def _mobility(c: Compiled) -> Mobility:
     return Mobility(freedoms, len(c.schedule.names), 0, (), c.passive)
 
 
-def _result(r: Ready, c: Compiled, found: _Outputs, inertia: bool) -> Result:
+def _result(r: Ready, c: Compiled, outputs: _Outputs, inertia: bool) -> Result:
     k = r.program
     count = c.schedule.count
-    out = found.out[:, :count]
+    out = outputs.out[:, :count]
     names = ("point", "turn", "twist", "acceleration", "force", "moment", "effort", "load")
     arrays: dict[str, Any] = {f"{name}_array": k.part(name, out) for name in names}
     return Result(
@@ -117,7 +117,7 @@ def _result(r: Ready, c: Compiled, found: _Outputs, inertia: bool) -> Result:
         status=("ok",) * count,
         reasons=(None,) * count,
         rotation_array=k.part("rotation", out).swapaxes(1, 2),
-        residual=found.residual[:count],
-        power_balance=found.power[:count],
+        residual=outputs.residual[:count],
+        power_balance=outputs.power[:count],
         **arrays,
     )

@@ -10,10 +10,15 @@ import numpy as np
 
 from dalembert.algebra import plane
 from dalembert.analysis.compile.compiled_mechanism import Compiled
-from dalembert.analysis.engine.first_way import First, first_way, remember
+from dalembert.analysis.engine.first_way import First, first_branch, remember
 from dalembert.analysis.engine.flat_numbers import Numbers, flat_numbers, values
 from dalembert.analysis.engine.force_program import ForceBlock, ForceProgram, force_blocks, trace_forces
-from dalembert.analysis.engine.kept_program import DeadCentreError, KeptProgram, Outputs, trace_structure
+from dalembert.analysis.engine.kept_program import (
+    DeadCentreError,
+    KeptProgram,
+    TracedOutputs,
+    trace_structure,
+)
 from dalembert.analysis.positions import mode_sentence
 from dalembert.arrays import Array
 from dalembert.core.factor import SPARSE
@@ -73,7 +78,7 @@ class Structures:
 
 
 def _size(program: Kept) -> int:
-    return len(program.graph.nodes) if isinstance(program, Outputs) else 1
+    return len(program.graph.nodes) if isinstance(program, TracedOutputs) else 1
 
 
 STRUCTURES = Structures()
@@ -94,9 +99,9 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
         return None
     numbers = flat_numbers(c)
     single, columns = values(numbers)
-    key, given = (inertia, *numbers.key), [*single, *columns[:, 0].tolist()]
-    there, program = STRUCTURES.get(key)
-    if not there or isinstance(program, _Met):
+    key, inputs = (inertia, *numbers.key), [*single, *columns[:, 0].tolist()]
+    met, program = STRUCTURES.get(key)
+    if not met or isinstance(program, _Met):
         calls = program.spent + 1 if isinstance(program, _Met) else 0.0
         few = FEW_POSITIONS if c.layout.unknowns <= SPARSE else 2 * FEW_POSITIONS
         large = c.layout.links > FEW_LINKS and c.schedule.count < few
@@ -104,17 +109,17 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
             STRUCTURES.put(key, _Met(calls))
             return None
         try:
-            program = _traced(c, numbers, given, inertia)
+            program = _traced(c, numbers, inputs, inertia)
         except (DeadCentreError, ZeroDivisionError):  # or a length that its closed forms divide by is zero
             return None
         STRUCTURES.put(key, program)
     if not isinstance(program, KeptProgram):
         return None
-    first = first_way(program, c, given)
+    first = first_branch(program, c, inputs)
     return None if first is None else Ready(program, single, columns, first)
 
 
-def _traced(c: Compiled, numbers: Numbers, given: list[object], inertia: bool) -> KeptProgram | None:
+def _traced(c: Compiled, numbers: Numbers, inputs: list[object], inertia: bool) -> KeptProgram | None:
     """The program of a structure met for the first time: traced on the branches of its given angles, without a search,
     or in its first pose where they do not decide a branch; None where neither exists."""
     assert isinstance(c.guess, Guess)
@@ -131,7 +136,9 @@ def _traced(c: Compiled, numbers: Numbers, given: list[object], inertia: bool) -
         raise DeadCentreError
     program = trace_structure(c, numbers, modes.pose.at(0), inertia)
     if program is not None:
-        remember(program, c, given, First(program.ways, modes.pose.turn[0, :-1], mode_sentence(c, modes)))
+        remember(
+            program, c, inputs, First(program.branches, modes.pose.turn[0, :-1], mode_sentence(c, modes))
+        )
     return program
 
 
@@ -144,8 +151,8 @@ def known_forces(c: Compiled, pose: Pose, inertia: bool) -> ForceBlock | None:
         return None
     numbers = flat_numbers(c, pose)
     key = (inertia, "forces", *numbers.key)
-    there, program = STRUCTURES.get(key)
-    if not there or isinstance(program, _Met):
+    met, program = STRUCTURES.get(key)
+    if not met or isinstance(program, _Met):
         spent = (program.spent if isinstance(program, _Met) else 0.0) + CALL + POSITION * c.schedule.count
         if spent < TRACE * c.layout.links:
             STRUCTURES.put(key, _Met(spent))

@@ -42,19 +42,19 @@ def walk_through(c: Compiled, step: float) -> Walk | None:
     if count == 1:
         return Walk(np.zeros(1, np.intp), drives[:0], none)
     order, _, s = walk(c.layout, drives)
-    way = np.diff(s)
-    parts = np.ceil(way / min(step, s[-1] / FEWEST)) if s[-1] > 0 else way
-    if not (way <= FARTHEST).all() or parts.sum() > MOST + count:
+    steps = np.diff(s)
+    parts = np.ceil(steps / min(step, s[-1] / FEWEST)) if s[-1] > 0 else steps
+    if not (steps <= FARTHEST).all() or parts.sum() > MOST + count:
         return None
     more = np.maximum(parts.astype(int) - 1, 0)
-    low = np.repeat(np.arange(len(way)), more)
+    low = np.repeat(np.arange(len(steps)), more)
     if not low.size:
         return Walk(order, drives[:0], none)
     share = (np.arange(len(low)) - np.repeat(np.cumsum(more) - more, more) + 1) / (more[low] + 1)
     before = drives[order[low]]
     between = before + share[:, None] * (drives[order[low + 1]] - before)
-    whole = np.insert(order, low + 1, count + np.arange(len(low)))
-    return Walk(whole, between, order[low])
+    complete = np.insert(order, low + 1, count + np.arange(len(low)))
+    return Walk(complete, between, order[low])
 
 
 def with_between(k: KeptProgram, columns: Array, walk: Walk) -> Array:
@@ -67,24 +67,24 @@ def with_between(k: KeptProgram, columns: Array, walk: Walk) -> Array:
     return np.concatenate([columns, more], axis=1)
 
 
-def count_turns(k: KeptProgram, out: Array, way: Walk, first: Array) -> bool:
+def count_turns(k: KeptProgram, out: Array, motion: Walk, first: Array) -> bool:
     """Adds the links' angles, full turns counted along the motion; false where one of them turns too far in a step."""
     free = k.free
-    if len(way.order) == 1:
+    if len(motion.order) == 1:
         out[k.rows["turn"].start + free] = first[free, None]
         return True
-    at_once = max(1, MANY // len(way.order))
+    at_once = max(1, MANY // len(motion.order))
     parts = (free[start : start + at_once] for start in range(0, len(free), at_once))
-    return all(_count_turns(k, out, way, first, links) for links in parts)
+    return all(_count_turns(k, out, motion, first, links) for links in parts)
 
 
-def _count_turns(k: KeptProgram, out: Array, way: Walk, first: Array, links: Ints) -> bool:
+def _count_turns(k: KeptProgram, out: Array, motion: Walk, first: Array, links: Ints) -> bool:
     """Put in the angles of some links."""
     rows = k.rows["rotation"].start + links
     angle = np.arctan2(out[rows + len(k.fixed)], out[rows])
-    whole = np.zeros_like(angle)
-    for part in range(0, len(way.order) - 1, MANY):
-        order = way.order[part : part + MANY + 1]
+    counts = np.zeros_like(angle)
+    for part in range(0, len(motion.order) - 1, MANY):
+        order = motion.order[part : part + MANY + 1]
         step = np.diff(angle[:, order], axis=1)
         turns = np.rint(step / (2 * np.pi))
         turned = turns.any()
@@ -93,17 +93,17 @@ def _count_turns(k: KeptProgram, out: Array, way: Walk, first: Array, links: Int
         if (np.abs(step, out=step) > TURN).any():
             return False
         if turned or part:
-            whole[:, order[1:]] = whole[:, order[:1]] - np.cumsum(turns, axis=1)
-    whole += (np.rint((first[links] - angle[:, 0]) / (2 * np.pi)) - whole[:, 0])[:, None]
-    whole *= 2 * np.pi
-    out[k.rows["turn"].start + links] = np.add(angle, whole, out=whole)
+            counts[:, order[1:]] = counts[:, order[:1]] - np.cumsum(turns, axis=1)
+    counts += (np.rint((first[links] - angle[:, 0]) / (2 * np.pi)) - counts[:, 0])[:, None]
+    counts *= 2 * np.pi
+    out[k.rows["turn"].start + links] = np.add(angle, counts, out=counts)
     return True
 
 
-def is_steady(k: KeptProgram, out: Array, way: Walk) -> bool:
+def is_steady(k: KeptProgram, out: Array, motion: Walk) -> bool:
     """True if no group passes a dead centre between two places: the quantity that vanishes at it changes by less than
     its value."""
-    if len(way.order) == 1:
+    if len(motion.order) == 1:
         return True
-    sizes = (np.sqrt(row)[way.order] for row in out[: k.squares])
+    sizes = (np.sqrt(row)[motion.order] for row in out[: k.squares])
     return all((np.abs(np.diff(a)) <= np.minimum(a[1:], a[:-1])).all() for a in sizes)

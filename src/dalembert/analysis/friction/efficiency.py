@@ -86,11 +86,13 @@ def efficiency(r: Result) -> Efficiency:
         for two in ((one, other), (other, one))
     )
     with np.errstate(all="ignore"):
-        put = np.where((ahead.bare >= 0) & (ahead.rubbed > 0), ahead.bare / ahead.rubbed, np.nan)
-        taken = np.where(back.bare < 0, back.rubbed / back.bare, np.nan)
+        put = np.where(
+            (ahead.bare >= 0) & (ahead.with_friction > 0), ahead.bare / ahead.with_friction, np.nan
+        )
+        taken = np.where(back.bare < 0, back.with_friction / back.bare, np.nan)
     put = np.where(ahead.jammed & (ahead.bare > 0), 0.0, put)
     known = r.compiled.known
-    by_load = bool(not known.asked.any() and (known.effort * r.schedule.speed).any())
+    by_load = bool(not known.requested.any() and (known.effort * r.schedule.speed).any())
     forward, reverse = (taken, put) if by_load else (put, taken)
     return Efficiency(forward, reverse, *_cycle(r), back.damped, by_load)
 
@@ -99,7 +101,7 @@ class _Sense(NamedTuple):
     """Power (P,) of the unknowns in one sense of the motion, without the joints' friction and with it."""
 
     bare: Array
-    rubbed: Array
+    with_friction: Array
     jammed: Flags
     damped: Flags
 
@@ -113,10 +115,10 @@ def _static(r: Result, sign: float) -> _Sense:
     f = turned.friction
     damping = f.viscous_loss.sum(axis=-1)
     bare = unknown_power(turned, f.bare_effort, f.bare_load) - damping
-    rubbed = unknown_power(turned, turned.effort_array, turned.load_array)
+    with_friction = unknown_power(turned, turned.effort_array, turned.load_array)
     return _Sense(
-        np.where(np.abs(bare) < NOTHING * np.abs(rubbed), 0.0, bare),
-        rubbed,
+        np.where(np.abs(bare) < NOTHING * np.abs(with_friction), 0.0, bare),
+        with_friction,
         np.array([s == "jammed" for s in turned.status]),
         damping > 0,
     )
@@ -124,8 +126,8 @@ def _static(r: Result, sign: float) -> _Sense:
 
 def unknown_power(r: Result, effort: Array, load: Array) -> Array:
     """Power (P,) of the unknown efforts and loads."""
-    asked = r.compiled.known.asked
-    power = (effort * r.schedule.speed)[:, asked].sum(axis=-1)
+    requested = r.compiled.known.requested
+    power = (effort * r.schedule.speed)[:, requested].sum(axis=-1)
     for k, name in enumerate(r.unknown_loads):
         power = power + load[:, k] * load_rate(r, name)
     return np.asarray(power)
@@ -151,8 +153,8 @@ def _cycle(r: Result) -> tuple[float, float, float, dict[str, float]]:
     lost = {joint: _work(r, methodcaller("power_lost", joint), weight) for joint in r.joints}
     drives = _work(r, lambda side: (side.effort_array * side.schedule.speed).sum(axis=-1), weight)
     loads = [_work(r, partial(_load_power, k), weight) for k in range(len(r.unknown_loads))]
-    total, own = sum(lost.values()), drives + sum(loads)
-    put_in = max(own, total - own)
+    total, net = sum(lost.values()), drives + sum(loads)
+    put_in = max(net, total - net)
     if not put_in > 0:
         return float("nan"), put_in, total, dict.fromkeys(lost, float("nan"))
     return (put_in - total) / put_in, put_in, total, {joint: w / put_in for joint, w in lost.items()}

@@ -25,7 +25,7 @@ from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.core.friction.contact_equations import Contacts, Response
+    from dalembert.core.friction.contact_equations import ContactResponse, Contacts
 
 
 @dataclass(frozen=True)
@@ -73,10 +73,10 @@ def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float
         forces.append((c * z)[0])
         if change[-1] <= tolerance or not np.isfinite(change[-1]) or np.abs(z).max() > 1e12 * size:
             break
-    found = np.array(change)
-    arrived = bool(found[-1] <= tolerance)
+    changes = np.array(change)
+    arrived = bool(changes[-1] <= tolerance)
     return FixedPoint(
-        _unknowns(r, np.array(x)), _forces(r, contacts, np.array(forces)), found, _rate(found), arrived
+        _unknowns(r, np.array(x)), _forces(r, contacts, np.array(forces)), changes, _rate(changes), arrived
     )
 
 
@@ -86,23 +86,23 @@ def _rate(change: Array) -> float:
     return float((last[-1] / last[0]) ** (1 / (len(last) - 1))) if len(last) > 1 and last[0] > 0 else 0.0
 
 
-def contacts_in_motion(r: Result, position: int) -> tuple[Contacts, Response, Array]:
+def contacts_in_motion(r: Result, position: int) -> tuple[Contacts, ContactResponse, Array]:
     """Contacts, their response and senses (1, E) at one position; refused at rest."""
-    contacts, problem, told = contacts_at(r, position)
-    if told.open.any():
+    contacts, problem, slip = contacts_at(r, position)
+    if slip.open.any():
         what = "the machine is at rest here: the senses of friction are not given"
         raise ModelError(what, "give the drive a speed")
-    return contacts, problem, told.sense
+    return contacts, problem, slip.sense
 
 
-def contacts_at(r: Result, position: int) -> tuple[Contacts, Response, SlipState]:
+def contacts_at(r: Result, position: int) -> tuple[Contacts, ContactResponse, SlipState]:
     """The same, at rest too."""
     from dalembert.analysis.one_pass import slice_forcing
-    from dalembert.analysis.result.joint_freedoms import whole_pose
+    from dalembert.analysis.result.joint_freedoms import full_pose
 
     f, contacts = friction_of(r)
     c, part = r.compiled, slice(position, position + 1)
-    pose = whole_pose(r, part)
+    pose = full_pose(r, part)
     forcing, known = slice_forcing(c, part)
     moving, rows, solver = motion(c.layout, pose, r.schedule.speed[part], r.schedule.acceleration[part])
     sources = known_sources(c.layout, forcing, pose, moving, r.inertia)

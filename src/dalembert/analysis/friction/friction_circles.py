@@ -28,7 +28,7 @@ NOTHING = 1e-9
 
 
 @dataclass(frozen=True)
-class Line:
+class ActionLine:
     """A line in ground axes: a point (P, 2) and a unit vector (P, 2)."""
 
     point: Array
@@ -48,8 +48,8 @@ class FrictionCircle:
     center: Array
     radius: float
     radii: Array
-    taken: Line
-    others: tuple[Line, ...]
+    taken: ActionLine
+    others: tuple[ActionLine, ...]
     reasons: tuple[str, ...]
 
 
@@ -91,7 +91,7 @@ def friction_circles(result: Result, joint: str) -> FrictionCircle:
     reasons = tuple(circle_reason(result, joint, k) for k in range(len(result.status)))
     others = _tangents(result, joint, two.joints[two.joints[0] == joint]) if two is not None else ()
     radius, radii = friction_circle_radius(result, joint), friction_circle_radii(result, joint)
-    return FrictionCircle(center, radius, radii, Line(center + offset, unit), others, reasons)
+    return FrictionCircle(center, radius, radii, ActionLine(center + offset, unit), others, reasons)
 
 
 def pin_center(result: Result, joint: str) -> Array:
@@ -114,8 +114,8 @@ def circle_reason(result: Result, joint: str, position: int, on: str | None = No
     if not np.isfinite(sense) or sense == 0:
         return f"{this} does not turn against {other}: any line that meets the circle may be taken"
     turns, against = ("counter-clockwise", "clockwise") if sense > 0 else ("clockwise", "counter-clockwise")
-    told = bool(rate or f.reversing[position, e]) and not f.open[position, e]
-    verb = "turns" if told else "is about to turn"
+    moving = bool(rate or f.reversing[position, e]) and not f.open[position, e]
+    verb = "turns" if moving else "is about to turn"
     words = (
         f"{this} {verb} {turns} against {other}, so the reaction passes the pin on the side that turns {this} "
         f"{against}"
@@ -154,11 +154,11 @@ def _two_forces(result: Result, link: str, first: str, second: str) -> bool:
     return bool(loaded and (off / size)[known].max() <= 1e-9)
 
 
-def _tangents(result: Result, joint: str, other: str) -> tuple[Line, ...]:
+def _tangents(result: Result, joint: str, other: str) -> tuple[ActionLine, ...]:
     """Common tangents of two friction circles but the one taken, each through its point on the circle of ``joint``."""
-    here, there = (pin_center(result, n) for n in (joint, other))
+    here, far = (pin_center(result, n) for n in (joint, other))
     r = [friction_circle_radii(result, n) for n in (joint, other)]
-    span = there - here
+    span = far - here
     length = np.hypot(span[:, 0], span[:, 1])
     e = span / length[:, None]
     across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
@@ -171,7 +171,7 @@ def _tangents(result: Result, joint: str, other: str) -> tuple[Line, ...]:
         same = (taken[:, 0] == sides[0]) & (taken[:, 1] == sides[1])
         direction = np.stack([n[:, 1], -n[:, 0]], axis=-1)
         point = np.where(same[:, None], np.nan, here + sides[0] * r[0][:, None] * n)
-        lines.append(Line(point, np.where(same[:, None], np.nan, direction)))
+        lines.append(ActionLine(point, np.where(same[:, None], np.nan, direction)))
     return _drop_taken(lines)
 
 
@@ -180,12 +180,12 @@ def _possible(radius: float) -> tuple[int, ...]:
     return (1, -1) if radius else (0,)
 
 
-def _drop_taken(lines: list[Line]) -> tuple[Line, ...]:
+def _drop_taken(lines: list[ActionLine]) -> tuple[ActionLine, ...]:
     """All lines but one: at each position those that are not NaN first, in their order."""
     points, directions = np.stack([x.point for x in lines]), np.stack([x.direction for x in lines])
     order = np.argsort(np.isnan(points[:, :, 0]), axis=0, kind="stable")[:-1]
     every = np.arange(points.shape[1])
-    return tuple(Line(points[k, every], directions[k, every]) for k in order)
+    return tuple(ActionLine(points[k, every], directions[k, every]) for k in order)
 
 
 def tangent_sides(result: Result, joint: str, other: str) -> Array:

@@ -12,24 +12,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.result.force_arrays import Forces, Friction, forces_of
-from dalembert.analysis.result.reaction_axes import marks
+from dalembert.analysis.result.force_arrays import Friction, SolvedForces, forces_of
+from dalembert.analysis.result.reaction_axes import uniqueness
 from dalembert.arrays import Array, Flags, Index, Ints, at, put
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import (
     UNIQUE,
-    Balance,
+    Equilibrium,
     Known,
-    Motion,
+    LinkMotions,
     Statement,
     check_equilibrium,
     reactions,
     statement,
 )
-from dalembert.core.forcing import Forcing, Source, pair, total_wrench
+from dalembert.core.forcing import Forcing, WrenchSource, pair, total_wrench
 from dalembert.core.friction.contact_equations import (
+    ContactResponse,
     Contacts,
-    Response,
     SlipState,
     argument,
     repeat,
@@ -41,7 +41,7 @@ from dalembert.core.friction.friction_solver import FrictionSolution, solve_fric
 from dalembert.core.friction.losses import by_joint, dry_wrenches, power_reversed, viscous_wrenches
 from dalembert.core.friction.rod_spin import SpinningRods, follow_branch_with_spin, solve_spins, spinning_rods
 from dalembert.core.friction.unpowered_loads import ThroughFriction, solve_unpowered
-from dalembert.core.layout import Pose, System
+from dalembert.core.layout import ConstraintRows, Pose
 from dalembert.core.linear import Factor, PseudoInverse
 from dalembert.core.rank import singular_below
 
@@ -65,10 +65,10 @@ class FrictionProblem:
     forcing: Forcing
     known: Known
     pose: Pose
-    moving: Motion
-    rows: System
+    moving: LinkMotions
+    rows: ConstraintRows
     solver: Factor
-    sources: dict[str, Source]
+    sources: dict[str, WrenchSource]
 
     def statement(self, *left_out: str) -> Statement:
         """Statement of the equilibrium, under all loads except those of some kinds."""
@@ -87,21 +87,21 @@ class FrictionProblem:
         return self.statement()
 
     @cached_property
-    def _response(self) -> tuple[System, Response]:
+    def _response(self) -> tuple[ConstraintRows, ContactResponse]:
         s = self.stated
         return response(self.c.layout, self.contacts, self.pose, s.forces, s.w, self.moving.twist)
 
     @property
-    def along(self) -> System:
+    def along(self) -> ConstraintRows:
         """Directions along which the contacts act."""
         return self._response[0]
 
     @cached_property
-    def r(self) -> Response:
+    def r(self) -> ContactResponse:
         """Response of reactions and arguments to friction at each position; none where it is not unique."""
-        r, found = repeat(self._response[1], len(self.stated.w)), self.through_friction
-        if found is not None:
-            r = put(r, self.unpowered, at(found.response, self.unpowered))
+        r, loads = repeat(self._response[1], len(self.stated.w)), self.through_friction
+        if loads is not None:
+            r = put(r, self.unpowered, at(loads.response, self.unpowered))
         return r._replace(y=np.where(self.blocked[:, None, None], np.nan, r.y))
 
     @cached_property
@@ -121,8 +121,8 @@ class FrictionProblem:
         null = np.broadcast_to(forces.null, (len(self.stated.w), *forces.null.shape[-2:]))
         if not (self.unpowered.any() and isinstance(solver, PseudoInverse)):
             return null
-        count, asked = self.c.layout.constraints.count, self.known.asked
-        kept = np.concatenate([np.arange(count), count + np.flatnonzero(asked)])
+        count, requested = self.c.layout.constraints.count, self.known.requested
+        kept = np.concatenate([np.arange(count), count + np.flatnonzero(requested)])
         free = np.zeros_like(null)
         free[:, : len(kept), : len(kept)] = solver.null[..., kept[:, None], kept]
         return np.where(self.unpowered[:, None, None], free, null)
@@ -141,8 +141,8 @@ class FrictionProblem:
         """Unknown loads at these positions."""
         if not self.unpowered.any():
             return None
-        given = (self.c.layout, self.contacts, self.known, self.pose, self.rows, self.solver)
-        return solve_unpowered(*given, self._wrench(), self.moving.twist, self._state_of_motion)
+        common = (self.c.layout, self.contacts, self.known, self.pose, self.rows, self.solver)
+        return solve_unpowered(*common, self._wrench(), self.moving.twist, self._state_of_motion)
 
     @property
     def _state_of_motion(self) -> SlipState:
@@ -154,35 +154,35 @@ class FrictionProblem:
         return without_friction(self.contacts, self.r)
 
     @cached_property
-    def bare_balance(self) -> Balance:
+    def bare_balance(self) -> Equilibrium:
         """Equilibrium without friction."""
         return self._check(self.bare, self.stated.w)
 
-    def _check(self, x: Array, w: Array) -> Balance:
-        c, given = self.c.layout, (self.forcing, self.known, self.pose, self.moving, self.stated)
-        return check_equilibrium(c, *given, x, w)
+    def _check(self, x: Array, w: Array) -> Equilibrium:
+        c, arguments = self.c.layout, (self.forcing, self.known, self.pose, self.moving, self.stated)
+        return check_equilibrium(c, *arguments, x, w)
 
     def solution(
-        self, r: Response, side: SlipState | None = None, where: Index = EVERY
+        self, r: ContactResponse, side: SlipState | None = None, where: Index = EVERY
     ) -> tuple[FrictionSolution, SpinningRods | None]:
         """Friction from the response at some positions, on one ``side`` of them; with rods that spin the branch is
         followed with them where it ends or leaves a moment."""
         contacts = self.contacts
         state, rods = self._state(r, side, where)
-        found = solve_friction(contacts, r, state)
+        solved = solve_friction(contacts, r, state)
         if rods is None:
-            return found, None
-        left = np.abs(found.x[..., rods.row]).max(axis=-1) > SAME * np.abs(found.x).max(axis=-1)
-        some = np.flatnonzero(~state.open.any(axis=-1) & (np.isfinite(found.critical) | left))
+            return solved, None
+        left = np.abs(solved.x[..., rods.row]).max(axis=-1) > SAME * np.abs(solved.x).max(axis=-1)
+        some = np.flatnonzero(~state.open.any(axis=-1) & (np.isfinite(solved.critical) | left))
         if some.size:
             here = at(repeat(r, len(state.open)), some)
             branch = follow_branch_with_spin(contacts, here, state.open[some], rods.at(some))
             on = branch.critical != 0
-            found = put(found, some[on], at(branch, on))
-        return found, rods
+            solved = put(solved, some[on], at(branch, on))
+        return solved, rods
 
     def _state(
-        self, r: Response, side: SlipState | None, where: Index
+        self, r: ContactResponse, side: SlipState | None, where: Index
     ) -> tuple[SlipState, SpinningRods | None]:
         """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
         layout, contacts, pose = self.c.layout, self.contacts, self.pose.at(where)
@@ -202,54 +202,56 @@ class FrictionProblem:
 
     def _slipping(self, twist: Array, where: Index, side: SlipState | None) -> SlipState:
         """Senses of the contacts at some positions, from twists and from what is given of them."""
-        given, found = (
+        spins, slip = (
             self.c.schedule.parts,
             senses(self.c.layout, self.contacts, self.along.at(where), twist),
         )
-        if given is not None:
-            known = found.open & np.isfinite(given[self.part][where])
-            sense = np.where(known, given[self.part][where], found.sense)
-            found = found._replace(sense=sense, open=found.open & ~known)
+        if spins is not None:
+            known = slip.open & np.isfinite(spins[self.part][where])
+            sense = np.where(known, spins[self.part][where], slip.sense)
+            slip = slip._replace(sense=sense, open=slip.open & ~known)
         if side is None:
-            return found
-        sense = np.where(side.open, found.sense, side.sense)
-        return found._replace(sense=sense, open=found.open & side.open)
+            return slip
+        sense = np.where(side.open, slip.sense, side.sense)
+        return slip._replace(sense=sense, open=slip.open & side.open)
 
-    def with_self_locking(self, found: FrictionSolution, side: SlipState | None = None) -> FrictionSolution:
+    def with_self_locking(
+        self, solution: FrictionSolution, side: SlipState | None = None
+    ) -> FrictionSolution:
         """The solution, with where friction turns the power of the unknowns round, also without inertia."""
-        locked = self._power_reversed(self.stated, self.bare, found)
+        locked = self._power_reversed(self.stated, self.bare, solution)
         if "inertia" in self.sources and locked.any():
             still, rate = self.statement("inertia"), rates(self.along, self.moving.twist)
             r = under(self.c.layout, self.contacts, self.pose, still.forces, still.w, rate, self.r)
             bare = without_friction(self.contacts, r)
             locked = locked & self._power_reversed(still, bare, self.solution(r, side)[0])
-        return found._replace(locked=locked & ~self.unpowered)
+        return solution._replace(locked=locked & ~self.unpowered)
 
-    def _power_reversed(self, stated: Statement, bare: Array, found: FrictionSolution) -> Flags:
+    def _power_reversed(self, stated: Statement, bare: Array, solution: FrictionSolution) -> Flags:
         twist = self.moving.twist
-        return np.asarray(power_reversed(self.c.layout, stated.unknown, twist, stated.w, found.x, bare))
+        return np.asarray(power_reversed(self.c.layout, stated.unknown, twist, stated.w, solution.x, bare))
 
-    def forces(self, found: FrictionSolution, reversing: Flags | None = None) -> Forces:
+    def forces(self, solution: FrictionSolution, reversing: Flags | None = None) -> SolvedForces:
         """Reactions, efforts and what friction does, of one solution."""
-        layout, cz = self.c.layout, found.c * found.z
-        whole = self._check(found.x, self.stated.w + total_wrench(layout, pair(self.along, cz)))
-        whole = whole._replace(free=self.free, rcond=self._rcond(whole.rcond))
-        force, couple = reactions(layout, self.pose, self.rows, whole)
-        known_by = marks(self.c, self.pose, self.rows, whole.free)
-        friction = self._friction(found, cz, reversing)
+        layout, cz = self.c.layout, solution.c * solution.z
+        balance = self._check(solution.x, self.stated.w + total_wrench(layout, pair(self.along, cz)))
+        balance = balance._replace(free=self.free, rcond=self._rcond(balance.rcond))
+        force, couple = reactions(layout, self.pose, self.rows, balance)
+        known_by = uniqueness(self.c, self.pose, self.rows, balance.free)
+        friction = self._friction(solution, cz, reversing)
         force = force + friction.force + friction.viscous_force
         moment = couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment
-        return forces_of(whole, force, moment, known_by, friction)
+        return forces_of(balance, force, moment, known_by, friction)
 
     def _rcond(self, rcond: Array) -> Array:
         """Reciprocal condition at each position; of loads that friction settles how much of an effort they change."""
-        found = self.through_friction
-        if found is None:
+        loads = self.through_friction
+        if loads is None:
             return rcond
-        return np.where(self.unpowered & (found.solved | found.jammed), found.rcond, rcond)
+        return np.where(self.unpowered & (loads.solved | loads.jammed), loads.rcond, rcond)
 
-    def _friction(self, found: FrictionSolution, cz: Array, reversing: Flags | None) -> Friction:
-        layout, contacts, state = self.c.layout, self.contacts, found.state
+    def _friction(self, solution: FrictionSolution, cz: Array, reversing: Flags | None) -> Friction:
+        layout, contacts, state = self.c.layout, self.contacts, solution.state
         dry = np.where(contacts.fixed, 0.0, cz)
         force, moment = dry_wrenches(layout, contacts, self.pose, self.along, dry)
         viscous_force, viscous_moment, viscous_loss = viscous_wrenches(
@@ -269,13 +271,13 @@ class FrictionProblem:
             sense=state.sense,
             rate=state.rate,
             argument=argument(self.r, cz),
-            determinant=found.determinant,
-            critical=found.critical,
-            single=found.single & ~self.unpowered,
+            determinant=solution.determinant,
+            critical=solution.critical,
+            single=solution.single & ~self.unpowered,
             open=state.open,
             reversing=np.zeros_like(state.open) if reversing is None else reversing,
             blocked=self.blocked,
-            locked=found.locked,
+            locked=solution.locked,
             bare_effort=self._without(self.bare_balance.effort),
             bare_load=self._without(self.bare_balance.load),
             holding=np.full((len(cz), len(self.unknowns), 2), np.nan),

@@ -18,7 +18,7 @@ from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
-    from dalembert.analysis.result.force_arrays import Forces
+    from dalembert.analysis.result.force_arrays import SolvedForces
     from dalembert.model import Mechanism
 
 
@@ -34,7 +34,7 @@ def refuse_friction(m: Mechanism) -> None:
         raise ModelError(what, remedy, ("drives",))
 
 
-def friction_checks(c: Compiled, f: Forces, solvable: Array) -> list[Check]:
+def friction_checks(c: Compiled, f: SolvedForces, solvable: Array) -> list[Check]:
     """Status, positions and sentence of each thing that friction can do; none without friction."""
     if f.friction is None:
         return []
@@ -47,22 +47,22 @@ def friction_checks(c: Compiled, f: Forces, solvable: Array) -> list[Check]:
     ]
 
 
-def _sides(f: Forces) -> tuple[Forces, ...]:
+def _sides(f: SolvedForces) -> tuple[SolvedForces, ...]:
     """Forces just before reversals, and just after."""
     return (f,) if f.after is None else (f, f.after)
 
 
-def _jams(f: Forces) -> Array:
+def _jams(f: SolvedForces) -> Array:
     assert f.friction is not None
     return ~np.isnan(f.friction.critical)
 
 
-def _locks(f: Forces) -> Array:
+def _locks(f: SolvedForces) -> Array:
     assert f.friction is not None
     return f.friction.locked
 
 
-def alone(f: Forces) -> Flags:
+def alone(f: SolvedForces) -> Flags:
     """Positions (P,) with a separate sentence: contacts reverse, and the status differs before and after."""
     if f.friction is None or f.after is None:
         return np.zeros(len(f.rcond), bool)
@@ -71,7 +71,7 @@ def alone(f: Forces) -> Flags:
     return np.asarray(f.friction.reversing.any(axis=-1) & differs)
 
 
-def _side(f: Forces, ask: Callable[[Forces], Array], k: int) -> tuple[Forces, str]:
+def _side(f: SolvedForces, ask: Callable[[SolvedForces], Array], k: int) -> tuple[SolvedForces, str]:
     """Side of a position on which a condition holds, and its name where it holds on one of two."""
     flags = [bool(ask(side)[k]) for side in _sides(f)]
     if len(flags) == 1 or flags[0] == flags[1]:
@@ -80,7 +80,7 @@ def _side(f: Forces, ask: Callable[[Forces], Array], k: int) -> tuple[Forces, st
     return side, f", just {word} contacts reverse"
 
 
-def reversal_checks(c: Compiled, f: Forces) -> list[Check]:
+def reversal_checks(c: Compiled, f: SolvedForces) -> list[Check]:
     """Checks for reversing contacts, with a sentence on their effect."""
     if f.friction is None or f.after is None:
         return []
@@ -98,13 +98,13 @@ def arc(c: Compiled, run: Ints) -> str:
 
 
 def _unknowns(c: Compiled) -> list[str]:
-    asked = [n for n, asked in zip(c.schedule.names, c.known.asked, strict=True) if asked]
-    return [*asked, *c.unknown_loads]
+    efforts = [n for n, efforts in zip(c.schedule.names, c.known.requested, strict=True) if efforts]
+    return [*efforts, *c.unknown_loads]
 
 
 def _kinds(c: Compiled) -> list[str]:
     """Kinds of the unknowns: forces or moments."""
-    turns = c.layout.freedoms.angular[c.layout.driven][c.known.asked]
+    turns = c.layout.freedoms.angular[c.layout.driven][c.known.requested]
     return ["moment" if turning else "force" for turning in (*turns, *c.known.couple)]
 
 
@@ -121,19 +121,19 @@ NO_RATE = (
 )
 
 
-def _jam_sentence(c: Compiled, f: Forces, run: Ints) -> str:
+def _jam_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     f, side = _side(f, _jams, int(run[0]))
     assert f.friction is not None
     scale = float(np.nanmin(f.friction.critical[run]))
     return f"{JAMMED.format(arc=arc(c, run), side=side)} {FREED.format(scale=f'{scale:.6g}')}"
 
 
-def _locked_sentence(c: Compiled, f: Forces, run: Ints) -> str:
+def _locked_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     f, side = _side(f, _locks, int(run[0]))
     assert f.friction is not None
     names = _unknowns(c)
-    with_ = np.concatenate([f.effort[:, c.known.asked], f.load], axis=1)[run]
-    bare = np.concatenate([f.friction.bare_effort[:, c.known.asked], f.friction.bare_load], axis=1)[run]
+    with_ = np.concatenate([f.effort[:, c.known.requested], f.load], axis=1)[run]
+    bare = np.concatenate([f.friction.bare_effort[:, c.known.requested], f.friction.bare_load], axis=1)[run]
     worst = int(np.argmax(np.abs(with_ - bare).sum(axis=1)))
     figures = ", ".join(
         NEEDS.format(name=name, rubbed=quantity_text(c, kind, a), bare=quantity_text(c, kind, b))
@@ -143,14 +143,16 @@ def _locked_sentence(c: Compiled, f: Forces, run: Ints) -> str:
     return f"{LOCKED.format(arc=arc(c, run), side=side)};{where} {figures}."
 
 
-def _reversal_sentence(c: Compiled, f: Forces, run: Ints) -> str:
+def _reversal_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     assert f.friction is not None
     assert f.after is not None
     assert c.contacts is not None
     k = int(run[0])
     joints = list(dict.fromkeys(c.joints[j] for j in c.contacts.joint[f.friction.reversing[k]]))
     verb = "reverses" if len(joints) == 1 else "reverse"
-    before, after = (np.concatenate([side.effort[k, c.known.asked], side.load[k]]) for side in (f, f.after))
+    before, after = (
+        np.concatenate([side.effort[k, c.known.requested], side.load[k]]) for side in (f, f.after)
+    )
     values = _and(
         [
             BOTH_SIDES.format(name=name, before=quantity_text(c, kind, a), after=quantity_text(c, kind, b))
@@ -160,7 +162,7 @@ def _reversal_sentence(c: Compiled, f: Forces, run: Ints) -> str:
     return REVERSAL.format(joints=_and(joints), verb=verb, arc=arc(c, run), values=values)
 
 
-def _open_sentence(c: Compiled, f: Forces, run: Ints) -> str:
+def _open_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     assert f.friction is not None
     open_ = f.friction.open[run]
     names = _unknowns(c)
@@ -177,7 +179,7 @@ def _open_sentence(c: Compiled, f: Forces, run: Ints) -> str:
     return NO_RATE.format(joints=joints, arc=arc(c, run), names=_and(names), verb=verb)
 
 
-def _rest_sentence(c: Compiled, f: Forces, run: Ints, names: list[str]) -> str:
+def _rest_sentence(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str:
     """At rest: what holds the machine, and where friction is at its limit."""
     if len(names) == 1:
         held = REST.format(arc=arc(c, run), name=names[0])
@@ -193,11 +195,11 @@ def _rest_sentence(c: Compiled, f: Forces, run: Ints, names: list[str]) -> str:
     )
 
 
-def _histories(c: Compiled, f: Forces, run: Ints, names: list[str]) -> str:
+def _histories(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str:
     """Range that friction can hold beyond the ends, depending on the earlier motion; empty where it is not larger."""
     assert f.friction is not None
     ends = np.stack(
-        [np.concatenate([e.effort[:, c.known.asked], e.load], axis=1)[run] for e in f.ends], axis=-1
+        [np.concatenate([e.effort[:, c.known.requested], e.load], axis=1)[run] for e in f.ends], axis=-1
     )
     ends = np.stack([ends[:, n, 2 * n : 2 * n + 2] for n in range(len(names))], axis=1)
     held = f.friction.holding[run]
@@ -231,7 +233,7 @@ def _and(names: list[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
-def _limits(c: Compiled, ends: tuple[Forces, ...], run: Ints) -> str:
+def _limits(c: Compiled, ends: tuple[SolvedForces, ...], run: Ints) -> str:
     """Joints that are at their friction limit at the ends of an unknown's interval."""
     assert c.contacts is not None
     parts = []

@@ -24,8 +24,8 @@ def assumption(result: Result) -> str:
     """Description of the friction: on or off, and the kind of pin circles: 'on, friction circles of R sin(phi)'."""
     m = result.mechanism
     if result.friction is None:
-        there = any(getattr(j, "friction", None) is not None for j in m.joints.values())
-        return "off (switched off)" if there and not m.friction.enabled else "off"
+        has_friction = any(getattr(j, "friction", None) is not None for j in m.joints.values())
+        return "off (switched off)" if has_friction and not m.friction.enabled else "off"
     circles: dict[str, list[str]] = {}
     for name, joint in m.joints.items():
         f = getattr(joint, "friction", None)
@@ -73,8 +73,8 @@ def holds_beyond(ends: Array, held: Array) -> Array:
 
 def unknown_names(result: Result) -> list[str]:
     """Unknown efforts and loads, in the order of ``result.ends``."""
-    asked = result.compiled.known.asked
-    return [*(d for d, a in zip(result.drives, asked, strict=True) if a), *result.unknown_loads]
+    requested = result.compiled.known.requested
+    return [*(d for d, a in zip(result.drives, requested, strict=True) if a), *result.unknown_loads]
 
 
 def joints_at_limit(result: Result, position: int = 0) -> tuple[str, ...]:

@@ -52,13 +52,13 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
     assert r.friction is not None
     physical = r.friction.cz[position]
     kept: list[Array] = [] if np.isnan(physical).any() else [physical]
-    found: list[Solution] = []
+    solutions: list[Solution] = []
     for k in range(len(z)):
         if all(np.abs(z[k] - other).max() > DISTINCT * np.abs(other).max() for other in kept):
             kept.append(z[k])
             values = {name: float(v) for name, v in zip(names, x[k, count:], strict=True)}
-            found.append(Solution(values, float(determinant[k])))
-    return found
+            solutions.append(Solution(values, float(determinant[k])))
+    return solutions
 
 
 SOUGHT = (*NUMBERED, "jammed")

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from dalembert.analysis.compile.plane_rows import signed_radii
-from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.kept import kept
 from dalembert.analysis.result.reaction_axes import force_and_moment
 from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import system
-from dalembert.core.equilibrium import Motion, known_sources, motion
-from dalembert.core.forcing import Source
+from dalembert.core.equilibrium import LinkMotions, known_sources, motion
+from dalembert.core.forcing import WrenchSource
 from dalembert.core.gear_rows import gearings, separation
 from dalembert.core.geometry import arm
-from dalembert.core.layout import Pose, System
+from dalembert.core.layout import ConstraintRows, Pose
 from dalembert.core.linear import Factor
 from dalembert.model import GROUND
 
@@ -67,8 +67,8 @@ class State(NamedTuple):
     """The core's view of a result: pose, motion, rows of A and its factors."""
 
     pose: Pose
-    moving: Motion
-    rows: System
+    moving: LinkMotions
+    rows: ConstraintRows
     solver: Factor
 
 
@@ -76,7 +76,7 @@ class State(NamedTuple):
 def state(r: Result) -> State:
     """Pose and motion of the links of a result, ready for the core's functions."""
     c = r.compiled
-    pose = whole_pose(r)
+    pose = full_pose(r)
     with np.errstate(all="ignore"):
         moving, rows, solver = motion(c.layout, pose, c.schedule.speed, c.schedule.acceleration)
     return State(pose, moving, rows, solver)
@@ -92,7 +92,7 @@ def actions(r: Result) -> tuple[Action, ...]:
 
 
 @kept
-def whole_actions(r: Result) -> tuple[Action, ...]:
+def full_actions(r: Result) -> tuple[Action, ...]:
     """The same with dry friction inside the reactions, at the joints' places."""
     return (*joint_actions(r, split=False), *other_actions(r))
 
@@ -181,7 +181,7 @@ def _pitch_point(r: Result, joint: str) -> Array:
     """Contact point of the wheels of a mesh in space (P, 3)."""
     layout, k = r.compiled.layout, r.joints.index(joint)
     f = next(f for f in gearings(layout) if k in layout.constraints.joint[f.row])
-    _, contact = separation(layout.algebra, f, whole_pose(r))
+    _, contact = separation(layout.algebra, f, full_pose(r))
     mine = list(layout.constraints.joint[f.row]).index(k)
     return np.asarray(contact[..., mine, :] + r.compiled.origin)
 
@@ -209,7 +209,7 @@ def effort_actions(r: Result) -> tuple[Action, ...]:
     for k, drive in enumerate(r.drives):
         joint = r.mechanism.drives[drive].joint or drive
         i, j = r.mechanism.joints[joint].links
-        source = "" if r.compiled.known.asked[k] else f"effort of {drive}"
+        source = "" if r.compiled.known.requested[k] else f"effort of {drive}"
         at = joint_place(r, joint)
         force, couple = drive_wrench(r, drive, r.effort(drive))
         out += [
@@ -223,7 +223,7 @@ def drive_wrench(r: Result, drive: str, value: Array) -> tuple[Array, Array]:
     """Force and couple of an effort of a drive (P,) on j at its point of the joint: one of both is zero."""
     d, row = r.compiled.layout.algebra.d, int(r.compiled.layout.driven[r.drives.index(drive)])
     with np.errstate(all="ignore"):
-        rows = system(r.compiled.layout.algebra, r.compiled.layout.freedoms, whole_pose(r))
+        rows = system(r.compiled.layout.algebra, r.compiled.layout.freedoms, full_pose(r))
     j = (*r.links, GROUND).index(r.mechanism.joints[r.mechanism.drives[drive].joint or drive].links[1])
     unit = (rows.on_j if rows.j[row] == j else rows.on_i)[:, row, :]
     if not r.compiled.layout.freedoms.angular[row]:
@@ -243,7 +243,7 @@ def normal_direction(r: Result, joint: str) -> Array:
     layout = r.compiled.layout
     row = int(np.flatnonzero(layout.constraints.joint == r.joints.index(joint))[0])
     with np.errstate(all="ignore"):
-        return np.asarray(system(layout.algebra, layout.constraints, whole_pose(r)).on_j[:, row, :2])
+        return np.asarray(system(layout.algebra, layout.constraints, full_pose(r)).on_j[:, row, :2])
 
 
 def unknown_load_actions(r: Result) -> tuple[Action, ...]:
@@ -266,7 +266,7 @@ def unit_load(r: Result, k: int) -> tuple[Array, Array]:
     known, g = r.compiled.known, r.compiled.layout.algebra
     force, couple = known.direction[k], known.about[k]
     if known.follows[k]:
-        rotation = whole_pose(r).rotation[:, known.link[k], :]
+        rotation = full_pose(r).rotation[:, known.link[k], :]
         force, couple = g.rotate(rotation, force[None]), g.rotate_couple(rotation, couple[None])
     force, couple = (np.broadcast_to(v, (len(r.status), v.shape[-1])) for v in (force, couple))
     return force, couple if g.d == 3 else couple[:, 0]
@@ -279,7 +279,7 @@ def known_actions(r: Result, at: State | None = None) -> tuple[Action, ...]:
     with np.errstate(all="ignore"):
         sources = known_sources(c.layout, c.forcing, s.pose, s.moving, r.inertia)
     m = r.mechanism
-    build = _Builder(r, s.pose)
+    build = _ActionBuilder(r, s.pose)
     build.centers("weight", "weight of {}", sources["weight"])
     build.forces([n for n, load in m.loads_on("point").items() if not load.unknown], sources["force"])
     build.couples([n for n, load in m.loads_on("link").items() if not load.unknown], sources["couple"])
@@ -290,7 +290,7 @@ def known_actions(r: Result, at: State | None = None) -> tuple[Action, ...]:
     return tuple(build.out)
 
 
-class _Builder:
+class _ActionBuilder:
     """Turns the core's wrenches about reference points into forces at points with names."""
 
     def __init__(self, r: Result, pose: Pose) -> None:
@@ -298,7 +298,7 @@ class _Builder:
         self.links = (*r.links, GROUND)
         self.mechanism = r.mechanism
 
-    def add(self, of: str, kind: Kind, source: str, one: Source, k: int, r: Array, pure: str) -> None:
+    def add(self, of: str, kind: Kind, source: str, one: WrenchSource, k: int, r: Array, pure: str) -> None:
         """Wrench k of a source at the arm r (P, d) from its link's reference point."""
         g, link, count = self.r.compiled.layout.algebra, int(one.link[k]), len(self.pose.point)
         wrench = np.broadcast_to(one.wrench[..., k, :], (count, g.n))
@@ -317,13 +317,13 @@ class _Builder:
     def center(self, link: int) -> Array:
         return self.arm(link, self.r.compiled.forcing.inertia.center[link])
 
-    def centers(self, kind: Kind, name: str, one: Source) -> None:
+    def centers(self, kind: Kind, name: str, one: WrenchSource) -> None:
         """Forces at mass centres, those that are not zero."""
         for k, link in enumerate(self.r.links):
             if np.any(one.wrench[..., k, :]):
                 self.add(link, kind, name.format(link), one, k, self.center(k), "force")
 
-    def inertia(self, one: Source) -> None:
+    def inertia(self, one: WrenchSource) -> None:
         numbers = self.r.compiled.forcing.inertia
         for k, link in enumerate(self.r.links):
             if numbers.mass[k]:
@@ -331,12 +331,12 @@ class _Builder:
             if numbers.inertia[k].any():
                 self.add(link, "inertia", f"inertia couple of {link}", one, k, self.center(k), "couple")
 
-    def forces(self, names: list[str], one: Source) -> None:
+    def forces(self, names: list[str], one: WrenchSource) -> None:
         forces = self.r.compiled.forcing.forces
         for k, name in enumerate(names):
             self.add(name, "load", name, one, k, self.arm(int(forces.link[k]), forces.at[k]), "force")
 
-    def couples(self, names: list[str], one: Source) -> None:
+    def couples(self, names: list[str], one: WrenchSource) -> None:
         from dalembert.analysis.compile.load_arrays import point_of
 
         for k, name in enumerate(names):
@@ -347,7 +347,7 @@ class _Builder:
                 middle = self.arm(link, point_of(self.mechanism, self.links[link], at) - reference)
             self.add(name, "load", name, one, k, middle, "couple")
 
-    def springs(self, loads: Tree, one: Source) -> None:
+    def springs(self, loads: Tree, one: WrenchSource) -> None:
         springs = self.r.compiled.forcing.springs
         for k, (name, load) in enumerate(loads.items()):
             ends = (
@@ -357,7 +357,7 @@ class _Builder:
             for place, link, u in ends:
                 self.add(name, load.FORCE, name, one, place, self.arm(link, u), "force")
 
-    def resistances(self, loads: Tree, one: Source) -> None:
+    def resistances(self, loads: Tree, one: WrenchSource) -> None:
         from dalembert.analysis.compile.load_arrays import joint_damping
 
         rows: list[tuple[str, Kind, str, str, str]] = [

@@ -47,5 +47,5 @@ def turning(r: Result, link: str) -> Turning:
 
 def inertia_matrix(r: Result, link: str) -> Array:
     """Inertia of a link about its mass centre (3, 3), kg m2, in link axes."""
-    given = r.compiled.forcing.inertia.inertia[..., r.links.index(link), :]
-    return np.asarray(np.broadcast_to(given, (*given.shape[:-1], 9)).reshape(3, 3))
+    inertia = r.compiled.forcing.inertia.inertia[..., r.links.index(link), :]
+    return np.asarray(np.broadcast_to(inertia, (*inertia.shape[:-1], 9)).reshape(3, 3))

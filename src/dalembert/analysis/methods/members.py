@@ -92,7 +92,7 @@ class Member:
 
 
 @dataclass(frozen=True)
-class Step:
+class SolutionStep:
     """One step of the solution: links solved together, the unknowns it gives, and the reason why it can."""
 
     links: tuple[str, ...]
@@ -191,7 +191,7 @@ def _tension(two: Sequence[Action]) -> Array:
     return np.asarray(magnitude(two[1].force) * np.sign(along))
 
 
-def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tuple[Step, ...]:
+def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tuple[SolutionStep, ...]:
     """The links in the order in which they can be solved, the fewest at a time.
 
     A link without loads and couples between two pins (in space two ball joints) is a two-force member: its forces are
@@ -209,7 +209,7 @@ def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tupl
     unknowns = _Unknowns(r, found)
     rods = unknowns.rods
     left = [link for link in r.links if link not in rods]
-    steps: list[Step] = []
+    steps: list[SolutionStep] = []
     while left:
         group = next(
             (g for size in range(1, len(left) + 1) for g in combinations(left, size) if unknowns.suffice(g)),
@@ -222,7 +222,7 @@ def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tupl
 
 def _sought_on(r: Result) -> set[str]:
     """Links on which an unknown effort or load acts."""
-    drives = [d for d, asked in zip(r.drives, r.compiled.known.asked, strict=True) if asked]
+    drives = [d for d, unknown in zip(r.drives, r.compiled.known.requested, strict=True) if unknown]
     links = {n for d in drives for n in r.mechanism.joints[r.mechanism.drives[d].joint or d].links}
     loads: list[Any] = [r.mechanism.loads[n] for n in r.unknown_loads]
     return links | {load.on for load in loads}
@@ -231,11 +231,11 @@ def _sought_on(r: Result) -> set[str]:
 class _Unknowns:
     """Unknown numbers by name, the links that each acts on, and those already solved."""
 
-    def __init__(self, r: Result, found: dict[str, Member]) -> None:
+    def __init__(self, r: Result, by_link: dict[str, Member]) -> None:
         self.each, self.passive = r.compiled.layout.algebra.n, set(r.compiled.passive)
         rows = r.compiled.layout.constraints.joint
-        self.idle = {link for link, m in found.items() if m.kind == ZERO}
-        self.rods = rods = self._rods(r, found)
+        self.idle = {link for link, m in by_link.items() if m.kind == ZERO}
+        self.rods = rods = self._rods(r, by_link)
         self.count: dict[str, int] = {}
         self.on: dict[str, set[str]] = {}
         self.solved: set[str] = set()
@@ -246,7 +246,7 @@ class _Unknowns:
             self.count[name] = 1 if between else int((rows == k).sum())
             self.on.setdefault(name, set()).update(links - rods)
         for k, drive in enumerate(r.drives):
-            if r.compiled.known.asked[k]:
+            if r.compiled.known.requested[k]:
                 joint = r.mechanism.drives[drive].joint or drive
                 angular = r.compiled.layout.freedoms.angular[r.compiled.layout.driven[k]]
                 name = f"{'torque' if angular else 'force'} {drive}"
@@ -255,14 +255,14 @@ class _Unknowns:
             described: Any = r.mechanism.loads[load]
             self.count[load], self.on[load] = 1, {described.on}
 
-    def _rods(self, r: Result, found: dict[str, Member]) -> set[str]:
+    def _rods(self, r: Result, by_link: dict[str, Member]) -> set[str]:
         """Links whose equations leave one unknown of their two joints, whatever it is; no two of them touch.
 
         The three equations of a link in the plane leave one unknown of the four of two pins, none of a pin and a slot.
         """
         rows, sought = r.compiled.layout.constraints.joint, _sought_on(r)
         out: set[str] = set()
-        for link, member in found.items():
+        for link, member in by_link.items():
             if member.kind not in ("two-force", ZERO) or link in sought:
                 continue
             joints = [k for k, n in enumerate(r.joints) if link in r.mechanism.joints[n].links]
@@ -282,7 +282,7 @@ class _Unknowns:
         """Three a link, in space six; about the line of its two ball joints a link that could spin has none."""
         return int(self.each) * len(group) - len(self.passive & set(group))
 
-    def step(self, group: Sequence[str]) -> Step:
+    def step(self, group: Sequence[str]) -> SolutionStep:
         finds = self.of(group)
         self.solved |= set(finds)
         unknowns, equations = sum(self.count[n] for n in finds), self.equations(group)
@@ -290,7 +290,7 @@ class _Unknowns:
         noun = "unknown" if unknowns == 1 else "unknowns"
         zero = ", all zero" if self.idle >= set(group) else ""
         why = f"{links}: {equations} equations, {unknowns} {noun} in {', '.join(finds)}{zero}"
-        return Step(tuple(group), tuple(finds), equations, why)
+        return SolutionStep(tuple(group), tuple(finds), equations, why)
 
 
 def displaced_inertia(r: Result, link: str) -> Displaced:
@@ -320,8 +320,8 @@ def concurrency(some: Sequence[Action], k: int) -> tuple[float, float] | None:
     """Point where the lines of action of forces meet at position k: least squares; None where they are parallel."""
     if not some:
         return None
-    found = meeting_point(np.array([a.at[k] for a in some]), np.array([a.force[k] for a in some]))
-    return None if found is None else (float(found[0][0]), float(found[0][1]))
+    meeting = meeting_point(np.array([a.at[k] for a in some]), np.array([a.force[k] for a in some]))
+    return None if meeting is None else (float(meeting[0][0]), float(meeting[0][1]))
 
 
 def components_along(r: Result, a: Action, k: int) -> tuple[float, float]:
@@ -365,5 +365,5 @@ def _parts_of_inertia(r: Result) -> tuple[Array, Array]:
     return parts.efforts[which].sum(axis=0), parts.force[which].sum(axis=0)
 
 
-def _share(of: str, quantity: str, whole: Array, part: Array) -> Share:
-    return Share(of, quantity, float(np.nanmax(whole, initial=0.0)), float(np.nanmax(part, initial=0.0)))
+def _share(of: str, quantity: str, total: Array, part: Array) -> Share:
+    return Share(of, quantity, float(np.nanmax(total, initial=0.0)), float(np.nanmax(part, initial=0.0)))

@@ -15,7 +15,7 @@ from dalembert.analysis.methods.applied_forces import Action, State, known_actio
 from dalembert.analysis.result.reaction_axes import force_and_moment
 from dalembert.arrays import Array
 from dalembert.core.equilibrium import balance, reactions
-from dalembert.core.forcing import Source, total_wrench
+from dalembert.core.forcing import WrenchSource, total_wrench
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -85,14 +85,14 @@ class Superposition:
         size = len(r.status)
         out, largest = np.zeros(size), np.zeros(size)
         length = r.compiled.layout.length
-        for parts, whole, scale in (
+        for parts, total, scale in (
             (self.force, r.force_array, 1.0),
             (self.moment, r.moment_array, 1 / length),
             (self.efforts, r.effort_array, 1 / length),
             (self.loads, r.load_array, 1.0),
         ):
-            rest = tuple(range(1, whole.ndim))
-            gap = np.abs(parts.sum(axis=0) - whole).max(axis=rest, initial=0.0)
+            rest = tuple(range(1, total.ndim))
+            gap = np.abs(parts.sum(axis=0) - total).max(axis=rest, initial=0.0)
             biggest = np.abs(parts).max(axis=(0, *(k + 1 for k in rest)), initial=0.0)
             out, largest = np.maximum(out, gap * scale), np.maximum(largest, biggest * scale)
         return np.asarray(out / np.where(largest > 0, largest, 1.0))
@@ -127,9 +127,9 @@ def superposition(r: Result) -> Superposition:
     sources = tuple(dict.fromkeys(a.source for a in known))
     parts = [_solve_under(r, at, _total(r, [a for a in known if a.source == s])) for s in sources]
     for k, drive in enumerate(r.drives):
-        if not r.compiled.known.asked[k]:
+        if not r.compiled.known.requested[k]:
             sources = (*sources, f"effort of {drive}")
-            parts.append(_solve_under(r, at, _total(r, []), given=k))
+            parts.append(_solve_under(r, at, _total(r, []), drive=k))
     if not parts:
         return _nothing(r)
     return Superposition(r, sources, *(np.stack(p) for p in zip(*parts, strict=True)))
@@ -159,22 +159,24 @@ def _total(r: Result, some: list[Action]) -> Array:
         about = np.zeros(g.d) if link == len(r.links) else r.point_array[:, link, :]
         wrenches[:, k, : g.d] = a.force
         wrenches[:, k, g.d :] = a.moment(about + r.compiled.origin).reshape((count, g.n - g.d))
-    return total_wrench(r.compiled.layout, Source(np.array([index[a.link] for a in some], np.intp), wrenches))
+    return total_wrench(
+        r.compiled.layout, WrenchSource(np.array([index[a.link] for a in some], np.intp), wrenches)
+    )
 
 
 def _solve_under(
-    r: Result, at: State, w: Array, given: int | None = None
+    r: Result, at: State, w: Array, drive: int | None = None
 ) -> tuple[Array, Array, Array, Array]:
     """Forces, moments, efforts and unknown loads for wrenches w alone, or for one given effort alone."""
     c = r.compiled
-    effort = np.where(c.known.asked, np.nan, 0.0) * np.ones_like(c.known.effort)
-    if given is not None:
-        effort[:, given] = c.known.effort[:, given]
+    effort = np.where(c.known.requested, np.nan, 0.0) * np.ones_like(c.known.effort)
+    if drive is not None:
+        effort[:, drive] = c.known.effort[:, drive]
     with np.errstate(all="ignore"):
         known = replace(c.known, effort=effort)
-        found = balance(c.layout, c.forcing, known, at.pose, at.moving, at.rows, at.solver, w)
-        force, couple = reactions(c.layout, at.pose, at.rows, found)
-    return force, couple if c.layout.algebra.d == 3 else couple[..., 0], found.effort, found.load
+        equilibrium = balance(c.layout, c.forcing, known, at.pose, at.moving, at.rows, at.solver, w)
+        force, couple = reactions(c.layout, at.pose, at.rows, equilibrium)
+    return force, couple if c.layout.algebra.d == 3 else couple[..., 0], equilibrium.effort, equilibrium.load
 
 
 def _nothing(r: Result) -> Superposition:

@@ -56,15 +56,15 @@ class VirtualWork:
     def gap(self) -> Array:
         """Largest difference to the matrix answer (P,), over the largest force times its point's speed."""
         r = self.result
-        found = np.concatenate([self.effort, self.load], axis=-1)
+        unknowns = np.concatenate([self.effort, self.load], axis=-1)
         other = np.concatenate([r.effort_array, r.load_array], axis=-1)
-        largest = np.abs(found).max(axis=-1, initial=0.0)
+        largest = np.abs(unknowns).max(axis=-1, initial=0.0)
         for k, a in enumerate(self.actions):
             turning = a.couple[:, None] * self.spin[k]
             turning = np.abs(turning.sum(axis=-1) if turning.ndim == 3 else turning)
             most = magnitude(a.force)[:, None] * magnitude(self.velocity[k]) + turning
             largest = np.maximum(largest, most.max(axis=-1, initial=0.0))
-        gap = np.abs(found - other).max(axis=-1, initial=0.0)
+        gap = np.abs(unknowns - other).max(axis=-1, initial=0.0)
         return np.asarray(gap / np.where(largest > 0, largest, 1.0))
 
     @property
@@ -125,17 +125,17 @@ def _motion(r: Result, at: State, a: Action) -> tuple[Array, Array]:
 
 def _relative(r: Result, at: State, a: Action) -> tuple[Array, Array]:
     """The same of a link against the one that exerts the action."""
-    own, other = _motion(r, at, a), _motion(r, at, replace(a, link=a.by or GROUND))
-    return own[0] - other[0], own[1] - other[1]
+    motion, other = _motion(r, at, a), _motion(r, at, replace(a, link=a.by or GROUND))
+    return motion[0] - other[0], motion[1] - other[1]
 
 
 def _solve_power_balance(r: Result, at: State, power: Array) -> tuple[Array, Array]:
     """Solve power + given efforts + C x = 0 for the efforts and loads asked for, x."""
     c = r.compiled
-    asked = c.known.asked
+    requested = c.known.requested
     effort = np.broadcast_to(c.known.effort, power.shape).copy()
-    right = -(power + np.where(asked, 0.0, effort))
-    columns = np.broadcast_to(np.eye(len(asked))[:, asked], (*power.shape, int(asked.sum())))
+    right = -(power + np.where(requested, 0.0, effort))
+    columns = np.broadcast_to(np.eye(len(requested))[:, requested], (*power.shape, int(requested.sum())))
     matrix = np.concatenate([columns, _unit_powers(r, at)], axis=-1)
     with np.errstate(all="ignore"):
         if not r.unknown_loads:
@@ -144,8 +144,8 @@ def _solve_power_balance(r: Result, at: State, power: Array) -> tuple[Array, Arr
             from dalembert.core.linear import solve_square
 
             x = solve_square(matrix, right)
-    effort[:, asked] = x[:, : int(asked.sum())]
-    return effort, x[:, int(asked.sum()) :]
+    effort[:, requested] = x[:, : int(requested.sum())]
+    return effort, x[:, int(requested.sum()) :]
 
 
 def _unit_powers(r: Result, at: State) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.compile.torsion_turns import count_notes
 from dalembert.analysis.friction import joint_friction
-from dalembert.analysis.result.joint_freedoms import freedom_motion, whole_pose
+from dalembert.analysis.result.joint_freedoms import freedom_motion, full_pose
 from dalembert.model.gravity import STANDARD, gravity_doubt
 from dalembert.model.space_checks import impossible, principal_inertias
 
@@ -33,42 +33,42 @@ def assumptions(result: Result) -> dict[str, str]:
     if result.mechanism.gravity == "standard":
         shown = f"standard ({STANDARD:.6g} m/s2 along -{'xyz'[len(gravity) - 1]})"
     doubt = gravity_doubt(gravity)
-    found = {
+    notes = {
         "gravity": (f"{shown} ({doubt})" if doubt else shown) if any(gravity) else "none",
         "inertia": "on (D'Alembert)" if result.inertia else "off (static)",
         "friction": joint_friction.assumption(result),
     }
     if result.compiled.layout.compliance is not None and result.unique_array is not None:
-        found["redundant reactions"] = "by the joints' stiffness, links rigid, free of stress without load"
-    found |= count_notes(result.compiled, whole_pose(result)) | _left_to_forces(result)
-    return found | (_doubts(result.mechanism) if result.inertia else {})
+        notes["redundant reactions"] = "by the joints' stiffness, links rigid, free of stress without load"
+    notes |= count_notes(result.compiled, full_pose(result)) | _left_to_forces(result)
+    return notes | (_doubts(result.mechanism) if result.inertia else {})
 
 
 def _left_to_forces(r: Result) -> dict[str, str]:
     """Brakes, motors and starts that only a motion under forces has, and stops that the positions go beyond."""
-    m, found = r.mechanism, {}
+    m, notes = r.mechanism, {}
     for name, drive in m.drives.items():
-        given, unit = ("moment", "N m") if drive.turns else ("force", "N")
+        effort, unit = ("moment", "N m") if drive.turns else ("force", "N")
         if drive.brake:
-            found[f"brake of {name}"] = (
-                f"not counted apart: the effort is the {given} of motor and brake together; while it slips the motor "
+            notes[f"brake of {name}"] = (
+                f"not counted apart: the effort is the {effort} of motor and brake together; while it slips the motor "
                 f"gives {drive.brake:.6g} {unit} more in the direction of motion, at rest the brake takes up to as much"
             )
         if drive.motor is not None:
-            found[f"motor of {name}"] = (
+            notes[f"motor of {name}"] = (
                 "its curve is not used: the effort is what the prescribed motion needs"
             )
         if name in m.start:
-            found[f"start of {name}"] = "not used: the drive is prescribed (simulate starts from it)"
+            notes[f"start of {name}"] = "not used: the drive is prescribed (simulate starts from it)"
         if drive.stops is not None and name in r.schedule.names:
-            found |= _beyond(
+            notes |= _beyond(
                 f"stops of {name}", drive.stops, r.schedule.position[:, r.schedule.names.index(name)]
             )
     for name, joint in m.joints.items():
         if (stops := getattr(joint, "stops", None)) is not None and r.ok.any():
             which = "slide" if stops.kind == "length" else "turn"
-            found |= _beyond(f"stops of {name}", stops, freedom_motion(r, name, which)[0])
-    return found
+            notes |= _beyond(f"stops of {name}", stops, freedom_motion(r, name, which)[0])
+    return notes
 
 
 def _beyond(what: str, stops: Stops, positions: Array) -> dict[str, str]:
@@ -86,9 +86,9 @@ SMALLEST, LARGEST = 2e-3, 100.0
 
 def _doubts(m: Mechanism) -> dict[str, str]:
     """Inertias that no real body has, or only one of quite another size: analysed all the same."""
-    found = [name for name in m.links if m.dimension == 3 and impossible(m.inertia(name))]
-    said = "of no real body: one principal value exceeds the sum of the others"
-    doubts = {f"inertia of {' and '.join(found)}": said} if found else {}
+    links = [name for name in m.links if m.dimension == 3 and impossible(m.inertia(name))]
+    text = "of no real body: one principal value exceeds the sum of the others"
+    doubts = {f"inertia of {' and '.join(links)}": text} if links else {}
     reach = {name: _reach(m, name) for name in m.links}
     largest = max(reach.values(), default=0.0)
     for name in m.links:

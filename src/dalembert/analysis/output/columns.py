@@ -11,7 +11,7 @@ import numpy as np
 from dalembert.analysis.result.link_motion import ORIGIN
 from dalembert.analysis.result.named_quantities import things
 from dalembert.analysis.result.number_kinds import in_plane, unknown_kinds
-from dalembert.analysis.result.quantity_catalogue import CATALOGUE, FREEDOMS, Reading, magnitude
+from dalembert.analysis.result.quantity_catalogue import CATALOGUE, FREEDOMS, QuantityReading, magnitude
 from dalembert.analysis.result.reaction_axes import Axes, force_and_moment, to_axes
 from dalembert.answer.column import Column, parts
 from dalembert.arrays import Array
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-class Reaction(NamedTuple):
+class JointReaction(NamedTuple):
     """Force (P, d) and moment (P,) or (P, 3) of a joint's i on its j, NaN if not unique; least norm (P, n)."""
 
     joint: str
@@ -32,13 +32,13 @@ class Reaction(NamedTuple):
     least_norm: Array | None
 
 
-def reactions(result: Result, axes: Axes = "ground") -> Iterator[Reaction]:
+def reactions(result: Result, axes: Axes = "ground") -> Iterator[JointReaction]:
     """The reaction of every joint on its j."""
     for joint in result.joints:
         by, on = result.mechanism.joints[joint].links
         force, moment = result.reaction(joint, on, axes), result.reaction_moment(joint, on, axes)
         least = None if result.unique(joint).all() else result.least_norm(joint, on, axes)
-        yield Reaction(joint, on, by, force, moment, least)
+        yield JointReaction(joint, on, by, force, moment, least)
 
 
 class Entry(NamedTuple):
@@ -96,7 +96,7 @@ def _written_things(result: Result, word: str, rubbing: Sequence[str]) -> Sequen
     return rubbing if CATALOGUE[word].friction else things(result, CATALOGUE[word].of)
 
 
-def _values(result: Result, word: str, thing: str, reading: Reading, axes: Axes) -> Array:
+def _values(result: Result, word: str, thing: str, reading: QuantityReading, axes: Axes) -> Array:
     if word in ("reaction", "reaction_moment"):
         return np.asarray(getattr(result, word)(thing, axes=axes))
     if word in ("friction_force", "friction_moment"):
@@ -154,5 +154,5 @@ def friction_joints(result: Result) -> list[str]:
 def friction_in(result: Result, joint: str, axes: Axes) -> tuple[Array, Array]:
     """Dry friction's force and moment in a joint, on j, in the axes of the reactions."""
     force, moment = result.friction_force(joint), result.friction_moment(joint)
-    whole = np.concatenate([force, moment.reshape((len(moment), -1))], axis=-1)
-    return force_and_moment(to_axes(result, joint, None, axes, whole))
+    components = np.concatenate([force, moment.reshape((len(moment), -1))], axis=-1)
+    return force_and_moment(to_axes(result, joint, None, axes, components))

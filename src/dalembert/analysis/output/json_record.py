@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.compile.torsion_turns import count_turns, two_ways
+from dalembert.analysis.compile.torsion_turns import count_turns, two_directions
 from dalembert.analysis.friction.joint_friction import bears_on_faces, guide_contact, joints_at_limit
 from dalembert.analysis.output.columns import (
     BY_FRICTION,
@@ -19,7 +19,7 @@ from dalembert.analysis.output.columns import (
     friction_joints,
     least_norms,
 )
-from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.number_kinds import in_plane, unknown_kinds
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.answer.column import Scale, UnitChoice, nan_to_none
@@ -61,18 +61,18 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tre
 
 def _counts(result: Result, to: Scale) -> Tree:
     """Counts of the turns of torsion springs for which full turns matter."""
-    c, turns = result.compiled, count_turns(result.compiled, whole_pose(result))
-    found = {
+    c, turns = result.compiled, count_turns(result.compiled, full_pose(result))
+    counts = {
         n.spring: {
             "joint": c.freedoms[c.forcing.resistances.row[n.place]][0],
             "freedom": c.freedoms[c.forcing.resistances.row[n.place]][1],
             "within_half_a_turn_of": float(to("angle", n.near)),
             "stated": n.stated,
-            "two_readings": two_ways(c, n, turns[n.spring]),
+            "two_readings": two_directions(c, n, turns[n.spring]),
         }
         for n in c.counts
     }
-    return {"counted_turns": found} if found else {}
+    return {"counted_turns": counts} if counts else {}
 
 
 def position_records(
@@ -112,7 +112,7 @@ def _fields(result: Result, to: Scale, axes: Axes) -> Fields:
             out |= _under(_force_fields(end, to, axes, BY_FRICTION[2:]), "ends", name, which)
             out["ends", name, which, "at_limit"] = _limits(end)
     out |= _of(to, entries(result, MOTION))
-    for spring, turn in count_turns(result.compiled, whole_pose(result)).items():
+    for spring, turn in count_turns(result.compiled, full_pose(result)).items():
         out["spring_turns", spring] = numbers("angle", turn)
     return out | _of(to, entries(result, CHECKS))
 
@@ -142,9 +142,9 @@ def _force_fields(result: Result, to: Scale, axes: Axes, words: Sequence[str] = 
     for e in least_norms(result, axes):
         out["least_norm", e.word, e.thing] = numbers(e.kind, e.values)
     for joint in result.joints if axes == "joint" else ():
-        own, of_moment = (result.joint_axes(joint, moment) for moment in (False, True))
-        out["joint_axes", joint, "force"] = numbers("number", own)
-        if not np.array_equal(own, of_moment, equal_nan=True):
+        of_force, of_moment = (result.joint_axes(joint, moment) for moment in (False, True))
+        out["joint_axes", joint, "force"] = numbers("number", of_force)
+        if not np.array_equal(of_force, of_moment, equal_nan=True):
             out["joint_axes", joint, "moment"] = numbers("number", of_moment)
     for joint in friction_joints(result):
         if bears_on_faces(result, joint):
@@ -253,9 +253,9 @@ def _other_solutions(result: Result, to: Scale) -> dict[int, list[Tree]]:
                 for group, drive in (("effort", True), ("load", False))
             }
             | {"determinant_ratio": s.determinant}
-            for s in found
+            for s in solutions
         ]
-        for k, found in every_other_solution(result).items()
+        for k, solutions in every_other_solution(result).items()
     }
 
 

@@ -42,9 +42,10 @@ def sizes(r: Result) -> dict[str, Array]:
     length. Kept with the result, as every number that is printed asks for it."""
     length, many = r.compiled.layout.length, len(r.status)
     turning, rising = _rates(r)
-    everything, given = actions(r), r.compiled.forcing.inertia
+    everything, inertia = actions(r), r.compiled.forcing.inertia
     mass = max(
-        float(np.max(given.mass, initial=0.0)), float(np.max(given.inertia, initial=0.0)) / length / length
+        float(np.max(inertia.mass, initial=0.0)),
+        float(np.max(inertia.inertia, initial=0.0)) / length / length,
     )
     heavy = mass * length * turning**2 if r.inertia else np.zeros(many)
     force = largest(many, heavy, *(a.force for a in everything), *(a.couple / length for a in everything))
@@ -80,5 +81,5 @@ def _rates(r: Result) -> tuple[Array, Array]:
 def largest(many: int, *arrays: Array) -> Array:
     """The largest number of some arrays (P, ...) at each of many positions."""
     flat = [np.nan_to_num(np.abs(a)).reshape(many, -1) for a in arrays]
-    found: Array = np.max([a.max(axis=1, initial=0.0) for a in flat], axis=0, initial=0.0)
-    return found
+    peaks: Array = np.max([a.max(axis=1, initial=0.0) for a in flat], axis=0, initial=0.0)
+    return peaks

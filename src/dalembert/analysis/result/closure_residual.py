@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
 from dalembert.core.position.newton import gap
 
@@ -24,5 +24,5 @@ def closure_gap(r: Result) -> Array:
     >>> bool(closure_gap(da.kinematics(da.four_bar())).max() < 1e-12)
     True
     """
-    found = gap(r.compiled.layout, whole_pose(r), r.compiled.targets)
-    return np.asarray(np.abs(found).max(axis=-1, initial=0.0))
+    gaps = gap(r.compiled.layout, full_pose(r), r.compiled.targets)
+    return np.asarray(np.abs(gaps).max(axis=-1, initial=0.0))

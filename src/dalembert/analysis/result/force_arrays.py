@@ -9,8 +9,8 @@ import numpy as np
 from dalembert.arrays import Array, Flags, Ints, Tree, at
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result.reaction_axes import Marks
-    from dalembert.core.equilibrium import Balance
+    from dalembert.analysis.result.reaction_axes import Uniqueness
+    from dalembert.core.equilibrium import Equilibrium
 
 
 class Friction(NamedTuple):
@@ -53,7 +53,7 @@ class Friction(NamedTuple):
         return bool(np.isfinite(self.cz[position]).all())
 
 
-class Forces(NamedTuple):
+class SolvedForces(NamedTuple):
     """Forces of some positions; ``ends``: the low and high end of each unknown where friction leaves it open;
     ``after``: just after positions where contacts reverse, the same elsewhere."""
 
@@ -67,23 +67,27 @@ class Forces(NamedTuple):
     unique: Array | None
     unique_unknowns: Array | None
     friction: Friction | None = None
-    ends: tuple[Forces, ...] = ()
+    ends: tuple[SolvedForces, ...] = ()
     unique_in: Array | None = None
-    after: Forces | None = None
+    after: SolvedForces | None = None
 
 
 def forces_of(
-    found: Balance, force: Array, moment: Array, unique: Marks, friction: Friction | None = None
-) -> Forces:
+    equilibrium: Equilibrium,
+    force: Array,
+    moment: Array,
+    unique: Uniqueness,
+    friction: Friction | None = None,
+) -> SolvedForces:
     """Forces of an equilibrium, with its reactions and which of them statics alone determines."""
-    return Forces(
+    return SolvedForces(
         force=force,
         moment=moment,
-        effort=found.effort,
-        load=found.load,
-        residual=found.residual,
-        power_balance=found.power_balance,
-        rcond=found.rcond,
+        effort=equilibrium.effort,
+        load=equilibrium.load,
+        residual=equilibrium.residual,
+        power_balance=equilibrium.power_balance,
+        rcond=equilibrium.rcond,
         unique=unique.reactions,
         unique_unknowns=unique.others,
         friction=friction,
@@ -91,30 +95,30 @@ def forces_of(
     )
 
 
-ARRAYS = tuple(name for name in Forces._fields if name not in ("friction", "ends", "after"))
+ARRAYS = tuple(name for name in SolvedForces._fields if name not in ("friction", "ends", "after"))
 """Fields with an array over the positions, or none."""
 
 
-def concatenate_blocks(parts: list[Forces]) -> Forces:
+def concatenate_blocks(parts: list[SolvedForces]) -> SolvedForces:
     """Blocks of positions one after the other."""
     if len(parts) == 1:
         return parts[0]
     count = max(len(p.ends) for p in parts)
     friction = [p.friction for p in parts if p.friction is not None]
     made: Tree = {name: _concatenate([getattr(p, name) for p in parts]) for name in ARRAYS}
-    whole = Forces(
+    joined = SolvedForces(
         **made,
         friction=Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None,
         ends=tuple(concatenate_blocks([p.ends[k] if p.ends else p for p in parts]) for k in range(count)),
     )
     some = any(p.after is not None for p in parts)
-    return whole._replace(after=concatenate_blocks([p.after or p for p in parts]) if some else None)
+    return joined._replace(after=concatenate_blocks([p.after or p for p in parts]) if some else None)
 
 
-def at_places(f: Forces, where: Ints) -> Forces:
+def at_places(f: SolvedForces, where: Ints) -> SolvedForces:
     """Forces at some positions, or in another order."""
     made: Tree = {name: None if (a := getattr(f, name)) is None else a[where] for name in ARRAYS}
-    return Forces(
+    return SolvedForces(
         **made,
         friction=None if f.friction is None else at(f.friction, where),
         ends=tuple(at_places(end, where) for end in f.ends),

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-def whole_pose(result: Result, part: Index = slice(None)) -> Pose:
+def full_pose(result: Result, part: Index = slice(None)) -> Pose:
     """Poses of the links at some positions, the ground added."""
     turn, rotation = result.turn_array[part], result.rotation_array[part]
     g = result.compiled.layout.algebra
@@ -38,12 +38,12 @@ def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array,
     g, freedoms = c.layout.algebra, c.layout.freedoms
     twist, acceleration = with_ground(result.twist_array), with_ground(result.acceleration_array)
     value, rate, second = (
-        v[..., row] for v in freedom_rates(g, freedoms, whole_pose(result), twist, acceleration)
+        v[..., row] for v in freedom_rates(g, freedoms, full_pose(result), twist, acceleration)
     )
-    own = c.forcing.resistances
-    count = next((n for n in c.counts if own.row[n.place] == row), None)
+    resistances = c.forcing.resistances
+    count = next((n for n in c.counts if resistances.row[n.place] == row), None)
     if count is not None:
-        value = value + own.turns[:, count.place]
+        value = value + resistances.turns[:, count.place]
     elif (name := f"joints.{joint}.{kind}") in c.pose_turns:
         value = value + c.pose_turns[name]
     elif freedoms.angular[row] and row not in c.layout.driven:

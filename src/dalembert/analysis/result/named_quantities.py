@@ -11,8 +11,8 @@ from dalembert.analysis.result.link_motion import ORIGIN
 from dalembert.analysis.result.quantity_catalogue import (
     CATALOGUE,
     FREEDOMS,
-    Named,
-    Reading,
+    HasQuantities,
+    QuantityReading,
     bearing_areas,
     magnitude,
 )
@@ -40,7 +40,7 @@ class Quantity(NamedTuple):
     values: Array
 
 
-def things(r: Named, of: str) -> list[str]:
+def things(r: HasQuantities, of: str) -> list[str]:
     """The things that a word can be asked of, by name."""
     m = r.mechanism
     if of == "points":
@@ -64,7 +64,7 @@ def things(r: Named, of: str) -> list[str]:
     return list(getattr(r, of)) if of else [""]
 
 
-def names_of(r: Named, compiled: bool = False, words: Iterable[str] = CATALOGUE) -> list[str]:
+def names_of(r: HasQuantities, compiled: bool = False, words: Iterable[str] = CATALOGUE) -> list[str]:
     """Every name without components, those with a rate behind those without."""
     return [
         ".".join(filter(None, (word, thing, rate)))
@@ -90,7 +90,7 @@ def quantity_names(r: Result) -> list[str]:
     return [n for n in names if r.friction or n.rpartition(".")[2] not in BOUNDS]
 
 
-class Name(NamedTuple):
+class QuantityName(NamedTuple):
     """A name taken apart; the component is empty for a number or a complete vector."""
 
     word: str
@@ -99,7 +99,7 @@ class Name(NamedTuple):
     component: str
 
     @property
-    def reading(self) -> Reading:
+    def reading(self) -> QuantityReading:
         """Its row of the catalogue."""
         return CATALOGUE[self.word].rates[self.rate]
 
@@ -111,7 +111,7 @@ class Name(NamedTuple):
         return kind if isinstance(kind, str) else kind(r, self.thing)
 
 
-def take_apart(r: Named, name: str) -> Name | None:
+def split_name(r: HasQuantities, name: str) -> QuantityName | None:
     """The parts of a name, the longest thing that fits; None if it is not a quantity of this mechanism."""
     word, _, rest = name.partition(".")
     if word not in CATALOGUE:
@@ -125,13 +125,13 @@ def take_apart(r: Named, name: str) -> Name | None:
         component = behind.pop(0) if behind else ""
         fits = component.isidentifier() if thing else component in COMPONENTS
         if not behind and rate in row.rates and (fits or not component):
-            return Name(word, thing, rate, component)
+            return QuantityName(word, thing, rate, component)
     return None
 
 
 def read(r: Any, name: str) -> Quantity | None:
     """The quantity of a single name, of a component of it, or None; nodes where ``r`` is a compiled analysis."""
-    parts = take_apart(r, name)
+    parts = split_name(r, name)
     if parts is None:
         return None
     values = np.asarray(parts.reading.read(r, parts.thing))
@@ -186,14 +186,16 @@ def evaluated(
     r: Any, text: str, names: Sequence[str], functions: Mapping[str, Any], what: str = "output"
 ) -> tuple[Numeric, str]:
     """Value and kind of an expression of quantities and parameters, on numbers or on nodes."""
-    given: Parameters = r.mechanism.parameters
-    tree = parse_quantity(text, [*names, *given], what)
+    parameters: Parameters = r.mechanism.parameters
+    tree = parse_quantity(text, [*names, *parameters], what)
     parts = {name: _number(r, name, names) for name in names_in(tree)}
-    known = {n: given[n].dimension if n in given else KINDS[q.kind].dimension for n, q in parts.items()}
-    check_units(tree, known, given)
+    known = {
+        n: parameters[n].dimension if n in parameters else KINDS[q.kind].dimension for n, q in parts.items()
+    }
+    check_units(tree, known, parameters)
     with np.errstate(all="ignore"):
         value = evaluate(tree, {name: q.values[()] for name, q in parts.items()}, functions)
-    return value, kind_of(tree, lambda name: parts[name].kind, given) or "number"
+    return value, kind_of(tree, lambda name: parts[name].kind, parameters) or "number"
 
 
 def _number(r: Any, name: str, names: Sequence[str]) -> Quantity:

@@ -35,6 +35,6 @@ def in_plane(result: Result) -> bool:
 
 def unknown_kinds(result: Result) -> dict[str, str]:
     """Kind of every unknown effort and load."""
-    asked = zip(result.drives, result.compiled.known.asked, strict=True)
-    kinds = {d: drive_kinds(result, d)["effort"] for d, a in asked if a}
+    requested = zip(result.drives, result.compiled.known.requested, strict=True)
+    kinds = {d: drive_kinds(result, d)["effort"] for d, a in requested if a}
     return kinds | {load: load_kind(result, load) for load in result.unknown_loads}

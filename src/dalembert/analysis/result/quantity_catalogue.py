@@ -16,7 +16,7 @@ import numpy as np
 from dalembert.algebra import plane
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.transmission_lines import (
-    Line,
+    LinkLine,
     OfLines,
     closure_margin,
     transmission_angle,
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 
-class Named(Protocol):
+class HasQuantities(Protocol):
     """Object with quantities: a result, or a compiled analysis."""
 
     @property
@@ -52,23 +52,23 @@ Read = Callable[[Any, str], Numeric]
 KindOf = Callable[[Any, str], str]
 
 
-class Reading(NamedTuple):
+class QuantityReading(NamedTuple):
     """A quantity of one thing: its kind, or the function that gives its kind, and how its value is read."""
 
     kind: str | KindOf
     read: Read
 
 
-class Word(NamedTuple):
+class QuantityWord(NamedTuple):
     """The first part of a name: of which things it can be asked, what it and its rates read, where it is defined."""
 
     of: str
-    rates: Mapping[str, Reading]
+    rates: Mapping[str, QuantityReading]
     compiled: bool = True
     space: bool = True
     friction: bool = False
 
-    def exists(self, r: Named, compiled: bool) -> bool:
+    def exists(self, r: HasQuantities, compiled: bool) -> bool:
         """True if the word has a meaning for a result, or for a compiled analysis."""
         in_space = r.mechanism.dimension == 3
         return (self.compiled or not compiled) and (self.space or not in_space)
@@ -96,10 +96,10 @@ def _point(rate: str) -> Read:
     return read
 
 
-def _freedom(kind: str) -> dict[str, Reading]:
+def _freedom(kind: str) -> dict[str, QuantityReading]:
     kinds = ("length", "speed", "acceleration") if kind.startswith("slide") else _TURNING
     rates = ("", "speed", "acceleration")
-    return {rate: Reading(kinds[k], _freedom_rate(kind, k)) for k, rate in enumerate(rates)}
+    return {rate: QuantityReading(kinds[k], _freedom_rate(kind, k)) for k, rate in enumerate(rates)}
 
 
 def _freedom_rate(kind: str, order: int) -> Read:
@@ -116,7 +116,7 @@ def _hinge(value: OfLines) -> Read:
     return read
 
 
-def _turned(r: Any, line: Line) -> Array:
+def _turned(r: Any, line: LinkLine) -> Array:
     if line.link == GROUND:
         return np.asarray(line.along)
     rotation = r.rotation_array[..., r.links.index(line.link), :]
@@ -152,12 +152,12 @@ def _shaking(part: str) -> Read:
     return lambda r, about: getattr(r.shaking(about), part)
 
 
-def _bounded(kind: str | KindOf, read: Read) -> dict[str, Reading]:
+def _bounded(kind: str | KindOf, read: Read) -> dict[str, QuantityReading]:
     """A quantity with both ends of what friction leaves open, and both sides of a reversal."""
     return {
-        "": Reading(kind, read),
-        "low": Reading(kind, _end(0, read)),
-        "high": Reading(kind, _end(1, read)),
+        "": QuantityReading(kind, read),
+        "low": QuantityReading(kind, _end(0, read)),
+        "high": QuantityReading(kind, _end(1, read)),
     }
 
 
@@ -165,7 +165,7 @@ def _end(k: int, read: Read) -> Read:
     def end(r: Result, of: str) -> Array:
         if of in r.drives or of in r.unknown_loads:
             known = r.drives if read is _EFFORT else r.unknown_loads if read is _LOAD else ()
-            if of in known and of in _asked(r):
+            if of in known and of in _requested(r):
                 return r.interval(of)[:, k]
         sides = [np.asarray(read(side, of)) for side in (*r.sides, *chain.from_iterable(r.ends))]
         return np.asarray((np.fmin, np.fmax)[k].reduce(sides))
@@ -173,7 +173,7 @@ def _end(k: int, read: Read) -> Read:
     return end
 
 
-def _asked(r: Result) -> list[str]:
+def _requested(r: Result) -> list[str]:
     from dalembert.analysis.friction.joint_friction import unknown_names
 
     return unknown_names(r)
@@ -184,56 +184,68 @@ _EFFORT, _LOAD = _method("effort"), _method("unknown_load")
 FREEDOMS = ("slide", "slide1", "slide2", "turn", "turn1", "turn2")
 """Words of the freedoms of joints; those with numbers are of pairs in space with two slides or turns."""
 
-CATALOGUE: dict[str, Word] = {
-    "effort": Word("drives", _bounded(_drive_kind("effort"), _EFFORT)),
-    "load": Word("unknown_loads", _bounded(load_kind, _LOAD)),
-    "reaction": Word("joints", _bounded("force", _method("reaction"))),
-    "reaction_moment": Word("joints", _bounded("moment", _method("reaction_moment"))),
-    "friction_force": Word("joints", _bounded("force", _method("friction_force")), False, friction=True),
-    "friction_moment": Word("joints", _bounded("moment", _method("friction_moment")), False, friction=True),
-    "power_lost": Word("joints", _bounded("power", _method("power_lost")), False, friction=True),
-    "lower_face": Word("guides", {"": Reading("force", _face("lower"))}, False, False, friction=True),
-    "upper_face": Word("guides", {"": Reading("force", _face("upper"))}, False, False, friction=True),
-    "drive": Word(
+CATALOGUE: dict[str, QuantityWord] = {
+    "effort": QuantityWord("drives", _bounded(_drive_kind("effort"), _EFFORT)),
+    "load": QuantityWord("unknown_loads", _bounded(load_kind, _LOAD)),
+    "reaction": QuantityWord("joints", _bounded("force", _method("reaction"))),
+    "reaction_moment": QuantityWord("joints", _bounded("moment", _method("reaction_moment"))),
+    "friction_force": QuantityWord(
+        "joints", _bounded("force", _method("friction_force")), False, friction=True
+    ),
+    "friction_moment": QuantityWord(
+        "joints", _bounded("moment", _method("friction_moment")), False, friction=True
+    ),
+    "power_lost": QuantityWord("joints", _bounded("power", _method("power_lost")), False, friction=True),
+    "lower_face": QuantityWord(
+        "guides", {"": QuantityReading("force", _face("lower"))}, False, False, friction=True
+    ),
+    "upper_face": QuantityWord(
+        "guides", {"": QuantityReading("force", _face("upper"))}, False, False, friction=True
+    ),
+    "drive": QuantityWord(
         "drives",
         {
-            rate: Reading(_drive_kind(rate or "position"), _method(f"drive_{rate or 'position'}"))
+            rate: QuantityReading(_drive_kind(rate or "position"), _method(f"drive_{rate or 'position'}"))
             for rate in ("", "speed", "acceleration")
         },
     ),
-    "power": Word("drives", {"": Reading("power", lambda r, of: r.effort(of) * r.drive_speed(of))}),
-    **{word: Word(word, _freedom(word)) for word in FREEDOMS},
-    "angle": Word(
+    "power": QuantityWord(
+        "drives", {"": QuantityReading("power", lambda r, of: r.effort(of) * r.drive_speed(of))}
+    ),
+    **{word: QuantityWord(word, _freedom(word)) for word in FREEDOMS},
+    "angle": QuantityWord(
         "links",
         {
-            "": Reading("angle", _method("angle")),
-            "speed": Reading("angular_speed", _method("speed")),
-            "acceleration": Reading("angular_acceleration", _method("acceleration")),
+            "": QuantityReading("angle", _method("angle")),
+            "speed": QuantityReading("angular_speed", _method("speed")),
+            "acceleration": QuantityReading("angular_acceleration", _method("acceleration")),
         },
     ),
-    "rotation": Word("links", {"": Reading("number", _method("rotation"))}),
-    "point": Word(
+    "rotation": QuantityWord("links", {"": QuantityReading("number", _method("rotation"))}),
+    "point": QuantityWord(
         "points",
         {
-            "": Reading("length", _point("")),
-            "velocity": Reading("speed", _point("velocity")),
-            "acceleration": Reading("acceleration", _point("acceleration")),
+            "": QuantityReading("length", _point("")),
+            "velocity": QuantityReading("speed", _point("velocity")),
+            "acceleration": QuantityReading("acceleration", _point("acceleration")),
         },
     ),
-    "transmission": Word("hinges", {"": Reading("angle", _hinge(transmission_angle))}),
-    "closure": Word("hinges", {"": Reading("length", _hinge(closure_margin))}),
-    "pressure": Word("sized bearings", {"": Reading("pressure", _pressure)}),
-    "shaking_force": Word("", {"": Reading("force", _shaking("force"))}),
-    "shaking_moment": Word("fixed points", {"": Reading("moment", _shaking("moment"))}),
-    "shaking_couple": Word("placed", {"": Reading("moment", _shaking("couple"))}, False, False),
-    "residual": Word("", {"": Reading("number", _value("residual"))}),
-    "power_balance": Word("", {"": Reading("number", _value("power_balance"))}, False),
-    "time": Word("times", {"": Reading("time", _value("time"))}, False),
+    "transmission": QuantityWord("hinges", {"": QuantityReading("angle", _hinge(transmission_angle))}),
+    "closure": QuantityWord("hinges", {"": QuantityReading("length", _hinge(closure_margin))}),
+    "pressure": QuantityWord("sized bearings", {"": QuantityReading("pressure", _pressure)}),
+    "shaking_force": QuantityWord("", {"": QuantityReading("force", _shaking("force"))}),
+    "shaking_moment": QuantityWord("fixed points", {"": QuantityReading("moment", _shaking("moment"))}),
+    "shaking_couple": QuantityWord(
+        "placed", {"": QuantityReading("moment", _shaking("couple"))}, False, False
+    ),
+    "residual": QuantityWord("", {"": QuantityReading("number", _value("residual"))}),
+    "power_balance": QuantityWord("", {"": QuantityReading("number", _value("power_balance"))}, False),
+    "time": QuantityWord("times", {"": QuantityReading("time", _value("time"))}, False),
 }
 """First word of a name -> the thing it belongs to, its kind and how it is read, by rate."""
 
 
-def bearing_areas(r: Named) -> dict[str, Any]:
+def bearing_areas(r: HasQuantities) -> dict[str, Any]:
     """Projected area of each bearing with a diameter and a length; where a number varies, a node."""
     bearings = {name: getattr(r.mechanism.joints[name], "bearing", None) for name in r.joints}
     return {name: b.area for name, b in bearings.items() if b is not None and b.area is not None}

@@ -10,8 +10,8 @@ from dalembert.model.quantities.dimensions import Powers, dimension, kind_of_dim
 from dalembert.model.quantities.expression_trees import (
     COMPARISONS,
     Apply,
-    Name,
-    Number,
+    NameNode,
+    NumberNode,
     Tree,
     names_in,
     nodes,
@@ -36,11 +36,11 @@ def parse_quantity(text: str, names: Sequence[str], what: str = "output") -> Tre
     prefix = "quantity"
     while prefix in text:
         prefix += "y"
-    found: list[str] = []
+    matches: list[str] = []
 
     def mark(match: re.Match[str]) -> str:
-        found.append(match[0])
-        return f"{prefix}{len(found) - 1}"
+        matches.append(match[0])
+        return f"{prefix}{len(matches) - 1}"
 
     one = "|".join(re.escape(name) for name in sorted(names, key=len, reverse=True))
     plain = re.sub(rf"(?<![\w.])(?:{one})(?:\.(?:{'|'.join(COMPONENTS)}))?(?![\w.])", mark, text)
@@ -52,23 +52,23 @@ def parse_quantity(text: str, names: Sequence[str], what: str = "output") -> Tre
         if rest:
             raise ModelError(f"{quote_value(plain)}: unexpected {quote_value(rest)} at the end", GRAMMAR)
     except ModelError as error:
-        told = re.sub(prefix + r"(\d+)", lambda m: found[int(m[1])], error.what)
-        raise ModelError(told, error.remedy) from None
-    places = {f"{prefix}{k}": name for k, name in enumerate(found)}
+        message = re.sub(prefix + r"(\d+)", lambda m: matches[int(m[1])], error.what)
+        raise ModelError(message, error.remedy) from None
+    places = {f"{prefix}{k}": name for k, name in enumerate(matches)}
     for name in names_in(tree) - places.keys():
         raise ModelError(f"unknown {what} {name!r}", closest(name, list(names)))
     return _rename(tree, places)
 
 
 def _rename(tree: Tree, names: dict[str, str]) -> Tree:
-    if isinstance(tree, Name):
-        return Name(names[tree.name])
+    if isinstance(tree, NameNode):
+        return NameNode(names[tree.name])
     if isinstance(tree, Apply):
         return Apply(tree.function, tuple(_rename(argument, names) for argument in tree.arguments))
     return tree
 
 
-def check_units(tree: Tree, known: Mapping[str, Powers | None], given: Collection[str] = ()) -> None:
+def check_units(tree: Tree, known: Mapping[str, Powers | None], parameters: Collection[str] = ()) -> None:
     """Raise ModelError where a number with a unit, or a parameter of those given, is added to, or compared with, a
     quantity of another kind. Plain numbers are SI beside anything, and so are weights in a sum of unlike quantities.
 
@@ -81,7 +81,7 @@ def check_units(tree: Tree, known: Mapping[str, Powers | None], given: Collectio
     for part in nodes(tree):
         if not isinstance(part, Apply) or part.function not in (*KEEP_KIND, *COMPARISONS):
             continue
-        if any(_with_unit(a, [n for n in given if any(known.get(n) or ())]) for a in part.arguments):
+        if any(_with_unit(a, [n for n in parameters if any(known.get(n) or ())]) for a in part.arguments):
             try:
                 for argument in part.arguments:
                     dimension(argument, known)
@@ -90,24 +90,24 @@ def check_units(tree: Tree, known: Mapping[str, Powers | None], given: Collectio
             dimension(part, known)
 
 
-def _with_unit(tree: Tree, given: Collection[str]) -> bool:
+def _with_unit(tree: Tree, parameters: Collection[str]) -> bool:
     """True if a part is of numbers and of names given alone, and has one of these or a number with a unit."""
-    stated = any(isinstance(n, Number) and n.text not in ("", "pi") for n in nodes(tree))
-    return names_in(tree) <= set(given) and (stated or bool(names_in(tree)))
+    stated = any(isinstance(n, NumberNode) and n.text not in ("", "pi") for n in nodes(tree))
+    return names_in(tree) <= set(parameters) and (stated or bool(names_in(tree)))
 
 
-def kind_of(tree: Tree, kind: Callable[[str], str], given: Collection[str] = ()) -> str:
+def kind_of(tree: Tree, kind: Callable[[str], str], parameters: Collection[str] = ()) -> str:
     """The kind of an expression's value: that of its quantities while they are added, compared and scaled; a `number`
     (in SI) otherwise."""
-    if isinstance(tree, Name):
+    if isinstance(tree, NameNode):
         return kind(tree.name)
-    if isinstance(tree, Number):
+    if isinstance(tree, NumberNode):
         return kind_of_dimension(tree.dimension) or "number" if any(tree.dimension[:3]) else ""
     if tree.function in COMPARISONS:
         return ""
     keeps = tree.function in KEEP_KIND
-    arguments = [a for a in tree.arguments if not (keeps and _with_unit(a, given))] or tree.arguments
-    kinds = [kind_of(argument, kind, given) for argument in arguments]
+    arguments = [a for a in tree.arguments if not (keeps and _with_unit(a, parameters))] or tree.arguments
+    kinds = [kind_of(argument, kind, parameters) for argument in arguments]
     scales = (tree.function == "*" and "" in kinds) or (tree.function == "/" and kinds[1] == "")
     named = set(kinds) - {""}
     if not named:

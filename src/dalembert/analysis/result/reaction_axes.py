@@ -12,12 +12,12 @@ import numpy as np
 
 from dalembert.algebra import plane
 from dalembert.analysis.compile.pair_table import local_axes
-from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.answer.column import Axes as Axes
 from dalembert.arrays import Array, Flags
 from dalembert.core.equilibrium import shifts, unique
-from dalembert.core.gear_rows import gearings, own_axes
-from dalembert.core.layout import Pose, System
+from dalembert.core.gear_rows import gearings, wheel_axes
+from dalembert.core.layout import ConstraintRows, Pose
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def in_axes(c: Compiled, pose: Pose, shift: Array) -> Iterator[Array]:
         yield turned
 
 
-class Marks(NamedTuple):
+class Uniqueness(NamedTuple):
     """Uniqueness by statics alone: components (P, joints, n) of reactions, other unknowns (P, X - K), and in space
     components (P, joints, 3, 6) in the axes of ``PLACES``."""
 
@@ -53,13 +53,13 @@ class Marks(NamedTuple):
     inside: Array | None
 
 
-def marks(c: Compiled, pose: Pose, rows: System, free: Array | None) -> Marks:
+def uniqueness(c: Compiled, pose: Pose, rows: ConstraintRows, free: Array | None) -> Uniqueness:
     """Uniqueness from the projector (P, X, X) on free multipliers; all unique where it is empty."""
     if free is None:
-        return Marks(None, None, None)
+        return Uniqueness(None, None, None)
     shift, others = shifts(c.layout, pose, rows, free)
     inside = [unique(turned) for turned in in_axes(c, pose, shift)] if c.geometries else []
-    return Marks(unique(shift), others, np.stack(inside, axis=-2) if inside else None)
+    return Uniqueness(unique(shift), others, np.stack(inside, axis=-2) if inside else None)
 
 
 def _axes(c: Compiled, k: int, pose: Pose, place: str, ends: tuple[int, int], moment: bool = False) -> Array:
@@ -70,7 +70,7 @@ def _axes(c: Compiled, k: int, pose: Pose, place: str, ends: tuple[int, int], mo
         f, mesh = next(
             (f, m) for f in gearings(c.layout) for m, row in enumerate(f.row) if rows.joint[row] == k
         )
-        return np.asarray(own_axes(c.layout.algebra, f, pose)[..., mesh, :, :])
+        return np.asarray(wheel_axes(c.layout.algebra, f, pose)[..., mesh, :, :])
     if place == "joint":
         return local_axes(c.mechanism.joints[c.joints[k]], c.geometries[k], i, j, moment)
     r = i if place == "i" else j
@@ -87,7 +87,7 @@ def axes_of(result: Result, joint: str, place: str, moment: bool = False) -> Arr
         raise ModelError("a planar joint has no local axes", "use those of ground or of the link")
     index = {name: k for k, name in enumerate(c.links)} | {"ground": len(c.links)}
     i, j = (index[name] for name in c.mechanism.joints[joint].links)
-    return _axes(c, c.joints.index(joint), whole_pose(result), place, (i, j), moment)
+    return _axes(c, c.joints.index(joint), full_pose(result), place, (i, j), moment)
 
 
 def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool = False) -> Array:
@@ -98,12 +98,12 @@ def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool =
     g, k = result.compiled.layout.algebra, result.joints.index(joint)
     by = result.mechanism.joints[joint].links[0]
     moment = result.moment_array[..., k, None] if g.d == 2 else result.moment_array[..., k, :]
-    whole = (-1.0 if on == by else 1.0) * np.concatenate([result.force_array[..., k, :], moment], axis=-1)
+    total = (-1.0 if on == by else 1.0) * np.concatenate([result.force_array[..., k, :], moment], axis=-1)
     if g.d == 2:
-        kept = whole if least else np.where(result.unique(joint), whole, np.nan)
+        kept = total if least else np.where(result.unique(joint), total, np.nan)
         return to_axes(result, joint, on, axes, kept)
-    whole = to_axes(result, joint, on, axes, whole)
-    return whole if least else np.where(unique_in(result, joint, _place(axes, by, on)), whole, np.nan)
+    total = to_axes(result, joint, on, axes, total)
+    return total if least else np.where(unique_in(result, joint, _place(axes, by, on)), total, np.nan)
 
 
 def _place(axes: Axes, by: str, on: str | None) -> str:
@@ -111,15 +111,15 @@ def _place(axes: Axes, by: str, on: str | None) -> str:
     return axes if axes != "link" else "i" if on == by else "j"
 
 
-def to_axes(result: Result, joint: str, on: str | None, axes: Axes, whole: Array) -> Array:
+def to_axes(result: Result, joint: str, on: str | None, axes: Axes, values: Array) -> Array:
     """A force (P, d) or wrench (P, n) of a joint on one of its links, default on j, from ground axes to others."""
     by, to = result.mechanism.joints[joint].links
     place = _place(axes, by, on)
     if place == "ground":
-        return whole
+        return values
     if result.compiled.layout.algebra.d == 2:
-        return _link_rotation(result, on or to, whole) if place != "joint" else axes_of(result, joint, place)
-    parts = np.split(whole, whole.shape[-1] // 3, axis=-1)
+        return _link_rotation(result, on or to, values) if place != "joint" else axes_of(result, joint, place)
+    parts = np.split(values, values.shape[-1] // 3, axis=-1)
     turns = [axes_of(result, joint, place, bool(moment)) for moment in range(len(parts))]
     turned = [(turn @ part[..., None])[..., 0] for turn, part in zip(turns, parts, strict=True)]
     return np.concatenate(turned, axis=-1)
@@ -135,11 +135,11 @@ def unique_in(result: Result, joint: str, place: str) -> Flags:
     return np.asarray(result.unique_in[..., k, PLACES.index(place), :])
 
 
-def _link_rotation(result: Result, link: str, whole: Array) -> Array:
+def _link_rotation(result: Result, link: str, values: Array) -> Array:
     if link == "ground":
-        return whole
-    force = plane.unrotate(plane.rotation(result.angle(link)), whole[..., :2])
-    return np.concatenate([force, whole[..., 2:]], axis=-1)
+        return values
+    force = plane.unrotate(plane.rotation(result.angle(link)), values[..., :2])
+    return np.concatenate([force, values[..., 2:]], axis=-1)
 
 
 def force_and_moment(wrench: Array) -> tuple[Array, Array]:

@@ -35,7 +35,7 @@ class Component(NamedTuple):
     value: float
 
     @property
-    def own(self) -> bool:
+    def in_joint_axes(self) -> bool:
         """True if it has a fixed direction, and is not one of three along any axes."""
         return self.axis not in AXES or not self.axis
 
@@ -54,14 +54,14 @@ def components(r: Result, a: Action, k: int, axes: Array) -> tuple[Component, ..
         return (Component(False, "", unit, np.zeros(3), size),)
     pair, out = described.pair, []
     for turning, letters, vector in ((False, pair.forces, a.force[k]), (True, pair.moments, a.couple[k])):
-        whole = letters == AXES and not pair.threaded
-        rows = axes if whole else axes_of(r, a.of, "joint", turning)[k]
+        full = letters == AXES and not pair.threaded
+        rows = axes if full else axes_of(r, a.of, "joint", turning)[k]
         for letter in letters:
             e = rows[AXES.index(letter)]
             force, couple = (np.zeros(3), e) if turning else (e, np.zeros(3))
             if pair.threaded and not turning and letter == "x":
                 couple = -described.lead / (2 * math.pi) * e
-            name = letter if whole else f"{letter}'"
+            name = letter if full else f"{letter}'"
             out.append(Component(turning, name, force, couple, float(vector @ e)))
     return tuple(out)
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from dalembert.machine.shaking import Shaking
     from dalembert.model import Schedule
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.draw import View
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
@@ -209,12 +209,12 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
     def unknown_load(self, name: str) -> Array:
         """Value of an unknown load (P,), N along its direction, or N m."""
         k = place_of(self.unknown_loads, name, "unknown load")
-        asked = int(self.compiled.known.asked.sum())
-        return self._masked_unknown(self.load_array[..., k], asked + k)
+        efforts = int(self.compiled.known.requested.sum())
+        return self._masked_unknown(self.load_array[..., k], efforts + k)
 
     def _unknown_place(self, drive: int) -> int | None:
-        asked = self.compiled.known.asked
-        return int(asked[:drive].sum()) if asked[drive] else None
+        requested = self.compiled.known.requested
+        return int(requested[:drive].sum()) if requested[drive] else None
 
     def _masked_unknown(self, value: Array, place: int | None) -> Array:
         if self.unique_unknowns is None or place is None:
@@ -391,7 +391,7 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
 
         return answer_text(self, units, **choice)
 
-    def sheet(self, notation: Notation | None = None) -> Sheet:
+    def sheet(self, notation: Notation | None = None) -> ReportSheet:
         """The worked solution of the first position; `da.report` has those of others."""
         from dalembert.reports.working import working
 

@@ -19,7 +19,7 @@ from dalembert.model.quantities.values import Vector
 from dalembert.wording import closest
 
 
-class Line(NamedTuple):
+class LinkLine(NamedTuple):
     """A direction (2,) in the axes of a link, or of ground."""
 
     link: str
@@ -27,7 +27,7 @@ class Line(NamedTuple):
     slides: bool = False
 
 
-OfLines = Callable[[Array, Array, Sequence[Line]], Numeric]
+OfLines = Callable[[Array, Array, Sequence[LinkLine]], Numeric]
 """Function of the two lines at a pin, turned to their directions (..., 2), and as they are on their links."""
 
 
@@ -43,13 +43,13 @@ def transmission_names(m: Mechanism) -> list[str]:
     return out
 
 
-def transmission_lines(m: Mechanism, of: str) -> tuple[Line, Line]:
+def transmission_lines(m: Mechanism, of: str) -> tuple[LinkLine, LinkLine]:
     """Lines of the links i and j of a pin."""
-    there = transmission_names(m)
+    names = transmission_names(m)
     joint, *others = of.split(".")
-    if of not in there:
+    if of not in names:
         hint = (
-            closest(of, there) if there else "it needs a pin between two moving links of a planar mechanism"
+            closest(of, names) if names else "it needs a pin between two moving links of a planar mechanism"
         )
         raise ModelError(f"{of!r} has no transmission angle", hint)
     part = m.joints[joint]
@@ -70,22 +70,22 @@ def _others(m: Mechanism, link: str, joint: str) -> list[str]:
     ]
 
 
-def _line(m: Mechanism, link: str, joint: str, at: Vector, other: str) -> Line:
+def _line(m: Mechanism, link: str, joint: str, at: Vector, other: str) -> LinkLine:
     part = m.joints[other]
     if isinstance(part, Slider):
         angle = part.direction
-        return Line(part.links[0], np.array([-np.sin(angle), np.cos(angle)]), slides=True)
-    there = m.joint_points(other)[part.links.index(link)]
-    return Line(link, np.subtract(there, at))
+        return LinkLine(part.links[0], np.array([-np.sin(angle), np.cos(angle)]), slides=True)
+    far = m.joint_points(other)[part.links.index(link)]
+    return LinkLine(link, np.subtract(far, at))
 
 
-def transmission_angle(a: Array, b: Array, lines: Sequence[Line]) -> Numeric:
+def transmission_angle(a: Array, b: Array, lines: Sequence[LinkLine]) -> Numeric:
     """Acute angle of two lines (..., 2), 0 to a quarter turn."""
     across = abs(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
     return np.arctan2(across, abs((a * b).sum(axis=-1)))
 
 
-def closure_margin(a: Array, b: Array, lines: Sequence[Line]) -> Numeric:
+def closure_margin(a: Array, b: Array, lines: Sequence[LinkLine]) -> Numeric:
     """Distance by which the far ends of two lines (..., 2) could move apart, or together, before the lines are
     stretched or folded and the linkage opens: min(a + b - d, d - |a - b|); across a slide, a - |offset|.
 
@@ -99,8 +99,8 @@ def closure_margin(a: Array, b: Array, lines: Sequence[Line]) -> Numeric:
     if any(slides):
         size = np.sqrt(((b if slides[0] else a) ** 2).sum(axis=-1))
         return size - abs((a * b).sum(axis=-1))
-    one, two, apart = (np.sqrt((x * x).sum(axis=-1)) for x in (a, b, a - b))
-    stretched, folded = one + two - apart, apart - abs(one - two)
+    one, two, distance = (np.sqrt((x * x).sum(axis=-1)) for x in (a, b, a - b))
+    stretched, folded = one + two - distance, distance - abs(one - two)
     return (stretched + folded - abs(stretched - folded)) / 2
 
 

@@ -42,16 +42,16 @@ WORDS = {"length": {"what": "points", "how": "apart"}, "angle": {"what": "axes",
 """Words for a joint's gap, by its kind."""
 
 
-def open_sentence(c: Compiled, found: Path | None, where: Ints) -> str:
+def open_sentence(c: Compiled, path: Path | None, where: Ints) -> str:
     """Why a run of positions does not close: what stays open in the middle of it at least, where, and how far."""
     middle = int(where[len(where) // 2])
-    shift, turn = _openings(c, found, middle)
+    shift, turn = _openings(c, path, middle)
     lengths = _most(c, shift, "length", c.layout.length)
     parts = [part for part in (lengths, _most(c, turn, "angle", 1.0)) if part]
-    if found is not None and not parts:
+    if path is not None and not parts:
         return UNFOLLOWED.format(span=_span(c, where))
-    there = f"at {_values(c, middle)} " if len(where) > 1 and c.schedule.names else ""
-    gap = f": {there}{' and '.join(parts)}" if parts else ""
+    place = f"at {_values(c, middle)} " if len(where) > 1 and c.schedule.names else ""
+    gap = f": {place}{' and '.join(parts)}" if parts else ""
     datum = "a length" if lengths or not parts else "a direction"
     return open_template(c).format(span=_span(c, where), gap=gap, datum=datum)
 
@@ -60,26 +60,28 @@ def open_template(c: Compiled) -> str:
     """The sentence with what depends on the positions left open."""
     drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
     verdict = (
-        "The linkage does not close" if _every_way_is_known(c) else "No pose of the linkage could be computed"
+        "The linkage does not close"
+        if _every_branch_is_known(c)
+        else "No pose of the linkage could be computed"
     )
     return OPEN.format(verdict=verdict, drives=drives, span="{span}", gap="{gap}", datum="{datum}")
 
 
-def _every_way_is_known(c: Compiled) -> bool:
+def _every_branch_is_known(c: Compiled) -> bool:
     """True if closed forms decide where the linkage closes; else poses are sought from starts, which may miss some."""
     if not isinstance(c.guess, Guess):
         return False
-    way = plan(without_phase(c.layout, c.targets[0], c.guess, hold=True)[0])
-    return way is not None and way.closed
+    groups = plan(without_phase(c.layout, c.targets[0], c.guess, hold=True)[0])
+    return groups is not None and groups.closed
 
 
-def _openings(c: Compiled, found: Path | None, position: int) -> tuple[Array, Array]:
+def _openings(c: Compiled, path: Path | None, position: int) -> tuple[Array, Array]:
     """Least squares of what is missing at a position: of each joint its points apart (m), its axes turned (rad)."""
-    reached = np.flatnonzero(found.reached) if found is not None else np.zeros(0, np.intp)
-    if found is None or not reached.size:
+    reached = np.flatnonzero(path.reached) if path is not None else np.zeros(0, np.intp)
+    if path is None or not reached.size:
         start = c.guess.start(c.layout, c.targets[position])
     else:
-        start = found.pose.at(reached[np.argmin(np.abs(reached - position))])
+        start = path.pose.at(reached[np.argmin(np.abs(reached - position))])
     rows = c.layout.constraints
     missing = least_gap(c.layout, _aside(c, start), c.targets[position])[: rows.count]
     angle = np.where(rows.angular, missing / c.layout.length, 0.0)

@@ -17,7 +17,7 @@ from dalembert.core.pushing import LOST, contact_forces
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
-    from dalembert.analysis.result.force_arrays import Forces
+    from dalembert.analysis.result.force_arrays import SolvedForces
 
 PULLS = "{joint} would have to pull with {force}{arc}: {what}. A contact only pushes; write contact: holds if it holds."
 CORNERS = {
@@ -27,7 +27,7 @@ CORNERS = {
 }
 
 
-def contact_checks(c: Compiled, pose: Pose, f: Forces) -> list[Check]:
+def contact_checks(c: Compiled, pose: Pose, f: SolvedForces) -> list[Check]:
     """Where contacts are lost; none where every joint holds both ways."""
     if c.pushing is None:
         return []
@@ -35,7 +35,7 @@ def contact_checks(c: Compiled, pose: Pose, f: Forces) -> list[Check]:
     return [("contact_lost", (lacking > 0).any(axis=1), lambda k: _lost_sentence(c, lacking, k))]
 
 
-def lacking_forces(c: Compiled, pose: Pose, f: Forces) -> Array:
+def lacking_forces(c: Compiled, pose: Pose, f: SolvedForces) -> Array:
     """What each contact (P, K) would have to pull with; 0 where it pushes or its force is not determined."""
     assert c.pushing is not None
     force = contact_forces(c.layout, c.pushing, pose, f.force, f.moment)

@@ -12,7 +12,7 @@ from dalembert.arrays import Array, Flags, Ints
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
-    from dalembert.analysis.result.force_arrays import Forces
+    from dalembert.analysis.result.force_arrays import SolvedForces
 
 
 LONGEST = 1e150
@@ -45,13 +45,13 @@ def fast(twist: Array, acceleration: Array) -> Flags:
     return np.asarray(~(np.isfinite(twist * twist) & np.isfinite(acceleration)).all(axis=-1))
 
 
-def strong(f: Forces) -> Flags:
+def strong(f: SolvedForces) -> Flags:
     """True for joints (P, joints) whose reactions are not finite."""
     moment = f.moment.reshape(*f.force.shape[:2], -1)
     return np.asarray(~(np.isfinite(f.force).all(axis=-1) & np.isfinite(moment).all(axis=-1)))
 
 
-def not_finite(f: Forces) -> Flags:
+def not_finite(f: SolvedForces) -> Flags:
     """True at positions (P,) where a reaction, an effort, a load or a check is not finite."""
     single = (f.effort, f.load, f.residual[:, None], f.power_balance[:, None])
     return np.asarray(strong(f).any(axis=1) | ~np.isfinite(np.concatenate(single, axis=1)).all(axis=1))
@@ -65,10 +65,10 @@ OF, CHECKS = "The {what} of {names}", "The {what} or the powers they are checked
 RATES, FORCES = "rates or accelerations", "forces"
 
 
-def overflow_sentence(c: Compiled, what: str, names: tuple[str, ...], found: Flags, run: Ints) -> str:
+def overflow_sentence(c: Compiled, what: str, names: tuple[str, ...], overflows: Flags, run: Ints) -> str:
     """Sentence on the links or joints whose numbers overflow; if none, on the checks that do."""
     of = ", ".join(
-        name for name, bad in zip(names, np.atleast_1d(found[run].any(axis=0)), strict=True) if bad
+        name for name, bad in zip(names, np.atleast_1d(overflows[run].any(axis=0)), strict=True) if bad
     )
     whose = OF.format(what=what, names=of) if of else CHECKS.format(what=what)
     return OVERFLOW.format(whose=whose, arc=arc(c, run))

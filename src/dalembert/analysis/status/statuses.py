@@ -22,7 +22,7 @@ from dalembert.errors import NUMBERED
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.positions import Positions
-    from dalembert.analysis.result.force_arrays import Forces
+    from dalembert.analysis.result.force_arrays import SolvedForces
 
 UNBALANCED = 1e-6
 """Residual above which a position has no equilibrium."""
@@ -32,7 +32,7 @@ KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load", "contact_
 
 
 def statuses(
-    followed: Positions, twist: Array, acceleration: Array, rcond: Array, f: Forces, forces: bool
+    followed: Positions, twist: Array, acceleration: Array, rcond: Array, f: SolvedForces, forces: bool
 ) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
     """Status and sentence of each position; ``rcond`` is that of the closure equations, ``forces`` asked for or not."""
     c, path = followed.compiled, followed.path
@@ -67,8 +67,8 @@ def statuses(
     for code, mask, sentence in checks:
         where = np.flatnonzero(mask & (status == "ok"))
         status[where] = code
-        apart = (np.diff(where) > 1) | single[where[1:]] | single[where[:-1]]
-        for run in np.split(where, np.flatnonzero(apart) + 1):
+        breaks = (np.diff(where) > 1) | single[where[1:]] | single[where[:-1]]
+        for run in np.split(where, np.flatnonzero(breaks) + 1):
             if run.size:
                 reasons[run] = sentence(run)
     return tuple(status), tuple(reasons)
@@ -83,7 +83,9 @@ def _singular_sentence(c: Compiled, where: Ints) -> str:
 
 def no_balance_sentence(c: Compiled, where: Ints) -> str:
     """Why the loads have no equilibrium at some positions."""
-    given = ", ".join(n for n, asked in zip(c.schedule.names, c.known.asked, strict=True) if not asked)
+    known = ", ".join(
+        n for n, requested in zip(c.schedule.names, c.known.requested, strict=True) if not requested
+    )
     unknown = ", ".join(c.unknown_loads)
     if c.passive:
         links = " or ".join(c.passive)
@@ -98,7 +100,7 @@ def no_balance_sentence(c: Compiled, where: Ints) -> str:
             why += ", and the friction that it causes does not balance it either"
         elif c.contacts is not None:
             why += ", and friction at rest may have any value within its limits. Give the drive a speed"
-        return f"The unknown {unknown} cannot balance the given effort of {given}: {why}."
+        return f"The unknown {unknown} cannot balance the given effort of {known}: {why}."
     return "The loads have no equilibrium here."
 
 

@@ -23,10 +23,10 @@ def find_undefined_springs(c: Compiled, pose: Pose) -> Flags:
     return np.asarray(short & pushes_at_zero_length(springs))
 
 
-def undefined_sentence(c: Compiled, found: Flags, run: Ints) -> str:
+def undefined_sentence(c: Compiled, undefined: Flags, run: Ints) -> str:
     """Sentence on the springs that have no direction, with their force."""
     names = list(c.mechanism.loads_on("span"))
-    pushed = np.flatnonzero(found[run].any(axis=0))
+    pushed = np.flatnonzero(undefined[run].any(axis=0))
     springs = c.forcing.springs
     push = springs.stiffness * springs.free_length - springs.force
     figures = " and ".join(f"{names[k]} ({quantity_text(c, 'force', abs(float(push[k])))})" for k in pushed)

@@ -19,7 +19,7 @@ DISC = ("density", "length", "length")
 def bounds_of(m: Mechanism, text: str) -> tuple[str, dict[str, object]]:
     """A link with the bounds of its counterweight, in the units of the file."""
     link, _, rest = text.partition(":")
-    units, found = file_units(m.units), dict[str, object]()
+    units, bounds = file_units(m.units), dict[str, object]()
     for part in filter(None, rest.split(",")):
         key, equals, value = part.partition("=")
         if not equals:
@@ -31,16 +31,16 @@ def bounds_of(m: Mechanism, text: str) -> tuple[str, dict[str, object]]:
                 raise ModelError(
                     f"--on {text}: a disc is density/thickness/radius", "write disc=7800kg/m^3/20mm/80mm"
                 )
-            found[key] = tuple(quantity(v, kind, units) for v, kind in zip(sizes, DISC, strict=True))
+            bounds[key] = tuple(quantity(v, kind, units) for v, kind in zip(sizes, DISC, strict=True))
         elif key == "place":
-            found[key] = tuple(quantity(v, "length", units) for v in value.split("/"))
+            bounds[key] = tuple(quantity(v, "length", units) for v in value.split("/"))
         elif key in RANGES:
-            found[key] = tuple(_moment(v, units) for v in value.split("/"))
+            bounds[key] = tuple(_moment(v, units) for v in value.split("/"))
         elif key == "moment":
-            found[key] = _moment(value, units)
+            bounds[key] = _moment(value, units)
         else:
-            found[key] = quantity(value, KINDS[key], units) if key in KINDS else value
-    return link, found
+            bounds[key] = quantity(value, KINDS[key], units) if key in KINDS else value
+    return link, bounds
 
 
 def _moment(text: str, units: Units) -> float:
@@ -56,7 +56,7 @@ def two_planes(m: Mechanism, planes: str, radii: str, on: object) -> tuple[Range
         raise ModelError(
             "--planes puts masses on a rotor, --on counterweights on links", "ask for one of both"
         )
-    units, found = file_units(m.units), []
+    units, pairs = file_units(m.units), []
     for option, text in (("planes", planes), ("radii", radii)):
         numbers = [quantity(part, "length", units) for part in text.split(",") if part.strip()]
         numbers *= 2 if option == "radii" and len(numbers) == 1 else 1
@@ -64,8 +64,8 @@ def two_planes(m: Mechanism, planes: str, radii: str, on: object) -> tuple[Range
             raise ModelError(
                 f"--{option} has {len(numbers)} lengths, not two", f"write --{option} 50mm,450mm"
             )
-        found.append((numbers[0], numbers[1]))
-    return found[0], found[1]
+        pairs.append((numbers[0], numbers[1]))
+    return pairs[0], pairs[1]
 
 
 def sum_of(text: str) -> str | dict[str, float]:

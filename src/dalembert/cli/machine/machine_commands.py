@@ -126,8 +126,8 @@ def flywheel(
     from dalembert.machine.flywheel import flywheels
 
     result = cycle_of(file, of, out)
-    given = number_of(result, inertia, "inertia", "inertia", "flywheel inertia")
-    answer(result, lambda r: flywheels.flywheel(r, None, cs, given), out)
+    existing = number_of(result, inertia, "inertia", "inertia", "flywheel inertia")
+    answer(result, lambda r: flywheels.flywheel(r, None, cs, existing), out)
     return 0
 
 
@@ -247,8 +247,8 @@ def _point(m: Mechanism, about: str | None) -> str | Sequence[float] | None:
     """A vector in the units of the file, or a name."""
     if about is None or not about.lstrip().startswith("["):
         return about
-    from dalembert.model.part import Reading
+    from dalembert.model.part import ReadingRules
     from dalembert.model.paths import as_in_file
     from dalembert.model.quantities.values import vector
 
-    return vector(as_in_file(about), "length", Reading(m.units.of_texts(), dimension=m.dimension))
+    return vector(as_in_file(about), "length", ReadingRules(m.units.of_texts(), dimension=m.dimension))

@@ -85,9 +85,9 @@ def motor(
     from dalembert.machine.motors import motor_choice
 
     result = cycle_of(file, of, out)
-    own = number_of(result, inertia, "inertia", "inertia", "motor inertia") or 0.0
+    rotor = number_of(result, inertia, "inertia", "inertia", "motor inertia") or 0.0
     lasting = number_of(result, rated, "moment", "rated", "rated torque")
-    choice = drive, own, ratio, efficiency, curve, lasting
+    choice = drive, rotor, ratio, efficiency, curve, lasting
     answer(result, lambda r: motor_choice.motor(r, *choice), out)
     return 0
 

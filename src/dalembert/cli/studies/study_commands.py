@@ -119,11 +119,11 @@ def show(
     from dalembert.studies.output.study_text import contributions_text
 
     out.check(Path(store))
-    found = _stored(store)
-    more = [contributions_text(found.study, contributions)] if contributions else []
+    stored = _stored(store)
+    more = [contributions_text(stored.study, contributions)] if contributions else []
     if unused:
-        more.append(f"Numbers that change no output: {', '.join(found.study.idle()) or 'none'}")
-    out.deliver(found, more="\n\n".join(more))
+        more.append(f"Numbers that change no output: {', '.join(stored.study.idle()) or 'none'}")
+    out.deliver(stored, more="\n\n".join(more))
     return 0
 
 
@@ -141,10 +141,10 @@ def design(
     """Print the numbers of one design, reproduced exactly, or write its model file."""
     from dalembert.studies.output.study_text import design_text
 
-    found = _read(study)
-    print(design_text(found, number))
+    stored = _read(study)
+    print(design_text(stored, number))
     if output is not None:
-        found.mechanism_of(number).save(output, force)
+        stored.mechanism_of(number).save(output, force)
     return 0
 
 
@@ -178,11 +178,11 @@ def _run(study: Study, store: str, threads: int | None, scheduler: str | None) -
         print(f"Changes no output: {', '.join(unused)}.", file=sys.stderr)
     try:
         with progress("Studying", study.count) as step:
-            found = study.run(store, threads=threads, scheduler=scheduler, progress=_rate(step))
+            result = study.run(store, threads=threads, scheduler=scheduler, progress=_rate(step))
     except KeyboardInterrupt:
         print(f"Stopped. Finished blocks are kept: dalembert study resume {store}", file=sys.stderr)
         raise
-    print(summary(found))
+    print(summary(result))
     return 0
 
 

@@ -28,8 +28,8 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import branchless
 from dalembert.core.branchless import above, hypot, larger, root, top, unit, where
 from dalembert.core.constraints import drift, measure, rates, system
-from dalembert.core.forcing import Resistances, Source, total_wrench
-from dalembert.core.layout import Layout, Pose, Rows, System
+from dalembert.core.forcing import Resistances, WrenchSource, total_wrench
+from dalembert.core.layout import ConstraintRows, Layout, Pose, Rows
 from dalembert.core.linear import Factor
 
 STILL = 1e-9
@@ -79,7 +79,7 @@ class Contacts:
     signed: Flags
     ball: Flags
     fixed: Flags
-    led: Ints
+    leader: Ints
     reach: Array
     group: Ints
     reckoned: Array
@@ -109,7 +109,7 @@ class SlipState(NamedTuple):
     rate: Array
 
 
-class Response(NamedTuple):
+class ContactResponse(NamedTuple):
     """x without contacts (..., X), its change with c z (..., X, E), and the same of the arguments: y, H."""
 
     x: Array
@@ -118,14 +118,14 @@ class Response(NamedTuple):
     h: Array
 
 
-def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> SlipState:
+def senses(layout: Layout, contacts: Contacts, along: ConstraintRows, twist: Array) -> SlipState:
     """Senses of the contacts from the twists of all links (..., L+1, n)."""
     rate = rates(along, twist)
     return _senses(contacts, rate, _below(layout, contacts, rate, STILL * fastest(layout, twist)))
 
 
 def next_senses(
-    layout: Layout, contacts: Contacts, along: System, pose: Pose, twist: Array, acceleration: Array
+    layout: Layout, contacts: Contacts, along: ConstraintRows, pose: Pose, twist: Array, acceleration: Array
 ) -> SlipState:
     """Senses of the second rates: those just behind a place where the first are zero, and the opposite just before."""
     second = rates(along, acceleration) + drift(layout.algebra, contacts.rows, pose, twist)
@@ -140,7 +140,7 @@ def zero_crossings(layout: Layout, contacts: Contacts, twist: Array, rate: Array
     speed, size = fastest(layout, twist) / (STILL * layout.length), np.abs(second)
     if contacts.grouped:
         return ~above(speed * _slip(contacts, rate), _slip(contacts, second))
-    return np.asarray((~above(speed * np.abs(rate), size) & ~contacts.fixed)[..., contacts.led])
+    return np.asarray((~above(speed * np.abs(rate), size) & ~contacts.fixed)[..., contacts.leader])
 
 
 def fastest(layout: Layout, twist: Array) -> Array:
@@ -151,7 +151,7 @@ def fastest(layout: Layout, twist: Array) -> Array:
 def _below(layout: Layout, contacts: Contacts, rate: Array, least: Array) -> Flags:
     """Contacts (..., E) whose rate, or that of the one they are led by, is below a speed (..., 1)."""
     scaled = np.abs(rate) * np.where(contacts.rows.angular, layout.length, 1.0)
-    return np.asarray((above(least + TINY, scaled) & ~contacts.fixed)[..., contacts.led])
+    return np.asarray((above(least + TINY, scaled) & ~contacts.fixed)[..., contacts.leader])
 
 
 def _senses(contacts: Contacts, rate: Array, still: Flags) -> SlipState:
@@ -160,7 +160,7 @@ def _senses(contacts: Contacts, rate: Array, still: Flags) -> SlipState:
     if contacts.grouped:
         part, still = _along_slip(contacts, rate, still)
         return SlipState(part, still & holds, rate)
-    sense = np.where(contacts.fixed, -1.0, where(still, 0.0, branchless.sign(rate)[..., contacts.led]))
+    sense = np.where(contacts.fixed, -1.0, where(still, 0.0, branchless.sign(rate)[..., contacts.leader]))
     return SlipState(sense, still & holds, rate)
 
 
@@ -200,7 +200,7 @@ def _together(contacts: Contacts) -> Array:
 def impending_senses(contacts: Contacts, g: Array, moves: Flags) -> Array:
     """Part of each contact (..., E) in the impending slip of rates -g."""
     if not contacts.grouped:
-        return np.where(moves, -np.sign(g)[..., contacts.led], 0.0)
+        return np.where(moves, -np.sign(g)[..., contacts.leader], 0.0)
     return _along_slip(contacts, -g, ~moves)[0]
 
 
@@ -222,7 +222,7 @@ def strength(
 
 def response(
     layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, twist: Array
-) -> tuple[System, Response]:
+) -> tuple[ConstraintRows, ContactResponse]:
     """Rows that the contacts act along; x and y without contacts and per unit of each, from the factored A.
 
     twist (..., L+1, n) gives the viscous forces that some contacts carry.
@@ -237,20 +237,26 @@ def response(
         h[..., 1, e, slide] += 1.0
     x = _multipliers(forces, w)
     y = _read(contacts, x, near, rates(along, twist))
-    return along, Response(x, np.swapaxes(by_contact, -1, -2), y, h)
+    return along, ContactResponse(x, np.swapaxes(by_contact, -1, -2), y, h)
 
 
 def under(
-    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, rate: Array, like: Response
-) -> Response:
+    layout: Layout,
+    contacts: Contacts,
+    pose: Pose,
+    forces: Factor,
+    w: Array,
+    rate: Array,
+    like: ContactResponse,
+) -> ContactResponse:
     """The response under other wrenches w (..., L, n), at rates (..., E) of the contacts."""
     x = _multipliers(forces, w)
     return like._replace(x=x, y=_read(contacts, x, _near(layout, contacts, pose), rate))
 
 
-def repeat(r: Response, count: int) -> Response:
+def repeat(r: ContactResponse, count: int) -> ContactResponse:
     """A response common to all positions, repeated ``count`` times."""
-    return Response(*(np.broadcast_to(a, (count, *a.shape[1:])) for a in r))
+    return ContactResponse(*(np.broadcast_to(a, (count, *a.shape[1:])) for a in r))
 
 
 def _read(contacts: Contacts, x: Array, near: Array, rate: Array) -> Array:
@@ -278,11 +284,11 @@ def _near(layout: Layout, contacts: Contacts, pose: Pose) -> Array:
     return near
 
 
-def _unit(layout: Layout, along: System, e: int) -> Array:
+def _unit(layout: Layout, along: ConstraintRows, e: int) -> Array:
     """Wrenches on the links of a unit of contact e."""
     link = np.array([along.i[e], along.j[e]])
     return total_wrench(
-        layout, Source(link, np.stack([along.on_i[..., e, :], along.on_j[..., e, :]], axis=-2))
+        layout, WrenchSource(link, np.stack([along.on_i[..., e, :], along.on_j[..., e, :]], axis=-2))
     )
 
 
@@ -327,22 +333,22 @@ def _round_slope(contacts: Contacts, y: Array, least: Array) -> tuple[Array, Arr
     return y / larger(size, least)[..., None, :], size
 
 
-def argument(r: Response, cz: Array) -> Array:
+def argument(r: ContactResponse, cz: Array) -> Array:
     """y with contacts c z (..., E), or z where H is after z."""
     return np.asarray(r.y + (r.h @ cz[..., None, :, None])[..., 0])
 
 
-def multiplier(r: Response, cz: Array) -> Array:
+def multiplier(r: ContactResponse, cz: Array) -> Array:
     """x with contacts c z."""
     return np.asarray(r.x + (r.change @ cz[..., None])[..., 0])
 
 
-def with_strength(r: Response, c: Array) -> Response:
+def with_strength(r: ContactResponse, c: Array) -> ContactResponse:
     """The response with H after z itself, for strengths c (..., E)."""
     return r._replace(h=r.h * c[..., None, None, :])
 
 
-def jacobian(r: Response, steep: Array, sense: Array) -> Array:
+def jacobian(r: ContactResponse, steep: Array, sense: Array) -> Array:
     """Derivative of z + s S(y) after z (..., E, E) from the slope of S and H after z; its determinant is
     det(A + J) / det(A)."""
     change = ((sense[..., None, :] * steep)[..., None] * r.h).sum(axis=-3)
@@ -350,7 +356,7 @@ def jacobian(r: Response, steep: Array, sense: Array) -> Array:
 
 
 def correction(
-    r: Response, steep: Array, sense: Array, off: Array, solve: Callable[[Array, Array], Array]
+    r: ContactResponse, steep: Array, sense: Array, off: Array, solve: Callable[[Array, Array], Array]
 ) -> Array:
     """Newton's step where z + s S is ``off`` (..., E), from the slope of S and H after z."""
     return np.asarray(solve(jacobian(r, steep, sense), -off))
@@ -364,7 +370,7 @@ def levers(contacts: Contacts, h: Array) -> Array:
     return np.where(contacts.signed[:, None], np.abs(h[..., 0, :, :]), lever)
 
 
-def spectral_bound(contacts: Contacts, r: Response) -> Array:
+def spectral_bound(contacts: Contacts, r: ContactResponse) -> Array:
     """Bound (...) of the spectral radius of the fixed point, from H after z without its sign.
 
     Below 1 there is one solution, at any smaller scale too.

@@ -16,8 +16,8 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, at
 from dalembert.core.friction.contact_equations import (
+    ContactResponse,
     Contacts,
-    Response,
     SlipState,
     argument,
     bearing,
@@ -82,7 +82,7 @@ class NewtonResult(NamedTuple):
     near: Flags
 
 
-def without_friction(contacts: Contacts, r: Response) -> Array:
+def without_friction(contacts: Contacts, r: ContactResponse) -> Array:
     """Multipliers (P, X) without friction; the teeth's separation stays."""
     if not contacts.fixed.any():
         return r.x
@@ -91,7 +91,7 @@ def without_friction(contacts: Contacts, r: Response) -> Array:
     return multiplier(r, c * newton(contacts, r, sense, c, np.zeros_like(sense)).z)
 
 
-def solve_friction(contacts: Contacts, r: Response, state: SlipState) -> FrictionSolution:
+def solve_friction(contacts: Contacts, r: ContactResponse, state: SlipState) -> FrictionSolution:
     """Friction at each position of known senses; contacts of the ``state`` that are open have coefficients at rest."""
     sense, resting = state.sense, state.open
     r = repeat(r, len(sense))
@@ -111,17 +111,17 @@ def solve_friction(contacts: Contacts, r: Response, state: SlipState) -> Frictio
     return FrictionSolution(state, z, c, x, determinant, critical, single, locked)
 
 
-def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
+def roots(contacts: Contacts, r: ContactResponse, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
     """Limits of Newton's method from many starts (P, E): c z, multipliers and determinants of those that converge."""
     c = np.broadcast_to(strength(contacts, 1.0, sense=sense), sense.shape)
-    found = newton(contacts, r, sense, c, starts, most=4 * NEWTON)
-    cz = (c * found.z)[found.arrived]
-    return cz, multiplier(at(r, found.arrived), cz), found.determinant[found.arrived]
+    arrivals = newton(contacts, r, sense, c, starts, most=4 * NEWTON)
+    cz = (c * arrivals.z)[arrivals.arrived]
+    return cz, multiplier(at(r, arrivals.arrived), cz), arrivals.determinant[arrivals.arrived]
 
 
 def newton(
     contacts: Contacts,
-    r: Response,
+    r: ContactResponse,
     sense: Array,
     c: Array,
     z: Array,
@@ -166,14 +166,14 @@ def _largest(y: Array) -> Array:
 
 
 def _follow_branch(
-    contacts: Contacts, r: Response, sense: Array, resting: Array
+    contacts: Contacts, r: ContactResponse, sense: Array, resting: Array
 ) -> tuple[NewtonResult, Array]:
     """The branch from scale 0 to 1 and the scale it reaches."""
     count = len(sense)
     scale, step = np.zeros(count), np.full(count, LONGEST)
     c = np.array(np.broadcast_to(strength(contacts, 0.0), sense.shape))
-    found = newton(contacts, r, sense, c, np.zeros_like(sense))
-    z, determinant = found.z, found.determinant
+    start = newton(contacts, r, sense, c, np.zeros_like(sense))
+    z, determinant = start.z, start.determinant
     while True:
         on = np.flatnonzero((scale < 1) & (step > SMALLEST))
         if not on.size:

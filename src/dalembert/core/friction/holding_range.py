@@ -23,8 +23,8 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, Index, Ints, at
 from dalembert.core.friction.contact_equations import (
+    ContactResponse,
     Contacts,
-    Response,
     SlipState,
     argument,
     bearing,
@@ -61,29 +61,29 @@ class _Rest(NamedTuple):
     of their own (F,)."""
 
     contacts: Contacts
-    r: Response
+    r: ContactResponse
     c: Array
-    own: Ints
+    active: Ints
 
     def at(self, which: Index) -> _Rest:
         return self._replace(r=at(self.r, which))
 
 
-def holding(contacts: Contacts, r: Response, known: SlipState, ends: Array) -> Array:
+def holding(contacts: Contacts, r: ContactResponse, known: SlipState, ends: Array) -> Array:
     """Low and high (P, U, 2) of the last U multipliers, whose ``ends`` (P, U, 2) at impending motion are known.
 
     Infinite where unbounded. NaN where a contact moves (its friction is at its limit, whatever its history), and where
     the friction of one contact has several directions.
     """
-    own = np.asarray(~contacts.fixed & (strength(contacts, 1.0, True) > 0))
-    if len(np.unique(contacts.group[own])) < own.sum():
+    active = np.asarray(~contacts.fixed & (strength(contacts, 1.0, True) > 0))
+    if len(np.unique(contacts.group[active])) < active.sum():
         return np.full(ends.shape, np.nan)
-    free = np.asarray((known.open | ~own).all(axis=-1) & np.isfinite(r.y).all(axis=(-2, -1)))
+    free = np.asarray((known.open | ~active).all(axis=-1) & np.isfinite(r.y).all(axis=(-2, -1)))
     out = np.where(free[:, None, None], ends, np.nan)
     rest = _scale(contacts, r)
     gains = rest.r.change[:, -ends.shape[1] :, :]
     open_ = np.flatnonzero(free & ~_monotonic(rest, gains))
-    outward, n = _outward(rest), len(rest.own)
+    outward, n = _outward(rest), len(rest.active)
     size = max(1, MOST // (2 * ends.shape[1] * (len(outward) + 3) * (2 * n + 1) * (n + 1)))
     for some in np.split(open_, range(size, len(open_), size)) if open_.size else ():
         best = _best(rest.at(some), np.concatenate([gains, -gains], axis=1)[some], outward)
@@ -109,8 +109,8 @@ def _monotonic(rest: _Rest, gains: Array) -> Flags:
     most = np.abs(gains) @ np.swapaxes(inverse, -1, -2)
     least = np.abs(gains) - most @ np.swapaxes(follow, -1, -2)
     faces = np.flatnonzero(contacts.signed)
-    least[..., contacts.led[faces]] -= most[..., faces]
-    proved = (inverse >= 0).all(axis=(-2, -1)) & (least[..., rest.own] > 0).all(axis=(-2, -1))
+    least[..., contacts.leader[faces]] -= most[..., faces]
+    proved = (inverse >= 0).all(axis=(-2, -1)) & (least[..., rest.active] > 0).all(axis=(-2, -1))
     return np.asarray(proved)
 
 
@@ -128,15 +128,17 @@ def _best(rest: _Rest, ends: Array, outward: Array) -> Array:
     return np.asarray(value.reshape(count, starts, many).max(axis=1))
 
 
-def _scale(contacts: Contacts, r: Response) -> _Rest:
+def _scale(contacts: Contacts, r: ContactResponse) -> _Rest:
     """t by the strength of each contact and the largest force."""
     c = strength(contacts, 1.0, True)
     size = np.abs(r.y).max(axis=(-2, -1), initial=0.0)
     size = np.where(size > 0, size, 1.0)
     unit = np.where(c != 0, c, 1.0)
     part = r._replace(y=r.y / size[:, None, None], change=r.change * unit * size[:, None, None])
-    own = np.flatnonzero(~contacts.fixed & ~contacts.signed & (c > 0))
-    return _Rest(contacts, with_strength(part, np.broadcast_to(unit, (len(size), len(unit)))), c / unit, own)
+    active = np.flatnonzero(~contacts.fixed & ~contacts.signed & (c > 0))
+    return _Rest(
+        contacts, with_strength(part, np.broadcast_to(unit, (len(size), len(unit)))), c / unit, active
+    )
 
 
 def _bare(rest: _Rest) -> Array:
@@ -148,13 +150,13 @@ def _bare(rest: _Rest) -> Array:
 def _at_parts(rest: _Rest, part: Array, c: Array, t: Array) -> tuple[Array, Flags]:
     """State near t (B, E) in which every contact has the same fraction of its limit, and a flag where it exists."""
     part, c = np.broadcast_to(part, t.shape), np.broadcast_to(c, t.shape)
-    found = newton(rest.contacts, rest.r, part, c, c * t)
-    return np.where(found.arrived[:, None], c * found.z, t), found.arrived
+    solution = newton(rest.contacts, rest.r, part, c, c * t)
+    return np.where(solution.arrived[:, None], c * solution.z, t), solution.arrived
 
 
 def _outward(rest: _Rest) -> Array:
     """Gains (K, E) from whose extreme states the search also starts: each contact's friction, in both senses."""
-    unit = np.eye(rest.contacts.count)[rest.own if len(rest.own) <= SINGLE else []]
+    unit = np.eye(rest.contacts.count)[rest.active if len(rest.active) <= SINGLE else []]
     return np.concatenate([unit, -unit])
 
 
@@ -174,9 +176,9 @@ def _furthest(rest: _Rest, q: Array, t: Array) -> tuple[Array, Flags]:
     for _ in range(ROUNDS):
         part = rest.at(on)
         sides = _slopes(part, t[on], sides)
-        ways, g, h = _limits(part, t[on], sides)
-        way, unbounded = furthest(g, h, (q[on, None, :] @ ways)[:, 0])
-        new = _exact(part, t[on] + (ways @ way[..., None])[..., 0])
+        directions, g, h = _limits(part, t[on], sides)
+        combination, unbounded = furthest(g, h, (q[on, None, :] @ directions)[:, 0])
+        new = _exact(part, t[on] + (directions @ combination[..., None])[..., 0])
         gain = ((new - t[on]) * q[on]).sum(axis=-1)
         gained = gain > GAIN * size[on]
         t[on] = np.where((gained | unbounded)[:, None], new, t[on])
@@ -208,28 +210,28 @@ def _exact(rest: _Rest, t: Array) -> Array:
         return t
     bears = bearing(contacts, argument(rest.r, t))
     part = np.where(bears > 0, -t / np.where(bears > 0, bears, 1.0), 0.0)
-    part = np.where(contacts.fixed, -1.0, np.clip(part, -1.0, 1.0))[:, contacts.led]
+    part = np.where(contacts.fixed, -1.0, np.clip(part, -1.0, 1.0))[:, contacts.leader]
     return _at_parts(rest, part, rest.c, t)[0]
 
 
 def _limits(rest: _Rest, t: Array, steep: Array) -> tuple[Array, Array, Array]:
     """Linear limits on changes of t, with the bearing forces linearized: directions (B, E, F) of t with those of the
     contacts' own friction; g (B, M, F) times a change of these is at most h (B, M)."""
-    contacts, own, c = rest.contacts, rest.own, rest.c
+    contacts, active, c = rest.contacts, rest.active, rest.c
     count, each = t.shape
     bears = (steep * argument(rest.r, t)).sum(axis=-2)
     turn = (steep[..., None] * rest.r.h).sum(axis=-3)
-    ways: Array = np.zeros((count, each, len(own)))
-    ways[:, own, np.arange(len(own))] = 1.0
+    directions: Array = np.zeros((count, each, len(active)))
+    directions[:, active, np.arange(len(active))] = 1.0
     for face in np.flatnonzero(contacts.signed & (c > 0)):
-        guide = contacts.led[face]
+        guide = contacts.leader[face]
         ratio = bears[:, face] / np.where(bears[:, guide] > 0, bears[:, guide], 1.0)
-        ways[:, face] = ratio[:, None] * ways[:, guide]
+        directions[:, face] = ratio[:, None] * directions[:, guide]
     fixed = np.flatnonzero(contacts.fixed)
     follows = np.zeros((count, each, each))
     follows[:, fixed] = c[fixed, None] * turn[:, fixed]
-    ways = np.asarray(np.linalg.solve(np.eye(each) - follows, ways))
-    mine, turned, limit = ways[:, own], turn[:, own] @ ways, bears[:, own]
-    g = np.concatenate([mine - turned, -mine - turned, -(turn[:, fixed] @ ways)], axis=1)
-    h = np.concatenate([limit - t[:, own], limit + t[:, own], bears[:, fixed]], axis=1)
-    return ways, g, np.maximum(h, 0.0)
+    directions = np.asarray(np.linalg.solve(np.eye(each) - follows, directions))
+    mine, turned, limit = directions[:, active], turn[:, active] @ directions, bears[:, active]
+    g = np.concatenate([mine - turned, -mine - turned, -(turn[:, fixed] @ directions)], axis=1)
+    h = np.concatenate([limit - t[:, active], limit + t[:, active], bears[:, fixed]], axis=1)
+    return directions, g, np.maximum(h, 0.0)

@@ -17,8 +17,8 @@ import numpy as np
 from dalembert.arrays import Array, Flags
 from dalembert.core.friction.contact_equations import (
     STILL,
+    ContactResponse,
     Contacts,
-    Response,
     SlipState,
     argument,
     group_moves,
@@ -40,7 +40,7 @@ ROUNDS = 12
 def extreme(
     layout: Layout,
     contacts: Contacts,
-    r: Response,
+    r: ContactResponse,
     known: SlipState,
     unknown: int,
     end: float,
@@ -56,10 +56,10 @@ def extreme(
         """Senses where the rods spin at phi, and the contacts that do not move."""
         rate = g if rods is None else g + rods.spin_rates(r, g, phi)
         size = np.abs(rate) * np.where(contacts.rows.angular, layout.length, 1.0)
-        moves = (size > STILL * size.max(axis=-1, keepdims=True, initial=0.0))[..., contacts.led]
+        moves = (size > STILL * size.max(axis=-1, keepdims=True, initial=0.0))[..., contacts.leader]
         still = known.open & ~group_moves(contacts, moves)
-        told = known.sense if rods is None else rods.senses(phi).sense
-        sense = np.where(known.open, end * impending_senses(contacts, rate, moves), told)
+        known_sense = known.sense if rods is None else rods.senses(phi).sense
+        sense = np.where(known.open, end * impending_senses(contacts, rate, moves), known_sense)
         return known._replace(sense=np.where(still, held, sense)), still
 
     def moment(phi: Array) -> Array:
@@ -67,21 +67,21 @@ def extreme(
 
     for _ in range(ROUNDS):
         now, idle = state(solve_spins((len(g), len(row)), moment))
-        found = solve_friction(contacts, r, now)
+        solution = solve_friction(contacts, r, now)
         if not idle.any():
             break
-        new = np.where(idle, -end * _influence(contacts, r, found, g)[..., contacts.led], 0.0)
+        new = np.where(idle, -end * _influence(contacts, r, solution, g)[..., contacts.leader], 0.0)
         if np.array_equal(new, held):
             break
         held = new
-    return found
+    return solution
 
 
-def _influence(contacts: Contacts, r: Response, found: FrictionSolution, g: Array) -> Array:
+def _influence(contacts: Contacts, r: ContactResponse, solution: FrictionSolution, g: Array) -> Array:
     """Sign of the change of the unknown with each friction force, with the other contacts following."""
-    y = argument(r, found.c * np.nan_to_num(found.z))
+    y = argument(r, solution.c * np.nan_to_num(solution.z))
     largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
-    j = jacobian(with_strength(r, found.c), slope(contacts, y, largest)[0], found.state.sense)
-    a = solve_square(np.swapaxes(j, -1, -2), found.c * g)
+    j = jacobian(with_strength(r, solution.c), slope(contacts, y, largest)[0], solution.state.sense)
+    a = solve_square(np.swapaxes(j, -1, -2), solution.c * g)
     negligible = np.abs(a) <= STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
     return sign(contacts, np.nan_to_num(a), negligible)

@@ -31,9 +31,9 @@ def furthest(g: Array, h: Array, q: Array) -> tuple[Array, Flags]:
     """d (B, n) with the largest q . d where G (B, m, n) d <= h (B, m), and a flag where q . d is unbounded (B,); d is
     then a point far out along an unbounded direction."""
     count, m, n = g.shape
-    whole = np.concatenate([np.concatenate([g, h[..., None]], 2), np.pad(-q, ((0, 0), (0, 1)))[:, None]], 1)
+    table = np.concatenate([np.concatenate([g, h[..., None]], 2), np.pad(-q, ((0, 0), (0, 1)))[:, None]], 1)
     names = np.tile(np.arange(n + m), (count, 1))
-    tables = _Tables(whole, names[:, n:], names[:, :n], np.zeros((count, n)))
+    tables = _Tables(table, names[:, n:], names[:, :n], np.zeros((count, n)))
     sign, unbounded, on = np.ones((count, n)), np.zeros(count, bool), np.arange(count)
     for _ in range(PIVOTS * m):
         part = tables.some(on)
@@ -63,8 +63,8 @@ class _Tables:
         return _Tables(*(a[which] for a in vars(self).values()))
 
     def keep(self, which: Array, part: _Tables) -> None:
-        for name, whole in vars(self).items():
-            whole[which] = getattr(part, name)
+        for name, values in vars(self).items():
+            values[which] = getattr(part, name)
 
     def entering(self) -> tuple[Array, Flags]:
         """Column that gains most, those of d first, and a flag if one gains."""
@@ -94,8 +94,8 @@ class _Tables:
         """Raises the variable of a column that no limit bounds."""
         some = np.flatnonzero(which)
         self.table[some, :, -1] -= FAR * self.table[some, :, column[some]]
-        own = some[self.columns[some, column[some]] < self.columns.shape[1]]
-        self.beyond[own, self.columns[own, column[own]]] = FAR
+        unbounded = some[self.columns[some, column[some]] < self.columns.shape[1]]
+        self.beyond[unbounded, self.columns[unbounded, column[unbounded]]] = FAR
 
     def exchange(self, row: Array, column: Array) -> None:
         """Exchanges the variables of a row and a column of each tableau."""

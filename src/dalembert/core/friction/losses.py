@@ -11,7 +11,7 @@ from dalembert.arrays import Array, Ints
 from dalembert.core.branchless import above, top
 from dalembert.core.constraints import rates, system
 from dalembert.core.friction.contact_equations import Contacts
-from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.layout import ConstraintRows, Layout, Pose
 
 POWERLESS = 1e-9
 """A power below this part of the largest load times the fastest motion has no sign: at a dead centre all powers are
@@ -19,7 +19,7 @@ rounding."""
 
 
 def dry_wrenches(
-    layout: Layout, contacts: Contacts, pose: Pose, along: System, effort: Array
+    layout: Layout, contacts: Contacts, pose: Pose, along: ConstraintRows, effort: Array
 ) -> tuple[Array, Array]:
     """Force (..., joints, d) and moment about j's point (..., joints; in space with 3 components) on j of the contacts'
     efforts (..., E)."""
@@ -30,15 +30,15 @@ def viscous_wrenches(
     layout: Layout, contacts: Contacts, pose: Pose, twist: Array
 ) -> tuple[Array, Array, Array]:
     """Force, moment and lost power of the joints' viscous damping."""
-    own = contacts.damping
-    rows = system(layout.algebra, layout.freedoms, pose).rows(own.row)
-    joint, rate = layout.freedoms.joint[own.row], rates(rows, twist)
-    force, moment = _in_joints(layout, contacts, joint, pose, rows, -own.damping * rate)
-    return force, moment, by_joint(joint, layout.joints, own.damping * rate * rate)
+    damping = contacts.damping
+    rows = system(layout.algebra, layout.freedoms, pose).rows(damping.row)
+    joint, rate = layout.freedoms.joint[damping.row], rates(rows, twist)
+    force, moment = _in_joints(layout, contacts, joint, pose, rows, -damping.damping * rate)
+    return force, moment, by_joint(joint, layout.joints, damping.damping * rate * rate)
 
 
 def _in_joints(
-    layout: Layout, contacts: Contacts, joint: Ints, pose: Pose, along: System, effort: Array
+    layout: Layout, contacts: Contacts, joint: Ints, pose: Pose, along: ConstraintRows, effort: Array
 ) -> tuple[Array, Array]:
     """Forces and moments on j of efforts (..., K) along rows of some joints (K,)."""
     g, lead, link = layout.algebra, effort.shape[:-1], contacts.link
@@ -64,7 +64,9 @@ def by_joint(joint: Ints, joints: int, values: Array) -> Array:
     return out
 
 
-def power_reversed(layout: Layout, unknown: System, twist: Array, w: Array, x: Array, bare: Array) -> Array:
+def power_reversed(
+    layout: Layout, unknown: ConstraintRows, twist: Array, w: Array, x: Array, bare: Array
+) -> Array:
     """True where the power (...) of the unknown efforts and loads changes sign with friction.
 
     x, bare: multipliers with and without friction; w (..., L, n) wrenches on the links; ``unknown`` the rows of x.

@@ -16,7 +16,7 @@ import numpy as np
 from dalembert.arrays import Array, Flags, at
 from dalembert.core.branchless import where
 from dalembert.core.constraints import system
-from dalembert.core.equilibrium import Motion, motion
+from dalembert.core.equilibrium import LinkMotions, motion
 from dalembert.core.friction.contact_equations import (
     Contacts,
     SlipState,
@@ -25,7 +25,7 @@ from dalembert.core.friction.contact_equations import (
     sign,
     zero_crossings,
 )
-from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.layout import ConstraintRows, Layout, Pose
 from dalembert.core.position.newton import CLOSED, close_loops, displace
 
 ASIDE = 0.01
@@ -54,9 +54,9 @@ class Driven(NamedTuple):
 def sides(
     layout: Layout,
     contacts: Contacts,
-    along: System,
+    along: ConstraintRows,
     pose: Pose,
-    moving: Motion,
+    moving: LinkMotions,
     driven: Driven,
     now: SlipState,
     spun: Flags,
@@ -72,8 +72,8 @@ def sides(
     if some.size:
         where = pose.at(some), at(moving, some), at(driven, some)
         last, next_ = (_aside(layout, contacts, *where, sign) for sign in (-1.0, 1.0))
-        for side, found in ((before, last), (after, next_)):
-            side[some] = np.where(rest[some], found.sense, side[some])
+        for side, near in ((before, last), (after, next_)):
+            side[some] = np.where(rest[some], near.sense, side[some])
         known[some] |= rest[some] & ~last.open & ~next_.open
     open_ = ~known | contacts.fixed
     return SlipState(before, open_, now.rate), SlipState(after, open_, now.rate)
@@ -82,9 +82,9 @@ def sides(
 def crossing(
     layout: Layout,
     contacts: Contacts,
-    along: System,
+    along: ConstraintRows,
     pose: Pose,
-    moving: Motion,
+    moving: LinkMotions,
     now: SlipState,
     follows: Flags,
 ) -> Crossing:
@@ -101,11 +101,11 @@ def crossing(
 
 def _sign(contacts: Contacts, rate: Array) -> Array:
     """Senses of rates that determine them, however small."""
-    return sign(contacts, rate * contacts.reckoned, rate == 0)[..., contacts.led]
+    return sign(contacts, rate * contacts.reckoned, rate == 0)[..., contacts.leader]
 
 
 def _aside(
-    layout: Layout, contacts: Contacts, pose: Pose, moving: Motion, driven: Driven, sign: float
+    layout: Layout, contacts: Contacts, pose: Pose, moving: LinkMotions, driven: Driven, sign: float
 ) -> SlipState:
     """Senses slightly before (sign -1) or after the positions; open where the linkage does not close there."""
     dt = _moment(layout, moving)[:, None]
@@ -113,17 +113,17 @@ def _aside(
     target = driven.target.copy()
     target[:, layout.constraints.count :] += ahead * driven.speed + bent * driven.acceleration
     step = ahead[..., None] * moving.twist + bent[..., None] * moving.acceleration
-    there, missing = close_loops(layout, displace(layout, pose, step[:, :-1]), target)
-    twist = motion(layout, there, driven.speed + ahead * driven.acceleration, driven.acceleration)[0].twist
-    found = senses(layout, contacts, system(layout.algebra, contacts.rows, there), twist)
-    return found._replace(open=found.open | (missing > CLOSED * layout.length)[:, None])
+    nearby, missing = close_loops(layout, displace(layout, pose, step[:, :-1]), target)
+    twist = motion(layout, nearby, driven.speed + ahead * driven.acceleration, driven.acceleration)[0].twist
+    slip = senses(layout, contacts, system(layout.algebra, contacts.rows, nearby), twist)
+    return slip._replace(open=slip.open | (missing > CLOSED * layout.length)[:, None])
 
 
-def _moment(layout: Layout, moving: Motion) -> Array:
+def _moment(layout: Layout, moving: LinkMotions) -> Array:
     """Time (P,) in which the fastest link moves by ``ASIDE``."""
-    way = ASIDE * layout.length
+    travel = ASIDE * layout.length
     speed, rate = (
         np.abs(a / layout.wrench_scale).max(axis=(-2, -1)) for a in (moving.twist, moving.acceleration)
     )
     with np.errstate(divide="ignore"):
-        return np.asarray(np.minimum(way / speed, np.sqrt(2 * way / rate)))
+        return np.asarray(np.minimum(travel / speed, np.sqrt(2 * travel / rate)))

@@ -20,10 +20,16 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints, at, put
-from dalembert.core.friction.contact_equations import Contacts, Response, SlipState, multiplier, strength
+from dalembert.core.friction.contact_equations import (
+    ContactResponse,
+    Contacts,
+    SlipState,
+    multiplier,
+    strength,
+)
 from dalembert.core.friction.friction_solver import LONGEST, FrictionSolution, NewtonResult, newton
 from dalembert.core.geometry import arm
-from dalembert.core.layout import Idle, Layout, Pose, System
+from dalembert.core.layout import ConstraintRows, Idle, Layout, Pose
 from dalembert.core.linear import solve_square
 
 STEPS = 60
@@ -64,7 +70,7 @@ class SpinningRods(NamedTuple):
 
         return self._replace(line=self.line[some], rate=self.rate[some], senses=senses)
 
-    def spin_rates(self, r: Response, rate: Array, phi: Array) -> Array:
+    def spin_rates(self, r: ContactResponse, rate: Array, phi: Array) -> Array:
         """Rates (P, E) that spins at phi add to an impending motion: a unit of spin turns each contact as far as the
         contact's couple turns the rod."""
         unit = r.change[..., self.row, :]
@@ -77,7 +83,7 @@ def _fastest(touched: Flags, rate: Array) -> Array:
 
 
 def spinning_rods(
-    layout: Layout, pose: Pose, along: System, twist: Array, senses: Callable[[Array], SlipState]
+    layout: Layout, pose: Pose, along: ConstraintRows, twist: Array, senses: Callable[[Array], SlipState]
 ) -> SpinningRods | None:
     """The rods whose balls have friction; None without any. ``senses``: of the contacts at a twist of the links."""
     idle = [f for f in layout.constraints.families if isinstance(f, Idle)]
@@ -135,12 +141,12 @@ def _newton(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Array,
 def _of_one(moment: Callable[[Array], Array], phi: Array, n: int) -> Callable[[Array], Array]:
     """Moment about the line of rod n as a function of its phi, with the others' fixed."""
 
-    def own(value: Array) -> Array:
+    def single(value: Array) -> Array:
         tried = phi.copy()
         tried[..., n] = value
         return moment(tried)[..., n]
 
-    return own
+    return single
 
 
 def _bracket_root(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> Array:
@@ -164,7 +170,7 @@ def _bracket_root(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> A
 
 
 def follow_branch_with_spin(
-    contacts: Contacts, r: Response, resting: Flags, rods: SpinningRods
+    contacts: Contacts, r: ContactResponse, resting: Flags, rods: SpinningRods
 ) -> FrictionSolution:
     """The branch from no friction, with the rods at their equilibrium spin throughout. It is followed like the one
     without spin: it ends where no step of the friction scale succeeds, at a critical scale of 0 where none does.
@@ -174,8 +180,8 @@ def follow_branch_with_spin(
         """Friction from z on where the rods spin at phi, and the moments (P, k) about their lines that it leaves."""
         sense = rods.senses(phi).sense
         c = strength(contacts, scale[:, None], resting, sense)
-        found = newton(contacts, r, sense, c, z, most=12)
-        return found, np.nan_to_num(multiplier(r, c * found.z)[..., rods.row])
+        solution = newton(contacts, r, sense, c, z, most=12)
+        return solution, np.nan_to_num(multiplier(r, c * solution.z)[..., rods.row])
 
     largest = np.abs(r.x).max(axis=-1)
     z, count = np.zeros(resting.shape), len(resting)
@@ -184,12 +190,12 @@ def follow_branch_with_spin(
     scale, sign, determinant = np.zeros(count), np.zeros(count), np.ones(count)
     while ((scale < 1) & (step > ENDED)).any():
         aim = np.where(step > ENDED, np.minimum(scale + step, 1.0), scale)
-        new, turned, there = _nested_newton(partial(moment, aim, z), phi, largest)
+        new, turned, orientation = _nested_newton(partial(moment, aim, z), phi, largest)
         near = (np.abs(turned - phi) < FAR).all(axis=-1)
-        good = new.arrived & near & (new.determinant > 0) & (there * sign >= 0) & (aim > scale)
+        good = new.arrived & near & (new.determinant > 0) & (orientation * sign >= 0) & (aim > scale)
         phi = np.where(good[:, None], turned, phi)
         z, determinant = np.where(good[:, None], new.z, z), np.where(good, new.determinant, determinant)
-        sign, scale = np.where(good, there, sign), np.where(good, aim, scale)
+        sign, scale = np.where(good, orientation, sign), np.where(good, aim, scale)
         step = np.where(good, np.minimum(2 * step, LONGEST), step / 2)
     ended, state = scale < 1, rods.senses(phi)
     z, critical = np.where(ended[:, None], np.nan, z), np.where(ended, scale, np.nan)
@@ -204,7 +210,7 @@ def _nested_newton(
     """Newton on friction within Newton on the spins, whose derivatives are finite differences; sign of their
     determinant."""
     phi, change, steep = _newton(lambda phi: moment(phi)[1], phi)
-    found, left = moment(phi)
+    solution, left = moment(phi)
     balanced = np.abs(left).max(axis=-1) <= ALMOST * largest
-    arrived = found.arrived & balanced & (np.abs(change).max(axis=-1) < ALMOST)
-    return found._replace(arrived=arrived), phi, np.sign(np.linalg.det(steep))
+    arrived = solution.arrived & balanced & (np.abs(change).max(axis=-1) < ALMOST)
+    return solution._replace(arrived=arrived), phi, np.sign(np.linalg.det(steep))

@@ -22,10 +22,10 @@ import numpy as np
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.equilibrium import Known, load_rows
 from dalembert.core.factor import row_scale
-from dalembert.core.forcing import Source, total_wrench
+from dalembert.core.forcing import WrenchSource, total_wrench
 from dalembert.core.friction.contact_equations import (
+    ContactResponse,
     Contacts,
-    Response,
     SlipState,
     argument,
     jacobian,
@@ -36,7 +36,7 @@ from dalembert.core.friction.contact_equations import (
     with_strength,
 )
 from dalembert.core.friction.friction_solver import FrictionSolution, solve_friction
-from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.layout import ConstraintRows, Layout, Pose
 from dalembert.core.linear import Factor, solve_square
 
 NEWTON = 30
@@ -53,7 +53,7 @@ class ThroughFriction(NamedTuple):
     """Positions whose unknown loads are determined by friction alone: the response at these loads (P, ...), the loads
     (P, U), the smallest singular value of the scaled de/du (P,), the positions that are solved, and those that jam."""
 
-    response: Response
+    response: ContactResponse
     load: Array
     rcond: Array
     solved: Flags
@@ -67,31 +67,31 @@ class _Loaded(NamedTuple):
     contacts: Contacts
     known: Known
     state: SlipState
-    r: Response
+    r: ContactResponse
     x_by_load: Array  # (P, U, X)
     y_by_load: Array  # (P, U, 3, E)
 
     @property
-    def given(self) -> Ints:
+    def known_efforts(self) -> Ints:
         """Columns of x that hold the given efforts."""
-        return np.asarray(self.layout.constraints.count + np.flatnonzero(~self.known.asked))
+        return np.asarray(self.layout.constraints.count + np.flatnonzero(~self.known.requested))
 
     @property
     def effort(self) -> Array:
         """The given efforts (P, G)."""
-        return np.asarray(self.known.effort[:, ~self.known.asked])
+        return np.asarray(self.known.effort[:, ~self.known.requested])
 
     @property
     def effort_scale(self) -> Array:
         """Characteristic length of each given effort (G,) that is a couple, else 1."""
-        return row_scale(self.layout, self.layout.freedoms.angular[self.layout.driven])[~self.known.asked]
+        return row_scale(self.layout, self.layout.freedoms.angular[self.layout.driven])[~self.known.requested]
 
     @property
     def load_scale(self) -> Array:
         """Characteristic length of each unknown load (U,) that is a couple, else 1."""
         return row_scale(self.layout, self.known.couple)
 
-    def at_loads(self, u: Array) -> Response:
+    def at_loads(self, u: Array) -> ContactResponse:
         x = self.r.x + (u[:, None] @ self.x_by_load)[:, 0]
         return self.r._replace(x=x, y=self.r.y + np.einsum("pu,puae->pae", u, self.y_by_load))
 
@@ -101,7 +101,7 @@ def solve_unpowered(
     contacts: Contacts,
     known: Known,
     pose: Pose,
-    rows: System,
+    rows: ConstraintRows,
     solver: Factor,
     w: Array,
     twist: Array,
@@ -114,11 +114,11 @@ def solve_unpowered(
     u, solved, weak, jammed = np.full(size.shape, np.nan), np.zeros(len(w), bool), np.zeros(len(w)), None
     positive = np.zeros(len(w), bool)
     for far, signs in product(STARTS, product((1.0, -1.0), repeat=size.shape[1])):
-        found, arrived, least, jams = _newton(p, far * size * np.array(signs))
+        loads, arrived, least, jams = _newton(p, far * size * np.array(signs))
         jammed = jams if jammed is None else jammed & jams
-        forward = arrived & (found >= 0).all(axis=-1)
+        forward = arrived & (loads >= 0).all(axis=-1)
         better = np.flatnonzero((arrived & ~solved) | (forward & ~positive))
-        u[better], weak[better] = found[better], least[better]
+        u[better], weak[better] = loads[better], least[better]
         solved, positive = solved | arrived, positive | forward
     assert jammed is not None
     u = np.where((jammed & ~solved)[:, None], size, u)
@@ -133,7 +133,7 @@ def _loaded(
     pose: Pose,
     solver: Factor,
     w: Array,
-    rows: System,
+    rows: ConstraintRows,
     twist: Array,
     state: SlipState,
 ) -> _Loaded:
@@ -142,7 +142,7 @@ def _loaded(
     loads, still = load_rows(layout, known, pose), np.zeros((len(w), contacts.count))
     each = []
     for k in range(len(known.link)):
-        unit = total_wrench(layout, Source(loads.j[k : k + 1], loads.on_j[..., k : k + 1, :]))
+        unit = total_wrench(layout, WrenchSource(loads.j[k : k + 1], loads.on_j[..., k : k + 1, :]))
         each.append(repeat(under(layout, contacts, pose, solver, unit, still, r), len(w)))
     by_load = (np.stack([one.x for one in each], axis=1), np.stack([one.y for one in each], axis=1))
     return _Loaded(layout, contacts, known, state, r, *by_load)
@@ -160,11 +160,11 @@ def _newton(p: _Loaded, u: Array) -> tuple[Array, Flags, Array, Flags]:
     start jams."""
     arrived, least, jams = np.zeros(len(u), bool), np.zeros(len(u)), np.zeros(len(u), bool)
     for k in range(NEWTON):
-        found, here = _friction(p, u)
+        solution, here = _friction(p, u)
         if k == 0:
-            jams = ~np.isnan(found.critical)
-        rate = _effort_rate(p, found, here)
-        step = solve_square(rate, p.effort - found.x[:, p.given])
+            jams = ~np.isnan(solution.critical)
+        rate = _effort_rate(p, solution, here)
+        step = solve_square(rate, p.effort - solution.x[:, p.known_efforts])
         u = np.where(arrived[:, None], u, u + step)
         arrived |= (np.abs(step) <= ARRIVED * np.abs(u)).all(axis=-1)
         if arrived.all() or not np.isfinite(u).any():
@@ -174,21 +174,21 @@ def _newton(p: _Loaded, u: Array) -> tuple[Array, Flags, Array, Flags]:
     return u, arrived, least, jams
 
 
-def _friction(p: _Loaded, u: Array) -> tuple[FrictionSolution, Response]:
+def _friction(p: _Loaded, u: Array) -> tuple[FrictionSolution, ContactResponse]:
     here = p.at_loads(u)
     return solve_friction(p.contacts, here, p.state), here
 
 
-def _effort_rate(p: _Loaded, found: FrictionSolution, here: Response) -> Array:
+def _effort_rate(p: _Loaded, solution: FrictionSolution, here: ContactResponse) -> Array:
     """de/du (P, G, U) where friction is solved."""
-    y, r = argument(here, found.c * found.z), with_strength(here, found.c)
+    y, r = argument(here, solution.c * solution.z), with_strength(here, solution.c)
     steep, _ = slope(p.contacts, y, np.abs(y).max(axis=(-2, -1), initial=0.0))
-    sense = found.state.sense
-    rates = np.swapaxes(p.x_by_load[..., p.given], -1, -2)
+    sense = solution.state.sense
+    rates = np.swapaxes(p.x_by_load[..., p.known_efforts], -1, -2)
     for k in range(p.y_by_load.shape[1]):
         off = sense * (steep * p.y_by_load[:, k]).sum(axis=-2)
         z = solve_square(jacobian(r, steep, sense), -off)
-        rates[:, :, k] += (here.change[:, p.given] @ (found.c * z)[..., None])[..., 0]
+        rates[:, :, k] += (here.change[:, p.known_efforts] @ (solution.c * z)[..., None])[..., 0]
     return np.asarray(rates)
 
 
@@ -197,10 +197,10 @@ def _scaled(p: _Loaded, rate: Array) -> Array:
     return np.asarray(rate / p.effort_scale[:, None] * p.load_scale)
 
 
-def _arranged(p: _Loaded, u: Array) -> Response:
+def _arranged(p: _Loaded, u: Array) -> ContactResponse:
     """The response at loads u, in the order of the original unknowns: constraints, other efforts, loads, which friction
     does not change."""
     r, none = p.at_loads(u), np.zeros((*u.shape, p.contacts.count))
-    kept = np.setdiff1d(np.arange(r.x.shape[-1]), p.given)
+    kept = np.setdiff1d(np.arange(r.x.shape[-1]), p.known_efforts)
     x, change = np.concatenate([r.x[:, kept], u], axis=-1), np.concatenate([r.change[:, kept], none], axis=-2)
     return r._replace(x=x, change=change)

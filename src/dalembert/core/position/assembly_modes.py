@@ -15,7 +15,7 @@ import numpy as np
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.constraints import measure
 from dalembert.core.layout import Layout, Meet, Pose, Turn
-from dalembert.core.position.assur_plan import Plan
+from dalembert.core.position.assur_plan import PlacementPlan
 from dalembert.core.position.dyads import Laid, offsets, place_ground, place_group, sides
 
 MOST = 64
@@ -41,33 +41,35 @@ class Wanted(NamedTuple):
     start: Pose | None
 
     @property
-    def given(self) -> bool:
+    def any_known(self) -> bool:
         """True if any angle is given."""
         return bool(np.isfinite(self.turn[:-1]).any())
 
 
-def enumerate_modes(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
+def enumerate_modes(layout: Layout, plan: PlacementPlan, target: Array, wanted: Wanted) -> Pose:
     """Modes (M, L+1, ...) in which a linkage closes at a target (K + D,), group by group, in order of preference."""
     with np.errstate(all="ignore"):
         return _enumerate_modes(layout, plan, target, wanted)
 
 
-def _enumerate_modes(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
+def _enumerate_modes(layout: Layout, plan: PlacementPlan, target: Array, wanted: Wanted) -> Pose:
     stated = stated_sides(layout, plan, target, wanted)
-    laid, off = place_ground(plan, target[None]), offsets(plan, target[None])
+    placed, off = place_ground(plan, target[None]), offsets(plan, target[None])
     for group in plan.groups:
-        laid = place_group(group, laid, *(np.repeat(a, len(laid.turn), axis=0) for a in (target[None], off)))[
-            1
-        ]
+        placed = place_group(
+            group, placed, *(np.repeat(a, len(placed.turn), axis=0) for a in (target[None], off))
+        )[1]
         for links in group.turning:
-            _wind(laid.turn, group.links[links], wanted.turn)
-        if len(laid.turn) > MOST:
-            laid = laid.at(_order(layout, laid, stated, wanted)[:MOST])
-    order = _order(layout, laid, stated, wanted)
-    return to_pose(layout, laid.at(order))
+            _wind(placed.turn, group.links[links], wanted.turn)
+        if len(placed.turn) > MOST:
+            placed = placed.at(_order(layout, placed, stated, wanted)[:MOST])
+    order = _order(layout, placed, stated, wanted)
+    return to_pose(layout, placed.at(order))
 
 
-def on_sides(layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array) -> tuple[Ints, Pose]:
+def on_sides(
+    layout: Layout, plan: PlacementPlan, targets: Array, like: Pose, turn: Array
+) -> tuple[Ints, Pose]:
     """Indices of the targets (P, K + D) at which a linkage closes with every group on its side of a pose (L+1, ...),
     and the poses.
 
@@ -76,45 +78,45 @@ def on_sides(layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array
     with np.errstate(all="ignore"):
         here = np.full((1, targets.shape[1]), np.nan)
         side = sides(plan, like.turn[None], like.point[None], here)[0]
-        off, laid, places = offsets(plan, targets), place_ground(plan, targets), np.arange(len(targets))
+        off, placed, places = offsets(plan, targets), place_ground(plan, targets), np.arange(len(targets))
         for k, group in enumerate(plan.groups):
-            which, laid = place_group(group, laid, targets[places], off[places])
-            same = laid.side[:, k] * side[k] >= 0
+            which, placed = place_group(group, placed, targets[places], off[places])
+            same = placed.side[:, k] * side[k] >= 0
             once = same & (np.bincount(which[same], minlength=len(places))[which] == 1)
-            laid, places = laid.at(once), places[which[once]]
+            placed, places = placed.at(once), places[which[once]]
             for links in group.turning:
-                _wind(laid.turn, group.links[links], turn)
-        return places, to_pose(layout, laid)
+                _wind(placed.turn, group.links[links], turn)
+        return places, to_pose(layout, placed)
 
 
-def closing(plan: Plan, targets: Array) -> Ints:
+def closing(plan: PlacementPlan, targets: Array) -> Ints:
     """Indices of the targets (P, K + D) at which a linkage closes in any mode, ascending."""
     with np.errstate(all="ignore"):
-        off, laid, places = offsets(plan, targets), place_ground(plan, targets), np.arange(len(targets))
+        off, placed, places = offsets(plan, targets), place_ground(plan, targets), np.arange(len(targets))
         for group in plan.groups:
-            which, laid = place_group(group, laid, targets[places], off[places])
+            which, placed = place_group(group, placed, targets[places], off[places])
             places = places[which]
         return np.unique(places)
 
 
-def to_pose(layout: Layout, laid: Laid) -> Pose:
+def to_pose(layout: Layout, placed: Laid) -> Pose:
     """Placed links as a pose."""
-    return Pose(laid.point, laid.turn, layout.algebra.rotation(laid.turn))
+    return Pose(placed.point, placed.turn, layout.algebra.rotation(placed.turn))
 
 
-def _wind(turn: Array, links: Ints, given: Array) -> None:
+def _wind(turn: Array, links: Ints, angle: Array) -> None:
     """Whole turns of links that turn together: nearest to the given angle of one of them, else the fewest."""
-    known = links[np.isfinite(given[links])]
+    known = links[np.isfinite(angle[links])]
     head = known[0] if known.size else links[0]
-    wanted = given[head] if known.size else 0.0
+    wanted = angle[head] if known.size else 0.0
     turn[:, links] -= 2 * np.pi * np.ceil((turn[:, [head]] - wanted) / (2 * np.pi) - 0.5)
 
 
-def stated_sides(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Array:
+def stated_sides(layout: Layout, plan: PlacementPlan, target: Array, wanted: Wanted) -> Array:
     """The side (G,) of each group that the given angles imply even if each is wrong by ``NEAR``; 0 where they imply
     none. The drives' positions are not used: the angles may have been measured at others.
     """
-    if not wanted.given:
+    if not wanted.any_known:
         return np.zeros(len(plan.groups))
     target = target.copy()
     target[layout.constraints.count :] = np.nan
@@ -129,28 +131,28 @@ def stated_sides(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> A
             elif np.isnan(turn[0, known]):
                 turn[:, known] = turn[:, new] - sign * target[row]
     every = np.ones((TRIALS, 1))
-    found = sides(plan, turn, every[:, None] * wanted.point, every * target)
-    return np.where((found == found[0]).all(axis=0), found[0], 0.0)
+    side = sides(plan, turn, every[:, None] * wanted.point, every * target)
+    return np.where((side == side[0]).all(axis=0), side[0], 0.0)
 
 
-def _order(layout: Layout, laid: Laid, stated: Array, wanted: Wanted) -> Ints:
+def _order(layout: Layout, placed: Laid, stated: Array, wanted: Wanted) -> Ints:
     """Order of preference of modes, some of them only partly placed."""
-    wrong = (laid.side * stated[: laid.side.shape[1]] < 0).sum(axis=1)
-    off = np.nansum(wrap_angle(laid.turn - wanted.turn)[:, :-1] ** 2, axis=1)
-    shift = np.nansum((laid.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length / layout.length
+    wrong = (placed.side * stated[: placed.side.shape[1]] < 0).sum(axis=1)
+    off = np.nansum(wrap_angle(placed.turn - wanted.turn)[:, :-1] ** 2, axis=1)
+    shift = np.nansum((placed.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length / layout.length
     keys = [wrong, off, shift]
     if wanted.start is not None:
-        away = np.nansum(wrap_angle(laid.turn - wanted.start.turn) ** 2, axis=1)
+        away = np.nansum(wrap_angle(placed.turn - wanted.start.turn) ** 2, axis=1)
         keys.append(
             away
-            + np.nansum((laid.point - wanted.start.point) ** 2, axis=(1, 2)) / layout.length / layout.length
+            + np.nansum((placed.point - wanted.start.point) ** 2, axis=(1, 2)) / layout.length / layout.length
         )
-    if wanted.given:
+    if wanted.any_known:
         order = np.lexsort([key.round(9) for key in reversed(keys)])
         if np.any([np.diff(key[order].round(9)) for key in keys], axis=0).all():
             return order  # all different: the sliders' positions do not decide
-    along, height = measures(layout, to_pose(layout, laid))
-    keys[len(keys) if wanted.given else 3 : 0] = [-along, -height]
+    along, height = measures(layout, to_pose(layout, placed))
+    keys[len(keys) if wanted.any_known else 3 : 0] = [-along, -height]
     return np.lexsort([key.round(9) for key in reversed(keys)])
 
 
@@ -190,7 +192,7 @@ def distinct(layout: Layout, pose: Pose) -> Pose:
 
 def sort_modes(layout: Layout, pose: Pose, wanted: Wanted) -> Ints:
     """Order of modes whose groups are unknown: by distance from given angles, else by preference."""
-    if wanted.given:
+    if wanted.any_known:
         off = np.nansum(wrap_angle(pose.turn - wanted.turn)[:, :-1] ** 2, axis=1).round(9)
         return np.argsort(off, kind="stable")
     along, height = measures(layout, pose)

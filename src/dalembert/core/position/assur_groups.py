@@ -17,7 +17,7 @@ import numpy as np
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import dense, stack_rows
 from dalembert.core.factor import row_scale
-from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.layout import ConstraintRows, Layout, Pose
 from dalembert.core.linear import Inverse, inverse
 
 NOTHING = 1e-9
@@ -34,14 +34,14 @@ TOLD_APART = 3
 Larger groups have more modes, several of the same sign."""
 
 
-class Group(NamedTuple):
+class DiagonalBlock(NamedTuple):
     """Rows and columns (b,) of a diagonal block of J."""
 
     row: Ints
     column: Ints
 
 
-def groups(layout: Layout, pose: Pose) -> list[Group]:
+def groups(layout: Layout, pose: Pose) -> list[DiagonalBlock]:
     """Diagonal blocks of J by the entries that differ from 0 at any of the poses (P, L+1, ...) of one branch.
 
     Where rows repeat each other, those of two choices of independent ones, the first and the last: a sign that changes
@@ -57,15 +57,15 @@ def groups(layout: Layout, pose: Pose) -> list[Group]:
     choices = (
         [every] if layout.square else [independent_rows(j[0], every), independent_rows(j[0], every[::-1])]
     )
-    found: list[Group] = []
+    parts: list[DiagonalBlock] = []
     for kept in choices:
         blocks = block_triangular([np.flatnonzero(filled[row]).tolist() for row in kept], layout.unknowns)
         if blocks is None:
             return []
-        found += [Group(kept[rows], np.array(columns, np.intp)) for rows, columns in blocks]
-    links = [len(np.unique(group.column // layout.algebra.n)) for group in found]
-    steady = layout.square or bool((np.ptp(senses(layout, found, pose), axis=0) == 0).all())
-    return found if max(links) <= TOLD_APART and steady else []
+        parts += [DiagonalBlock(kept[rows], np.array(columns, np.intp)) for rows, columns in blocks]
+    links = [len(np.unique(group.column // layout.algebra.n)) for group in parts]
+    steady = layout.square or bool((np.ptp(senses(layout, parts, pose), axis=0) == 0).all())
+    return parts if max(links) <= TOLD_APART and steady else []
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def on_independent_rows(layout: Layout, pose: Pose) -> Layout:
         return layout
     kept = independent_rows(_scaled_jacobian(layout, pose.at(None))[0], np.arange(layout.stack.count))
 
-    def solver(at: Layout, rows: System) -> Chosen:
+    def solver(at: Layout, rows: ConstraintRows) -> Chosen:
         some = rows.rows(kept)
         return Chosen(kept, inverse(dense(at, some), row_scale(at, some.angular), at.column_scale))
 
@@ -112,10 +112,10 @@ def independent_rows(j: Array, order: Ints) -> Ints:
     return np.array(kept, np.intp)
 
 
-def senses(layout: Layout, found: list[Group], pose: Pose) -> Array:
+def senses(layout: Layout, blocks: list[DiagonalBlock], pose: Pose) -> Array:
     """Signs (P, G) of the groups' determinants; each distinguishes the two sides of a dead centre of its group."""
     j = _scaled_jacobian(layout, pose)
-    return np.stack([np.linalg.slogdet(j[:, g.row[:, None], g.column])[0] for g in found], axis=1)
+    return np.stack([np.linalg.slogdet(j[:, g.row[:, None], g.column])[0] for g in blocks], axis=1)
 
 
 def _scaled_jacobian(layout: Layout, pose: Pose) -> Array:
@@ -132,17 +132,17 @@ def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int
     >>> block_triangular([[0], [0, 1, 2], [1, 2]], 3)
     [([0], [0]), ([1, 2], [1, 2])]
     """
-    own = match_columns(rows) if len(rows) == columns else [-1]
-    if -1 in own:
+    matched = match_columns(rows) if len(rows) == columns else [-1]
+    if -1 in matched:
         return None
-    owner = {column: row for row, column in enumerate(own)}
+    owner = {column: row for row, column in enumerate(matched)}
     needed = [[owner[column] for column in row] for row in rows]
-    return [(block, sorted(own[row] for row in block)) for block in strong_components(needed)]
+    return [(block, sorted(matched[row] for row in block)) for block in strong_components(needed)]
 
 
 def match_columns(rows: list[list[int]]) -> list[int]:
     """Distinct column for each row, by augmenting paths, for as many rows as possible; -1 for the others."""
-    own: list[int] = [-1] * len(rows)
+    match: list[int] = [-1] * len(rows)
     owner: dict[int, int] = {}
     for start in range(len(rows)):
         came: dict[int, int] = {}
@@ -156,15 +156,15 @@ def match_columns(rows: list[list[int]]) -> list[int]:
             queue += [owner[column] for column in new]
         while free >= 0:
             row = came[free]
-            own[row], owner[free], free = free, row, own[row]
-    return own
+            match[row], owner[free], free = free, row, match[row]
+    return match
 
 
 def strong_components(needed: list[list[int]]) -> list[list[int]]:
     """Strongly connected components of a graph, each after those that it depends on."""
     order: dict[int, int] = {}
     low: dict[int, int] = {}
-    found, stack, done = [], [], set()
+    components, stack, done = [], [], set()
     for root in range(len(needed)):
         path = [root] if root not in order else []
         while path:
@@ -180,7 +180,7 @@ def strong_components(needed: list[list[int]]) -> list[list[int]]:
             low[node] = min([order[node], *(low[other] for other in needed[node] if other not in done)])
             if low[node] == order[node]:
                 first = stack.index(node)
-                found.append(stack[first:])
+                components.append(stack[first:])
                 done.update(stack[first:])
                 del stack[first:]
-    return found
+    return components

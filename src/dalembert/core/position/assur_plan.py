@@ -46,7 +46,7 @@ class Conditions(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Group:
+class AssurGroup:
     """A group: its conditions, the unknown coordinates of its links, the links that turn with each unknown angle.
 
     ``links`` are all links that it involves; the other fields index into this list.
@@ -57,7 +57,7 @@ class Group:
     link: Ints  # (p,)
     axis: Ints  # (p,)
     turning: tuple[Ints, ...]
-    apart: bool  # each condition determines one coordinate, along an axis of ground
+    separate: bool  # each condition determines one coordinate, along an axis of ground
 
     @cached_property
     def incidence(self) -> Array:
@@ -66,7 +66,7 @@ class Group:
         return np.asarray((c.j[:, None] == self.link) * 1.0 - (c.i[:, None] == self.link))
 
     @cached_property
-    def own(self) -> list[tuple[Flags, ...]]:
+    def turned(self) -> list[tuple[Flags, ...]]:
         """For each unknown angle, the conditions (K, 1) whose link i, whose link j and whose axis turn with it."""
         c = self.conditions
         ends = np.stack([c.i, c.j, c.frame])[..., None]
@@ -81,7 +81,7 @@ class Group:
     @cached_property
     def sliding(self) -> int:
         """Conditions along axes that turn with an unknown angle."""
-        return sum(int(own[2].sum()) for own in self.own)
+        return sum(int(turned[2].sum()) for turned in self.turned)
 
     @cached_property
     def closed(self) -> bool:
@@ -91,7 +91,7 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Plan:
+class PlacementPlan:
     """Order in which links are placed: angles that follow from others, then group after group.
 
     turns   a link, the one it turns with, sign and row of the angle between them, in an order that starts from leaders
@@ -99,7 +99,7 @@ class Plan:
 
     links: int
     turns: tuple[tuple[int, int, float, int], ...]
-    groups: tuple[Group, ...]
+    groups: tuple[AssurGroup, ...]
 
     @cached_property
     def closed(self) -> bool:
@@ -107,7 +107,7 @@ class Plan:
         return all(group.closed for group in self.groups)
 
 
-def plan(layout: Layout) -> Plan | None:
+def plan(layout: Layout) -> PlacementPlan | None:
     """The plan of a layout without phases; None where its conditions are too few, too many or repeated."""
     if layout.stack.count != layout.unknowns or layout.algebra.d != 2:
         return None
@@ -123,11 +123,11 @@ def plan(layout: Layout) -> Plan | None:
     if blocks is None:
         return None
     groups = []
-    for (rows, columns), apart in _side_by_side(blocks, entries, conditions, layout.links):
+    for (rows, columns), separate in _side_by_side(blocks, entries, conditions, layout.links):
         link = np.array([c for c in columns if c < places], np.intp)
         turning = [np.flatnonzero(leader == heads[c - places]) for c in columns if c >= places]
-        groups.append(_group(conditions.at(rows), link // 2, link % 2, turning, apart))
-    return Plan(layout.links, turns, tuple(groups))
+        groups.append(_group(conditions.at(rows), link // 2, link % 2, turning, separate))
+    return PlacementPlan(layout.links, turns, tuple(groups))
 
 
 Block = tuple[list[int], list[int]]
@@ -143,28 +143,28 @@ def _side_by_side(
     joined: dict[tuple[int, int], Block] = {}
     count = 0
     for rows, columns in blocks:
-        own = set(columns)
-        after = max((place[x] for row in rows for x in entries[row] if x not in own), default=(0, 0))
-        apart = len(rows) == 1 and columns[0] < 2 * ground
-        if apart and c.frame[rows[0]] == ground and not c.far[rows[0]]:
+        unknowns = set(columns)
+        after = max((place[x] for row in rows for x in entries[row] if x not in unknowns), default=(0, 0))
+        separate = len(rows) == 1 and columns[0] < 2 * ground
+        if separate and c.frame[rows[0]] == ground and not c.far[rows[0]]:
             key = after[0], after[1] + 1
         else:
             count += 1
             key = count, 0
         place |= dict.fromkeys(columns, key)
-        there = joined.setdefault(key, ([], []))
-        there[0].extend(rows)
-        there[1].extend(columns)
+        entry = joined.setdefault(key, ([], []))
+        entry[0].extend(rows)
+        entry[1].extend(columns)
     return [(joined[key], key[1] > 0) for key in sorted(joined)]
 
 
-def _group(c: Conditions, link: Ints, axis: Ints, turning: list[Ints], apart: bool) -> Group:
+def _group(c: Conditions, link: Ints, axis: Ints, turning: list[Ints], separate: bool) -> AssurGroup:
     """The group of the links involved in some conditions."""
     links = np.unique(np.concatenate([c.i, c.j, c.frame, link, *turning]))
     i, j, frame, place, *turns = (
         np.searchsorted(links, part) for part in (c.i, c.j, c.frame, link, *turning)
     )
-    return Group(links, c._replace(i=i, j=j, frame=frame), place, axis, tuple(turns), apart)
+    return AssurGroup(links, c._replace(i=i, j=j, frame=frame), place, axis, tuple(turns), separate)
 
 
 def _turns(layout: Layout) -> tuple[tuple[tuple[int, int, float, int], ...], Ints]:
@@ -213,9 +213,9 @@ def _conditions(layout: Layout) -> Conditions | None:
 def _entries(c: Conditions, k: int, leader: Ints, angles: dict[int, int]) -> list[int]:
     """Unknowns of a condition: coordinates 2 link + axis, then the angles by their leaders."""
     ground, frame = len(leader) - 1, int(c.frame[k])
-    found = {angles.get(int(leader[frame]), -1)}
+    unknowns = {angles.get(int(leader[frame]), -1)}
     for link, arm in ((int(c.i[k]), c.ui[k]), (int(c.j[k]), c.uj[k])):
         if link != ground:
-            found |= {2 * link + a for a in range(2) if c.axis[k, a] or c.far[k] or frame != ground}
-            found |= {angles.get(int(leader[link]), -1)} if arm.any() else set()
-    return sorted(found - {-1})
+            unknowns |= {2 * link + a for a in range(2) if c.axis[k, a] or c.far[k] or frame != ground}
+            unknowns |= {angles.get(int(leader[link]), -1)} if arm.any() else set()
+    return sorted(unknowns - {-1})

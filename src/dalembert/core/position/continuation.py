@@ -24,7 +24,7 @@ from dalembert.core.factor import displacements
 from dalembert.core.layout import Idle, Layout, Pose
 from dalembert.core.linear import RANK, generalized_inverse
 from dalembert.core.position.newton import close_loops, displace, distance, gap, largest
-from dalembert.core.position.path_parameter import Course
+from dalembert.core.position.path_parameter import PathSamples
 from dalembert.core.rotation_rows import recount_turns
 
 
@@ -74,7 +74,7 @@ class March(NamedTuple):
 
     s: Array
     pose: Pose
-    whole: bool
+    complete: bool
 
 
 class Nodes(NamedTuple):
@@ -151,45 +151,45 @@ def _through(layout: Layout, s: Array, nodes: Nodes, index: Array) -> Pose:
 def _hermite(s: Array, nodes: Array) -> tuple[Array, Array]:
     """Weights (P, k) of values and of slopes at nodes (P, k), for s (P,)."""
     count = nodes.shape[1]
-    apart = nodes[:, :, None] - nodes[:, None, :] + np.eye(count)
+    differences = nodes[:, :, None] - nodes[:, None, :] + np.eye(count)
     away = s[:, None] - nodes
     product = np.repeat(away[:, None, :], count, axis=1)
     product[:, np.arange(count), np.arange(count)] = 1.0
-    lagrange = (product / apart).prod(axis=2)
-    steep = (1 / apart).sum(axis=2) - 1.0
+    lagrange = (product / differences).prod(axis=2)
+    steep = (1 / differences).sum(axis=2) - 1.0
     square = lagrange * lagrange
     return square * (1 - 2 * steep * away), square * away
 
 
-def march(layout: Layout, first: Pose, along: Course, start: float, backward: bool = False) -> March:
+def march(layout: Layout, first: Pose, along: PathSamples, start: float, backward: bool = False) -> March:
     """Stations from parameter ``start`` to the end of the course (or its beginning), starting from the given pose."""
     end, sign = (0.0, -1.0) if backward else (along.end, 1.0)
     if start == end:
         return March(np.array([start]), stack([first]), True)
     at = _setting(layout, along)
-    found, size, smooth, exact, short = [_standing(at, start, first, sign)], 1.0, 0, True, 0
-    while sign * (end - found[-1].s) > 0 and short < STEP.max_short_steps:
-        last, recent = found[-1], found[max(smooth, len(found) - STEP.predictor_stations) :]
+    stations, size, smooth, exact, short = [_standing(at, start, first, sign)], 1.0, 0, True, 0
+    while sign * (end - stations[-1].s) > 0 and short < STEP.max_short_steps:
+        last, recent = stations[-1], stations[max(smooth, len(stations) - STEP.predictor_stations) :]
         ahead = abs(along.limit(last.s, sign) - last.s)
         step = min(size * STEP.step, _safe(recent), ahead)
         new = _station(at, recent, last.s + sign * step)
         if new is None:
             if not exact:  # the corrector's error at this station may be large next to a shorter step
-                found[-1] = _exact(at, last, sign)
+                stations[-1] = _exact(at, last, sign)
                 exact = True
             size = step / STEP.step / 2
             if size < STEP.min_step:
                 break
             continue
-        found.append(new)
+        stations.append(new)
         short = short + 1 if step < min(STEP.short_step * STEP.step, ahead) else 0
         size, exact = min(2 * max(size, step / STEP.step), 1.0), False
         if np.abs(along.breaks - new.s).min() < 1e-12:
-            smooth = len(found) - 1
-            found[-1] = new._replace(rate=_standing(at, new.s, new.pose, sign).rate)
-    whole = sign * (end - found[-1].s) <= 0
-    found.sort(key=lambda station: station.s)
-    return March(np.array([f.s for f in found]), stack([f.pose for f in found]), bool(whole))
+            smooth = len(stations) - 1
+            stations[-1] = new._replace(rate=_standing(at, new.s, new.pose, sign).rate)
+    complete = sign * (end - stations[-1].s) <= 0
+    stations.sort(key=lambda station: station.s)
+    return March(np.array([f.s for f in stations]), stack([f.pose for f in stations]), bool(complete))
 
 
 def _safe(recent: list[Station]) -> float:
@@ -197,13 +197,13 @@ def _safe(recent: list[Station]) -> float:
     if len(recent) < 2:
         return np.inf
     before, last = recent[-2:]
-    way, was, now = abs(last.s - before.s), before.clear, last.clear
+    step, was, now = abs(last.s - before.s), before.clear, last.clear
     if was * now <= 0 or abs(now) > abs(was):
-        since = way * abs(now) / max(abs(now - was), 1e-300)
+        since = step * abs(now) / max(abs(now - was), 1e-300)
         return max(STEP.away_from_singular * since, STEP.through_singular)
     if abs(was) == abs(now):
         return np.inf
-    left = way * now / (was - now)
+    left = step * now / (was - now)
     return STEP.towards_singular * left if left > STEP.through_singular else left + STEP.through_singular
 
 
@@ -218,12 +218,12 @@ class _Setting(NamedTuple):
     """
 
     layout: Layout
-    along: Course
+    along: PathSamples
     probes: Array
     turned: Flags
 
 
-def _setting(layout: Layout, along: Course) -> _Setting:
+def _setting(layout: Layout, along: PathSamples) -> _Setting:
     count = np.arange(len(layout.row_scale))
     probes = np.stack([np.cos(1.0 + 2.7 * count), np.cos(2.0 + 1.9 * count)]) * layout.length
     turned = np.ones(layout.links + 1, bool)
@@ -251,9 +251,9 @@ def _rates(at: _Setting, pose: Pose, right: Array) -> tuple[Array, float, Array 
     with np.errstate(all="ignore"):
         rows = stack_rows(at.layout, pose)
         every, matrix = displacements(at.layout, rows, np.concatenate([right, at.probes]))
-    found = twists(at.layout, every)
-    clear = 1 / max(largest(at.layout, found[-2:, :-1]).max(), 1e-300)
-    return found[:-2], float(clear), matrix
+    solution = twists(at.layout, every)
+    clear = 1 / max(largest(at.layout, solution[-2:, :-1]).max(), 1e-300)
+    return solution[:-2], float(clear), matrix
 
 
 def _side(layout: Layout, matrix: Array | None, before: Station | None) -> float:
@@ -283,10 +283,10 @@ def _station(at: _Setting, recent: list[Station], ahead: float) -> Station | Non
     polished later. The matrix of the last step gives the rate as well.
     """
     layout, along, last = at.layout, at.along, recent[-1]
-    there, slope = along.target(ahead), along.slope(ahead, last.s - ahead) * layout.row_scale
+    target, slope = along.target(ahead), along.slope(ahead, last.s - ahead) * layout.row_scale
     guess = pose = _predict(layout, recent, ahead)
     for _ in range(STEP.max_corrections):
-        (dq, rate), clear, matrix = _rates(at, pose, np.concatenate([gap(layout, pose, there), slope]))
+        (dq, rate), clear, matrix = _rates(at, pose, np.concatenate([gap(layout, pose, target), slope]))
         pose = displace(layout, pose, dq[None, :-1])
         travel = distance(layout, pose, last.pose.at(None))[0]
         if not distance(layout, pose, guess)[0] <= STEP.max_correction * travel + 1e-9 or _is_far(
@@ -297,7 +297,7 @@ def _station(at: _Setting, recent: list[Station], ahead: float) -> Station | Non
             pose = recount_turns(layout, pose)
             if (
                 not layout.square
-                and np.abs(gap(layout, pose, there)).max() > STEP.corrected * travel * layout.length
+                and np.abs(gap(layout, pose, target)).max() > STEP.corrected * travel * layout.length
             ):
                 return None  # more constraints than unknowns, and no pose satisfies them all
             side = _side(layout, matrix, last)
@@ -317,18 +317,18 @@ def _next_station(at: _Setting, recent: list[Station], new: Station) -> Station 
 
 def _passes(recent: list[Station], step: float) -> bool:
     """True if a step passes through a singular pose, as ``_safe`` predicts it."""
-    (before, last), way = recent, abs(recent[1].s - recent[0].s)
+    (before, last), length = recent, abs(recent[1].s - recent[0].s)
     change = (before.clear - last.clear) * np.sign(last.clear)
-    return bool(step * change > way * abs(last.clear))
+    return bool(step * change > length * abs(last.clear))
 
 
 def _bend(at: _Setting, a: Station, b: Station) -> float:
     """Difference of the displacement between two stations from the mean of their rates, over the larger rate."""
     g, step = at.layout.algebra, b.s - a.s
-    way = g.coordinates(*b.pose) - g.coordinates(*a.pose)
+    displacement = g.coordinates(*b.pose) - g.coordinates(*a.pose)
     first = step * g.coordinate_rates(a.pose.rotation, a.rate)
     second = step * g.coordinate_rates(b.pose.rotation, b.rate)
-    all_ = np.abs(np.stack([way - (first + second) / 2, first, second]))
+    all_ = np.abs(np.stack([displacement - (first + second) / 2, first, second]))
     shift, turn = all_[..., : g.d].max(axis=(1, 2)) / at.layout.length, all_[..., g.d :][:, at.turned]
     off, *rates = np.maximum(shift, turn.max(axis=(1, 2), initial=0.0))
     return float(off / max(*rates, 1e-300))
@@ -342,7 +342,7 @@ def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
     """
     reach = max(np.ptp(before.point[:-1], axis=0).max(initial=0.0), layout.length)
     shift = np.abs(after.point - before.point).max() / reach
-    turned = layout.algebra.apart(after.rotation, before.rotation, after.turn, before.turn).max()
+    turned = layout.algebra.angle_between(after.rotation, before.rotation, after.turn, before.turn).max()
     return bool(max(shift, turned) > STEP.max_travel)
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from dalembert.algebra import plane
 from dalembert.arrays import Array, Flags, Index, Ints
 from dalembert.core.linear import apply, generalized_inverse, solve_square
-from dalembert.core.position.assur_plan import Group, Plan
+from dalembert.core.position.assur_plan import AssurGroup, PlacementPlan
 from dalembert.core.position.newton import LONGEST_TURN
 
 TOUCHING = 1e-8
@@ -47,7 +47,7 @@ class Laid(NamedTuple):
         return Laid(*(part[index] for part in self))
 
 
-class Part(NamedTuple):
+class GroupPart(NamedTuple):
     """Part of the poses (S,) that a group involves: places and angles of its links, their angles relative to their
     leaders (S, n), and the targets of its conditions (S, K)."""
 
@@ -56,11 +56,11 @@ class Part(NamedTuple):
     off: Array
     target: Array
 
-    def at(self, index: Index) -> Part:
-        return Part(*(part[index] for part in self))
+    def at(self, index: Index) -> GroupPart:
+        return GroupPart(*(part[index] for part in self))
 
 
-def place_ground(p: Plan, target: Array) -> Laid:
+def place_ground(p: PlacementPlan, target: Array) -> Laid:
     """Places the ground and the links whose angles follow from it, at targets (S, K + D)."""
     count = len(target)
     turn = np.full((count, p.links + 1), np.nan)
@@ -71,7 +71,7 @@ def place_ground(p: Plan, target: Array) -> Laid:
     return Laid(point, turn, np.zeros((count, 0)))
 
 
-def offsets(p: Plan, target: Array) -> Array:
+def offsets(p: PlacementPlan, target: Array) -> Array:
     """Angles of the links relative to their leaders (S, L+1)."""
     off = np.zeros((len(target), p.links + 1))
     for new, known, sign, row in p.turns:
@@ -79,16 +79,18 @@ def offsets(p: Plan, target: Array) -> Array:
     return off
 
 
-def place_group(group: Group, laid: Laid, target: Array, off: Array) -> tuple[Ints, Laid]:
+def place_group(group: AssurGroup, placed: Laid, target: Array, off: Array) -> tuple[Ints, Laid]:
     """All branches of a group: the index of the pose (S,) that each starts from, and the poses with it placed."""
-    part = _part(group, laid, target, off)
-    if group.apart:
-        laid.point[:, group.links[group.link], group.axis] = _places(group, part)
-        return np.arange(len(target)), laid._replace(side=np.column_stack([laid.side, np.zeros(len(target))]))
-    found = _ways(group, part)
-    which, way = np.nonzero(np.isfinite(found).all(axis=-1))
+    part = _part(group, placed, target, off)
+    if group.separate:
+        placed.point[:, group.links[group.link], group.axis] = _places(group, part)
+        return np.arange(len(target)), placed._replace(
+            side=np.column_stack([placed.side, np.zeros(len(target))])
+        )
+    branches = _branches(group, part)
+    which, branch = np.nonzero(np.isfinite(branches).all(axis=-1))
     part = part.at(which)
-    _turn(group, part, found[which, way])
+    _turn(group, part, branches[which, branch])
     _place_links(group, part, _places(group, part))
     if group.closed:
         side = np.sign(np.linalg.det(jacobian(group, part)))
@@ -96,17 +98,19 @@ def place_group(group: Group, laid: Laid, target: Array, off: Array) -> tuple[In
         good = np.flatnonzero(_newton(group, part))
         kept = good[_distinct(group, which[good], part.at(good))]
         which, part, side = which[kept], part.at(kept), np.zeros(len(kept))
-    new = laid.at(which)
+    new = placed.at(which)
     new.point[:, group.links], new.turn[:, group.links] = part.point, part.turn
     return which, new._replace(side=np.column_stack([new.side, side]))
 
 
-def _part(group: Group, laid: Laid, target: Array, off: Array) -> Part:
+def _part(group: AssurGroup, placed: Laid, target: Array, off: Array) -> GroupPart:
     links = group.links
-    return Part(laid.point[:, links], laid.turn[:, links], off[:, links], target[:, group.conditions.row])
+    return GroupPart(
+        placed.point[:, links], placed.turn[:, links], off[:, links], target[:, group.conditions.row]
+    )
 
 
-def _ways(group: Group, part: Part) -> Array:
+def _branches(group: AssurGroup, part: GroupPart) -> Array:
     """Unknown angles (S, branches, angles) of a group, NaN beyond its last branch; starting angles where it has no
     formula."""
     count = len(group.turning)
@@ -124,7 +128,7 @@ def _ways(group: Group, part: Part) -> Array:
     return _circles(group, part)
 
 
-def _determinant(group: Group, part: Part, angle: float) -> Array:
+def _determinant(group: AssurGroup, part: GroupPart, angle: float) -> Array:
     """Determinant (S,) of the conditions at an angle: 0 where they have a common solution."""
     part = part._replace(turn=part.turn.copy())
     _turn(group, part, np.full((len(part.turn), 1), angle))
@@ -132,14 +136,14 @@ def _determinant(group: Group, part: Part, angle: float) -> Array:
     return np.asarray(np.linalg.det(np.concatenate([matrix, constant[..., None]], axis=-1)))
 
 
-def _circles(group: Group, part: Part) -> Array:
+def _circles(group: AssurGroup, part: GroupPart) -> Array:
     """Two angles: after elimination of the places the conditions are w + M1 u1 + M2 u2 = 0 with unit vectors u."""
     none = plane.rotation(part.turn)
     for links in group.turning:
         none[:, links] = 0.0
     n, constant = _constant(group, part, none)
     ri, rj, _ = _arms(group, plane.rotation(part.off))
-    arms = [_turned_arms(own, ri, rj) for own in group.own]
+    arms = [_turned_arms(turned, ri, rj) for turned in group.turned]
     columns = [(n * _where(n, turned)).sum(axis=-1) for arm in arms for turned in (arm, plane.across(arm))]
     if group.link.size:
         matrix = _matrix(group, n)
@@ -184,17 +188,17 @@ def _roots(samples: Array) -> Array:
     return out
 
 
-def _turn(group: Group, part: Part, angle: Array) -> None:
+def _turn(group: AssurGroup, part: GroupPart, angle: Array) -> None:
     """Sets the angles (S, angles) of a group's links."""
     for k, links in enumerate(group.turning):
         part.turn[:, links] = angle[:, k, None] + part.off[:, links]
 
 
-def _place_links(group: Group, part: Part, places: Array) -> None:
+def _place_links(group: AssurGroup, part: GroupPart, places: Array) -> None:
     part.point[:, group.link, group.axis] = places
 
 
-def _arms(group: Group, rotation: Array) -> tuple[Array, Array, Array]:
+def _arms(group: AssurGroup, rotation: Array) -> tuple[Array, Array, Array]:
     """Arms on i and j and the axes (S, K, 2), in ground axes."""
     c = group.conditions
     ri, rj, n = (
@@ -204,23 +208,23 @@ def _arms(group: Group, rotation: Array) -> tuple[Array, Array, Array]:
     return ri, rj, n
 
 
-def _turned_arms(own: tuple[Flags, ...], ri: Array, rj: Array) -> Array:
+def _turned_arms(turned: tuple[Flags, ...], ri: Array, rj: Array) -> Array:
     """Arms (S, K, 2) of the links that turn with an unknown angle, those on i with the opposite sign."""
-    return np.where(own[1], rj, 0.0) - np.where(own[0], ri, 0.0)
+    return np.where(turned[1], rj, 0.0) - np.where(turned[0], ri, 0.0)
 
 
-def _system(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
+def _system(group: AssurGroup, part: GroupPart, rotation: Array) -> tuple[Array, Array]:
     """Conditions matrix (S, K, p) times places plus constant (S, K) are 0, at given rotations (S, n, 2)."""
     n, constant = _constant(group, part, rotation)
     return _matrix(group, n), constant
 
 
-def _matrix(group: Group, n: Array) -> Array:
+def _matrix(group: AssurGroup, n: Array) -> Array:
     """Derivatives (S, K, p) of the conditions by the places."""
     return _where(group.incidence, n[..., group.axis]) * group.incidence
 
 
-def _constant(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
+def _constant(group: AssurGroup, part: GroupPart, rotation: Array) -> tuple[Array, Array]:
     """The axes (S, K, 2) of the conditions, and their values with all places at 0 (S, K)."""
     c = group.conditions
     point = part.point.copy()
@@ -235,14 +239,14 @@ def _where(factor: Array, value: Array) -> Array:
     return np.where(factor == 0, 0.0, value)
 
 
-def _places(group: Group, part: Part) -> Array:
+def _places(group: AssurGroup, part: GroupPart) -> Array:
     """Places (S, p) at known angles, by least squares where there are more conditions than places."""
     if not group.link.size:
         return np.zeros((len(part.turn), 0))
-    if group.apart:
+    if group.separate:
         n, constant = _constant(group, part, plane.rotation(part.turn))
-        own = np.arange(len(group.link))
-        return np.asarray(-constant / (n[:, own, group.axis] * group.incidence[own, own]))
+        diagonal = np.arange(len(group.link))
+        return np.asarray(-constant / (n[:, diagonal, group.axis] * group.incidence[diagonal, diagonal]))
     near = ~group.conditions.far
     matrix, constant = _system(group, part, plane.rotation(part.turn))
     if near.sum() < len(group.link):
@@ -251,7 +255,7 @@ def _places(group: Group, part: Part) -> Array:
     return solve_square(r, -np.einsum("skp,sk->sp", q, constant[:, near]))
 
 
-def _lines(group: Group, part: Part) -> tuple[Array, Array, Array, Array]:
+def _lines(group: AssurGroup, part: GroupPart) -> tuple[Array, Array, Array, Array]:
     """Arms on i and j, the axes n and the vectors between the points of the conditions (S, K, 2)."""
     c = group.conditions
     ri, rj, n = _arms(group, plane.rotation(part.turn))
@@ -260,22 +264,22 @@ def _lines(group: Group, part: Part) -> tuple[Array, Array, Array, Array]:
     return ri, rj, n, span
 
 
-def jacobian(group: Group, part: Part) -> Array:
+def jacobian(group: AssurGroup, part: GroupPart) -> Array:
     """Derivatives (S, K, angles + p) of a group's conditions by its angles and places."""
     ri, rj, n, span = _lines(group, part)
     columns = []
-    for own in group.own:
-        arm = plane.across(_turned_arms(own, ri, rj))
+    for turned in group.turned:
+        arm = plane.across(_turned_arms(turned, ri, rj))
         column = (n * _where(n, arm)).sum(axis=-1)
-        if own[2].any():
-            axis = np.where(own[2], plane.across(n), 0.0)
+        if turned[2].any():
+            axis = np.where(turned[2], plane.across(n), 0.0)
             column = column + (axis * _where(axis, span)).sum(axis=-1)
         columns.append(column)
     places = _matrix(group, n)
     return np.concatenate([np.stack(columns, axis=-1), places], axis=-1) if columns else places
 
 
-def _newton(group: Group, part: Part) -> Flags:
+def _newton(group: AssurGroup, part: GroupPart) -> Flags:
     """Newton for a group without a closed form; flags for the poses (S,), changed in place, that close."""
     count, heads = len(group.turning), [links[0] for links in group.turning]
     for _ in range(STEPS):
@@ -287,36 +291,36 @@ def _newton(group: Group, part: Part) -> Flags:
     return np.asarray(np.abs(_gap(group, part)).max(axis=-1) <= CLOSE * size)
 
 
-def _gap(group: Group, part: Part) -> Array:
+def _gap(group: AssurGroup, part: GroupPart) -> Array:
     """Residuals of the conditions (S, K)."""
     _, _, n, span = _lines(group, part)
     return np.asarray((n * span).sum(axis=-1) - part.target)
 
 
-def _distinct(group: Group, which: Ints, part: Part) -> Ints:
+def _distinct(group: AssurGroup, which: Ints, part: GroupPart) -> Ints:
     """Indices of distinct branches, where several starts have converged to the same one."""
     places = part.point[:, group.link, group.axis]
     turned = plane.rotation(part.turn[:, [links[0] for links in group.turning]])
     size = max(float(np.abs(places).max(initial=0.0)), 1e-300)
-    told = np.column_stack([which, turned.reshape(len(which), 2 * len(group.turning)), places / size]).round(
-        6
-    )
-    return np.sort(np.unique(told, axis=0, return_index=True)[1])
+    rounded = np.column_stack(
+        [which, turned.reshape(len(which), 2 * len(group.turning)), places / size]
+    ).round(6)
+    return np.sort(np.unique(rounded, axis=0, return_index=True)[1])
 
 
-def sides(p: Plan, turn: Array, point: Array, target: Array) -> Array:
+def sides(p: PlacementPlan, turn: Array, point: Array, target: Array) -> Array:
     """The side (S, G) of each group at given angles (S, L+1) and places, which need not close; 0 where not known.
 
     Unknown values are NaN; they do not matter where a side does not depend on them: that of an RRR dyad depends on its
     two angles alone.
     """
-    point, found = point.copy(), np.zeros((len(turn), len(p.groups)))
+    point, side = point.copy(), np.zeros((len(turn), len(p.groups)))
     point[:, -1] = 0.0
     for k, group in enumerate(p.groups):
-        part = _part(group, Laid(point, turn, found), target, turn)
-        given = part.point[:, group.link, group.axis]
-        _place_links(group, part, np.where(np.isnan(given), _places(group, part), given))
+        part = _part(group, Laid(point, turn, side), target, turn)
+        places = part.point[:, group.link, group.axis]
+        _place_links(group, part, np.where(np.isnan(places), _places(group, part), places))
         point[:, group.links] = part.point
-        if group.closed and not group.apart:
-            found[:, k] = np.nan_to_num(np.sign(np.linalg.det(jacobian(group, part))))
-    return found
+        if group.closed and not group.separate:
+            side[:, k] = np.nan_to_num(np.sign(np.linalg.det(jacobian(group, part))))
+    return side

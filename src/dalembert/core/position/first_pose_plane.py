@@ -91,29 +91,29 @@ def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
     The phase of a mesh (or of a rolling wheel) is that of this first pose: its row is left out here, and one wheel
     of it held at its given angle; where that does not close, wheels turn as little as possible from the start.
     """
-    found = _modes(layout, *without_phase(layout, target, guess, hold=True), guess)
-    if found is None and phase_rows(layout.constraints).size:
-        found = _modes(layout, *without_phase(layout, target, guess, hold=False), guess)
-    return found
+    result = _modes(layout, *without_phase(layout, target, guess, hold=True), guess)
+    if result is None and phase_rows(layout.constraints).size:
+        result = _modes(layout, *without_phase(layout, target, guess, hold=False), guess)
+    return result
 
 
 def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
     drawn = _starting_poses(free, target, guess, np.zeros((1, layout.links + 1)), slides_ahead(layout, free))
     pose, missing = close_loops(free, drawn, target[None])
-    given = np.isfinite(guess.turn[:-1])
+    known = np.isfinite(guess.turn[:-1])
     if missing[0] <= CLOSED * layout.length:
-        off = np.abs(wrap_angle(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
-        if given.any() and off < NEAR:
+        off = np.abs(wrap_angle(pose.turn[0, :-1] - guess.turn[:-1])[known]).max(initial=0.0)
+        if known.any() and off < NEAR:
             return Modes(remove_whole_turns(layout, pose), "given")
-        if not given.any() and distance(layout, pose, drawn)[0] < SAME:
+        if not known.any() and distance(layout, pose, drawn)[0] < SAME:
             return Modes(remove_whole_turns(layout, pose), "drawn")
     start = pose.at(0) if missing[0] <= CLOSED * layout.length else None
-    found = _search_modes(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
-    if found is None or not given.any():
-        return found
-    off = np.abs(wrap_angle(found.pose.turn[:, :-1] - guess.turn[:-1])[:, given]).max(axis=1)
+    result = _search_modes(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
+    if result is None or not known.any():
+        return result
+    off = np.abs(wrap_angle(result.pose.turn[:, :-1] - guess.turn[:-1])[:, known]).max(axis=1)
     alone = off[0] < NEAR and (off[1:] > NEAR).all()
-    return found._replace(chosen_by="given") if alone else found
+    return result._replace(chosen_by="given") if alone else result
 
 
 def tree_pose(layout: Layout, target: Array, guess: Guess) -> Pose:
@@ -132,12 +132,12 @@ def slides_ahead(layout: Layout, free: Layout) -> Array:
 
 def phase_rows(rows: Rows) -> Ints:
     """Rows whose target is their measure at the first pose: meshes and rolling without slip."""
-    found = [
+    meshes = [
         f.row[f.pitch != 0] if isinstance(f, Along) else f.row
         for f in rows.families
         if isinstance(f, Mesh | Along | Gearing)
     ]
-    return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
+    return np.concatenate([*meshes, np.zeros(0, np.intp)]).astype(np.intp)
 
 
 def without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tuple[Layout, Array]:
@@ -207,19 +207,19 @@ def held_wheels(layout: Layout, free: Layout, target: Array, phased: Ints, guess
 
 def _search_modes(layout: Layout, free: Layout, target: Array, wanted: Wanted, guess: Guess) -> Modes | None:
     """Every mode, in the order of ``assembly_modes``: group by group in closed form, else as many as starts find."""
-    way, starts = plan(free), STARTS if layout.links <= FEW else 8
-    by = "nearest" if wanted.given else "search"
-    if way is None or not way.closed:
+    groups, starts = plan(free), STARTS if layout.links <= FEW else 8
+    by = "nearest" if wanted.any_known else "search"
+    if groups is None or not groups.closed:
         angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
         ahead = slides * slides_ahead(layout, free)
-        found = _closing(free, _starting_poses(free, target, guess, angles, ahead), target)
-        if found is not None:
-            found = distinct(layout, remove_whole_turns(layout, found))
-            return Modes(found.at(sort_modes(layout, found, wanted)), by)
-    if way is None:
+        poses = _closing(free, _starting_poses(free, target, guess, angles, ahead), target)
+        if poses is not None:
+            poses = distinct(layout, remove_whole_turns(layout, poses))
+            return Modes(poses.at(sort_modes(layout, poses, wanted)), by)
+    if groups is None:
         return None
-    found = _closing(free, enumerate_modes(free, way, target, wanted).at(slice(starts)), target)
-    return None if found is None else Modes(distinct(layout, remove_whole_turns(layout, found)), by)
+    poses = _closing(free, enumerate_modes(free, groups, target, wanted).at(slice(starts)), target)
+    return None if poses is None else Modes(distinct(layout, remove_whole_turns(layout, poses)), by)
 
 
 def _closing(layout: Layout, start: Pose, target: Array) -> Pose | None:
@@ -246,9 +246,9 @@ def _starting_poses(layout: Layout, target: Array, guess: Guess, angles: Array, 
     rotation = g.rotation(turn)
     point = np.full((*turn.shape, g.d), np.nan)
     point[:, -1] = 0.0
-    given = np.isfinite(guess.point).all(axis=-1)
-    point[:, given] = guess.point[given]
-    placed = set(np.flatnonzero(given).tolist()) | {layout.links}
+    known = np.isfinite(guess.point).all(axis=-1)
+    point[:, known] = guess.point[known]
+    placed = set(np.flatnonzero(known).tolist()) | {layout.links}
     arms = _arms(layout, edges, rotation)
 
     def place(edge: _PointEdge) -> None:
@@ -317,8 +317,8 @@ def _edges(layout: Layout) -> _Edges:
     place = {int(f): layout.constraints.count + k for k, f in enumerate(layout.driven)}
     for rows, where in ((layout.constraints, None), (layout.freedoms, place)):
         for f in rows.families:
-            own = f.row.reshape(len(f.i), -1)[:, 0]
-            for k, (i, j, row) in enumerate(zip(f.i.tolist(), f.j.tolist(), own.tolist(), strict=True)):
+            first = f.row.reshape(len(f.i), -1)[:, 0]
+            for k, (i, j, row) in enumerate(zip(f.i.tolist(), f.j.tolist(), first.tolist(), strict=True)):
                 if where is not None:
                     if row not in where:
                         continue
@@ -344,16 +344,16 @@ def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _E
     turn = np.full(angles.shape, np.nan)
     turn[:, -1] = 0.0
     _spread_turns(turn, target, edges)
-    given = np.isfinite(guess.turn)
+    known = np.isfinite(guess.turn)
     further = np.linspace(0, 1, len(turn))[:, None]
-    own = np.where(given, np.nan_to_num(guess.turn) + angles * further, angles)
+    spread = np.where(known, np.nan_to_num(guess.turn) + angles * further, angles)
     tied = np.unique([link for edge in edges.turns for link in edge[:2]]).astype(np.intp)
     alone = np.isnan(turn[0])
     alone[tied] = False
-    turn[:, alone] = own[:, alone]
-    for k in tied[np.argsort(~given[tied], kind="stable")]:
+    turn[:, alone] = spread[:, alone]
+    for k in tied[np.argsort(~known[tied], kind="stable")]:
         if np.isnan(turn[0, k]):
-            turn[:, k] = own[:, k]
+            turn[:, k] = spread[:, k]
             _spread_turns(turn, target, edges)
     return turn
 

@@ -58,7 +58,7 @@ class Hinge(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Drawing:
+class PoseGuess:
     """Given part of the first pose: rotations (L+1, 9) and reference points (L+1, 3), NaN where unknown.
 
     The rotations are by ``angle`` (L+1,), including whole turns, about unit vectors ``axis`` (L+1, 3); 0 for the
@@ -72,13 +72,13 @@ class Drawing:
     angle: Array
 
     @property
-    def given(self) -> Flags:
+    def known_links(self) -> Flags:
         """True for links with a given pose (L+1,)."""
         return np.asarray(np.isfinite(self.rotation).all(axis=-1))
 
     def modes(self, layout: Layout, target: Array) -> Modes | None:
         """The assembly mode at a target (K + D,); None if no start closes."""
-        if self.given.any():
+        if self.known_links.any():
             return self._near(layout, target) or self._search_modes(layout, target)
         return (
             self._as_drawn(layout, target) or self._near(layout, target) or self._search_modes(layout, target)
@@ -96,10 +96,10 @@ class Drawing:
     def start(self, layout: Layout, target: Array) -> Pose:
         """Links placed as drawn, given or driven (L+1, ...), before any correction."""
         return self._starting_poses(
-            layout, target, np.zeros((1, self._values)), driven=bool(self.given.any())
+            layout, target, np.zeros((1, self._values)), driven=bool(self.known_links.any())
         ).at(0)
 
-    def near(self, pose: Pose) -> Drawing:
+    def near(self, pose: Pose) -> PoseGuess:
         """The drawing with every link given at a pose (L+1, ...)."""
         return replace(self, rotation=pose.rotation, point=pose.point)
 
@@ -122,17 +122,17 @@ class Drawing:
             ends = np.stack([zero, target])
             ends[:, phased] = measure(layout.algebra, layout.constraints, pose.at(0))[phased]
             along = course(layout, ends)
-            way = path(layout, pose.at(0), along, along.at(0))
-            if not way.reached[1]:
+            motion = path(layout, pose.at(0), along, along.at(0))
+            if not motion.reached[1]:
                 return None
-            pose = way.pose.at(slice(1, 2))
+            pose = motion.pose.at(slice(1, 2))
         return Modes(pose, "drawn")
 
     def _near(self, layout: Layout, target: Array) -> Modes | None:
         pose = self._close_starts(
             layout, self._starting_poses(layout, target, np.zeros((1, self._values)), driven=True), target
         )
-        return None if pose is None else Modes(pose, "given" if self.given.any() else "drawn")
+        return None if pose is None else Modes(pose, "given" if self.known_links.any() else "drawn")
 
     def _close_starts(self, layout: Layout, start: Pose, target: Array) -> Pose | None:
         """Starts (S, ...) corrected; those that close with parallel axes parallel, None where none does."""
@@ -150,7 +150,7 @@ class Drawing:
         free = replace(
             self, point=np.full_like(self.point, np.nan), rotation=np.full_like(self.rotation, np.nan)
         )
-        start = free if self.given[:-1].all() else self  # where all are given, values would lay none
+        start = free if self.known_links[:-1].all() else self  # where all are given, values would lay none
         pose = self._close_starts(layout, start._starting_poses(layout, target, values, driven=True), target)
         if pose is None:
             return None
@@ -162,7 +162,7 @@ class Drawing:
             others = pose.at(np.array(kept, np.intp))
             if not kept or distance(layout, pose.at(k), others).min() > SAME:
                 kept.append(k)
-        return Modes(pose.at(np.array(kept)), "nearest" if self.given.any() else "search")
+        return Modes(pose.at(np.array(kept)), "nearest" if self.known_links.any() else "search")
 
     def _upright(self, layout: Layout, pose: Pose) -> Flags:
         """True for poses whose shared axes have the same direction on both links: three right angles between axes of j
@@ -184,9 +184,9 @@ class Drawing:
         )
         turn = _counters(layout, count, drives if driven else np.zeros_like(drives))
         pose.point[:, -1] = 0.0
-        given = self.given
-        pose.rotation[:, given], pose.point[:, given] = self.rotation[given], self.point[given]
-        placed = {*np.flatnonzero(given).tolist(), layout.links}
+        stated = self.known_links
+        pose.rotation[:, stated], pose.point[:, stated] = self.rotation[stated], self.point[stated]
+        placed = {*np.flatnonzero(stated).tolist(), layout.links}
         by_values = bool(np.any(values)) or driven
         while len(placed) <= layout.links:
             grown, first = False, 0

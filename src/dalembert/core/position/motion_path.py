@@ -21,7 +21,7 @@ from dalembert.core.factor import displacement
 from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
 from dalembert.core.position.continuation import STEP, March, Nodes, interpolate, march, twists
 from dalembert.core.position.newton import CLOSED, close_loops, distance
-from dalembert.core.position.path_parameter import Course, course
+from dalembert.core.position.path_parameter import PathSamples, course
 from dalembert.core.position.range_entries import Ways, entries
 
 BLOCK = 2048
@@ -50,10 +50,10 @@ class Path(NamedTuple):
 def path(
     layout: Layout,
     first: Pose,
-    along: Course,
+    along: PathSamples,
     start: float,
     period: Array | None = None,
-    ways: Ways | None = None,
+    search: Ways | None = None,
 ) -> Path:
     """Poses at every position of the list, followed in both directions from the pose (L+1, ...) at parameter ``start``.
 
@@ -61,42 +61,44 @@ def path(
     centre are then also approached from the other direction. Positions still missing are sought from the known poses,
     on the first pose's side of every group's dead centres (``core.position.assur_groups``).
     """
-    result = _both_ways(layout, first, along, start, len(along.s))
+    result = _both_directions(layout, first, along, start, len(along.s))
     if len(along.s) == 1 or result.reached.all():
         return result
     if period is not None and result.reached.any():
         result = _around(layout, along, period, result)
     known = result.reached
-    return result if known.all() or not known.any() else _enter_behind_gap(layout, first, along, result, ways)
+    return (
+        result if known.all() or not known.any() else _enter_behind_gap(layout, first, along, result, search)
+    )
 
 
-def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:
+def _both_directions(layout: Layout, first: Pose, along: PathSamples, start: float, count: int) -> Path:
     """The first ``count`` positions of the list, from the pose at ``start``.
 
     Positions passed near dead centres, where interpolation is not reliable, are marched to again, each as a station.
     """
-    result, passed = _march_both_ways(layout, first, along, start, count)
+    result, passed = _march_both_directions(layout, first, along, start, count)
     lost = passed & (along.order < count)
     lost[lost] = ~result.reached[along.order[lost]]
     if not lost.any():
         return result
     landing = replace(along, breaks=np.union1d(along.breaks, along.s[lost]))
-    return _first_reached(result, _march_both_ways(layout, first, landing, start, count)[0])
+    return _first_reached(result, _march_both_directions(layout, first, landing, start, count)[0])
 
 
-def _march_both_ways(
-    layout: Layout, first: Pose, along: Course, start: float, count: int
+def _march_both_directions(
+    layout: Layout, first: Pose, along: PathSamples, start: float, count: int
 ) -> tuple[Path, Flags]:
     """Positions reached by marching in both directions, and a flag for each place of the course that the marches
     passed."""
-    ways = [False] * (start < along.end or start <= 0) + [True] * (start > 0)
-    pieces = [march(layout, first, along, start, back) for back in ways]
-    found = [_interpolate_list(layout, along, piece, count) for piece in pieces]
+    directions = [False] * (start < along.end or start <= 0) + [True] * (start > 0)
+    pieces = [march(layout, first, along, start, back) for back in directions]
+    paths = [_interpolate_list(layout, along, piece, count) for piece in pieces]
     passed = np.any([(along.s >= p.s[0]) & (along.s <= p.s[-1]) for p in pieces], axis=0)
-    return (found[0] if len(found) == 1 else _first_reached(*found)), passed
+    return (paths[0] if len(paths) == 1 else _first_reached(*paths)), passed
 
 
-def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
+def _around(layout: Layout, along: PathSamples, period: Array, known: Path) -> Path:
     """Positions of the cycle before and after this one, from the first and last of the list where the motion has
     reached them: the motion continues from there into the known part."""
     count, listed, followed = len(along.s), np.empty_like(along.targets), known.reached
@@ -104,23 +106,23 @@ def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
     for sign, place in ((-1, 0), (1, count - 1)):
         if followed[place] and not known.reached.all():
             cycle = course(layout, np.concatenate([listed + sign * period, listed[place : place + 1]]))
-            found = _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count)
-            known = _first_reached(known, _apart(_same(layout, found, listed, -sign * period), known))
+            more = _both_directions(layout, known.pose.at(place), cycle, cycle.at(count), count)
+            known = _first_reached(known, _separate(_same(layout, more, listed, -sign * period), known))
     return known
 
 
-def _same(layout: Layout, found: Path, targets: Array, more: Array) -> Path:
+def _same(layout: Layout, away: Path, targets: Array, more: Array) -> Path:
     """Poses reached one cycle away, as poses of this cycle; without those whose wheels have another phase."""
-    there = np.flatnonzero(found.reached)
-    counted = _add_turns(layout, found.pose.at(there), more)
-    pose, missing = close_loops(layout, Pose(*(part.copy() for part in counted)), targets[there])
+    places = np.flatnonzero(away.reached)
+    counted = _add_turns(layout, away.pose.at(places), more)
+    pose, missing = close_loops(layout, Pose(*(part.copy() for part in counted)), targets[places])
     off = [np.abs(a - b).max(axis=(-2, -1)) for a, b in zip(pose[::2], counted[::2], strict=True)]
     same = (missing <= CLOSED * layout.length) & (off[0] <= SAME * layout.length) & (off[1] <= SAME)
-    reached = found.reached.copy()
-    reached[there] = same
-    for whole, part in zip(found.pose, pose, strict=True):
-        whole[there] = part
-    return found._replace(reached=reached)
+    reached = away.reached.copy()
+    reached[places] = same
+    for target, part in zip(away.pose, pose, strict=True):
+        target[places] = part
+    return away._replace(reached=reached)
 
 
 def _add_turns(layout: Layout, pose: Pose, more: Array) -> Pose:
@@ -154,22 +156,22 @@ def _add_turns(layout: Layout, pose: Pose, more: Array) -> Pose:
     return pose._replace(turn=turn)
 
 
-def _interpolate_list(layout: Layout, along: Course, piece: March, count: int) -> Path:
+def _interpolate_list(layout: Layout, along: PathSamples, piece: March, count: int) -> Path:
     """The first ``count`` positions of the list, where they lie within a march, by interpolation and correction."""
     inside = (along.s >= piece.s[0] - 1e-12) & (along.s <= piece.s[-1] + 1e-12) & (along.order < count)
     nowhere = Pose(*(np.full((count, *part.shape[1:]), np.nan) for part in piece.pose))
-    found = Path(nowhere, np.zeros(count, bool), np.zeros(count, np.intp))
+    result = Path(nowhere, np.zeros(count, bool), np.zeros(count, np.intp))
     for low, high in zip(along.breaks[:-1], along.breaks[1:], strict=True) if along.end > 0 else [(0.0, 0.0)]:
         which = np.flatnonzero((piece.s >= low - 1e-12) & (piece.s <= high + 1e-12))
         places = np.flatnonzero(inside & (along.s >= low - 1e-12) & (along.s <= high + 1e-12))
         if which.size and places.size:
             nodes = _correct_stations(layout, along, piece.s[which], piece.pose.at(which), (low + high) / 2)
             for block in np.split(places, range(BLOCK, len(places), BLOCK)):
-                _fill(layout, along, nodes, block, found)
-    return found
+                _fill(layout, along, nodes, block, result)
+    return result
 
 
-def _correct_stations(layout: Layout, along: Course, s: Array, pose: Pose, inside: float) -> Nodes:
+def _correct_stations(layout: Layout, along: PathSamples, s: Array, pose: Pose, inside: float) -> Nodes:
     """Stations of one smooth piece corrected together, with their rates."""
     targets = np.concatenate([along.target(x) for x in s])
     pose, _ = close_loops(layout, pose, targets)
@@ -181,7 +183,7 @@ def _correct_stations(layout: Layout, along: Course, s: Array, pose: Pose, insid
     return Nodes(s, pose, twists(layout, rates))
 
 
-def _fill(layout: Layout, along: Course, nodes: Nodes, places: Ints, found: Path) -> None:
+def _fill(layout: Layout, along: PathSamples, nodes: Nodes, places: Ints, into: Path) -> None:
     """Puts corrected poses at some places of the course into the list."""
     guess = interpolate(layout, along.s[places], nodes)
     part, missing = close_loops(layout, guess, along.targets[places])
@@ -189,9 +191,9 @@ def _fill(layout: Layout, along: Course, nodes: Nodes, places: Ints, found: Path
         layout, along.s[places], nodes
     )
     listed = along.order[places]
-    for whole, new in zip(found.pose, part, strict=True):
-        whole[listed] = new
-    found.reached[listed] = near & (missing <= CLOSED * layout.length)
+    for array, new in zip(into.pose, part, strict=True):
+        array[listed] = new
+    into.reached[listed] = near & (missing <= CLOSED * layout.length)
 
 
 def _travel(layout: Layout, s: Array, nodes: Nodes) -> Array:
@@ -211,7 +213,7 @@ def _first_reached(a: Path, b: Path) -> Path:
     return Path(pose, take | b.reached, np.where(take, a.stretch, b.stretch))
 
 
-def _apart(new: Path, known: Path) -> Path:
+def _separate(new: Path, known: Path) -> Path:
     """The path as a separate stretch."""
     return new._replace(stretch=np.full_like(new.stretch, known.stretch.max() + 1))
 
@@ -220,7 +222,9 @@ def _over(mask: Flags, array: Array) -> Flags:
     return mask.reshape(mask.shape + (1,) * (array.ndim - 1))
 
 
-def _enter_behind_gap(layout: Layout, first: Pose, along: Course, known: Path, ways: Ways | None) -> Path:
+def _enter_behind_gap(
+    layout: Layout, first: Pose, along: PathSamples, known: Path, search: Ways | None
+) -> Path:
     """Positions behind a gap: entered at some of them, on the first pose's side of every group, then followed in both
     directions.
 
@@ -231,13 +235,13 @@ def _enter_behind_gap(layout: Layout, first: Pose, along: Course, known: Path, w
     def now() -> tuple[Pose, Flags]:
         return known.pose, known.reached
 
-    for place, entry in entries(layout, first, along, now, ways):
+    for place, entry in entries(layout, first, along, now, search):
         if known.reached[place]:
             continue
-        more = _both_ways(layout, entry, along, along.at(place), len(known.reached))
+        more = _both_directions(layout, entry, along, along.at(place), len(known.reached))
         if (more.reached & ~known.reached).any():
             entered.append(place)
-        known = _first_reached(known, _apart(more, known))
+        known = _first_reached(known, _separate(more, known))
         if known.reached.all():
             break
     return known._replace(entered=tuple(entered))

@@ -68,7 +68,7 @@ def displace(layout: Layout, pose: Pose, dq: Array) -> Pose:
 def distance(layout: Layout, a: Pose, b: Pose) -> Array:
     """Largest displacement of a link between two poses: radians, or lengths over the characteristic length (...)."""
     shift = np.abs(a.point - b.point).max(axis=(-2, -1)) / layout.length
-    turned = layout.algebra.apart(a.rotation, b.rotation, a.turn, b.turn).max(axis=-1)
+    turned = layout.algebra.angle_between(a.rotation, b.rotation, a.turn, b.turn).max(axis=-1)
     return np.asarray(np.maximum(shift, turned))
 
 
@@ -112,8 +112,8 @@ def _close_loops(
 
 
 def _replace_poses(pose: Pose, where: Ints, part: Pose) -> None:
-    for whole, new in zip(pose, part, strict=True):
-        whole[where] = new
+    for array, new in zip(pose, part, strict=True):
+        array[where] = new
 
 
 LEAST, STILL = 1e-10, 1e-12

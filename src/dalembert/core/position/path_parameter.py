@@ -1,4 +1,4 @@
-"""Course of a motion: the list of positions along one parameter, smooth except at its breaks.
+"""PositionPath of a motion: the list of positions along one parameter, smooth except at its breaks.
 
 s  travel of the fastest drive, in radians or characteristic lengths
 
@@ -27,7 +27,7 @@ NEAR = 1e-12
 
 
 @dataclass(frozen=True)
-class Course:
+class PathSamples:
     """Positions along a course.
 
     order (P,) places in the list; s (P,) their parameters, ascending; targets (P, K + D) in that order; breaks (B,)
@@ -70,13 +70,13 @@ class Course:
         return float(self.breaks[self.breaks < s - NEAR].max(initial=0.0))
 
 
-def course(layout: Layout, targets: Array) -> Course:
+def course(layout: Layout, targets: Array) -> PathSamples:
     """The course through targets (P, K + D)."""
     order, moves, s = walk(layout, targets[:, layout.constraints.count :])
     moved = np.diff(s) > 0
-    ways = moves[moved] / np.linalg.norm(moves[moved], axis=1, keepdims=True)
-    corner = (ways[:-1] * ways[1:]).sum(axis=1) < STRAIGHT
-    return Course(order, s, targets[order], np.concatenate([[0.0], s[1:][moved][:-1][corner], s[-1:]]))
+    directions = moves[moved] / np.linalg.norm(moves[moved], axis=1, keepdims=True)
+    corner = (directions[:-1] * directions[1:]).sum(axis=1) < STRAIGHT
+    return PathSamples(order, s, targets[order], np.concatenate([[0.0], s[1:][moved][:-1][corner], s[-1:]]))
 
 
 def walk(layout: Layout, drives: Array) -> tuple[Ints, Array, Array]:
@@ -87,5 +87,5 @@ def walk(layout: Layout, drives: Array) -> tuple[Ints, Array, Array]:
         order = np.argsort(drives[:, 0], kind="stable")
     angular = layout.freedoms.angular[layout.driven]
     moves = np.diff(drives[order], axis=0) * np.where(angular, 1.0, 1 / layout.length)
-    way = np.abs(moves[:, 0]) if drives.shape[1] == 1 else np.abs(moves).max(axis=1, initial=0.0)
-    return order, moves, np.concatenate([[0.0], np.cumsum(way)])
+    lengths = np.abs(moves[:, 0]) if drives.shape[1] == 1 else np.abs(moves).max(axis=1, initial=0.0)
+    return order, moves, np.concatenate([[0.0], np.cumsum(lengths)])

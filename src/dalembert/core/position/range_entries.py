@@ -17,12 +17,12 @@ from dalembert.core.constraints import measure, stack_rows
 from dalembert.core.factor import displacement, displacements
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.assembly_modes import on_sides
-from dalembert.core.position.assur_groups import Group, groups, on_independent_rows, senses
-from dalembert.core.position.assur_plan import Plan, plan
+from dalembert.core.position.assur_groups import DiagonalBlock, groups, on_independent_rows, senses
+from dalembert.core.position.assur_plan import PlacementPlan, plan
 from dalembert.core.position.dyads import sides
 from dalembert.core.position.first_pose_plane import Guess, held_wheels, phase_rows, with_rows
 from dalembert.core.position.newton import CLOSED, close_loops, displace, distance, gap
-from dalembert.core.position.path_parameter import Course
+from dalembert.core.position.path_parameter import PathSamples
 
 SAME = 1e-6
 """Distance over characteristic length, or turn, below which two modes are the same."""
@@ -44,7 +44,7 @@ Known = Callable[[], tuple[Pose, Flags]]
 
 
 class Ways(Protocol):
-    """Source of a linkage's assembly modes (``Guess``, ``Drawing``)."""
+    """Source of a linkage's assembly modes (``Guess``, ``PoseGuess``)."""
 
     @property
     def stated(self) -> Array | None:
@@ -54,13 +54,15 @@ class Ways(Protocol):
         """All modes at a target (K + D,), poses (M, L+1, ...) in ``pose``; None where the linkage does not close."""
 
 
-def entries(layout: Layout, first: Pose, along: Course, now: Known, ways: Ways | None) -> Iterator[Entry]:
+def entries(
+    layout: Layout, first: Pose, along: PathSamples, now: Known, search: Ways | None
+) -> Iterator[Entry]:
     """Poses at positions not reached, one in each range of them, with every group on the first pose's side."""
     held = _hold_wheels(layout, _spread(along, *now()))
-    way = plan(held.layout)
-    if way is not None and way.closed:
-        return _closed_form_entries(layout, held, way, first, along, now()[1], ways)
-    return _sought(layout, held, first, along, now, ways)
+    group_plan = plan(held.layout)
+    if group_plan is not None and group_plan.closed:
+        return _closed_form_entries(layout, held, group_plan, first, along, now()[1], search)
+    return _sought(layout, held, first, along, now, search)
 
 
 class Held(NamedTuple):
@@ -105,49 +107,57 @@ def _hold_wheels(layout: Layout, poses: Pose) -> Held:
 
 
 def _closed_form_entries(
-    layout: Layout, held: Held, way: Plan, first: Pose, along: Course, known: Flags, ways: Ways | None
+    layout: Layout,
+    held: Held,
+    group_plan: PlacementPlan,
+    first: Pose,
+    along: PathSamples,
+    known: Flags,
+    search: Ways | None,
 ) -> Iterator[Entry]:
     """Entries where groups in closed form close on the first pose's sides: the middle of each range not yet reached.
 
     Each range is behind a detected gap; where no gap is, the march stopped at a place that it could not pass.
     """
-    turn = np.full(layout.links + 1, np.nan) if ways is None or ways.stated is None else ways.stated
+    turn = np.full(layout.links + 1, np.nan) if search is None or search.stated is None else search.stated
     reached = known[along.order]
     part = np.arange(BETWEEN) / BETWEEN
     s = np.append((along.s[:-1, None] + np.diff(along.s)[:, None] * part).ravel(), along.s[-1])
     listed = np.arange(len(s)) % BETWEEN == 0
-    there = np.zeros(len(s), bool)  # reached, or between two that are: no range ends there
-    there[:-1] = np.repeat(reached[:-1] & reached[1:], BETWEEN)
-    there[listed] = reached
-    asked = np.flatnonzero(~there)
-    targets = np.concatenate([along.target(x) for x in s[asked]])
-    which, found = on_sides(held.layout, way, held.targets(targets), first, turn)
+    settled = np.zeros(len(s), bool)  # reached, or between two that are: no range ends there
+    settled[:-1] = np.repeat(reached[:-1] & reached[1:], BETWEEN)
+    settled[listed] = reached
+    unsettled = np.flatnonzero(~settled)
+    targets = np.concatenate([along.target(x) for x in s[unsettled]])
+    which, poses = on_sides(held.layout, group_plan, held.targets(targets), first, turn)
     if held.layout is not layout:
-        good, found = _turn_wheels(layout, way, found, targets[which])
+        good, poses = _turn_wheels(layout, group_plan, poses, targets[which])
         which = which[good]
-    closes = there.copy()
-    closes[asked[which]] = True
-    pose = dict(zip(asked[which].tolist(), range(len(which)), strict=True))
+    closes = settled.copy()
+    closes[unsettled[which]] = True
+    pose = dict(zip(unsettled[which].tolist(), range(len(which)), strict=True))
     for run in np.split(np.arange(len(s)), np.flatnonzero(np.diff(closes)) + 1):
         places = run[listed[run]]
-        if closes[run[0]] and places.size and not there[run].any():
+        if closes[run[0]] and places.size and not settled[run].any():
             middle = int(places[len(places) // 2])
-            yield int(along.order[middle // BETWEEN]), found.at(pose[middle])
+            yield int(along.order[middle // BETWEEN]), poses.at(pose[middle])
 
 
-def _turn_wheels(layout: Layout, way: Plan, held: Pose, targets: Array) -> tuple[Ints, Pose]:
+def _turn_wheels(layout: Layout, group_plan: PlacementPlan, held: Pose, targets: Array) -> tuple[Ints, Pose]:
     """Indices of the poses (P, L+1, ...) with held wheels that close, every group on its side, once the wheels are in
     phase, and the poses."""
     missing = gap(layout, held, targets)
     with np.errstate(all="ignore"):  # at once, however far: a phase is linear in its wheel's angle
         dq = displacement(layout, stack_rows(layout, held), missing)
-    found = displace(layout, held, dq.reshape(len(targets), layout.links, layout.algebra.n))
-    found, open_ = close_loops(layout, found, targets)
+    pose = displace(layout, held, dq.reshape(len(targets), layout.links, layout.algebra.n))
+    pose, open_ = close_loops(layout, pose, targets)
     nothing = np.full((len(targets), targets.shape[1]), np.nan)
     with np.errstate(all="ignore"):
-        same = sides(way, found.turn, found.point, nothing) == sides(way, held.turn, held.point, nothing)
+        same = sides(group_plan, pose.turn, pose.point, nothing) == sides(
+            group_plan, held.turn, held.point, nothing
+        )
     good = np.flatnonzero((open_ <= CLOSED * layout.length) & same.all(axis=1))
-    return good, found.at(good)
+    return good, pose.at(good)
 
 
 class Fast(NamedTuple):
@@ -155,12 +165,12 @@ class Fast(NamedTuple):
 
     layout: Layout
     held: Held
-    kinds: list[Group]
+    kinds: list[DiagonalBlock]
     sense: Array
 
 
 def _sought(
-    layout: Layout, held: Held, first: Pose, along: Course, now: Known, ways: Ways | None
+    layout: Layout, held: Held, first: Pose, along: PathSamples, now: Known, search: Ways | None
 ) -> Iterator[Entry]:
     """Entries computed by Newton from the known poses, or by a search, on the first pose's sides."""
     kinds = groups(layout, _spread(along, *now()))
@@ -175,34 +185,34 @@ def _sought(
         sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
         targets = ((int(k), along.target(along.at(int(k)))[0]) for k in sample)
         guess = _spread(along, *now())
-        found = ((k, _entry(layout, fast, target, guess, ways)) for k, target in targets)
-        place, entry = next(((k, e) for k, e in found if e is not None), (0, None))
+        candidates = ((k, _entry(layout, fast, target, guess, search)) for k, target in targets)
+        place, entry = next(((k, e) for k, e in candidates if e is not None), (0, None))
         if entry is None:
             return
         tried[place] = True
         yield place, entry
 
 
-def _spread(along: Course, pose: Pose, reached: Flags) -> Pose:
+def _spread(along: PathSamples, pose: Pose, reached: Flags) -> Pose:
     """A few of the known poses, spread over the course."""
     good = along.order[reached[along.order]]
     return pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
 
 
-def _entry(layout: Layout, fast: Fast, target: Array, guess: Pose, ways: Ways | None) -> Pose | None:
+def _entry(layout: Layout, fast: Fast, target: Array, guess: Pose, search: Ways | None) -> Pose | None:
     """A pose at one target with the groups' given senses: from the nearest known pose that converges, else the only
     mode that a search finds. In space the number of turns of meshing wheels is unknown."""
     pose, _ = close_loops(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
     fits = _fitting(layout, fast, pose, target, 0.0)
     if fits.any():
         return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
-    if ways is None or phase_rows(fast.held.layout.constraints).size:
+    if search is None or phase_rows(fast.held.layout.constraints).size:
         return None
-    found = ways.every(fast.held.layout, fast.held.targets(target[None])[0])
-    if found is None:
+    modes = search.every(fast.held.layout, fast.held.targets(target[None])[0])
+    if modes is None:
         return None
     pose, _ = close_loops(
-        fast.layout, found.pose, np.broadcast_to(target, (len(found.pose.point), len(target))).copy()
+        fast.layout, modes.pose, np.broadcast_to(target, (len(modes.pose.point), len(target))).copy()
     )
     pose = pose.at(np.flatnonzero(_fitting(layout, fast, pose, target, 0.5)))
     one = len(pose.point) > 0 and bool((distance(layout, pose, pose.at(slice(0, 1))) <= SAME).all())

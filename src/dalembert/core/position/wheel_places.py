@@ -33,9 +33,9 @@ class WheelPlaces(NamedTuple):
 
     def of(self, layout: Layout) -> WheelPlaces:
         """The same wheels with the geometry of another layout of the same joints, which may be of symbols."""
-        found = [f for f in layout.constraints.families if isinstance(f, Along)]
-        masks: list[Flags] = [np.asarray(np.isin(f.row, self.along.row)) for f in found]
-        of_wheels = zip(found, masks, strict=True)
+        families = [f for f in layout.constraints.families if isinstance(f, Along)]
+        masks: list[Flags] = [np.asarray(np.isin(f.row, self.along.row)) for f in families]
+        of_wheels = zip(families, masks, strict=True)
         parts = [{name: value[mask] for name, value in vars(f).items()} for f, mask in of_wheels]
         along = Along(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
         return self._replace(along=replace(along, pitch=np.zeros(len(along.row))))
@@ -73,19 +73,19 @@ def _scaled(layout: Layout, rows: Rows, pose: Pose) -> Array:
 
 def _rolling(layout: Layout, turn: Array, point: Array) -> WheelPlaces | None:
     """The wheels on lines, except those on a moving line with the place of the wheel or of the line given."""
-    found: list[tuple[Along, Flags]] = [
+    rolling: list[tuple[Along, Flags]] = [
         (f, np.asarray(f.pitch != 0)) for f in layout.constraints.families if isinstance(f, Along)
     ]
-    parts = [{name: value[mask] for name, value in vars(f).items()} for f, mask in found if mask.any()]
+    parts = [{name: value[mask] for name, value in vars(f).items()} for f, mask in rolling if mask.any()]
     if not parts:
         return None
     f = Along(**{name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
-    given = np.isfinite(point[f.j]).all(axis=1)
-    arm = plane.rotate(plane.rotation(np.where(given, turn[f.j], 0.0)), f.uj)
-    there = plane.dot(f.axis, np.nan_to_num(point[f.j]) + arm - f.ui)
+    known = np.isfinite(point[f.j]).all(axis=1)
+    arm = plane.rotate(plane.rotation(np.where(known, turn[f.j], 0.0)), f.uj)
+    place = plane.dot(f.axis, np.nan_to_num(point[f.j]) + arm - f.ui)
     joint = layout.constraints.joint[f.row]
-    whole = WheelPlaces(replace(f, pitch=np.zeros(len(f.row))), joint, np.where(given, there, 0.0))
-    placed = given | np.isfinite(point[f.i]).all(
+    wheels = WheelPlaces(replace(f, pitch=np.zeros(len(f.row))), joint, np.where(known, place, 0.0))
+    placed = known | np.isfinite(point[f.i]).all(
         axis=1
     )  # a line that moves may be placed as well as its wheel
-    return whole.at(np.flatnonzero(~placed | (f.i == layout.links)))
+    return wheels.at(np.flatnonzero(~placed | (f.i == layout.links)))

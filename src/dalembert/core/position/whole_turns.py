@@ -44,19 +44,19 @@ class Way(NamedTuple):
     met: bool
 
 
-def way(layout: Layout, pose: Pose, here: Array, there: Array) -> Way:
+def straight_path(layout: Layout, pose: Pose, here: Array, goal: Array) -> Way:
     """The motion from a pose (L+1, ...) at targets (K + D,) straight to other targets of its drives."""
     g, freedoms = layout.algebra, layout.freedoms
-    along = course(layout, np.stack([here, there]))
+    along = course(layout, np.stack([here, goal]))
     start = along.at(0)
-    found = march(layout, pose, along, start, backward=start > 0)
-    phi = measure(g, freedoms, found.pose)
+    stations = march(layout, pose, along, start, backward=start > 0)
+    phi = measure(g, freedoms, stations.pose)
     if start > 0:
-        phi, found = phi[::-1], found._replace(pose=found.pose.at(slice(None, None, -1)))
+        phi, stations = phi[::-1], stations._replace(pose=stations.pose.at(slice(None, None, -1)))
     end = phi[-1]
-    if not found.whole and len(phi) > 1:
+    if not stations.complete and len(phi) > 1:
         end = end - np.clip(phi[-1] - phi[-2], -INWARD, INWARD)
-    return Way(found.pose.at(-1), end, found.whole)
+    return Way(stations.pose.at(-1), end, stations.complete)
 
 
 def rigid_turns(layout: Layout) -> Ints:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from dalembert.errors import DalembertError, MissingFileError, ModelError
 from dalembert.grading.answer_sheet import about_sheet, named_figure, sheet_items
 from dalembert.grading.marking.key import cell_value, place
-from dalembert.grading.marking.table_files import KEYS, Row, read_table
+from dalembert.grading.marking.table_files import KEYS, TableRow, read_table
 
 ENDINGS = (".yaml", ".yml", ".json", ".toml", ".csv")
 MOST = 5000
@@ -32,7 +32,7 @@ class StudentSheet:
     file: str
     variant: str = ""
     tolerance: str | None = None
-    given: list[Given] = field(default_factory=list)
+    figures: list[Given] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     line: int = 1
 
@@ -47,10 +47,10 @@ def class_sheets(path: str | Path) -> list[StudentSheet]:
     files = sorted(p for p in path.iterdir() if p.suffix.lower() in ENDINGS and not p.name.startswith("."))
     if not files:
         raise ModelError(f"{path} has no answer files", f"their names end in {', '.join(ENDINGS)}")
-    found = [sheet for file in files for sheet in _sheets(file)]
-    if len(found) > MOST:
-        raise ModelError(f"there are {len(found)} sheets", f"divide them: at most {MOST}")
-    return found
+    sheets = [sheet for file in files for sheet in _sheets(file)]
+    if len(sheets) > MOST:
+        raise ModelError(f"there are {len(sheets)} sheets", f"divide them: at most {MOST}")
+    return sheets
 
 
 def _sheets(path: Path, strict: bool = False) -> Iterator[StudentSheet]:
@@ -72,7 +72,7 @@ def _of_file(path: Path) -> StudentSheet:
         about["student"] or path.stem, str(path), about["variant"], about["tolerance"] or None
     )
     try:
-        sheet.given = [Given(item, source.line(at)) for at, item in sheet_items(tree)]
+        sheet.figures = [Given(item, source.line(at)) for at, item in sheet_items(tree)]
     except ModelError as error:
         raise error.at_source(source) from None
     return sheet
@@ -82,28 +82,28 @@ def _of_table(path: Path) -> Iterator[StudentSheet]:
     """Sheets of a table: a row a figure (columns quantity, of, value), or a row a student (columns effort.O2 ...)."""
     rows = read_table(path)
     long = any("quantity" in row.cells for row in rows)
-    found: dict[str, StudentSheet] = {}
+    by_student: dict[str, StudentSheet] = {}
     for row in rows:
         name = row.cells.get("student", path.stem if long else f"row {row.line}")
-        if not long or name not in found:
+        if not long or name not in by_student:
             key = name if long else f"{name} {row.line}"
-            found[key] = StudentSheet(name, str(path), row.cells.get("variant", ""), line=row.line)
-        sheet = found[name if long else f"{name} {row.line}"]
+            by_student[key] = StudentSheet(name, str(path), row.cells.get("variant", ""), line=row.line)
+        sheet = by_student[name if long else f"{name} {row.line}"]
         try:
-            sheet.given += [_long(row)] if long else list(_wide(row))
+            sheet.figures += [_long(row)] if long else list(_wide(row))
         except ModelError as error:
             sheet.problems.append(str(error.at_line(str(path), row.line)))
-    yield from found.values()
+    yield from by_student.values()
 
 
-def _long(row: Row) -> Given:
+def _long(row: TableRow) -> Given:
     cells = row.cells
     keys: dict[str, object] = {name: cells[name] for name in KEYS if name in cells}
     value = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
     return Given(keys | {"at": place(cells.get("at")), "value": value}, row.line)
 
 
-def _wide(row: Row) -> Iterator[Given]:
+def _wide(row: TableRow) -> Iterator[Given]:
     for name, text in row.cells.items():
         if name not in ("student", "variant"):
             yield Given(named_figure(name, cell_value(text)), row.line)

@@ -51,7 +51,9 @@ def feedback(s: StudentMarks) -> str:
     lines += [f"Variant {_plain(s.variant)}.", ""] if s.variant else []
     lines += [f"{s.total:.4g} of {s.most:.4g} marks.", ""]
     lines += [f"- {_sentence(m)}" for m in s.marks]
-    lines += ["", "Not counted:", "", *(f"- {_plain(said)}" for said in s.problems)] if s.problems else []
+    lines += (
+        ["", "Not counted:", "", *(f"- {_plain(problem)}" for problem in s.problems)] if s.problems else []
+    )
     return "\n".join(lines).replace(_plain(s.file), _plain(Path(s.file).name)).rstrip() + "\n"
 
 
@@ -60,12 +62,12 @@ def _sentence(m: Mark) -> str:
     head = f"{_plain(m.quantity[:1].upper() + m.quantity[1:])} ({counted}): "
     if m.outcome == "missing":
         return head + "no answer is given."
-    given = f"you have {_plain(m.given)}; " if m.given else ""
+    answered = f"you have {_plain(m.given)}; " if m.given else ""
     if m.outcome == "right":
-        return head + given + ("right" + (f", but {m.sentence}" if m.sentence else "")) + "."
+        return head + answered + ("right" + (f", but {m.sentence}" if m.sentence else "")) + "."
     tail = f" Computed: {m.computed}." if m.computed and m.outcome != "follow_through" else ""
     again = ", as before" if m.outcome == "repeated" else ""
-    return f"{head}{given}{_plain(m.sentence)}{again}.{tail}"
+    return f"{head}{answered}{_plain(m.sentence)}{again}.{tail}"
 
 
 def _plain(text: str) -> str:

@@ -19,7 +19,7 @@ from dalembert.arrays import Array
 from dalembert.core.constraints import dense
 from dalembert.core.equilibrium import balance, known_sources, reactions, statement
 from dalembert.core.forcing import total_wrench
-from dalembert.grading.figure import Figure
+from dalembert.grading.figure import StudentValue
 from dalembert.grading.quantities import Series, component
 
 if TYPE_CHECKING:
@@ -60,9 +60,11 @@ class LinkEquations:
         each = one._replace(constraint=np.eye(size)[:, :count])
         self.forces = np.moveaxis(reactions(layout, s.pose, s.rows, each)[0], 0, -1)  # (joints, d, X)
         self.columns = np.eye(size)[count:]
-        self.drives = [d for d, asked in zip(result.drives, c.known.asked, strict=True) if asked]
+        self.drives = [
+            d for d, is_unknown in zip(result.drives, c.known.requested, strict=True) if is_unknown
+        ]
 
-    def part(self, f: Figure) -> _Part | None:
+    def part(self, f: StudentValue) -> _Part | None:
         """A figure's rows; None where it is not a linear function of the unknowns."""
         rows = self._rows(f)
         if rows is None or f.answer.component in ("magnitude", "direction"):
@@ -71,7 +73,7 @@ class LinkEquations:
             rows = rows["xyz".index(f.answer.component)][None]
         return _Part(rows, np.atleast_1d(f.given.value))
 
-    def _rows(self, f: Figure) -> Array | None:
+    def _rows(self, f: StudentValue) -> Array | None:
         """Rows of the full vector, or number, to which a figure belongs."""
         r, answer = self.result, f.answer
         if answer.quantity == "effort" and answer.of in self.drives:
@@ -85,7 +87,7 @@ class LinkEquations:
         sign = 1.0 if on == j else -1.0
         return np.asarray(sign * self.forces[r.joints.index(str(answer.of))])
 
-    def with_accelerations(self, figures: Sequence[Figure]) -> Array:
+    def with_accelerations(self, figures: Sequence[StudentValue]) -> Array:
         """w with the student's accelerations of links in the plane."""
         r, w = self.result, self.w.copy()
         if r.mechanism.dimension == 3 or not r.inertia:
@@ -109,14 +111,16 @@ class LinkEquations:
         for size in range((count if count <= MANY_LINKS else 2) + 1):
             yield from combinations(range(count), size)
 
-    def follows(self, f: Figure, own: Sequence[Figure], wrong: Sequence[bool]) -> tuple[str, ...] | None:
+    def follows(
+        self, f: StudentValue, others: Sequence[StudentValue], wrong: Sequence[bool]
+    ) -> tuple[str, ...] | None:
         """Links whose equilibrium yields the figure from the student's earlier ones, some of them ``wrong``; None if
         none does."""
         rows = self._rows(f)
         if rows is None:
             return None
-        parts = [(p, bad) for g, bad in zip(own, wrong, strict=True) if (p := self.part(g)) is not None]
-        w = self.with_accelerations(own)
+        parts = [(p, bad) for g, bad in zip(others, wrong, strict=True) if (p := self.part(g)) is not None]
+        w = self.with_accelerations(others)
         moved = bool(np.abs(w - self.w).max(initial=0.0))
         known = np.concatenate([np.zeros((0, rows.shape[1])), *(p.rows for p, _ in parts)])
         values = np.concatenate([np.zeros(0), *(p.value for p, _ in parts)])
@@ -136,14 +140,14 @@ class LinkEquations:
                 return tuple(self.result.links[k] for k in group)
         return None
 
-    def _is(self, f: Figure, value: Array) -> bool:
+    def _is(self, f: StudentValue, value: Array) -> bool:
         number = f.answer.quantity != "reaction"
-        whole = Series(f.series.kind, value if number else value[None])
-        return f.close.holds(component(whole, f.answer.component).values[0])
+        computed = Series(f.series.kind, value if number else value[None])
+        return f.close.holds(component(computed, f.answer.component).values[0])
 
 
 def follow_through(
-    equations: LinkEquations, figures: Sequence[Figure], wrong: Sequence[int]
+    equations: LinkEquations, figures: Sequence[StudentValue], wrong: Sequence[int]
 ) -> dict[int, str]:
     """Wrong figures that follow from others of the sheet, each with how. Of figures that follow from one another
     the error is that from which most of the others follow."""
@@ -151,19 +155,19 @@ def follow_through(
     taken = [n for n in range(len(figures)) if n not in wrong]
     left = list(wrong)
 
-    def way(n: int, others: Sequence[int]) -> tuple[str, ...] | None:
-        own = [m for m in others if m != n]
-        return equations.follows(figures[n], [figures[m] for m in own], [m in wrong for m in own])
+    def explain(n: int, others: Sequence[int]) -> tuple[str, ...] | None:
+        known = [m for m in others if m != n]
+        return equations.follows(figures[n], [figures[m] for m in known], [m in wrong for m in known])
 
     def followers(n: int) -> int:
-        return sum(way(m, [*taken, n]) is not None for m in left if m != n)
+        return sum(explain(m, [*taken, n]) is not None for m in left if m != n)
 
     while left:
-        found = next(((n, links) for n in left if (links := way(n, taken)) is not None), None)
-        if found is None:
+        next_one = next(((n, links) for n in left if (links := explain(n, taken)) is not None), None)
+        if next_one is None:
             n = max(left, key=followers)
         else:
-            n, links = found
+            n, links = next_one
             out[n] = f"right by the equilibrium of {' and '.join(links)}" if links else "right"
         taken.append(n)
         left.remove(n)

@@ -12,7 +12,7 @@ from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import answer_of
 from dalembert.grading.explanation import explain
-from dalembert.grading.figure import Figure
+from dalembert.grading.figure import StudentValue
 from dalembert.grading.file_answers import describe_answer
 from dalembert.grading.marking.class_sheets import StudentSheet, class_sheets
 from dalembert.grading.marking.follow_through import LinkEquations, follow_through
@@ -37,7 +37,7 @@ SHOWN = 10
 
 
 @dataclass(eq=False)
-class Marks(Worked):
+class ClassMarks(Worked):
     """The marks of a class: an answer with a row a figure of every student."""
 
     ROWS = "rows"
@@ -94,7 +94,7 @@ def grade(
     rubric: str | Path | Rubric | None = None,
     tolerance: str | None = None,
     static: bool = False,
-) -> Marks:
+) -> ClassMarks:
     """Marks of a folder of sheets, or of a table, by a key: a CSV or JSON file, its rows, or a model file.
 
     ``tolerance``, as `3 %`, is that of figures to which the key gives none; ``static`` leaves inertia out. Raises
@@ -122,7 +122,7 @@ def grade(
             if any(sheet.student == other.student for other in sheets[:k]):
                 sheet.problems.append(f"{sheet.file}:{sheet.line}: there is another sheet of {sheet.student}")
             out.append(marker.mark(sheet))
-    return Marks(out, rules)
+    return ClassMarks(out, rules)
 
 
 class _Taken(NamedTuple):
@@ -131,7 +131,7 @@ class _Taken(NamedTuple):
 
     asked: Asked
     given: Answer | None
-    found: Figure | Verdict | None
+    found: StudentValue | Verdict | None
     sentence: str
     part: bool
     line: int
@@ -150,7 +150,7 @@ class _Marker:
             variant = self.key.variant(sheet.variant, sheet.student)
         except ModelError as error:
             here = error.at_line(sheet.file, sheet.line)
-            out.problems += [] if sheet.problems and not sheet.given else [str(here)]
+            out.problems += [] if sheet.problems and not sheet.figures else [str(here)]
             return out
         out.variant = variant.name
         if variant.name not in self.checked:
@@ -165,65 +165,69 @@ class _Marker:
         self, sheet: StudentSheet, variant: ExamVariant, problems: list[str]
     ) -> tuple[list[_Taken], list[str]]:
         """The sheet's answers to the required figures, and its other figures."""
-        given: list[tuple[Answer | None, str]] = []
-        for one in sheet.given:
+        read: list[tuple[Answer | None, str]] = []
+        for one in sheet.figures:
             try:
-                given.append((answer_of(one.keys), ""))
+                read.append((answer_of(one.keys), ""))
             except ModelError as error:
-                given.append((None, str(error.at_line(sheet.file, one.line))))
+                read.append((None, str(error.at_line(sheet.file, one.line))))
         used: set[int] = set()
         out = []
-        for asked in variant.asked:
+        for question in variant.asked:
             fits = [
-                (f, n) for n, g in enumerate(sheet.given) if (f := _fit(asked.answer, g.keys)) is not None
+                (f, n)
+                for n, g in enumerate(sheet.figures)
+                if (f := _fit(question.answer, g.keys)) is not None
             ]
             if not fits:
-                out.append(_Taken(asked, None, None, "", False, 0))
+                out.append(_Taken(question, None, None, "", False, 0))
                 continue
             fit, n = min(fits)
             used.add(n)
-            answer, said = given[n]
-            taken = self._one(variant, asked, answer, fit == 2, (sheet.file, sheet.given[n].line))
-            out.append(taken._replace(sentence=said) if said else taken)
+            answer, problem = read[n]
+            taken = self._one(variant, question, answer, fit == 2, (sheet.file, sheet.figures[n].line))
+            out.append(taken._replace(sentence=problem) if problem else taken)
         unused = []
-        for n, (keys, line) in enumerate(sheet.given):
-            if n not in used and given[n][1]:
-                problems.append(given[n][1])
+        for n, (keys, line) in enumerate(sheet.figures):
+            if n not in used and read[n][1]:
+                problems.append(read[n][1])
             elif n not in used:
                 unused.append(f"{sheet.file}:{line}: {keys.get('quantity')} {keys.get('of', '')}".rstrip())
         return out, unused
 
     def _one(
-        self, variant: ExamVariant, asked: Asked, answer: Answer | None, part: bool, where: tuple[str, int]
+        self, variant: ExamVariant, question: Asked, answer: Answer | None, part: bool, where: tuple[str, int]
     ) -> _Taken:
         """An answer beside the computed value: keys that it leaves out are as required, and a student's tolerance is
         ignored."""
         if answer is None or answer.value in (None, ""):
-            return _Taken(asked, answer, None, "", part, where[1])
+            return _Taken(question, answer, None, "", part, where[1])
         keys = ("on", "by") if not (answer.on or answer.by) else ()
-        filled = {k: getattr(asked.answer, k) for k in (*keys, "at", "extreme")}
-        answer = answer.model_copy(update=filled | {"tolerance": asked.answer.tolerance})
+        filled = {k: getattr(question.answer, k) for k in (*keys, "at", "extreme")}
+        answer = answer.model_copy(update=filled | {"tolerance": question.answer.tolerance})
         try:
-            return _Taken(asked, answer, variant.compare(asked, answer, self.tolerance), "", part, where[1])
+            return _Taken(
+                question, answer, variant.compare(question, answer, self.tolerance), "", part, where[1]
+            )
         except ModelError as error:
-            return _Taken(asked, answer, None, str(error.at_line(*where)), part, where[1])
+            return _Taken(question, answer, None, str(error.at_line(*where)), part, where[1])
 
     def _marks(self, variant: ExamVariant, taken: list[_Taken]) -> list[Mark]:
-        figures = [t.found for t in taken if isinstance(t.found, Figure)]
+        figures = [t.found for t in taken if isinstance(t.found, StudentValue)]
         problem = variant.problem
-        said = explain(figures, None if problem is None else problem.wrong_problems(figures))
+        explanations = explain(figures, None if problem is None else problem.wrong_problems(figures))
         follows = self._follows(variant, figures)
         paid: set[str] = set()
         out, n = [], 0
         for t in taken:
-            verdict, way = t.found if isinstance(t.found, Verdict) else None, ""
-            if isinstance(t.found, Figure):
-                verdict, way = verdict_of(t.found, said.get(n)), follows.get(n, "")
+            verdict, follows_by = t.found if isinstance(t.found, Verdict) else None, ""
+            if isinstance(t.found, StudentValue):
+                verdict, follows_by = verdict_of(t.found, explanations.get(n)), follows.get(n, "")
                 n += 1
-            out.append(self._mark(t, verdict, way, paid))
+            out.append(self._mark(t, verdict, follows_by, paid))
         return out
 
-    def _follows(self, variant: ExamVariant, figures: list[Figure]) -> dict[int, str]:
+    def _follows(self, variant: ExamVariant, figures: list[StudentValue]) -> dict[int, str]:
         """Figures that follow from the student's, position by position."""
         problem, out = variant.problem, dict[int, str]()
         if problem is None or problem.result.compiled.contacts or problem.result.schedule.unknown is not None:
@@ -237,24 +241,26 @@ class _Marker:
                 continue
             if (variant.name, place) not in self.equations:
                 self.equations[variant.name, place] = LinkEquations(problem.at(place))
-            found = follow_through(self.equations[variant.name, place], [figures[n] for n in here], wrong)
-            out |= {here[k]: said for k, said in found.items()}
+            followers = follow_through(self.equations[variant.name, place], [figures[n] for n in here], wrong)
+            out |= {here[k]: links_text for k, links_text in followers.items()}
         return out
 
-    def _mark(self, t: _Taken, verdict: Verdict | None, way: str, paid: set[str]) -> Mark:
+    def _mark(self, t: _Taken, verdict: Verdict | None, followed: str, paid: set[str]) -> Mark:
         """The marks of a figure; ``paid``: the mistakes that earlier figures have lost marks for."""
         most = self.rubric.marks_of(t.asked.answer.quantity) if t.asked.marks is None else t.asked.marks
         words = describe_answer(t.asked.answer)
         if verdict is None:
             outcome = "unreadable" if t.sentence else "missing"
             sentence = t.sentence or "no answer is given"
-            given = "" if t.given is None else quote_value(t.given.value)
-            return Mark(words, given, "", outcome, sentence, most * self.rubric.shares[outcome], most, t.line)
+            written = "" if t.given is None else quote_value(t.given.value)
+            return Mark(
+                words, written, "", outcome, sentence, most * self.rubric.shares[outcome], most, t.line
+            )
         outcome, sentence = verdict.kind, verdict.mistake
         if outcome == "open":
             return Mark(words, verdict.given, "", outcome, sentence, 0.0, 0.0, t.line)
-        if way and not verdict.right:
-            outcome, sentence = "follow_through", f"{way} with your figures"
+        if followed and not verdict.right:
+            outcome, sentence = "follow_through", f"{followed} with your figures"
         elif sentence in paid:
             outcome = "repeated"
         elif outcome in ("named", "sign", "unit"):
@@ -266,15 +272,15 @@ class _Marker:
         return Mark(words, verdict.given, verdict.computed, outcome, sentence, most * share, most, t.line)
 
 
-def _fit(asked: Answer, keys: Mapping[str, object]) -> int | None:
+def _fit(question: Answer, keys: Mapping[str, object]) -> int | None:
     """Match of a given figure with the required one: 0 the same, 1 the complete vector of which it is a component, 2
     only its size; None if it is another."""
-    if keys.get("quantity") != asked.quantity or (keys.get("of") or None) != asked.of:
+    if keys.get("quantity") != question.quantity or (keys.get("of") or None) != question.of:
         return None
     for name in ("at", "extreme"):
-        if keys.get(name) is not None and str(keys[name]) != str(getattr(asked, name)):
+        if keys.get(name) is not None and str(keys[name]) != str(getattr(question, name)):
             return None
-    own = keys.get("component")
-    if own == asked.component:
+    component = keys.get("component")
+    if component == question.component:
         return 0
-    return 1 if own is None else 2 if asked.component is None and own == "magnitude" else None
+    return 1 if component is None else 2 if question.component is None and component == "magnitude" else None

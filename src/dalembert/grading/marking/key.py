@@ -15,10 +15,10 @@ import numpy as np
 
 from dalembert.errors import ModelError, errors_at
 from dalembert.grading.answer_sheet import answer_of, without_value
-from dalembert.grading.figure import Figure, figure_of_key
+from dalembert.grading.figure import StudentValue, figure_of_key
 from dalembert.grading.file_answers import describe_answer, value_text
-from dalembert.grading.marking.table_files import KEYS, Row, read_table
-from dalembert.grading.mistakes import Problem, Verdict, verdict_on_word
+from dalembert.grading.marking.table_files import KEYS, TableRow, read_table
+from dalembert.grading.mistakes import SolvedProblem, Verdict, verdict_on_word
 from dalembert.grading.quantities import WHOLE, WORDS
 from dalembert.model.quantities.column_files import file_text
 from dalembert.units import NUMBER
@@ -48,29 +48,33 @@ class ExamVariant:
     static: bool = False
 
     @cached_property
-    def problem(self) -> Problem | None:
+    def problem(self) -> SolvedProblem | None:
         """The problem solved."""
-        return None if self.load is None else Problem(self.load(), self.static)
+        return None if self.load is None else SolvedProblem(self.load(), self.static)
 
-    def compare(self, asked: Asked, answer: Answer, tolerance: str | None) -> Figure | Verdict:
+    def compare(self, question: Asked, answer: Answer, tolerance: str | None) -> StudentValue | Verdict:
         """A student's figure beside the problem's, or without a problem beside the key's; bare numbers in its unit."""
-        answer = answer.model_copy(update={"value": with_units(answer.value, asked.unit)})
+        answer = answer.model_copy(update={"value": with_units(answer.value, question.unit)})
         if self.problem is not None:
             return self.problem.compare(answer, tolerance)
-        if asked.answer.quantity in WORDS | WHOLE:
-            return verdict_on_word(answer, asked.answer.value)
-        return figure_of_key(answer, asked.answer, tolerance)
+        if question.answer.quantity in WORDS | WHOLE:
+            return verdict_on_word(answer, question.answer.value)
+        return figure_of_key(answer, question.answer, tolerance)
 
     def check(self, file: str) -> None:
         """Raise where a value of the key cannot be read, or is not that of its problem."""
-        for asked in self.asked:
-            if asked.answer.value is None:
+        for question in self.asked:
+            if question.answer.value is None:
                 continue
-            with errors_at(file=file, line=asked.line):
-                found = self.compare(asked, asked.answer.model_copy(update={"tolerance": None}), None)
-                if not (found.met if isinstance(found, Figure) else found.right):
-                    said = f"{describe_answer(asked.answer)} is {value_text(asked.answer.value)} in the key"
-                    raise ModelError(f"{said}, and {found.computed} by the model file", "correct one of them")
+            with errors_at(file=file, line=question.line):
+                compared = self.compare(
+                    question, question.answer.model_copy(update={"tolerance": None}), None
+                )
+                if not (compared.met if isinstance(compared, StudentValue) else compared.right):
+                    problem = f"{describe_answer(question.answer)} is {value_text(question.answer.value)} in the key"
+                    raise ModelError(
+                        f"{problem}, and {compared.computed} by the model file", "correct one of them"
+                    )
 
 
 class Key:
@@ -81,9 +85,9 @@ class Key:
 
     def variant(self, name: str, student: str) -> ExamVariant:
         """The variant that a sheet names, that of a student's name, or the only one."""
-        for said in (name, student):
-            if said and plain(said) in self.variants:
-                return self.variants[plain(said)]
+        for label in (name, student):
+            if label and plain(label) in self.variants:
+                return self.variants[plain(label)]
         if len(self.variants) == 1 and not name:
             return next(iter(self.variants.values()))
         known = [v.name for v in self.variants.values()]
@@ -108,7 +112,7 @@ def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, object]], st
     if isinstance(source, Mechanism):
         return Key([_of_model(source, static)])
     if not isinstance(source, (str, Path)):
-        return _of_rows([Row(k + 1, _cells(row)) for k, row in enumerate(source)], Path(), "", static)
+        return _of_rows([TableRow(k + 1, _cells(row)) for k, row in enumerate(source)], Path(), "", static)
     path = Path(source)
     if path.suffix.lower() == ".csv":
         return _of_rows(read_table(path), path.parent, str(path), static)
@@ -119,7 +123,7 @@ def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, object]], st
             line = getattr(error, "lineno", 1)
             raise ModelError("the key is not JSON", "write a list of figures", (), str(path), line) from None
         if isinstance(tree, list):
-            return _of_rows([Row(0, _cells(row)) for row in tree], path.parent, str(path), static)
+            return _of_rows([TableRow(0, _cells(row)) for row in tree], path.parent, str(path), static)
     return Key([_of_model(load(path), static)], str(path))
 
 
@@ -134,17 +138,17 @@ def _of_model(m: Mechanism, static: bool) -> ExamVariant:
     from dalembert.model import Answer
 
     out = ExamVariant(m.title or "", load=lambda: m, static=static)
-    asked = [without_value(a) for a in m.answers]
-    if not asked:
+    questions = [without_value(a) for a in m.answers]
+    if not questions:
         assert out.problem is not None
         r = out.problem.result
         named = {"effort": r.drives, "unknown_load": r.unknown_loads, "reaction": r.joints}
-        asked = [Answer(quantity=q, of=name) for q, names in named.items() for name in names]
-    out.asked = [Asked(a) for a in asked]
+        questions = [Answer(quantity=q, of=name) for q, names in named.items() for name in names]
+    out.asked = [Asked(a) for a in questions]
     return out
 
 
-def _of_rows(rows: Sequence[Row], folder: Path, file: str, static: bool) -> Key:
+def _of_rows(rows: Sequence[TableRow], folder: Path, file: str, static: bool) -> Key:
     out: dict[str, ExamVariant] = {}
     models: dict[str, str] = {}
     for row in rows:
@@ -156,7 +160,7 @@ def _of_rows(rows: Sequence[Row], folder: Path, file: str, static: bool) -> Key:
                 raise ModelError(f"variant {name!r} has two files", f"it had {models[plain(name)]!r}")
             if model and v.load is None:
                 v.load = _loader(folder, model)
-            v.asked.append(_asked(row, bool(model)))
+            v.asked.append(_question(row, bool(model)))
     return Key(list(out.values()), file)
 
 
@@ -170,7 +174,7 @@ def _loader(folder: Path, model: str) -> Callable[[], Mechanism]:
     return lambda: load(path)
 
 
-def _asked(row: Row, has_model: bool) -> Asked:
+def _question(row: TableRow, has_model: bool) -> Asked:
     cells = row.cells
     if "value" not in cells and not has_model:
         raise ModelError("the figure has neither a value nor a model file", "give it one of them")
@@ -179,10 +183,10 @@ def _asked(row: Row, has_model: bool) -> Asked:
     }
     item["value"] = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
     item["at"] = place(cells.get("at"))
-    marks = cells.get("marks")
-    if marks is not None and not (_is_number(marks) and 0 <= float(marks) <= 1e6):
-        raise ModelError(f"{marks!r} is not a number of marks", "write a number, 0 or more")
-    return Asked(answer_of(item), cells.get("unit", ""), None if marks is None else float(marks), row.line)
+    points = cells.get("marks")
+    if points is not None and not (_is_number(points) and 0 <= float(points) <= 1e6):
+        raise ModelError(f"{points!r} is not a number of marks", "write a number, 0 or more")
+    return Asked(answer_of(item), cells.get("unit", ""), None if points is None else float(points), row.line)
 
 
 def place(text: str | None) -> object:

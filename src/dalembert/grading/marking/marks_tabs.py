@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dalembert.answer.workbook import Tab
 from dalembert.grading.marking.rubric import Rubric
 from dalembert.grading.marking.student_marks import StudentMarks, named_mistakes
-from dalembert.printing import Part, Table
+from dalembert.printing import Part, TextTable
 
 
 def marks_tabs(students: Sequence[StudentMarks], rubric: Rubric) -> Iterator[Tab]:
@@ -27,10 +27,10 @@ def marks_parts(students: Sequence[StudentMarks], most: int | None = None) -> It
     rows = [
         [s.student, s.variant, *(f"{x:.4g}" if s.marks else "-" for x in (s.total, s.most))] for s in students
     ]
-    yield Table(["student", "variant", "marks", "of"], rows, 2)
+    yield TextTable(["student", "variant", "marks", "of"], rows, 2)
     named = [[sentence, str(count)] for sentence, count in named_mistakes(students)[:most]]
     if named:
-        yield Table(["mistake", "students"], named)
+        yield TextTable(["mistake", "students"], named)
 
 
 def _marks(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:

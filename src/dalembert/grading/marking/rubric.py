@@ -75,26 +75,26 @@ def read_rubric(tree: object, source: Locator | None = None) -> Rubric:
             raise ModelError("the rubric is not a mapping", "write marks: {effort: 4, reaction: 2}")
         for name in tree:
             if name not in ("marks", "share", "mistakes", "tolerance"):
-                said = closest(str(name), ["marks", "share", "mistakes", "tolerance"])
-                raise ModelError(f"unknown key {name!r}", said, (name,))
+                remedy = closest(str(name), ["marks", "share", "mistakes", "tolerance"])
+                raise ModelError(f"unknown key {name!r}", remedy, (name,))
         if tree.get("tolerance") is not None:
             percent(tree["tolerance"])
-        marks = _numbers(tree, "marks", [*KNOWN, "default"], 1e6)
+        points = _numbers(tree, "marks", [*KNOWN, "default"], 1e6)
         shares = _numbers(tree, "share", [*SHARES], 1.0)
-        return Rubric(marks, SHARES | shares, _numbers(tree, "mistakes", None, 1.0), tree.get("tolerance"))
+        return Rubric(points, SHARES | shares, _numbers(tree, "mistakes", None, 1.0), tree.get("tolerance"))
     except ModelError as error:
         raise error.at_source(source) from None
 
 
 def _numbers(tree: Mapping[str, object], key: str, known: list[str] | None, most: float) -> dict[str, float]:
-    found = tree.get(key) or {}
-    if not isinstance(found, Mapping):
+    entries = tree.get(key) or {}
+    if not isinstance(entries, Mapping):
         raise ModelError(f"{key} is not a mapping", f"write {key}: {{NAME: NUMBER}}", (key,))
-    for name, value in found.items():
+    for name, value in entries.items():
         if known is not None and name not in known:
             raise ModelError(f"{key} has no entry {name!r}", closest(str(name), known, 40), (key, name))
         number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
         if not number or not 0 <= value <= most:
             what = f"{quote_value(value)} is not a number from 0 to {most:g}"
             raise ModelError(what, "write one", (key, name))
-    return {str(name): float(value) for name, value in found.items()}
+    return {str(name): float(value) for name, value in entries.items()}

@@ -15,14 +15,14 @@ MOST_ROWS = 100_000
 """Rows of a table."""
 
 
-class Row(NamedTuple):
+class TableRow(NamedTuple):
     """Cells by column, without empty ones, and their line."""
 
     line: int
     cells: dict[str, str]
 
 
-def read_table(path: Path) -> list[Row]:
+def read_table(path: Path) -> list[TableRow]:
     """The rows of a CSV file, its columns in lower case; `,`, `;` or tabs between them."""
     text = file_text(path)
     first = text.lstrip("\r\n").split("\n", 1)[0]
@@ -38,9 +38,9 @@ def read_table(path: Path) -> list[Row]:
     return rows
 
 
-def _rows(reader: Any, path: Path) -> list[Row]:
+def _rows(reader: Any, path: Path) -> list[TableRow]:
     heads: list[str] = []
-    out: list[Row] = []
+    out: list[TableRow] = []
     for cells in reader:
         cells = [cell.strip() for cell in cells]
         if not any(cells):
@@ -50,7 +50,7 @@ def _rows(reader: Any, path: Path) -> list[Row]:
             heads = [head.lower() if head.lower() in COLUMNS else head for head in heads]
             continue
         named = {head: cell for head, cell in zip(heads, cells, strict=False) if head and cell}
-        out.append(Row(reader.line_num, named))
+        out.append(TableRow(reader.line_num, named))
         if len(out) > MOST_ROWS:
             said = f"the table has more than {MOST_ROWS} rows"
             raise ModelError(said, "divide it", (), str(path), reader.line_num)

@@ -83,9 +83,9 @@ def lines(nodes: list[Node], name: Callable[[Node], str], indent: str) -> str:
     return "\n".join(indent + statement(n, name) for n in nodes)
 
 
-def marks(program: Program, name: Callable[[Node], str], indent: str) -> str:
+def flags(program: Program, name: Callable[[Node], str], indent: str) -> str:
     """Declaration of ``here``, the status code of this position."""
-    m, code = program.marks, CODES
+    m, code = program.flags, CODES
 
     def below(nodes: tuple[Node, ...], numbers: bool = True) -> str:
         tests = [f"{name(n)} < 0" if numbers else f"!({name(n)} >= 0)" for n in nodes]
@@ -141,7 +141,7 @@ ENTRY void grid({ARGUMENTS})
 {lines(program.design, name, "    ")}
 {lines(program.position, name, "    ")}
 {stores}
-{marks(program, name, "    ")}
+{flags(program, name, "    ")}
     code[at] = (unsigned char)here;
   }}
 }}
@@ -185,7 +185,7 @@ ENTRY void reduced({ARGUMENTS})
       const REAL *c = path + p * channels;
 {position}
 {chr(10).join(updates)}
-{marks(program, name, "      ")}
+{flags(program, name, "      ")}
       mark = !mark ? here : !here ? mark : SMALLER(mark, here);
     }}
 {chr(10).join(stores)}
@@ -221,7 +221,7 @@ int {name}(const double *v, const double *c, double *out)
 {{
 {body}
 {stores}
-{marks(program, write, "  ")}
+{flags(program, write, "  ")}
   return here;
 }}
 """

@@ -21,16 +21,18 @@ def function(program: Program, name: str, numbers: int, outputs: list[tuple[str,
     done: dict[int, Expression] = {}
     for node in program.order:
         done[node.index] = _value(ca, node, program, v, c, done)
-    found, place = [], 0
+    results, place = [], 0
     for _, size in outputs:
-        found.append(ca.vertcat(*(done[n.index] for n in program.outputs[place : place + size])))
+        results.append(ca.vertcat(*(done[n.index] for n in program.outputs[place : place + size])))
         place += size
     mark = _mark(ca, program, done)
-    return ca.Function(name, [v, c], [*found, mark], ["values", "inputs"], [*(o for o, _ in outputs), "mark"])
+    return ca.Function(
+        name, [v, c], [*results, mark], ["values", "inputs"], [*(o for o, _ in outputs), "mark"]
+    )
 
 
 def _mark(ca: ModuleType, program: Program, done: dict[int, Expression]) -> Expression:
-    m = program.marks
+    m = program.flags
 
     def below(nodes: tuple[Node, ...]) -> Expression:
         return _any(ca, [done[n.index] < 0 for n in nodes])
@@ -45,9 +47,9 @@ def _mark(ca: ModuleType, program: Program, done: dict[int, Expression]) -> Expr
     rest, jam = below(m.rest), ca.logic_and(single, below(m.jam))
     doubt = ca.logic_or(unsure(m.doubt), ca.logic_and(ca.logic_not(ca.logic_or(rest, jam)), slips))
     mark: Expression = ca.SX(0)
-    found = {"open": below(m.open), "doubt": doubt, "rest": rest, "jam": jam, "locked": locked}
-    found |= {"slope": unsure(m.slope), "outside": below(m.outside)}
-    for name, test in reversed(found.items()):
+    flags = {"open": below(m.open), "doubt": doubt, "rest": rest, "jam": jam, "locked": locked}
+    flags |= {"slope": unsure(m.slope), "outside": below(m.outside)}
+    for name, test in reversed(flags.items()):
         mark = ca.if_else(test, CODES[name], mark)
     return mark
 

@@ -58,11 +58,11 @@ def run(
     for k in range(0, designs, step):
         mine = cupy.asarray(np.ascontiguousarray(values[k : k + step], float))
         count = len(mine)
-        found, marks = cupy.empty((count, *shape)), cupy.empty((count, *code.shape[1:]), cupy.uint8)
+        results, flags = cupy.empty((count, *shape)), cupy.empty((count, *code.shape[1:]), cupy.uint8)
         work = count if slots else count * positions
         counts = tuple(np.int64(n) for n in (values.shape[1], columns.shape[1], count, positions))
-        entry((-(-work // THREADS),), (THREADS,), (mine, path, extra, found, marks, *counts))
-        out[k : k + step], code[k : k + step] = cupy.asnumpy(found), cupy.asnumpy(marks)
+        entry((-(-work // THREADS),), (THREADS,), (mine, path, extra, results, flags, *counts))
+        out[k : k + step], code[k : k + step] = cupy.asnumpy(results), cupy.asnumpy(flags)
         if progress is not None:
             progress(k + count, designs)
     return out, code

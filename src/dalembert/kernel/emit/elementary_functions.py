@@ -7,7 +7,7 @@ from the processor's estimates of 14 bits: the divider takes 16 cycles for 1/x a
 
 from __future__ import annotations
 
-from dalembert.kernel.emit.llvm_builder import Text
+from dalembert.kernel.emit.llvm_builder import ModuleText
 from dalembert.kernel.emit.machine_code import host_lanes
 
 SINE = (
@@ -63,7 +63,7 @@ def elementary(lanes: int, used: set[str]) -> list[str]:
 
 def _emit_division(lanes: int, name: str) -> list[str]:
     """1/x or 1/sqrt(x) by the processor's division."""
-    t = Text(lanes)
+    t = ModuleText(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
     below = "%x" if name == "reciprocal" else t.intrinsic("sqrt", "%x")
     value = t.exact("fdiv", t.splat(1.0), below)
@@ -72,12 +72,12 @@ def _emit_division(lanes: int, name: str) -> list[str]:
 
 def _emit_estimate(lanes: int, name: str) -> list[str]:
     """1/x or 1/sqrt(x) from an estimate y: with e = 1 - x y, or 1 - x y^2, the series of y/(1 - e), y/sqrt(1 - e)."""
-    t, kind = Text(lanes), "rcp14" if name == "reciprocal" else "rsqrt14"
+    t, kind = ModuleText(lanes), "rcp14" if name == "reciprocal" else "rsqrt14"
     declared = f"declare <8 x double> @{_ESTIMATE}{kind}.pd.512(<8 x double>, <8 x double>, i8)"
     t.lines += [declared, f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{"]
     y = _estimate(t, kind, "%x")
-    given = "%x" if name == "reciprocal" else t.exact("fmul", "%x", y)
-    e = t.fma(t.let(f"fneg {t.kind} {given}"), y, t.splat(1.0))
+    argument = "%x" if name == "reciprocal" else t.exact("fmul", "%x", y)
+    e = t.fma(t.let(f"fneg {t.kind} {argument}"), y, t.splat(1.0))
     if name == "reciprocal":
         value = t.fma(y, t.fma(e, t.fma(e, e, e), e), y)
     else:
@@ -88,7 +88,7 @@ def _emit_estimate(lanes: int, name: str) -> list[str]:
 _ESTIMATE = "llvm.x86.avx512."
 
 
-def _estimate(t: Text, kind: str, x: str) -> str:
+def _estimate(t: ModuleText, kind: str, x: str) -> str:
     """The instruction for eight lanes, twice for sixteen."""
 
     def places(first: int, count: int) -> str:
@@ -106,7 +106,7 @@ def _estimate(t: Text, kind: str, x: str) -> str:
 
 def _circular(lanes: int, name: str, shift: int) -> list[str]:
     """sin(x), or cos(x) = sin(x + pi/2): the quadrant is increased by one."""
-    t = Text(lanes)
+    t = ModuleText(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
     n = t.intrinsic("rint", t.exact("fmul", "%x", t.splat(0.6366197723675814)))
     minus = t.let(f"fneg {t.kind} {n}")
@@ -128,7 +128,7 @@ def _circular(lanes: int, name: str, shift: int) -> list[str]:
 
 def _angle(lanes: int) -> list[str]:
     """atan2(y, x): the smaller over the larger, reduced once more at tan(pi/8)."""
-    t = Text(lanes)
+    t = ModuleText(lanes)
     t.lines.append(f"define internal {t.kind} @angle({t.kind} %y, {t.kind} %x) alwaysinline {{")
     ax, ay = t.intrinsic("fabs", "%x"), t.intrinsic("fabs", "%y")
     steep = t.compare("ogt", ay, ax)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from dalembert.kernel.emit.llvm_builder import Text, operations
+from dalembert.kernel.emit.llvm_builder import ModuleText, operations
 from dalembert.kernel.emit.llvm_text import WIDE, head, module
 from dalembert.kernel.program import Program
 
@@ -34,7 +34,7 @@ def record_size(n: int) -> int:
     return 2 + 8 * n
 
 
-class _Integrator(Text):
+class _Integrator(ModuleText):
     """LLVM text of the steps for a state of n numbers; offsets into memory count vectors."""
 
     def __init__(self, lanes: int, n: int) -> None:
@@ -89,8 +89,8 @@ class _Integrator(Text):
 
     def stage(self, s: str, t: str, h: str) -> list[str]:
         """The rates of one stage, at a state that is left in z."""
-        given = ", ".join(f"ptr %{name}" for name in ("y", "given", "k", "z", "table"))
-        self.put(f"call void @next({given}, i64 {s}, {self.kind} {t}, {self.kind} {h})")
+        arguments = ", ".join(f"ptr %{name}" for name in ("y", "given", "k", "z", "table"))
+        self.put(f"call void @next({arguments}, i64 {s}, {self.kind} {t}, {self.kind} {h})")
         return []
 
     def error(self, h: str, tolerance: str) -> str:
@@ -111,8 +111,8 @@ class _Integrator(Text):
         below = self.intrinsic("fmuladd", self.splat(0.01), third, fifth)
         root = self.intrinsic("sqrt", self.let(f"fmul {self.kind} {below}, {self.splat(float(self.n))}"))
         above = self.let(f"fmul {self.kind} {h}, {fifth}")
-        found = self.let(f"fdiv {self.kind} {above}, {root}")
-        return self.select(self.compare("oeq", below, self.splat(0.0)), self.splat(0.0), found)
+        ratio = self.let(f"fdiv {self.kind} {above}, {root}")
+        return self.select(self.compare("oeq", below, self.splat(0.0)), self.splat(0.0), ratio)
 
     def both(self, a: str, b: str) -> str:
         return self.let(f"and {self.bit} {a}, {b}")
@@ -149,21 +149,21 @@ def integrator(rate: Program, n: int, lanes: int) -> str:
 
 def _combined(t: _Integrator) -> None:
     """Function for the weighted sum of component i of several rates."""
-    given = "ptr noalias readonly %k, ptr noalias readonly %weights, i64 %rows, i64 %i"
-    t.lines.append(f"define internal {t.kind} @combined({given}) {WIDE} {{")
+    arguments = "ptr noalias readonly %k, ptr noalias readonly %weights, i64 %rows, i64 %i"
+    t.lines.append(f"define internal {t.kind} @combined({arguments}) {WIDE} {{")
 
     def one(j: str, sum_: str) -> list[str]:
         k = t.get("%k", t.sum(t.product(j, t.n), "%i"))
         return [t.intrinsic("fmuladd", t.broadcast(t.load("%weights", j, vector=False)), k, sum_)]
 
-    found = t.loop("%rows", one, (t.splat(0.0),))
-    t.lines += [f"  ret {t.kind} {found[0]}", "}"]
+    total = t.loop("%rows", one, (t.splat(0.0),))
+    t.lines += [f"  ret {t.kind} {total[0]}", "}"]
 
 
 def _next(t: _Integrator) -> None:
     """One stage of a step."""
-    given = "ptr %y, ptr %given, ptr %k, ptr %z, ptr %table, i64 %s"
-    t.lines.append(f"define internal void @next({given}, {t.kind} %t, {t.kind} %h) {WIDE} {{")
+    arguments = "ptr %y, ptr %given, ptr %k, ptr %z, ptr %table, i64 %s"
+    t.lines.append(f"define internal void @next({arguments}, {t.kind} %t, {t.kind} %h) {WIDE} {{")
 
     def one(i: str) -> list[str]:
         t.set(t.intrinsic("fmuladd", "%h", t.combined("%s", "%s", i), t.get("%y", i)), "%z", i)
@@ -197,11 +197,11 @@ def _motion(t: _Integrator, b: str) -> list[str]:
     return []
 
 
-def _copy(t: _Integrator, *ways: tuple[str, str | int, str]) -> None:
+def _copy(t: _Integrator, *moves: tuple[str, str | int, str]) -> None:
     """Copies vectors of n, from an offset at one place to another place."""
 
     def one(i: str) -> list[str]:
-        for source, offset, goal in ways:
+        for source, offset, goal in moves:
             t.set(t.get(source, t.sum(i, offset)), goal, i)
         return []
 
@@ -277,9 +277,9 @@ def _between(t: _Integrator, time: str, h: str) -> None:
 
     def row(r: str) -> list[str]:
         def one(i: str) -> list[str]:
-            found = t.combined(t.sum(r, ERRORS + 2), STAGES + EXTRA + 1, i)
+            total = t.combined(t.sum(r, ERRORS + 2), STAGES + EXTRA + 1, i)
             place = t.sum(t.sum(t.product(r, n), i), 2 + 4 * n)
-            t.set(t.let(f"fmul {t.kind} {h}, {found}"), "%record", place)
+            t.set(t.let(f"fmul {t.kind} {h}, {total}"), "%record", place)
             return []
 
         t.loop(n, one)

@@ -19,7 +19,7 @@ def number(x: float) -> str:
     return f"0x{struct.unpack('<Q', struct.pack('<d', x))[0]:016X}"
 
 
-class Text:
+class ModuleText:
     """Lines of one module, with the vector type and constants spelled out."""
 
     def __init__(self, lanes: int) -> None:
@@ -91,8 +91,8 @@ class Text:
         return self.let(f"{op} {self.whole} {a}, {b}")
 
     def call(self, name: str, *arguments: str) -> str:
-        given = ", ".join(f"{self.kind} {a}" for a in arguments)
-        return self.let(f"call {self.kind} @{name}({given})")
+        typed = ", ".join(f"{self.kind} {a}" for a in arguments)
+        return self.let(f"call {self.kind} @{name}({typed})")
 
     def intrinsic(self, name: str, *arguments: str) -> str:
         return self.call(f"llvm.{name}.{self.suffix}", *arguments)
@@ -108,12 +108,12 @@ class Text:
         return self.let(f"fcmp {how} {self.kind} {a}, {b}")
 
 
-def _sign(t: Text, a: str, _: str) -> str:
+def _sign(t: ModuleText, a: str, _: str) -> str:
     one = t.intrinsic("copysign", t.splat(1.0), a)
     return t.select(t.compare("oeq", a, t.splat(0.0)), t.splat(0.0), one)
 
 
-_OPERATIONS: dict[str, Callable[[Text, str, str], str]] = {
+_OPERATIONS: dict[str, Callable[[ModuleText, str, str], str]] = {
     "add": lambda t, a, b: t.binary("fadd", a, b),
     "sub": lambda t, a, b: t.binary("fsub", a, b),
     "mul": lambda t, a, b: t.binary("fmul", a, b),
@@ -133,7 +133,7 @@ _OPERATIONS: dict[str, Callable[[Text, str, str], str]] = {
 }
 
 
-def operations(t: Text, nodes: list[Node], names: dict[int, str]) -> None:
+def operations(t: ModuleText, nodes: list[Node], names: dict[int, str]) -> None:
     """Emits nodes in order; ``names`` holds the value of each by its index."""
     for node in nodes:
         assert node.a is not None

@@ -7,7 +7,7 @@ computed before the loop. ``pairs``: lanes are unrelated (design, position) pair
 from __future__ import annotations
 
 from dalembert.kernel.emit.elementary_functions import elementary
-from dalembert.kernel.emit.llvm_builder import Text, operations
+from dalembert.kernel.emit.llvm_builder import ModuleText, operations
 from dalembert.kernel.emit.marks import latch, store_code
 from dalembert.kernel.emit.reductions import Reductions, Slots
 from dalembert.kernel.graph import POSITION
@@ -17,12 +17,12 @@ WIDE = '"min-legal-vector-width"="512" "prefer-vector-width"="512" alignstack(64
 """Attribute for full registers on processors where LLVM would use only half of them."""
 
 
-def head(t: Text, program: Program) -> dict[int, str]:
+def head(t: ModuleText, program: Program) -> dict[int, str]:
     """Constants by node."""
     return {n.index: t.splat(n.value) for n in program.constants}
 
 
-def _design(t: Text, program: Program, names: dict[int, str], reductions: Reductions | None) -> None:
+def _design(t: ModuleText, program: Program, names: dict[int, str], reductions: Reductions | None) -> None:
     """Everything up to the loop over the positions: one iteration per design, with the values common to its
     positions."""
     lanes = t.lanes
@@ -61,7 +61,7 @@ def _design(t: Text, program: Program, names: dict[int, str], reductions: Reduct
 def grid(program: Program, lanes: int, reduce: Slots = (), past_cache: bool = False) -> str:
     """Function over designs and blocks of positions: see ``Machine``. ``past_cache``: results bypass the cache; large
     ones then take half the time, as memory is not read before it is overwritten."""
-    t = Text(lanes)
+    t = ModuleText(lanes)
     names = head(t, program)
     channels = [n for n in program.inputs if n.level & POSITION]
     reductions = Reductions(t, program, reduce) if reduce else None
@@ -103,7 +103,7 @@ def grid(program: Program, lanes: int, reduce: Slots = (), past_cache: bool = Fa
 
 def pairs(program: Program, lanes: int) -> str:
     """Function over blocks of (design, position) pairs: see ``Machine``."""
-    t = Text(lanes)
+    t = ModuleText(lanes)
     names = head(t, program)
     t.lines.append(
         "define void @run(ptr noalias readonly %values, ptr noalias readonly %path, ptr noalias %out, "
@@ -143,7 +143,7 @@ def pairs(program: Program, lanes: int) -> str:
     return module(t, program)
 
 
-def module(t: Text, program: Program, declared: list[str] | None = None) -> str:
+def module(t: ModuleText, program: Program, declared: list[str] | None = None) -> str:
     """The function with the elementary functions it calls."""
     used = {n.op for n in program.order}
     needed = {"sqrt": 1, "fabs": 1, "rint": 1, "fma": 3, "copysign": 2}

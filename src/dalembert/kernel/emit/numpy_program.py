@@ -62,9 +62,9 @@ class NumpyProgram:
                     start.append(None)
                 if n.index not in wanted:
                     passing.add(n.index)
-                place[n.index] = there = free.pop()
+                place[n.index] = target = free.pop()
                 operations = EVALUATE if many or n.level & POSITION else SINGLE
-                steps.append((operations[n.op], place[one], place[two] if two >= 0 else -1, there))
+                steps.append((operations[n.op], place[one], place[two] if two >= 0 else -1, target))
         self.start, self.steps = start, steps
         self.fills = [(row, place[index]) for index, rows in wanted.items() for row in rows]
 
@@ -74,11 +74,11 @@ class NumpyProgram:
         single = {operation: SINGLE[name] for name, operation in EVALUATE.items()}
         return [(single.get(f, f), a, b, c) for f, a, b, c in self.steps]
 
-    def __call__(self, given: Sequence[Numeric], out: Array, one: bool = False) -> None:
+    def __call__(self, inputs: Sequence[Numeric], out: Array, one: bool = False) -> None:
         """Fills an array with the outputs (outputs, ...) for values of the inputs; with ``one`` position all are
         floats."""
         v = self.start.copy()
-        v[: len(given)] = given
+        v[: len(inputs)] = inputs
         for operation, a, b, c in self.single_steps if one else self.steps:
             v[c] = operation(v[a]) if b < 0 else operation(v[a], v[b])
         for row, place in self.fills:

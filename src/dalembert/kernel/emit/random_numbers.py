@@ -16,7 +16,7 @@ from functools import cache
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.kernel.emit.llvm_builder import Text, number
+from dalembert.kernel.emit.llvm_builder import ModuleText, number
 from dalembert.kernel.emit.llvm_text import WIDE
 from dalembert.kernel.emit.machine_code import Machine, compile_module, host_lanes
 from dalembert.kernel.emit.marks import some
@@ -97,9 +97,9 @@ def quantiles(rows: Array, shares: Array, lanes: int | None = None) -> Array:
     machine = _machine(False, lanes or 2 * host_lanes())
     count, tile = shares.shape[1], WORDS * machine.lanes
     tiles = max(1, -(-count // tile))
-    given, out = np.full((len(rows), tiles * tile), 0.5), aligned_array((tiles * tile, len(rows)))
-    given[:, :count] = shares
-    machine(rows, given, out, out, (len(rows), 0, tiles * tile, tiles))
+    padded, out = np.full((len(rows), tiles * tile), 0.5), aligned_array((tiles * tile, len(rows)))
+    padded[:, :count] = shares
+    machine(rows, padded, out, out, (len(rows), 0, tiles * tile, tiles))
     return out[:count]
 
 
@@ -111,7 +111,7 @@ def _machine(drawn: bool, lanes: int) -> Machine:
 def _module(drawn: bool, lanes: int) -> str:
     """Fills the designs tile by tile, and each tile number by number: from Philox's four words, or from four vectors of
     given u."""
-    t = Text(lanes)
+    t = ModuleText(lanes)
     t.lines += [
         "define void @run(ptr noalias readonly %rows, ptr noalias readonly %shares, ptr noalias %out, ptr %none, "
         f"i64 %numbers, i64 %first, i64 %length, i64 %tiles) {WIDE} {{",
@@ -166,11 +166,11 @@ def _module(drawn: bool, lanes: int) -> str:
     return "\n".join([*declared, *_score(lanes), *t.lines]) + "\n"
 
 
-def _phi(t: Text, *ways: tuple[str, str]) -> str:
-    return t.let(f"phi {t.kind} " + ", ".join(f"[ {value}, %{block} ]" for value, block in ways))
+def _phi(t: ModuleText, *branches: tuple[str, str]) -> str:
+    return t.let(f"phi {t.kind} " + ", ".join(f"[ {value}, %{block} ]" for value, block in branches))
 
 
-def _store_number(t: Text, value: str, lane: int, design: int) -> None:
+def _store_number(t: ModuleText, value: str, lane: int, design: int) -> None:
     one = value if t.lanes == 1 else t.let(f"extractelement {t.kind} {value}, i32 {lane}")
     place = t.let("add i64 %j, " + t.let(f"mul i64 %numbers, {design}"))
     t.put(
@@ -178,7 +178,7 @@ def _store_number(t: Text, value: str, lane: int, design: int) -> None:
     )
 
 
-def _philox(t: Text) -> list[str]:
+def _philox(t: ModuleText) -> list[str]:
     """Four words of each lane, whose counts follow ``%count``."""
     lanes = "0" if t.lanes == 1 else "<" + ", ".join(f"i64 {k}" for k in range(t.lanes)) + ">"
     zero = t.integer("and", lanes, 0)
@@ -205,7 +205,7 @@ def _philox(t: Text) -> list[str]:
     return [f"%next{k}" for k in range(WORDS)]
 
 
-def _product(t: Text, x: str, by: int) -> tuple[str, str]:
+def _product(t: ModuleText, x: str, by: int) -> tuple[str, str]:
     """High and low word of a product, from products of half words."""
     low, high = t.integer("and", x, HALF), t.integer("lshr", x, 32)
     a, b = by & HALF, by >> 32
@@ -217,14 +217,14 @@ def _product(t: Text, x: str, by: int) -> tuple[str, str]:
     return t.integer("add", top, t.integer("lshr", other, 32)), bottom
 
 
-def _share(t: Text, word: str) -> str:
+def _share(t: ModuleText, word: str) -> str:
     """A number strictly between 0 and 1, from the first 53 bits of a word."""
-    whole = t.let(f"uitofp {t.whole} {t.integer('lshr', word, 11)} to {t.kind}")
-    share = t.exact("fmul", t.exact("fadd", whole, t.splat(0.5)), t.splat(2.0**-53))
+    value = t.let(f"uitofp {t.whole} {t.integer('lshr', word, 11)} to {t.kind}")
+    share = t.exact("fmul", t.exact("fadd", value, t.splat(0.5)), t.splat(2.0**-53))
     return t.intrinsic("minnum", share, t.splat(1 - 2.0**-53))
 
 
-def _logarithm(t: Text, y: str) -> str:
+def _logarithm(t: ModuleText, y: str) -> str:
     """-log y: y = 2^k m with m from sqrt(1/2) to sqrt(2), log m = 2 artanh s, s = (m - 1)/(m + 1)."""
     bits = t.integer("sub", t.let(f"bitcast {t.kind} {y} to {t.whole}"), ROOT)
     k = t.let(f"sitofp {t.whole} {t.integer('ashr', bits, 52)} to {t.kind}")
@@ -239,7 +239,7 @@ def _logarithm(t: Text, y: str) -> str:
 def _score(lanes: int) -> list[str]:
     """The function from probabilities to normal scores; where no lane is near 0 or 1 the outer fractions are
     skipped."""
-    t = Text(lanes)
+    t = ModuleText(lanes)
     t.lines += [f"define internal {t.kind} @score({t.kind} %u) noinline {WIDE} {{", "entry:"]
     one, four, half = (t.splat(x) for x in (1.0, 4.0, 0.5))
     w = _logarithm(t, t.exact("fmul", "%u", t.exact("fsub", four, t.exact("fmul", four, "%u"))))
@@ -260,5 +260,5 @@ def _score(lanes: int) -> list[str]:
     size = t.select(t.compare("ogt", p, t.splat(0.0)), size, t.splat(math.inf))
     outer = t.select(far, t.select(upper, size, t.let(f"fneg {t.kind} {size}")), middle)
     t.lines += ["  br label %merged", "merged:"]
-    found = _phi(t, (middle, "entry"), (outer, "outer"))
-    return [*t.lines, f"  ret {t.kind} {found}", "}"]
+    score = _phi(t, (middle, "entry"), (outer, "outer"))
+    return [*t.lines, f"  ret {t.kind} {score}", "}"]

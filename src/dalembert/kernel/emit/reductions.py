@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dalembert.kernel.emit.llvm_builder import Text, number
+from dalembert.kernel.emit.llvm_builder import ModuleText, number
 from dalembert.kernel.emit.marks import bits, latch, some
 from dalembert.kernel.program import CODES, Program
 
@@ -26,7 +26,7 @@ def width(slots: Slots) -> int:
 class Reductions:
     """Accumulators of every output, one vector each, and of the status codes; combined across the lanes at the end."""
 
-    def __init__(self, t: Text, program: Program, slots: Slots) -> None:
+    def __init__(self, t: ModuleText, program: Program, slots: Slots) -> None:
         self.t, self.program, self.slots = t, program, slots
         self.weighted = any(p in SUMS for _, p in slots)
         self.width = width(slots)
@@ -41,7 +41,7 @@ class Reductions:
                     f"%place{s} = phi {t.kind} [ {t.splat(0.0)}, %start ], [ %newplace{s}, {latch(self.program)} ]"
                 )
         none = "false" if t.lanes == 1 else "zeroinitializer"
-        for name in self.program.marks.names:
+        for name in self.program.flags.names:
             t.put(f"%any{name} = phi {t.bit} [ {none}, %start ], [ %new{name}, {latch(self.program)} ]")
 
     def update(self, names: dict[int, str]) -> None:
@@ -117,7 +117,7 @@ class Reductions:
     def mark(self) -> str:
         """The first status code that is not 0."""
         t, code = self.t, "0"
-        for name in reversed(self.program.marks.names):
+        for name in reversed(self.program.flags.names):
             code = t.let(f"select i1 {some(t, f'%new{name}')}, i8 {CODES[name]}, i8 {code}")
         return code
 

@@ -18,14 +18,14 @@ from dalembert.kernel.graph import Scalar
 from dalembert.kernel.position import plane_vectors as v
 from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.position.relations import Relation
-from dalembert.kernel.position.rigid_parts import DEAD, Motion, Parts, Place, Placed
+from dalembert.kernel.position.rigid_parts import DEAD, Parts, Place, PlacedPose, TracePlan
 from dalembert.kernel.position.unrolled_newton import newton
 
 
 class Groups(Parts):
     """Parts that are joined group by group."""
 
-    def grow(self) -> Placed:
+    def grow(self) -> PlacedPose:
         """Joins parts until one is left."""
         while len(self.part) > 1:
             if not (self.pairs() or self.triples() or self.pinned_twice()):
@@ -34,26 +34,26 @@ class Groups(Parts):
         return self.out
 
     def pairs(self) -> bool:
-        several = [(found, parts) for parts, found in self.between.items() if len(found) > 1]
-        for found, parts in sorted(several, key=lambda entry: self.order[id(entry[0][0])]):
+        several = [(relations, parts) for parts, relations in self.between.items() if len(relations) > 1]
+        for relations, parts in sorted(several, key=lambda entry: self.order[id(entry[0][0])]):
             x, y = self.base(*parts)
-            pose = self.pair(x, y, found)
+            pose = self.pair(x, y, relations)
             if pose is not None:
                 self.merge(x, y, pose)
                 return True
         return False
 
-    def pair(self, x: int, y: int, found: list[Relation]) -> Place | None:
-        turns = [r for r in found if r.kind == "turn"]
-        meets = [r for r in found if r.kind == "meet"]
-        along = [r for r in found if r.kind == "along"]
+    def pair(self, x: int, y: int, relations: list[Relation]) -> Place | None:
+        turns = [r for r in relations if r.kind == "turn"]
+        meets = [r for r in relations if r.kind == "meet"]
+        along = [r for r in relations if r.kind == "along"]
         if turns and (meets or len(along) >= 2):
             rotation = self.rotation(turns[0], y)
             return rotation, self.translation(rotation, y, meets, along)
         if meets and along:
             return self.pin_and_slot(x, y, meets[0], along[0])
-        if meets and any(r.kind == "mesh" for r in found) and x == self.owner[self.ground]:
-            return self.wheel(y, meets[0], next(r for r in found if r.kind == "mesh"))
+        if meets and any(r.kind == "mesh" for r in relations) and x == self.owner[self.ground]:
+            return self.wheel(y, meets[0], next(r for r in relations if r.kind == "mesh"))
         return None
 
     def pin_and_slot(self, x: int, y: int, pin: Relation, slot: Relation) -> Place:
@@ -205,12 +205,12 @@ class Groups(Parts):
             if len(pins) < 2 or self.tied & self.part[y].keys():
                 continue
             (a, ya), (b, yb) = ([self.point(*end) for end in self.ends(r, y)] for r in pins[:2])
-            line, way = v.minus(yb, ya), v.minus(b, a)
+            line, span = v.minus(yb, ya), v.minus(b, a)
             length2 = v.dot(line, line)
             if self.longer(length2, 0.0):
                 # equality of their lengths is not yet checked
-                size: Any = np.sqrt(length2 * v.dot(way, way))  # type: ignore[arg-type]  # of nodes too
-                rotation = v.rotate_back(v.times(1.0 / size, line), way)
+                size: Any = np.sqrt(length2 * v.dot(span, span))  # type: ignore[arg-type]  # of nodes too
+                rotation = v.rotate_back(v.times(1.0 / size, line), span)
                 self.merge(ground, y, (rotation, v.minus(a, v.rotate(rotation, ya))))
                 return True
         return False
@@ -220,15 +220,15 @@ class Groups(Parts):
         links = self.smallest()
         ground = self.owner[self.ground]
         self.m.placed = set(self.part[ground])
-        found = newton(self.m, self.pose(partial=True), links)
-        self.out.doubt += found.doubt
+        solution = newton(self.m, self.pose(partial=True), links)
+        self.out.doubt += solution.doubt
         for link in links:
             self.part.pop(self.owner[link], None)
         for link in links:
             self.owner[link] = ground
-            point, rotation = found.pose.point[link], found.pose.rotation[link]
+            point, rotation = solution.pose.point[link], solution.pose.rotation[link]
             self.part[ground][link] = ((rotation[0], rotation[1]), (point[0], point[1]))
-            self.turn[link] = found.pose.turn[link]
+            self.turn[link] = solution.pose.turn[link]
         self.find_between()
 
     def smallest(self) -> list[int]:
@@ -236,22 +236,22 @@ class Groups(Parts):
         return sorted(link for p in self.blocks()[0] for link in self.part[p])
 
 
-def _kind(found: list[Relation]) -> str | None:
+def _kind(relations: list[Relation]) -> str | None:
     """pin, slide, or None for any other connection of the two parts."""
-    kinds = sorted(r.kind for r in found)
+    kinds = sorted(r.kind for r in relations)
     if "meet" in kinds:
         return "pin"
     return "slide" if "turn" in kinds and "along" in kinds else None
 
 
-def positions(motion: Motion) -> Placed:
+def positions(motion: TracePlan) -> PlacedPose:
     """Poses of all links from the drives' positions."""
     return Groups(motion).grow()
 
 
-def newton_correction(motion: Motion) -> Placed:
+def newton_correction(motion: TracePlan) -> PlacedPose:
     """Poses of all links where the known motion is the solution: a last step of Newton carries the derivatives."""
     parts = Parts(motion)
     motion.placed = {parts.ground}
-    found = newton(motion, parts.pose(partial=True), list(range(parts.ground)), steps=0)
-    return Placed(found.pose, doubt=found.doubt)
+    solution = newton(motion, parts.pose(partial=True), list(range(parts.ground)), steps=0)
+    return PlacedPose(solution.pose, doubt=solution.doubt)

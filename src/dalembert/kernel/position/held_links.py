@@ -16,7 +16,7 @@ from dalembert.algebra import space
 from dalembert.arrays import Array
 from dalembert.core.layout import Along, Angle, Distance, Family, Helix, Meet, Perpendicular, Pose
 from dalembert.kernel.graph import CONSTANT, Node, Scalar
-from dalembert.kernel.position.rigid_parts import DEAD, Motion, Placed
+from dalembert.kernel.position.rigid_parts import DEAD, PlacedPose, TracePlan
 
 Held = list[tuple[Any, int]]
 """Rows between a link and placed ones: family and index in it."""
@@ -24,7 +24,7 @@ Place = tuple[Array, Array]
 """Point and rotation of a link."""
 
 
-def held_rows(m: Motion, link: int) -> Held:
+def held_rows(m: TracePlan, link: int) -> Held:
     """The rows between a link and those already placed."""
     return [
         (f, k)
@@ -55,7 +55,7 @@ def _point(pose: Pose, link: int, u: Array) -> Array:
     return np.asarray(pose.point[link] + space.rotate(pose.rotation[link], u))
 
 
-def direct(m: Motion, pose: Pose, link: int, rows: Held) -> Place | None:
+def direct(m: TracePlan, pose: Pose, link: int, rows: Held) -> Place | None:
     """A link that one joint with all its freedoms driven holds to a placed link."""
     if not _one_joint(rows):
         return None
@@ -63,13 +63,13 @@ def direct(m: Motion, pose: Pose, link: int, rows: Held) -> Place | None:
     if rotation is None or shifted is None:
         return None
     f, k = rows[0]
-    (own, ui), (other, uj) = (int(f.j[k]), shifted[1]), (int(f.i[k]), shifted[0])
-    if own != link:
-        own, ui, other, uj = other, uj, own, ui
+    (near, ui), (other, uj) = (int(f.j[k]), shifted[1]), (int(f.i[k]), shifted[0])
+    if near != link:
+        near, ui, other, uj = other, uj, near, ui
     return _point(pose, other, uj) - space.rotate(rotation, ui), rotation
 
 
-def _rotation(m: Motion, pose: Pose, link: int, rows: Held) -> Array | None:
+def _rotation(m: TracePlan, pose: Pose, link: int, rows: Held) -> Array | None:
     """Rotation of a link that these rows of one joint fix: three perpendicularities, or two and a driven turn."""
     square, turn = _of(rows, Perpendicular), _of(rows, Angle)
     if len(square) == 3 and not turn:  # as ``pair_table`` writes those about x, y and z
@@ -91,7 +91,7 @@ def _rotation(m: Motion, pose: Pose, link: int, rows: Held) -> Array | None:
     return space.compose(pose.rotation[j], turned.T.ravel())
 
 
-def _shifted(m: Motion, rows: Held) -> tuple[Array, Array] | None:
+def _shifted(m: TracePlan, rows: Held) -> tuple[Array, Array] | None:
     """Arms on i and on j of one point, where these rows of one joint fix it."""
     meet, along, turn = _of(rows, Meet), _of(rows, Along, Helix), _of(rows, Angle)
     if len(meet) == 1 and not along:
@@ -109,7 +109,7 @@ def _shifted(m: Motion, rows: Held) -> tuple[Array, Array] | None:
     return at, uj
 
 
-def closed_form(m: Motion, out: Placed, link: int, rows: Held) -> Place | None:
+def closed_form(m: TracePlan, out: PlacedPose, link: int, rows: Held) -> Place | None:
     """A link that one joint allows to turn or slide, with a point of it at a distance from a placed one."""
     distance, joint = _of(rows, Distance), [row for row in rows if not isinstance(row[0], Distance)]
     if len(distance) != 1 or not _one_joint(joint) or _of(joint, Angle, Helix):
@@ -124,15 +124,15 @@ def closed_form(m: Motion, out: Placed, link: int, rows: Held) -> Place | None:
 
 
 def _on_circle(
-    m: Motion, out: Placed, link: int, joint: Held, ends: tuple[Array, int, Array], square: Scalar
+    m: TracePlan, out: PlacedPose, link: int, joint: Held, ends: tuple[Array, int, Array], square: Scalar
 ) -> Place:
     """B on a circle about e, at a distance from A: B - C = (K d + h e x d) / d.d with d from e to A."""
-    own, other, u = _arms(_of(joint, Meet, Along)[0], link)
+    ball, other, u = _arms(_of(joint, Meet, Along)[0], link)
     (f, k), (g, n) = _of(joint, Perpendicular)
     shared, normal = f.p[k], space.cross(f.a[k], g.a[n])  # the axis on j, and on i
     mine, its = (shared, normal) if int(f.j[k]) == link else (normal, shared)
     e, at = space.rotate(out.pose.rotation[other], its), _point(out.pose, other, u)
-    arm = ends[0] - own
+    arm = ends[0] - ball
     height = space.dot(arm, mine)
     radius = arm - height * mine
     d = _point(out.pose, *ends[1:]) - at - height * e
@@ -149,25 +149,25 @@ def _on_circle(
         return np.asarray((np.outer(e, mine) + (1.0 / r2) * turned).ravel())
 
     turned = rotation(_side(m, out, rotation(1.0), rotation(-1.0), link))
-    return at - space.rotate(turned, own), turned
+    return at - space.rotate(turned, ball), turned
 
 
 def _on_line(
-    m: Motion, out: Placed, link: int, joint: Held, ends: tuple[Array, int, Array], square: Scalar
+    m: TracePlan, out: PlacedPose, link: int, joint: Held, ends: tuple[Array, int, Array], square: Scalar
 ) -> Place | None:
     """B on a line along e, at a distance from A: s = -e.f +- h with f from A to B at s = 0."""
     pose, rotation = out.pose, _rotation(m, out.pose, link, joint)
     assert rotation is not None
     (f, k), (g, n) = slides = _of(joint, Along)
-    own, other, u = _arms(slides[0], link)
+    ball, other, u = _arms(slides[0], link)
     forward = int(f.j[k]) == link
     r = pose.rotation[other] if forward else rotation
     offset = space.rotate(r, m.target[f.row[k]] * f.axis[k] + m.target[g.row[n]] * g.axis[n])
     e = space.rotate(r, space.cross(f.axis[k], g.axis[n]))
-    base = _point(pose, other, u) + (offset if forward else -offset) - space.rotate(rotation, own)
-    way = base + space.rotate(rotation, ends[0]) - _point(pose, *ends[1:])
-    along = space.dot(way, e).item()
-    h = out.root(m.graph, square - space.dot(way, way).item() + along * along, square)
+    base = _point(pose, other, u) + (offset if forward else -offset) - space.rotate(rotation, ball)
+    span = base + space.rotate(rotation, ends[0]) - _point(pose, *ends[1:])
+    along = space.dot(span, e).item()
+    h = out.root(m.graph, square - space.dot(span, span).item() + along * along, square)
 
     def point(sign: Scalar) -> Array:
         return np.asarray(base + (sign * h - along) * e)
@@ -175,7 +175,7 @@ def _on_line(
     return point(_side(m, out, point(1.0), point(-1.0), link)), rotation
 
 
-def _side(m: Motion, out: Placed, plus: Array, minus: Array, link: int) -> Scalar:
+def _side(m: TracePlan, out: PlacedPose, plus: Array, minus: Array, link: int) -> Scalar:
     """1 or -1: which of two places of a link the known motion has."""
     sign = m.signs(tuple(plus), tuple(minus), m.layout.links, link)
     out.flips = out.flips or (isinstance(sign, Node) and sign.level != CONSTANT)

@@ -28,8 +28,8 @@ def dependent_rows(graph: Graph, layout: Layout, known: Pose) -> frozenset[int]:
     held = (j != 0).any(axis=(0, 1)).sum()
     kept = np.zeros(0, np.intp)
     for one in j[np.isfinite(j).all(axis=(1, 2))]:
-        found = independent_rows(one, np.arange(s.count))
-        kept = max(kept, found, key=len)
+        independent = independent_rows(one, np.arange(s.count))
+        kept = max(kept, independent, key=len)
         if len(kept) == held:
             break
     return frozenset(range(s.count)) - set(kept.tolist())

@@ -50,10 +50,10 @@ def relations(layout: Layout, target: Array, turns: dict[int, Pair]) -> list[Rel
     return _driven_slides(out)
 
 
-def _driven_slides(found: list[Relation]) -> list[Relation]:
+def _driven_slides(conditions: list[Relation]) -> list[Relation]:
     """Replaces two driven slides of one point by the conditions that hold it: along its slot's line, and across it."""
     out: dict[object, Relation] = {}
-    for k, r in enumerate(found):
+    for k, r in enumerate(conditions):
         key = (r.i, r.j, *map(_same, (*r.ui, *r.uj))) if r.kind == "along" else k
         first = out.get(key)
         if first is None:

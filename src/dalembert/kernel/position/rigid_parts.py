@@ -23,7 +23,7 @@ DEAD = 1e-5
 
 
 @dataclass
-class Placed:
+class PlacedPose:
     """Poses of all links as nodes, and conditions for their validity.
 
     ``open``: below zero the linkage does not close; ``doubt``: below zero the general executor decides; ``flips``:
@@ -52,13 +52,13 @@ class Placed:
 
 
 @dataclass
-class Motion:
+class TracePlan:
     """Data from which positions are traced: targets (K + D,) with their cosines and sines, and the known motion.
 
     ``path`` gives one quantity of the known motion, that of the mechanism with the file's numbers, as an input;
     ``signs`` gives which of two relative rotations of two links that motion has; in space, which of two rotations, or
     points, of the second link, in ground axes. ``moves``: the drives' positions differ from the known motion's.
-    ``redundant``: some rows, the ``dependent``, repeat others; in the plane, if ``whole``, links held by these are
+    ``redundant``: some rows, the ``dependent``, repeat others; in the plane, if ``unsplit``, links held by these are
     placed with all rows at once.
     """
 
@@ -71,14 +71,14 @@ class Motion:
     placed: set[int] = field(default_factory=set)
     moves: bool = False
     redundant: bool = False
-    whole: bool = False
+    unsplit: bool = False
     dependent: frozenset[int] = frozenset()
 
 
 class Parts:
     """The parts during assembly."""
 
-    def __init__(self, motion: Motion) -> None:
+    def __init__(self, motion: TracePlan) -> None:
         self.m, self.graph = motion, motion.graph
         self.ground = motion.layout.links
         self.part: dict[int, dict[int, Place]] = {k: {k: IDENTITY} for k in range(self.ground + 1)}
@@ -89,20 +89,20 @@ class Parts:
         self.tied: set[int] = set()
         if motion.redundant:
             motion.dependent = dependent_rows(motion.graph, motion.layout, self.pose(partial=True))
-        if motion.whole:
+        if motion.unsplit:
             repeated = {k for r in self.todo if motion.dependent & set(r.rows) for k in (r.i, r.j)}
             self.tied = {k for block in self.blocks() if repeated & set(block) for k in block}
         self.find_between()
-        self.out = Placed(Pose(np.zeros(0), np.zeros(0), np.zeros(0)))
+        self.out = PlacedPose(Pose(np.zeros(0), np.zeros(0), np.zeros(0)))
 
     def blocks(self) -> list[list[int]]:
         """Parts that can only be placed together, those without unplaced dependencies first."""
         name = {part: -1 if part == self.owner[self.ground] else part for part in self.part}
         ends = {row: {name[self.owner[r.i]], name[self.owner[r.j]]} for r in self.todo for row in r.rows}
-        found = {row: parts for row, parts in ends.items() if len(parts) > 1}
-        if set(name.values()) - {-1} - set().union(*found.values()):
+        conditions = {row: parts for row, parts in ends.items() if len(parts) > 1}
+        if set(name.values()) - {-1} - set().union(*conditions.values()):
             raise ValueError(UNDETERMINED)
-        return blocks(found, 3, self.m.dependent)
+        return blocks(conditions, 3, self.m.dependent)
 
     def find_between(self) -> None:
         """Collects the conditions ``between`` each two parts, in order, and the parts ``near`` each; without conditions
@@ -111,14 +111,14 @@ class Parts:
         self.between: dict[tuple[int, int], list[Relation]] = {}
         self.near: dict[int, set[int]] = {part: set() for part in self.part}
         for r in self.todo:
-            apart = not later & {r.i, r.j} and not self.m.dependent & set(r.rows)
-            if apart and self.owner[r.i] != self.owner[r.j]:
+            useful = not later & {r.i, r.j} and not self.m.dependent & set(r.rows)
+            if useful and self.owner[r.i] != self.owner[r.j]:
                 self.add_between(self.owner[r.i], self.owner[r.j], [r])
 
     def add_between(self, a: int, b: int, more: list[Relation]) -> None:
-        found = self.between.setdefault((min(a, b), max(a, b)), [])
-        found += more
-        found.sort(key=lambda r: self.order[id(r)])
+        between = self.between.setdefault((min(a, b), max(a, b)), [])
+        between += more
+        between.sort(key=lambda r: self.order[id(r)])
         self.near[a].add(b)
         self.near[b].add(a)
 
@@ -134,10 +134,10 @@ class Parts:
     def merge(self, x: int, y: int, pose: Place) -> None:
         """Part y becomes part of x, at a pose in its axes."""
         for z in self.near.pop(y):
-            found = self.between.pop((min(y, z), max(y, z)))
+            moved = self.between.pop((min(y, z), max(y, z)))
             self.near[z].discard(y)
             if z != x:
-                self.add_between(x, z, found)
+                self.add_between(x, z, moved)
         for link, (rotation, point) in self.part.pop(y).items():
             self.part[x][link] = (v.rotate(pose[0], rotation), v.plus(pose[1], v.rotate(pose[0], point)))
             self.owner[link] = x
@@ -234,9 +234,9 @@ class Parts:
         ly = min(self.part[y])
         rx, ry = self.part[x][lx][0], self.part[y][ly][0]
         before = len(self.out.open), len(self.out.doubt)
-        ways = [v.rotate_back(rx, v.rotate(rotation(s), ry)) for s in (1.0, -1.0)]
+        candidates = [v.rotate_back(rx, v.rotate(rotation(s), ry)) for s in (1.0, -1.0)]
         del self.out.open[before[0] :], self.out.doubt[before[1] :]
-        self.sign: Scalar = self.m.signs(ways[0], ways[1], lx, ly)
+        self.sign: Scalar = self.m.signs(candidates[0], candidates[1], lx, ly)
         if isinstance(self.sign, Node):
             self.out.flips = self.out.flips or self.sign.level != CONSTANT
         return rotation(self.sign)

@@ -14,7 +14,7 @@ from dalembert.algebra import space
 from dalembert.arrays import Array, Ints
 from dalembert.core.layout import Along, Distance, Family, Idle, Layout, Meet, Pose, Rows, select_rows
 from dalembert.kernel.graph import Node, Scalar, trace_array
-from dalembert.kernel.position.rigid_parts import Motion
+from dalembert.kernel.position.rigid_parts import TracePlan
 
 OPPOSITE = 1e-4
 """One plus the cosine between the drawn and the present direction below which the general executor decides the spin of
@@ -31,7 +31,7 @@ class Rod:
     length: Scalar
 
 
-def without_rods(m: Motion) -> tuple[list[Rod], Motion]:
+def without_rods(m: TracePlan) -> tuple[list[Rod], TracePlan]:
     """The rods, and the motion of the other links with a distance for each of them."""
     layout = m.layout
     rods = [rod for f in layout.constraints.families if isinstance(f, Idle) for rod in _rods(layout, f)]
@@ -68,8 +68,11 @@ def _rods(layout: Layout, f: Idle) -> list[Rod]:
     out = []
     s = layout.stack
     for k, link in enumerate(f.j.tolist()):
-        own = np.isin(s.ends, [link]).any(axis=0) & (s.joint >= 0)
-        held = [_ball(s, np.flatnonzero(own & (s.joint == joint)), link) for joint in np.unique(s.joint[own])]
+        touching = np.isin(s.ends, [link]).any(axis=0) & (s.joint >= 0)
+        held = [
+            _ball(s, np.flatnonzero(touching & (s.joint == joint)), link)
+            for joint in np.unique(s.joint[touching])
+        ]
         balls = [ball for ball in held if ball is not None]
         if f.stands[k] > 0 and len(held) == len(balls) == 2:
             line = balls[1][0] - balls[0][0]

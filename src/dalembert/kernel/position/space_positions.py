@@ -19,7 +19,7 @@ from dalembert.core.layout import Layout, Pose
 from dalembert.kernel.graph import trace_array
 from dalembert.kernel.position.held_links import closed_form, direct, held_rows
 from dalembert.kernel.position.placing_order import blocks, dependent_rows
-from dalembert.kernel.position.rigid_parts import Motion, Placed
+from dalembert.kernel.position.rigid_parts import PlacedPose, TracePlan
 from dalembert.kernel.position.rods import place_rod, without_rods
 from dalembert.kernel.position.unrolled_newton import newton
 
@@ -27,7 +27,7 @@ STEPS = 4
 """Newton's iterations before the last, from the known motion."""
 
 
-def known_pose(m: Motion) -> Pose:
+def known_pose(m: TracePlan) -> Pose:
     """Poses of all links in the known motion, with its counted angles."""
     count = m.layout.links + 1
     counted = max((int(np.max(f.count)) + 1 for f in m.layout.counted), default=0)
@@ -46,12 +46,12 @@ def varies(layout: Layout, target: Array) -> bool:
     return any_traced(*numbers) or any(x.op != "const" for x in target[: layout.constraints.count])
 
 
-def space_positions(m: Motion, steps: int = STEPS) -> Placed:
+def space_positions(m: TracePlan, steps: int = STEPS) -> PlacedPose:
     """Poses of all links from the drives' positions."""
     known, moves = known_pose(m), m.moves or varies(m.layout, m.target)
     if m.redundant and m.moves:
         steps = 1
-    out = Placed(Pose(*(a.copy() for a in known)))
+    out = PlacedPose(Pose(*(a.copy() for a in known)))
     m.placed = {m.layout.links}
     rods, m = without_rods(m)
     if m.redundant:
@@ -63,13 +63,13 @@ def space_positions(m: Motion, steps: int = STEPS) -> Placed:
     }
     for links in blocks(ends, 6, m.dependent):
         rows = held_rows(m, links[0]) if len(links) == 1 else []
-        found = direct(m, out.pose, links[0], rows)
-        if found is None and steps:
-            found = closed_form(m, out, links[0], rows)
-        if found is not None:
-            out.pose.point[links[0]], out.pose.rotation[links[0]] = found
+        pose = direct(m, out.pose, links[0], rows)
+        if pose is None and steps:
+            pose = closed_form(m, out, links[0], rows)
+        if pose is not None:
+            out.pose.point[links[0]], out.pose.rotation[links[0]] = pose
         elif not moves:
-            return Placed(known)
+            return PlacedPose(known)
         else:
             closed = newton(m, out.pose, links, steps)
             out.pose, out.doubt = closed.pose, [*out.doubt, *closed.doubt]
@@ -79,6 +79,6 @@ def space_positions(m: Motion, steps: int = STEPS) -> Placed:
     return out
 
 
-def space_correction(m: Motion) -> Placed:
+def space_correction(m: TracePlan) -> PlacedPose:
     """Poses of all links where the known motion is the solution: a last step of Newton carries the derivatives."""
     return space_positions(m, steps=0)

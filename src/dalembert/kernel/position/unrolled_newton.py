@@ -15,13 +15,13 @@ from dalembert.algebra import space
 from dalembert.arrays import Ints
 from dalembert.core.constraints import stack_rows
 from dalembert.core.factor import row_scale
-from dalembert.core.layout import Layout, Pose, Rows, System, select_rows
+from dalembert.core.layout import ConstraintRows, Layout, Pose, Rows, select_rows
 from dalembert.core.position.newton import displace, gap
 from dalembert.kernel.elimination import Row, Structural, structural
 from dalembert.kernel.graph import Graph, Node, Scalar, is_zero
 
 if TYPE_CHECKING:
-    from dalembert.kernel.position.rigid_parts import Motion
+    from dalembert.kernel.position.rigid_parts import TracePlan
 
 
 STEPS = 6
@@ -35,14 +35,14 @@ FAR = 1.0
 
 
 @dataclass
-class Found:
+class NewtonPoses:
     """Poses of all links, the requested ones placed, and nodes that must not be negative."""
 
     pose: Pose
     doubt: list[Node]
 
 
-def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Found:
+def newton(m: TracePlan, guess: Pose, links: list[int], steps: int = STEPS) -> NewtonPoses:
     """Places some links in ``steps`` + 1 steps; all others stay as in the guess."""
     m, pose = _block(m, links), guess
     for _ in range(steps):
@@ -52,10 +52,10 @@ def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Foun
     pose = _displace(m, still, dq, links)
     last = _size(m.layout, [dq[k] for k in links])
     far = _size(m.layout, [_difference(m.layout, pose, guess, k) for k in links])
-    return Found(pose, [LAST**2 - last, FAR**2 - far])
+    return NewtonPoses(pose, [LAST**2 - last, FAR**2 - far])
 
 
-def _block(m: Motion, links: list[int]) -> Motion:
+def _block(m: TracePlan, links: list[int]) -> TracePlan:
     """The conditions among some links and those already placed."""
     stack, moving = m.layout.stack, set(links)
     i, j = stack.ends
@@ -74,7 +74,7 @@ def _with_stack(layout: Layout, kept: Ints) -> Layout:
     return replace(layout, constraints=rows, driven=np.zeros(0, np.intp))
 
 
-def _step(m: Motion, pose: Pose, links: list[int]) -> dict[int, list[Scalar]]:
+def _step(m: TracePlan, pose: Pose, links: list[int]) -> dict[int, list[Scalar]]:
     """Newton step of some links."""
     rows, n = stack_rows(m.layout, pose), m.layout.algebra.n
     factors = factor_rows(m.graph, m.layout, rows, links)
@@ -82,7 +82,7 @@ def _step(m: Motion, pose: Pose, links: list[int]) -> dict[int, list[Scalar]]:
     return {link: list(solution[n * k : n * (k + 1)]) for k, link in enumerate(links)}
 
 
-def factor_rows(graph: Graph, layout: Layout, rows: System, links: list[int]) -> Structural:
+def factor_rows(graph: Graph, layout: Layout, rows: ConstraintRows, links: list[int]) -> Structural:
     """Factors of rows for the displacements of some links."""
     n = layout.algebra.n
     place = {link: n * k for k, link in enumerate(links)}
@@ -96,16 +96,16 @@ def factor_rows(graph: Graph, layout: Layout, rows: System, links: list[int]) ->
     return structural(graph, out, n * len(links), row_scale(layout, rows.angular))
 
 
-def solver(graph: Graph) -> Callable[[Layout, System], Structural]:
+def solver(graph: Graph) -> Callable[[Layout, ConstraintRows], Structural]:
     """Factorization that the core uses while it is traced."""
 
-    def factor(layout: Layout, rows: System) -> Structural:
+    def factor(layout: Layout, rows: ConstraintRows) -> Structural:
         return factor_rows(graph, layout, rows, list(range(layout.links)))
 
     return factor
 
 
-def _displace(m: Motion, pose: Pose, dq: dict[int, list[Scalar]], links: list[int]) -> Pose:
+def _displace(m: TracePlan, pose: Pose, dq: dict[int, list[Scalar]], links: list[int]) -> Pose:
     if m.layout.algebra.d == 3:
         point, rotation = pose.point.copy(), pose.rotation.copy()
         for k in links:
@@ -121,7 +121,7 @@ def _displace(m: Motion, pose: Pose, dq: dict[int, list[Scalar]], links: list[in
     return after
 
 
-def _detach(m: Motion, pose: Pose, links: list[int]) -> Pose:
+def _detach(m: TracePlan, pose: Pose, links: list[int]) -> Pose:
     """The links' poses as constants to derivatives: the last step carries the derivative exactly."""
     still = m.graph.without_gradient
     point, turn, rotation = (a.copy() for a in pose)

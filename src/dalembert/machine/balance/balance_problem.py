@@ -35,7 +35,7 @@ class Solved:
 
 
 @dataclass(frozen=True)
-class Problem:
+class BalanceProblem:
     """Values (P, d) by quantity, their columns (P, d, N W), the counterweights' bounds, and the axis (3,) that each
     one's link turns about, None of several: N numbers each, 4 in the plane and 10 in space (``mass_columns``)."""
 
@@ -67,8 +67,8 @@ class Problem:
         is 1 without counterweights."""
         before = self.sizes(least)
         used = {n: w for n, w in of.items() if w and before[n]}
-        whole = math.hypot(*used.values()) if least == "rms" else sum(used.values())
-        return {n: w / whole for n, w in used.items()}
+        total = math.hypot(*used.values()) if least == "rms" else sum(used.values())
+        return {n: w / total for n, w in used.items()}
 
     def part(self, least: str, of: Mapping[str, float], parts: Mapping[str, float]) -> float:
         """Remaining part of a weighted sum, relative to its value before; ``parts``: the remaining value of each
@@ -106,11 +106,11 @@ class Problem:
     def _variables(self, used: Mapping[str, float]) -> tuple[Array, list[tuple[Array, Array]]]:
         """Mass numbers as a linear map (N W, n) of the numbers that matter, and the cones (G, h) these are in."""
         each = self.count
-        whole = np.concatenate([f * self.columns[n] for n, f in used.items()], axis=1)
-        parts = np.split(whole, len(self.weights), axis=-1)
+        columns = np.concatenate([f * self.columns[n] for n, f in used.items()], axis=1)
+        parts = np.split(columns, len(self.weights), axis=-1)
         kept = [self._numbers(link, w, part) for (link, w), part in zip(self.weights, parts, strict=True)]
         starts = np.cumsum([0, *map(len, kept)])
-        maps = np.zeros((whole.shape[-1], starts[-1]))
+        maps = np.zeros((columns.shape[-1], starts[-1]))
         for k, some in enumerate(kept):
             for j, v in enumerate(some.values(), starts[k]):
                 maps[each * k : each * (k + 1), j] = v
@@ -130,13 +130,13 @@ class Problem:
         sizes = np.array([1.0, *[radius] * d, *[radius**2] * (self.count - 1 - d)])
         effect = np.sqrt(((columns * sizes) ** 2).sum(axis=1).mean(axis=0))
         least, none = NOTHING * float(effect.max()), np.zeros((3, 3))
-        found = {"mass": MassNumbers(1.0, none[0], none)}
-        found |= {f"moment {i}": MassNumbers(0.0, v, none) for i, v in enumerate(w.directions(axis))}
+        by_kind = {"mass": MassNumbers(1.0, none[0], none)}
+        by_kind |= {f"moment {i}": MassNumbers(0.0, v, none) for i, v in enumerate(w.directions(axis))}
         spread = bool((effect[d + 1 :] > least).any())
         if spread and axis is not None:
-            found["inertia"] = MassNumbers(0.0, none[0], (np.eye(3) - np.outer(axis, axis)) / 2)
+            by_kind["inertia"] = MassNumbers(0.0, none[0], (np.eye(3) - np.outer(axis, axis)) / 2)
         scale = {"mass": 1.0, "inertia": radius**2}
-        kept = {n: v.vector(d) for n, v in found.items()}
+        kept = {n: v.vector(d) for n, v in by_kind.items()}
         kept = {n: v for n, v in kept.items() if np.abs(columns @ v).max() * scale.get(n, radius) > least}
         where = f"counterweight on {link}: its "
         if spread and axis is None:
@@ -195,11 +195,11 @@ def _programme(
     for k, (g, right) in enumerate(every):
         G[k, : len(g)], h[k, : len(g)] = g, right
     cost = np.concatenate([np.zeros(n), np.ones(extra)])
-    found = minimise(cost, G, h)
-    left = found.gap + found.infeasible
+    optimum = minimise(cost, G, h)
+    left = optimum.gap + optimum.infeasible
     if not left < 1e-6:
         raise AnalysisError(f"optimum not proved: duality gap {left:.1e}; give narrower bounds")
-    return found.x[:n], found.dual
+    return optimum.x[:n], optimum.dual
 
 
 def _cones(
@@ -267,5 +267,5 @@ def _buildable(p: MassNumbers, w: Counterweight, axis: Array | None) -> MassNumb
         return MassNumbers(0.0, 0 * h, np.zeros((3, 3)))
     axis = np.zeros(3) if axis is None else axis
     beside = np.linalg.svd(np.array([axis, h]))[2][-1]
-    way = (np.eye(3) - np.outer(axis, axis)) / 2 if w.disc is not None else np.outer(beside, beside)
-    return MassNumbers(mass, h, np.outer(h, h) / mass + max(inertia - moment**2 / mass, 0.0) * way)
+    spread = (np.eye(3) - np.outer(axis, axis)) / 2 if w.disc is not None else np.outer(beside, beside)
+    return MassNumbers(mass, h, np.outer(h, h) / mass + max(inertia - moment**2 / mass, 0.0) * spread)

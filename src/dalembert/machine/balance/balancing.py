@@ -19,7 +19,7 @@ from dalembert.answer.column import Scale
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
-from dalembert.machine.balance.balance_problem import Problem, Solved
+from dalembert.machine.balance.balance_problem import BalanceProblem, Solved
 from dalembert.machine.balance.comparison import Comparison, values_of
 from dalembert.machine.balance.counterweights import (
     Counterweight,
@@ -40,7 +40,7 @@ QUANTITIES = ("force", "moment", "torque")
 if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -50,7 +50,7 @@ COMPLETE = 1e-9
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedWeight:
     """An optimal counterweight: mass (kg), centre (d,) and inertia about it (kg m2, in space (3, 3)), in link axes; m r
     (kg m) and in the plane its angle (rad) from the base point; radius of its disc, if it is one."""
 
@@ -63,7 +63,7 @@ class Placed:
 
 
 @dataclass(frozen=True, eq=False)
-class Balance(Comparison):
+class CounterweightBalance(Comparison):
     """Counterweights by link, the remaining shaking, and the proof that no others leave less.
 
     ``before``, ``after``: shaking without and with them. ``numbers`` (W, N): of each m, m x, m y and I about its base
@@ -76,14 +76,14 @@ class Balance(Comparison):
     weights: dict[str, Counterweight]
     least: Least
     of: dict[str, float]
-    placed: dict[str, Placed]
+    placed: dict[str, PlacedWeight]
     numbers: Array = field(repr=False)
     value: float
     bound: float
     before: Shaking = field(repr=False)
     after: Shaking = field(repr=False)
     residual: float
-    problem: Problem = field(repr=False)
+    problem: BalanceProblem = field(repr=False)
 
     @property
     def gap(self) -> float:
@@ -108,8 +108,8 @@ class Balance(Comparison):
         for angle in np.linspace(0.02, math.pi / 2 - 0.02, count):
             weights = {n: w * math.cos(angle) for n, w in self.of.items()}
             weights[other] = weights.get(other, 0.0) + math.sin(angle)
-            found = self.problem.solve(self.least, weights)
-            out.append((self.problem.part(self.least, self.of, found.parts), found.parts[other]))
+            solved = self.problem.solve(self.least, weights)
+            out.append((self.problem.part(self.least, self.of, solved.parts), solved.parts[other]))
         return out
 
     @property
@@ -162,7 +162,7 @@ class Balance(Comparison):
 
         return balance_scenes(self, notation)
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         from dalembert.reports.machine_sections.design_sections import balance_section
 
@@ -176,7 +176,7 @@ def balance(
     of: Of = "force",
     about: About = None,
     positions: AtPositions = None,
-) -> Balance:
+) -> CounterweightBalance:
     """Counterweights on links that leave least of the shaking force, moment, torque, or a weighted sum, over the cycle.
 
     ``weights``: links, or by link the bounds of a `Counterweight`. ``least``: the root mean square over the positions
@@ -196,21 +196,21 @@ def balance(
     if least not in ("rms", "max"):
         raise ModelError(f"least is {quote_value(least)}", "write rms or max")
     r = m if isinstance(m, Result) else _over_a_cycle(as_mechanism(m), positions)
-    wanted, asked, before = _wanted(of, r), counterweights(r.mechanism, weights), shaking(r, about)
+    wanted, allowed, before = _wanted(of, r), counterweights(r.mechanism, weights), shaking(r, about)
     base = {name: v.reshape(len(v), -1) for name, v in values_of(before).items()}
     refuse_unknown(r, "balancing needs every position", *base.values())
     floors = {n: before.floor("force" if n == "force" else "moment") for n in base}
     base = {n: v if np.abs(v).max() > floors[n] else 0 * v for n, v in base.items()}
-    columns = mass_columns(r, asked, before.point, r.drives[0] if r.drives else None)
-    problem = Problem(base, columns.of, tuple(asked.items()), columns.axes)
-    found = problem.solve(least, wanted)
-    numbers = found.numbers.reshape(len(asked), -1)
-    placed = {link: _placed(r, link, w, p) for (link, w), p in zip(asked.items(), numbers, strict=True)}
+    columns = mass_columns(r, allowed, before.point, r.drives[0] if r.drives else None)
+    problem = BalanceProblem(base, columns.of, tuple(allowed.items()), columns.axes)
+    solved = problem.solve(least, wanted)
+    numbers = solved.numbers.reshape(len(allowed), -1)
+    placed = {link: _placed(r, link, w, p) for (link, w), p in zip(allowed.items(), numbers, strict=True)}
     masses = {link: [(p.mass, p.center, p.inertia)] for link, p in placed.items()}
     after = shaking(at_schedule(with_masses(r.mechanism, masses), r.schedule, r.inertia), about)
-    off = _difference(after, found, problem)
-    proof = found.value, found.bound, before, after, off
-    return Balance(r, asked, least, wanted, placed, numbers, *proof, problem)
+    off = _difference(after, solved, problem)
+    proof = solved.value, solved.bound, before, after, off
+    return CounterweightBalance(r, allowed, least, wanted, placed, numbers, *proof, problem)
 
 
 def _over_a_cycle(m: Mechanism, positions: AtPositions) -> Result:
@@ -230,32 +230,34 @@ def _wanted(of: Of, r: Result) -> dict[str, float]:
     return wanted
 
 
-def _difference(after: Shaking, found: Solved, problem: Problem) -> float:
+def _difference(after: Shaking, solved: Solved, problem: BalanceProblem) -> float:
     """The linear prediction against the analysis with the counterweights, over the values before."""
     sizes, off = problem.sizes("max"), [0.0]
     for name, values in values_of(after).items():
-        gap = values.reshape(len(values), -1) - problem.predict(name, found.numbers)
+        gap = values.reshape(len(values), -1) - problem.predict(name, solved.numbers)
         off.append(float(np.abs(gap).max()) / (sizes[name] or 1.0))
     return max(off)
 
 
-def _placed(r: Result, link: str, w: Counterweight, p: Array) -> Placed:
+def _placed(r: Result, link: str, w: Counterweight, p: Array) -> PlacedWeight:
     """The counterweight with these numbers: with mass 0, none."""
     d, numbers, base = r.mechanism.dimension, numbers_of(p), base_point(r.mechanism, link, w.at)
     mass, h, moment = float(p[0]), numbers.moment, float(np.linalg.norm(numbers.moment))
     s = numbers.second - np.outer(h, h) / mass if mass > 0 else np.zeros((3, 3))
-    own = np.trace(s) * np.eye(3) - s
+    inertia = np.trace(s) * np.eye(3) - s
     center = base + (h[:d] / mass if mass > 0 else np.zeros(d))
     radius = w.disc_of(moment) if w.disc is not None else None
     angle = None if d == 3 else math.atan2(h[1], h[0]) if moment else 0.0
-    return Placed(mass, center, max(float(np.trace(s)), 0.0) if d == 2 else own, moment, angle, radius)
+    return PlacedWeight(
+        mass, center, max(float(np.trace(s)), 0.0) if d == 2 else inertia, moment, angle, radius
+    )
 
 
 def _force_left(r: Result, links: list[str]) -> float:
     """Part of the force that unbounded counterweights on some links leave, as light as may be far out."""
-    asked = counterweights(r.mechanism, links)
+    unbounded = counterweights(r.mechanism, links)
     s = shaking(r)
-    columns = mass_columns(r, asked, s.point, None).of["force"]
+    columns = mass_columns(r, unbounded, s.point, None).of["force"]
     if not greatest(s.parts["inertia"][0])[0] > s.floor("force"):
         return 0.0
     base = s.parts["inertia"][0].ravel()

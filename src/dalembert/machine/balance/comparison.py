@@ -29,16 +29,16 @@ class Comparison(MachineAnswer, Remade):
 
     def sizes(self, after: bool = True) -> dict[str, tuple[float, float]]:
         """Rms and greatest value of force, moment and torque, before or after."""
-        found = values_of(self.after if after else self.before)
-        return {name: (rms(v), greatest(v)[0]) for name, v in found.items()}
+        values = values_of(self.after if after else self.before)
+        return {name: (rms(v), greatest(v)[0]) for name, v in values.items()}
 
     def sizes_record(self, to: Scale) -> Tree:
         """The same of both by name, in the units of a scale."""
         out: Tree = {"before": {}, "after": {}}
-        for side, found in out.items():
+        for side, by_name in out.items():
             for name, both in self.sizes(side == "after").items():
                 sizes = (to("force" if name == "force" else "moment", size) for size in both)
-                found[name] = dict(zip(("rms", "max"), sizes, strict=True))
+                by_name[name] = dict(zip(("rms", "max"), sizes, strict=True))
         return out
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:

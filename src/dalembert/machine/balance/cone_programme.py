@@ -23,7 +23,7 @@ SHORT = 0.995
 """Part of the distance to the boundary of the cones that a step takes."""
 
 
-class Optimum(NamedTuple):
+class ConeSolution(NamedTuple):
     """Point x (n,), primal and dual value, and the largest violation of the primal and dual equations, relative."""
 
     x: Array
@@ -37,19 +37,21 @@ class Optimum(NamedTuple):
         return abs(self.primal - self.dual) / max(1.0, abs(self.primal))
 
 
-def minimise(c: Array, G: Array, h: Array) -> Optimum:
+def minimise(c: Array, G: Array, h: Array) -> ConeSolution:
     """Solve a cone programme that has an optimum and points within all cones; c, G and h scaled to the order of 1."""
     with np.errstate(all="ignore"):  # behind the optimum the scaling breaks down, and the best point is kept
         return _minimise(c, G, h)
 
 
-def _minimise(c: Array, G: Array, h: Array) -> Optimum:
+def _minimise(c: Array, G: Array, h: Array) -> ConeSolution:
     x, s, z = _start(c, G, h)
-    best: Optimum | None = None
+    best: ConeSolution | None = None
     for _ in range(ROUNDS):
         rx = np.einsum("kdn,kd->n", G, z) + c
         rz = G @ x + s - h
-        now = Optimum(x, float(c @ x), float(-(h * z).sum()), float(max(np.abs(rx).max(), np.abs(rz).max())))
+        now = ConeSolution(
+            x, float(c @ x), float(-(h * z).sum()), float(max(np.abs(rx).max(), np.abs(rz).max()))
+        )
         if best is None or now.gap + now.infeasible < best.gap + best.infeasible:
             best = now
         mu = (s * z).sum() / len(s)
@@ -151,6 +153,6 @@ def _reach(v: Array, d: Array) -> float:
     b = v[:, 0] * d[:, 0] - (v[:, 1:] * d[:, 1:]).sum(axis=1)
     root = np.sqrt(np.maximum(b * b - a * _square(v), 0.0))
     with np.errstate(all="ignore"):
-        ways = np.stack([_square(v) / (-b + root), _square(v) / (-b - root), -v[:, 0] / d[:, 0]])
-    ways = np.where((ways > 0) & np.isfinite(ways), ways, np.inf)
-    return float(ways.min(initial=np.inf))
+        steps = np.stack([_square(v) / (-b + root), _square(v) / (-b - root), -v[:, 0] / d[:, 0]])
+    steps = np.where((steps > 0) & np.isfinite(steps), steps, np.inf)
+    return float(steps.min(initial=np.inf))

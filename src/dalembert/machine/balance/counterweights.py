@@ -58,12 +58,12 @@ class Counterweight:
         """At right angles unit vectors (3,) of what m x, m y, m z may be: across the axis, none where the range is."""
         shut = [e for e, span in zip(np.eye(3), self.spans, strict=True) if span and tuple(span) == NONE]
         fixed = shut if axis is None else [axis, *shut]
-        found: list[Array] = []
+        units: list[Array] = []
         for e in [*fixed, *np.eye(3)]:
-            rest = e - sum((u * (u @ e) for u in found), np.zeros(3))
+            rest = e - sum((u * (u @ e) for u in units), np.zeros(3))
             if np.linalg.norm(rest) > 1e-6:
-                found.append(rest / np.linalg.norm(rest))
-        return [u for u in found if not any(abs(u @ e) > 1e-6 for e in fixed)]
+                units.append(rest / np.linalg.norm(rest))
+        return [u for u in units if not any(abs(u @ e) > 1e-6 for e in fixed)]
 
     @property
     def most_moment(self) -> float:
@@ -151,16 +151,20 @@ def with_masses(m: Mechanism, added: Mapping[str, Sequence[tuple[float, Array, f
     """The description with further masses, kg, on its links, each with centre and inertia about it, link axes."""
     values: Tree = {}
     for link, masses in added.items():
-        own = np.asarray(m.inertia(link), float)
-        own = own if m.dimension == 2 or own.ndim == 2 else np.diag(np.broadcast_to(own, 3))
-        parts = [(m.mass(link), np.array(m.center(link)), own), *(p for p in masses if p[0] > 0)]
+        own_inertia = np.asarray(m.inertia(link), float)
+        own_inertia = (
+            own_inertia
+            if m.dimension == 2 or own_inertia.ndim == 2
+            else np.diag(np.broadcast_to(own_inertia, 3))
+        )
+        parts = [(m.mass(link), np.array(m.center(link)), own_inertia), *(p for p in masses if p[0] > 0)]
         if len(parts) == 1:
             continue
         mass = sum(w for w, *_ in parts)
         center = sum((w * c for w, c, _ in parts), np.zeros(m.dimension)) / mass
-        inertia = sum((i + w * _spread(c - center) for w, c, i in parts), np.zeros_like(own))
+        inertia = sum((i + w * _spread(c - center) for w, c, i in parts), np.zeros_like(own_inertia))
         if np.abs(inertia).max() < 1e-14 * sum(w * float(c @ c) for w, c, _ in parts):
-            inertia = np.zeros_like(own)  # one mass, but for rounding
+            inertia = np.zeros_like(own_inertia)  # one mass, but for rounding
         values |= {f"links.{link}.shape": None} if m.links[link].shapes else {}
         values |= {f"links.{link}.mass": float(mass), f"links.{link}.center": center.tolist()}
         values[f"links.{link}.inertia"] = ((inertia + inertia.T) / 2).tolist()

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 
-class Cylinder(NamedTuple):
+class EngineCylinder(NamedTuple):
     """A piston, its rod and the link with its crank pin; joints between them; the crank's joint with the ground."""
 
     piston: str
@@ -45,7 +45,7 @@ class EngineSeries:
     """Force and couple (P, 2) of the inertia by the book's two harmonics, and exact."""
 
     exact: Shaking = field(repr=False)
-    cylinders: tuple[Cylinder, ...]
+    cylinders: tuple[EngineCylinder, ...]
     force: Array = field(repr=False)
     couple: Array = field(repr=False)
 
@@ -57,7 +57,7 @@ class EngineSeries:
         return off / greatest(exact)[0] if off > self.exact.floor("force") else 0.0
 
 
-def cylinders(m: Mechanism) -> tuple[Cylinder, ...]:
+def cylinders(m: Mechanism) -> tuple[EngineCylinder, ...]:
     """The cylinders of a plane mechanism: pistons that slide on the ground, rods, and what turns on the ground."""
     pins = {name: joint.links for name, joint in m.joints.items() if joint.hinge}
     sliders = {n: j.links for n, j in m.joints.items() if j.freedoms == ("slide",) and GROUND in j.links}
@@ -72,7 +72,7 @@ def cylinders(m: Mechanism) -> tuple[Cylinder, ...]:
         return [(n, _other(ends, link)) for n, ends in pins.items() if link in ends and GROUND not in ends]
 
     return tuple(
-        Cylinder(piston, rod, crank, pin, gudgeon, guide, on_ground[crank])
+        EngineCylinder(piston, rod, crank, pin, gudgeon, guide, on_ground[crank])
         for guide, piston in ((guide, _other(links, GROUND)) for guide, links in sliders.items())
         for gudgeon, rod in joined(piston)
         for pin, crank in joined(rod)
@@ -92,21 +92,21 @@ def engine_series(r: Result) -> EngineSeries:
     (3, '0.6 %')
     """
     refuse_space(r.mechanism, "the book's series of an engine", "ask for the shaking force: da.shaking")
-    found = cylinders(r.mechanism)
-    if not found:
+    all_cylinders = cylinders(r.mechanism)
+    if not all_cylinders:
         raise ModelError(
             "the mechanism has no cylinder: a piston on the ground, a rod and a crank",
             "compute the shaking force: da.shaking",
         )
-    m, counted = r.mechanism, {link for c in found for link in (c.piston, c.rod)}
-    parts = [part for c in found for part in _parts(r, c)]
+    m, counted = r.mechanism, {link for c in all_cylinders for link in (c.piston, c.rod)}
+    parts = [part for c in all_cylinders for part in _parts(r, c)]
     parts += [(n, -m.mass(n) * r.center_acceleration(n)) for n in r.links if n not in counted]
     force = np.sum([f for _, f in parts], axis=0)
     couple = np.sum([m.links[link].place * across(f) for link, f in parts], axis=0)
-    return EngineSeries(shaking(r, found[0].axis), found, force, couple)
+    return EngineSeries(shaking(r, all_cylinders[0].axis), all_cylinders, force, couple)
 
 
-def _parts(r: Result, c: Cylinder) -> list[tuple[str, Array]]:
+def _parts(r: Result, c: EngineCylinder) -> list[tuple[str, Array]]:
     """Inertia forces (P, 2) of the rod's end that turns, of the one that goes to and fro, and of the piston."""
     m = r.mechanism
     guide: Any = m.joints[c.guide]

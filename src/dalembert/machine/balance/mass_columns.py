@@ -71,11 +71,11 @@ def mass_columns(r: Result, weights: dict[str, Counterweight], about: Array, dri
     """Columns of the numbers (N) of every counterweight (W); axes (3,) in link axes, None of a link with several."""
     parts, axes = [], {}
     for link, w in weights.items():
-        own = LinkAxes(r, link)
-        part, spin = _columns(r, own, base_point(r.mechanism, link, w.at), in_space(about), drive)
+        local = LinkAxes(r, link)
+        part, spin = _columns(r, local, base_point(r.mechanism, link, w.at), in_space(about), drive)
         parts.append(part)
         plane = r.mechanism.dimension == 2
-        axes[link] = np.eye(3)[2] if plane else _axis(np.concatenate([own.turning, spin]))
+        axes[link] = np.eye(3)[2] if plane else _axis(np.concatenate([local.turning, spin]))
     return Columns({name: np.concatenate([p[name] for p in parts], axis=-1) for name in parts[0]}, axes)
 
 
@@ -86,12 +86,12 @@ def _axis(turning: Array) -> Array | None:
 
 
 def _columns(
-    r: Result, own: LinkAxes, base: Array, about: Array, drive: str | None
+    r: Result, local: LinkAxes, base: Array, about: Array, drive: str | None
 ) -> tuple[dict[str, Array], Array]:
     """Columns of one counterweight, and the link's turning (P, 3) in link axes at unit speed of the drive."""
-    d, link = r.mechanism.dimension, own.link
+    d, link = r.mechanism.dimension, local.link
     m, h, s = units(d)
-    a, rate = own.own(r._acceleration(link, base)), own.rate
+    a, rate = local.to_link(r._acceleration(link, base)), local.rate
     largest = max(np.abs(a).max(), np.abs(rate).max())
     if not r.inertia or largest <= NOISE * np.abs(r.acceleration_array).max():
         a, rate = 0 * a, 0 * rate  # a link that stands still
@@ -99,7 +99,7 @@ def _columns(
     product = np.einsum("pij,njk->pnik", rate, s)
     axial = (product - np.swapaxes(product, -1, -2))[..., (2, 0, 1), (1, 2, 0)]
     couple = -(np.cross(h, a[:, None]) + axial)
-    force, couple = (np.einsum("pij,pnj->pin", own.rotation, v) for v in (force, couple))
+    force, couple = (np.einsum("pij,pnj->pin", local.rotation, v) for v in (force, couple))
     moment = couple + _cross(in_space(r._place(link, base)) - about, force)
     columns = {"force": force[:, :d], "moment": moment[:, 2:] if d == 2 else moment}
     columns["torque"], spin = np.zeros((len(a), 1, len(m))), np.zeros((0, 3))
@@ -108,13 +108,13 @@ def _columns(
         virtual = state(r).moving.virtual[:, r.drives.index(drive)]
         twist = virtual[:, k] * (np.abs(virtual[:, k]).max() > NOISE * np.abs(virtual).max())
         spin = couple_in_space(twist[:, 2] if d == 2 else twist[:, 3:])
-        arm = own.rotation @ (in_space(base) - in_space(r.compiled.layout.reference[k]))
+        arm = local.rotation @ (in_space(base) - in_space(r.compiled.layout.reference[k]))
         velocity = in_space(twist[:, :d]) + np.cross(spin, arm)
-        turned = own.rotation @ h.T
+        turned = local.rotation @ h.T
         couple = couple - _cross(np.broadcast_to(gravity, arm.shape), turned)
         power = np.einsum("pi,pin->pn", velocity, force + gravity[:, None] * m)
         columns["torque"] = -(power + np.einsum("pi,pin->pn", spin, couple))[:, None]
-        spin = own.own(spin)
+        spin = local.to_link(spin)
     return columns, spin
 
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -102,7 +102,7 @@ class RotorBalance(Comparison):
 
         return rotor_scenes(self, notation)
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         from dalembert.reports.machine_sections.design_sections import rotor_section
 
@@ -141,8 +141,8 @@ def balance_rotor(m: ModelOrPath, planes: tuple[float, float], radii: Sequence[f
     about = joint if joint in ground_points(m) else origin
     s, t = _unbalance(r, origin, frame)
     at_b = -(t - a * s) / (b - a)
-    found = np.array([-s - at_b, at_b])
-    angle, size = np.angle(found), np.abs(found)
+    moments = np.array([-s - at_b, at_b])
+    angle, size = np.angle(moments), np.abs(moments)
     angle = np.where(angle < 1e-12 - np.pi, angle + 2 * np.pi, angle)  # half a turn back is half a turn on
     spots = np.stack([radius * np.cos(angle), radius * np.sin(angle), [a, b]], axis=-1)
     centers = (origin + spots @ frame - r.position(shaft)[0]) @ r.rotation(shaft)[0]
@@ -163,8 +163,8 @@ def _axes(r: Result) -> tuple[str, str, Array, str]:
     shaft = j if i == GROUND else i
     spins = state(r).moving.virtual[0, 0, :, 3:]  # at unit speed of the first drive
     speed = spins[r.links.index(shaft)]
-    for link, own in zip(r.links, spins, strict=False):
-        if np.abs(own - speed).max() > 1e-9:
+    for link, link_spin in zip(r.links, spins, strict=False):
+        if np.abs(link_spin - speed).max() > 1e-9:
             raise ModelError(f"{link} does not turn with {shaft}", "a rotor is what turns about one axis")
     z, turned = speed / np.linalg.norm(speed), r.rotation(shaft)[0]
     k = int(np.argmin(np.abs(turned.T @ z)))

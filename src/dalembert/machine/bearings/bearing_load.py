@@ -95,8 +95,8 @@ class BearingLoad:
 
     def _at(self, at: Ints) -> BearingLoad:
         """The same at some positions alone."""
-        found = {name: getattr(self, name)[at] for name in ("radial", "axial", "couple", "rate")}
-        return replace(self, **found, time=durations(self.result, at))
+        arrays = {name: getattr(self, name)[at] for name in ("radial", "axial", "couple", "rate")}
+        return replace(self, **arrays, time=durations(self.result, at))
 
     def _summary(self) -> dict[str, float]:
         """The values that are over all positions."""
@@ -146,8 +146,8 @@ class BearingLoad:
     def static_safety(self) -> float | None:
         """C0 over the largest load; None without C0."""
         most = float(np.max(self.load, initial=0.0))
-        given = self.bearing.static_rating if self.bearing else None
-        return None if given is None else given / most if most else math.inf
+        rating = self.bearing.static_rating if self.bearing else None
+        return None if rating is None else rating / most if most else math.inf
 
     def rating_for(
         self,
@@ -206,8 +206,8 @@ def bearing(r: Result, joint: str) -> BearingLoad:
         axial, rate = np.abs(along), ((j - i) * axis).sum(axis=1)
     if np.nanmax(np.abs(rate), initial=0.0) <= STILL * max(np.nanmax(np.abs(w), initial=0.0) for w in (i, j)):
         rate = 0 * rate  # both links turn alike
-    given = getattr(r.mechanism.joints[joint], "bearing", None)
-    return BearingLoad(r, joint, given, radial, axial, couple, rate + 0.0 * radial, durations(r))
+    described = getattr(r.mechanism.joints[joint], "bearing", None)
+    return BearingLoad(r, joint, described, radial, axial, couple, rate + 0.0 * radial, durations(r))
 
 
 def turning_joints(r: Result) -> list[str]:

@@ -12,14 +12,14 @@ from dalembert.arrays import Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.machine.bearings.bearing_load import BearingLoad, bearing, turning_joints
-from dalembert.machine.bearings.catalogue import Row, catalogue, choose
+from dalembert.machine.bearings.catalogue import CatalogueBearing, catalogue, choose
 from dalembert.machine.output.machine_answer import MachineAnswer
 
 if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -33,7 +33,7 @@ class BearingTable(MachineAnswer):
     hours: float | None = None
     factor: float = 1.0
     rows: int = 0
-    chosen: dict[str, Row | None] = field(default_factory=dict)
+    chosen: dict[str, CatalogueBearing | None] = field(default_factory=dict)
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """The drives' positions; forces and turning of each joint, pressure and PV of those with a size."""
@@ -53,18 +53,22 @@ class BearingTable(MachineAnswer):
         """Equivalent load, life and what was chosen, in the units of a scale."""
         out: Tree = {}
         for joint, b in self.loads.items():
-            own = out[joint] = {"equivalent_load": to("force", b.equivalent), "swings": b.swings}
-            own["couple_not_counted"] = to("moment", b.tilting)
-            own["sampling"] = b.sampling()
-            own["mean_turning"] = to("angular_speed", b.speed)
+            entry = out[joint] = {"equivalent_load": to("force", b.equivalent), "swings": b.swings}
+            entry["couple_not_counted"] = to("moment", b.tilting)
+            entry["sampling"] = b.sampling()
+            entry["mean_turning"] = to("angular_speed", b.speed)
             if b.sized:
-                own |= {"pressure": to("pressure", b.pressure.max()), "mean_PV": b.mean_pv, "PV": b.pv.max()}
+                entry |= {
+                    "pressure": to("pressure", b.pressure.max()),
+                    "mean_PV": b.mean_pv,
+                    "PV": b.pv.max(),
+                }
             if b.bearing and b.bearing.rating:
-                own |= {"turns": b.turns, "hours": b.hours, "static_safety": b.static_safety}
+                entry |= {"turns": b.turns, "hours": b.hours, "static_safety": b.static_safety}
             if self.hours:
-                own["rating_needed"] = to("force", b.rating_for(self.hours, self.factor))
+                entry["rating_needed"] = to("force", b.rating_for(self.hours, self.factor))
                 row = self.chosen.get(joint)
-                own["chosen"] = row.name if row else None
+                entry["chosen"] = row.name if row else None
         return {"bearings": out, "hours": self.hours, "factor": self.factor}
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
@@ -79,7 +83,7 @@ class BearingTable(MachineAnswer):
 
         return bearing_scenes(self, notation)
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         from dalembert.reports.machine_sections.design_sections import bearing_section
 
@@ -101,14 +105,14 @@ def bearings(
     """
     for key, value in (("hours", hours), ("factor", factor), ("safety", safety)):
         require(key, value)
-    asked = [joints] if isinstance(joints, str) else list(joints or turning_joints(r))
-    found = {joint: bearing(r, joint) for joint in asked}
-    if not found:
+    names = [joints] if isinstance(joints, str) else list(joints or turning_joints(r))
+    loads = {joint: bearing(r, joint) for joint in names}
+    if not loads:
         raise ModelError("no joint turns about one axis", "give the machine a pin")
     if table is None:
-        return BearingTable(r, found, hours, factor)
+        return BearingTable(r, loads, hours, factor)
     if hours is None:
         raise ModelError("a bearing is chosen by its life", "say how many hours: 20000")
     rows = catalogue(table, r.mechanism.units)
-    chosen = {joint: choose(b, rows, hours, factor, safety) for joint, b in found.items()}
-    return BearingTable(r, found, hours, factor, len(rows), chosen)
+    chosen = {joint: choose(b, rows, hours, factor, safety) for joint, b in loads.items()}
+    return BearingTable(r, loads, hours, factor, len(rows), chosen)

@@ -7,14 +7,14 @@ from typing import NamedTuple
 
 from dalembert.errors import ModelError
 from dalembert.machine.bearings.bearing_load import BearingLoad
-from dalembert.model.part import Reading
+from dalembert.model.part import ReadingRules
 from dalembert.model.quantities.column_files import read_quantities
 from dalembert.units import Units
 
 KINDS = {"C": "force", "C0": "force", "d": "length"}
 
 
-class Row(NamedTuple):
+class CatalogueBearing(NamedTuple):
     """A bearing: dynamic and static rating, N, and bore, m."""
 
     name: str
@@ -23,22 +23,25 @@ class Row(NamedTuple):
     d: float
 
 
-def catalogue(file: str | Path, units: Units | None = None) -> list[Row]:
+def catalogue(file: str | Path, units: Units | None = None) -> list[CatalogueBearing]:
     """The rows of a table; numbers whose head names no unit are in these (default SI).
 
     Raises ModelError with file and line for what is missing, no number or not positive.
     """
-    columns, lines = read_quantities(file, KINDS, Reading(units), "name")
+    columns, lines = read_quantities(file, KINDS, ReadingRules(units), "name")
     for name in KINDS:
         for value, line in zip(columns[name], lines, strict=True):
             if value <= 0:
                 raise ModelError(f"{name} is not positive", "give a positive number", (), str(file), line)
-    return [Row(*row) for row in zip(*(columns[name] for name in Row._fields), strict=True)]
+    return [
+        CatalogueBearing(*row)
+        for row in zip(*(columns[name] for name in CatalogueBearing._fields), strict=True)
+    ]
 
 
 def choose(
-    load: BearingLoad, rows: list[Row], hours: float, factor: float = 1.0, safety: float = 1.0
-) -> Row | None:
+    load: BearingLoad, rows: list[CatalogueBearing], hours: float, factor: float = 1.0, safety: float = 1.0
+) -> CatalogueBearing | None:
     """The smallest bearing, by bore, then by rating, that lives so long; None where none does.
 
     Its C is at least ``rating_for`` the hours, C0 ``safety`` times the largest load, d the pin's diameter.

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -118,7 +118,7 @@ class Flywheel(MachineAnswer):
 
         return flywheel_scenes(self, notation)
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         from dalembert.reports.machine_sections.design_sections import flywheel_section
 
@@ -168,15 +168,15 @@ def flywheel(
     size = flywheel_size([*pulses], t.speed, Cs, inertia)
     starts = panels.antiderivative(above)[1]
     curve = np.interp(r.drive_position(t.drive), np.append(panels.low, t.edges[-1]), starts)
-    own = t.inertia(panels.points.ravel()).reshape(torque.shape)
-    mean_own = panels.mean(own)
+    reduced = t.inertia(panels.points.ravel()).reshape(torque.shape)
+    mean_inertia = panels.mean(reduced)
     exact, for_cs, reason = None, None, "the effort never differs from its mean" if even else ""
     try:
         if even:
             raise AnalysisError(reason)
-        exact = speed_fluctuation(t, panels, own, size.inertia)
-        for_cs = inertia_for(t, panels, own, Cs, size.inertia - mean_own) if Cs is not None else None
+        exact = speed_fluctuation(t, panels, reduced, size.inertia)
+        for_cs = inertia_for(t, panels, reduced, Cs, size.inertia - mean_inertia) if Cs is not None else None
     except AnalysisError as error:
         reason = str(error)
-    parts = (r.effort(t.drive), curve - curve[0], zeros, energies - curve[0], mean_own)
+    parts = (r.effort(t.drive), curve - curve[0], zeros, energies - curve[0], mean_inertia)
     return Flywheel(r, t.drive, size, mean, *parts, exact, for_cs, reason)

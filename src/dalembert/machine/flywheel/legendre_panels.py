@@ -83,9 +83,9 @@ class Panels:
         c, starts = self.coefficients(values), self.antiderivative(values)[1]
         at, area = [*self.low], [*starts[:-1]]
         for k in _may_vanish(c):
-            real, whole = _roots(c[:, k]), legendre.legint(c[:, k], lbnd=-1)
+            real, integral = _roots(c[:, k]), legendre.legint(c[:, k], lbnd=-1)
             at += [*self._at(k, real)]
-            area += [*(starts[k] + legendre.legval(real, whole) * self.width[k] / 2)]
+            area += [*(starts[k] + legendre.legval(real, integral) * self.width[k] / 2)]
         order = np.argsort(at, kind="stable")
         place, reached = np.array(at)[order], np.array(area)[order]
         turns = _turns(reached, floor)
@@ -96,12 +96,12 @@ class Panels:
         c = self.coefficients(values)
         ends = np.stack([self.low, self.low + self.width], axis=1)
         pairs = ((values, self.points), (legendre.legval(ENDS, c), ends))
-        found = [z for y, x in pairs for z in zip(y.ravel().tolist(), x.ravel().tolist(), strict=True)]
+        candidates = [z for y, x in pairs for z in zip(y.ravel().tolist(), x.ravel().tolist(), strict=True)]
         slopes = legendre.legder(c)
         for k in _may_vanish(slopes):
             x = _roots(slopes[:, k])
-            found += zip(legendre.legval(x, c[:, k]).tolist(), self._at(k, x).tolist(), strict=True)
-        return min(found), max(found)
+            candidates += zip(legendre.legval(x, c[:, k]).tolist(), self._at(k, x).tolist(), strict=True)
+        return min(candidates), max(candidates)
 
     def _at(self, k: Any, x: Array) -> Array:
         """Places from -1 to 1 of a panel along the period."""
@@ -122,13 +122,13 @@ def _roots(c: Array) -> Array:
 def _turns(values: Array, floor: float) -> list[int]:
     """Indices, rising, at which values over a period are greatest and least by turns, by more than a floor."""
     start = int(np.argmax(values))
-    best, side, found = start, 1.0, list[int]()  # side: 1 until the values have fallen and rise again
+    best, side, indices = start, 1.0, list[int]()  # side: 1 until the values have fallen and rise again
     for k in (np.arange(1, len(values) + 1) + start) % len(values):
         if side * (values[k] - values[best]) < 0:
             best = int(k)
         elif side * (values[k] - values[best]) > floor:
-            found, best, side = [*found, best], int(k), -side
-    return sorted([*found, start] if found else [])
+            indices, best, side = [*indices, best], int(k), -side
+    return sorted([*indices, start] if indices else [])
 
 
 def resolve(curve: Callable[[Array], Array], edges: Array, floor: float = 0.0) -> tuple[Panels, Array]:

@@ -43,23 +43,23 @@ class SpeedFluctuation:
         return 2 * (self.greatest[0] - self.least[0]) / (self.greatest[0] + self.least[0])
 
 
-def speed_fluctuation(t: TurningMoment, panels: Panels, own: Array, inertia: float) -> SpeedFluctuation:
-    """Speed over the period with a flywheel of an inertia (kg m2); ``own``: J at the panels' points (K, n)."""
-    q, whole = panels.points.ravel(), own + inertia
-    if not (whole > 0).all():
+def speed_fluctuation(t: TurningMoment, panels: Panels, reduced: Array, inertia: float) -> SpeedFluctuation:
+    """Speed over the period with a flywheel of an inertia (kg m2); ``reduced``: J at the panels' points (K, n)."""
+    q, total = panels.points.ravel(), reduced + inertia
+    if not (total > 0).all():
         raise AnalysisError(
             "nothing in this machine has inertia: its speed is not determined; add a flywheel"
         )
-    speed, acceleration = np.full(own.shape, abs(t.speed)), np.zeros(own.shape)
+    speed, acceleration = np.full(reduced.shape, abs(t.speed)), np.zeros(reduced.shape)
     for _ in range(MOST_ROUNDS):
         signed = np.sign(t.speed) * speed
-        resisting = t.resistance(q, signed.ravel(), acceleration.ravel()).reshape(own.shape)
+        resisting = t.resistance(q, signed.ravel(), acceleration.ravel()).reshape(reduced.shape)
         torque = panels.mean(resisting)
-        given = panels.antiderivative(torque - resisting)[0]
-        found = _with_mean_speed(panels, whole, given, abs(t.speed))
-        moved = float(np.abs(found - speed).max()) / abs(t.speed)
-        speed, square = found, found**2
-        acceleration = (torque - resisting - panels.derivative(own) * square / 2) / whole
+        surplus = panels.antiderivative(torque - resisting)[0]
+        corrected = _with_mean_speed(panels, total, surplus, abs(t.speed))
+        moved = float(np.abs(corrected - speed).max()) / abs(t.speed)
+        speed, square = corrected, corrected**2
+        acceleration = (torque - resisting - panels.derivative(reduced) * square / 2) / total
         if moved < STAYS:
             break
     else:
@@ -67,24 +67,24 @@ def speed_fluctuation(t: TurningMoment, panels: Panels, own: Array, inertia: flo
             f"the speed does not settle with a flywheel of {inertia:.4g} kg m2: after {MOST_ROUNDS} rounds it still "
             f"changes by {moved:.1e} of itself; give more inertia"
         )
-    asked = t.effort(q, np.sign(t.speed) * speed.ravel(), acceleration.ravel()).reshape(own.shape)
-    off = np.abs(asked + inertia * acceleration - torque).max() / max(float(np.abs(asked).max()), 1e-300)
+    effort = t.effort(q, np.sign(t.speed) * speed.ravel(), acceleration.ravel()).reshape(reduced.shape)
+    off = np.abs(effort + inertia * acceleration - torque).max() / max(float(np.abs(effort).max()), 1e-300)
     low, high = panels.extremes(speed)
     return SpeedFluctuation(inertia, torque, low, high, float(off), q, speed.ravel())
 
 
-def _with_mean_speed(panels: Panels, whole: Array, given: Array, mean: float) -> Array:
+def _with_mean_speed(panels: Panels, inertia: Array, surplus: Array, mean: float) -> Array:
     """Speeds sqrt(2 (E_0 + given) / whole) with the required mean over time, period over int dq / q'."""
-    start = float(np.max(-given)) if (given < 0).any() else 0.0
-    energy = max(panels.mean(whole) * mean**2 / 2, start * (1 + 1e-9) + 1e-300)
+    start = float(np.max(-surplus)) if (surplus < 0).any() else 0.0
+    energy = max(panels.mean(inertia) * mean**2 / 2, start * (1 + 1e-9) + 1e-300)
     for _ in range(200):
-        square = 2 * (energy + given) / whole
+        square = 2 * (energy + surplus) / inertia
         if (square <= 0).any():
             raise AnalysisError(
                 f"at {mean:.4g} rad/s on the mean the machine would come to rest within its cycle: give more inertia"
             )
         speed = np.sqrt(square)
-        time, slope = panels.mean(1 / speed), -panels.mean(1 / (speed**3 * whole))
+        time, slope = panels.mean(1 / speed), -panels.mean(1 / (speed**3 * inertia))
         step = (1 / mean - time) / slope
         if abs(step) <= 1e-15 * abs(energy):
             return np.asarray(speed)
@@ -93,12 +93,12 @@ def _with_mean_speed(panels: Panels, whole: Array, given: Array, mean: float) ->
 
 
 def inertia_for(
-    t: TurningMoment, panels: Panels, own: Array, wanted: float, guess: float
+    t: TurningMoment, panels: Panels, reduced: Array, wanted: float, guess: float
 ) -> SpeedFluctuation:
     """The flywheel that gives just a C_s, by secants on 1 / C_s, nearly linear in I, from no flywheel up."""
-    least = 1e-9 * max(float(own.max()), guess)
-    here = speed_fluctuation(t, panels, own, max(guess, least))
-    before = speed_fluctuation(t, panels, own, 1.1 * here.inertia)
+    least = 1e-9 * max(float(reduced.max()), guess)
+    here = speed_fluctuation(t, panels, reduced, max(guess, least))
+    before = speed_fluctuation(t, panels, reduced, 1.1 * here.inertia)
     for _ in range(40):
         a, b = (1 / s.fluctuation for s in (before, here))
         if abs(here.fluctuation / wanted - 1) < 1e-11 or a == b:
@@ -106,5 +106,5 @@ def inertia_for(
         next_ = max(here.inertia + (1 / wanted - b) * (here.inertia - before.inertia) / (b - a), least)
         if next_ == here.inertia:
             break
-        before, here = here, speed_fluctuation(t, panels, own, next_)
+        before, here = here, speed_fluctuation(t, panels, reduced, next_)
     return here

@@ -12,10 +12,10 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import state
 from dalembert.analysis.one_pass import at_poses, at_schedule
-from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
-from dalembert.core.equilibrium import Motion, known_sources, with_ground
-from dalembert.core.forcing import Source, inertia_wrench, total_wrench
+from dalembert.core.equilibrium import LinkMotions, known_sources, with_ground
+from dalembert.core.forcing import WrenchSource, inertia_wrench, total_wrench
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import whole_turns
 from dalembert.machine.whole_cycle import refuse_unknown
@@ -65,26 +65,26 @@ class TurningMoment:
 
     def steady(self, q: Array) -> Array:
         """Effort at angles (n,) at the steady speed."""
-        found = self._asked(q, self.speed, 0.0, self.result.inertia)
-        effort, (own, change, damped) = found.effort(self.drive)[1:], powers(found)[:, 1:]
+        result = self._required(q, self.speed, 0.0, self.result.inertia)
+        effort, (inertia, change, damped) = result.effort(self.drive)[1:], powers(result)[:, 1:]
         still = effort - self.speed * (self.result.inertia * change * self.speed + damped)
-        self.known = np.concatenate([self.known, [q, own, change, still, damped]], axis=1)
+        self.known = np.concatenate([self.known, [q, inertia, change, still, damped]], axis=1)
         return effort
 
     def effort(self, q: Array, speed: Array, acceleration: Array) -> Array:
         """Effort at angles (n,), with these speeds and accelerations."""
-        own, change = self._parts(q)[:2]
+        reduced, change = self._parts(q)[:2]
         if self.smooth:
-            inertial = own * acceleration + change * speed**2
+            inertial = reduced * acceleration + change * speed**2
             return np.asarray(inertial + self.resistance(q, speed, acceleration))
-        return self._asked(q, speed, acceleration, True).effort(self.drive)[1:]
+        return self._required(q, speed, acceleration, True).effort(self.drive)[1:]
 
     def resistance(self, q: Array, speed: Array, acceleration: Array) -> Array:
         """The effort (n,) that does not go into kinetic energy: loads, weights, springs, dampers and friction."""
-        own, change, still, damped = self._parts(q)
+        inertia, change, still, damped = self._parts(q)
         if self.smooth:
             return np.asarray(still + damped * speed)
-        return np.asarray(self.effort(q, speed, acceleration) - own * acceleration - change * speed**2)
+        return np.asarray(self.effort(q, speed, acceleration) - inertia * acceleration - change * speed**2)
 
     def inertia(self, q: Array) -> Array:
         """Reduced inertia J (n,), kg m2."""
@@ -97,7 +97,7 @@ class TurningMoment:
         assert (self.known[0, place] == q).all()
         return self.known[1:, place]
 
-    def _asked(self, q: Array, speed: Array | float, acceleration: Array | float, inertia: bool) -> Result:
+    def _required(self, q: Array, speed: Array | float, acceleration: Array | float, inertia: bool) -> Result:
         """The analysis at other angles; the result's first position leads, so that the assembly mode is the same."""
         angle = np.append(self.result.drive_position(self.drive)[:1], q)[:, None]
         rates = (np.broadcast_to(x, q.shape) for x in (speed, acceleration))
@@ -105,23 +105,23 @@ class TurningMoment:
         schedule = Schedule((self.drive,), angle, u, a)
         if np.array_equal(self.last.schedule.position, angle):
             c = replace(self.last.compiled, schedule=schedule)
-            found = at_poses(c, self.last, slice(None), inertia)
+            result = at_poses(c, self.last, slice(None), inertia)
         else:
-            self.last = found = at_schedule(self.result.mechanism, schedule, inertia)
+            self.last = result = at_schedule(self.result.mechanism, schedule, inertia)
         refuse_unknown(
-            found, "a flywheel needs what is between the positions of the cycle", found.effort(self.drive)
+            result, "a flywheel needs what is between the positions of the cycle", result.effort(self.drive)
         )
-        return found
+        return result
 
 
 def powers(r: Result) -> Array:
     """Terms (3, P) of the effort of the lone drive of a result without accelerations: for a unit acceleration, the
     reduced inertia J; for the square of a unit speed, J' / 2; and for dampers at a unit speed."""
-    f, pose, speed = r.compiled.forcing, whole_pose(r), r.schedule.speed[..., None]
+    f, pose, speed = r.compiled.forcing, full_pose(r), r.schedule.speed[..., None]
     unit, second = with_ground(r.twist_array) / speed, r.acceleration_array / speed**2
 
     def inertia(twist: Array, acceleration: Array) -> Array:
-        return _asked_by(r, unit, inertia_wrench(r.compiled.layout, f.inertia, pose, twist, acceleration))
+        return _required_by(r, unit, inertia_wrench(r.compiled.layout, f.inertia, pose, twist, acceleration))
 
     damped = np.zeros(len(speed))
     if f.springs.damping.any() or f.resistances.damping.any():
@@ -131,13 +131,13 @@ def powers(r: Result) -> Array:
 
 def _loads(r: Result, unit: Array, twist: Array) -> Array:
     """Effort of the drive (P,) due to loads, weights, springs and dampers at twists of the links."""
-    c, moving = r.compiled, Motion(twist, twist, twist, np.ones(len(twist)))
-    return _asked_by(
-        r, unit, *known_sources(c.layout, c.forcing, whole_pose(r), moving, inertia=False).values()
+    c, moving = r.compiled, LinkMotions(twist, twist, twist, np.ones(len(twist)))
+    return _required_by(
+        r, unit, *known_sources(c.layout, c.forcing, full_pose(r), moving, inertia=False).values()
     )
 
 
-def _asked_by(r: Result, unit: Array, *sources: Source) -> Array:
+def _required_by(r: Result, unit: Array, *sources: WrenchSource) -> Array:
     """Effort of the drive (P,) due to wrenches, by their power at its unit speed."""
     return np.asarray(-(unit[:, :-1] * total_wrench(r.compiled.layout, *sources)).sum(axis=(1, 2)))
 
@@ -146,21 +146,21 @@ def _gap(r: Result) -> float:
     """By how much the effort of a result at steady speed is not what the powers say."""
     speed = r.schedule.speed[:, 0]
     change, unit = r.inertia * powers(r)[1], with_ground(r.twist_array) / speed[:, None, None]
-    found = change * speed**2 + _loads(r, unit, with_ground(r.twist_array))
-    return float(np.nan_to_num(np.abs(found - r.effort_array[:, 0]), nan=np.inf).max())
+    expected = change * speed**2 + _loads(r, unit, with_ground(r.twist_array))
+    return float(np.nan_to_num(np.abs(expected - r.effort_array[:, 0]), nan=np.inf).max())
 
 
 def reduced_inertia(r: Result, drive: str) -> Array:
     """Inertia of all links reduced to a drive (P,), kg m2 or kg: twice the kinetic energy at its unit speed alone."""
     at, layout, masses = state(r), r.compiled.layout, r.compiled.forcing.inertia
     unit = at.moving.virtual[..., r.drives.index(drive), :, :]
-    return _asked_by(r, unit, inertia_wrench(layout, masses, at.pose, 0 * unit, unit[..., :-1, :]))
+    return _required_by(r, unit, inertia_wrench(layout, masses, at.pose, 0 * unit, unit[..., :-1, :]))
 
 
 def _only_drive(r: Result, drive: str | None) -> str:
     if drive is not None and drive not in r.drives:
         raise ModelError(f"unknown drive {drive!r}", closest(drive, list(r.drives)))
-    if len(r.drives) != 1 or r.unknown_loads or not r.compiled.known.asked.all():
+    if len(r.drives) != 1 or r.unknown_loads or not r.compiled.known.requested.all():
         raise ModelError(
             "a flywheel needs a machine with one drive, whose effort is unknown",
             "leave one drive, without effort, and no unknown load",

@@ -62,7 +62,7 @@ class Buckling:
 
 
 def buckling(
-    forces: MemberForces, given: Section | Tree | None = None, ends: Factors | None = None
+    forces: MemberForces, section: Section | Tree | None = None, ends: Factors | None = None
 ) -> Buckling:
     """Critical compression N = pi^2 E I / (K L)^2 in the weaker plane, or Johnson's load.
 
@@ -70,7 +70,7 @@ def buckling(
     unless ``ends`` or the link's `effective_length` gives it. Raises ModelError without Young's modulus, for several
     members without a K, and for a link that its joints leave loose.
     """
-    s = _elastic(forces, given)
+    s = _elastic(forces, section)
     described = forces.result.mechanism.links[forces.link].effective_length or {}
     known = described if ends is None else {"": ends if isinstance(ends, tuple) else (ends, ends)}
     if len(forces.curves) > 1 and not all({"", c.name} & known.keys() for c in forces.curves):
@@ -78,8 +78,8 @@ def buckling(
         what = f"members {names} of {forces.link!r} are one frame, in which each is held by the others"
         remedy = f"give their factors: effective_length: {{{forces.curves[0].name}: 1, ...}}"
         raise ModelError(what, remedy, ("links", forces.link))
-    found = [_judged(Strut((forces,), (c,)), [s], known.get(c.name, known.get(""))) for c in forces.curves]
-    return min(found, key=lambda b: (math.isnan(b.safety), b.safety, b.critical))
+    judged = [_judged(Strut((forces,), (c,)), [s], known.get(c.name, known.get(""))) for c in forces.curves]
+    return min(judged, key=lambda b: (math.isnan(b.safety), b.safety, b.critical))
 
 
 def stepped_column(barrel: MemberForces, rod: MemberForces, joint: str) -> Buckling:
@@ -88,8 +88,8 @@ def stepped_column(barrel: MemberForces, rod: MemberForces, joint: str) -> Buckl
     return _judged(Strut((barrel, rod), (barrel.curve(), rod.curve()), joint), sections, None)
 
 
-def _elastic(forces: MemberForces, given: Section | Tree | None) -> Section:
-    s = section_of(forces, given)
+def _elastic(forces: MemberForces, section: Section | Tree | None) -> Section:
+    s = section_of(forces, section)
     if s.elasticity is None:
         path = ("links", forces.link, "section")
         raise ModelError(
@@ -134,8 +134,8 @@ class _Judgement:
         least = min(loads)
         first = next(x for x in loads if x[0] <= least[0] * (1 + COUPLED))  # of two alike the plane itself
         self.criticals[k], self.formula[k], self.plane[k] = first
-        found = [effective_length(*pair, total) for pair in zip(eulers, weakest, strict=True)]
-        self.factors[k] = self.known or found
+        factors = [effective_length(*pair, total) for pair in zip(eulers, weakest, strict=True)]
+        self.factors[k] = self.known or factors
         if self.known is None:
             half = len(free) // 2
             self.ends[k] = end_words(free[half:] if self.plane[k] else free[:half])
@@ -160,36 +160,39 @@ class _Judgement:
 
 def _judged(strut: Strut, sections: list[Section], known: tuple[float, float] | None) -> Buckling:
     """The position of least safety, or without any compression that of the least critical load."""
-    found, compression = _Judgement(strut, sections, known), strut.compression()
-    if (found.criticals == 0).any():
-        names, k = " and ".join(repr(f.link) for f in strut.forces), int(np.argmin(found.criticals != 0)) + 1
+    judgement, compression = _Judgement(strut, sections, known), strut.compression()
+    if (judgement.criticals == 0).any():
+        names, k = (
+            " and ".join(repr(f.link) for f in strut.forces),
+            int(np.argmin(judgement.criticals != 0)) + 1,
+        )
         what = (
             f"{names} can move without bending at position {k}, as the joints hold it with the drives at rest"
         )
         raise ModelError(what, "give its factor: effective_length: 1", ("links", strut.forces[0].link))
     with np.errstate(all="ignore"):
-        safety = np.where(compression > 0, found.criticals / compression, np.inf)
-    safety[np.isnan(found.criticals) | np.isnan(compression)] = np.nan
-    order = np.lexsort((found.criticals, safety, np.isnan(safety)))
+        safety = np.where(compression > 0, judgement.criticals / compression, np.inf)
+    safety[np.isnan(judgement.criticals) | np.isnan(compression)] = np.nan
+    order = np.lexsort((judgement.criticals, safety, np.isnan(safety)))
     k = int(order[0])
-    plane = int(found.plane[k])
+    plane = int(judgement.plane[k])
     section = min(sections, key=lambda s: (s.elasticity or 0.0) * s.second_moments[1 - plane])
     radius = math.sqrt(section.second_moments[1 - plane] / section.area_of)
     return Buckling(
-        critical=float(found.criticals[k]),
-        formula=found.formula[k],
-        slenderness=float(found.factors[k, plane] * found.lengths[k] / radius),
+        critical=float(judgement.criticals[k]),
+        formula=judgement.formula[k],
+        slenderness=float(judgement.factors[k, plane] * judgement.lengths[k] / radius),
         compression=float(compression[k]),
         position=k,
         safety=float(safety[k]),
         two_force=not strut.is_bent(BENT),
-        effective_length=(float(found.factors[k, 0]), float(found.factors[k, 1])),
+        effective_length=(float(judgement.factors[k, 0]), float(judgement.factors[k, 1])),
         plane=plane,
-        ends=found.ends[k],
+        ends=judgement.ends[k],
         member=strut.curves[0].name if len(strut.curves) == 1 else "",
         links=tuple(f.link for f in strut.forces),
-        moves_along=bool(found.moves[k]),
-        criticals=found.criticals,
+        moves_along=bool(judgement.moves[k]),
+        criticals=judgement.criticals,
         compressions=compression,
-        factors=found.factors,
+        factors=judgement.factors,
     )

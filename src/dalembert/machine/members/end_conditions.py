@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array, Flags
 from dalembert.core.constraints import stack_rows
 from dalembert.core.equilibrium import load_rows
-from dalembert.core.layout import Pose, System
+from dalembert.core.layout import ConstraintRows, Pose
 from dalembert.machine.link_axes import in_space
 from dalembert.machine.members.column_loads import LOOSE, column_space, is_loose
 
@@ -31,7 +31,7 @@ RANK = 1e-9
 
 
 @dataclass(frozen=True)
-class Node:
+class ColumnNode:
     """A place of a column at a distance s, m, from its start: a piece of a link, with its joints and unknown loads."""
 
     link: str
@@ -40,13 +40,13 @@ class Node:
 
 
 @dataclass(frozen=True)
-class Column:
+class BucklingColumn:
     """A straight column at one position: nodes in order, start (3,) and axes (3, 3) in rows t, y, z, ground axes.
 
     ``inside``: the joint that its two links slide by.
     """
 
-    nodes: tuple[Node, ...]
+    nodes: tuple[ColumnNode, ...]
     start: Array
     axes: Array
     inside: str = ""
@@ -62,15 +62,15 @@ class EndConditions:
     def __init__(self, r: Result) -> None:
         self.r = r
         self.layout = r.compiled.layout
-        self.pose: Pose = whole_pose(r)
-        asked = np.flatnonzero([*(self.layout.constraints.count * [True]), *r.compiled.known.asked])
+        self.pose: Pose = full_pose(r)
+        rows = np.flatnonzero([*(self.layout.constraints.count * [True]), *r.compiled.known.requested])
         with np.errstate(all="ignore"):
-            held = stack_rows(self.layout, self.pose).rows(asked)
-            self.rows: System = held + load_rows(self.layout, r.compiled.known, self.pose)
-        joints = [r.joints[j] if j >= 0 else "" for j in self.layout.stack.joint[asked]]
+            held = stack_rows(self.layout, self.pose).rows(rows)
+            self.rows: ConstraintRows = held + load_rows(self.layout, r.compiled.known, self.pose)
+        joints = [r.joints[j] if j >= 0 else "" for j in self.layout.stack.joint[rows]]
         self.of = [*joints, *(LOAD.format(name) for name in r.unknown_loads)]
 
-    def motions(self, k: int, column: Column) -> Array:
+    def motions(self, k: int, column: BucklingColumn) -> Array:
         """Motions of the nodes at position k as orthonormal columns (4 N, j): y / L and y' of each node in turn for
         bending along y, then the same along z."""
         every = np.zeros(len(self.rows.i), bool)
@@ -84,14 +84,14 @@ class EndConditions:
         out[: len(held), : held.shape[1]], out[len(held) :, held.shape[1] :] = held, across
         return out
 
-    def _unguided(self, column: Column) -> Flags:
+    def _unguided(self, column: BucklingColumn) -> Flags:
         """Rows by which a slider without the length of its guide would hold the column's angle."""
         joints = {j for node in column.nodes for j in node.joints}
         known = self.r.mechanism.joints
         loose = [j in joints and j in known and _is_short(known[j]) for j in self.of]
         return np.asarray(np.array(loose, bool) & self.rows.angular)
 
-    def _motions(self, k: int, column: Column, dropped: Flags) -> Array:
+    def _motions(self, k: int, column: BucklingColumn, dropped: Flags) -> Array:
         g, length = self.layout.algebra, self.layout.length
         pieces = _Pieces(self, k, column)
         matrix = np.concatenate([pieces.constraints(dropped), pieces.joining()])
@@ -106,7 +106,7 @@ class EndConditions:
         unit = np.tile([1 / sum(column.spans()), 1.0], len(forms) // 2)[:, None]
         return column_space(forms @ free * unit)
 
-    def _across(self, column: Column) -> Array:
+    def _across(self, column: BucklingColumn) -> Array:
         """Across the plane a mechanism's joints hold their places; welds hold the angle, other joints do so only where
         nothing else would hold the column."""
         known = self.r.mechanism.joints
@@ -124,7 +124,7 @@ def _is_short(joint: Any) -> bool:
     return joint.guides and getattr(joint.friction, "guide", None) is None
 
 
-def _shares(column: Column) -> list[float]:
+def _shares(column: BucklingColumn) -> list[float]:
     spans = column.spans()
     return [x / sum(spans) for x in spans]
 
@@ -132,7 +132,7 @@ def _shares(column: Column) -> list[float]:
 class _Pieces:
     """The links of a mechanism at one position, those of a column cut at its nodes."""
 
-    def __init__(self, of: EndConditions, k: int, column: Column) -> None:
+    def __init__(self, of: EndConditions, k: int, column: BucklingColumn) -> None:
         self.of, self.k, self.column = of, k, column
         r, layout = of.r, of.layout
         self.n, self.d, self.count = layout.algebra.n, layout.algebra.d, layout.links

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from dalembert.analysis.friction.bearing_ends import bearing_axis
-from dalembert.analysis.methods.applied_forces import Action, on_link, slide_direction, state, whole_actions
+from dalembert.analysis.methods.applied_forces import Action, full_actions, on_link, slide_direction, state
 from dalembert.arrays import Array, Ints
 from dalembert.core.equilibrium import shifts, statement
 from dalembert.core.linear import PseudoInverse
@@ -74,18 +74,18 @@ def acting(r: Result) -> list[tuple[Action, ...]]:
     first, last = c.layout.constraints.count, free.shape[1] - len(r.unknown_loads)
     for k in range(COMBINATIONS):
         effort = np.zeros_like(r.effort_array)
-        effort[:, c.known.asked] = free[:, first:last, k]
+        effort[:, c.known.requested] = free[:, first:last, k]
         couple = moment[..., k].reshape(r.moment_array.shape)
-        way = replace(
+        direction = replace(
             least, force_array=force[..., k], moment_array=couple, effort_array=effort, friction=None
         )
-        some = _at_ends(replace(way, load_array=free[:, last:, k]))
+        some = _at_ends(replace(direction, load_array=free[:, last:, k]))
         out.append(tuple(a for a in some if a.kind in ("joint", "effort") or a.of in r.unknown_loads))
     return out
 
 
 def _at_ends(r: Result) -> tuple[Action, ...]:
-    return tuple(part for a in whole_actions(r) for part in _guided(r, a))
+    return tuple(part for a in full_actions(r) for part in _guided(r, a))
 
 
 def _guided(r: Result, a: Action) -> tuple[Action, ...]:
@@ -115,18 +115,18 @@ def _guided(r: Result, a: Action) -> tuple[Action, ...]:
 class LinkBalance(LinkAxes):
     """A link's motion and the forces on it, in link axes, with three components."""
 
-    def __init__(self, r: Result, link: str, found: list[tuple[Action, ...]]) -> None:
+    def __init__(self, r: Result, link: str, sets: list[tuple[Action, ...]]) -> None:
         super().__init__(r, link)
         count, d = len(r.status), r.mechanism.dimension
-        self.actions, *self.free = (on_link(some, link) for some in found)
+        self.actions, *self.free = (on_link(some, link) for some in sets)
         self.center = in_space(r.mechanism.center(link))
         gravity = np.array(r.mechanism.gravity_vector, float)
-        self.gravity = self.own(np.broadcast_to(gravity, (count, d)))
-        self.acceleration = self.own(r.center_acceleration(link)) if r.inertia else np.zeros((count, 3))
+        self.gravity = self.to_link(np.broadcast_to(gravity, (count, d)))
+        self.acceleration = self.to_link(r.center_acceleration(link)) if r.inertia else np.zeros((count, 3))
 
     def place(self, a: Action) -> Array:
         """Point where an action acts (P, 3)."""
-        return self.own(a.at - self.r.position(self.link))
+        return self.to_link(a.at - self.r.position(self.link))
 
     def joints(self) -> Array:
         """Places (N, 3) of its joints over all positions."""
@@ -136,7 +136,7 @@ class LinkBalance(LinkAxes):
 
     def seated(self, members: tuple[Straight, ...], a: Action) -> Wrench:
         """An action at its foot."""
-        return _seated(members, self.place(a), self.own(a.force), self.own_couple(a.couple))
+        return _seated(members, self.place(a), self.to_link(a.force), self.couple_to_link(a.couple))
 
     def brackets(self, members: tuple[Straight, ...]) -> dict[str, float]:
         """Joints and loads beside the members, whose forces need a bracket, each with its greatest distance, m."""
@@ -172,7 +172,7 @@ class LinkBalance(LinkAxes):
         force, couple = zero, zero
         for a in self.actions:
             if a.kind in ("weight", "inertia"):
-                force, couple = force + self.own(a.force), couple + self.own_couple(a.couple)
+                force, couple = force + self.to_link(a.force), couple + self.couple_to_link(a.couple)
             else:
                 out.seated.append(self.seated(members, a))
         for p in mass.pieces:

@@ -68,14 +68,14 @@ def mass_layout(m: Mechanism, link: str, members: Sequence[Straight]) -> MassLay
     volume = sum(s.volume for s in solids)
     for shape, solid in zip(part.shapes, solids, strict=True):
         density = m.mass(link) / volume if shape.density is None else shape.density
-        some, rest = _laid(shape, solid, density, part.point, members)
+        some, rest = _spread(shape, solid, density, part.point, members)
         pieces += some
         lumps += rest
     flat = np.array([1.0, 1.0, float(m.dimension == 3)])
     return MassLayout(tuple(pieces), tuple(Lump(x.mass, x.center * flat, x.inertia) for x in lumps))
 
 
-def _laid(
+def _spread(
     shape: ShapePart, solid: Solid, density: float, points: Points, members: Sequence[Straight]
 ) -> tuple[list[MassPiece], list[Lump]]:
     """A shape as pieces along members and lumps for its ends beyond them; one lump if it lies along none."""

@@ -139,9 +139,9 @@ class MemberForces:
         self, s: float | Array, member: str | None = None, side: Literal["before", "behind"] | None = None
     ) -> dict[str, Array]:
         """Inner forces by name, (P,) at a distance s from the start of a member, (P, S) at several."""
-        found = self.curve(member).at(s, side)
-        found = found[:, 0] if np.ndim(s) == 0 else found
-        return {n: found[..., ORDER.index(n)] for n in self.names}
+        values = self.curve(member).at(s, side)
+        values = values[:, 0] if np.ndim(s) == 0 else values
+        return {n: values[..., ORDER.index(n)] for n in self.names}
 
     def largest(self, of: str) -> tuple[float, str, float, int]:
         """Over the cycle: the value largest in size, its member, place (m) and position (from 0)."""
@@ -182,9 +182,9 @@ class MemberForces:
         for curve in self.curves:
             name = self.link if len(self.curves) == 1 else f"{self.link}.{curve.name}"
             for of in self.names:
-                for k, found in enumerate(curve.extremes(of)):
+                for k, values in enumerate(curve.extremes(of)):
                     word, kind = ("low", "high")[k // 2], "length" if k % 2 else kind_of(of)
-                    yield Column(f"{of}.{name}.{word}{'.place' * (k % 2)}", kind, found)
+                    yield Column(f"{of}.{name}.{word}{'.place' * (k % 2)}", kind, values)
         yield Column(f"residual.{self.link}", "number", self.residual)
 
     def record(self, to: Scale) -> Tree:
@@ -192,8 +192,8 @@ class MemberForces:
         out: Tree = {}
         for of in self.names:
             value, member, place, k = self.largest(of)
-            found = {"largest": to(kind_of(of), value), "member": member, "at": to("length", place)}
-            out[of] = found | {"position": None if math.isnan(value) else k + 1}
+            entry = {"largest": to(kind_of(of), value), "member": member, "at": to("length", place)}
+            out[of] = entry | {"position": None if math.isnan(value) else k + 1}
         if self.brackets:
             out["brackets"] = {of: to("length", size) for of, size in self.brackets.items()}
         unknown = self.unknown()
@@ -218,20 +218,20 @@ def member_forces(r: Result, link: str) -> MemberForces:
     return forces_inside(r, link, acting(r))
 
 
-def forces_inside(r: Result, link: str, found: list[tuple[Action, ...]]) -> MemberForces:
+def forces_inside(r: Result, link: str, sets: list[tuple[Action, ...]]) -> MemberForces:
     """The same with what acts on all links."""
     if link not in r.links:
         raise ModelError(f"unknown moving link {link!r}", closest(link, list(r.links)))
-    own = LinkBalance(r, link, found)
-    members = members_of(r.mechanism, link, own.joints())
-    loads, far = own.loads(members, mass_layout(r.mechanism, link, members)), beyond(members)
-    curves = tuple(_curve(own, e, k, far[k], loads) for k, e in enumerate(members))
-    return MemberForces(r, link, curves, _residual(own, curves, loads, far), own.brackets(members))
+    body = LinkBalance(r, link, sets)
+    members = members_of(r.mechanism, link, body.joints())
+    loads, far = body.loads(members, mass_layout(r.mechanism, link, members)), beyond(members)
+    curves = tuple(_curve(body, e, k, far[k], loads) for k, e in enumerate(members))
+    return MemberForces(r, link, curves, _residual(body, curves, loads, far), body.brackets(members))
 
 
-def _curve(own: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> MemberCurve:
+def _curve(body: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> MemberCurve:
     """Cubics of member number k: sums of what is beyond each piece, and the mass on it."""
-    count, mine = len(own.rotation), [p for p, _ in loads.spread if p.member == k]
+    count, mine = len(body.rotation), [p for p, _ in loads.spread if p.member == k]
     masses = {0.0, e.length, *(x for p in mine for x in (p.start, p.end))}
     feet = [np.where(w.member == k, w.foot, 0.0) for w in loads.seated if (w.member == k).any()]
     fixed = [np.full(count, x) for x in masses]
@@ -245,12 +245,12 @@ def _curve(own: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> M
     for p, w in loads.spread:
         if far[p.member]:
             _add(cubics, e, np.ones_like(high, bool), w)
-    c0, c1 = (v @ e.axes.T for v in own.distributed(e))
+    c0, c1 = (v @ e.axes.T for v in body.distributed(e))
     for p in mine:
-        there = np.asarray((low >= p.start) & (high <= p.end), float)
-        _add_mass(cubics, edges, p.density * there, c0, c1)
-        couple = own.turning_couple(p.inertia) @ e.axes.T
-        _add_couple(cubics, edges, there[..., None] * couple[:, None, :])
+        covered = np.asarray((low >= p.start) & (high <= p.end), float)
+        _add_mass(cubics, edges, p.density * covered, c0, c1)
+        couple = body.turning_couple(p.inertia) @ e.axes.T
+        _add_couple(cubics, edges, covered[..., None] * couple[:, None, :])
     for moved in free:
         cubics[(np.abs(moved) > UNIQUE).any(axis=-1)] = np.nan
     return MemberCurve(e, edges, cubics)
@@ -295,13 +295,13 @@ def _add_couple(cubics: Array, edges: Array, couple: Array) -> None:
     cubics[:, :, 3:, 1] -= couple
 
 
-def _residual(own: LinkBalance, curves: tuple[MemberCurve, ...], loads: Loads, far: Flags) -> Array:
+def _residual(body: LinkBalance, curves: tuple[MemberCurve, ...], loads: Loads, far: Flags) -> Array:
     """Sum of all forces and moments on the link about its centre, and at both ends of each member the difference of
     its curves from all that acts beyond; over the largest of these forces and moments."""
     wrenches = [*loads.seated, *(w for _, w in loads.spread)]
     forces = np.array([w.force for w in wrenches])
-    moments = np.array([w.about(own.center) for w in wrenches])
-    length = own.r.compiled.layout.length
+    moments = np.array([w.about(body.center) for w in wrenches])
+    length = body.r.compiled.layout.length
     largest = [float(np.nanmax(np.abs(x), initial=0.0)) for x in (forces, moments)]
     size = max(largest[0], largest[1] / length) or 1.0
     off = [np.abs(x.sum(axis=0)).max(axis=1) for x in (forces, moments)]

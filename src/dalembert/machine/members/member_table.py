@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -109,7 +109,7 @@ class MemberTable(MachineAnswer):
 
         return member_scenes(self, notation)
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         from dalembert.reports.machine_sections.member_section import member_section
 
@@ -138,23 +138,23 @@ def _stress_record(s: Stresses, to: Scale) -> Tree:
 def member_table(r: Result, links: Iterable[str] | None = None) -> MemberTable:
     """Inner forces of the links asked for, or of all that have a length; raises ModelError for one asked for that has
     none, and where none has."""
-    found: dict[str, MemberForces] = {}
+    forces: dict[str, MemberForces] = {}
     left: dict[str, str] = {}
     all_of_them = acting(r)
-    asked = [links] if isinstance(links, str) else links
-    for link in r.links if asked is None else asked:
+    names = [links] if isinstance(links, str) else links
+    for link in r.links if names is None else names:
         try:
-            found[link] = forces_inside(r, link, all_of_them)
+            forces[link] = forces_inside(r, link, all_of_them)
         except ModelError as error:
-            if asked is not None:
+            if names is not None:
                 raise
             left[link] = f"{error.what}; {error.remedy}"
-    if not found:
+    if not forces:
         raise ModelError(next(iter(left.values()), "no link moves"), "")
-    sections = {link: r.mechanism.links[link].section for link in found}
-    stress = {link: found[link].stress() for link, s in sections.items() if s}
-    buckled, why = buckled_links(r, {link: found[link] for link, s in sections.items() if s})
-    return MemberTable(r, found, stress, buckled, left, why)
+    sections = {link: r.mechanism.links[link].section for link in forces}
+    stress = {link: forces[link].stress() for link, s in sections.items() if s}
+    buckled, why = buckled_links(r, {link: forces[link] for link, s in sections.items() if s})
+    return MemberTable(r, forces, stress, buckled, left, why)
 
 
 def buckled_links(r: Result, some: dict[str, MemberForces]) -> tuple[dict[str, Buckling], dict[str, str]]:
@@ -171,10 +171,10 @@ def buckled_links(r: Result, some: dict[str, MemberForces]) -> tuple[dict[str, B
             if len(column) > 2:
                 what = f"{', '.join(column)} slide in each other, and only two links are judged as one column"
                 raise ModelError(what, "give each an effective_length")
-            found = (
+            reason = (
                 stepped_column(some[link], some[column[1]], joints[0]) if joints else some[link].buckling()
             )
-            out |= dict.fromkeys(column, found)
+            out |= dict.fromkeys(column, reason)
         except ModelError as error:
             why[" and ".join(column)] = f"{error.what}; {error.remedy}"
     return out, why
@@ -185,7 +185,7 @@ def _sliding(r: Result, link: str, some: dict[str, MemberForces]) -> tuple[list[
     free = {n: f for n, f in some.items() if not r.mechanism.links[n].effective_length}
     column, joints = [link], []
     for one in column if link in free else ():
-        while (found := rod_of(r, one, {n: f for n, f in free.items() if n == one or n not in column}))[1]:
-            joints.append(found[0])
-            column.append(found[1])
+        while (rod := rod_of(r, one, {n: f for n, f in free.items() if n == one or n not in column}))[1]:
+            joints.append(rod[0])
+            column.append(rod[1])
     return column, joints

@@ -67,10 +67,10 @@ def members_of(m: Mechanism, link: str, joints: Array) -> tuple[Straight, ...]:
     """
     part = m.links[link]
     if part.members:
-        found = [straight(pair, *(in_space(m.point(link, end)) for end in pair)) for pair in part.members]
+        lines = [straight(pair, *(in_space(m.point(link, end)) for end in pair)) for pair in part.members]
     else:
-        found = [_line(m, link, joints)]
-    return tuple(found)
+        lines = [_line(m, link, joints)]
+    return tuple(lines)
 
 
 def _line(m: Mechanism, link: str, joints: Array) -> Straight:

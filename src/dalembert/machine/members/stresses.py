@@ -76,8 +76,8 @@ class Stresses:
     @property
     def safety(self) -> float | None:
         """Yield stress over the largest."""
-        given = self.section.yield_stress
-        return None if given is None else given / self.largest if self.largest else math.inf
+        limit = self.section.yield_stress
+        return None if limit is None else limit / self.largest if self.largest else math.inf
 
     def parts(self) -> tuple[float, float]:
         """Contributions of N and of M to the normal stress at the largest, Pa."""
@@ -90,20 +90,20 @@ class Stresses:
         """The fibre that is worst over the cycle, by Goodman where endurance and ultimate stress are given, else by the
         amplitude alone. NaN where a position has no answer.
         """
-        found = [_fatigue(self.forces, curve, self.section) for curve in self.forces.curves]
-        use = [_utilisation(self.section, f.mean, f.amplitude) for f in found]
-        return found[int(np.argmax(use))]
+        fibres = [_fatigue(self.forces, curve, self.section) for curve in self.forces.curves]
+        use = [_utilisation(self.section, f.mean, f.amplitude) for f in fibres]
+        return fibres[int(np.argmax(use))]
 
 
-def section_of(forces: MemberForces, given: Section | Tree | None) -> Section:
+def section_of(forces: MemberForces, section: Section | Tree | None) -> Section:
     """The section asked for, or that of the file."""
-    if isinstance(given, Mapping):
-        return Section(**given)
-    found = given or forces.result.mechanism.links[forces.link].section
-    if found is None:
+    if isinstance(section, Mapping):
+        return Section(**section)
+    chosen = section or forces.result.mechanism.links[forces.link].section
+    if chosen is None:
         remedy = "give it one: section: {rectangle: [20 mm, 40 mm]}"
         raise ModelError(f"link {forces.link!r} has no section", remedy, ("links", forces.link))
-    return found
+    return chosen
 
 
 def fibre_stress(s: Section, comps: Array, plane: bool, places: Array | None = None) -> Array:
@@ -140,11 +140,11 @@ def equivalent_stress(s: Section, comps: Array, plane: bool) -> Array:
     return np.asarray(np.sqrt(np.maximum(sigma**2 + 3 * twist**2, axis)))
 
 
-def stresses(forces: MemberForces, given: Section | Tree | None = None) -> Stresses:
+def stresses(forces: MemberForces, section: Section | Tree | None = None) -> Stresses:
     """The greatest stress of a link at every position."""
-    s, plane = section_of(forces, given), forces.result.mechanism.dimension == 2
-    found = [_greatest(curve, lambda comps: equivalent_stress(s, comps, plane)) for curve in forces.curves]
-    values, places, comps = (np.array(some) for some in zip(*found, strict=True))
+    s, plane = section_of(forces, section), forces.result.mechanism.dimension == 2
+    largest = [_greatest(curve, lambda comps: equivalent_stress(s, comps, plane)) for curve in forces.curves]
+    values, places, comps = (np.array(some) for some in zip(*largest, strict=True))
     k, every = (
         np.argmax(values, axis=0),
         np.arange(values.shape[1]),
@@ -161,13 +161,13 @@ def _greatest(curve: MemberCurve, f: Callable[[Array], Array]) -> tuple[Array, A
     first = np.where(np.isnan(low[:, 0]), np.nan, -np.inf)
     best = (first, np.full(len(low), np.nan), np.full((len(low), 6), np.nan))
     for j in range(low.shape[1]):
-        a, b, there = low[:, j], high[:, j], high[:, j] > low[:, j]
+        a, b, inside = low[:, j], high[:, j], high[:, j] > low[:, j]
         for _ in range(ROUNDS):
             s = a[:, None] + (b - a)[:, None] * np.linspace(0, 1, SAMPLES)
             comps = (curve.cubics[:, j, None] * s[..., None, None] ** np.arange(4)).sum(axis=-1)
             values = f(comps)
             k = np.argmax(values, axis=1)
-            better = there & ((values[every, k] > best[0]) | np.isnan(values[every, k]))
+            better = inside & ((values[every, k] > best[0]) | np.isnan(values[every, k]))
             place = np.where(np.isnan(values[every, k]), np.nan, s[every, k])
             for into, new in zip(best, (values[every, k], place, comps[every, k]), strict=True):
                 into[better] = new[better]

@@ -18,7 +18,7 @@ from dalembert.analysis.methods.applied_forces import joint_place, slide_directi
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.link_axes import LinkAxes, in_space
-from dalembert.machine.members.end_conditions import LOAD, Column, Node
+from dalembert.machine.members.end_conditions import LOAD, BucklingColumn, ColumnNode
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -33,15 +33,15 @@ class PlacedMember:
 
     def __init__(self, forces: MemberForces, curve: MemberCurve) -> None:
         r, e = forces.result, curve.member
-        own = LinkAxes(r, forces.link)
+        local = LinkAxes(r, forces.link)
         origin = in_space(r.position(forces.link))
         self.link, self.length = forces.link, e.length
-        self.start = np.einsum("pij,j->pi", own.rotation, e.start) + origin
-        self.axes = np.einsum("ki,pji->pkj", e.axes, own.rotation)
+        self.start = np.einsum("pij,j->pi", local.rotation, e.start) + origin
+        self.axes = np.einsum("ki,pji->pkj", e.axes, local.rotation)
         self.joints: dict[str, Array] = {}
         for name, joint in r.mechanism.joints.items():
             if forces.link in joint.links:
-                place = own.own(joint_place(r, name) - r.position(forces.link))
+                place = local.to_link(joint_place(r, name) - r.position(forces.link))
                 self.joints[name] = e.foot(place)[0]
         for load in r.unknown_loads:
             described: Any = r.mechanism.loads[load]
@@ -65,8 +65,8 @@ class Strut:
 
     def compression(self) -> Array:
         """Greatest compression along it (P,), N, at least 0; NaN where unknown."""
-        found = [np.maximum(0.0, -curve.extremes("axial")[0]) for curve in self.curves]
-        return np.asarray(np.maximum.reduce(found))
+        compressions = [np.maximum(0.0, -curve.extremes("axial")[0]) for curve in self.curves]
+        return np.asarray(np.maximum.reduce(compressions))
 
     def is_bent(self, part: float) -> bool:
         """True if bending moments are more than this part of axial force times length, each the greatest."""
@@ -77,14 +77,14 @@ class Strut:
                 return True
         return False
 
-    def column(self, k: int) -> tuple[Column, float]:
+    def column(self, k: int) -> tuple[BucklingColumn, float]:
         """Its nodes at position k, and the distance from the start where the second member begins.
 
         Raises ModelError where barrel and rod do not reach each other.
         """
         first, *more = self.members
         if not more:
-            return Column(
+            return BucklingColumn(
                 _nodes(first, k, 0.0, 1.0, first.length), first.start[k], first.axes[k]
             ), first.length
         (rod,) = more
@@ -107,7 +107,7 @@ class Strut:
         turned = float(np.sign(t @ rod.axes[k, 0]))
         nodes = [*_nodes(first, k, start, sense, total, self.inside)]
         nodes += _nodes(rod, k, start - offset, sense, total, self.inside, turned)
-        column = Column(_merged(nodes, gland, total), origin, axes, self.inside)
+        column = BucklingColumn(_merged(nodes, gland, total), origin, axes, self.inside)
         if min(column.spans()) <= NEAR * total:
             what = f"joints of {first.link!r} and of {rod.link!r} are at one place at position {k + 1}"
             raise ModelError(what, "give each an effective_length", ("links", rod.link))
@@ -116,24 +116,24 @@ class Strut:
 
 def _nodes(
     e: PlacedMember, k: int, start: float, sense: float, total: float, inside: str = "", turned: float = 1.0
-) -> tuple[Node, ...]:
+) -> tuple[ColumnNode, ...]:
     """The places of a member's joints along a column that begins at ``start`` of it, and for one member its ends."""
-    found: dict[float, list[str]] = {} if inside else {0.0: [], total: []}
+    joints_at: dict[float, list[str]] = {} if inside else {0.0: [], total: []}
     for joint, places in e.joints.items():
         if joint != inside and np.isfinite(places[k]):
             s = sense * (turned * float(places[k]) - start)
-            near = next((x for x in found if abs(x - s) <= NEAR * total), s)
-            found.setdefault(near, []).append(joint)
-    return tuple(Node(e.link, s, tuple(some)) for s, some in sorted(found.items()))
+            near = next((x for x in joints_at if abs(x - s) <= NEAR * total), s)
+            joints_at.setdefault(near, []).append(joint)
+    return tuple(ColumnNode(e.link, s, tuple(some)) for s, some in sorted(joints_at.items()))
 
 
-def _merged(nodes: Iterable[Node], gland: float, total: float) -> tuple[Node, ...]:
+def _merged(nodes: Iterable[ColumnNode], gland: float, total: float) -> tuple[ColumnNode, ...]:
     """Nodes of both members in order, with ends and the place where the second member begins."""
     known = [n for n in nodes if -NEAR * total <= n.s <= total * (1 + NEAR)]
     first, last = known[0].link, known[-1].link
     for s, link in ((0.0, first), (gland, first), (total, last)):
         if not any(abs(n.s - s) <= NEAR * total for n in known):
-            known.append(Node(link, s))
+            known.append(ColumnNode(link, s))
     known.sort(key=lambda n: n.s)
     return tuple(known)
 

@@ -23,8 +23,8 @@ from dalembert.model.quantities.tables import Table
 
 def joint_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
     """Stops of joints by joint and freedom."""
-    found = {n: s for n, j in m.joints.items() if (s := getattr(j, "stops", None)) is not None}
-    return {(n, "slide" if s.kind == "length" else "turn"): s for n, s in found.items()}
+    stopped = {n: s for n, j in m.joints.items() if (s := getattr(j, "stops", None)) is not None}
+    return {(n, "slide" if s.kind == "length" else "turn"): s for n, s in stopped.items()}
 
 
 def drive_lengths(m: Mechanism) -> Array:
@@ -150,10 +150,10 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
 
 def _with_stops_of_drives(m: Mechanism, free: list[str]) -> tuple[Mechanism, dict[str, Joint]]:
     """The mechanism with stops of joints that are driven given to their drives; and its joints without these."""
-    drives, joints, own = dict(m.drives), dict(m.joints), joint_stops(m)
+    drives, joints, stops = dict(m.drives), dict(m.joints), joint_stops(m)
     for name, drive in m.drives.items():
         joint = m.drive_joint(name)
-        ends = own.get((joint, str(drive.freedom)))
+        ends = stops.get((joint, str(drive.freedom)))
         path = ("joints", joint, "stops") if ends else ("drives", name, "stops")
         if ends and drive.stops:
             raise ModelError(f"joint {joint!r} and its drive have stops", "leave one of them out", path)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.checked_input import numbers
 from dalembert.analysis.batch.compiled_kernel import lanes_here
-from dalembert.analysis.batch.tracing.symbolic_model import Number, with_numbers
+from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, with_numbers
 from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
@@ -127,7 +127,7 @@ def _compile(
     if not np.isfinite(end):
         raise ModelError("a motion whose condition is never met has no end", 'add a time: until=["5 s", ...]')
     _refuse(moves)
-    own = [path for path in vary if _of_drive(path)]
+    driven = [path for path in vary if _of_drive(path)]
     placed = next((path for path in vary if path.startswith("drives.") and path.endswith(".position")), "")
     if placed:
         raise ModelError(f"{placed!r} moves along the motion", f"vary 'start{placed[6:]}'")
@@ -135,7 +135,7 @@ def _compile(
     rubs = [name for name, joint in m.joints.items() if getattr(joint, "friction", None) is not None]
     why = f"joint {rubs[0]!r} has dry friction" if rubs else "the motion has loads that no formula gives"
     try:
-        equation = trace_equation(prescribed, [path for path in vary if path not in own], outputs)
+        equation = trace_equation(prescribed, [path for path in vary if path not in driven], outputs)
     except ModelError as error:
         raise ModelError(f"{why}: {error.what}", REMEDY, error.path) if rubs else error from None
     traced = equation.kernel.trace.numbers[: -2 * len(moves.names)]
@@ -147,7 +147,7 @@ def _compile(
         raise ModelError(f"{why}, so that it is not smooth", REMEDY)
     lines = _lines(m, moves).astype(float)
     formulas = {at: x for at, x in np.ndenumerate(_lines(symbols, moves)) if isinstance(x, Node)}
-    where = (*traced, *(_number(moves, lines, path) for path in own))
+    where = (*traced, *(_number(moves, lines, path) for path in driven))
     places = [k for path in vary for k, n in enumerate(where) if f"{n.path}.".startswith(f"{path}.")]
     instants = 1 if reduce == "final" or not outputs else count
     small = max(tolerance * CORNERED, 1e-14) if corners else tolerance
@@ -164,7 +164,7 @@ def _refuse_counts(equation: Equation) -> None:
             raise ModelError(f"the output {name!r} counts full turns along the motion", REMEDY)
 
 
-def _symbols(m: Mechanism, equation: Equation, traced: Sequence[Number]) -> Mechanism:
+def _symbols(m: Mechanism, equation: Equation, traced: Sequence[VariedNumber]) -> Mechanism:
     """The description with symbols for what follows from parameters that vary."""
     nodes = equation.kernel.number_nodes[: len(traced)]
     varied = {n: node for n, node in zip(traced, nodes, strict=True) if n.parameter}
@@ -225,17 +225,19 @@ def _varying(moves: Actuation, k: int) -> list[tuple[str, str]]:
     if k < 0 or not moves.free[k]:
         return []
     motor = moves.motors.get(k) if moves.drives[k].effort is None else None
-    own = ["effort"] if motor is None else [f"motor.{key}" for key in ("stall", "no_load") if motor.straight]
-    return [("start", "position"), ("start", "speed"), *(("drives", each) for each in own)]
+    efforts = (
+        ["effort"] if motor is None else [f"motor.{key}" for key in ("stall", "no_load") if motor.straight]
+    )
+    return [("start", "position"), ("start", "speed"), *(("drives", each) for each in efforts)]
 
 
-def _number(moves: Actuation, lines: Array, path: str) -> Number:
+def _number(moves: Actuation, lines: Array, path: str) -> VariedNumber:
     kind, name, *last = path.split(".")
     what, k = ".".join(last), moves.names.index(name) if name in moves.names else -1
-    if (kind, what) not in (there := _varying(moves, k)):
-        known = ", ".join(f"{of}.{name}.{each}" for of, each in there)
+    if (kind, what) not in (allowed := _varying(moves, k)):
+        known = ", ".join(f"{of}.{name}.{each}" for of, each in allowed)
         raise ModelError(f"{path!r} is not a number of a drive that forces move", f"use {known or 'none'}")
-    return Number(path, float(lines[ROWS[what], k]))
+    return VariedNumber(path, float(lines[ROWS[what], k]))
 
 
 @dataclass(frozen=True)
@@ -246,7 +248,7 @@ class MotionKernel:
     block: MotionBlock = field(repr=False)
     lines: Array = field(repr=False)
     formulas: dict[tuple[int, int], Node] = field(repr=False)
-    where: tuple[Number, ...] = field(repr=False)
+    where: tuple[VariedNumber, ...] = field(repr=False)
     places: tuple[int, ...] = field(repr=False)
     reduce: str | None
 
@@ -273,62 +275,72 @@ class MotionKernel:
     def __call__(self, values: ArrayLike | None = None, threads: int | None = None) -> MotionBatch:
         """Motions of many designs: values (design, number), default those of the description; ``threads``: number of
         threads, default one per core."""
-        given = self._values(values)
-        if 8 * len(given) * self.block.asked * (1 if self.reduce else self.block.instants) > available():
+        designs = self._values(values)
+        if (
+            8 * len(designs) * self.block.output_count * (1 if self.reduce else self.block.instants)
+            > available()
+        ):
             raise ModelError(
                 "the results are too large for memory", "reduce them, or take fewer designs at once"
             )
         each = max(self.block.code.lanes, AT_ONCE // self.block.instants)
         self.block.machine  # noqa: B018  # compiled once, not by each thread
         with ThreadPoolExecutor(threads) as pool:
-            found = list(pool.map(self._reduced, (given[k : k + each] for k in range(0, len(given), each))))
-        return self._answer(given, Motions(*(np.concatenate(x) for x in zip(*found, strict=True))))
+            chunks = list(
+                pool.map(self._reduced, (designs[k : k + each] for k in range(0, len(designs), each)))
+            )
+        return self._answer(designs, Motions(*(np.concatenate(x) for x in zip(*chunks, strict=True))))
 
     def _values(self, values: ArrayLike | None) -> Array:
         count = len(self.where)
-        given = numbers("values", self.nominal if values is None else values)
-        if given.ndim < 2 and not given.size % max(count, 1):
-            given = given.reshape(-1, count) if count else np.zeros((1, 0))
-        if given.ndim != 2 or given.shape[1] != count or not len(given) or not np.isfinite(given).all():
+        designs = numbers("values", self.nominal if values is None else values)
+        if designs.ndim < 2 and not designs.size % max(count, 1):
+            designs = designs.reshape(-1, count) if count else np.zeros((1, 0))
+        if (
+            designs.ndim != 2
+            or designs.shape[1] != count
+            or not len(designs)
+            or not np.isfinite(designs).all()
+        ):
             raise ModelError(
-                f"values of shape {given.shape} do not fit {count} numbers, or are not all finite",
+                f"values of shape {designs.shape} do not fit {count} numbers, or are not all finite",
                 "give (design, number) in the order of .numbers",
             )
-        return given
+        return designs
 
     def _reduced(self, values: Array) -> Motions:
         """Motions of some designs, their outputs reduced; each design's instants side by side, so that none depends on
         what others there are."""
-        own = values[:, np.argsort(self.places)] if self.places else values
+        ordered = values[:, np.argsort(self.places)] if self.places else values
         with np.errstate(all="ignore"):
-            found = self.block(*self._begin(own))
-            out = found.out[:, -1] if self.reduce == "final" else found.out
-            if self.reduce not in (None, "final") and self.block.asked:
+            motions = self.block(*self._begin(ordered))
+            out = motions.out[:, -1] if self.reduce == "final" else motions.out
+            if self.reduce not in (None, "final") and self.block.output_count:
                 one = np.ascontiguousarray(np.moveaxis(out, 1, -1))
                 out = over_positions.reduce_positions(self.reduce, np.moveaxis(one, -1, 0))
-        return found._replace(out=out, sure=found.sure & ~self._other_branch(own))
+        return motions._replace(out=out, sure=motions.sure & ~self._other_branch(ordered))
 
     def _other_branch(self, values: Array) -> Flags:
         """Designs whose assembly mode may be another than the file's."""
         kernel = self.equation.kernel
-        whole = np.tile(kernel.nominal, (len(values), 1))
-        whole[:, : -2 * self.lines.shape[1]] = values[:, : whole.shape[1] - 2 * self.lines.shape[1]]
-        found = kernel.may_change_branch(whole)
-        return np.zeros(len(values), bool) if found is None else np.asarray(found)
+        designs = np.tile(kernel.nominal, (len(values), 1))
+        designs[:, : -2 * self.lines.shape[1]] = values[:, : designs.shape[1] - 2 * self.lines.shape[1]]
+        changed = kernel.may_change_branch(designs)
+        return np.zeros(len(values), bool) if changed is None else np.asarray(changed)
 
     def _begin(self, values: Array) -> tuple[Array, Array]:
         """States (M, n) at time 0, and values (M, ...) of the steps."""
         names, many = self.equation.names, (len(values), 1)
-        own = len(self.equation.values) - 1 - 2 * len(names)
+        count = len(self.equation.values) - 1 - 2 * len(names)
         base, parts = np.tile(self.equation.values, many), np.tile(self.lines, (len(values), 1, 1))
-        base[:, :own] = values[:, :own]
+        base[:, :count] = values[:, :count]
         kernel, nodes = self.equation.kernel, list(self.formulas.values())
         along = {n.index: column for n, column in zip(kernel.number_nodes, values.T, strict=False)}
         for place, column in zip(
             self.formulas, kernel.trace.catalogue.graph.evaluate(nodes, along), strict=True
         ):
             parts[:, *place] = column
-        for column, n in enumerate(self.where[own:], own):
+        for column, n in enumerate(self.where[count:], count):
             _, name, what = n.path.split(".", 2)
             parts[:, ROWS[what], names.index(name)] = values[:, column]
         first, ends, ahead, q, u = parts.swapaxes(0, 1)
@@ -336,14 +348,16 @@ class MotionKernel:
             [base, first, -first / ends, 0 * first, ahead], axis=1
         )
 
-    def _answer(self, given: Array, found: Motions) -> MotionBatch:
+    def _answer(self, designs: Array, motions: Motions) -> MotionBatch:
         d, axis, place, arrays = self.lines.shape[1], 1 if self.reduce else 2, 0, {}
         texts = [*(c.text for c in self.block.conditions), "time"]
-        ended = [texts[k] if sure else UNDECIDED for k, sure in zip(found.met, found.sure, strict=True)]
-        for x in (found.out, found.time, found.state):
-            x[~found.sure] = np.nan
+        ended = [texts[k] if sure else UNDECIDED for k, sure in zip(motions.met, motions.sure, strict=True)]
+        for x in (motions.out, motions.time, motions.state):
+            x[~motions.sure] = np.nan
         for name, nodes in self.equation.kernel.nodes.items():
-            part = np.take(found.out, range(place, place + len(nodes)), axis=axis)
+            part = np.take(motions.out, range(place, place + len(nodes)), axis=axis)
             arrays[name] = part if len(nodes) > 1 else part.squeeze(axis)
             place += len(nodes)
-        return MotionBatch(given, found.time, found.state[:, :d], found.state[:, d:], tuple(ended), arrays)
+        return MotionBatch(
+            designs, motions.time, motions.state[:, :d], motions.state[:, d:], tuple(ended), arrays
+        )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import state
-from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
 from dalembert.core.constraints import measure
 from dalembert.core.equilibrium import with_ground
@@ -26,7 +26,7 @@ def energies(r: Result) -> tuple[Array, Array]:
 
     Weights: -m g r_G; springs: k (l - l0)^2 / 2 + F l; in turns k (q - q0)^2 / 2.
     """
-    layout, f, pose, twist = r.compiled.layout, r.compiled.forcing, whole_pose(r), with_ground(r.twist_array)
+    layout, f, pose, twist = r.compiled.layout, r.compiled.forcing, full_pose(r), with_ground(r.twist_array)
     g, masses = layout.algebra, f.inertia
     if not np.isfinite(twist).all():  # left out where forces have no answer
         twist = state(r).moving.twist

@@ -243,41 +243,49 @@ class Equation:
         d, graph, outputs = len(self.names), self.graph, self.program.outputs
         n = 3 * d + 4 if works else 2 * d
         slots = [graph.input("channel", f"state {k}", 1.0) for k in range(n + 1)]
-        given = np.array([graph.input("number", f"given {k}", 0.0) for k in range(4 * d)]).reshape(4, d)
+        inputs = np.array([graph.input("number", f"given {k}", 0.0) for k in range(4 * d)]).reshape(4, d)
         q, u, t = slots[:d], np.array(slots[d : 2 * d]), slots[n]
 
-        def found(count: int, a: Array) -> Array:
+        def solve_at(count: int, a: Array) -> Array:
             inputs = (*self.program.inputs_in_use("channel"), *self.numbers)
             values = (*((*q, t)[f] for f in self.channels), *u, *a)
             places = {n.index: x for n, x in zip(inputs, trace_array(graph, values), strict=True)}
             return np.array(graph.substitute(outputs[:count], places), object)
 
-        a, applied = np.where(free, 0.0, given[3]), given[0] + given[1] * u
+        a, applied = np.where(free, 0.0, inputs[3]), inputs[0] + inputs[1] * u
         for k, bends in corners.items():
             applied[k] = sum(((u[k] - speed).larger(0.0) * bend for speed, bend in bends), applied[k])
-        effort, mass = np.split(found(self.ends[1], a), [d])
+        effort, mass = np.split(solve_at(self.ends[1], a), [d])
         movable = [name for name, moves in zip(self.names, free, strict=True) if moves]
         m = mass.reshape(d, d)[np.ix_(free, free)]
-        a[free] = solve_nodes(m, (applied + given[2] - effort)[free], movable)
+        a[free] = solve_nodes(m, (applied + inputs[2] - effort)[free], movable)
         rate = [*u, *a]
         if works:
-            asked, _, power = np.split(found(self.ends[2], a), self.ends[:2])
-            rate += [*np.where(free, applied, asked) * u, (given[2] * u).sum(), *power, graph.zero]
+            required, _, power = np.split(solve_at(self.ends[2], a), self.ends[:2])
+            rate += [*np.where(free, applied, required) * u, (inputs[2] * u).sum(), *power, graph.zero]
         program = Program(graph, tuple(trace_array(graph, rate)))
         first = len(self.values)
-        numbers = {x.index: first + k for k, x in enumerate(given.ravel())}
+        numbers = {x.index: first + k for k, x in enumerate(inputs.ravel())}
         # all stand where the state and the values have them, used or not
         program.__dict__["places"] = self.places | {x.index: k for k, x in enumerate(slots)} | numbers
         return Integrator(program, n, first + 4 * d, lanes)
 
     def accelerations(
-        self, t: float, q: Array, u: Array, given: Array, tau: Array, free: Flags, sense: Array, stuck: Flags
+        self,
+        t: float,
+        q: Array,
+        u: Array,
+        prescribed: Array,
+        tau: Array,
+        free: Flags,
+        sense: Array,
+        stuck: Flags,
     ) -> tuple[Contacted, Terms]:
         """Accelerations (D,), those of ``free`` drives (D,) from their efforts tau, with what contacts do; the terms.
 
         Raises StoppedError where there are none: the mechanism does not close, or is singular, or jams.
         """
-        e, a = self(t, q, u), np.where(free, 0.0, given)
+        e, a = self(t, q, u), np.where(free, 0.0, prescribed)
         if not all(np.isfinite(x).all() for x in (e.effort, e.mass, *(e.linear or ()))):
             raise StoppedError(OPEN)
         push = e.linear.push if e.linear else np.zeros((len(a), 0))
@@ -289,10 +297,10 @@ class Equation:
         none = np.zeros(push.shape[1])
         if not self.dry or not e.linear:
             return Contacted(a, effort, *(none,) * 5), e
-        found = self.dry.solve(e.linear, a, effort, change, self.dry.senses(e.rates, sense), stuck)
-        if found is None:
+        contacts = self.dry.solve(e.linear, a, effort, change, self.dry.senses(e.rates, sense), stuck)
+        if contacts is None:
             raise StoppedError("the machine jams: no acceleration satisfies the law of friction")
-        return found, e
+        return contacts, e
 
 
 def solve_nodes(mass: Array, right: Array, names: Sequence[str]) -> Array:
@@ -316,7 +324,7 @@ def _solve(mass: Array, right: Array, names: Sequence[str]) -> Array:
     with suppress(np.linalg.LinAlgError):
         if len(mass) != 1 or mass[0, 0] > 0:
             return np.asarray(np.linalg.solve(mass, right))
-    light = [name for name, own in zip(names, mass.diagonal(), strict=True) if not own > 0]
+    light = [name for name, diagonal in zip(names, mass.diagonal(), strict=True) if not diagonal > 0]
     raise StoppedError(no_inertia(light[0]) if light else f"{NO_INERTIA}: no acceleration is determined")
 
 
@@ -341,8 +349,8 @@ def _numpy_program(program: Program, values: Array) -> Callable[[Sequence[float]
     numbers, along = program.inputs_in_use("number"), program.inputs_in_use("channel")
 
     def run(channels: Sequence[float]) -> Array:
-        given: dict[int, float] = {n.index: values[program.places[n.index]] for n in numbers}
-        given |= {n.index: x for n, x in zip(along, channels, strict=True)}
-        return np.array(program.graph.evaluate(program.outputs, given), float)
+        inputs: dict[int, float] = {n.index: values[program.places[n.index]] for n in numbers}
+        inputs |= {n.index: x for n, x in zip(along, channels, strict=True)}
+        return np.array(program.graph.evaluate(program.outputs, inputs), float)
 
     return run

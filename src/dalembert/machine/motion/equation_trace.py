@@ -56,12 +56,12 @@ def equation_of(m: Mechanism, freedoms: Freedoms = ()) -> Equation:
     of joints are watched besides those with stops."""
     key = (_made_of(m), freedoms)
     with LOCK:
-        found = next((e for same, _, e in LATEST if same == key), None)
-        if found is None:
+        equation = next((e for same, _, e in LATEST if same == key), None)
+        if equation is None:
             equal = (e for (_, watched), same, e in LATEST if same == m and watched == freedoms)
-            found = _of_structure(m, freedoms) or next(equal, None) or trace_equation(m, freedoms=freedoms)
-            LATEST.append((key, m, found))
-        return found.again()
+            equation = _of_structure(m, freedoms) or next(equal, None) or trace_equation(m, freedoms=freedoms)
+            LATEST.append((key, m, equation))
+        return equation.again()
 
 
 def _made_of(m: Mechanism) -> object:
@@ -82,12 +82,12 @@ def trace_equation(
     then what is below zero where it is in doubt; and with the ``freedoms`` of joints that are watched."""
     names = tuple(m.drives)
     moving = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
-    whole, varied = outputs is None, [*vary, *moving]
+    full, varied = outputs is None, [*vary, *moving]
     switches: dict[Node, Node] = {}
-    of: Callable[[Graph], Tree] = partial(_sided_functions, switches) if whole else functions
-    trace = trace_analysis(m, varied, True, moves=True, redundant=True, whole=whole, functions_of=of)
+    of: Callable[[Graph], Tree] = partial(_sided_functions, switches) if full else functions
+    trace = trace_analysis(m, varied, True, moves=True, redundant=True, unsplit=full, functions_of=of)
     known_functions = of(trace.catalogue.graph)
-    if whole:
+    if full:
         _trace_switches(trace, names, known_functions, switches)
     met = dict(switches)  # those of loads that stay outside machine code have their own sides
     trace.unique(outputs or ())
@@ -110,25 +110,25 @@ def trace_equation(
         nodes = graph.substitute([*(n for part in parts for n in part), *more], none)
         return plain(kernel, nodes, marked=False, without=OUTSIDE, known=known_functions)
 
-    found = program()
-    known = [x for n in found.inputs_in_use("channel") if (x := graph.names[n.index]).startswith("known ")]
+    built = program()
+    known = [x for n in built.inputs_in_use("channel") if (x := graph.names[n.index]).startswith("known ")]
     if known:  # whole turns, and groups without a closed form: followed from state to state
-        found = program(*(n for a in traced.pose for n in trace_array(graph, a).ravel()))
-    channels = [_channel(trace, names, n) for n in found.inputs_in_use("channel")]
-    own = {n.index: k for k, n in enumerate((*kernel.number_nodes, *met.values()))}
+        built = program(*(n for a in traced.pose for n in trace_array(graph, a).ravel()))
+    channels = [_channel(trace, names, n) for n in built.inputs_in_use("channel")]
+    places = {n.index: k for k, n in enumerate((*kernel.number_nodes, *met.values()))}
     values = np.concatenate([kernel.nominal, np.ones(len(met)), [0.0]])
-    out = Equation(names, found, parts, numbers, own, values, channels)
-    out.sides = [own[side.index] for side in met.values()]
+    out = Equation(names, built, parts, numbers, places, values, channels)
+    out.sides = [places[side.index] for side in met.values()]
     out.kernel = kernel
     if outputs is not None:
         out.asked = plain(
             kernel, [*kernel.flat, *traced.closure, *traced.open], marked=False, without=OUTSIDE
         )
-        out.asked.__dict__["places"] = out.asked.places | own
+        out.asked.__dict__["places"] = out.asked.places | places
         out.asked_channels = [_channel(trace, names, n) for n in out.asked.inputs_in_use("channel")]
     followed, contacts = trace.course.followed, trace.course.followed.compiled.contacts
     if contacts is not None and slip is not None:
-        out.dry = DryFriction(contacts, _own(contacts, trace_array(graph, slip.state.sense)))
+        out.dry = DryFriction(contacts, _independent(contacts, trace_array(graph, slip.state.sense)))
         out.joints = [followed.compiled.joints[contacts.joint[e]] for e in out.dry.own]
     out.known = LastPose(trace.course.pose, followed, followed.compiled.layout) if known else None
     out.by_newton = any(not name.startswith("known turn") for name in known)
@@ -167,8 +167,8 @@ def _channel(trace: Trace, names: tuple[str, ...], node: Node) -> Any:
     if name == TIME:
         return len(names)
     if what == "known":
-        found = trace.inputs.found[node]
-        return lambda t, q, known: np.ravel(found(known))[0]
+        lookup = trace.inputs.sources[node]
+        return lambda t, q, known: np.ravel(lookup(known))[0]
     if name in trace.inputs.varying and not any("." in n for n in trace.inputs.varying[name].names):
         varying = trace.inputs.varying[name]
         of = f"load {name.split('.')[1]!r}"
@@ -189,11 +189,11 @@ def _of_structure(m: Mechanism, freedoms: Freedoms) -> Equation | None:
     c = compile_mechanism(m, Schedule(names, at, one, one))
     if c.contacts is not None or c.layout.compliance is not None or c.pose_names:
         return None
-    found = ready(c, inertia=True)
-    if found is None or not found.program.whole:
+    kept = ready(c, inertia=True)
+    if kept is None or not kept.program.complete:
         return None
-    values = [*found.single, *found.columns[:, 0], *found.first.ways, 0.0]
-    return _shared(found.program, names, freedoms).again(np.array(values))
+    values = [*kept.single, *kept.columns[:, 0], *kept.first.branches, 0.0]
+    return _shared(kept.program, names, freedoms).again(np.array(values))
 
 
 @lru_cache(16)
@@ -204,24 +204,24 @@ def _shared(k: KeptProgram, names: tuple[str, ...], freedoms: Freedoms) -> Equat
     mass = [n for row in gradients(graph, effort, list(a)) for n in row]
     moved = _motion(graph, k.symbols.compiled, k.traced, freedoms, list(a))
     parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure, moved, []]
-    own = [
+    inputs = [
         n if n.op == "number" else graph.input("number", f"value {j}", 1.0) for j, n in enumerate(k.inputs)
     ]
-    numbers = {n.index: x for n, x in zip(k.inputs, own, strict=True) if n not in list(q)}
+    numbers = {n.index: x for n, x in zip(k.inputs, inputs, strict=True) if n not in list(q)}
     program = Program(graph, tuple(graph.substitute([n for part in parts for n in part], numbers)))
     channels = [list(q).index(n) for n in program.inputs_in_use("channel")]
-    moving, places = [numbers[n.index] for n in (*u, *a)], {n.index: j for j, n in enumerate(own)}
-    return Equation(names, program, parts, moving, places, np.zeros(len(own) + 1), channels)
+    moving, places = [numbers[n.index] for n in (*u, *a)], {n.index: j for j, n in enumerate(inputs)}
+    return Equation(names, program, parts, moving, places, np.zeros(len(inputs) + 1), channels)
 
 
-def _own(contacts: Contacts, sense: Array) -> Ints:
+def _independent(contacts: Contacts, sense: Array) -> Ints:
     """Contacts whose sense is that of their own rate.
 
     Contacts of a common slip share a direction, and teeth are always pushed apart: these follow from the others.
     """
     alone = (contacts.group == contacts.group[:, None]).sum(axis=0) == 1
     moves = [n.level != CONSTANT for n in sense]
-    return np.flatnonzero(~contacts.fixed & alone & (contacts.led == np.arange(contacts.count)) & moves)
+    return np.flatnonzero(~contacts.fixed & alone & (contacts.leader == np.arange(contacts.count)) & moves)
 
 
 def _contacts(trace: Trace, accelerations: Sequence[Node]) -> list[list[Node]]:
@@ -271,7 +271,7 @@ def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
     """Powers of forces and couples, and of dampers, as nodes; dry friction is not included yet."""
     layout, f, pose, twist = c.layout, c.forcing, traced.pose, traced.twist
 
-    def power(*sources: fc.Source) -> Node:
+    def power(*sources: fc.WrenchSource) -> Node:
         parts = [
             (k, w)
             for s in sources
@@ -279,7 +279,7 @@ def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
         ]
         return sum(((w * twist[k]).sum() for k, w in parts), graph.zero)
 
-    def elastic(at: Array) -> list[fc.Source]:
+    def elastic(at: Array) -> list[fc.WrenchSource]:
         springs = [fc.spring_wrench(layout, f.springs, pose, at)] if len(f.springs.a) else []
         return (
             [*springs, fc.resistance_wrench(layout, f.resistances, pose, at)]

@@ -245,19 +245,19 @@ class Integration(StepState):
 
     def _meet(self, g: Guard, when: float, t: float, y: Array) -> tuple[float, Array]:
         """The instant near ``when`` at which a guard passes zero, by the motion itself from (t, y), and the state."""
-        there = self._exactly(t, y, when) if when > t else y.copy()
+        state = self._exactly(t, y, when) if when > t else y.copy()
         if g.kind == "corner":
-            return self._beyond(g, when, there, g.value(t, y))
+            return self._beyond(g, when, state, g.value(t, y))
         for _ in range(2 if when > t else 0):
             short = 1e-3 * (when - t)
             slope = (
-                g.value(when + short, there + short * self.rate(when, there)) - g.value(when, there)
+                g.value(when + short, state + short * self.rate(when, state)) - g.value(when, state)
             ) / short
-            later = when - g.value(when, there) / slope if slope else when
+            later = when - g.value(when, state) / slope if slope else when
             if not t < later < self.end or abs(later - when) > short:
                 break
-            when, there = float(later), self._exactly(t, y, float(later))
-        return when, there
+            when, state = float(later), self._exactly(t, y, float(later))
+        return when, state
 
     def _beyond(self, g: Guard, when: float, y: Array, before: float) -> tuple[float, Array]:
         """The first instant from ``when`` on, and the state, that are clearly beyond a corner: so all see that side."""

@@ -14,7 +14,7 @@ import numpy as np
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.kernel.memory import address
 from dalembert.machine.motion.equation import Equation
-from dalembert.machine.motion.occurrences import Condition
+from dalembert.machine.motion.occurrences import EventCondition
 from dalembert.machine.motion.steps import Integrator, between, first_step, state_sizes
 
 ATTEMPTS, MOST, SMALL, ROOTS = 24, 100_000, 0.01, 60
@@ -39,14 +39,14 @@ class MotionBlock:
 
     equation: Equation
     code: Integrator
-    conditions: tuple[Condition, ...]
+    conditions: tuple[EventCondition, ...]
     end: float
     tolerance: float
     instants: int
     lengths: Array
 
     @cached_property
-    def asked(self) -> int:
+    def output_count(self) -> int:
         """Number of values of all outputs."""
         return sum(map(len, self.equation.kernel.nodes.values()))
 
@@ -58,9 +58,9 @@ class MotionBlock:
 
         return compile_module(pairs(self.equation.asked, self.code.lanes), self.code.lanes)
 
-    def __call__(self, begin: Array, given: Array) -> Motions:
+    def __call__(self, begin: Array, values: Array) -> Motions:
         """Motions from states (M, n) with values (M, ...) of the steps."""
-        records, design, failed = self._integrate(begin, given)
+        records, design, failed = self._integrate(begin, values)
         time, met = self._ends(records, design, len(begin))
         t = time[:, None] * (np.linspace(0.0, 1.0, self.instants) if self.instants > 1 else np.ones(1))
         each = np.arange(len(t))[
@@ -70,16 +70,16 @@ class MotionBlock:
         low, high = np.searchsorted(design, each), np.searchsorted(design, each + 1) - 1
         states = between(records[np.clip(place, low, high).ravel()], t.ravel())
         sure = ~failed & np.isfinite(states).reshape(len(t), -1).all(axis=1)
-        out, fine = self._at(np.repeat(given, self.instants, axis=0), states, t.ravel())
+        out, fine = self._at(np.repeat(values, self.instants, axis=0), states, t.ravel())
         shape = (len(t), self.instants)
         sure &= fine.reshape(shape).all(axis=1)
         return Motions(time, met, states.reshape(*shape, -1)[:, -1], out.reshape(*shape, -1), sure)
 
-    def _integrate(self, y: Array, given: Array) -> tuple[Array, Ints, Flags]:
+    def _integrate(self, y: Array, designs: Array) -> tuple[Array, Ints, Flags]:
         """All steps (R, ``record_size``), those of a design one after the other, the design of each, and which
         failed."""
         code, m = self.code, len(y)
-        values, motions = code.blocks(given), code.motions(y, 0.0, self.end, self.tolerance, 1.0)
+        values, motions = code.blocks(designs), code.motions(y, 0.0, self.end, self.tolerance, 1.0)
         code.advance(values, motions, 0)
         f = code.part(motions, m, "rates")
         natural = state_sizes(f[:, : f.shape[1] // 2], f[:, f.shape[1] // 2 :], self.lengths)
@@ -87,9 +87,9 @@ class MotionBlock:
         code.advance(values, motions, 0)
 
         def ahead(h: Array) -> Array:
-            there = code.motions(y + h[:, None] * f, h, self.end, self.tolerance, natural[0])
-            code.advance(values, there, 0)
-            return code.part(there, m, "rates")
+            trial = code.motions(y + h[:, None] * f, h, self.end, self.tolerance, natural[0])
+            code.advance(values, trial, 0)
+            return code.part(trial, m, "rates")
 
         code.put(motions, "step", first_step(y, f, ahead, self.end, self.tolerance, natural))
         rows, of, attempts, stop, lost = [], [], 0, np.full(m, self.end), np.zeros(m, bool)
@@ -105,7 +105,7 @@ class MotionBlock:
                 stop[of[-1][self._meets(c, rows[-1])]] = -1.0  # it goes no further
             small = np.flatnonzero((step * attempts < SMALL * time) & (time < stop))
             if len(small):
-                fine = self._at(given[small], code.part(motions, m, "state")[small], time[small])[1]
+                fine = self._at(designs[small], code.part(motions, m, "state")[small], time[small])[1]
                 lost[small[~fine]], stop[small[~fine]] = True, -1.0
             code.put(motions, "end", np.minimum(stop, self.end))
             if not ((time < stop) & (step > 0)).any():
@@ -114,7 +114,7 @@ class MotionBlock:
         order = np.argsort(design, kind="stable")
         return np.concatenate(rows)[order], design[order], lost | (time < stop)
 
-    def _meets(self, c: Condition, records: Array) -> Flags:
+    def _meets(self, c: EventCondition, records: Array) -> Flags:
         """In which steps a condition is met."""
         n, place = self.code.n, c.drive + len(self.equation.names) * (c.what == "speed")
         old, new = records[:, 2 + place] - c.value, records[:, 2 + n + place] - c.value
@@ -137,19 +137,19 @@ class MotionBlock:
             time[design[steps][sooner]], met[design[steps][sooner]] = high[sooner], k
         return time, met
 
-    def _at(self, given: Array, y: Array, t: Array) -> tuple[Array, Flags]:
+    def _at(self, inputs: Array, y: Array, t: Array) -> tuple[Array, Flags]:
         """Outputs (K, N) at states, and where they are sure."""
         code, d = self.code, len(self.equation.names)
         motions = code.motions(y, t, self.end, self.tolerance, 1.0)
-        code.advance(code.blocks(given), motions, 0)
+        code.advance(code.blocks(inputs), motions, 0)
         rates, e = code.part(motions, len(y), "rates"), self.equation
-        given[:, e.rates[:d]], given[:, e.rates[d:]] = y[:, d : 2 * d], rates[:, d : 2 * d]
+        inputs[:, e.rates[:d]], inputs[:, e.rates[d:]] = y[:, d : 2 * d], rates[:, d : 2 * d]
         path = code.blocks(np.column_stack([y[:, :d], t])[:, e.asked_channels])
         lanes, blocks = code.lanes, len(motions)
-        out, marks = np.empty((blocks, len(e.asked.outputs), lanes)), np.zeros(blocks * lanes, np.uint8)
-        values = code.blocks(given[:, : len(e.values)])
-        arrays = (address(a) for a in (values, path, out, marks))
+        out, flags = np.empty((blocks, len(e.asked.outputs), lanes)), np.zeros(blocks * lanes, np.uint8)
+        values = code.blocks(inputs[:, : len(e.values)])
+        arrays = (address(a) for a in (values, path, out, flags))
         self.machine.function(*arrays, values.shape[1], path.shape[1], 0, blocks)
-        found, asked = out.transpose(0, 2, 1).reshape(blocks * lanes, -1)[: len(y)], self.asked
-        fine = np.isfinite(found[:, :asked]).all(axis=1) & (found[:, asked:] >= 0).all(axis=1)
-        return found[:, :asked], np.asarray(fine)
+        rows, count = out.transpose(0, 2, 1).reshape(blocks * lanes, -1)[: len(y)], self.output_count
+        fine = np.isfinite(rows[:, :count]).all(axis=1) & (rows[:, count:] >= 0).all(axis=1)
+        return rows[:, :count], np.asarray(fine)

@@ -55,7 +55,7 @@ class Event(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Condition:
+class EventCondition:
     """A crossing to stop at or to note: a drive's position or speed (`what`) at a value."""
 
     text: str
@@ -100,28 +100,28 @@ CONDITION = re.compile(r"\s*(?P<drive>\S+)\.(?P<what>position|speed)\s*=\s*(?P<v
 
 def read_end(
     m: Mechanism, until: str | float | Sequence[str | float], events: Sequence[str]
-) -> tuple[float, list[Condition]]:
+) -> tuple[float, list[EventCondition]]:
     """The end, infinite where only conditions end it, and the conditions."""
     several = [until] if isinstance(until, (str, float, int)) else list(until)
     times = [u for u in several if not (isinstance(u, str) and "=" in u)]
-    said = [(str(u), True) for u in several if u not in times] + [(e, False) for e in events]
-    conditions = [_condition(m, text, stops) for text, stops in said]
+    texts = [(str(u), True) for u in several if u not in times] + [(e, False) for e in events]
+    conditions = [_condition(m, text, stops) for text, stops in texts]
     end = min((quantity(u, "time", m.units.of_texts()) for u in times), default=np.inf)
     if not end > 0 or not several:
         raise ModelError("the simulation does not say until when", 'write until="2 s"')
     return end, conditions
 
 
-def _condition(m: Mechanism, text: str, stops: bool) -> Condition:
-    found = CONDITION.fullmatch(text)
-    if found is None:
+def _condition(m: Mechanism, text: str, stops: bool) -> EventCondition:
+    match = CONDITION.fullmatch(text)
+    if match is None:
         raise ModelError(
             f"{text!r} is not a condition", 'write "O2.speed = 0 rad/s" or "O2.position = 90 deg"'
         )
-    drive = found["drive"]
+    drive = match["drive"]
     if drive not in m.drives:
         raise ModelError(f"the condition {text!r} names no drive", closest(drive, list(m.drives)))
-    what, kinds = found["what"], TURN if m.drives[drive].turns else SLIDE
+    what, kinds = match["what"], TURN if m.drives[drive].turns else SLIDE
     kind = kinds["" if what == "position" else what]
-    value = quantity(found["value"], kind, m.units.of_texts()) if found["value"] != "0" else 0.0
-    return Condition(text.strip(), list(m.drives).index(drive), what, value, stops)
+    value = quantity(match["value"], kind, m.units.of_texts()) if match["value"] != "0" else 0.0
+    return EventCondition(text.strip(), list(m.drives).index(drive), what, value, stops)

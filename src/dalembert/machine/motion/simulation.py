@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -49,7 +49,7 @@ TOLERANCE = 1e-12
 CLOSE, DOUBT = 1e-10, 1e-5
 """Gap of a check that needs no other measure; and that above which the answer says so."""
 NOTHING = 1e-6
-"""Efforts are compared as if the largest had this part of the moments of inertia, weights and loads at least."""
+"""Least size of the largest effort that is compared, as part of the moments of inertia, weights and loads."""
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -84,19 +84,18 @@ class Simulation(NamedAnswer, MachineAnswer):
     @cached_property
     def _loaded(self) -> tuple[Result, dict[str, Array]]:
         if self.motion is None:
-            found = at_schedule(self.prescribed, self.schedule, inertia=True)
+            result = at_schedule(self.prescribed, self.schedule, inertia=True)
         else:
-            found = analysis_along(self.prescribed, self.schedule, self.motion)
-        return with_stop_loads(found, self.on_joints, self.pushed, self.moves)
+            result = analysis_along(self.prescribed, self.schedule, self.motion)
+        return with_stop_loads(result, self.on_joints, self.pushed, self.moves)
 
     @property
-    def result(self) -> Result:  # type: ignore[override]
-        """The analysis along the computed motion."""
+    def result(self) -> Result:  # type: ignore[override]  # the analysis along the computed motion
         return self._loaded[0]
 
     @property
     def joint_stop_force(self) -> Mapping[str, Array]:
-        """Forces of stops of joints (T,), N or N m, by joint: positive as the joint's freedom; loads in ``result``."""
+        """Forces of stops of joints (T,), by joint, positive as its freedom; loads in ``result``."""
         return self._loaded[1]
 
     @property
@@ -108,9 +107,9 @@ class Simulation(NamedAnswer, MachineAnswer):
     @cached_property
     def applied(self) -> Array:
         """Effort in each drive's freedom (T, D), N m or N."""
-        asked = np.where(np.isnan(self.given), self.result.effort_array, self.given)
+        required = np.where(np.isnan(self.given), self.result.effort_array, self.given)
         held = stop_effort(self.result, self.pushed, 0 * self.moves.brake)  # with what a brake takes of it
-        return np.where(np.isnan(self.pushed), asked, self.pushed + held)
+        return np.where(np.isnan(self.pushed), required, self.pushed + held)
 
     @cached_property
     def stop_force(self) -> Array:
@@ -148,13 +147,13 @@ class Simulation(NamedAnswer, MachineAnswer):
         if r.friction is not None:
             sure &= ~r.friction.reversing.any(axis=1)
         arm = np.where(self.moves.turns, 1.0, r.compiled.layout.length)[free]  # forces as couples
-        asked, given = r.effort_array[:, free] * arm, self.applied[:, free] * arm
+        required, applied = r.effort_array[:, free] * arm, self.applied[:, free] * arm
         inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
         forces, couples = r.compiled.forcing.forces.value, r.compiled.forcing.couples.value
         loads = np.append(np.ravel(forces) * r.compiled.layout.length, couples)  # of numbers that cancel
-        compared = (asked[sure], given[sure], inner[sure], np.asarray(loads, float))
+        compared = (required[sure], applied[sure], inner[sure], np.asarray(loads, float))
         largest = max(float(np.abs(x).max(initial=0.0)) for x in compared)
-        gap = np.where(sure, np.abs(asked - given).max(axis=1, initial=0.0), 0.0)
+        gap = np.where(sure, np.abs(required - applied).max(axis=1, initial=0.0), 0.0)
         if gap.max(initial=0.0) > CLOSE * largest:  # all these may be rounding themselves
             largest = max(largest, float((NOTHING * sizes(r)["moment"][sure]).max(initial=0.0)))
         return np.asarray(gap / (largest or 1.0))
@@ -177,16 +176,16 @@ class Simulation(NamedAnswer, MachineAnswer):
     @property
     def doubt(self) -> str:
         """Failed checks, as beside a singular position where a motion ends; empty where all are met."""
-        at, said = np.flatnonzero(self.law_gap > DOUBT), []
+        at, doubts = np.flatnonzero(self.law_gap > DOUBT), []
         if len(at):
             when = f"{self.time[at[0]]:.6g} s" + (f" and {len(at) - 1} more" if len(at) > 1 else "")
-            said.append(
+            doubts.append(
                 f"at {when} accelerations and forces are uncertain: prescribed, that motion asks for other efforts, "
                 f"by {self.law_residual:.1g} of the largest"
             )
         if self.energy_residual > DOUBT:
-            said.append(f"the energy balance has a gap of {self.energy_residual:.1g} of the largest energy")
-        return "; ".join(said)
+            doubts.append(f"the energy balance has a gap of {self.energy_residual:.1g} of the largest energy")
+        return "; ".join(doubts)
 
     @property
     def drives(self) -> tuple[str, ...]:
@@ -297,7 +296,7 @@ class Simulation(NamedAnswer, MachineAnswer):
 
         return simulation_scenes(self, notation)
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         from dalembert.reports.machine_sections.design_sections import simulation_section
 

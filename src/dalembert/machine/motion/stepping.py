@@ -17,7 +17,7 @@ from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation, drive_lengths
 from dalembert.machine.motion.coordinates.dead_centres import LeadState
 from dalembert.machine.motion.equation import StoppedError
-from dalembert.machine.motion.occurrences import Condition, Guard, Value, Words
+from dalembert.machine.motion.occurrences import EventCondition, Guard, Value, Words
 from dalembert.machine.motion.steps import (
     Between,
     Integrator,
@@ -50,7 +50,7 @@ class StepState(LeadState):
         actuation: Actuation,
         end: float,
         times: Array | None,
-        conditions: Sequence[Condition],
+        conditions: Sequence[EventCondition],
         tolerance: float,
         limits: Limits = NO_TIME,
     ) -> None:
@@ -70,19 +70,19 @@ class StepState(LeadState):
             self.samples.append((t, Between.standing(t, y).record))
             return
         d = self.d
-        found, effort, _ = self.solved(t, y)
-        self.parts.append(np.where(self._told, found.part, np.nan))
+        contacts, effort, _ = self.solved(t, y)
+        self.parts.append(np.where(self._determined, contacts.part, np.nan))
         q, u = y[:d].copy(), y[d : 2 * d].copy()
         on_stop = np.where(self.on_stop != 0, self.acting.effort(t, q, u), np.nan)
-        self.rows.append((t, q, u, found.a, effort, y[2 * d :].copy(), on_stop, self.joint_forces(t, y)))
+        self.rows.append((t, q, u, contacts.a, effort, y[2 * d :].copy(), on_stop, self.joint_forces(t, y)))
 
     @property
-    def _told(self) -> Flags:
+    def _determined(self) -> Flags:
         """Contacts (E,) whose sense the motion gives where they have no rate: not those that rest within a range."""
-        told = self.stuck.copy()
+        determined = self.stuck.copy()
         if self.equation.dry and not self.locked.any():
-            told[self.equation.dry.own] = True
-        return told
+            determined[self.equation.dry.own] = True
+        return determined
 
     def keep_samples(self) -> None:
         """Keep the instants of the segment that wait, all at once, before anything else happens."""
@@ -141,8 +141,8 @@ class StepState(LeadState):
         if code is None or lines is None:
             return None
         brake = -self.acting.brake * self.toward * free
-        given = np.where(self.acting.free, 0.0, self.acting.acceleration)
-        return code, np.concatenate([self.equation.values, *lines, brake, given])
+        prescribed = np.where(self.acting.free, 0.0, self.acting.acceleration)
+        return code, np.concatenate([self.equation.values, *lines, brake, prescribed])
 
     def pace(self, t: float, y: Array) -> float:
         """Natural pace at a state, 1/s."""

@@ -217,11 +217,11 @@ class MachineSteps:
 
     def _more(self, most: int = AT_ONCE) -> bool:
         """Further attempts in machine code; whether there are any."""
-        whole = self.motion[0, :, 0]
-        if not whole[3 * self.n + 1] > 0:
+        record = self.motion[0, :, 0]
+        if not record[3 * self.n + 1] > 0:
             return False
         self.records = self.code.advance(self.values, self.motion, most, self.between)[
-            0, : int(whole[-1]), :, 0
+            0, : int(record[-1]), :, 0
         ]
         self.next = 0
         return True
@@ -235,13 +235,13 @@ class MachineSteps:
         """States within the last step."""
         if not self.between:
             motion = self.motion.copy()
-            whole, n = motion[0, :, 0], self.n
-            whole[:n], whole[3 * n], whole[3 * n + 1] = (
+            record, n = motion[0, :, 0], self.n
+            record[:n], record[3 * n], record[3 * n + 1] = (
                 self.record[2 : 2 + n],
                 self.record[0],
                 self.h_previous,
             )
-            whole[3 * n + 2], whole[2 * n : 3 * n], whole[3 * n + 3] = np.inf, 1e300, 1e300
+            record[3 * n + 2], record[2 * n : 3 * n], record[3 * n + 3] = np.inf, 1e300, 1e300
             self.record = self.code.advance(self.values, motion, 1, True)[0, 0, :, 0]
         return Between(self.record)
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
     from dalembert.analysis.result.result import Result
     from dalembert.printing import Part
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -124,8 +124,8 @@ class MotorChoice(MachineAnswer):
 
     def least_rms(self) -> float | None:
         """The ratio of least rms torque: n^2 = rms(T) / rms(J_m alpha); None where there is none."""
-        own = self.motor_inertia * self.acceleration
-        going, load = self.rms(own), self.rms(self.torque(1.0) - own)
+        rotor = self.motor_inertia * self.acceleration
+        going, load = self.rms(rotor), self.rms(self.torque(1.0) - rotor)
         return math.sqrt(load / going) if going * load > 0 else None
 
     def least_peak(self) -> float | None:
@@ -182,7 +182,7 @@ class MotorChoice(MachineAnswer):
 
         return motor_scenes(self, notation)
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         from dalembert.reports.machine_sections.design_sections import motor_section
 
@@ -225,8 +225,13 @@ def motor(
     if isinstance(curve, (str, Path)):
         curve = read_curve(curve, r.mechanism.units)
     motion = r.effort(name), r.drive_speed(name), r.drive_acceleration(name), reduced_inertia(r, name)
-    given = curve or r.mechanism.drives[name].motor
-    found = MotorChoice(r, name, *motion, durations(r), inertia, efficiency, given, rated)
-    asked = {"given": ratio, "direct": 1.0, "least rms": found.least_rms(), "least peak": found.least_peak()}
-    found.needs.update({n: found.need(x) for n, x in asked.items() if x is not None})
-    return found
+    motor_curve = curve or r.mechanism.drives[name].motor
+    choice = MotorChoice(r, name, *motion, durations(r), inertia, efficiency, motor_curve, rated)
+    ratios = {
+        "given": ratio,
+        "direct": 1.0,
+        "least rms": choice.least_rms(),
+        "least peak": choice.least_peak(),
+    }
+    choice.needs.update({n: choice.need(x) for n, x in ratios.items() if x is not None})
+    return choice

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.output.sizes_over_cycle import greatest
-from dalembert.printing import Part, Table, number, remainder, round_components, wrap
+from dalembert.printing import Part, TextTable, number, remainder, round_components, wrap
 
 if TYPE_CHECKING:
-    from dalembert.machine.balance.balancing import Balance
+    from dalembert.machine.balance.balancing import CounterweightBalance
     from dalembert.machine.balance.comparison import Comparison
 
 
-def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
+def balance_parts(b: CounterweightBalance, to: Printed) -> Iterator[Part]:
     """The counterweights, what is left of force, moment and torque, and the proof."""
     length, mass = to.text("length"), to.text("mass")
     rows = []
@@ -28,7 +28,7 @@ def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
     plane = b.problem.dimension == 2
     heads = ["counterweight\non link", f"m r\n{mass}*{length}", *["angle\ndeg"] * plane, f"mass\n{mass}"]
     places = ("centre x", "y", "disc radius") if plane else ("centre x", "y", "z", "disc radius")
-    yield Table([*heads, *(f"{x}\n{length}" for x in places)], rows)
+    yield TextTable([*heads, *(f"{x}\n{length}" for x in places)], rows)
     both = "Angles and centres in link axes; m r and its angle" if plane else "Centres in link axes; m r"
     yield f"{both} from the link's base point."
     yield comparison_table(b, to)
@@ -41,7 +41,7 @@ def turned(angle: float) -> str:
     return number(180.0 if degrees == -180 else degrees, 5)
 
 
-def comparison_table(b: Comparison, to: Printed) -> Table:
+def comparison_table(b: Comparison, to: Printed) -> TextTable:
     """Rms and greatest value of each quantity before and after, and their ratio."""
     after, rows = b.sizes(), []
     for name, sizes in b.sizes(after=False).items():
@@ -51,36 +51,36 @@ def comparison_table(b: Comparison, to: Printed) -> Table:
             new = left if left > max(1e-12 * was, b.before.floor(kind)) else 0.0
             share = number(100 * new / old, 4) + " %" if old else "-"
             rows.append([f"{what} {name}", to.quantity(kind, old), to.quantity(kind, new), share])
-    said = f"Moment about {b.before.about}. Force and moment are those of inertia, without weights and external loads."
+    note = f"Moment about {b.before.about}. Force and moment are those of inertia, without weights and external loads."
     if b.before.outside:
         most = to.quantity("force", greatest(b.before.parts["external"][0])[0])
-        said += (
+        note += (
             f" No counterweight changes the external loads, {', '.join(b.before.outside)}: at most {most}."
         )
-    return Table(["", "before", "after", "left"], rows, note=wrap(said))
+    return TextTable(["", "before", "after", "left"], rows, note=wrap(note))
 
 
-def proof(b: Balance) -> str:
+def proof(b: CounterweightBalance) -> str:
     """Objective, proof of optimality, and obstacles to full force balance."""
     counted = b.problem.weighted(b.least, b.of)
     what = " + ".join(f"{'' if w == 1 else f'{w:g} '}{name}" for name, w in b.of.items() if w)
     if not counted:
         return f"There was no {' and no '.join(b.of)} to balance: no counterweight is needed."
-    said = f"Least {'rms' if b.least == 'rms' else 'greatest'} {what}: {_percent(b.value)} of what it was. "
-    said += f"No counterweights within the bounds leave less than {_percent(b.bound)} (dual value). "
+    text = f"Least {'rms' if b.least == 'rms' else 'greatest'} {what}: {_percent(b.value)} of what it was. "
+    text += f"No counterweights within the bounds leave less than {_percent(b.bound)} (dual value). "
     zero = [name for name, w in b.of.items() if w and name not in counted]
-    said += f"The {' and the '.join(zero)}, 0 before, did not count. " if zero else ""
+    text += f"The {' and the '.join(zero)}, 0 before, did not count. " if zero else ""
     if not b.before.parts["inertia"][0].any():
-        said += "The inertia force is zero without counterweights. "
+        text += "The inertia force is zero without counterweights. "
     elif b.complete:
-        said += "The force is balanced completely: the moment is the same about every point. "
+        text += "The force is balanced completely: the moment is the same about every point. "
     elif b.missing():
-        said += f"For complete force balance a counterweight is missing on {', '.join(b.missing())}. "
+        text += f"For complete force balance a counterweight is missing on {', '.join(b.missing())}. "
     elif b.only_bounds:
-        said += "Without bounds the force would be balanced completely. "
+        text += "Without bounds the force would be balanced completely. "
     else:
-        said += "Full force balance is impossible: some link has no path to ground through turning joints. "
-    return f"{said}Check: re-analysis with the counterweights agrees to {remainder(b.residual)}."
+        text += "Full force balance is impossible: some link has no path to ground through turning joints. "
+    return f"{text}Check: re-analysis with the counterweights agrees to {remainder(b.residual)}."
 
 
 def _percent(part: float) -> str:

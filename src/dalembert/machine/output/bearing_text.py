@@ -11,7 +11,7 @@ from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.machine.whole_cycle import sampled
-from dalembert.printing import Part, Table, number
+from dalembert.printing import Part, TextTable, number
 
 if TYPE_CHECKING:
     from dalembert.machine.bearings.bearing_table import BearingTable
@@ -44,12 +44,14 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     heads += [f"mean turning\n{rate}", "turns\n"]
     if not any(b.axial.any() for b in t.loads.values()):
         heads, *loads = [[*row[:3], *row[4:]] for row in (heads, *loads)]
-    yield Table(heads, loads)
+    yield TextTable(heads, loads)
     if plain:
-        yield Table(["joint", f"pressure\n{to.text('pressure')}", f"greatest PV\n{pv}", "mean PV\n"], plain)
+        yield TextTable(
+            ["joint", f"pressure\n{to.text('pressure')}", f"greatest PV\n{pv}", "mean PV\n"], plain
+        )
     if rolling:
         life = ["L10\n10^6 turns", "L10\nhours", "C0 / load\n"]
-        yield Table(["joint", "bearing", f"rating C\n{force}", *life], rolling, 2)
+        yield TextTable(["joint", "bearing", f"rating C\n{force}", *life], rolling, 2)
     if t.hours is not None:
         yield _choice(t, to)
     yield (
@@ -69,14 +71,19 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
         )
 
 
-def _choice(t: BearingTable, to: Printed) -> Table:
+def _choice(t: BearingTable, to: Printed) -> TextTable:
     rows, hours, force = [], t.hours or 0.0, to.text("force")
     for joint, b in t.loads.items():
         needed, row = b.rating_for(hours, t.factor), t.chosen.get(joint)
-        said = ["no table given" if not t.rows else "none is enough" if needed == needed else "-", "", "", ""]
+        cells = [
+            "no table given" if not t.rows else "none is enough" if needed == needed else "-",
+            "",
+            "",
+            "",
+        ]
         if row:
-            said = [row.name, *(to.number("force", x) for x in (row.C, row.C0)), to.number("length", row.d)]
-        rows.append([joint, to.number("force", needed), *said])
+            cells = [row.name, *(to.number("force", x) for x in (row.C, row.C0)), to.number("length", row.d)]
+        rows.append([joint, to.number("force", needed), *cells])
     heads = ["joint", f"C needed\n{force}", "chosen\n", f"C\n{force}", "C0\n", f"bore\n{to.text('length')}"]
     factor = f", with {number(t.factor)} times the load" if t.factor != 1 else ""
-    return Table(heads, rows, note=f"For {number(hours)} hours{factor}.")
+    return TextTable(heads, rows, note=f"For {number(hours)} hours{factor}.")

@@ -11,7 +11,7 @@ import numpy as np
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.flywheel.flywheel_size import FlywheelSize
 from dalembert.machine.flywheel.speed_fluctuation import SpeedFluctuation
-from dalembert.printing import Part, Table, number, remainder, round_components
+from dalembert.printing import Part, TextTable, number, remainder, round_components
 
 if TYPE_CHECKING:
     from dalembert.machine.flywheel.flywheels import Flywheel
@@ -34,7 +34,7 @@ def flywheel_parts(f: Flywheel, to: Printed) -> Iterator[Part]:
         "the mean, E is the energy asked for above it since the first position, the pulses are the areas between."
     )
     heads = [f"{f.drive}\n{angle}", f"energy\n{energy}", f"pulse after\n{energy}", "speed"]
-    yield Table(heads, rows, 0) if rows else "It never differs from its mean: no flywheel is needed."
+    yield TextTable(heads, rows, 0) if rows else "It never differs from its mean: no flywheel is needed."
     share = f.coefficient_of_energy
     work = f", {number(100 * share, 4)} % of the work of the cycle" if math.isfinite(share) else ""
     yield f"dE = {to.quantity('energy', f.size.energy)}{work}"
@@ -42,7 +42,7 @@ def flywheel_parts(f: Flywheel, to: Printed) -> Iterator[Part]:
     yield comparison(f, to)
 
 
-def _sizes(f: Flywheel, to: Printed) -> Table:
+def _sizes(f: Flywheel, to: Printed) -> TextTable:
     rows, unit = [], to.text("angular_speed")
     last = "no flywheel, exact" if _needless(f) else "for that Cs, exact"
     for name, s in (("by dE / (Cs w^2)", f.size), ("its exact speed", f.exact), (last, f.exact_size)):
@@ -52,7 +52,7 @@ def _sizes(f: Flywheel, to: Printed) -> Table:
             inertia = 0.0 if s is f.exact_size and _needless(f) else s.inertia
             rows.append([name, to.number("inertia", inertia), number(s.fluctuation, 5), *speeds])
     heads = ["flywheel", f"inertia\n{to.text('inertia')}", "Cs", f"least speed\n{unit}", f"greatest\n{unit}"]
-    return Table(heads, rows)
+    return TextTable(heads, rows)
 
 
 def _needless(f: Flywheel) -> bool:
@@ -64,26 +64,26 @@ def comparison(f: Flywheel, to: Printed) -> str:
     """Sentence on the inertia that the textbook rule omits."""
     if f.exact is None:
         return f"No exact speed: {f.reason}."
-    said = (
+    text = (
         f"The mean inertia of the links, reduced to "
         f"{f.drive}, is {to.quantity('inertia', f.own)}; dE / (Cs w^2) omits it, "
         f"so that with this flywheel Cs is {number(f.exact.fluctuation, 5)}"
         f"{_percent(f.exact, f.size.fluctuation)}. "
     )
     if f.exact_size is not None and _needless(f):
-        said += "For the required Cs no flywheel is needed: that of the links alone is smaller. "
+        text += "For the required Cs no flywheel is needed: that of the links alone is smaller. "
     elif f.exact_size is not None:
         rule = f.size.inertia - f.own
-        said += f"For the required Cs {to.quantity('inertia', f.exact_size.inertia)} is enough"
-        said += f"; the rule less the links' inertia gives {to.quantity('inertia', rule)}" if rule > 0 else ""
-        said += ". "
+        text += f"For the required Cs {to.quantity('inertia', f.exact_size.inertia)} is enough"
+        text += f"; the rule less the links' inertia gives {to.quantity('inertia', rule)}" if rule > 0 else ""
+        text += ". "
     elif f.reason:
-        said += f"The flywheel for exactly that Cs cannot be computed: {f.reason}. "
-    return f"{said}Check: the exact motion, prescribed, needs a torque constant to {remainder(f.exact.residual)}."
+        text += f"The flywheel for exactly that Cs cannot be computed: {f.reason}. "
+    return f"{text}Check: the exact motion, prescribed, needs a torque constant to {remainder(f.exact.residual)}."
 
 
-def _percent(s: SpeedFluctuation, asked: float) -> str:
-    if not asked:
+def _percent(s: SpeedFluctuation, required: float) -> str:
+    if not required:
         return ""
-    off = 100 * (s.fluctuation / asked - 1)
+    off = 100 * (s.fluctuation / required - 1)
     return f", {number(abs(off), 3)} % {'more' if off > 0 else 'less'}"

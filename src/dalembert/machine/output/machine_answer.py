@@ -14,7 +14,7 @@ from dalembert.printing import Part
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
     from dalembert.model import Mechanism
-    from dalembert.reports.sheet import Sheet
+    from dalembert.reports.sheet import ReportSheet
     from dalembert.views.notation import Notation, Shown
     from dalembert.views.paper.scene import Scene
 
@@ -57,11 +57,11 @@ class MachineAnswer(Labelled, Drawn, Worked):
 
         return self.scenes(notation or Usual())
 
-    def section(self, sheet: Sheet, shown: Shown) -> None:
+    def section(self, sheet: ReportSheet, shown: Shown) -> None:
         """Its equations in letters and numbers, put on a sheet."""
         raise NotImplementedError
 
-    def sheet(self, notation: Notation | None = None) -> Sheet:
+    def sheet(self, notation: Notation | None = None) -> ReportSheet:
         """Its equations, what is found, and the drawings."""
         from dalembert.reports.machine_sections import machine_sheet
 

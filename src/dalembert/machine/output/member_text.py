@@ -12,7 +12,7 @@ from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.members.member_forces import ORDER, kind_of
 from dalembert.machine.whole_cycle import sampled
-from dalembert.printing import Part, Table, number, remainder, wrap
+from dalembert.printing import Part, TextTable, number, remainder, wrap
 
 if TYPE_CHECKING:
     from dalembert.machine.members.member_forces import MemberForces
@@ -41,7 +41,7 @@ def member_parts(t: MemberTable, to: Printed) -> Iterator[Part]:
     heads = ["link", "largest", "", "unit", "member", f"at\n{to.text('length')}", "where"]
     rows = _largest_rows(t, to)
     if rows or not t.unknown:
-        yield Table(heads, rows, 2) if rows else "The links carry no internal forces."
+        yield TextTable(heads, rows, 2) if rows else "The links carry no internal forces."
     yield from (_unknown(t, which, why) for which, why in t.unknown.items())
     yield from (table for f in (_stress_table, _fatigue_table, _buckling_table) if (table := f(t, to)).rows)
     if notes := " ".join(_buckling_notes(t)):
@@ -101,7 +101,7 @@ def known_stresses(t: MemberTable) -> dict[str, Stresses]:
     return {link: s for link, s in t.stress.items() if not math.isnan(s.largest)}
 
 
-def _stress_table(t: MemberTable, to: Printed) -> Table:
+def _stress_table(t: MemberTable, to: Printed) -> TextTable:
     rows = []
     for link, s in known_stresses(t).items():
         k = s.position
@@ -109,28 +109,28 @@ def _stress_table(t: MemberTable, to: Printed) -> Table:
         place = number(float(to("length", float(s.place[k]))), 4)
         rows.append([link, *numbers, s.member[k], place, where(t.result, to, k), _safety(s.safety)])
     heads = ["stress\nof link", f"largest\n{to.text('pressure')}", "by N\n", "by M\n", "member\n"]
-    return Table([*heads, f"at\n{to.text('length')}", "where\n", "safety,\nyield"], rows)
+    return TextTable([*heads, f"at\n{to.text('length')}", "where\n", "safety,\nyield"], rows)
 
 
-def _fatigue_table(t: MemberTable, to: Printed) -> Table:
-    found = {link: s.fatigue() for link, s in known_stresses(t).items() if len(t.result.status) > 1}
+def _fatigue_table(t: MemberTable, to: Printed) -> TextTable:
+    fatigues = {link: s.fatigue() for link, s in known_stresses(t).items() if len(t.result.status) > 1}
     rows = []
-    for link, f in found.items():
+    for link, f in fatigues.items():
         numbers = [number(float(to("pressure", x)), 5) for x in (f.mean, f.amplitude)]
         rows.append([link, *numbers, f.member, to.number("length", f.place), _safety(f.safety)])
     heads = ["fatigue\nof link", f"mean\n{to.text('pressure')}", "amplitude\n", "member\n"]
-    lost = ", ".join(link for link, f in found.items() if math.isnan(f.mean))
+    lost = ", ".join(link for link, f in fatigues.items() if math.isnan(f.mean))
     note = f"{lost}: not known, as the stress is not at every position. " if lost else ""
-    changes = {link: f.sampling for link, f in found.items()}
+    changes = {link: f.sampling for link, f in fatigues.items()}
     note = wrap(note + sampled(t.result, changes, "Largest values, means and amplitudes")) if rows else note
-    return Table([*heads, f"at\n{to.text('length')}", "safety,\nGoodman"], rows, note=note)
+    return TextTable([*heads, f"at\n{to.text('length')}", "safety,\nGoodman"], rows, note=note)
 
 
 def _safety(n: float | None) -> str:
     return "-" if n is None or not math.isfinite(n) else number(n, 4)
 
 
-def _buckling_table(t: MemberTable, to: Printed) -> Table:
+def _buckling_table(t: MemberTable, to: Printed) -> TextTable:
     rows, seen = [], []
     for b in t.buckling.values():
         if b not in seen:
@@ -145,7 +145,7 @@ def _buckling_table(t: MemberTable, to: Printed) -> Table:
             rows.append([", ".join(b.links), *sizes, *numbers])
     heads = ["buckling\nof link", f"compression\n{to.text('force')}", "critical\n", "safety\n", "by\n"]
     heads += [f"K\n{plane}" for plane in t.planes] + ["ends\n", "slender-\nness"]
-    return Table(heads, rows)
+    return TextTable(heads, rows)
 
 
 def _buckling_notes(t: MemberTable) -> Iterator[str]:

@@ -12,7 +12,7 @@ from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.machine.whole_cycle import sampled
-from dalembert.printing import Part, Table, number, round_components
+from dalembert.printing import Part, TextTable, number, round_components
 
 if TYPE_CHECKING:
     from dalembert.machine.motors.motor_choice import MotorChoice
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 def _no_least(c: MotorChoice) -> str:
     """Why no ratio has the least torque."""
     if not np.any(c.effort):
-        own = c.motor_inertia and np.any(c.acceleration)
-        said = (
+        inertial = c.motor_inertia and np.any(c.acceleration)
+        reason = (
             "only the motor's acceleration needs torque: the lower the ratio, the less"
-            if own
+            if inertial
             else "the motor needs no torque either"
         )
-        return f"The drive needs no effort; {said}."
+        return f"The drive needs no effort; {reason}."
     return (
         "Torque falls as the ratio rises, because accelerating the motor takes no torque: the ratio "
         "is limited only by the motor's speed."
@@ -47,7 +47,7 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
         mean = round_components([c.mean(values)], most)[0]
         numbers = [to.number(kind, x) for x in (most, c.rms(values), mean)]
         rows.append([name, to.text(kind), numbers[0], where(c.result, to, k), *numbers[1:]])
-    yield Table([f"drive {c.drive}", "unit", "greatest", "at", "rms", "mean"], rows, 2)
+    yield TextTable([f"drive {c.drive}", "unit", "greatest", "at", "rms", "mean"], rows, 2)
     yield sampled(c.result, c.sampling())
     kind = "inertia" if kinds["effort"] == "moment" else "mass"
     low, high = (to.quantity(kind, float(x)) for x in (c.inertia.min(), c.inertia.max()))
@@ -55,15 +55,15 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
     rows = []
     for name, n in c.needs.items():
         cells = [number(n.ratio), *(to.number("moment", x) for x in (n.rms, n.torque))]
-        own = c.motor_inertia * n.ratio**2
-        share = number(float(np.mean(c.inertia)) / own, 4) if own else "-"
+        rotor = c.motor_inertia * n.ratio**2
+        share = number(float(np.mean(c.inertia)) / rotor, 4) if rotor else "-"
         rows.append([name, *cells, to.number("angular_speed", n.speed), share, ENOUGH[n.enough]])
     moment, rate = to.text("moment"), to.text("angular_speed")
     heads = ["gear\n", "ratio\n", f"rms torque\n{moment}", f"greatest\n{moment}", f"speed\n{rate}"]
-    yield Table([*heads, "inertia, links\n/ motor", "enough\n"], rows)
+    yield TextTable([*heads, "inertia, links\n/ motor", "enough\n"], rows)
     if c.least_rms() is None:
         yield _no_least(c)
     by = {"its curve": c.curve, "its rated torque against the rms": c.rated}
-    given = " and ".join(what for what, value in by.items() if value is not None)
-    judged = f"The column `enough` compares with {given}."
-    yield judged if given else "No curve or rated torque is given, so no ratio is rated."
+    limits = " and ".join(what for what, value in by.items() if value is not None)
+    judged = f"The column `enough` compares with {limits}."
+    yield judged if limits else "No curve or rated torque is given, so no ratio is rated."

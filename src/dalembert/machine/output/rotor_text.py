@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.output.balance_text import comparison_table, turned
-from dalembert.printing import Part, Table, number, remainder, round_components
+from dalembert.printing import Part, TextTable, number, remainder, round_components
 
 if TYPE_CHECKING:
     from dalembert.machine.balance.rotors import RotorBalance
@@ -37,7 +37,7 @@ def rotor_parts(b: RotorBalance, to: Printed) -> Iterator[Part]:
         f"radius\n{length}",
         f"mass\n{mass}",
     ]
-    yield Table([*heads, *(f"{x}\n{length}" for x in ("centre x", "y", "z"))], rows, 0)
+    yield TextTable([*heads, *(f"{x}\n{length}" for x in ("centre x", "y", "z"))], rows, 0)
     yield (
         f"Planes along the axis from {b.before.about}, in the sense in which the shaft turns; angles about it from "
         f"the {b.zero} axis of {b.shaft}, centres in its axes."

@@ -14,7 +14,7 @@ from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
 from dalembert.machine.output.balance_text import turned
 from dalembert.machine.output.sizes_over_cycle import greatest, rms
-from dalembert.printing import Part, Table, number, remainder, round_components, wrap
+from dalembert.printing import Part, TextTable, number, remainder, round_components, wrap
 
 if TYPE_CHECKING:
     from dalembert.machine.shaking import Shaking
@@ -61,7 +61,7 @@ def _values(s: Shaking, to: Printed) -> Part:
     axes = list("xyz"[:d])
     heads = axes if single else ["greatest", "at", "rms", *(f"mean {a}" for a in axes)]
     return (
-        Table(["", "unit", *heads], rows, 2)
+        TextTable(["", "unit", *heads], rows, 2)
         if rows
         else f"No force and no moment {'on the ground' if s.whole else 'on all else'}."
     )
@@ -72,14 +72,14 @@ def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> 
         return []
     try:
         some = ("force", "moment", *(["couple"] if s.couple is not None else []))
-        found = {kind: s.harmonics(orders, kind) for kind in some}
+        series = {kind: s.harmonics(orders, kind) for kind in some}
     except ModelError as error:
         return [f"No harmonics: {error}."]
-    shown = {kind: h for kind, h in found.items() if np.any(h.amplitude > s.floor(kind))}
-    turns, drive = found["force"].turns, s.result.drives[0]
+    shown = {kind: h for kind, h in series.items() if np.any(h.amplitude > s.floor(kind))}
+    turns, drive = series["force"].turns, s.result.drives[0]
     period = "a turn" if turns == 1 else f"{turns} turns"
-    said = f"Harmonics over {period} of {drive}: amplitude, and phase in deg (a cos(k q - phase))"
-    return [said, *(_harmonic_table(kind, h, to, s.floor(kind)) for kind, h in shown.items())]
+    heading = f"Harmonics over {period} of {drive}: amplitude, and phase in deg (a cos(k q - phase))"
+    return [heading, *(_harmonic_table(kind, h, to, s.floor(kind)) for kind, h in shown.items())]
 
 
 def _engine(s: Shaking, to: Printed) -> list[Part]:
@@ -104,15 +104,15 @@ def _engine(s: Shaking, to: Printed) -> list[Part]:
     except ModelError:
         return []
     heads = ["inertia", "order", "exact: with", "against", "book: with", "against"]
-    said = f"{len(e.cylinders)} cylinder{'s' * (len(e.cylinders) > 1)}, by the book's two harmonics: "
+    note = f"{len(e.cylinders)} cylinder{'s' * (len(e.cylinders) > 1)}, by the book's two harmonics: "
     if greatest(e.exact.parts["inertia"][0])[0] <= s.floor("force"):
-        said += "no inertia force is left."
+        note += "no inertia force is left."
     else:
-        said += f"its force is off by {number(100 * e.loss, 3)} % of the largest at most."
-    return [Table(heads, rows, note=wrap(said))]
+        note += f"its force is off by {number(100 * e.loss, 3)} % of the largest at most."
+    return [TextTable(heads, rows, note=wrap(note))]
 
 
-def _harmonic_table(name: str, h: Harmonics, to: Printed, floor: float) -> Table:
+def _harmonic_table(name: str, h: Harmonics, to: Printed, floor: float) -> TextTable:
     """Amplitude and phase of each order, of vectors by component, in the plane also the parts that turn."""
     kind = "force" if name == "force" else "moment"
     floor = max(floor, 1e-12 * float(np.max(h.amplitude, initial=0.0)))
@@ -130,13 +130,13 @@ def _harmonic_table(name: str, h: Harmonics, to: Printed, floor: float) -> Table
         rows.append(row)
     note = f"Aliasing check: using every other position changes the amplitudes by at most {_off(h.aliasing, kind, to)}."
     note = note if math.isfinite(h.aliasing) else "Too few positions to check aliasing."
-    return Table([*heads, *(["with it", "against"] if turning else [])], rows, note=note)
+    return TextTable([*heads, *(["with it", "against"] if turning else [])], rows, note=note)
 
 
 def _off(aliasing: float, kind: str, to: Printed) -> str:
     """A change with its unit; 0 has none."""
-    said = remainder(float(to(kind, aliasing)))
-    return said if said == "0" else f"{said} {to.text(kind)}"
+    size = remainder(float(to(kind, aliasing)))
+    return size if size == "0" else f"{size} {to.text(kind)}"
 
 
 def _phase(phase: float, order: float) -> str:

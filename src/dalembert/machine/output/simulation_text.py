@@ -12,7 +12,7 @@ from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.machine.motion.occurrences import say
 from dalembert.machine.output.sizes_over_cycle import greatest
-from dalembert.printing import Part, Table, number, remainder, round_components
+from dalembert.printing import Part, TextTable, number, remainder, round_components
 
 if TYPE_CHECKING:
     from dalembert.machine.motion.occurrences import Event
@@ -48,7 +48,7 @@ def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
         yield "\n".join(f"instants {which}: {sentence}" for which, _, sentence in problems)
 
 
-def _drives(s: Simulation, to: Printed) -> Table:
+def _drives(s: Simulation, to: Printed) -> TextTable:
     """Position, speed, acceleration and effort of each drive at even instants."""
     heads, columns = [f"time\n{to.text('time')}"], [to("time", s.time)]
     for k, drive in enumerate(s.drives):
@@ -57,7 +57,7 @@ def _drives(s: Simulation, to: Printed) -> Table:
             columns.append(to(kind, s.applied[:, k] if what == "effort" else getattr(s, what)(drive)))
     which = np.unique(np.linspace(0, len(s.time) - 1, ROWS).astype(int))
     rows = [[number(float(np.asarray(c)[n])) for c in columns] for n in which]
-    return Table(heads, rows, 0)
+    return TextTable(heads, rows, 0)
 
 
 def _events(s: Simulation, to: Printed) -> list[str]:
@@ -73,17 +73,17 @@ def _events(s: Simulation, to: Printed) -> list[str]:
 
 def _line(several: list[Event], to: Printed) -> str:
     first, last = several[0], several[-1]
-    said, when = say(first.words, to), to.quantity("time", first.time)
+    sentence, when = say(first.words, to), to.quantity("time", first.time)
     if len(several) == 1:
-        return f"at {when}: {said}"
+        return f"at {when}: {sentence}"
     span = f"from {when} to {to.quantity('time', last.time)}: {len(several)} {first.name}s of {first.of}"
     if first.name != "impact":
         return span
     lost = to.quantity("energy", sum(e.lost for e in several))
-    return f"{span}, {lost} lost together; in the first, {said}"
+    return f"{span}, {lost} lost together; in the first, {sentence}"
 
 
-def _works(s: Simulation, to: Printed) -> Table:
+def _works(s: Simulation, to: Printed) -> TextTable:
     """Energies at both ends, and what was given and taken between."""
     largest = max(float(np.abs(e).max()) for e in (s.kinetic, s.potential, *s.works.values()))
 
@@ -95,13 +95,13 @@ def _works(s: Simulation, to: Printed) -> Table:
         ["kinetic energy", *ends(*s.kinetic[[0, -1]])],
         ["potential energy", *ends(*s.potential[[0, -1]])],
     ]
-    return Table([f"{to.text('energy')}", "start", "end"], rows)
+    return TextTable([f"{to.text('energy')}", "start", "end"], rows)
 
 
-def _joints(s: Simulation, to: Printed) -> Table:
+def _joints(s: Simulation, to: Printed) -> TextTable:
     """Greatest force in each joint and when."""
-    found = {joint: greatest(s.result.reaction(joint)) for joint in s.result.joints}
-    known = {joint: both for joint, both in found.items() if np.isfinite(both[0])}
+    largest = {joint: greatest(s.result.reaction(joint)) for joint in s.result.joints}
+    known = {joint: both for joint, both in largest.items() if np.isfinite(both[0])}
     rows = [[n, to.number("force", f), to.number("time", s.time[k])] for n, (f, k) in known.items()]
     heads = ["joint", f"greatest force\n{to.text('force')}", f"at\n{to.text('time')}"]
-    return Table(heads, rows)
+    return TextTable(heads, rows)

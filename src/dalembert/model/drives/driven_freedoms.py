@@ -27,8 +27,8 @@ def refuse_empty(tree: object, path: tuple[str | int, ...] = ()) -> None:
 
 def drive_freedoms(tree: Mapping[str, object]) -> dict[str, str]:
     """Drive -> `turn` or `slide`, where it is known."""
-    found = {name: freedom for name, _, freedom, _ in _drives(tree)}
-    return {name: "slide" if slides(freedom) else "turn" for name, freedom in found.items() if freedom}
+    kinds = {name: freedom for name, _, freedom, _ in _drives(tree)}
+    return {name: "slide" if slides(freedom) else "turn" for name, freedom in kinds.items() if freedom}
 
 
 def with_freedoms(tree: Mapping[str, object]) -> Mapping[str, object]:

@@ -15,7 +15,7 @@ from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law_schema
 from dalembert.model.drives.laws import law as read_law
 from dalembert.model.drives.motors import MotorCurve, motor_curve, motor_schema
 from dalembert.model.drives.programmes import Programme
-from dalembert.model.part import Part, Reading, mapping, reading
+from dalembert.model.part import Part, ReadingRules, mapping, reading
 from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.figures import in_units
 from dalembert.model.quantities.values import (
@@ -23,7 +23,7 @@ from dalembert.model.quantities.values import (
     Components,
     JsonSchema,
     Name,
-    Value,
+    ValueField,
     Vector,
     at_item,
     check_sign,
@@ -55,13 +55,13 @@ Positions = float | tuple[float, ...] | Range | Literal["unknown"]
 Rates = float | tuple[float, ...]
 
 
-class DriveValue(Value):
+class DriveValue(ValueField):
     """A value of a drive: ``what`` it is (speed, acceleration, effort or, empty, a position), how a value of its kind
     is read, and its schema."""
 
     def __init__(
         self,
-        parse: Callable[[object, str, Reading], object],
+        parse: Callable[[object, str, ReadingRules], object],
         schema: Callable[[], JsonSchema],
         what: str = "",
     ) -> None:
@@ -74,7 +74,7 @@ class DriveValue(Value):
         return self.parse(value, kind_of(info.data.get("freedom"), self.what), reading(info))
 
 
-def _positions(value: object, kind: str, rules: Reading) -> Positions:
+def _positions(value: object, kind: str, rules: ReadingRules) -> Positions:
     """One value, a list, a range, or unknown."""
     if value == UNKNOWN or isinstance(value, Range):
         return cast(Positions, value)
@@ -94,14 +94,14 @@ def _positions_schema() -> JsonSchema:
     return {"anyOf": [NUMBER_OR_TEXT, list_schema(), object_schema(steps, *steps)]}
 
 
-def _range(value: Mapping[str, object], kind: str, rules: Reading) -> Range:
+def _range(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Range:
     known = ["from", "to", "count"]
     mapping(value, known, EXAMPLE, known)
     start, stop = (at_item(key, rules.quantity, value[key], kind) for key in ("from", "to"))
     return Range(start, stop, at_item("count", count, value["count"]))
 
 
-def _rates(value: object, kind: str, rules: Reading) -> Rates:
+def _rates(value: object, kind: str, rules: ReadingRules) -> Rates:
     """Speeds or accelerations: one value or a list."""
     if value == 0 and not isinstance(value, (str, bool, Dependent)):
         return 0.0
@@ -112,24 +112,24 @@ def _rates_schema() -> JsonSchema:
     return {"anyOf": [NUMBER_OR_TEXT, list_schema()]}
 
 
-def _brake(value: object, kind: str, rules: Reading) -> float:
+def _brake(value: object, kind: str, rules: ReadingRules) -> float:
     """The size of a dry couple or force."""
     return check_sign(rules.quantity(value, kind), value, "not negative")
 
 
-def _effort(value: object, kind: str, rules: Reading) -> Varying:
+def _effort(value: object, kind: str, rules: ReadingRules) -> Varying:
     """A known effort, which may change along the motion."""
     if value == UNKNOWN:
         raise ModelError("an effort is unknown unless it is given", "leave it out")
     return varying(value, kind, rules)
 
 
-def _interval(value: object, kind: str, rules: Reading) -> tuple[float, float]:
+def _interval(value: object, kind: str, rules: ReadingRules) -> tuple[float, float]:
     """`[a, b]`."""
-    found = numbers(value, kind, rules)
-    if len(found) != 2 or not found[0] < found[1]:
+    bounds = numbers(value, kind, rules)
+    if len(bounds) != 2 or not bounds[0] < bounds[1]:
         raise ModelError("a range is two increasing positions", "write range: [0 deg, 180 deg]")
-    return found[0], found[1]
+    return bounds[0], bounds[1]
 
 
 def kind_of(freedom: str | None, what: str) -> str:
@@ -259,16 +259,16 @@ class Drive(Part):
         if self.motor is not None:
             self._refuse("a motor", "law", "range")
             if isinstance(self.effort, (int, float)):
-                said = "a motor and a constant effort are given"
+                problem = "a motor and a constant effort are given"
                 raise ModelError(
-                    said, "write that effort as a load; a varying effort is allowed here", ("effort",)
+                    problem, "write that effort as a load; a varying effort is allowed here", ("effort",)
                 )
         if self.unknown:
             self._refuse("an unknown position", "speed", "acceleration")
             self._check_unknown()
         elif self.range is not None:
-            said = "a range is given and the position is known"
-            raise ModelError(said, f"write position: {EXAMPLE}", ("range",))
+            problem = "a range is given and the position is known"
+            raise ModelError(problem, f"write position: {EXAMPLE}", ("range",))
         self._check_counts()
         if self.axis is not None:
             at_item("axis", direction_vector, self.axis)
@@ -285,14 +285,14 @@ class Drive(Part):
             what = "its position is unknown and its effort is not given"
             raise ModelError(what, "write effort: 0, or the effort that holds it")
         if slides(self.freedom) and self.range is None:
-            said = "its position along a slide is unknown without a range"
-            raise ModelError(said, "write range: [0 mm, 100 mm]")
+            problem = "its position along a slide is unknown without a range"
+            raise ModelError(problem, "write range: [0 mm, 100 mm]")
 
     def _check_counts(self) -> None:
         counts = self.counts()
         if len(set(counts.values())) > 1:
-            said = " and ".join(f"{number} in {key}" for key, number in counts.items())
-            what = f"its lists differ in length: {said}"
+            text = " and ".join(f"{number} in {key}" for key, number in counts.items())
+            what = f"its lists differ in length: {text}"
             raise ModelError(what, "give lists of equal length", (next(iter(counts)),))
 
     def counts(self) -> dict[str, int]:

@@ -9,11 +9,11 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.joints.pairs import PAIRS
-from dalembert.model.part import Reading, mapping, reading
+from dalembert.model.part import ReadingRules, mapping, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
-    Value,
+    ValueField,
     at_item,
     object_schema,
     value_text,
@@ -40,7 +40,7 @@ class Stops:
         return out | ({"restitution": self.restitution} if self.restitution else {})
 
 
-def end_stops(value: object, kind: str, rules: Reading) -> Stops:
+def end_stops(value: object, kind: str, rules: ReadingRules) -> Stops:
     """The stops that a mapping describes; ``kind`` is that of the drive's position."""
     if isinstance(value, Stops):
         return value
@@ -52,12 +52,14 @@ def end_stops(value: object, kind: str, rules: Reading) -> Stops:
     if not ("from" in keys or "to" in keys):
         raise ModelError("the stops say neither from nor to", f"write {EXAMPLE}; one of the two is enough")
     if not least < greatest:
-        said = f"the stops go from {keys['from']} to {keys['to']}"
-        raise ModelError(said, "give from the least and to the greatest position", ("from",))
+        problem = f"the stops go from {keys['from']} to {keys['to']}"
+        raise ModelError(problem, "give from the least and to the greatest position", ("from",))
     back = at_item("restitution", rules.quantity, keys.get("restitution", 0.0), "number")
     if not 0 <= back <= 1:
-        said = f"restitution is {back:g}; it is the speed after an impact over the speed before"
-        raise ModelError(said, "write a number from 0 (no rebound) to 1 (no energy lost)", ("restitution",))
+        problem = f"restitution is {back:g}; it is the speed after an impact over the speed before"
+        raise ModelError(
+            problem, "write a number from 0 (no rebound) to 1 (no energy lost)", ("restitution",)
+        )
     return Stops(least, greatest, back)
 
 
@@ -77,7 +79,7 @@ def stops_schema() -> JsonSchema:
     )
 
 
-class JointStops(Value):
+class JointStops(ValueField):
     """Stops of a joint with one freedom; of a slot, of its slide."""
 
     def __init__(self, kind: str = "") -> None:

@@ -9,8 +9,9 @@ from itertools import pairwise
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.model.drives.programmes import Programme, programme, programme_schema
-from dalembert.model.part import Reading, mapping
+from dalembert.model.drives.programmes import Programme
+from dalembert.model.drives.written_programmes import programme, programme_schema
+from dalembert.model.part import ReadingRules, mapping
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
@@ -121,7 +122,7 @@ class TimeTable:
 Law = Rise | TimeTable | Programme
 
 
-def law(value: object, kind: str, rules: Reading) -> Law:
+def law(value: object, kind: str, rules: ReadingRules) -> Law:
     """The law that a tree describes; positions are of the kind `angle` or `length`."""
     if isinstance(value, (Rise, TimeTable, Programme)):
         return value
@@ -131,12 +132,12 @@ def law(value: object, kind: str, rules: Reading) -> Law:
         return programme(value, kind, rules)
     form = value.get("type")
     if form not in TYPES:
-        found = "the key 'type' is missing" if form is None else f"unknown law {quote_value(form)}"
-        raise ModelError(found, closest(str(form), list(TYPES)), () if form is None else ("type",))
+        problem = "the key 'type' is missing" if form is None else f"unknown law {quote_value(form)}"
+        raise ModelError(problem, closest(str(form), list(TYPES)), () if form is None else ("type",))
     return _table(value, kind, rules) if form == "table" else _rise(value, kind, rules)
 
 
-def _rise(value: Mapping[str, object], kind: str, rules: Reading) -> Rise:
+def _rise(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Rise:
     known = ["type", "from", "to", "duration", "count"]
     mapping(value, known, EXAMPLES["rise"], known)
     start, stop = (at_item(key, rules.quantity, value[key], kind) for key in ("from", "to"))
@@ -145,7 +146,7 @@ def _rise(value: Mapping[str, object], kind: str, rules: Reading) -> Rise:
     return Rise(str(value["type"]), start, stop, duration, at_item("count", count, value["count"], 2))
 
 
-def _table(value: Mapping[str, object], kind: str, rules: Reading) -> TimeTable:
+def _table(value: Mapping[str, object], kind: str, rules: ReadingRules) -> TimeTable:
     if value.get("interpolate", "cubic") != "cubic":
         raise ModelError(
             f"a law of motion is not interpolated {quote_value(value['interpolate'])}: "
@@ -172,8 +173,8 @@ def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic:
     if any(not a < b for a, b in pairwise(time)):
         raise ModelError("its times do not increase", "sort the points", ("time",))
     if not isinstance(periodic, bool):
-        said = f"{quote_value(periodic)} is neither true nor false"
-        raise ModelError(said, "write periodic: true", ("periodic",))
+        problem = f"{quote_value(periodic)} is neither true nor false"
+        raise ModelError(problem, "write periodic: true", ("periodic",))
     if periodic and abs(position[-1] - position[0]) > 1e-9 * max(map(abs, position)):
         words = "it does not end where it begins"
         raise ModelError(words, "repeat the first position at the end", ("periodic",))

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.model.part import Reading, mapping
+from dalembert.model.part import ReadingRules, mapping
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
@@ -108,7 +108,7 @@ def of_kind(kind: str) -> dict[str, str]:
     return (turn if kind == "angle" else slide) | {"position": kind, "time": "time"}
 
 
-def motor_curve(value: object, kind: str, rules: Reading) -> MotorCurve:
+def motor_curve(value: object, kind: str, rules: ReadingRules) -> MotorCurve:
     """The motor that a mapping describes; ``kind`` is that of the drive's position."""
     if isinstance(value, MotorCurve):
         return value
@@ -131,12 +131,12 @@ def motor_curve(value: object, kind: str, rules: Reading) -> MotorCurve:
     return MotorCurve((0.0, free), (stall, 0.0), True, *switches)
 
 
-def _curve(value: object, kinds: Mapping[str, str], rules: Reading) -> tuple[tuple[float, ...], ...]:
+def _curve(value: object, kinds: Mapping[str, str], rules: ReadingRules) -> tuple[tuple[float, ...], ...]:
     keys = mapping(value, ["speed", kinds["name"]], f"curve: {{speed: [...], {kinds['name']}: [...]}}")
     for key in ("speed", kinds["name"]):
         if key not in keys:
-            said = f"the curve has no {key}"
-            raise ModelError(said, f"write curve: {{speed: [...], {kinds['name']}: [...]}}")
+            problem = f"the curve has no {key}"
+            raise ModelError(problem, f"write curve: {{speed: [...], {kinds['name']}: [...]}}")
     speed = at_item("speed", _numbers, keys["speed"], kinds["speed"], rules)
     effort = at_item(kinds["name"], _numbers, keys[kinds["name"]], kinds["effort"], rules)
     if len(speed) != len(effort) or len(speed) < 2:
@@ -152,7 +152,7 @@ def _curve(value: object, kinds: Mapping[str, str], rules: Reading) -> tuple[tup
     return speed, effort
 
 
-def _numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
+def _numbers(value: object, kind: str, rules: ReadingRules) -> tuple[float, ...]:
     """Numbers of a list; a bare 0 is a speed in any unit."""
     if not isinstance(value, Sequence) or isinstance(value, str):
         raise ModelError("a curve is two lists", f"write motor: {EXAMPLE}")
@@ -161,7 +161,7 @@ def _numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
     )
 
 
-def switch(value: object, kinds: Mapping[str, str], rules: Reading) -> Switch:
+def switch(value: object, kinds: Mapping[str, str], rules: ReadingRules) -> Switch:
     """A time, a position or a speed, as its unit says."""
     for by in SWITCHES:
         try:

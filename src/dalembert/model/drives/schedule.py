@@ -84,7 +84,7 @@ def schedule(drives: Mapping[str, Drive], positions: AtPositions = None) -> Sche
 
     count: int | None = None
     if isinstance(positions, (int, float, np.number)):
-        count = positions = _whole(positions)
+        count = positions = _whole_number(positions)
         drives = _step_full_turn(drives, positions)
     elif positions is not None:
         drives = _with_positions(drives, positions)
@@ -92,11 +92,11 @@ def schedule(drives: Mapping[str, Drive], positions: AtPositions = None) -> Sche
     columns = {name: _motion(drive, size) for name, drive in drives.items() if not _master(drive)}
     columns = _with_followers(drives, columns)
     shape = (size, len(drives))
-    whole = np.empty((3, *shape))
+    motion = np.empty((3, *shape))
     for k, column in enumerate(columns.values()):
-        for row, values in zip(whole, column[1:], strict=True):
+        for row, values in zip(motion, column[1:], strict=True):
             row[:, k] = values
-    position, speed, acceleration = whole
+    position, speed, acceleration = motion
     unknown = _unknown(drives)
     span = (drives[unknown].range or (0.0, 2 * math.pi)) if unknown else None
     return Schedule(
@@ -104,7 +104,7 @@ def schedule(drives: Mapping[str, Drive], positions: AtPositions = None) -> Sche
     )
 
 
-def _whole(count: object) -> int:
+def _whole_number(count: object) -> int:
     """A number of positions; True and 72.0 are none."""
     from numbers import Integral
 
@@ -121,22 +121,22 @@ def _with_positions(drives: Mapping[str, Drive], values: Sequence[Any] | Array) 
 
     what = "give a list of numbers, one for each position and drive"
     try:
-        given = np.asarray(values, float)
+        table = np.asarray(values, float)
     except (TypeError, ValueError):
         raise ModelError(f"positions are {quote_value(values)}, not numbers", what) from None
     count = len(drives)
-    flat = given.ndim == 1 and count and given.size % count == 0
-    if not given.size or not (flat or (given.ndim == 2 and given.shape[1] == count)):
+    flat = table.ndim == 1 and count and table.size % count == 0
+    if not table.size or not (flat or (table.ndim == 2 and table.shape[1] == count)):
         raise ModelError(
-            f"positions of shape {given.shape} do not fit {count} drive(s)", "give (position, drive)"
+            f"positions of shape {table.shape} do not fit {count} drive(s)", "give (position, drive)"
         )
-    if not np.isfinite(given).all():
+    if not np.isfinite(table).all():
         raise ModelError("positions are not finite", what)
     for name, drive in drives.items():
         if drive.law is not None or drive.unknown:
             why = "follows a law, which gives its positions" if drive.law else "has its position computed"
             raise ModelError(f"drive {name!r} {why}", "leave positions out", ("drives", name))
-    columns = given.reshape(-1, count).T.tolist()
+    columns = table.reshape(-1, count).T.tolist()
     return {
         name: drive.model_copy(update={"position": tuple(column)})
         for (name, drive), column in zip(drives.items(), columns, strict=True)
@@ -173,22 +173,22 @@ def _step_full_turn(drives: Mapping[str, Drive], positions: int) -> Mapping[str,
 
 def _count(drives: Mapping[str, Drive], positions: int | None) -> int:
     """The number of positions all drives agree on."""
-    found: dict[int, str] = {}
+    counts: dict[int, str] = {}
     for name, drive in drives.items():
         listed = [number for key, number in drive.counts().items() if isinstance(getattr(drive, key), tuple)]
         for number in listed or drive.counts().values():
-            found.setdefault(number if listed or positions is None else positions, name)
-    if len(found) > 1 or (positions is not None and found and positions not in found):
-        said = " and ".join(f"{number} of drive {name!r}" for number, name in found.items())
-        asked = f", but positions={positions}" if positions is not None else ""
+            counts.setdefault(number if listed or positions is None else positions, name)
+    if len(counts) > 1 or (positions is not None and counts and positions not in counts):
+        text = " and ".join(f"{number} of drive {name!r}" for number, name in counts.items())
+        requested = f", but positions={positions}" if positions is not None else ""
         raise ModelError(
-            f"the numbers of positions differ: {said}{asked}",
+            f"the numbers of positions differ: {text}{requested}",
             "drives advance together: give equal counts, or single values"
-            if len(found) > 1
+            if len(counts) > 1
             else "the list sets the count: leave the number out, or write {from, to, count}",
-            ("drives", list(found.values())[-1]),
+            ("drives", list(counts.values())[-1]),
         )
-    return next(iter(found), 1)
+    return next(iter(counts), 1)
 
 
 def _motion(drive: Drive, size: int) -> Motion:

@@ -9,11 +9,11 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.drives.drives import SLIDE, TURN, Drive
-from dalembert.model.part import Reading, mapping, reading
+from dalembert.model.part import ReadingRules, mapping, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
-    Value,
+    ValueField,
     at_item,
     object_schema,
     value_text,
@@ -52,25 +52,25 @@ def drives_at_start(drives: Mapping[str, Drive], start: Mapping[str, Start]) -> 
     return {name: d.model_copy(update=at[name]) if name in at else d for name, d in drives.items()}
 
 
-class StartValue(Value):
+class StartValue(ValueField):
     """`{O2: {position: 60 deg, speed: 0}}`."""
 
     def read(self, value: object, info: ValidationInfo) -> dict[str, Start]:
         return self.starts(value, reading(info))
 
-    def starts(self, value: object, rules: Reading) -> dict[str, Start]:
+    def starts(self, value: object, rules: ReadingRules) -> dict[str, Start]:
         """Starts by drive, from a tree."""
         if not isinstance(value, Mapping):
             raise ModelError("a start has a position and a speed by drive", f"write {EXAMPLE}")
         return {
-            str(name): at_item(str(name), self._one, given, str(name), rules) for name, given in value.items()
+            str(name): at_item(str(name), self._one, start, str(name), rules) for name, start in value.items()
         }
 
-    def _one(self, given: object, name: str, rules: Reading) -> Start:
-        if isinstance(given, Start):
-            return given
+    def _one(self, start: object, name: str, rules: ReadingRules) -> Start:
+        if isinstance(start, Start):
+            return start
         turns = rules.freedoms.get(name, "turn") == "turn"
-        keys, kinds = mapping(given, ["position", "speed"], EXAMPLE), TURN if turns else SLIDE
+        keys, kinds = mapping(start, ["position", "speed"], EXAMPLE), TURN if turns else SLIDE
         if "position" not in keys:
             raise ModelError("its position is missing", f"write {EXAMPLE}")
         position = at_item("position", rules.quantity, keys["position"], kinds[""])

@@ -21,8 +21,8 @@ def read(text: str) -> object:
         raise at_line(what, "check commas, quotes and brackets", error.lineno) from None
     except _TwiceError as twice:
         line = _second(text, str(twice))
-        said = f"the key {quote_value(str(twice))} occurs twice"
-        raise at_line(said, "leave one of them out", line) from None
+        problem = f"the key {quote_value(str(twice))} occurs twice"
+        raise at_line(problem, "leave one of them out", line) from None
 
 
 class _TwiceError(ValueError):
@@ -30,12 +30,12 @@ class _TwiceError(ValueError):
 
 
 def _object(pairs: list[tuple[str, object]]) -> dict[str, object]:
-    found: dict[str, object] = {}
+    tree: dict[str, object] = {}
     for key, value in pairs:
-        if key in found:
+        if key in tree:
             raise _TwiceError(key)
-        found[key] = value
-    return found
+        tree[key] = value
+    return tree
 
 
 def _number(digits: str) -> int | float:

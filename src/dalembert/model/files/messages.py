@@ -71,15 +71,15 @@ def together(errors: Sequence[ModelError]) -> ModelError:
     for error in errors:
         for one in error.errors if isinstance(error, ModelErrors) else (error,):
             flat.setdefault((one.what, one.path), one)
-    found = list(flat.values())
-    return found[0] if len(found) == 1 else ModelErrors(found)
+    distinct = list(flat.values())
+    return distinct[0] if len(distinct) == 1 else ModelErrors(distinct)
 
 
 def of_originals(error: ModelError, copied: Mapping[Path, Path]) -> ModelError:
     """The errors but for those of copies, which repeat those of the originals; if there are others."""
     errors = error.errors if isinstance(error, ModelErrors) else (error,)
-    own = [one for one in errors if one.path[:2] not in copied]
-    return together(own) if own else error
+    originals = [one for one in errors if one.path[:2] not in copied]
+    return together(originals) if originals else error
 
 
 def place(path: Sequence[str | int]) -> str:
@@ -102,8 +102,8 @@ def place(path: Sequence[str | int]) -> str:
 
 def translate(error: ValidationError, tree: object) -> ModelError:
     """pydantic's findings about a tree as one ModelError, with paths down that tree."""
-    found = [_translate_one(one, tree) for one in error.errors(include_url=False)]
-    ranked = sorted(enumerate(found), key=lambda pair: (pair[1][0], pair[0]))
+    errors = [_translate_one(one, tree) for one in error.errors(include_url=False)]
+    ranked = sorted(enumerate(errors), key=lambda pair: (pair[1][0], pair[0]))
     return together([one for _, (_, one) in ranked])
 
 
@@ -122,13 +122,13 @@ def _of_ours(inner: ModelError, path: Path) -> tuple[int, ModelError]:
     if isinstance(inner, UnknownKey):
         where = f" in {place(path)}" if path else ""
         return 0, ModelError(inner.what + where, inner.remedy, path + inner.path)
-    whole = path + inner.path
+    full = path + inner.path
     if inner.file:  # another file, which the description names there
         what = f"{inner.what} (read for {place(path)})" if path else inner.what
-        return 2, ModelError(what, inner.remedy, whole, inner.file, inner.line)
+        return 2, ModelError(what, inner.remedy, full, inner.file, inner.line)
     if not path:
         return 1, inner
-    return 2, ModelError(f"{place(whole)}: {inner.what}", inner.remedy, whole)
+    return 2, ModelError(f"{place(full)}: {inner.what}", inner.remedy, full)
 
 
 def _path(loc: Sequence[str | int], tree: object, missing: bool) -> Path:
@@ -160,7 +160,7 @@ def _missing(path: Path) -> ModelError:
 
 
 def _sentence(one: ErrorDetails) -> tuple[str, str]:
-    kind, given, ctx = one["type"], one.get("input"), one.get("ctx", {})
+    kind, value, ctx = one["type"], one.get("input"), one.get("ctx", {})
     if kind == "union_tag_invalid":
         word, choices = str(ctx["tag"]), _quote(ctx["expected_tags"])
         meant = [name for name in MEANT.get(word.lower().replace(" ", "_"), ()) if name in choices]
@@ -170,16 +170,16 @@ def _sentence(one: ErrorDetails) -> tuple[str, str]:
         return "the key 'type' is missing", HINTS["type"]
     if kind == "literal_error":
         choices = _quote(ctx["expected"])
-        return f"{quote_value(given)} has no meaning here", closest(str(given), choices)
+        return f"{quote_value(value)} has no meaning here", closest(str(value), choices)
     if kind in ("model_type", "model_attributes_type", "dict_type", "mapping_type"):
-        return f"expected a mapping, not {quote_value(given)}", "write {key: value, ...}"
+        return f"expected a mapping, not {quote_value(value)}", "write {key: value, ...}"
     if kind in ("tuple_type", "list_type"):
-        return f"expected a list, not {quote_value(given)}", "write [..., ...]"
+        return f"expected a list, not {quote_value(value)}", "write [..., ...]"
     if kind in ("bool_type", "bool_parsing"):
-        return f"{quote_value(given)} is neither true nor false", "write true or false"
+        return f"{quote_value(value)} is neither true nor false", "write true or false"
     if kind == "string_type":
-        return f"{quote_value(given)} is not text", "put it in quotes"
-    return f"{quote_value(given)}: {one['msg'].lower()}", ""
+        return f"{quote_value(value)} is not text", "put it in quotes"
+    return f"{quote_value(value)}: {one['msg'].lower()}", ""
 
 
 MEANT: dict[str, tuple[str, ...]] = {

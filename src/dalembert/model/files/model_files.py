@@ -14,7 +14,7 @@ from typing import Any
 
 from dalembert.errors import MissingFileError, ModelError
 from dalembert.model.description import Mechanism, mechanism
-from dalembert.model.files.source import STANDARD_INPUT, Lines, Source, is_stream
+from dalembert.model.files.source import STANDARD_INPUT, FileSource, Lines, is_stream
 from dalembert.saving import DATA_FOLDER, new_file
 from dalembert.wording import nearest
 
@@ -58,14 +58,14 @@ def loads(text: str, form: str = "yaml", name: str = "text") -> Mechanism:
     return mechanism(*read_text(text, form, name))
 
 
-def read_file(path: FilePath) -> tuple[Any, Source]:
+def read_file(path: FilePath) -> tuple[Any, FileSource]:
     """The tree of a file as it is written, and where it came from; `-` is standard input."""
     name = STANDARD_INPUT[-1] if os.fspath(path) in STANDARD_INPUT[:2] else os.fspath(path)
     text = _decode(_content(Path(path), name), name)
     return read_text(text, _form_of_stream(path, text) if is_stream(path) else format_of(path), name)
 
 
-def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, Source]:
+def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, FileSource]:
     """The tree of a text as it is written, and where it came from."""
     if form not in FORMATS.values():
         raise ModelError(f"unknown format {form!r}", "use yaml, json or toml")
@@ -77,9 +77,9 @@ def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, S
     except ModelError as error:
         raise error.at_line(name, error.line or 1) from None
     if tree is None or tree == {}:
-        said = "the file is empty"
-        raise ModelError(said, "begin with links: and joints:, or with `dalembert new`", (), name, 1)
-    return tree, Source(name, lines, text, form, DATA_FOLDER.get())
+        problem = "the file is empty"
+        raise ModelError(problem, "begin with links: and joints:, or with `dalembert new`", (), name, 1)
+    return tree, FileSource(name, lines, text, form, DATA_FOLDER.get())
 
 
 def _tree(text: str, form: str) -> tuple[object, Callable[[], Lines]]:
@@ -106,8 +106,8 @@ def _content(path: Path, name: str) -> bytes:
     except FileNotFoundError:
         raise MissingFileError(name, _neighbour(path)) from None
     except (OSError, ValueError) as error:
-        said = getattr(error, "strerror", None) or error
-        words = f"the file {name!r} cannot be read: {said}"
+        reason = getattr(error, "strerror", None) or error
+        words = f"the file {name!r} cannot be read: {reason}"
         raise ModelError(words, "check its name and permissions", (), repr(name)[1:-1], 1) from None
     if directory:
         raise ModelError(f"{name} is a directory", "name a .yaml, .json or .toml file", (), name, 1)
@@ -129,8 +129,8 @@ def _form_of_stream(path: FilePath, text: str) -> str:
         except (ValueError, RecursionError):
             return "yaml"
         return "json"
-    said = re.search(r"^(?!\s*(#|$)).*", text, re.MULTILINE)
-    return "toml" if said and re.match(r"\[|[\w.\"'-]+\s*=", said[0]) else "yaml"
+    line = re.search(r"^(?!\s*(#|$)).*", text, re.MULTILINE)
+    return "toml" if line and re.match(r"\[|[\w.\"'-]+\s*=", line[0]) else "yaml"
 
 
 def _first_bytes(path: Path) -> bytes:

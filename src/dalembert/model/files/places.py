@@ -13,7 +13,7 @@ from dalembert.model.files.source import Lines, Path
 
 
 @dataclass
-class Place:
+class TextSpan:
     """The characters of a value and of its key; `form` is scalar, alias, flow (in brackets) or block (on lines)."""
 
     start: int
@@ -23,7 +23,7 @@ class Place:
     mapping: bool = False
 
 
-Places = dict[Path, Place]
+Places = dict[Path, TextSpan]
 
 
 def places(text: str, form: str) -> Places:
@@ -35,17 +35,17 @@ def places(text: str, form: str) -> Places:
 def lines(text: str, form: str) -> Lines:
     """The line of every path of a text that has been read without an error."""
     ends = [match.start() for match in re.finditer("\n", text)]
-    found: dict[Path, int] = {}
+    numbers: dict[Path, int] = {}
     for path, place in places(text, form).items():
         line = bisect_left(ends, place.key[0] if place.key else place.start) + 1
         for length in range(1, len(path) + 1):
-            found.setdefault(path[:length], line)
-    return found
+            numbers.setdefault(path[:length], line)
+    return numbers
 
 
-def inside(found: Places, path: Path) -> list[Path]:
+def inside(index: Places, path: Path) -> list[Path]:
     """Values directly inside a mapping or list."""
-    return [other for other in found if len(other) == len(path) + 1 and other[: len(path)] == path]
+    return [other for other in index if len(other) == len(path) + 1 and other[: len(path)] == path]
 
 
 class _Stack:
@@ -65,7 +65,7 @@ class _Stack:
     def key(self, name: str, start: int, end: int) -> None:
         self.next[-1], self.keys[-1] = name, (start, end)
 
-    def value(self, place: Place) -> Path:
+    def value(self, place: TextSpan) -> Path:
         path: Path = (*self.open[-1][0], self.next[-1]) if self.open else ()
         if self.open:
             place.key, self.keys[-1] = self.keys[-1], None
@@ -74,7 +74,7 @@ class _Stack:
         self.found[path], self.last = place, place.end
         return path
 
-    def begin(self, place: Place) -> None:
+    def begin(self, place: TextSpan) -> None:
         self.open.append((self.value(place), place.mapping))
         self.next.append(0)
         self.keys.append(None)
@@ -107,10 +107,10 @@ def _of_yaml(text: str) -> Places:
                 match = _PROPERTIES.match(text, start)
                 start = match.end() if match else start
             if kind in ("ScalarEvent", "AliasEvent"):
-                stack.value(Place(start, max(start, end), "alias" if kind == "AliasEvent" else "scalar"))
+                stack.value(TextSpan(start, max(start, end), "alias" if kind == "AliasEvent" else "scalar"))
             else:
                 form = "flow" if event.flow_style else "block"
-                stack.begin(Place(start, end, form, mapping=kind == "MappingStartEvent"))
+                stack.begin(TextSpan(start, end, form, mapping=kind == "MappingStartEvent"))
     return stack.found
 
 
@@ -122,7 +122,7 @@ def _of_json(text: str) -> Places:
     for match in _JSON.finditer(text):
         token = match[0]
         if token in "[{":
-            stack.begin(Place(match.start(), match.end(), "flow", mapping=token == "{"))
+            stack.begin(TextSpan(match.start(), match.end(), "flow", mapping=token == "{"))
         elif token in "]}":
             stack.finish(match.end())
         elif token in ",:":
@@ -130,7 +130,7 @@ def _of_json(text: str) -> Places:
         elif stack.wants_key:
             stack.key(json.loads(token), *match.span())
         else:
-            stack.value(Place(*match.span(), "scalar"))
+            stack.value(TextSpan(*match.span(), "scalar"))
     return stack.found
 
 
@@ -146,7 +146,7 @@ class _Toml:
 
     def __init__(self, text: str) -> None:
         self.text, self.at = text, 0
-        self.found: Places = {(): Place(0, 0, "block", mapping=True)}
+        self.found: Places = {(): TextSpan(0, 0, "block", mapping=True)}
         self.counts: dict[Path, int] = {}
 
     def space(self) -> None:
@@ -168,7 +168,7 @@ class _Toml:
         path = table
         for part in name[:-1]:
             path = (*path, part)
-            self.found.setdefault(path, Place(span[0], span[1], "dotted"))
+            self.found.setdefault(path, TextSpan(span[0], span[1], "dotted"))
         self.value((*path, name[-1]), span)
 
     def value(self, path: Path, key: tuple[int, int] | None = None) -> None:
@@ -177,9 +177,9 @@ class _Toml:
             match = _SCALAR.match(self.text, self.at)
             assert match is not None
             self.at = match.end()
-            self.found[path] = Place(start, self.at, "scalar", key)
+            self.found[path] = TextSpan(start, self.at, "scalar", key)
             return
-        place = self.found[path] = Place(start, start, "flow", key, first == "{")
+        place = self.found[path] = TextSpan(start, start, "flow", key, first == "{")
         self.at += 1
         index = 0
         while True:
@@ -205,7 +205,7 @@ class _Toml:
         if several:
             self.counts[path] = self.counts.get(path, -1) + 1
             path = (*path, self.counts[path])
-        self.found[path] = Place(start, self.at, "block", mapping=True)
+        self.found[path] = TextSpan(start, self.at, "block", mapping=True)
         return path
 
     def read(self) -> Places:

@@ -10,18 +10,18 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from dalembert.arrays import Tree
-from dalembert.model.files.source import Path, Source
+from dalembert.model.files.source import FileSource, Path
 from dalembert.model.files.splicing import REMOVED, Change, Renamed, changes_at_once, splice
 from dalembert.model.files.yaml_text import scalar
 from dalembert.model.quantities.figures import (
     SHORT,
-    in_own_unit,
-    own_polar,
+    in_stated_unit,
     plain,
     polar_text,
+    polar_units,
     si_quantity,
-    whole,
-    with_own_unit,
+    with_kept_unit,
+    without_fraction,
 )
 from dalembert.model.quantities.written_tables import FILE_FOLDER
 from dalembert.units import NUMBER, Units
@@ -42,8 +42,8 @@ def text_of(m: Mechanism, form: str, folder: str | None = None) -> str:
 
     Columns of another file stay there if it is in the ``folder`` of the text (default: that of the mechanism's file).
     """
-    own_folder = m.source.folder if m.source is not None else ""
-    token = FILE_FOLDER.set(own_folder if folder is None else folder)
+    file_folder = m.source.folder if m.source is not None else ""
+    token = FILE_FOLDER.set(file_folder if folder is None else folder)
     try:
         return _text_of(m, form)
     finally:
@@ -53,13 +53,13 @@ def text_of(m: Mechanism, form: str, folder: str | None = None) -> str:
 def _text_of(m: Mechanism, form: str) -> str:
     from dalembert.model.files.model_files import read_text, tree_text
 
-    own = _own_text(m, m.source) if m.source is not None and m.source.text else None
-    if own is None:
+    text = _file_text(m, m.source) if m.source is not None and m.source.text else None
+    if text is None:
         return tree_text(file_tree(m), form)
     assert m.source is not None
     if m.source.form == form:
-        return own
-    tree = read_text(own, m.source.form)[0]
+        return text
+    tree = read_text(text, m.source.form)[0]
     return tree_text({key: value for key, value in tree.items() if value is not None}, form)
 
 
@@ -72,7 +72,7 @@ def file_tree(m: Mechanism) -> Tree:
     return tree
 
 
-def _own_text(m: Mechanism, source: Source) -> str | None:
+def _file_text(m: Mechanism, source: FileSource) -> str | None:
     """The source's text with the changes; None where that would not be read as this mechanism."""
     from dalembert.model.description import mechanism
     from dalembert.model.files.model_files import read_text
@@ -120,9 +120,9 @@ def listed_columns(m: Mechanism, tree: object) -> Iterator[tuple[Path, object]]:
     written = file_tree(m)
     for part in ("loads", "drives"):
         for path in _tables_from_files(_at(tree, (part,), None), (part,)):
-            found = _at(written, (part, str(path[1]), *path[2:]), None)
-            if isinstance(found, Mapping) and "file" not in found:
-                yield path, found
+            table = _at(written, (part, str(path[1]), *path[2:]), None)
+            if isinstance(table, Mapping) and "file" not in table:
+                yield path, table
 
 
 def in_folder(m: Mechanism, tree: Mapping[str, object], folder: str) -> Tree:
@@ -148,15 +148,15 @@ def _tables_from_files(tree: object, path: Path) -> Iterator[Path]:
 def _values(m: Mechanism, tree: Mapping[str, object]) -> Iterator[tuple[Path, object]]:
     """Changes as paths down the file's tree, with values in the file's words."""
     dumped = m.to_tree()
-    for path, given in m.changes.items():
-        yield from _value(m, tree, dumped, path.split("."), given)
+    for path, value in m.changes.items():
+        yield from _value(m, tree, dumped, path.split("."), value)
 
 
 def _differences(m: Mechanism, read: Mechanism, tree: Mapping[str, object]) -> Iterator[tuple[Path, object]]:
     """Differences of a text from the mechanism, leaf by leaf."""
     wanted = m.to_tree()
     for path in _differing(wanted, read.to_tree(), ()):
-        yield from _value(m, tree, wanted, list(map(str, path)), _at(wanted, path, REMOVED), said=False)
+        yield from _value(m, tree, wanted, list(map(str, path)), _at(wanted, path, REMOVED), as_written=False)
 
 
 def _differing(a: object, b: object, path: Path) -> Iterator[Path]:
@@ -171,38 +171,38 @@ def _differing(a: object, b: object, path: Path) -> Iterator[Path]:
 
 
 def _value(
-    m: Mechanism, tree: object, dumped: object, keys: list[str], given: object, said: bool = True
+    m: Mechanism, tree: object, dumped: object, keys: list[str], new: object, as_written: bool = True
 ) -> Iterator[tuple[Path, object]]:
-    """A change as paths and values of the tree; `said`: a given text is written unchanged."""
+    """A change as paths and values of the tree; `as_written`: a given text is written unchanged."""
     if keys[0] == "parameters" and len(keys) == 2 and isinstance(_at(tree, tuple(keys), None), Mapping):
         keys, dumped = [*keys, "value"], _with_values(dumped, keys[1])
     path, old = _path_to_text(tree, keys)
     while keys[len(path) - 1].isdigit() and _at(dumped, path, REMOVED) is REMOVED:  # it is written otherwise
         path, old = path[:-1], _at(tree, path[:-1], None)
-    text = given if said and len(path) == len(keys) else None
+    text = new if as_written and len(path) == len(keys) else None
     if keys[0] == "loads" and keys[2:3] in (["value"], ["direction"]):
-        found = list(_of_load(m, tree, keys[1], text if keys[2:] == ["value"] else None))
-        if found:
-            yield from found
+        changes = list(_of_load(m, tree, keys[1], text if keys[2:] == ["value"] else None))
+        if changes:
+            yield from changes
             return
     beside = (*path[:-1], {"mass": "weight", "weight": "mass"}.get(keys[-1], ""))
-    if given is None or given is REMOVED:
+    if new is None or new is REMOVED:
         yield path, REMOVED
     elif keys[0] == "links" and _at(tree, beside, None) is not None:
-        yield beside, Renamed(keys[-1], _value_text(m, text, _at(dumped, path, given), None))
+        yield beside, Renamed(keys[-1], _value_text(m, text, _at(dumped, path, new), None))
     else:
-        value = _value_text(m, text, _at(dumped, path, given), old)
-        yield from _items(path, value, old) if said else [(path, value)]
+        value = _value_text(m, text, _at(dumped, path, new), old)
+        yield from _items(path, value, old) if as_written else [(path, value)]
         if "inertia" in keys and len(path) == 5:  # a product of inertia stands in two places
             other = (*path[:3], path[4], path[3])
-            yield other, _value_text(m, text, _at(dumped, other, given), _at(tree, other, None))
+            yield other, _value_text(m, text, _at(dumped, other, new), _at(tree, other, None))
 
 
 def _with_values(dumped: Any, name: str) -> Tree:
     """The tree with a parameter as a mapping, as in its file."""
-    said = dumped["parameters"][name]
-    whole_ = said if isinstance(said, Mapping) else {"value": said}
-    return {**dumped, "parameters": {**dumped["parameters"], name: whole_}}
+    entry = dumped["parameters"][name]
+    mapping = entry if isinstance(entry, Mapping) else {"value": entry}
+    return {**dumped, "parameters": {**dumped["parameters"], name: mapping}}
 
 
 def _path_to_text(tree: object, keys: list[str]) -> tuple[Path, object]:
@@ -240,81 +240,83 @@ def _items(path: Path, value: object, old: object) -> Iterator[tuple[Path, objec
         yield path, value
 
 
-def _value_text(m: Mechanism, given: object, si: object, old: object) -> object:
+def _value_text(m: Mechanism, new: object, si: object, old: object) -> object:
     """A value in the words of the one it replaces: as given where it is text, else its number in the same unit."""
-    if isinstance(given, str):
-        return scalar(given) if re.fullmatch(NUMBER, given) else given
-    worded = isinstance(given, (list, tuple)) and any(isinstance(item, str) for item in given)
+    if isinstance(new, str):
+        return scalar(new) if re.fullmatch(NUMBER, new) else new
+    worded = isinstance(new, (list, tuple)) and any(isinstance(item, str) for item in new)
     if isinstance(si, list) and isinstance(old, str) and "@" in old and len(si) == 2 and not worded:
         return _polar(m, si, old)
     if isinstance(si, list):
         olds = old if isinstance(old, list) and len(old) == len(si) else [None] * len(si)
-        items = given if isinstance(given, (list, tuple)) and len(given) == len(si) else [None] * len(si)
+        items = new if isinstance(new, (list, tuple)) and len(new) == len(si) else [None] * len(si)
         return [_value_text(m, g, s, o) for g, s, o in zip(items, si, olds, strict=True)]
-    if isinstance(given, Mapping):
+    if isinstance(new, Mapping):
         return {
             key: _value_text(m, item, _at(si, (key,), item), _at(old, (key,), None))
-            for key, item in given.items()
+            for key, item in new.items()
         }
     if isinstance(si, dict):
         return {key: _value_text(m, None, value, _at(old, (key,), None)) for key, value in si.items()}
-    found = si_quantity(si)
-    if found:
-        return _number(*found, old, m.units)
+    quantity = si_quantity(si)
+    if quantity:
+        return _number(*quantity, old, m.units)
     if isinstance(si, float):
-        return (with_own_unit(si, "number", old, m.units) if isinstance(old, str) else None) or whole(si)
+        return (
+            with_kept_unit(si, "number", old, m.units) if isinstance(old, str) else None
+        ) or without_fraction(si)
     return si
 
 
 def _number(number: float, kind: str, old: object, units: Units) -> object:
     if isinstance(old, str):
-        own = with_own_unit(number, kind, old, units)
-        if own is not None:
-            return own
+        text = with_kept_unit(number, kind, old, units)
+        if text is not None:
+            return text
     elif old is not None and not units.refuses_bare(kind):
-        own = in_own_unit(number, kind, "", units)
-        if own is not None:
-            return scalar(own)
+        text = in_stated_unit(number, kind, "", units)
+        if text is not None:
+            return scalar(text)
     return plain(number, kind, units)
 
 
 def _polar(m: Mechanism, si: list[str | float], old: str) -> object:
     """A vector as polar text again, where some polar text is exactly this vector."""
-    found = [si_quantity(x) or (float(x), "number") for x in si]
-    vector, kind = tuple(number for number, _ in found), found[0][1]
-    size, angle = own_polar(old, kind, m.units)
+    quantities = [si_quantity(x) or (float(x), "number") for x in si]
+    vector, kind = tuple(number for number, _ in quantities), quantities[0][1]
+    size, angle = polar_units(old, kind, m.units)
     polar = polar_text(vector, kind, m.units, size, angle)
     components = [plain(x, kind, m.units) for x in vector]
     return polar if polar and len(polar) <= max(2 * SHORT, len(str(components))) else components
 
 
-def _of_load(m: Mechanism, tree: object, name: str, given: object) -> Iterator[tuple[Path, object]]:
+def _of_load(m: Mechanism, tree: object, name: str, new: object) -> Iterator[tuple[Path, object]]:
     """Value and direction of a force, which may be written as one polar text, or as a vector without a direction."""
     load, was = m.loads[name], _at(tree, ("loads", name), {})
     path, old = ("loads", name, "value"), was.get("value") if isinstance(was, Mapping) else None
     value, direction = getattr(load, "value", None), getattr(load, "direction", None)
     if isinstance(value, tuple) and was.get("direction") is not None:
         yield ("loads", name, "direction"), REMOVED
-        yield path, _value_text(m, given, m.to_tree()["loads"][name]["value"], None)
-    elif isinstance(given, str) and "@" in given:
-        yield path, given
+        yield path, _value_text(m, new, m.to_tree()["loads"][name]["value"], None)
+    elif isinstance(new, str) and "@" in new:
+        yield path, new
         if was.get("direction") is not None:
             yield ("loads", name, "direction"), REMOVED
     elif (
         isinstance(old, str) and "@" in old and isinstance(direction, float) and not isinstance(value, tuple)
     ):
-        size, angle = own_polar(old, "force", m.units)
-        said = m.to_tree()["loads"][name]["value"]
-        quantity = si_quantity(said)
-        if quantity and (found := _polar_text(quantity[0], direction, size, angle, m.units)):
-            yield path, found
+        size, angle = polar_units(old, "force", m.units)
+        number = m.to_tree()["loads"][name]["value"]
+        quantity = si_quantity(number)
+        if quantity and (text := _polar_text(quantity[0], direction, size, angle, m.units)):
+            yield path, text
             return
         for key, si in m.to_tree()["loads"][name].items():
             if key in ("value", "direction"):
-                yield ("loads", name, key), _value_text(m, given if key == "value" else None, si, None)
+                yield ("loads", name, key), _value_text(m, new if key == "value" else None, si, None)
 
 
 def _polar_text(size: float, angle: float, size_unit: str, angle_unit: str, units: Units) -> str | None:
-    r = in_own_unit(size, "force", size_unit, units)
-    turn = in_own_unit(angle, "angle", angle_unit, units)
+    r = in_stated_unit(size, "force", size_unit, units)
+    turn = in_stated_unit(angle, "angle", angle_unit, units)
     return None if r is None or turn is None else f"{r} @ {turn}"

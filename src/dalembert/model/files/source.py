@@ -27,7 +27,7 @@ def is_stream(path: str | os.PathLike[str]) -> bool:
 
 
 @dataclass(frozen=True)
-class Source:
+class FileSource:
     """A file's name, text and format, and its lines by path, computed when first needed.
 
     >>> Source("four.yaml", lambda: {("joints",): 3, ("joints", "A"): 5}).line(("joints", "A", "links", 0))

@@ -57,9 +57,9 @@ def changes_at_once(text: str, form: str, values: Mapping[Path, object]) -> list
 
 def _round(text: str, form: str, values: Mapping[Path, object]) -> tuple[list[Change], dict[Path, object]]:
     """Changes that do not overlap, and the values that are left."""
-    found, changes, later = places(text, form), list[Change](), dict[Path, object]()
+    index, changes, later = places(text, form), list[Change](), dict[Path, object]()
     for path, value in values.items():
-        change = _change(text, form, found, path, value)
+        change = _change(text, form, index, path, value)
         if change is None:
             continue
         if any((change.start < c.end and c.start < change.end) or change.start == c.start for c in changes):
@@ -69,18 +69,18 @@ def _round(text: str, form: str, values: Mapping[Path, object]) -> tuple[list[Ch
     return changes, later
 
 
-def _change(text: str, form: str, found: Places, path: Path, value: object) -> Change | None:
-    place = found.get(path)
+def _change(text: str, form: str, index: Places, path: Path, value: object) -> Change | None:
+    place = index.get(path)
     if value is REMOVED:
-        return _removal(text, found, path) if place else None
+        return _removal(text, index, path) if place else None
     if isinstance(value, Renamed):
         assert place is not None
         assert place.key is not None
         return Change(place.key[0], place.end, _pair(value.key, value.value, form))
     if place is None:
-        return _addition(text, form, found, path, value)
+        return _addition(text, form, index, path, value)
     if place.form in ("block", "dotted"):
-        return _block(text, form, found, path, value)
+        return _block(text, form, index, path, value)
     return Change(place.start, place.end, value_text(value, form, text[place.start : place.end]))
 
 
@@ -117,42 +117,42 @@ def _pair(key: object, value: object, form: str) -> str:
     return f"{word(str(key))}: {value_text(value, form)}"
 
 
-def _removal(text: str, found: Places, path: Path) -> Change:
+def _removal(text: str, index: Places, path: Path) -> Change:
     """A key and its value out: with a comma in brackets, with its line otherwise."""
-    place, siblings = found[path], inside(found, path[:-1])
+    place, siblings = index[path], inside(index, path[:-1])
     start = place.key[0] if place.key else place.start
     at = siblings.index(path)
-    if found[path[:-1]].form == "flow":
+    if index[path[:-1]].form == "flow":
         if at > 0:
-            return Change(found[siblings[at - 1]].end, place.end, "")
-        after = found[siblings[1]] if len(siblings) > 1 else None
+            return Change(index[siblings[at - 1]].end, place.end, "")
+        after = index[siblings[1]] if len(siblings) > 1 else None
         return Change(start, (after.key[0] if after.key else after.start) if after else place.end, "")
     line, end = text.rfind("\n", 0, start) + 1, text.find("\n", place.end)
     return Change(line, len(text) if end < 0 else end + 1, "")
 
 
-def _addition(text: str, form: str, found: Places, path: Path, value: object) -> Change:
+def _addition(text: str, form: str, index: Places, path: Path, value: object) -> Change:
     """A new key at the end of the mapping it belongs to; what is between that and the value is added too."""
     depth = len(path) - 1
-    while path[:depth] not in found or not (
-        found[path[:depth]].mapping or found[path[:depth]].form == "alias"
+    while path[:depth] not in index or not (
+        index[path[:depth]].mapping or index[path[:depth]].form == "alias"
     ):
         depth -= 1
-    if form == "toml" and depth < len(path) - 1 and any(p[: depth + 1] == path[: depth + 1] for p in found):
+    if form == "toml" and depth < len(path) - 1 and any(p[: depth + 1] == path[: depth + 1] for p in index):
         header = ".".join(_toml_key(str(key)) for key in path[:-1])  # a table that others lie within
         return Change(len(text), len(text), f"\n[{header}]\n{_pair(path[-1], value, form)}\n")
     for key in reversed(path[depth + 1 :]):
         value = {key: value}
-    place, siblings = found[path[:depth]], inside(found, path[:depth])
+    place, siblings = index[path[:depth]], inside(index, path[:depth])
     pair = _pair(path[depth], value, form)
     if place.form == "alias":
         return Change(place.start, place.end, "{<<: " + text[place.start : place.end] + f", {pair}}}")
     if place.form == "flow":
-        at = found[siblings[-1]].end if siblings else place.start + 1
+        at = index[siblings[-1]].end if siblings else place.start + 1
         return Change(at, at, f", {pair}" if siblings else pair)
     if form == "toml":
         return _new_line(text, place.end, "", pair)
-    first = found[siblings[0]].key
+    first = index[siblings[0]].key
     assert first is not None
     return _new_line(text, place.end, " " * (first[0] - text.rfind("\n", 0, first[0]) - 1), pair)
 
@@ -164,9 +164,9 @@ def _new_line(text: str, behind: int, indent: str, pair: str) -> Change:
     return Change(at, at, f"{line_end}{indent}{pair}")
 
 
-def _block(text: str, form: str, found: Places, path: Path, value: object) -> Change:
+def _block(text: str, form: str, index: Places, path: Path, value: object) -> Change:
     """Replaces a block on separate lines by one value behind its key."""
-    place = found[path]
+    place = index[path]
     assert place.key is not None, path
     colon = text.index(":", place.key[1])
     return Change(colon + 1, place.end, " " + value_text(value, form))

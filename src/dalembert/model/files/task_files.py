@@ -29,8 +29,8 @@ def load_task(
     folder = Path(path).parent
     try:
         if not isinstance(tree, Mapping):
-            found = f"expected a mapping, not {quote_value(tree)}"
-            raise ModelError(found, "write model: ... and vary: ...")
+            problem = f"expected a mapping, not {quote_value(tree)}"
+            raise ModelError(problem, "write model: ... and vary: ...")
         if "links" in tree:
             raise ModelError("this is a model file", "name it in a separate file: model: FILE", ("links",))
         check_keys(tree, list(keys))
@@ -55,11 +55,11 @@ def _model(tree: Mapping[str, object], folder: Path) -> Mechanism:
 
 
 def plain_options(
-    tree: Mapping[str, object], whole: Mapping[str, int], truths: tuple[str, ...]
+    tree: Mapping[str, object], integers: Mapping[str, int], truths: tuple[str, ...]
 ) -> dict[str, object]:
     """Whole numbers, each with the least it may be, and true or false, of the keys that are given."""
     out: dict[str, object] = {
-        key: _whole(tree[key], key, least) for key, least in whole.items() if key in tree
+        key: _whole_number(tree[key], key, least) for key, least in integers.items() if key in tree
     }
     for key in truths:
         if key in tree:
@@ -69,7 +69,7 @@ def plain_options(
     return out
 
 
-def _whole(value: Any, key: str, least: int) -> int:
+def _whole_number(value: Any, key: str, least: int) -> int:
     number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < LARGEST
     if number and value == int(value) >= least:
         return int(value)

@@ -20,9 +20,9 @@ def read(text: str) -> Tree:
     try:
         return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        said = str(error)
-        match = re.search(r"\(at line (\d+), column \d+\)", said)
-        problem = re.sub(r" \(at .*\)", "", said).lower()
+        message = str(error)
+        match = re.search(r"\(at line (\d+), column \d+\)", message)
+        problem = re.sub(r" \(at .*\)", "", message).lower()
         line_number = int(match[1]) if match else text.count("\n") + 1
         words = f"it is not TOML here: {problem}"
         raise at_line(words, "check quotes, commas and brackets", line_number) from None

@@ -40,7 +40,7 @@ def read(text: str) -> tuple[object, dict[Path, int]]:
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
     _check_properties(text)
-    builder = _Builder()
+    builder = _TreeBuilder()
     try:
         for event in YAML(typ="safe", pure=True).parse(text):
             builder.take(event)
@@ -51,8 +51,8 @@ def read(text: str) -> tuple[object, dict[Path, int]]:
     except (YAMLError, ValueError, IndexError, AssertionError, RecursionError, OverflowError) as error:
         if isinstance(error, ModelError):
             raise
-        said = str(error).split("\n")[0]
-        raise at_line(f"it is not YAML: {said}", "check its characters and brackets", 1) from None
+        message = str(error).split("\n")[0]
+        raise at_line(f"it is not YAML: {message}", "check its characters and brackets", 1) from None
     return builder.root, builder.lines
 
 
@@ -69,11 +69,11 @@ def _check_properties(text: str) -> None:
 
 
 def _problem(error: MarkedYAMLError) -> str:
-    said = " ".join(str(error.problem or error.context).split())
-    begun, found = error.context_mark, error.problem_mark
-    if begun is not None and found is not None and begun.line != found.line:
-        return f"{said}, {error.context} that begins in line {begun.line + 1}"
-    return said
+    message = " ".join(str(error.problem or error.context).split())
+    begun, problem = error.context_mark, error.problem_mark
+    if begun is not None and problem is not None and begun.line != problem.line:
+        return f"{message}, {error.context} that begins in line {begun.line + 1}"
+    return message
 
 
 def at_line(what: str, remedy: str, line: int) -> ModelError:
@@ -89,7 +89,7 @@ def _advice(text: str, mark: StreamMark | None) -> str:
     return "check indentation, brackets and colons, and put text with ': ' or '#' in quotes"
 
 
-class _Builder:
+class _TreeBuilder:
     """Stacks the open mappings and lists; `line` is that of the event at hand."""
 
     def __init__(self) -> None:
@@ -167,18 +167,18 @@ class _Builder:
 
     def merge(self, top: _Open) -> None:
         """Merges the mappings that `<<: *name` names; keys of the mapping itself, and earlier ones, take precedence."""
-        given = top.value.pop(MERGE)
+        sources = top.value.pop(MERGE)
         line = self.line = self.lines.pop((*top.path, MERGE))
         merged: dict[str, object] = {}
-        for other in reversed(given if isinstance(given, list) else [given]):
+        for other in reversed(sources if isinstance(sources, list) else [sources]):
             if not isinstance(other, dict):
                 what = f"{quote_value(other)} cannot be merged: {MERGE} needs a mapping"
                 raise self.error(what, f"write {MERGE}: *name, after &name {{...}}")
             merged |= other
-        own = dict(top.value)
+        before = dict(top.value)
         top.value.clear()
-        top.value.update(merged | own)
-        self.lines |= {(*top.path, key): line for key in merged if key not in own}
+        top.value.update(merged | before)
+        self.lines |= {(*top.path, key): line for key in merged if key not in before}
 
     def add_anchor(self, anchor: str | None, value: object, size: int) -> None:
         if anchor:

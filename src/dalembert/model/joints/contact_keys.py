@@ -10,7 +10,7 @@ from pydantic import Field, ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.part import mapping, reading
-from dalembert.model.quantities.values import JsonSchema, Value, at_item, object_schema
+from dalembert.model.quantities.values import JsonSchema, ValueField, at_item, object_schema
 from dalembert.wording import closest, quote_value
 
 MODES = ("holds", "pushes", "pulls")
@@ -26,7 +26,7 @@ class ContactMode:
     restitution: float = 0.0
 
 
-class ContactValue(Value):
+class ContactValue(ValueField):
     """A contact: `holds`, `pushes` or `pulls`, or `{pushes: true, restitution: 0.3}`."""
 
     def read(self, value: object, info: ValidationInfo) -> ContactMode:

@@ -12,7 +12,7 @@ from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
     Scalar,
-    Value,
+    ValueField,
     check_sign,
     numbers,
     value_text,
@@ -22,7 +22,7 @@ Coefficient = Annotated[float, Scalar("number", "not negative")]
 Circle = Literal["sin", "tan"]
 
 
-class Guide(Value):
+class Guide(ValueField):
     """Lengths of the guide behind and ahead of j's point, `[l1, l2]`."""
 
     def read(self, value: object, info: ValidationInfo) -> tuple[float, float]:

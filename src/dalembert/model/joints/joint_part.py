@@ -10,10 +10,10 @@ from dalembert.errors import ModelError
 from dalembert.model.joints.pairs import PAIRS, TEETH, Pair
 from dalembert.model.joints.stiffness import Stiffness
 from dalembert.model.part import Part
-from dalembert.model.quantities.values import JsonSchema, TwoNames, Value, name, pair_of_names
+from dalembert.model.quantities.values import JsonSchema, TwoNames, ValueField, name, pair_of_names
 
 
-class At(Value):
+class At(ValueField):
     """The name of a point, or `[point of i, point of j]`."""
 
     def read(self, value: object, info: ValidationInfo) -> str | tuple[str, str]:
@@ -97,11 +97,11 @@ class JointPart(Part):
             return named if named in turns else None
         return turns[0] if len(turns) == 1 else None
 
-    def point_names(self, own: str) -> tuple[str, str]:
-        """Names of its points on i and on j; `own` is the joint's name."""
+    def point_names(self, joint: str) -> tuple[str, str]:
+        """Names of its points on i and on j; `joint` is the joint's name."""
         if isinstance(self.at, tuple):
             return self.at
-        point = self.at or own
+        point = self.at or joint
         return point, point
 
     @model_validator(mode="after")

@@ -28,7 +28,7 @@ from dalembert.model.quantities.values import (
     Components,
     JsonSchema,
     Scalar,
-    Value,
+    ValueField,
     Vector,
     at_item,
     check_sign,
@@ -37,19 +37,19 @@ from dalembert.model.quantities.values import (
 )
 
 
-class TwoNumbers(Value):
+class TwoNumbers(ValueField):
     """Two positive numbers of a kind, `[of i, of j]`."""
 
     def __init__(self, kind: str) -> None:
         self.kind = kind
 
     def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
-        found = numbers(value, self.kind, reading(info))
-        if len(found) != 2:
-            raise ModelError(f"a list of {len(found)} is given; two values are needed", "write [of i, of j]")
-        for i, number in enumerate(found):
+        pair = numbers(value, self.kind, reading(info))
+        if len(pair) != 2:
+            raise ModelError(f"a list of {len(pair)} is given; two values are needed", "write [of i, of j]")
+        for i, number in enumerate(pair):
             at_item(i, check_sign, number, value[i], "positive")
-        return found[0], found[1]
+        return pair[0], pair[1]
 
     def write(self, value: tuple[float, float]) -> object:
         return [value_text(number, self.kind) for number in value]
@@ -58,7 +58,7 @@ class TwoNumbers(Value):
         return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}
 
 
-class SlotDamping(Value):
+class SlotDamping(ValueField):
     """Damping of the slide; or `{slide:, turn:}`."""
 
     def read(self, value: object, info: ValidationInfo) -> tuple[float, float]:
@@ -67,11 +67,11 @@ class SlotDamping(Value):
             return value[0], value[1]
         keys = value if isinstance(value, Mapping) else {"slide": value}
         mapping(keys, ["slide", "turn"], "{slide: 30, turn: 0.2}")
-        found = (
+        pair = (
             at_item(key, rules.quantity, keys.get(key, 0.0), kind)
             for key, kind in (("slide", "damping"), ("turn", "torsion_damping"))
         )
-        slide, turn = (check_sign(number, number, "not negative") for number in found)
+        slide, turn = (check_sign(number, number, "not negative") for number in pair)
         return slide, turn
 
     def write(self, value: tuple[float, float]) -> object:

@@ -18,7 +18,7 @@ from dalembert.model.quantities.values import (
     Components,
     JsonSchema,
     Scalar,
-    Value,
+    ValueField,
     Vector,
     at_item,
     check_sign,
@@ -58,7 +58,7 @@ class Frames(Part):
     j: Frame = Field(default_factory=Frame, description="in j's axes")
 
 
-class Dampings(Value):
+class Dampings(ValueField):
     """Damping of the only freedom; or `{freedom: coefficient}`."""
 
     def read(self, value: object, info: ValidationInfo) -> dict[str, float]:
@@ -162,7 +162,7 @@ class SpaceJoint(JointPart):
         return frames(self.axes, self.axis, self.pair.main)
 
     @model_validator(mode="after")
-    def _own_keys(self, info: ValidationInfo) -> Self:
+    def _check_keys(self, info: ValidationInfo) -> Self:
         if reading(info).dimension == 2:  # the mechanism says that it is not for the plane
             return self
         if (self.lead is None) == self.pair.threaded:
@@ -225,8 +225,8 @@ def frames(axes: Frames | None, axis: Vector | None, main: str) -> tuple[Matrix,
     An axis that neither gives is the link axis nearest to a right angle, z before x before y.
     """
     if axis is not None:
-        given = {main: axis}
-        return _frame(given, given, main), _frame(given, given, main)
+        single = {main: axis}
+        return _frame(single, single, main), _frame(single, single, main)
     i, j = (
         {key: value for key in ("x", "z") if (value := getattr(part, key)) is not None}
         for part in ((axes.i, axes.j) if axes else (Frame(), Frame()))
@@ -234,16 +234,16 @@ def frames(axes: Frames | None, axis: Vector | None, main: str) -> tuple[Matrix,
     return _frame(i, j, main), _frame(j, i, main)
 
 
-def _frame(own: dict[str, Vector], other: dict[str, Vector], main: str) -> Matrix:
+def _frame(axes: dict[str, Vector], other: dict[str, Vector], main: str) -> Matrix:
     """x, y and z of one link."""
-    first = next((key for key in (main, "z", "x") if key in own), None)
+    first = next((key for key in (main, "z", "x") if key in axes), None)
     if first is None:
-        own, first = other, next((key for key in (main, "z", "x") if key in other), None)
+        axes, first = other, next((key for key in (main, "z", "x") if key in other), None)
     if first is None:
         return (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     second = "z" if first == "x" else "x"
-    one = unit(own[first])
-    wanted = [v for part in (own, other) if (v := part.get(second)) is not None]
+    one = unit(axes[first])
+    wanted = [v for part in (axes, other) if (v := part.get(second)) is not None]
     two = next(square for v in [*wanted, *_LINK_AXES[second]] if (square := _square(v, one)) is not None)
     x, z = (one, two) if first == "x" else (two, one)
     return x, cross(z, x), z

@@ -11,7 +11,7 @@ from dalembert.model.part import Part, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
-    Value,
+    ValueField,
     at_item,
     check_sign,
     numbers,
@@ -21,7 +21,7 @@ from dalembert.model.quantities.values import (
 AXES = ", or [x, y, z] in the joint's axes (for a joint with two turns, the axes of its link i)"
 
 
-class Stiffnesses(Value):
+class Stiffnesses(ValueField):
     """One number; in space also one for each of the joint's axes x, y, z."""
 
     def __init__(self, kind: str) -> None:
@@ -34,8 +34,8 @@ class Stiffnesses(Value):
         if rules.dimension == 2 or len(value) != 3:
             what = f"a list of {len(value)} is not a stiffness"
             raise ModelError(what, "write one number" + ("" if rules.dimension == 2 else AXES))
-        found = numbers(value, self.kind, rules)
-        return tuple(at_item(k, check_sign, x, value[k], "positive") for k, x in enumerate(found))
+        components = numbers(value, self.kind, rules)
+        return tuple(at_item(k, check_sign, x, value[k], "positive") for k, x in enumerate(components))
 
     def write(self, value: float | tuple[float, ...]) -> object:
         if isinstance(value, tuple):

@@ -91,7 +91,7 @@ DESCRIPTIONS = {
     "bevel_differential": "in space: a carrier turns by half the sum of two wheels' turns",
     "rotating_shaft": "in space: a shaft with masses off its axis on two bearings",
 }
-TEMPLATES = {name: Template(globals()[name], said) for name, said in DESCRIPTIONS.items()}
+TEMPLATES = {name: Template(globals()[name], description) for name, description in DESCRIPTIONS.items()}
 """Name -> function and description, for `dalembert new NAME`."""
 
 
@@ -115,9 +115,9 @@ def template_text(name: str) -> str:
     function = _require_known(name).function
     if not function.__module__.endswith(".engines"):
         return file_text(name)
-    said = (function.__doc__ or "").partition(">>>")[0].replace("`", "").strip().splitlines()
+    text = (function.__doc__ or "").partition(">>>")[0].replace("`", "").strip().splitlines()
     head, _, rest = str(function()).partition("\n")
-    return "\n".join([head, "", *(f"# {line.strip()}".rstrip() for line in said), "", rest])
+    return "\n".join([head, "", *(f"# {line.strip()}".rstrip() for line in text), "", rest])
 
 
 def _require_known(name: str) -> Template:

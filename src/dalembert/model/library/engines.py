@@ -98,11 +98,11 @@ def v_engine(
     if cylinders % 2:
         raise ModelError(f"v_engine: {cylinders} cylinders are not pairs", "give an even number")
     count = cylinders // 2
-    given = list(throws) or [360.0 * k / count for k in range(count)]
-    if len(given) != count:
-        raise ModelError(f"v_engine: {len(given)} throws for {count} pairs of cylinders", "give one a pair")
+    angles = list(throws) or [360.0 * k / count for k in range(count)]
+    if len(angles) != count:
+        raise ModelError(f"v_engine: {len(angles)} throws for {count} pairs of cylinders", "give one a pair")
     lines = [angle / 2, -angle / 2] * count
-    each = [t for t in given for _ in range(2)]
+    each = [t for t in angles for _ in range(2)]
     fires = [
         (line - t) % 360 + 360 * (k // 2 % 2) for k, (line, t) in enumerate(zip(lines, each, strict=True))
     ]

@@ -50,9 +50,9 @@ def template_function(name: str) -> Callable[..., Mechanism]:
     arguments: dict[str, Any] = {}
     explained = []
     for parameter, value, about in _ARGUMENT.findall(text):
-        group, said = _group(parameter), value.strip()
-        arguments[group] = (*arguments.get(group, ()), said) if group != parameter else said
-        explained.append(f"    {parameter}: {about} (default {said})")
+        group, default = _group(parameter), value.strip()
+        arguments[group] = (*arguments.get(group, ()), default) if group != parameter else default
+        explained.append(f"    {parameter}: {about} (default {default})")
     arguments["positions"] = int(re.findall(r"count: (\d+)", text)[0])
     keyword = Argument.KEYWORD_ONLY
     build.__signature__ = Signature(  # type: ignore[attr-defined]
@@ -68,10 +68,10 @@ def _explanation(name: str, text: str, explained: list[str]) -> str:
     """Explanation from the head of the file, and its parameters."""
     head = re.search(r"^(# .*?)\n#\n# Solve it", text, re.MULTILINE | re.DOTALL)
     assert head is not None
-    said = re.sub(r"^# ?", "", head[1], flags=re.MULTILINE)
+    words = re.sub(r"^# ?", "", head[1], flags=re.MULTILINE)
     return "\n".join(
         [
-            said,
+            words,
             "",
             "Numbers are SI, angles of `sweep` radians and other angles degrees; texts carry their unit. A point or a",
             "range (`NAME_x`, `NAME_y`; `NAME_start`, `NAME_end`) is one argument `NAME`. It is the file of",
@@ -102,7 +102,7 @@ def _tree(name: str) -> Tree:
 
 
 @lru_cache(maxsize=32)
-def _own(name: str) -> Parameters:
+def _parameters_of(name: str) -> Parameters:
     return read_parameters(_tree(name)["parameters"], UNITS, {})
 
 
@@ -119,16 +119,19 @@ def from_template(name: str, **values: object) -> Mechanism:
     from dalembert.model.description import mechanism
 
     file = _tree(name)
-    said, count = dict(file["parameters"]), values.pop("positions", None)
-    own = _own(name)
+    entries, count = dict(file["parameters"]), values.pop("positions", None)
+    known = _parameters_of(name)
     for argument, value in values.items():
-        for parameter, item in _members(name, argument, value, said):
-            said[parameter] = {**said[parameter], "value": _text(name, parameter, item, own[parameter])}
-    given = read_parameters({k: v for k, v in said.items() if isinstance(v, Mapping)}, UNITS, {})
-    tree = {**file, "parameters": said, "drives": dict(file["drives"])}
+        for parameter, item in _members(name, argument, value, entries):
+            entries[parameter] = {
+                **entries[parameter],
+                "value": _text(name, parameter, item, known[parameter]),
+            }
+    parameters = read_parameters({k: v for k, v in entries.items() if isinstance(v, Mapping)}, UNITS, {})
+    tree = {**file, "parameters": entries, "drives": dict(file["drives"])}
     for drive, keys in tree["drives"].items() if count is not None else ():
         tree["drives"][drive] = {**keys, "position": {**keys["position"], "count": count}}
-    angles = _first_angles(name, given)
+    angles = _first_angles(name, parameters)
     if angles is not None:
         tree["assembly"] = angles
     return _numbers(mechanism(tree))
@@ -142,33 +145,35 @@ def _numbers(m: Mechanism) -> Mechanism:
     return m.model_copy(update={**parts, "parameters": {}, "units": Units()})
 
 
-def _members(name: str, argument: str, value: object, said: Mapping[str, object]) -> list[tuple[str, object]]:
+def _members(
+    name: str, argument: str, value: object, entries: Mapping[str, object]
+) -> list[tuple[str, object]]:
     """The parameters that an argument gives, and their values."""
     arguments = {
-        parameter: _group(parameter) for parameter, keys in said.items() if isinstance(keys, Mapping)
+        parameter: _group(parameter) for parameter, keys in entries.items() if isinstance(keys, Mapping)
     }
-    found = [parameter for parameter, group in arguments.items() if group == argument]
-    if not found:
+    members = [parameter for parameter, group in arguments.items() if group == argument]
+    if not members:
         choices = [*dict.fromkeys(arguments.values()), "positions"]
         raise ModelError(f"{name} has no dimension {argument!r}", closest(argument, choices, 20))
-    if found == [argument]:
+    if members == [argument]:
         return [(argument, value)]
-    if not isinstance(value, (tuple, list)) or len(value) != len(found):
+    if not isinstance(value, (tuple, list)) or len(value) != len(members):
         raise ModelError(
-            f"{name}: {argument} is {value!r}, not {len(found)} values", f"give {argument} as (a, b)"
+            f"{name}: {argument} is {value!r}, not {len(members)} values", f"give {argument} as (a, b)"
         )
-    return list(zip(found, value, strict=True))
+    return list(zip(members, value, strict=True))
 
 
-def _text(name: str, parameter: str, value: Any, own: Parameter) -> Any:
+def _text(name: str, parameter: str, value: Any, default: Parameter) -> Any:
     """A value as in the file: a number of SI units; degrees for an angle that is not a range."""
-    unit = si_unit(own.dimension)
+    unit = si_unit(default.dimension)
     number = (
         read_parameters({parameter: value}, UNITS, {})[parameter].value if isinstance(value, str) else value
     )
     if not isinstance(number, (int, float)) or isinstance(number, bool):
         raise ModelError(f"{name}: {parameter} is {value!r}, not a number", f"give it in {unit or 'numbers'}")
-    if unit in POSITIVE and own.value > 0 and not parameter.endswith(("_x", "_y", "_z")):
+    if unit in POSITIVE and default.value > 0 and not parameter.endswith(("_x", "_y", "_z")):
         positive(name, unit, **{parameter: number})
     if not isfinite(number):
         raise ModelError(f"{name}: {parameter} is {number}", "give a finite value")
@@ -177,12 +182,12 @@ def _text(name: str, parameter: str, value: Any, own: Parameter) -> Any:
     return f"{float(value)!r} {'deg' if unit == 'rad' and 'sweep' not in parameter else unit}"
 
 
-def _first_angles(name: str, given: Parameters) -> dict[str, float] | None:
+def _first_angles(name: str, parameters: Parameters) -> dict[str, float] | None:
     """The links' angles at the start of the drive's range, in degrees, after the linkage was seen to close along it."""
     groups: dict[str, list[float]] = {}
-    for parameter, p in given.items():
+    for parameter, p in parameters.items():
         groups.setdefault(_group(parameter), []).append(p.value)
-    sizes = SimpleNamespace(**{n: v[0] if n in given else tuple(v) for n, v in groups.items()})
+    sizes = SimpleNamespace(**{n: v[0] if n in parameters else tuple(v) for n, v in groups.items()})
     try:
         closure = getattr(closures, name, lambda _: None)(sizes)
     except ModelError as error:
@@ -193,5 +198,6 @@ def _first_angles(name: str, given: Parameters) -> dict[str, float] | None:
     turn = closure.drive != "cylinder"
     at = start_points(name, closure.place, sizes.sweep if turn else sizes.strokes, closure.drive, turn)
     return {
-        link: angle(at, *way.split()) if isinstance(way, str) else way for link, way in closure.angles.items()
+        link: angle(at, *ends.split()) if isinstance(ends, str) else ends
+        for link, ends in closure.angles.items()
     }

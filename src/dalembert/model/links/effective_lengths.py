@@ -12,7 +12,7 @@ from dalembert.model.part import reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
-    Value,
+    ValueField,
     at_item,
     check_sign,
     list_schema,
@@ -23,7 +23,7 @@ Factors = dict[str, tuple[float, float]]
 """K of buckling in the plane and across it, by member `A-B`; of all members under the empty name."""
 
 
-class EffectiveLength(Value):
+class EffectiveLength(ValueField):
     """`2`, `[1, 2]` (in the plane, across it), or of several members `{A-B: 2, B-C: [1, 2]}`."""
 
     def read(self, value: Any, info: ValidationInfo) -> Factors:

@@ -28,7 +28,7 @@ from dalembert.model.quantities.values import (
     JsonSchema,
     Name,
     Scalar,
-    Value,
+    ValueField,
     Vector,
     at_item,
     check_sign,
@@ -76,7 +76,7 @@ class Offset:
 Inertia = float | tuple[float, ...] | tuple[tuple[float, ...], ...]
 
 
-class Place(Value):
+class Place(ValueField):
     """A point: a vector in link axes, or `{from: OTHER, at: VECTOR}`."""
 
     def read(self, value: object, info: ValidationInfo) -> Vector | Offset:
@@ -123,7 +123,7 @@ class Place(Value):
         return {"anyOf": [*vector_schema()["anyOf"], object_schema(relative, "from")]}
 
 
-class InertiaValue(Value):
+class InertiaValue(ValueField):
     """About the mass centre: one number; in space three principal values or a symmetric matrix."""
 
     sign = "not negative"
@@ -142,8 +142,8 @@ class InertiaValue(Value):
             return _symmetric(
                 tuple(at_item(i, numbers, row, "inertia", rules) for i, row in enumerate(value))
             )
-        found = numbers(value, "inertia", rules)
-        return tuple(at_item(i, check_sign, x, value[i], self.sign) for i, x in enumerate(found))
+        moments = numbers(value, "inertia", rules)
+        return tuple(at_item(i, check_sign, x, value[i], self.sign) for i, x in enumerate(moments))
 
     def write(self, value: Inertia) -> object:
         if isinstance(value, tuple):
@@ -271,8 +271,8 @@ class Link(Part):
     def _check_shape(self) -> None:
         for key in ("center", "inertia"):
             if getattr(self, key):
-                said = f"both shape and {key} are given"
-                raise ModelError(said, "leave one of them out: a shape gives both", (key,))
+                problem = f"both shape and {key} are given"
+                raise ModelError(problem, "leave one of them out: a shape gives both", (key,))
         check_densities(self.shapes, self.mass is not None or self.weight is not None)
         if not finite(self.mass_properties, 1.0 if self.weight is not None else self.mass):
             what = "its mass or inertia is not a finite number"

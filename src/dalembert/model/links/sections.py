@@ -14,7 +14,7 @@ from dalembert.model.quantities.values import (
     NAME_OR_NUMBER,
     JsonSchema,
     Scalar,
-    Value,
+    ValueField,
     Vector,
     list_schema,
     name,
@@ -24,7 +24,7 @@ from dalembert.model.quantities.values import (
 MASS_ALONG = ("uniform", "shape", "lumped")
 
 
-class MassAlong(Value):
+class MassAlong(ValueField):
     """Distribution of a link's mass along its members."""
 
     def read(self, value: object, info: ValidationInfo) -> str:
@@ -37,7 +37,7 @@ class MassAlong(Value):
         return {"enum": list(MASS_ALONG)}
 
 
-class Members(Value):
+class Members(ValueField):
     """`[[A, B], [B, C]]`: straight members by two points of the link each, or a single `[A, B]`."""
 
     def read(self, value: Any, info: ValidationInfo) -> tuple[tuple[str, str], ...]:
@@ -45,9 +45,9 @@ class Members(Value):
         if not isinstance(value, (list, tuple)) or not value:
             raise ModelError("the list of members is empty or not a list", example)
         pairs = value if isinstance(value[0], (list, tuple)) else [value]
-        found = tuple(pair_of_names(pair) for pair in pairs)
-        met = [{name(found[0][0])}]
-        for a, b in found:
+        members = tuple(pair_of_names(pair) for pair in pairs)
+        met = [{name(members[0][0])}]
+        for a, b in members:
             at_a, at_b = (next((s for s in met if end in s), {end}) for end in (a, b))
             if at_a is at_b:
                 what = f"the members close a ring at {a!r} and {b!r}; its forces are statically indeterminate"
@@ -55,7 +55,7 @@ class Members(Value):
             met = [s for s in met if s is not at_a and s is not at_b] + [at_a | at_b]
         if len(met) > 1:
             raise ModelError("the members hang together nowhere", "let each begin at a point of another")
-        return found
+        return members
 
     def write(self, value: tuple[tuple[str, str], ...]) -> object:
         return [list(pair) for pair in value]
@@ -114,15 +114,17 @@ class Section(Part):
     @model_validator(mode="after")
     def _one_size(self) -> Self:
         shapes = [k for k in ("rectangle", "circle", "tube", "I") if getattr(self, k) is not None]
-        given = [k for k in ("area", "modulus", "inertia") if getattr(self, k) is not None]
-        if len(shapes) + bool(given) != 1:
-            what = f"{' and '.join([*shapes, *given])} give it twice" if shapes else "the section has no size"
+        stated = [k for k in ("area", "modulus", "inertia") if getattr(self, k) is not None]
+        if len(shapes) + bool(stated) != 1:
+            what = (
+                f"{' and '.join([*shapes, *stated])} give it twice" if shapes else "the section has no size"
+            )
             remedy = "write one of rectangle, circle, tube, I, or area, modulus and inertia"
-            raise ModelError(what, remedy, given[:1])
-        if given and len(given) < 3:
-            missing = next(k for k in ("area", "modulus", "inertia") if k not in given)
-            said = f"the section has no {missing}"
-            raise ModelError(said, "give area, modulus and inertia, or a shape", ())
+            raise ModelError(what, remedy, stated[:1])
+        if stated and len(stated) < 3:
+            missing = next(k for k in ("area", "modulus", "inertia") if k not in stated)
+            problem = f"the section has no {missing}"
+            raise ModelError(problem, "give area, modulus and inertia, or a shape", ())
         if self.tube and self.tube[0] >= self.tube[1]:
             raise ModelError("the inner diameter is not smaller", "write tube: [inner, outer]", ("tube",))
         if self.I and (self.I[2] >= self.I[1] or 2 * self.I[3] >= self.I[0]):

@@ -20,7 +20,7 @@ from dalembert.model.quantities.values import (
     JsonSchema,
     Scalar,
     TwoNames,
-    Value,
+    ValueField,
     Vector,
     at_item,
     check_sign,
@@ -48,17 +48,19 @@ class MassProperties(NamedTuple):
     inertia: Array
 
 
-class Lengths(Value):
+class Lengths(ValueField):
     """Some positive lengths."""
 
     def __init__(self, count: int, example: str) -> None:
         self.count, self.example = count, example
 
     def read(self, value: Any, info: ValidationInfo) -> Vector:
-        found = numbers(value, "length", reading(info))
-        if len(found) != self.count:
-            raise ModelError(f"a list of {len(found)} is given; {self.count} values are needed", self.example)
-        return tuple(at_item(i, check_sign, x, value[i], "positive") for i, x in enumerate(found))
+        lengths = numbers(value, "length", reading(info))
+        if len(lengths) != self.count:
+            raise ModelError(
+                f"a list of {len(lengths)} is given; {self.count} values are needed", self.example
+            )
+        return tuple(at_item(i, check_sign, x, value[i], "positive") for i, x in enumerate(lengths))
 
     def write(self, value: Vector) -> object:
         return [value_text(x, "length") for x in value]
@@ -84,7 +86,7 @@ class ShapePart(Part):
         raise NotImplementedError
 
 
-class Placed(ShapePart):
+class CentredShape(ShapePart):
     """A shape with a middle."""
 
     center: Annotated[Vector, Components("length")] | None = Field(
@@ -96,7 +98,7 @@ class Placed(ShapePart):
         return in_three(self.center or (0.0, 0.0))
 
 
-class Box(Placed):
+class Box(CentredShape):
     """A box.
 
     >>> Box(size=(1, 2, 3)).solid(lambda name: (0.0, 0.0)).inertia.diagonal().tolist()
@@ -120,12 +122,12 @@ class Box(Placed):
         volume = self.size[0] * self.size[1] * self.size[2]
         inertia = volume / 12 * np.diag([b + c, a + c, a + b])
         if self.axes is not None:
-            own = np.array(self.own_axes)
-            inertia = own.T @ inertia @ own
+            axes = np.array(self.own_axes)
+            inertia = axes.T @ inertia @ axes
         return Solid(volume, self.middle(), inertia)
 
 
-class Sphere(Placed):
+class Sphere(CentredShape):
     """A ball: I = 2/5 V r^2."""
 
     type: Literal["sphere"] = "sphere"
@@ -137,7 +139,7 @@ class Sphere(Placed):
         return Solid(volume, self.middle(), 0.4 * volume * self.radius**2 * np.eye(3))
 
 
-class Long(Placed):
+class Long(CentredShape):
     """A shape along an axis: by its length, axis and middle, or between two points of the link."""
 
     length: Length | None = Field(None, description="along its axis; or between")
@@ -273,8 +275,8 @@ def check_densities(shapes: tuple[ShapePart, ...], weighed: bool) -> None:
             what = "both the link's mass and a density are given"
             raise ModelError(what, "leave one of them out", (*path, "density"))
         if not weighed and shape.density is None:
-            said = "a shape has no density and the link no mass"
-            raise ModelError(said, "give one of them: density: 7850 kg/m^3", path)
+            problem = "a shape has no density and the link no mass"
+            raise ModelError(problem, "give one of them: density: 7850 kg/m^3", path)
         thin = isinstance(shape, SlenderBar) and shape.area is None
         if thin and (not weighed or len(shapes) > 1):
             raise ModelError("a bar needs the area of its section here", "give it: area: 2 cm^2", path)
@@ -284,10 +286,10 @@ def finite(properties: Callable[[Numeric], MassProperties], mass: Numeric) -> bo
     """True if a mass, its centre and its inertia are finite numbers."""
     try:
         with np.errstate(all="ignore"):
-            found, center, inertia = properties(mass)
+            total, center, inertia = properties(mass)
     except (OverflowError, ZeroDivisionError):
         return False
-    return all(map(math.isfinite, (found, *center, *inertia.flat)))
+    return all(map(math.isfinite, (total, *center, *inertia.flat)))
 
 
 def mass_properties(shapes: tuple[ShapePart, ...], points: Points, mass: Numeric = None) -> MassProperties:
@@ -303,14 +305,14 @@ def mass_properties(shapes: tuple[ShapePart, ...], points: Points, mass: Numeric
         solid.volume * (shape.density if common is None else common)
         for solid, shape in zip(solids, shapes, strict=True)
     ]
-    whole = sum(masses)
+    total = sum(masses)
     if mass is not None and not mass:  # without mass the centre is that of the volume
-        masses, whole = [solid.volume for solid in solids], sum(solid.volume for solid in solids)
-    center = sum(m * solid.center for m, solid in zip(masses, solids, strict=True)) / whole
+        masses, total = [solid.volume for solid in solids], sum(solid.volume for solid in solids)
+    center = sum(m * solid.center for m, solid in zip(masses, solids, strict=True)) / total
     inertia: Array = np.zeros((3, 3))
     for m, solid in zip(masses, solids, strict=True):
         r = solid.center - center
         inertia = inertia + m / solid.volume * solid.inertia + m * ((r @ r) * np.eye(3) - np.outer(r, r))
     if mass is not None and not mass:
         return MassProperties(0.0, center, 0.0 * inertia)
-    return MassProperties(whole, center, inertia)
+    return MassProperties(total, center, inertia)

@@ -13,7 +13,7 @@ from pydantic import ValidationInfo
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.part import reading
-from dalembert.model.quantities.values import JsonSchema, Value, check_sign, value_text
+from dalembert.model.quantities.values import JsonSchema, ValueField, check_sign, value_text
 from dalembert.saving import check_installed
 from dalembert.unit_names import unit
 from dalembert.units import KINDS, quantity
@@ -36,7 +36,7 @@ class MeshFile:
         return Path(self.folder) / self.written
 
 
-class MeshFileValue(Value):
+class MeshFileValue(ValueField):
     """The path of an .stl file, relative to the model file."""
 
     def read(self, value: object, info: ValidationInfo) -> MeshFile:
@@ -55,7 +55,7 @@ class MeshFileValue(Value):
         return {"type": "string"}
 
 
-class MeshUnit(Value):
+class MeshUnit(ValueField):
     """A unit of length, or a length: what 1 in the file is."""
 
     def read(self, value: object, info: ValidationInfo) -> float:
@@ -77,8 +77,8 @@ def mesh_solid(file: MeshFile) -> tuple[float, Array, Array]:
     try:
         state = os.stat(file.path)
     except (OSError, ValueError):
-        said = f"file {file.written!r} does not exist"
-        raise ModelError(said, "check the name; it is relative to the model file") from None
+        problem = f"file {file.written!r} does not exist"
+        raise ModelError(problem, "check the name; it is relative to the model file") from None
     if not file.path.is_file() or state.st_size > LARGEST:
         what = "is not an ordinary file" if not file.path.is_file() else f"has more than {LARGEST} bytes"
         raise ModelError(f"the mesh {file.written!r} {what}", "name an STL file of a coarser mesh")
@@ -93,8 +93,8 @@ def _read(file: MeshFile, changed: int) -> tuple[float, Array, Array]:
     try:
         mesh = trimesh.load_mesh(file.path, file_type="stl")
     except Exception as error:  # the package raises errors of many kinds for a file that is no mesh
-        said = f"the mesh {file.written!r} cannot be read: {error}"
-        raise ModelError(said, "export it again as STL") from None
+        problem = f"the mesh {file.written!r} cannot be read: {error}"
+        raise ModelError(problem, "export it again as STL") from None
     if not len(mesh.faces) or not np.isfinite(mesh.vertices).all():
         raise ModelError(f"the mesh {file.written!r} has no triangles", "export it again as STL")
     if not mesh.is_watertight or not mesh.is_winding_consistent:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from dalembert.errors import MissingFileError, ModelError
-from dalembert.model.part import Reading
+from dalembert.model.part import ReadingRules
 from dalembert.units import NUMBER
 from dalembert.wording import closest, quote_value
 
@@ -29,7 +29,7 @@ _DECIMAL_COMMA = re.compile(r"([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)")
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class FileColumn:
     """Numbers of a column as written, each with its line; the unit that the head (on its line) states."""
 
     name: str
@@ -39,7 +39,7 @@ class Column:
     lines: tuple[int, ...]
 
 
-def read_columns(file: str, asked: Sequence[str | int], rules: Reading) -> list[Column]:
+def read_columns(file: str, wanted: Sequence[str | int], rules: ReadingRules) -> list[FileColumn]:
     """The columns asked for, by names in the head or numbers from 1; raises ModelError with file and line."""
     path = find_file(file, rules)
     file = os.path.join(rules.folder, file)
@@ -49,14 +49,14 @@ def read_columns(file: str, asked: Sequence[str | int], rules: Reading) -> list[
         raise _error(f"more than {MOST} rows", "leave every second row out, or more", file, rows[MOST][0])
     cells = _Cells(file, rows)
     heads = cells.heads()
-    places = [_place(column, k, heads, cells) for k, column in enumerate(asked)]
+    places = [_place(column, k, heads, cells) for k, column in enumerate(wanted)]
     numbers = [cells.numbers(place, heads[place][0]) for place in places]
     lines = tuple(n for n, _ in cells.rows)
-    return [Column(*heads[k], cells.head, x, lines) for k, x in zip(places, numbers, strict=True)]
+    return [FileColumn(*heads[k], cells.head, x, lines) for k, x in zip(places, numbers, strict=True)]
 
 
 def read_quantities(
-    file: str | os.PathLike[str], kinds: Mapping[str, str], rules: Reading, names: str = ""
+    file: str | os.PathLike[str], kinds: Mapping[str, str], rules: ReadingRules, names: str = ""
 ) -> tuple[dict[str, Any], tuple[int, ...]]:
     """Columns by name in SI, each of a kind, and the lines of their rows; ``names``: a column of texts besides.
 
@@ -87,7 +87,7 @@ def _rows(text: str) -> list[tuple[int, str]]:
     return [(n, line) for n, line in lines if line.strip() and line.strip()[0] != "#"]
 
 
-def find_file(file: str, rules: Reading) -> Path:
+def find_file(file: str, rules: ReadingRules) -> Path:
     """Path of the file: in the model's folder, or in the other allowed one, links resolved."""
     if not isinstance(file, str) or not file.lower().endswith(ENDINGS):
         what = f"{quote_value(file)} is not a file of columns"
@@ -102,15 +102,15 @@ def find_file(file: str, rules: Reading) -> Path:
             for path in ((folder / file).resolve() for folder in folders)
             if any(path.is_relative_to(allowed) for allowed in folders)
         ]
-        found = next((path for path in inside if path.exists()), None)
+        existing = next((path for path in inside if path.exists()), None)
     except (OSError, ValueError, RuntimeError):
         raise ModelError(f"{quote_value(file)} is not a valid path", "check the name") from None
     if not inside:
         remedy = "move it into that folder, or allow its folder: --data FOLDER, in Python da.load(..., data=FOLDER)"
         raise ModelError(f"the file {file!r} is outside the model file's folder", remedy)
-    if found is None:
+    if existing is None:
         raise ModelError(f"file {file!r} does not exist", "check the name; it is relative to the model file")
-    return found
+    return existing
 
 
 def file_text(path: Path, file: str = "") -> str:
@@ -170,9 +170,9 @@ class _Cells:
         if all(self._number(cell) is not None for cell in first):
             return [("", "")] * self.width
         self.rows = self.rows[1:]
-        found = [match for cell in first if (match := _HEAD.fullmatch(cell))]
+        matches = [match for cell in first if (match := _HEAD.fullmatch(cell))]
         heads = [
-            (match["name"].strip('" '), (match["unit"] or match["other"] or "").strip()) for match in found
+            (match["name"].strip('" '), (match["unit"] or match["other"] or "").strip()) for match in matches
         ]
         below = self.rows[0][1] if self.rows else []
         if len(below) == self.width and all(re.match(r"[\[(]?[^\W\d]|[\[(]?[°%]|-$", cell) for cell in below):
@@ -180,7 +180,8 @@ class _Cells:
             if not any(unit.lower() in ("nan", "inf", "infinity") for unit in units):
                 self.rows = self.rows[1:]
                 heads = [
-                    (name, own or unit.strip("-")) for (name, own), unit in zip(heads, units, strict=True)
+                    (name, stated or unit.strip("-"))
+                    for (name, stated), unit in zip(heads, units, strict=True)
                 ]
         return heads
 
@@ -200,8 +201,8 @@ class _Cells:
             value = self._number(row[place])
             if value is None or not math.isfinite(value):
                 what = f" in column {name!r}" if name else ""
-                said = f"{quote_value(row[place])}{what} is not a finite number"
-                raise _error(said, "correct it, or take the row out", self.file, n)
+                problem = f"{quote_value(row[place])}{what} is not a finite number"
+                raise _error(problem, "correct it, or take the row out", self.file, n)
             out.append(value)
         return tuple(out)
 

@@ -57,10 +57,10 @@ def parts(path: str) -> tuple[str, str, str] | None:
     >>> parts("links.rod.angle"), parts("joints.A.turn.speed"), parts("O2.speed")
     (('links', 'rod', 'angle'), ('joints', 'A', 'turn'), None)
     """
-    found = (path.removesuffix(SPEED) if path.count(".") == 3 else path).split(".")
-    if len(found) != 3 or (found[0], found[2] == "angle") not in (("links", True), ("joints", False)):
+    keys = (path.removesuffix(SPEED) if path.count(".") == 3 else path).split(".")
+    if len(keys) != 3 or (keys[0], keys[2] == "angle") not in (("links", True), ("joints", False)):
         return None
-    return found[0], found[1], found[2]
+    return keys[0], keys[1], keys[2]
 
 
 def going_by(text: str) -> dict[str, str]:
@@ -70,7 +70,7 @@ def going_by(text: str) -> dict[str, str]:
     {'time': 'time', 'links.rod.angle': 'turn', 'joints.G.slide.speed': 'slide speed'}
     """
     paths = re.findall(r"[^\W\d]\w*\.\w+\.\w+(?:\.speed\b)?", long_names(text))
-    known = {path: found[2].rstrip("12").replace("angle", "turn") for path in paths if (found := parts(path))}
+    known = {path: names[2].rstrip("12").replace("angle", "turn") for path in paths if (names := parts(path))}
     return {TIME: TIME} | {path: f"{of} speed" if is_speed(path) else of for path, of in known.items()}
 
 
@@ -85,9 +85,9 @@ def is_speed(path: str) -> bool:
 
 def along_of(path: str, freedoms: Mapping[str, str]) -> str:
     """Whether it is an angle, a length, a speed of these or a time; empty where that is not known."""
-    found = parts(path)
+    coordinate = parts(path)
     freedom = freedoms.get(path.removesuffix(SPEED) if is_speed(path) else path) or (
-        found[2] if found else ""
+        coordinate[2] if coordinate else ""
     )
     if freedom:
         kind = "slide" if freedom.startswith("slide") else "turn"

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from dalembert.arrays import Numeric
-from dalembert.model.quantities.expression_trees import Functions, Name, names_in
+from dalembert.model.quantities.expression_trees import Functions, NameNode, names_in
 from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.figures import FILE_UNITS, unit_vector
 from dalembert.units import KINDS
@@ -25,9 +25,9 @@ class Dependent(float):
     expression: Expression
 
     def __new__(cls, expression: Expression) -> Dependent:
-        found = super().__new__(cls, float(expression.at({})))
-        found.expression = expression
-        return found
+        number = super().__new__(cls, float(expression.at({})))
+        number.expression = expression
+        return number
 
     def __reduce__(self) -> tuple[type[Dependent], tuple[Expression]]:
         return Dependent, (self.expression,)
@@ -58,16 +58,16 @@ def expression_with_unit(e: Expression, kind: str = "") -> str:
 def polar_components(size: float, angle: float, kind: str) -> tuple[float, float]:
     """The components of a vector of which the length or the angle follows from parameters."""
     used = [part.expression.parameters or () for part in (size, angle) if isinstance(part, Dependent)]
-    given = tuple(dict(pair for pairs in used for pair in pairs).items())
-    length, turn, found = factor_text(size, kind), factor_text(angle, "angle"), list[float]()
+    parameters = tuple(dict(pair for pairs in used for pair in pairs).items())
+    length, turn, components = factor_text(size, kind), factor_text(angle, "angle"), list[float]()
     for function, known in zip(("cos", "sin"), unit_vector(angle), strict=True):
         if isinstance(angle, Dependent):
-            found.append(Dependent(Expression(f"{length}*{function}({turn})", "", given)))
+            components.append(Dependent(Expression(f"{length}*{function}({turn})", "", parameters)))
         elif known in (0.0, 1.0):
-            found.append(size if known else 0.0)
+            components.append(size if known else 0.0)
         else:
-            found.append(Dependent(Expression(f"{length}*{known!r}", "", given)))
-    return found[0], found[1]
+            components.append(Dependent(Expression(f"{length}*{known!r}", "", parameters)))
+    return components[0], components[1]
 
 
 def factor_text(value: float | Expression, kind: str) -> str:
@@ -75,7 +75,7 @@ def factor_text(value: float | Expression, kind: str) -> str:
     if not isinstance(value, (Dependent, Expression)):
         return f"{value!r} {KINDS[kind].si}"
     e = value.expression if isinstance(value, Dependent) else value
-    text = e.text if isinstance(e.tree, Name) else f"({e.text})"
+    text = e.text if isinstance(e.tree, NameNode) else f"({e.text})"
     return f"{text}*1 {e.unit}" if e.unit else text
 
 

@@ -13,12 +13,12 @@ from dalembert.errors import ModelError
 from dalembert.model.quantities.expression_trees import (
     COMPARISONS,
     Apply,
-    Number,
+    NumberNode,
     Tree,
     expression_text,
     names_in,
 )
-from dalembert.model.quantities.expression_trees import Name as Variable
+from dalembert.model.quantities.expression_trees import NameNode as Variable
 from dalembert.unit_names import ANGLE, NONE
 from dalembert.units import KINDS, REFUSED_BARE
 from dalembert.wording import quote_value
@@ -38,7 +38,7 @@ def dimension(tree: Tree, names: Mapping[str, Powers | None]) -> Powers | None:
     >>> dimension(parse_expression("pi*d^2/4", ["d"])[0], {"d": (1, 0, 0, 0)})
     (2, 0, 0, None)
     """
-    if isinstance(tree, Number):
+    if isinstance(tree, NumberNode):
         return tree.dimension if tree.value or tree.text else None
     if isinstance(tree, Variable):
         return names[tree.name]
@@ -107,88 +107,90 @@ def _common(tree: Apply, a: Powers | None, b: Powers | None) -> Powers | None:
     raise ModelError(what, f"only quantities of one kind are {verb}{angle}")
 
 
-def _check_argument(tree: Apply, given: Powers | None) -> None:
+def _check_argument(tree: Apply, powers: Powers | None) -> None:
     if (
-        given is not None
+        powers is not None
         and tree.function != "sign"
-        and any(given[:3])
-        and not _of_seconds(tree.arguments[0], given)
+        and any(powers[:3])
+        and not _of_seconds(tree.arguments[0], powers)
     ):
-        said = f"{expression_text(tree.arguments[0])} is {phrase(given)}"
+        text = f"{expression_text(tree.arguments[0])} is {phrase(powers)}"
         raise ModelError(
-            f"{quote_value(expression_text(tree))} cannot be: {said}",
+            f"{quote_value(expression_text(tree))} cannot be: {text}",
             f"{tree.function} is taken of a plain number or an angle; divide by a quantity of the same kind",
         )
 
 
-def _of_seconds(tree: Tree, given: Powers) -> bool:
+def _of_seconds(tree: Tree, powers: Powers) -> bool:
     """True for a multiple of `time`, which beside plain numbers is a number of seconds: `sin(20*time + 1)`."""
-    return given[:3] == (0, 0, 1) and names_in(tree) == {"time"}
+    return powers[:3] == (0, 0, 1) and names_in(tree) == {"time"}
 
 
-def is_bare(given: Powers | None, kind: str, text: str) -> bool:
+def is_bare(powers: Powers | None, kind: str, text: str) -> bool:
     """True if a number of this dimension is a bare one where one of the kind is needed, in the file's unit.
 
     Raises ModelError where it is of another kind.
     """
-    if given is None or kind == "number":
-        if given is not None and (any(given[:3]) or given[3]):
-            raise _unfit(given, kind, text)
+    if powers is None or kind == "number":
+        if powers is not None and (any(powers[:3]) or powers[3]):
+            raise _unfit(powers, kind, text)
         return False
     need = KINDS[kind].dimension
-    if given[:3] == need[:3] and (not need[3] or kind not in ("angle", *REFUSED_BARE)):
+    if powers[:3] == need[:3] and (not need[3] or kind not in ("angle", *REFUSED_BARE)):
         return False
-    if given[:3] == need[:3] and given[3] in (need[3], None):
+    if powers[:3] == need[:3] and powers[3] in (need[3], None):
         return False
-    if any(given[:3]) or given[3]:
-        raise _unfit(given, kind, text)
+    if any(powers[:3]) or powers[3]:
+        raise _unfit(powers, kind, text)
     return True
 
 
-def _unfit(given: Powers, kind: str, text: str) -> ModelError:
+def _unfit(powers: Powers, kind: str, text: str) -> ModelError:
     wanted = KINDS[kind]
     remedy = "check it, and the units of its parameters"
-    if given[:3] == wanted.dimension[:3] and kind in REFUSED_BARE:
+    if powers[:3] == wanted.dimension[:3] and kind in REFUSED_BARE:
         remedy = "say radians or turns: multiply by 1 rad, or by 1 rev"
-    return ModelError(f"{quote_value(text)} is {phrase(given)}, and {wanted.phrase} is needed", remedy)
+    return ModelError(f"{quote_value(text)} is {phrase(powers)}, and {wanted.phrase} is needed", remedy)
 
 
-def kind_of_dimension(given: Powers | None) -> str | None:
+def kind_of_dimension(powers: Powers | None) -> str | None:
     """The first kind of quantity of this dimension, if there is one.
 
     >>> kind_of_dimension((2, 0, 0, None)), kind_of_dimension((-1, 1, 0, 0))
     ('area', None)
     """
-    if given is None or given == EITHER:
+    if powers is None or powers == EITHER:
         return "number"
     for exact in (True, False):
         for name, kind in KINDS.items():
-            if kind.dimension[:3] == given[:3] and (kind.dimension[3] == given[3] or not exact):
+            if kind.dimension[:3] == powers[:3] and (kind.dimension[3] == powers[3] or not exact):
                 return name
     return None
 
 
-def si_unit(given: Powers | None) -> str:
+def si_unit(powers: Powers | None) -> str:
     """The SI unit of a dimension.
 
     >>> si_unit((-1, 1, 0, 0)), si_unit((1, 1, -2, 0)), si_unit((0, 0, 0, 0))
     ('kg/m', 'N', '')
     """
-    kind = kind_of_dimension(given)
+    kind = kind_of_dimension(powers)
     if kind is not None:
         return KINDS[kind].si
-    return _base_units(given)
+    return _base_units(powers)
 
 
-def _base_units(given: Powers | None) -> str:
-    powers = [(n, p) for n, p in zip(("m", "kg", "s", "rad"), given or NONE, strict=True) if p]
+def _base_units(of: Powers | None) -> str:
+    powers = [(n, p) for n, p in zip(("m", "kg", "s", "rad"), of or NONE, strict=True) if p]
     up = [f"{n}^{p:g}" if p != 1 else n for n, p in powers if p > 0]
     down = [f"{n}^{-p:g}" if p != -1 else n for n, p in powers if p < 0]
     return "/".join(["*".join(up) or ("1" if down else ""), *down])
 
 
-def phrase(given: Powers | None) -> str:
+def phrase(powers: Powers | None) -> str:
     """Name of a quantity of this dimension."""
-    kind = kind_of_dimension(given)
-    exact = kind is not None and (given is None or given[3] is None or KINDS[kind].dimension[3] == given[3])
-    return KINDS[kind].phrase if kind and exact else f"in {_base_units(given)}"
+    kind = kind_of_dimension(powers)
+    exact = kind is not None and (
+        powers is None or powers[3] is None or KINDS[kind].dimension[3] == powers[3]
+    )
+    return KINDS[kind].phrase if kind and exact else f"in {_base_units(powers)}"

@@ -32,7 +32,7 @@ RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "^": 4}
 
 
 @dataclass(frozen=True, slots=True)
-class Number:
+class NumberNode:
     """A number, in SI where it was written with a unit; `dimension` is that of its unit, `pi` may be an angle."""
 
     value: float
@@ -41,7 +41,7 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True)
-class Name:
+class NameNode:
     name: str
 
 
@@ -53,7 +53,7 @@ class Apply:
     arguments: tuple[Tree, ...]
 
 
-Tree = Number | Name | Apply
+Tree = NumberNode | NameNode | Apply
 
 
 def numpy_functions() -> Functions:
@@ -67,9 +67,9 @@ def numpy_functions() -> Functions:
 
 def evaluate(tree: Tree, drives: Mapping[str, Numeric], functions: Functions) -> Numeric:
     """The value of a tree over anything that has operators, functions from the table given."""
-    if isinstance(tree, Number):
+    if isinstance(tree, NumberNode):
         return tree.value
-    if isinstance(tree, Name):
+    if isinstance(tree, NameNode):
         if tree.name not in drives:
             raise unknown_name("an expression uses", tree.name, list(drives))
         return drives[tree.name]
@@ -113,7 +113,7 @@ def _compare(name: str, a: Numeric, b: Numeric, sign: Callable[[Numeric], Numeri
 
 def names_in(tree: Tree) -> frozenset[str]:
     """The names of drives and parameters in a tree."""
-    return frozenset(node.name for node in nodes(tree) if isinstance(node, Name))
+    return frozenset(node.name for node in nodes(tree) if isinstance(node, NameNode))
 
 
 def nodes(tree: Tree) -> Iterator[Tree]:
@@ -131,22 +131,22 @@ def expression_text(tree: Tree, rank: int = 0) -> str:
     >>> expression_text(parse_expression("2*( (O2) + 1)^2")[0])
     '2*(O2 + 1)^2'
     """
-    if isinstance(tree, Number):
+    if isinstance(tree, NumberNode):
         exact = tree.value == round(tree.value, 12)
         return tree.text or (repr(tree.value).removesuffix(".0") if exact else f"{tree.value:.17g}")
-    if isinstance(tree, Name):
+    if isinstance(tree, NameNode):
         return tree.name
     if tree.function in COMPARISONS:
         return f"({f' {tree.function} '.join(map(expression_text, tree.arguments))})"
     if tree.function not in OPERATORS:
         return f"{tree.function}({', '.join(expression_text(argument) for argument in tree.arguments)})"
-    own = RANKS[tree.function]
+    level = RANKS[tree.function]
     if len(tree.arguments) == 1:
-        own, said = 3, "-" + expression_text(tree.arguments[0], 3)
+        level, text = 3, "-" + expression_text(tree.arguments[0], 3)
     else:
         left, right = tree.arguments
-        space = " " if own == 1 else ""
-        base = own + 1 if own == 4 else own
-        last = expression_text(right, 3 if own == 4 else own + 1)
-        said = f"{expression_text(left, base)}{space}{tree.function}{space}{last}"
-    return f"({said})" if own < rank else said
+        space = " " if level == 1 else ""
+        base = level + 1 if level == 4 else level
+        last = expression_text(right, 3 if level == 4 else level + 1)
+        text = f"{expression_text(left, base)}{space}{tree.function}{space}{last}"
+    return f"({text})" if level < rank else text

@@ -26,8 +26,8 @@ from dalembert.model.quantities.expression_trees import (
     MANY,
     Apply,
     Functions,
-    Name,
-    Number,
+    NameNode,
+    NumberNode,
     Tree,
     evaluate,
     names_in,
@@ -103,8 +103,8 @@ class Expression:
         first = np.argmin(np.isfinite(value).ravel())
         shape = np.shape(value)
         values = {name: np.broadcast_to(drives[name], shape).ravel()[first] for name in sorted(self.names)}
-        said = [f"{name} = {x:.6g}" for name, x in values.items()]
-        return "at " + ", ".join(said) if said else "anywhere"
+        parts = [f"{name} = {x:.6g}" for name, x in values.items()]
+        return "at " + ", ".join(parts) if parts else "anywhere"
 
 
 _NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -223,11 +223,11 @@ class _Parser:
     def sign(self, depth: int) -> Tree:
         if depth > DEEPEST:
             raise self.error(f"is nested deeper than {DEEPEST}", "use fewer signs")
-        found = self.sign_among(("+", "-"))
-        if found is None:
+        sign = self.sign_among(("+", "-"))
+        if sign is None:
             return self.power(depth)
         inner = self.sign(depth + 1)
-        return inner if found == "+" else Apply("-", (inner,))
+        return inner if sign == "+" else Apply("-", (inner,))
 
     def power(self, depth: int) -> Tree:
         base = self.atom(depth)
@@ -251,19 +251,19 @@ class _Parser:
             return self.close_bracket(self.condition(depth + 1), match.start("sign"))
         return self.parse_name(match["name"], depth)
 
-    def number(self, digits: str) -> Number:
+    def number(self, digits: str) -> NumberNode:
         """A number, with the unit behind it in an expression of parameters."""
         value, start = _finite(digits), self.place
         match = _UNIT.match(self.text, start) if self.parameters is not None else None
         if match is None or self.parameters is None:
-            return Number(value)
+            return NumberNode(value)
         self.refuse_beside(digits, match.start(1))
         while match and (match.start() == start or (match[1] in SYMBOLS and match[1] not in self.parameters)):
             self.place = match.end()
             match = _MORE.match(self.text, self.place)
         name = self.text[start : self.place].strip()
         named = unit(name)
-        return Number(named.si(value), f"{digits} {name}", named.dimension)
+        return NumberNode(named.si(value), f"{digits} {name}", named.dimension)
 
     def refuse_beside(self, digits: str, place: int) -> None:
         """Raise ModelError where a name or a function follows a number without a sign between them."""
@@ -282,12 +282,12 @@ class _Parser:
         if call:
             return self.parse_call(name, depth, self.place - 1)
         if name in CONSTANTS:
-            return Number(CONSTANTS[name], name if self.parameters is not None else "", (0, 0, 0, None))
+            return NumberNode(CONSTANTS[name], name if self.parameters is not None else "", (0, 0, 0, None))
         if name in ARGUMENTS:
             raise ModelError(f"the function {name} needs brackets", f"write {name}(...)")
         if "__" in name:
             raise self.refusal(name)
-        return Name(long_names(name))
+        return NameNode(long_names(name))
 
     def parse_call(self, name: str, depth: int, opened: int) -> Tree:
         arguments = [self.sum(depth + 1)]
@@ -307,8 +307,8 @@ class _Parser:
     def condition(self, depth: int) -> Tree:
         """A sum, or the comparison of two."""
         left = self.sum(depth)
-        found = self.sign_among(COMPARISONS)
-        return Apply(found, (left, self.sum(depth))) if found else left
+        comparison = self.sign_among(COMPARISONS)
+        return Apply(comparison, (left, self.sum(depth))) if comparison else left
 
     def close_bracket(self, tree: Tree, opened: int) -> Tree:
         if self.sign_among((")",)):
@@ -318,8 +318,8 @@ class _Parser:
         what = f"{quote_value(self.text)}: the bracket '(' at column {opened + 1} is never closed"
         raise ModelError(what, "write ')' where it ends")
 
-    def refusal(self, found: str = "", why: str = "") -> ModelError:
-        rest = found or self.text[self.place :].strip()
+    def refusal(self, text: str = "", why: str = "") -> ModelError:
+        rest = text or self.text[self.place :].strip()
         why = why or (f"unexpected {quote_value(rest[:20])}" if rest else "it stops in the middle")
         return ModelError(f"{quote_value(self.text)} is not an expression: {why}", GRAMMAR)
 
@@ -332,7 +332,7 @@ def _finite(digits: str) -> float:
 
 
 def _constant(tree: Tree) -> float | None:
-    if any(isinstance(node, Name) for node in nodes(tree)):
+    if any(isinstance(node, NameNode) for node in nodes(tree)):
         return None
     import numpy as np
 

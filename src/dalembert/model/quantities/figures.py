@@ -45,13 +45,13 @@ def shortest(number: float, of: Unit) -> float | int | None:
     if not math.isfinite(value):
         return None
     near = (value, math.nextafter(value, math.inf), math.nextafter(value, -math.inf))
-    for found in (*(float(f"{value:.{figures}g}") for figures in (3, 6, 9, 12, 15, 16)), *near):
-        if of.si(found) == number:
-            return whole(found)
+    for rounded in (*(float(f"{value:.{figures}g}") for figures in (3, 6, 9, 12, 15, 16)), *near):
+        if of.si(rounded) == number:
+            return without_fraction(rounded)
     return None
 
 
-def whole(number: float) -> float | int:
+def without_fraction(number: float) -> float | int:
     """2 for 2.0; -0.0 stays what it is."""
     return (
         int(number)
@@ -71,25 +71,25 @@ def plain(number: float, kind: str, units: Units) -> float | str:
     (1, '1500 rpm')
     """
     if not KINDS[kind].si:
-        return whole(number)
+        return without_fraction(number)
     names = OTHER_UNITS.get(kind, (KINDS[kind].si,))
-    said = [f"{found} {name}" for name in names if (found := shortest(number, unit(name))) is not None]
+    texts = [f"{rounded} {name}" for name in names if (rounded := shortest(number, unit(name))) is not None]
     bare = shortest(number, units.unit(kind)) if not units.refuses_bare(kind) else 0 if number == 0 else None
     if bare is not None and (
-        len(str(bare)) <= SHORT or not said or len(str(bare)) <= min(map(len, said)) - 4
+        len(str(bare)) <= SHORT or not texts or len(str(bare)) <= min(map(len, texts)) - 4
     ):
         return bare
-    return min(said, key=len) if said else text(number, kind)
+    return min(texts, key=len) if texts else text(number, kind)
 
 
-def in_own_unit(number: float, kind: str, name: str, units: Units) -> str | None:
+def in_stated_unit(number: float, kind: str, name: str, units: Units) -> str | None:
     """The number in a unit, or bare in the file's without; in SI where that is what somebody wrote."""
-    found = shortest(number, unit(name) if name else units.unit(kind))
-    if found is None or len(str(found)) > SHORT:
-        si = f"{whole(number)} {KINDS[kind].si}".rstrip()
+    rounded = shortest(number, unit(name) if name else units.unit(kind))
+    if rounded is None or len(str(rounded)) > SHORT:
+        si = f"{without_fraction(number)} {KINDS[kind].si}".rstrip()
         if len(si) <= SHORT and KINDS[kind].si:
             return si
-    return None if found is None else f"{found} {name}".rstrip()
+    return None if rounded is None else f"{rounded} {name}".rstrip()
 
 
 def plain_vector(vector: tuple[float, ...], kind: str, units: Units) -> object:
@@ -102,16 +102,16 @@ def plain_vector(vector: tuple[float, ...], kind: str, units: Units) -> object:
     return components
 
 
-def own_polar(old: str, kind: str, units: Units) -> tuple[str, str]:
+def polar_units(old: str, kind: str, units: Units) -> tuple[str, str]:
     """Units of size and angle written in a polar text; empty where they are the file's."""
     size, angle = (
         re.fullmatch(rf"\s*(?>{NUMBER})\s*(.*?)\s*", side.replace("\u2212", "-"))
         for side in old.split("@", 1)
     )
-    found = [match[1] if match else "" for match in (size, angle)]
-    if found[1] and unit(found[1]).dimension == KINDS[kind].dimension:
-        return found[1], ""
-    return found[0], found[1]
+    names = [match[1] if match else "" for match in (size, angle)]
+    if names[1] and unit(names[1]).dimension == KINDS[kind].dimension:
+        return names[1], ""
+    return names[0], names[1]
 
 
 def unit_vector(angle: float) -> tuple[float, float]:
@@ -132,23 +132,23 @@ def polar_text(
     if turn0 < 0:
         turn0 += turn.of_si(2 * math.pi)
     for figures in (3, 6, 9, 12, 15, 16, 17):
-        r, found = float(f"{r0:.{figures}g}"), float(f"{turn0:.{figures}g}")
-        x, y = unit_vector(turn.si(found))
+        r, phi = float(f"{r0:.{figures}g}"), float(f"{turn0:.{figures}g}")
+        x, y = unit_vector(turn.si(phi))
         if (length.si(r) * x, length.si(r) * y) == vector:
-            return f"{whole(r)} {size}".rstrip() + f" @ {whole(found)} {angle}".rstrip()
+            return f"{without_fraction(r)} {size}".rstrip() + f" @ {without_fraction(phi)} {angle}".rstrip()
     return None
 
 
-def with_own_unit(number: float, kind: str, old: str, units: Units) -> str | None:
+def with_kept_unit(number: float, kind: str, old: str, units: Units) -> str | None:
     """A text with its number changed and all else of it kept: `60deg` becomes `75deg`."""
     match = re.fullmatch(rf"(\s*)((?>{NUMBER}))(\s*)([^\s\d].*|)", old.replace("\u2212", "-"), re.DOTALL)
     if match is None or quantity_fails(old, kind, units):
         return None
     name = match[4].strip()
-    found = in_own_unit(number, kind, name, units)
-    if found is None or not found.endswith(name):
-        return found
-    return f"{match[1]}{found.removesuffix(name).rstrip()}{match[3]}{match[4]}"
+    changed = in_stated_unit(number, kind, name, units)
+    if changed is None or not changed.endswith(name):
+        return changed
+    return f"{match[1]}{changed.removesuffix(name).rstrip()}{match[3]}{match[4]}"
 
 
 def quantity_fails(value: str, kind: str, units: Units) -> bool:

@@ -21,7 +21,7 @@ from dalembert.model.quantities.dimensions import (
 )
 from dalembert.model.quantities.expression_trees import ARGUMENTS, Functions, names_in
 from dalembert.model.quantities.expressions import CONSTANTS, Expression, parse_expression
-from dalembert.model.quantities.figures import shortest, whole
+from dalembert.model.quantities.figures import shortest, without_fraction
 from dalembert.unit_names import NONE, ONE, SYMBOLS, Dimension, unit
 from dalembert.units import KINDS, NUMBER, REFUSED_BARE, Units, check_unit, quantity
 from dalembert.wording import closest, quote_value
@@ -71,10 +71,10 @@ class Parameter:
         return {"value": value, **beside, **ends} if beside or ends else value
 
     def _text(self, number: float) -> object:
-        found = shortest(number, unit(self.unit)) if self.unit else whole(number)
-        if found is None:
+        value = shortest(number, unit(self.unit)) if self.unit else without_fraction(number)
+        if value is None:
             return f"{number!r} {si_unit(self.dimension)}"
-        return f"{found} {self.unit}" if self.unit else found
+        return f"{value} {self.unit}" if self.unit else value
 
 
 Parameters = Mapping[str, Parameter]
@@ -89,7 +89,7 @@ def of_parameters(
     text: str,
     kind: str,
     units: Units | None,
-    given: Parameters,
+    parameters: Parameters,
     drives: Mapping[str, str],
     unit_text: str = "",
 ) -> float | Expression:
@@ -100,28 +100,28 @@ def of_parameters(
     """
     if unit_text:
         check_unit(unit_text, kind)
-    found, of = _read(text, given, drives)
-    if found.unit:
-        check_unit(found.unit, kind)
+    expression, of = _read(text, parameters, drives)
+    if expression.unit:
+        check_unit(expression.unit, kind)
     elif is_bare(of, kind, text):
         if units is not None and units.refuses_bare(kind) and not unit_text:
             what = f"{quote_value(text)} is {KINDS[kind].phrase} without a unit"
             raise ModelError(what, f"write ({text}) with its unit behind it: {REFUSED_BARE[kind]}")
-        found = replace(found, unit=unit_text or (units.text(kind) if units else KINDS[kind].si))
-    if found.names:
-        return found
-    return Dependent(found) if found.parameters else float(found.at({}))
+        expression = replace(expression, unit=unit_text or (units.text(kind) if units else KINDS[kind].si))
+    if expression.names:
+        return expression
+    return Dependent(expression) if expression.parameters else float(expression.at({}))
 
 
-def _read(text: str, given: Parameters, drives: Mapping[str, str]) -> tuple[Expression, Powers | None]:
+def _read(text: str, parameters: Parameters, drives: Mapping[str, str]) -> tuple[Expression, Powers | None]:
     """An expression and its dimension; a unit behind it is that of a plain number."""
-    text = _without_unit_names(text, {*given, *drives})
-    tree, rest = parse_expression(text, {*given, *drives})
+    text = _without_unit_names(text, {*parameters, *drives})
+    tree, rest = parse_expression(text, {*parameters, *drives})
     names = names_in(tree)
-    if given:
-        refuse_unknown(text, names, given, drives)
+    if parameters:
+        refuse_unknown(text, names, parameters, drives)
     known: dict[str, Powers | None] = dict.fromkeys(names)  # of any dimension: the description checks names
-    known |= {n: p.dimension for n, p in given.items()} | {n: OF_TURN[d] for n, d in drives.items()}
+    known |= {n: p.dimension for n, p in parameters.items()} | {n: OF_TURN[d] for n, d in drives.items()}
     of = dimension(tree, known)
     if rest and re.match(r"[^\W\d]|[°%]", rest):
         named = unit(rest)
@@ -129,8 +129,8 @@ def _read(text: str, given: Parameters, drives: Mapping[str, str]) -> tuple[Expr
         if of is not None and (any(of[:3]) or of[3]):
             what = f"{quote_value(text)} is {phrase(of)} by itself, and has the unit {rest!r} behind it"
             raise ModelError(what, "leave the unit out")
-        return _expression(text, given, rest), named.dimension
-    return _expression(text, given), of
+        return _expression(text, parameters, rest), named.dimension
+    return _expression(text, parameters), of
 
 
 def _without_unit_names(text: str, names: Collection[str]) -> str:
@@ -139,38 +139,38 @@ def _without_unit_names(text: str, names: Collection[str]) -> str:
     return re.sub(rf"(?<=[*/])(\s*)({both})\b(?!\s*\()", r"\1(\2)", text) if both else text
 
 
-def _expression(text: str, given: Parameters, name: str = "") -> Expression:
-    names = sorted(set(_WORD.findall(text)) & given.keys())
-    return Expression(text, name, tuple((name, given[name].value) for name in names))
+def _expression(text: str, parameters: Parameters, name: str = "") -> Expression:
+    names = sorted(set(_WORD.findall(text)) & parameters.keys())
+    return Expression(text, name, tuple((name, parameters[name].value) for name in names))
 
 
-def stated_dimension(value: object, given: Parameters) -> Dimension | None:
+def stated_dimension(value: object, parameters: Parameters) -> Dimension | None:
     """The dimension that a text says by its unit or its parameters; None of a bare number."""
     if not isinstance(value, str):
         return None
-    if uses(value, given):
-        of = _read(value, given, {})[1] or NONE
+    if uses(value, parameters):
+        of = _read(value, parameters, {})[1] or NONE
         return (int(of[0]), int(of[1]), int(of[2]), int(of[3] or 0)) if any(of) else None
     match = re.fullmatch(rf"\s*(?>{NUMBER})\s*([^\W\d].*|[°%].*)", value.replace("\u2212", "-"))
     return unit(match[1]).dimension if match else None
 
 
 def refuse_unknown(
-    text: object, names: frozenset[str], given: Mapping[str, object], drives: Mapping[str, str]
+    text: object, names: frozenset[str], parameters: Mapping[str, object], drives: Mapping[str, str]
 ) -> None:
     """Raise ModelError for a name in an expression that is neither a parameter nor a drive."""
-    for name in sorted(names - {*given, *drives}):
+    for name in sorted(names - {*parameters, *drives}):
         what = f"{quote_value(text)} uses {name!r}, which is not a parameter"
-        raise ModelError(what, closest(name, [*given, *drives]))
+        raise ModelError(what, closest(name, [*parameters, *drives]))
 
 
-def refuse_other_names(text: str, given: Parameters) -> None:
+def refuse_other_names(text: str, parameters: Parameters) -> None:
     """Raise ModelError where a text is an expression with names that are not parameters."""
     try:
-        names = names_in(parse_expression(text, given)[0])
+        names = names_in(parse_expression(text, parameters)[0])
     except ModelError:
         return
-    refuse_unknown(text, names, given, {})
+    refuse_unknown(text, names, parameters, {})
 
 
 def read_parameters(
@@ -188,13 +188,13 @@ def read_parameters(
     if not isinstance(tree, Mapping):
         what = f"expected a mapping, not {quote_value(tree)}"
         raise ModelError(what, "write {r: 45 mm}", ("parameters",))
-    found: dict[str, Parameter] = {}
+    parameters: dict[str, Parameter] = {}
     for name in tree:
         with _parameter_path(name):
             _check_name(name, drives, keys)
     for name in tree:
-        _resolve(name, tree, units, found, ())
-    return {name: found[name] for name in tree}
+        _resolve(name, tree, units, parameters, ())
+    return {name: parameters[name] for name in tree}
 
 
 @contextmanager
@@ -227,54 +227,56 @@ def _resolve(
     name: str,
     tree: Mapping[str, object],
     units: Units | None,
-    found: dict[str, Parameter],
-    way: tuple[str, ...],
+    resolved: dict[str, Parameter],
+    path: tuple[str, ...],
 ) -> None:
     """Find a parameter, after those it follows from."""
-    if name in found:
+    if name in resolved:
         return
-    if name in way:
+    if name in path:
         with _parameter_path(name):
-            circle = " from ".join([*way[way.index(name) :], name])
+            circle = " from ".join([*path[path.index(name) :], name])
             raise ModelError(f"it follows from itself: {circle}", "give one of them a value")
     for other in _WORD.findall(_text(tree[name])):
         if other in tree:
-            _resolve(other, tree, units, found, (*way, name))
+            _resolve(other, tree, units, resolved, (*path, name))
     with _parameter_path(name):
-        found[name] = _parameter(tree[name], units, found, tree)
+        resolved[name] = _parameter(tree[name], units, resolved, tree)
 
 
-def _text(said: object) -> str:
+def _text(entry: object) -> str:
     """The expression that a parameter may be."""
-    if isinstance(said, Parameter):
-        return said.value.expression.text if isinstance(said.value, Dependent) else ""
-    text = said.get("value") if isinstance(said, Mapping) else said
+    if isinstance(entry, Parameter):
+        return entry.value.expression.text if isinstance(entry.value, Dependent) else ""
+    text = entry.get("value") if isinstance(entry, Mapping) else entry
     return text if isinstance(text, str) else ""
 
 
-def _parameter(said: object, units: Units | None, found: Parameters, tree: Mapping[str, object]) -> Parameter:
-    if isinstance(said, Parameter):
-        return replace(said, value=with_new(said.value, values_of(found, {})))
-    if not isinstance(said, Mapping):
-        return _value(said, units, found, tree)
-    for key in said:
+def _parameter(
+    entry: object, units: Units | None, resolved: Parameters, tree: Mapping[str, object]
+) -> Parameter:
+    if isinstance(entry, Parameter):
+        return replace(entry, value=with_new(entry.value, values_of(resolved, {})))
+    if not isinstance(entry, Mapping):
+        return _value(entry, units, resolved, tree)
+    for key in entry:
         if key not in KEYS:
             raise ModelError(f"unknown key {quote_value(key)}", closest(str(key), list(KEYS)), (key,))
-    if "value" not in said:
+    if "value" not in entry:
         raise ModelError("the key 'value' is missing", "write {value: 45 mm, about: ...}")
     try:
-        of = _value(said["value"], units, found, tree)
+        of = _value(entry["value"], units, resolved, tree)
     except ModelError as error:
         raise ModelError(error.what, error.remedy, ("value",)) from None
-    if not isinstance(about := said.get("about", ""), str):
+    if not isinstance(about := entry.get("about", ""), str):
         raise ModelError(f"{quote_value(about)} is not text", "put it in quotes", ("about",))
-    return replace(of, about=about, range=_range(said.get("range"), of, units))
+    return replace(of, about=about, range=_range(entry.get("range"), of, units))
 
 
-def _value(said: object, units: Units | None, found: Parameters, tree: Mapping[str, object]) -> Parameter:
-    if not isinstance(said, str):
-        return Parameter(quantity(said, "number"), NONE)
-    match = re.fullmatch(rf"\s*((?>{NUMBER}))\s*(|[^\W\d].*|[°%].*)\s*", said.replace("\u2212", "-"))
+def _value(entry: object, units: Units | None, resolved: Parameters, tree: Mapping[str, object]) -> Parameter:
+    if not isinstance(entry, str):
+        return Parameter(quantity(entry, "number"), NONE)
+    match = re.fullmatch(rf"\s*((?>{NUMBER}))\s*(|[^\W\d].*|[°%].*)\s*", entry.replace("\u2212", "-"))
     if match and not uses(match[2], tree):
         try:
             named = unit(match[2].strip()) if match[2] else ONE
@@ -283,53 +285,57 @@ def _value(said: object, units: Units | None, found: Parameters, tree: Mapping[s
                 raise
         else:
             return Parameter(named.si(float(match[1])), named.dimension, match[2].strip())
-    refuse_unknown(said, names_in(parse_expression(said, tree)[0]), tree, {})
-    expression, of = _read(said, found, {})
+    refuse_unknown(entry, names_in(parse_expression(entry, tree)[0]), tree, {})
+    expression, of = _read(entry, resolved, {})
     of = of or NONE
     kind = kind_of_dimension(of)
     name = expression.unit or (units.text(kind) if units and kind else si_unit(of))
     return Parameter(Dependent(expression), of, name)
 
 
-def _range(said: object, of: Parameter, units: Units | None) -> tuple[float, float] | None:
-    if said is None:
+def _range(entry: object, of: Parameter, units: Units | None) -> tuple[float, float] | None:
+    if entry is None:
         return None
     example = f"write range: [{of._text(of.value / 2)}, {of._text(of.value * 2)}]"
-    if not isinstance(said, (list, tuple)) or len(said) != 2:
-        raise ModelError(f"{quote_value(said)} is not a range", example, ("range",))
-    low, high = (_like(_value(x, units, {}, {}), x, of, units).value for x in said)
+    if not isinstance(entry, (list, tuple)) or len(entry) != 2:
+        raise ModelError(f"{quote_value(entry)} is not a range", example, ("range",))
+    low, high = (_like(_value(x, units, {}, {}), x, of, units).value for x in entry)
     if not low < high:
         raise ModelError("a range is two increasing values", example, ("range",))
     return low, high
 
 
-def _like(new: Parameter, said: object, of: Parameter, units: Units | None) -> Parameter:
+def _like(new: Parameter, value: object, of: Parameter, units: Units | None) -> Parameter:
     """A new value of a parameter, of the same dimension; a bare number is in the file's unit."""
     a, b = new.dimension, of.dimension
     if a[:3] == b[:3] and (a[3] == b[3] or None in (a[3], b[3])):
         return new
     if not any(a) and of.kind and not isinstance(new.value, Dependent):
-        return replace(of, value=quantity(said, of.kind, units))
-    what = f"{quote_value(said)} is {phrase(a)}, and {phrase(b)} is needed"
+        return replace(of, value=quantity(value, of.kind, units))
+    what = f"{quote_value(value)} is {phrase(a)}, and {phrase(b)} is needed"
     raise ModelError(what, f"write for example {of._text(of.value)}")
 
 
 def change_parameters(
-    given: Parameters, changes: Mapping[str, object], units: Units, drives: Mapping[str, str]
+    parameters: Parameters, changes: Mapping[str, object], units: Units, drives: Mapping[str, str]
 ) -> dict[str, Parameter]:
     """The parameters with other values for some: numbers in SI, or texts as in the file."""
-    tree: dict[str, object] = dict(given)
+    tree: dict[str, object] = dict(parameters)
     for name, value in changes.items():
-        if name not in given:
-            raise ModelError(f"unknown parameter {name!r}", closest(name, list(given)), ("parameters",))
-        tree[name] = value if isinstance(value, str) else replace(given[name], value=_finite(name, value))
-    found = read_parameters(tree, units, drives)
+        if name not in parameters:
+            raise ModelError(f"unknown parameter {name!r}", closest(name, list(parameters)), ("parameters",))
+        tree[name] = (
+            value if isinstance(value, str) else replace(parameters[name], value=_finite(name, value))
+        )
+    changed = read_parameters(tree, units, drives)
     for name, value in changes.items():
         if isinstance(value, str):
             with _parameter_path(name):
-                of = given[name]
-                found[name] = replace(_like(found[name], value, of, units), about=of.about, range=of.range)
-    return read_parameters(found, units, drives)
+                of = parameters[name]
+                changed[name] = replace(
+                    _like(changed[name], value, of, units), about=of.about, range=of.range
+                )
+    return read_parameters(changed, units, drives)
 
 
 def _finite(name: str, value: object) -> float:
@@ -338,18 +344,18 @@ def _finite(name: str, value: object) -> float:
 
 
 def values_of(
-    given: Parameters, changes: Mapping[str, Numeric], functions: Functions | None = None
+    parameters: Parameters, changes: Mapping[str, Numeric], functions: Functions | None = None
 ) -> dict[str, Numeric]:
     """SI values of all parameters where some have other ones, numbers or symbols."""
-    found = dict(changes)
+    values = dict(changes)
 
     def value(name: str) -> Numeric:
-        if name not in found:
-            own = given[name].value
-            if isinstance(own, Dependent):
-                needed = {n: value(n) for n, _ in own.expression.parameters or ()}
-                own = with_new(own, needed, functions)
-            found[name] = own
-        return found[name]
+        if name not in values:
+            entry = parameters[name].value
+            if isinstance(entry, Dependent):
+                needed = {n: value(n) for n, _ in entry.expression.parameters or ()}
+                entry = with_new(entry, needed, functions)
+            values[name] = entry
+        return values[name]
 
-    return {name: value(name) for name in given}
+    return {name: value(name) for name in parameters}

@@ -163,8 +163,8 @@ def _check(table: Table) -> None:
             words = f"x of a table does not increase from its item {i + 1} to {i + 2}"
             raise ModelError(words, "sort the points; for a jump give two that are close", ("x", i + 1))
     if table.interpolate not in ("linear", "cubic"):
-        said = f"{table.interpolate!r} has no meaning here"
-        raise ModelError(said, "write linear or cubic", ("interpolate",))
+        problem = f"{table.interpolate!r} has no meaning here"
+        raise ModelError(problem, "write linear or cubic", ("interpolate",))
     _check_period(table)
 
 

@@ -6,11 +6,17 @@ from pydantic import ValidationInfo
 
 from dalembert.model.part import reading
 from dalembert.model.quantities.parameters import Parameters
-from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value, list_schema, object_schema
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    ValueField,
+    list_schema,
+    object_schema,
+)
 from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units
 
 
-class UnitsValue(Value):
+class UnitsValue(ValueField):
     """The file's units."""
 
     def read(self, value: object, info: ValidationInfo) -> Units:
@@ -20,15 +26,17 @@ class UnitsValue(Value):
         return value.tree()
 
     def json_schema(self) -> JsonSchema:
-        said = {"length": "m", "force": "N", "mass": "kg", "time": "s", "angle": "deg"}
+        examples = {"length": "m", "force": "N", "mass": "kg", "time": "s", "angle": "deg"}
         for key, kind in ({kind: kind for kind in KINDS} | ALSO_CALLED).items():
             if kind not in (*BASES, "number"):
-                said[key] = f"a product of these ({KINDS[kind].si})"
+                examples[key] = f"a product of these ({KINDS[kind].si})"
         words = "unit of bare numbers; default"
-        return object_schema({k: {"type": "string", "description": f"{words} {u}"} for k, u in said.items()})
+        return object_schema(
+            {k: {"type": "string", "description": f"{words} {u}"} for k, u in examples.items()}
+        )
 
 
-class ParametersValue(Value):
+class ParametersValue(ValueField):
     """The file's parameters, which were read before anything else."""
 
     def read(self, value: object, info: ValidationInfo) -> Parameters:
@@ -39,10 +47,10 @@ class ParametersValue(Value):
 
     def json_schema(self) -> JsonSchema:
         ends = list_schema(NUMBER_OR_TEXT, 2, 2) | {"description": "between which values it makes sense"}
-        said = {
+        properties = {
             "value": NUMBER_OR_TEXT | {"description": "a quantity, or an expression of other parameters"},
             "about": {"type": "string", "description": "what it is"},
             "range": ends,
         }
-        either = [NUMBER_OR_TEXT, object_schema(said, "value")]
+        either = [NUMBER_OR_TEXT, object_schema(properties, "value")]
         return {"type": "object", "additionalProperties": {"anyOf": either}}

@@ -11,10 +11,17 @@ from pydantic_core import CoreSchema, core_schema
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
-from dalembert.model.part import Reading, reading
+from dalembert.model.part import ReadingRules, reading
 from dalembert.model.quantities.dependent_numbers import Dependent, dependent_text, polar_components
 from dalembert.model.quantities.expressions import parse_expression
-from dalembert.model.quantities.figures import FILE_UNITS, in_units, plain, plain_vector, unit_vector, whole
+from dalembert.model.quantities.figures import (
+    FILE_UNITS,
+    in_units,
+    plain,
+    plain_vector,
+    unit_vector,
+    without_fraction,
+)
 from dalembert.model.quantities.parameters import uses
 from dalembert.unit_names import unit
 from dalembert.units import KINDS, NUMBER, text
@@ -39,7 +46,7 @@ def object_schema(keys: JsonSchema, *required: str) -> JsonSchema:
     return {"type": "object", "properties": keys, **needed, "additionalProperties": False}
 
 
-class Value:
+class ValueField:
     """Annotation of a field: how its value is read from a tree, written to one, and described."""
 
     def read(self, value: object, info: ValidationInfo) -> object:
@@ -67,7 +74,7 @@ class Value:
         return self.json_schema()
 
 
-class Scalar(Value):
+class Scalar(ValueField):
     """A number of one kind, in SI inside."""
 
     def __init__(self, kind: str, sign: str = "") -> None:
@@ -99,7 +106,7 @@ def value_text(number: float, kind: str) -> object:
         return dependent_text(number, kind)
     if units is None:
         return text(number, kind) if KINDS[kind].si else number
-    return plain(number, kind, units) if KINDS[kind].si else whole(number)
+    return plain(number, kind, units) if KINDS[kind].si else without_fraction(number)
 
 
 def vector_text(vector: Vector, kind: str) -> object:
@@ -113,7 +120,7 @@ def vector_text(vector: Vector, kind: str) -> object:
     )
 
 
-class Components(Value):
+class Components(ValueField):
     """A vector `[x, y]`, polar text `r @ angle`, in space `[x, y, z]`; Cartesian and SI inside."""
 
     def __init__(self, kind: str) -> None:
@@ -145,7 +152,7 @@ def vector_schema() -> JsonSchema:
     }
 
 
-def vector(value: object, kind: str, rules: Reading) -> Vector:
+def vector(value: object, kind: str, rules: ReadingRules) -> Vector:
     """The Cartesian components of a vector, SI.
 
     >>> vector("2 m @ 90 deg", "length", Reading())
@@ -171,7 +178,7 @@ def at_item(index: int | str, function: Callable[..., T], *arguments: object) ->
         raise type(error)(error.what, error.remedy, path, error.file, error.line) from None
 
 
-def check_vector(value: object, rules: Reading, example: str) -> Sequence[object]:
+def check_vector(value: object, rules: ReadingRules, example: str) -> Sequence[object]:
     """The components of a vector, counted."""
     if rules.dimension == 3:
         example = "[x, y, z]"
@@ -188,7 +195,7 @@ def check_vector(value: object, rules: Reading, example: str) -> Sequence[object
     return value
 
 
-def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
+def polar(value: str, kind: str, rules: ReadingRules) -> tuple[str, float]:
     """The radius as text and the angle in radians of `r @ angle`; a unit behind belongs where its dimension fits."""
     if rules.dimension == 3:
         raise ModelError(f"{quote_value(value)} is polar, which is for the plane", "write [x, y, z]")
@@ -201,8 +208,8 @@ def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
         return radius, rules.quantity(angle, "angle")
     if match and match[2] and unit(match[2]).dimension == KINDS[kind].dimension:
         if not re.fullmatch(NUMBER, radius) and parse_expression(radius)[1]:
-            said = f"{quote_value(value)} has two units of {KINDS[kind].phrase[2:].strip()}"
-            raise ModelError(said, "leave one of them out")
+            problem = f"{quote_value(value)} has two units of {KINDS[kind].phrase[2:].strip()}"
+            raise ModelError(problem, "leave one of them out")
         return f"{radius} {match[2]}", rules.quantity(match[1], "angle")
     try:
         return radius, rules.quantity(angle, "angle")
@@ -215,7 +222,7 @@ def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
         ) from None
 
 
-def numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
+def numbers(value: object, kind: str, rules: ReadingRules) -> tuple[float, ...]:
     """The SI values of a list of quantities."""
     if isinstance(value, str) or not isinstance(value, Sequence):
         raise ModelError(f"expected a list, not {quote_value(value)}", "write [..., ...]")
@@ -236,7 +243,7 @@ def name(value: object) -> str:
     return value
 
 
-class NameValue(Value):
+class NameValue(ValueField):
     """A name."""
 
     def read(self, value: object, info: ValidationInfo) -> str:
@@ -246,7 +253,7 @@ class NameValue(Value):
         return NAME_OR_NUMBER
 
 
-class PairOfNames(Value):
+class PairOfNames(ValueField):
     """Two names, `[i, j]`."""
 
     def read(self, value: object, info: ValidationInfo) -> tuple[str, str]:
@@ -261,8 +268,8 @@ class PairOfNames(Value):
 
 def pair_of_names(value: object) -> tuple[str, str]:
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
-        found = f"a list of {len(value)}" if isinstance(value, (list, tuple)) else quote_value(value)
-        raise ModelError(f"expected two names, not {found}", "write [ground, crank]")
+        shown = f"a list of {len(value)}" if isinstance(value, (list, tuple)) else quote_value(value)
+        raise ModelError(f"expected two names, not {shown}", "write [ground, crank]")
     first, second = (at_item(i, name, item) for i, item in enumerate(value))
     return first, second
 

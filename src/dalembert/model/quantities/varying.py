@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
-from dalembert.model.part import Reading, mapping
+from dalembert.model.part import ReadingRules, mapping
 from dalembert.model.quantities.coordinates import SPEED, going_by
 from dalembert.model.quantities.dependent_numbers import expression_with_unit
 from dalembert.model.quantities.expression_trees import Functions
@@ -39,7 +39,7 @@ def varying_schema() -> JsonSchema:
     return {"anyOf": [NUMBER_OR_TEXT, table_schema(), object_schema(keys, "expression")]}
 
 
-def varying(value: object, kind: str, rules: Reading) -> Varying:
+def varying(value: object, kind: str, rules: ReadingRules) -> Varying:
     """A number, an expression or a table, as its form says.
 
     >>> varying("2*sin(O2) kN", "force", Reading())
@@ -56,18 +56,18 @@ def varying(value: object, kind: str, rules: Reading) -> Varying:
     return rules.quantity(value, kind)
 
 
-def _read_text(value: str, kind: str, rules: Reading) -> float | Expression:
+def _read_text(value: str, kind: str, rules: ReadingRules) -> float | Expression:
     if has_units(value, rules):
         return _with_units(value, kind, rules)
     return expression(value, kind, rules) if _is_expression(value) else rules.quantity(value, kind)
 
 
-def has_units(value: object, rules: Reading) -> bool:
+def has_units(value: object, rules: ReadingRules) -> bool:
     """True if a text is an expression of parameters, or one with units inside: its dimensions are checked."""
     return uses(value, rules.parameters) or (isinstance(value, str) and units_inside(value, rules.freedoms))
 
 
-def _with_units(value: str, kind: str, rules: Reading, unit_text: str = "") -> float | Expression:
+def _with_units(value: str, kind: str, rules: ReadingRules, unit_text: str = "") -> float | Expression:
     known = going_by(value) | dict(rules.freedoms)
     known |= {f"{name}{SPEED}": f"{freedom} speed" for name, freedom in rules.freedoms.items()}
     return of_parameters(value, kind, rules.units, rules.parameters, known, unit_text)
@@ -82,7 +82,7 @@ def _is_expression(value: str) -> bool:
     )
 
 
-def expression(value: object, kind: str, rules: Reading, unit_text: str = "") -> Expression:
+def expression(value: object, kind: str, rules: ReadingRules, unit_text: str = "") -> Expression:
     """An expression, with a unit behind it or the file's."""
     if not isinstance(value, str):
         what = f"{quote_value(value)} is not an expression"
@@ -98,7 +98,7 @@ def expression(value: object, kind: str, rules: Reading, unit_text: str = "") ->
     return Expression(value, unit_text or default)
 
 
-def _map_values(value: Mapping[str, object], kind: str, rules: Reading) -> Varying:
+def _map_values(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Varying:
     if "expression" in value:
         keys = mapping(value, ["expression", "unit"], "")
         unit_text = keys.get("unit", "")
@@ -130,12 +130,12 @@ def value_at(value: Varying, drives: Mapping[str, Numeric], functions: Functions
     >>> value_at(3.0, {})
     np.float64(3.0)
     """
-    found = value if isinstance(value, (int, float)) else value.at(drives, functions)
+    number = value if isinstance(value, (int, float)) else value.at(drives, functions)
     if functions is not None:
-        return found
+        return number
     import numpy as np
 
     if isinstance(value, (int, float)) and not drives:
         return np.float64(value)
     shape = np.broadcast_shapes(*(np.shape(position) for position in drives.values()))
-    return np.broadcast_to(np.asarray(found, float), shape)[()]
+    return np.broadcast_to(np.asarray(number, float), shape)[()]

@@ -9,7 +9,7 @@ from contextvars import ContextVar
 from typing import Any, NamedTuple
 
 from dalembert.errors import ModelError
-from dalembert.model.part import Reading, mapping
+from dalembert.model.part import ReadingRules, mapping
 from dalembert.model.quantities.coordinates import along_of, coordinate_name
 from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.parameters import stated_dimension
@@ -85,7 +85,7 @@ class _Points(NamedTuple):
     lines: tuple[int, ...] = ()
 
 
-def table(value: Mapping[str, object], kind: str, rules: Reading) -> Table:
+def table(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Table:
     """The table that a mapping describes, of a quantity of this kind."""
     keys = mapping(value, list(KEYS), EXAMPLE)
     if "against" not in keys and len(rules.freedoms) == 1:
@@ -94,8 +94,8 @@ def table(value: Mapping[str, object], kind: str, rules: Reading) -> Table:
         if key not in keys:
             raise ModelError(f"the key {key!r} of a table is missing", f"write {EXAMPLE}")
     against = at_item("against", coordinate_name, keys["against"])
-    given = keys.get("x")
-    first = given[0] if isinstance(given, (list, tuple)) and given else 0
+    abscissas = keys.get("x")
+    first = abscissas[0] if isinstance(abscissas, (list, tuple)) and abscissas else 0
     along = along_of(against, rules.freedoms) or _kind_of(first)
     points = (_from_file if "file" in keys else _from_lists)(keys, kind, along, rules)
     period = at_item("periodic", _period, keys.get("periodic", False), along, points.x, rules)
@@ -124,7 +124,7 @@ def _kind_of(first: object) -> str:
     return "angle"
 
 
-def _from_lists(keys: Mapping[str, object], kind: str, along: str, rules: Reading) -> _Points:
+def _from_lists(keys: Mapping[str, object], kind: str, along: str, rules: ReadingRules) -> _Points:
     for key in ("columns", "units"):
         if key in keys:
             raise ModelError(f"{key} are of a file", "write file: as well, or leave them out", (key,))
@@ -136,20 +136,20 @@ def _from_lists(keys: Mapping[str, object], kind: str, along: str, rules: Readin
     return _Points(x, at_item("y", numbers, y, of, rules), "" if of == kind else of, times)
 
 
-def _from_file(keys: Mapping[str, object], kind: str, along: str, rules: Reading) -> _Points:
+def _from_file(keys: Mapping[str, object], kind: str, along: str, rules: ReadingRules) -> _Points:
     for key in ("x", "y"):
         if key in keys:
             raise ModelError(f"both file and {key} are given", "leave one of them out", (key,))
     from dalembert.model.quantities.column_files import read_columns
 
-    file, asked = keys["file"], keys.get("columns", (1, 2))
+    file, columns = keys["file"], keys.get("columns", (1, 2))
     units: Any = keys.get("units", ("", ""))
-    for key, pair in (("columns", asked), ("units", units)):
+    for key, pair in (("columns", columns), ("units", units)):
         if not isinstance(pair, (list, tuple)) or len(pair) != 2:
             example = "columns: [angle, pressure]" if key == "columns" else "units: [deg, bar]"
             what = f"expected two {key}, not {quote_value(pair)}"
             raise ModelError(what, f"write {example}", (key,))
-    first, second = at_item("file", read_columns, file, asked, rules)
+    first, second = at_item("file", read_columns, file, columns, rules)
     names = [_unit_of(first, units[0], 0), _unit_of(second, units[1], 1)]
     try:
         stated = unit(names[1]).dimension if names[1] else None
@@ -168,11 +168,11 @@ def _from_file(keys: Mapping[str, object], kind: str, along: str, rules: Reading
 
 
 def _unit_of(column: object, stated: object, k: int) -> str:
-    own = getattr(column, "unit", "")
-    if not isinstance(stated, str) or (own and stated and own != stated):
-        what = f"the head of column {k + 1} says {own!r}, and units {quote_value(stated)}"
+    head = getattr(column, "unit", "")
+    if not isinstance(stated, str) or (head and stated and head != stated):
+        what = f"the head of column {k + 1} says {head!r}, and units {quote_value(stated)}"
         raise ModelError(what, "leave one of them out", ("units", k))
-    return own or stated
+    return head or stated
 
 
 def _si(values: tuple[float, ...], name: str, kind: str, units: Units | None) -> tuple[float, ...]:
@@ -187,15 +187,15 @@ def _si(values: tuple[float, ...], name: str, kind: str, units: Units | None) ->
     return tuple(named.si(value) for value in values)
 
 
-def _factor(times: object, kind: str, stated: Dimension | None, rules: Reading) -> tuple[str, float]:
+def _factor(times: object, kind: str, stated: Dimension | None, rules: ReadingRules) -> tuple[str, float]:
     """The kind of y, and what it is multiplied by, SI: together the quantity. `stated` is the dimension of y's unit."""
     if times is None:
         return kind, 1.0
-    whole = KINDS[kind].dimension
+    product = KINDS[kind].dimension
     if stated is None:
         factor_is = stated_dimension(times, rules.parameters)
-        stated = _over(whole, factor_is) if factor_is else whole
-    of, factor = _kind_with(stated, kind), _kind_with(_over(whole, stated), kind)
+        stated = _over(product, factor_is) if factor_is else product
+    of, factor = _kind_with(stated, kind), _kind_with(_over(product, stated), kind)
     return of, rules.quantity(times, factor)
 
 
@@ -206,11 +206,11 @@ def _over(a: Dimension, b: Dimension) -> Dimension:
 def _kind_with(dimension: Dimension, kind: str) -> str:
     if dimension == KINDS[kind].dimension:
         return kind
-    found = next((name for name, known in KINDS.items() if known.dimension == dimension), None)
-    if found is None:
+    match = next((name for name, known in KINDS.items() if known.dimension == dimension), None)
+    if match is None:
         what = f"the values times this are not {KINDS[kind].phrase}"
         raise ModelError(what, "a pressure times an area is a force, for example")
-    return found
+    return match
 
 
 def _outside(value: object, period: float | None) -> str:
@@ -221,7 +221,7 @@ def _outside(value: object, period: float | None) -> str:
     return str(value)
 
 
-def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> float | None:
+def _period(value: object, along: str, x: tuple[float, ...], rules: ReadingRules) -> float | None:
     if value is False:
         return None
     if value is not True:
@@ -257,10 +257,12 @@ def table_tree(value: Table, kind: str) -> object:
     return tree
 
 
-def _with_unit(said: object, kind: str) -> object:
+def _with_unit(first: object, kind: str) -> object:
     """The first value with its unit, which says what kind of quantity the table has."""
     units = FILE_UNITS.get()
-    return f"{said} {units.text(kind)}" if kind and units is not None and not isinstance(said, str) else said
+    return (
+        f"{first} {units.text(kind)}" if kind and units is not None and not isinstance(first, str) else first
+    )
 
 
 def same_folder(a: str, b: str) -> bool:

@@ -21,7 +21,7 @@ from dalembert.model.paths import dependents
 from dalembert.model.quantities.dependent_numbers import Dependent, with_new
 from dalembert.model.quantities.parameters import values_of
 from dalembert.model.quantities.values import check_sign
-from dalembert.pages.rows import Rows
+from dalembert.pages.rows import NodeRows
 from dalembert.unit_names import SYMBOLS
 from dalembert.units import KINDS, PER_RADIAN, quantity
 
@@ -40,8 +40,8 @@ def sign_of(m: Mechanism, path: str) -> str:
             name = next((n for n, f in type(part).model_fields.items() if (f.alias or n) == key), "")
             part, field = getattr(part, name), type(part).model_fields[name]
             if _is_number(part, keys[place + 1 :]):
-                found = (getattr(x, "sign", "") for x in _inside([*field.metadata, field.annotation]))
-                return next((sign for sign in found if sign), "")
+                signs = (getattr(x, "sign", "") for x in _inside([*field.metadata, field.annotation]))
+                return next((sign for sign in signs if sign), "")
         elif isinstance(part, Mapping):
             part = part[key]
         elif isinstance(part, tuple):
@@ -65,7 +65,7 @@ def _inside(annotations: Iterable[Any]) -> Iterator[Any]:
         yield from _inside(get_args(one))
 
 
-def limits(m: Mechanism, k: Kernel, rows: Rows) -> list[Tree]:
+def limits(m: Mechanism, k: Kernel, rows: NodeRows) -> list[Tree]:
     """Bounds of values that depend on parameters: the row of the value, its path and its sign."""
     parameters = {
         n.path: node for n, node in zip(k.trace.numbers, k.number_nodes, strict=True) if n.parameter
@@ -92,14 +92,14 @@ def reading() -> Tree:
 
 def _kind(kind: str) -> Tree:
     of = KINDS[kind]
-    said: Tree = {
+    texts: Tree = {
         "phrase": of.phrase,
         "dimension": list(of.dimension),
-        "remedy": _said("#", kind).split("; ")[1],
-        "units": _said(UNKNOWN, kind).split("; ")[1],
+        "remedy": _message("#", kind).split("; ")[1],
+        "units": _message(UNKNOWN, kind).split("; ")[1],
     }
     return (
-        said
+        texts
         | ({"per_radian": True} if kind in PER_RADIAN else {})
         | ({"force": True} if "force" in of.file else {})
     )
@@ -132,13 +132,13 @@ EXAMPLES: dict[str, tuple[str, str, dict[str, str]]] = {
 
 
 def _left_open(text: str, kind: str, places: dict[str, str]) -> str:
-    said = _said(text, kind)
+    message = _message(text, kind)
     for word, place in ({repr(text): "{text}"} | places).items():
-        said = said.replace(word, place)
-    return said
+        message = message.replace(word, place)
+    return message
 
 
-def _said(text: str, kind: str) -> str:
+def _message(text: str, kind: str) -> str:
     try:
         quantity(text, kind)
     except ModelError as error:

@@ -18,11 +18,11 @@ from dalembert.analysis.status.statuses import SINGULAR, no_balance_sentence
 from dalembert.arrays import Tree
 from dalembert.core.layout import Mesh
 from dalembert.kernel.graph import trace_array
-from dalembert.pages.rows import Rows
+from dalembert.pages.rows import NodeRows
 from dalembert.units import file_units
 
 
-def position_sentences(known: Result, k: Kernel, rows: Rows) -> Tree:
+def position_sentences(known: Result, k: Kernel, rows: NodeRows) -> Tree:
     """Templates by status, and the rows and units that they are filled with."""
     c = known.compiled
     resting = not c.schedule.speed.any()
@@ -82,22 +82,22 @@ def _unit(known: Result, kind: str) -> Tree:
     return {"unit": units.text(kind), "size": units.unit(kind).si(1.0)}
 
 
-def _unknowns(known: Result, rows: Rows) -> list[Tree]:
+def _unknowns(known: Result, rows: NodeRows) -> list[Tree]:
     """Unknown efforts and loads, in the order of the analyses."""
     c, s = known.compiled, rows.r
-    asked = [
+    efforts = [
         (name, "moment" if c.layout.freedoms.angular[c.layout.driven[n]] else "force", s.effort(name)[0])
         for n, name in enumerate(known.drives)
-        if c.known.asked[n]
+        if c.known.requested[n]
     ]
     loads = [
         (name, "moment" if couple else "force", s.unknown_load(name)[0])
         for name, couple in zip(known.unknown_loads, c.known.couple, strict=True)
     ]
-    return [{"name": name, "kind": kind, "row": rows.of(value)} for name, kind, value in (*asked, *loads)]
+    return [{"name": name, "kind": kind, "row": rows.of(value)} for name, kind, value in (*efforts, *loads)]
 
 
-def _contacts(known: Result, k: Kernel, rows: Rows) -> list[Tree]:
+def _contacts(known: Result, k: Kernel, rows: NodeRows) -> list[Tree]:
     """The sense of each contact with friction, with its joint."""
     slip, contacts = k.trace.catalogue.traced.friction.slip, known.compiled.contacts
     if slip is None or contacts is None:
@@ -110,7 +110,7 @@ def _contacts(known: Result, k: Kernel, rows: Rows) -> list[Tree]:
     ]
 
 
-def _gears(k: Kernel, rows: Rows) -> list[Tree]:
+def _gears(k: Kernel, rows: NodeRows) -> list[Tree]:
     """Centre distances of planar meshing wheels, their radii, and the distances that these need."""
     c, pose = k.trace.catalogue.compiled, k.trace.catalogue.traced.pose
     g, out = c.layout.algebra, list[Tree]()
@@ -123,6 +123,6 @@ def _gears(k: Kernel, rows: Rows) -> list[Tree]:
             ri, rj = (trace_array(rows.graph, r)[n] for r in (f.ri, f.rj))
             numbers = ((x * x + y * y).sqrt(), ri, rj)
             name = c.joints[c.layout.constraints.joint[f.row[n]]]
-            said = f"{GEAR.format(repr(name), '{found}', '{ri}', '{rj}', '{wanted}')}; {GEAR_REMEDY}"
-            out.append({"sentence": said, "rows": rows.vector(numbers), "error": MESH})
+            sentence = f"{GEAR.format(repr(name), '{found}', '{ri}', '{rj}', '{wanted}')}; {GEAR_REMEDY}"
+            out.append({"sentence": sentence, "rows": rows.vector(numbers), "error": MESH})
     return out

@@ -1,6 +1,6 @@
 """Sections of the worked solution for answers of machine design.
 
-In: an answer of ``machine``, a notation. Out: a ``Sheet``. Imports ``machine``, ``views``.
+In: an answer of ``machine``, a notation. Out: a ``ReportSheet``. Imports ``machine``, ``views``.
 """
 
 from __future__ import annotations
@@ -10,30 +10,30 @@ from collections.abc import Iterable
 from dalembert.answer.answer import Drawn, Worked
 from dalembert.machine.output.machine_answer import MachineAnswer
 from dalembert.printing import Part
-from dalembert.reports.sheet import Sheet
+from dalembert.reports.sheet import ReportSheet
 from dalembert.views.notation import Notation, Shown, pretty
 
 
-def machine_sheet(answer: MachineAnswer, notation: Notation | None = None) -> Sheet:
+def machine_sheet(answer: MachineAnswer, notation: Notation | None = None) -> ReportSheet:
     """The worked solution of an answer: its equations in letters and numbers, what is found, its drawings."""
     shown = Shown(answer.result, notation or Notation())
-    sheet = Sheet(answer.result.mechanism.title or "Machine", answer.result.mechanism.source_text)
+    sheet = ReportSheet(answer.result.mechanism.title or "Machine", answer.result.mechanism.source_text)
     answer.section(sheet, shown)
     put_parts(sheet, answer.contents(shown.notation.units))
     sheet.figure(*answer.drawings(shown.notation))
     return sheet
 
 
-def answer_sheet(answer: Worked, notation: Notation | None = None) -> Sheet:
+def answer_sheet(answer: Worked, notation: Notation | None = None) -> ReportSheet:
     """The page of an answer without equations: what is printed, and its drawings."""
     shown, basis = notation or Notation(), answer.basis()
-    sheet = Sheet(basis["title"] or type(answer).__name__, basis.get("source", ""))
+    sheet = ReportSheet(basis["title"] or type(answer).__name__, basis.get("source", ""))
     put_parts(sheet, answer.contents(shown.units))
     sheet.figure(*(answer.drawings(shown) if isinstance(answer, Drawn) else ()))
     return sheet
 
 
-def put_parts(sheet: Sheet, parts: Iterable[Part]) -> None:
+def put_parts(sheet: ReportSheet, parts: Iterable[Part]) -> None:
     """Sentences and tables as an answer prints them, put on a sheet."""
     for part in parts:
         if isinstance(part, str):

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from dalembert.machine.motion.occurrences import say
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:
-    from dalembert.machine.balance.balancing import Balance
+    from dalembert.machine.balance.balancing import CounterweightBalance
     from dalembert.machine.balance.rotors import RotorBalance
     from dalembert.machine.bearings.bearing_load import BearingLoad
     from dalembert.machine.bearings.bearing_table import BearingTable
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from dalembert.machine.motors.motor_choice import MotorChoice
 
 
-def balance_section(sheet: Sheet, b: Balance, shown: Shown) -> None:
+def balance_section(sheet: ReportSheet, b: CounterweightBalance, shown: Shown) -> None:
     """In letters the columns of a counterweight."""
     sheet.heading("Balance")
     where = "with m x and m y about its base point A, on a link at the angle $theta$, adds to the shaking force, in "
@@ -33,7 +33,7 @@ def balance_section(sheet: Sheet, b: Balance, shown: Shown) -> None:
     )
 
 
-def rotor_section(sheet: Sheet, b: RotorBalance, shown: Shown) -> None:
+def rotor_section(sheet: ReportSheet, b: RotorBalance, shown: Shown) -> None:
     """In letters the conditions that no force and no couple turns with the shaft, and what ends them."""
     sheet.heading("Rotor balanced in two planes")
     sheet.text(
@@ -44,7 +44,7 @@ def rotor_section(sheet: Sheet, b: RotorBalance, shown: Shown) -> None:
     sheet.equations([sums, Working("u_{b} = -frac(T - z_{a} S; z_{b} - z_{a}) quad u_{a} = -S - u_{b}")])
 
 
-def bearing_section(sheet: Sheet, t: BearingTable, shown: Shown) -> None:
+def bearing_section(sheet: ReportSheet, t: BearingTable, shown: Shown) -> None:
     """Pressure, equivalent load and life of each joint that has a bearing."""
     sheet.heading("Bearings")
     sheet.text(
@@ -82,7 +82,7 @@ def _bearing_lines(b: BearingLoad, shown: Shown) -> list[Working]:
     return lines
 
 
-def flywheel_section(sheet: Sheet, f: Flywheel, shown: Shown) -> None:
+def flywheel_section(sheet: ReportSheet, f: Flywheel, shown: Shown) -> None:
     """Mean torque, dE, I, limits of speed, beside the exact speed."""
     sheet.heading("Flywheel")
     sheet.text(
@@ -104,7 +104,7 @@ def flywheel_section(sheet: Sheet, f: Flywheel, shown: Shown) -> None:
     sheet.equations([Working(a, b, f'{value} "{shown.unit(kind)}"') for a, b, value, kind in rows])
 
 
-def motor_section(sheet: Sheet, c: MotorChoice, shown: Shown) -> None:
+def motor_section(sheet: ReportSheet, c: MotorChoice, shown: Shown) -> None:
     """The torque behind a gear, and the ratio of its least rms."""
     sheet.heading(f"Motor for {c.drive}")
     sheet.text(
@@ -113,12 +113,12 @@ def motor_section(sheet: Sheet, c: MotorChoice, shown: Shown) -> None:
     )
     lines, best = [Working("T_{m} = J_{m} n alpha + frac(T; n eta)")], c.least_rms()
     if best is not None:
-        found = f"{shown.notation.number(best**2)} quad n = {shown.notation.number(best)}"
-        lines.append(Working("n^{2} = frac(T_{rms}; J_{m} alpha_{rms})", "", found))
+        value = f"{shown.notation.number(best**2)} quad n = {shown.notation.number(best)}"
+        lines.append(Working("n^{2} = frac(T_{rms}; J_{m} alpha_{rms})", "", value))
     sheet.equations(lines)
 
 
-def simulation_section(sheet: Sheet, s: Simulation, shown: Shown) -> None:
+def simulation_section(sheet: ReportSheet, s: Simulation, shown: Shown) -> None:
     """Moving drives, and the equation of motion that is integrated."""
     sheet.heading("Motion under forces")
     sheet.text(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dalembert.machine.members.member_table import MemberTable
 from dalembert.machine.output.member_text import known_stresses
 from dalembert.reports.formula import bracket_negative
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views.notation import Shown
 
 LAWS = (
@@ -21,7 +21,7 @@ ACROSS = "n across it, turned by +90°", "y and z across it, y turned by +90° a
 BENT = "+ frac(M; W)", "- frac(M_{z} y; I_{z}) + frac(M_{y} z; I_{y})"
 
 
-def member_section(sheet: Sheet, t: MemberTable, shown: Shown) -> None:
+def member_section(sheet: ReportSheet, t: MemberTable, shown: Shown) -> None:
     """The equations, and of each section the stress in letters and numbers."""
     sheet.heading("Forces inside the links")
     space = t.result.mechanism.dimension == 3

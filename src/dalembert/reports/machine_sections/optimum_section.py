@@ -9,7 +9,7 @@ import numpy as np
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.pareto_front import Front
-from dalembert.reports.sheet import Sheet
+from dalembert.reports.sheet import ReportSheet
 from dalembert.views import draw
 from dalembert.views.charts import along
 from dalembert.views.notation import Notation, Shown
@@ -17,10 +17,10 @@ from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.scene import Scene
 
 
-def optimum_sheet(o: Optimum, notation: Notation | None = None) -> Sheet:
+def optimum_sheet(o: Optimum, notation: Notation | None = None) -> ReportSheet:
     """The page of the optimum of `da.optimize`."""
     m, notation = o.mechanism, notation or Notation()
-    sheet = Sheet(m.title or "Optimum", m.source_text)
+    sheet = ReportSheet(m.title or "Optimum", m.source_text)
     sheet.heading("Optimum")
     sheet.text(o.words)
     sheet.table(["number", "before", "after", "from", "to"], o.number_rows())

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from dalembert.analysis.methods.applied_forces import actions, joint_place, on_link
-from dalembert.reports.sections.terms import AXES, About, Piece, join_signed, setting, terms
+from dalembert.reports.sections.terms import AXES, About, EquationTerm, join_signed, setting, terms
 from dalembert.reports.sections.terms import about as at
 from dalembert.reports.sheet import Working
 from dalembert.views.notation import Shown
@@ -51,7 +51,7 @@ def link_equations(
     return lines, about
 
 
-def _line(left: str, pieces: list[Piece], shown: Shown, kind: str) -> Working:
+def _line(left: str, pieces: list[EquationTerm], shown: Shown, kind: str) -> Working:
     """One sum; what is left of it beside its largest term is rounding."""
     if not pieces:
         none = "no force acts along it" if kind == "force" else "no moment acts on the link"

@@ -11,9 +11,9 @@ from dalembert.arrays import Array
 from dalembert.reports.formula import bracket_negative
 from dalembert.reports.report_context import as_formula
 from dalembert.reports.sections.terms import join_numbers
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views import draw
-from dalembert.views.notation import Figures, Notation, own_name, pretty
+from dalembert.views.notation import Figures, Notation, load_sign, pretty
 from dalembert.wrench import Couple, Force, System
 from dalembert.wrench.forces import Axis
 from dalembert.wrench.reading import Vector
@@ -22,14 +22,14 @@ MOMENT_TERMS = {2: ("x F_y − y F_x",), 3: ("y F_z − z F_y", "z F_x − x F_z
 """Moment of a force about the point from arm and components, by dimension."""
 
 
-def force_system_sheet(s: System, at: Vector | None = None, notation: Notation | None = None) -> Sheet:
+def force_system_sheet(s: System, at: Vector | None = None, notation: Notation | None = None) -> ReportSheet:
     """Worked solution of a force system, with moments about a point (default the origin)."""
     shown = Figures(s.units, notation or Notation())
-    sheet = Sheet(
+    sheet = ReportSheet(
         s.title or "Force system", s.source, f"{'Plane' if s.dimension == 2 else 'Space'}, {_count(s)}"
     )
-    work = _Work(s, s.point(at), shown, sheet)
-    work.given()
+    work = _Solution(s, s.point(at), shown, sheet)
+    work.stated()
     sheet.figure(draw.force_system(s, notation=notation))
     work.resultant()
     work.moments()
@@ -45,10 +45,10 @@ def _count(s: System) -> str:
     return f"{many(len(s.forces), 'force')} and {many(len(s.couples), 'couple')}"
 
 
-class _Work:
+class _Solution:
     """The sections one by one."""
 
-    def __init__(self, s: System, at: Array, shown: Figures, sheet: Sheet) -> None:
+    def __init__(self, s: System, at: Array, shown: Figures, sheet: ReportSheet) -> None:
         self.s, self.at, self.shown, self.sheet = s, at, shown, sheet
         self.d = s.dimension
         self.axes = "xyz"[: self.d]
@@ -90,7 +90,7 @@ class _Work:
 
     # sections
 
-    def given(self) -> None:
+    def stated(self) -> None:
         self.sheet.heading("Given")
         force, length, moment = self.shown.unit("force"), self.shown.arm_unit, self.shown.unit("moment")
         directions = ["angle °"] if self.d == 2 else [f"cos {a}" for a in self.axes]
@@ -192,10 +192,10 @@ class _Work:
         if np.allclose(place, self.at):
             place = place + (self.s.length or 1.0) * np.eye(self.d)[0]
         other = self.s.point_name(place, "P", self.name)
-        there, again = self.s._moment(place), self.reduced.moved(place).vector
+        moment, again = self.s._moment(place), self.reduced.moved(place).vector
         unit = self.shown.unit("moment")
         self.sheet.text(
-            f"Check at another point {other}, {self.point(place)}: from all parts M = {self._vector(there)}, from R "
+            f"Check at another point {other}, {self.point(place)}: from all parts M = {self._vector(moment)}, from R "
             f"and M at {self.name} by ${self.about} + ({self.name} − {other}) times R$: {self._vector(again)} {unit}."
         )
 
@@ -213,7 +213,7 @@ class _Work:
     def _line(self, kind: str) -> None:
         """The line of action of a plane resultant."""
         r, m = self.s.resultant, float(self.reduced.vector[0])
-        size, found = math.hypot(*r), self.s.central_axis().axis
+        size, axis = math.hypot(*r), self.s.central_axis().axis
         self.sheet.text(
             "The force is not zero: the system is a single force R on a line that makes the same moment."
         )
@@ -223,7 +223,7 @@ class _Work:
             Working(f"x R_{{y}} − y R_{{x}} = {self.about}: quad {self._equation(r, m)}"),
         ]
         self.sheet.equations(lines)
-        cuts = [self._intercepts(found, name) for name in ("y", "x")]
+        cuts = [self._intercepts(axis, name) for name in ("y", "x")]
         self.sheet.text(
             f"Looking along R, the line passes {self.name} at the distance d, to the right where d is positive. "
             f"Measured from {self.name} it {' and '.join(c for c in cuts if c)}."
@@ -246,7 +246,7 @@ class _Work:
     def _screw(self, kind: str) -> None:
         """The central axis of a system in space."""
         r, m = self.s.resultant, self.reduced.vector
-        size, found = math.hypot(*r), self.s.central_axis()
+        size, screw = math.hypot(*r), self.s.central_axis()
         moment, force, length = self.unit("moment"), self.unit("force"), self.length_unit
         product = join_numbers(
             [f"{self.force(a)} cdot {bracket_negative(self.moment(b))}" for a, b in zip(r, m, strict=True)]
@@ -255,8 +255,8 @@ class _Work:
         foot = np.cross(r / size, m) / size
         lines = [
             Working(f"R cdot {self.about}", product, f"{self.shown.notation.number(value)} {force} {moment}"),
-            Working(f"M = R cdot {self.about} / R", "", f"{self.moment(found.moment)} {moment}"),
-            Working("p = M / R", "", f"{self.length(found.pitch)} {length}"),
+            Working(f"M = R cdot {self.about} / R", "", f"{self.moment(screw.moment)} {moment}"),
+            Working("p = M / R", "", f"{self.length(screw.pitch)} {length}"),
             Working(
                 f"r = R times {self.about} / R^{{2}} = ({', '.join(self.length(x) for x in foot)}) {length}"
             ),
@@ -269,7 +269,7 @@ class _Work:
         }
         self.sheet.text(words[kind])
         self.sheet.equations(lines)
-        cuts = [c for c in (self._intercepts(found.axis, name) for name in "xyz") if c]
+        cuts = [c for c in (self._intercepts(screw.axis, name) for name in "xyz") if c]
         self.sheet.text(
             f"r is the point of the axis nearest to {self.name}. "
             f"Measured from {self.name} the axis {'; it '.join(cuts)}."
@@ -277,16 +277,16 @@ class _Work:
 
     def equilibrium(self) -> None:
         self.sheet.heading("Equilibrium")
-        found = self.s.equilibrium()
-        self.sheet.text(re.sub(r"-(?=\d)", "−", pretty(found.sentence)))
+        check = self.s.equilibrium()
+        self.sheet.text(re.sub(r"-(?=\d)", "−", pretty(check.sentence)))
         self.sheet.text(
             "The residual is the larger of two parts: the sum of forces over the largest force, and the sum of moments "
-            f"over that force times the length {self.shown.text('length', self.s.length)}. It is {found.residual:.2g}."
+            f"over that force times the length {self.shown.text('length', self.s.length)}. It is {check.residual:.2g}."
         )
 
 
 def _sign(name: str) -> str:
-    return as_formula(own_name(name))
+    return as_formula(load_sign(name))
 
 
 def _formulas(heads: list[str]) -> list[str]:

@@ -31,11 +31,11 @@ from dalembert.analysis.result.number_kinds import unknown_kinds
 from dalembert.model import GROUND
 from dalembert.reports.pictures import friction_pictures
 from dalembert.reports.report_context import ReportContext, figure
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views import both_ends
 
 
-def friction(sheet: Sheet, c: ReportContext) -> None:
+def friction(sheet: ReportSheet, c: ReportContext) -> None:
     """The section on friction of a solved position; none without friction."""
     if c.r.friction is None or not c.r.friction.known(c.k):
         return
@@ -93,12 +93,12 @@ def circle_radius(c: ReportContext, joint: str, mu: float, radius: float) -> Wor
 
 def _two_force_links(c: ReportContext) -> list[TwoPins]:
     """Links that two pins alone load, with a friction circle in one at least."""
-    found: dict[str, TwoPins] = {}
+    two_force: dict[str, TwoPins] = {}
     for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
         two = two_pins(c.r, joint) if c.r.mechanism.joints[joint].hinge else None
         if two is not None and abs(two.tension[c.k]) > c.shown.least["force"]:
-            found[two.link] = two
-    return list(found.values())
+            two_force[two.link] = two
+    return list(two_force.values())
 
 
 def tangent_lines(c: ReportContext, two: TwoPins) -> tuple[str, list[Working]]:
@@ -184,7 +184,7 @@ def guide_lines(c: ReportContext, joint: str) -> list[Working]:
     return out
 
 
-def cost(sheet: Sheet, c: ReportContext) -> None:
+def cost(sheet: ReportSheet, c: ReportContext) -> None:
     """Power that each joint loses and its share; the efficiency in both senses."""
     r, shown, k = c.r, c.shown, c.k
     lost = {n: float(r.power_lost(n)[k]) for n in friction_joints(r)}
@@ -200,18 +200,18 @@ def cost(sheet: Sheet, c: ReportContext) -> None:
     ]
     heads = ["Joint", f"Power lost ({shown.unit('power')})", "of the power put in"]
     sheet.table(heads, rows, "Power lost to friction at this position", total=True)
-    found = efficiency(r)
+    efficiencies = efficiency(r)
     senses = (
-        (float(found.forward[k]), f"where the drive moves the load{found.driven(k)}"),
-        (float(found.reverse[k]), f"where the load moves the drive{found.held(k)}"),
-        (found.cycle if len(r.status) > 1 else math.nan, "over all positions, inertia and all"),
+        (float(efficiencies.forward[k]), f"where the drive moves the load{efficiencies.driven(k)}"),
+        (float(efficiencies.reverse[k]), f"where the load moves the drive{efficiencies.held(k)}"),
+        (efficiencies.cycle if len(r.status) > 1 else math.nan, "over all positions, inertia and all"),
     )
     parts = [f"{c.notation.percent(part)} {words}" for part, words in senses if math.isfinite(part)]
     if parts:
         sheet.text(f"Efficiency, without inertia: {'; '.join(parts)}.")
 
 
-def at_rest(sheet: Sheet, c: ReportContext, answers: Callable[..., object]) -> None:
+def at_rest(sheet: ReportSheet, c: ReportContext, answers: Callable[..., object]) -> None:
     """Both ends of every effort or load that friction leaves open: drawing and joint forces of each."""
     r, shown, k = c.r, c.shown, c.k
     sheet.heading("At rest: what friction can hold")
@@ -220,9 +220,9 @@ def at_rest(sheet: Sheet, c: ReportContext, answers: Callable[..., object]) -> N
     for words, end, known in both_ends.ends(r, k, shown):
         sheet.heading(words, 2)
         if known:
-            there = replace(c, r=end)
-            sheet.figure(*friction_pictures(there))
-            answers(sheet, there)
+            at_end = replace(c, r=end)
+            sheet.figure(*friction_pictures(at_end))
+            answers(sheet, at_end)
 
 
 def intervals(c: ReportContext) -> list[Working]:

@@ -13,10 +13,10 @@ from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.model import GROUND
 from dalembert.model.joints.pairs import AXES
 from dalembert.model.quantities.dependent_numbers import Dependent
-from dalembert.reports.pictures import given_picture
+from dalembert.reports.pictures import stated_picture
 from dalembert.reports.report_context import ReportContext, as_formula
-from dalembert.reports.sheet import Sheet
-from dalembert.views.notation import Shown, own_name, pretty
+from dalembert.reports.sheet import ReportSheet
+from dalembert.views.notation import Shown, load_sign, pretty
 from dalembert.views.stated import (
     axes_text,
     drive_text,
@@ -28,7 +28,7 @@ from dalembert.views.stated import (
 )
 
 
-def knowns(sheet: Sheet, c: ReportContext) -> None:
+def knowns(sheet: ReportSheet, c: ReportContext) -> None:
     """Tables of what the file says; of its numbers none is rounding, however small."""
     c = replace(c, shown=Shown(c.r, c.notation))
     r, shown, m = c.r, c.shown, c.r.mechanism
@@ -49,14 +49,14 @@ def knowns(sheet: Sheet, c: ReportContext) -> None:
     if m.dimension == 3 and not c.question:
         joint_axes(sheet, c)
     loads = [
-        [as_formula(own_name(n)), load.type.replace("_", " "), load_text(shown, c.k, n)]
+        [as_formula(load_sign(n)), load.type.replace("_", " "), load_text(shown, c.k, n)]
         for n, load in m.loads.items()
     ]
     sheet.table(["Load", "Type", "Value"], loads)
     assumed = "; ".join(f"{name} {value}" for name, value in r.assumptions.items())
     divided = weights_text(shown) if c.question else ""
     sheet.text(f"{divided}{'. ' * bool(divided)}Assumptions: {assumed}. {_convention(c)}")
-    sheet.figure(given_picture(c))
+    sheet.figure(stated_picture(c))
 
 
 def _parameters(c: ReportContext) -> list[list[str]]:
@@ -69,7 +69,7 @@ def _parameters(c: ReportContext) -> list[list[str]]:
     return rows
 
 
-def _links(sheet: Sheet, c: ReportContext) -> None:
+def _links(sheet: ReportSheet, c: ReportContext) -> None:
     """Points, mass and mass centre of each link; its inertia, in space as a separate table."""
     r, shown, m = c.r, c.shown, c.r.mechanism
     rows = []
@@ -96,16 +96,16 @@ def _links(sheet: Sheet, c: ReportContext) -> None:
         _inertias(sheet, c)
 
 
-def _inertias(sheet: Sheet, c: ReportContext) -> None:
+def _inertias(sheet: ReportSheet, c: ReportContext) -> None:
     """Matrices J of inertia about the mass centres; the off-diagonal elements are the negative products of inertia."""
     r, shown = c.r, c.shown
-    found = {link: inertia_matrix(r, link) for link in r.links}
-    found = {link: j for link, j in found.items() if j.any()}
-    diagonal = not any((j - np.diag(np.diag(j))).any() for j in found.values())
+    matrices = {link: inertia_matrix(r, link) for link in r.links}
+    matrices = {link: j for link, j in matrices.items() if j.any()}
+    diagonal = not any((j - np.diag(np.diag(j))).any() for j in matrices.values())
     places = [(0, 0), (1, 1), (2, 2), *([] if diagonal else [(0, 1), (0, 2), (1, 2)])]
     heads = ["Link", *(f"$J_{{{AXES[a]}{AXES[b]}}}$" for a, b in places)]
     rows = []
-    for link, j in found.items():
+    for link, j in matrices.items():
         least = PART * float(np.abs(j).max())
         rows.append([shown.heading(link), *(shown.number("inertia", float(j[p]), least) for p in places)])
     about = f"Inertia ({shown.unit('inertia')}) about the mass centre, in link axes"
@@ -114,7 +114,7 @@ def _inertias(sheet: Sheet, c: ReportContext) -> None:
     )
 
 
-def joint_axes(sheet: Sheet, c: ReportContext) -> None:
+def joint_axes(sheet: ReportSheet, c: ReportContext) -> None:
     """Each joint's local axes at this position, in ground axes."""
     rows = []
     for joint in c.r.joints:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-class Vector(NamedTuple):
+class LoopVector(NamedTuple):
     """One side of a loop: name, length (m), angle, the rates of its link, and of its length."""
 
     name: str
@@ -33,7 +33,7 @@ class Loop(NamedTuple):
     """Sides that sum to zero, through these links."""
 
     links: tuple[str, ...]
-    sides: tuple[Vector, ...]
+    sides: tuple[LoopVector, ...]
 
 
 Ring = list[tuple[str, str, str]]
@@ -64,7 +64,7 @@ def rings(r: Result) -> list[Ring]:
 
 def _ring(joint: str, i: str, j: str, parent: Tree) -> Ring:
     """Through one joint outside the tree and back through the tree."""
-    to_i, to_j = _way(i, parent), _way(j, parent)
+    to_i, to_j = _path_to_ground(i, parent), _path_to_ground(j, parent)
     while to_i and to_j and to_i[0] == to_j[0]:
         to_i, to_j = to_i[1:], to_j[1:]
     return [*to_i, (joint, i, j), *((name, b, a) for name, a, b in reversed(to_j))]
@@ -72,7 +72,7 @@ def _ring(joint: str, i: str, j: str, parent: Tree) -> Ring:
 
 def _loop(r: Result, k: int, ring: Ring) -> Loop:
     """Its sides, through links and along slides."""
-    sides: list[Vector] = []
+    sides: list[LoopVector] = []
     for n, (name, before, after) in enumerate(ring):
         sides += _crossing(r, k, name, before, after)
         following = ring[(n + 1) % len(ring)][0]
@@ -80,7 +80,7 @@ def _loop(r: Result, k: int, ring: Ring) -> Loop:
     return Loop(tuple(after for _, _, after in ring), tuple(s for s in sides if s.length > 1e-12 or s.slide))
 
 
-def _way(link: str, parent: Tree) -> Ring:
+def _path_to_ground(link: str, parent: Tree) -> Ring:
     """Steps (joint, from, to) from the ground to a link."""
     out: Ring = []
     while parent[link] is not None:
@@ -96,16 +96,16 @@ def joint_end(r: Result, joint: str, link: str, k: int) -> Numeric:
     return link_place(r, link, r.mechanism.joint_points(joint)[described.links.index(link)])[k]
 
 
-def _side(r: Result, k: int, link: str, start: str, end: str) -> list[Vector]:
+def _side(r: Result, k: int, link: str, start: str, end: str) -> list[LoopVector]:
     """From one joint's point of a link to the next's."""
     span = joint_end(r, end, link, k) - joint_end(r, start, link, k)
     alpha = 0.0 if link == GROUND else float(r.acceleration(link)[k])
     angle = math.atan2(float(span[1]), float(span[0]))
     name = f"{start}{end}"
-    return [Vector(name, float(np.hypot(*span)), angle, float(link_speed(r, link)[k]), alpha, None)]
+    return [LoopVector(name, float(np.hypot(*span)), angle, float(link_speed(r, link)[k]), alpha, None)]
 
 
-def _crossing(r: Result, k: int, joint: str, before: str, after: str) -> list[Vector]:
+def _crossing(r: Result, k: int, joint: str, before: str, after: str) -> list[LoopVector]:
     """The slide of a joint between its two points."""
     described = r.mechanism.joints[joint]
     if not described.slides:
@@ -119,17 +119,17 @@ def _crossing(r: Result, k: int, joint: str, before: str, after: str) -> list[Ve
     offset = 0.0 if sign > 0 else math.pi
     speed = float(link_speed(r, rail)[k])
     assert link_angle(r, rail) is not None
-    return [Vector(f"s,{joint}", value, angle + offset, speed, alpha, (rate, second))]
+    return [LoopVector(f"s,{joint}", value, angle + offset, speed, alpha, (rate, second))]
 
 
-def _radius(r: Result, k: int, joint: str, before: str) -> Vector:
+def _radius(r: Result, k: int, joint: str, before: str) -> LoopVector:
     """Vector from the centre of a circular slot to its pin, or back: of constant length, with its rate of turning."""
     i, j = r.mechanism.joints[joint].links
     (pi, vi, ai), (pj, vj, aj) = (_point_motion(r, k, joint, link) for link in (i, j))
     span, square = pj - pi, float((pj - pi) @ (pj - pi))
     speed, alpha = (float(span[0] * v[1] - span[1] * v[0]) / square for v in (vj - vi, aj - ai))
     angle = math.atan2(float(span[1]), float(span[0])) + (0.0 if before == i else math.pi)
-    return Vector(f"R,{joint}", math.sqrt(square), angle, speed, alpha, None)
+    return LoopVector(f"R,{joint}", math.sqrt(square), angle, speed, alpha, None)
 
 
 def _point_motion(r: Result, k: int, joint: str, link: str) -> tuple[Array, Array, Array]:
@@ -152,7 +152,7 @@ def position_lines(loop: Loop, shown: Shown) -> list[Working]:
     return out
 
 
-def _side_numbers(s: Vector, function: str, shown: Shown) -> Signed:
+def _side_numbers(s: LoopVector, function: str, shown: Shown) -> Signed:
     """A side of a loop with its numbers; a slide may be negative."""
     size = shown.number("length", abs(s.length))
     return s.length < 0 and size != "0", f"{size} {function} {_degrees(s.angle, shown)}"
@@ -162,18 +162,18 @@ def velocity_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Time derivative of the position's sums."""
     out: list[list[tuple[Signed, float]]] = []
     for axis in (0, 1):
-        found: list[tuple[Signed, float]] = []
+        rates: list[tuple[Signed, float]] = []
         for s in _moving(loop):
             c, n = math.cos(s.angle), math.sin(s.angle)
             turning = (-n if axis == 0 else c) * s.speed * s.length
             f, g = ("sin", "cos") if axis == 0 else ("cos", "sin")
             if s.speed:
                 text = f"r_{{{s.name}}} omega_{{{s.name}}} {f} theta_{{{s.name}}}"
-                found.append(((axis == 0, text), turning))
+                rates.append(((axis == 0, text), turning))
             if s.slide is not None:
                 along = (c if axis == 0 else n) * s.slide[0]
-                found.append(((False, f"v_{{{s.name}}} {g} theta_{{{s.name}}}"), along))
-        out.append(found)
+                rates.append(((False, f"v_{{{s.name}}} {g} theta_{{{s.name}}}"), along))
+        out.append(rates)
     return _sum_rows(out, shown, "speed")
 
 
@@ -183,7 +183,7 @@ def acceleration_lines(loop: Loop, shown: Shown) -> list[Working]:
     return _sum_rows(out, shown, "acceleration")
 
 
-def _accelerations(s: Vector, axis: int) -> list[tuple[Signed, float]]:
+def _accelerations(s: LoopVector, axis: int) -> list[tuple[Signed, float]]:
     """Tangential, normal, sliding and Coriolis parts along one axis."""
     c, n = math.cos(s.angle), math.sin(s.angle)
     across, along = (-n, c) if axis == 0 else (c, n)
@@ -204,7 +204,7 @@ def _accelerations(s: Vector, axis: int) -> list[tuple[Signed, float]]:
     return out
 
 
-def _moving(loop: Loop) -> list[Vector]:
+def _moving(loop: Loop) -> list[LoopVector]:
     return [s for s in loop.sides if s.speed or s.acceleration or s.slide is not None]
 
 

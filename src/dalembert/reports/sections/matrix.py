@@ -23,7 +23,7 @@ from dalembert.arrays import Array
 from dalembert.reports.sections.equilibrium_equations import moment_point
 from dalembert.reports.sections.terms import About, floors
 from dalembert.reports.sheet import Matrix
-from dalembert.views.notation import Shown, along, own_name
+from dalembert.views.notation import Shown, along, load_sign
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -63,9 +63,9 @@ def matrix_equation(
     if r.friction is not None or r.compiled.forcing.separation.any():
         return None
     links = links or r.links
-    found = unknowns(r, k, shown) if some is None else some
+    unknown = unknowns(r, k, shown) if some is None else some
     n = 3 if r.mechanism.dimension == 2 else 6
-    if len(found) > MOST or len(found) != n * len(links) - len(following):
+    if len(unknown) > MOST or len(unknown) != n * len(links) - len(following):
         return None
     per = {kind: shown.value(kind, 1.0) for kind in ("force", "moment")}
     number, everything = shown.notation.number, actions(r)
@@ -73,21 +73,21 @@ def matrix_equation(
     rows, right = [], []
     for link in links:
         about = moment_point(r, link, k, wanted)
-        known = _known_actions(everything, found, link, k, about)
-        columns = [_column(u, link, about) for u in found]
+        known = _known_actions(everything, unknown, link, k, about)
+        columns = [_column(u, link, about) for u in unknown]
         for axis in range(n):
             if axis >= 3 and axis - 3 == following.get(link):
                 continue
             # rows in the reader's units: force rows per force, moment rows per moment
             kind = "force" if axis < r.mechanism.dimension else "moment"
             row_unit = per[kind]
-            cells = [c[axis] * row_unit / per[u.kind] for c, u in zip(columns, found, strict=True)]
+            cells = [c[axis] * row_unit / per[u.kind] for c, u in zip(columns, unknown, strict=True)]
             largest = max(map(abs, cells), default=0.0)
             rows.append(tuple(number(c) if abs(c) > 1e-9 * largest else "0" for c in cells))
             floor = 10 * least["force" if n == 3 else kind]
             right.append(number(-known[axis] * row_unit if abs(known[axis]) > floor else 0.0))
-    values = tuple(number(u.value * per[u.kind] if abs(u.value) > least[u.kind] else 0.0) for u in found)
-    return Matrix(tuple(rows), tuple(u.sign for u in found), tuple(right), values)
+    values = tuple(number(u.value * per[u.kind] if abs(u.value) > least[u.kind] else 0.0) for u in unknown)
+    return Matrix(tuple(rows), tuple(u.sign for u in unknown), tuple(right), values)
 
 
 def _known_actions(
@@ -178,6 +178,6 @@ def _loads(r: Result, k: int) -> list[Unknown]:
         kind = "force" if force.any() else "moment"
         on = {a.link: (force, couple)}
         out.append(
-            Unknown(own_name(name), float(r.unknown_load(name)[k]), kind, on, a.at[k], (("load", name),))
+            Unknown(load_sign(name), float(r.unknown_load(name)[k]), kind, on, a.at[k], (("load", name),))
         )
     return out

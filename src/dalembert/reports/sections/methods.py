@@ -10,31 +10,31 @@ from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.printing import remainder
 from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.terms import floors
-from dalembert.reports.sheet import Sheet
+from dalembert.reports.sheet import ReportSheet
 from dalembert.views import draw
 
 
-def graphical(sheet: Sheet, c: ReportContext) -> None:
+def graphical(sheet: ReportSheet, c: ReportContext) -> None:
     r, shown = c.r, c.shown
     sheet.heading("Graphical solution")
-    found = members(r)
-    kinds = [f"{shown.heading(link)}: {m.kind} {m.state(c.k)}".strip() for link, m in found.items()]
+    by_link = members(r)
+    kinds = [f"{shown.heading(link)}: {m.kind} {m.state(c.k)}".strip() for link, m in by_link.items()]
     sheet.text(f"Classes of the links. {'; '.join(kinds)}.")
-    touching = [f"{shown.heading(link)}: {m.touching}" for link, m in found.items() if m.touching]
+    touching = [f"{shown.heading(link)}: {m.touching}" for link, m in by_link.items() if m.touching]
     sheet.text(f"With friction: {'; '.join(touching)}." if touching else "")
-    sheet.text(f"Order of solution: {'; then '.join(step.why for step in order_of_solution(r, found))}.")
+    sheet.text(f"Order of solution: {'; then '.join(step.why for step in order_of_solution(r, by_link))}.")
     at = c.k + 1
     lines = [
         draw.lines_of_action(r, link, at, c.notation)
-        for link, m in found.items()
+        for link, m in by_link.items()
         if m.kind in ("three-force", "four-force", "two-force with couple")
     ]
-    loaded = [link for link, m in found.items() if len(m.forces) > 1 and m.kind != ZERO]
+    loaded = [link for link, m in by_link.items() if len(m.forces) > 1 and m.kind != ZERO]
     polygons = [draw.force_polygon(r, link, at, c.notation) for link in loaded]
     sheet.figure(*lines, *polygons, *([draw.force_chain(r, at, c.notation)] if len(r.links) > 1 else []))
 
 
-def cycle(sheet: Sheet, c: ReportContext) -> None:
+def cycle(sheet: ReportSheet, c: ReportContext) -> None:
     from dalembert.views import charts
 
     r = c.r
@@ -57,7 +57,7 @@ def cycle(sheet: Sheet, c: ReportContext) -> None:
     sheet.table(["Largest", "Value", "Position"], rows)
 
 
-def checks(sheet: Sheet, c: ReportContext) -> None:
+def checks(sheet: ReportSheet, c: ReportContext) -> None:
     r, k = c.r, c.k
     sheet.heading("Checks")
     links = []

@@ -12,13 +12,13 @@ from dalembert.reports.formula import bracket_negative
 from dalembert.reports.report_context import ReportContext, figure
 from dalembert.reports.sections import kinematics
 from dalembert.reports.sections.gear_motion import mesh
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Notation, pretty
 from dalembert.views.plane.velocity_polygons import stands_still
 
 
-def motion(sheet: Sheet, c: ReportContext) -> None:
+def motion(sheet: ReportSheet, c: ReportContext) -> None:
     r, shown = c.r, c.shown
     if not r.drives:
         return
@@ -66,7 +66,7 @@ def _motion_table(c: ReportContext, moving: bool) -> tuple[list[str], list[list[
     return heads, rows
 
 
-def inertia(sheet: Sheet, c: ReportContext) -> None:
+def inertia(sheet: ReportSheet, c: ReportContext) -> None:
     r = c.r
     heavy = [link for link in r.links if r.mechanism.mass(link)]
     if not r.inertia or not heavy:
@@ -84,9 +84,9 @@ def inertia(sheet: Sheet, c: ReportContext) -> None:
     shares(sheet, c)
 
 
-def units_of_inertia(sheet: Sheet, c: ReportContext) -> None:
+def units_of_inertia(sheet: ReportSheet, c: ReportContext) -> None:
     """Note on the factor between mass times acceleration and force where they differ in the reader's units."""
-    shown, said = c.shown, []
+    shown, sentences = c.shown, []
     for words, kind, of in (
         ("masses times accelerations", "force", ("mass", "acceleration")),
         ("moments of inertia times angular accelerations", "moment", ("inertia", "angular_acceleration")),
@@ -95,38 +95,42 @@ def units_of_inertia(sheet: Sheet, c: ReportContext) -> None:
         product = product.replace("·/", "/")
         if factor < 1:
             size = pretty(shown.conversion(1 / factor))
-            said.append(f"As 1 {shown.unit(kind)} is {size} {product}, {words} are divided by {size}.")
+            sentences.append(f"As 1 {shown.unit(kind)} is {size} {product}, {words} are divided by {size}.")
         elif factor > 1:
             size = pretty(shown.conversion(factor))
-            said.append(f"As 1 {product} is {size} {shown.unit(kind)}, {words} are multiplied by {size}.")
+            sentences.append(
+                f"As 1 {product} is {size} {shown.unit(kind)}, {words} are multiplied by {size}."
+            )
     turning = shown.factor("moment", "inertia", "angular_acceleration")
     same = math.isclose(shown.factor("force", "mass", "acceleration"), turning)
-    if same and said:
+    if same and sentences:
         both = "masses times accelerations and moments of inertia times angular accelerations"
-        said = [said[0].replace("masses times accelerations", both)]
-    sheet.text(" ".join(said))
+        sentences = [sentences[0].replace("masses times accelerations", both)]
+    sheet.text(" ".join(sentences))
 
 
-def shares(sheet: Sheet, c: ReportContext) -> None:
+def shares(sheet: ReportSheet, c: ReportContext) -> None:
     """Shares of inertia: shows whether it could be left out."""
-    found = inertia_shares(c.r)
-    if not found:
+    parts = inertia_shares(c.r)
+    if not parts:
         return
-    worst, many = found[0], " over the cycle" if len(c.r.status) > 1 else ""
+    worst, many = parts[0], " over the cycle" if len(c.r.status) > 1 else ""
     if not worst.share > PART:
         sheet.text(f"Inertia could be left out: no mass is accelerated{many}.")
         return
-    said = "could be left out" if worst.share < 0.05 else "must not be left out"
+    verdict = "could be left out" if worst.share < 0.05 else "must not be left out"
     share = Notation(figures=2).percent(worst.share)
-    sheet.text(f"Inertia {said}: it makes up to {share} of the largest {worst.quantity} of {worst.of}{many}.")
+    sheet.text(
+        f"Inertia {verdict}: it makes up to {share} of the largest {worst.quantity} of {worst.of}{many}."
+    )
 
 
 def _inertia_lines(c: ReportContext, link: str) -> list[Working]:
     """F_I = -m a_G with its size and direction, T_I = -I alpha, and the offset of the force that makes both."""
     r, shown, k = c.r, c.shown, c.k
     n, m, inertia = shown.link(link), r.mechanism.mass(link), r.mechanism.inertia(link)
-    a, found = r.center_acceleration(link)[k], displaced_inertia(r, link)
-    fx, fy = (float(f) for f in found.force[k])
+    a, displaced = r.center_acceleration(link)[k], displaced_inertia(r, link)
+    fx, fy = (float(f) for f in displaced.force[k])
     size, alpha = math.hypot(fx, fy), float(r.acceleration(link)[k])
     number = shown.number
     ax, ay = (number("acceleration", float(x)) for x in a)
@@ -144,7 +148,7 @@ def _inertia_lines(c: ReportContext, link: str) -> list[Working]:
     minus = "−" if c.notation.torque > 0 else ""
     turned = bracket_negative(number("angular_acceleration", alpha))
     product = f"{minus}{number('inertia', inertia)} cdot {turned}"
-    couple = float(found.couple[k])
+    couple = float(displaced.couple[k])
     out.append(
         Working(
             f"T_{{I{n}}} = {minus}I_{{{n}}} alpha_{{{n}}}",
@@ -157,7 +161,7 @@ def _inertia_lines(c: ReportContext, link: str) -> list[Working]:
             Working(
                 f"h_{{{n}}} = frac(|T_{{I{n}}}|; F_{{I{n}}})",
                 f"frac({number('moment', couple).lstrip('−')}; {number('force', size)})",
-                f'{c.notation.number(float(found.offset[k]) / shown.arm)} "{shown.arm_unit}"',
+                f'{c.notation.number(float(displaced.offset[k]) / shown.arm)} "{shown.arm_unit}"',
             )
         )
     return out

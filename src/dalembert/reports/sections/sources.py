@@ -19,9 +19,9 @@ from dalembert.model import GROUND
 from dalembert.printing import remainder
 from dalembert.reports.report_context import ReportContext, as_formula, in_ground
 from dalembert.reports.sections.terms import floors
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views import draw
-from dalembert.views.notation import Shown, along, own_name
+from dalembert.views.notation import Shown, along, load_sign
 from dalembert.views.plane.velocity_polygons import stands_still
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ MOST = 8
 """Joints that are split."""
 
 
-def superposition(sheet: Sheet, c: ReportContext) -> None:
+def superposition(sheet: ReportSheet, c: ReportContext) -> None:
     """Tables of the efforts and joint forces by source; in the plane the chain's polygon for each load."""
     r, shown, k = c.r, c.shown, c.k
     try:
@@ -59,7 +59,7 @@ def superposition(sheet: Sheet, c: ReportContext) -> None:
         for n, d in enumerate(r.drives)
     ]
     efforts += [
-        (as_formula(own_name(u)), with_sum(parts.loads[:, k, n]), load_kind(r, u))
+        (as_formula(load_sign(u)), with_sum(parts.loads[:, k, n]), load_kind(r, u))
         for n, u in enumerate(r.unknown_loads)
     ]
     forces = [_columns(c, joint, with_sum(parts.force[:, k, n])) for n, joint in enumerate(r.joints[:MOST])]
@@ -129,7 +129,7 @@ def shown_name(c: ReportContext, kind: str, of: str) -> str:
 def source_sign(c: ReportContext, source: str) -> str:
     """A contribution as the reader writes it."""
     if source in c.r.mechanism.loads:
-        return as_formula(own_name(source))
+        return as_formula(load_sign(source))
     for words, letter in (
         ("inertia force of ", "F_{I"),
         ("inertia couple of ", "T_{I"),
@@ -140,14 +140,14 @@ def source_sign(c: ReportContext, source: str) -> str:
     return source
 
 
-def virtual_work(sheet: Sheet, c: ReportContext) -> None:
+def virtual_work(sheet: ReportSheet, c: ReportContext) -> None:
     from dalembert.analysis.methods.virtual_work import virtual_work as by_virtual_work
 
     r, shown, k = c.r, c.shown, c.k
     if not r.drives:
         return
-    found = by_virtual_work(r)
-    if found.independent:
+    answer = by_virtual_work(r)
+    if answer.independent:
         sheet.heading("Virtual work, the independent check")
     else:
         sheet.heading("Virtual work, a check")
@@ -156,23 +156,23 @@ def virtual_work(sheet: Sheet, c: ReportContext) -> None:
             "solution but is not independent of it."
         )
     least = floors(r, k)
-    idle = "no reaction does work" if found.independent else "of the reactions friction alone does work"
+    idle = "no reaction does work" if answer.independent else "of the reactions friction alone does work"
     for n, drive in enumerate(r.drives):
         kind = drive_kinds(r, drive)["effort"]
         angular = kind == "moment"
         unit = "rad" if angular else shown.arm_unit
-        way = " clockwise" if angular and c.notation.torque < 0 else ""
+        clockwise = " clockwise" if angular and c.notation.torque < 0 else ""
         if r.mechanism.dimension == 2 and stands_still(r, k):
             sheet.figure(draw.velocity_polygon(r, k + 1, c.notation, drive))
-        sheet.text(f"Displacements for one {unit} of drive {drive}{way}; {idle}.")
+        sheet.text(f"Displacements for one {unit} of drive {drive}{clockwise}; {idle}.")
         sense = c.notation.torque if angular else 1  # the drive turns the way that counts as positive
         move, turn = (sense / shown.arm, sense) if angular else (1.0, shown.arm)
         reach = (
             1.0 if angular else 1.0 / r.compiled.layout.length
         )  # a turn that moves as far as the drive does
         rows = []
-        floor = max(least[angular], 1e-12 * float(np.abs(found.power[:, k, n]).max(initial=0.0)))
-        for a, v, w, p in zip(found.actions, found.velocity, found.spin, found.power, strict=True):
+        floor = max(least[angular], 1e-12 * float(np.abs(answer.power[:, k, n]).max(initial=0.0)))
+        for a, v, w, p in zip(answer.actions, answer.velocity, answer.spin, answer.power, strict=True):
             if _nothing(a, k, least):
                 continue
             force = bool(np.nan_to_num(a.force).any())
@@ -183,21 +183,21 @@ def virtual_work(sheet: Sheet, c: ReportContext) -> None:
                 moves.append(_displacement(shown, w[k, n], turn * c.notation.torque, reach))
             work = shown.number(kind, float(p[k, n]), floor)
             rows.append([source_sign(c, a.source), " and ".join(acts), " and ".join(moves), work])
-        total = float(found.power[:, k, n].sum())
+        total = float(answer.power[:, k, n].sum())
         rows.append(["sum", "", "", shown.number(kind, total, floor)])
         heads = ["Load", "Force or couple", "Displacement or turn", f"Work ({shown.unit(kind)})"]
         sheet.table(heads, rows, total=True)
         sign = shown_name(c, "effort", drive)
-        effort = shown.number(kind, float(found.effort[k, n]), floor)
+        effort = shown.number(kind, float(answer.effort[k, n]), floor)
         sheet.equations(
             [Working(f"{sign} = −sum (F cdot delta r + T delta theta)", "", f'{effort} "{shown.unit(kind)}"')]
         )
-    sheet.text(f"The matrix answer agrees within {remainder(float(found.gap[k]))} of the largest work.")
+    sheet.text(f"The matrix answer agrees within {remainder(float(answer.gap[k]))} of the largest work.")
     if r.mechanism.dimension == 3:
-        _powers(sheet, c, found)
+        _powers(sheet, c, answer)
 
 
-def _powers(sheet: Sheet, c: ReportContext, found: VirtualWork) -> None:
+def _powers(sheet: ReportSheet, c: ReportContext, work: VirtualWork) -> None:
     """Power of the drives, loads, inertia and friction at the speeds of this position: their sum is zero."""
     r, k = c.r, c.k
     speed = r.schedule.speed[k]
@@ -206,7 +206,7 @@ def _powers(sheet: Sheet, c: ReportContext, found: VirtualWork) -> None:
     words = {kind: f"{kind}s" for kind in ("weight", "damper", "spring")}
     words |= {kind: kind for kind in ("inertia", "friction")}
     parts = {"drives": float(r.effort_array[k] @ speed)}
-    for a, power in zip(found.actions, found.power[:, k], strict=True):
+    for a, power in zip(work.actions, work.power[:, k], strict=True):
         name = words.get(a.kind, "loads")
         parts[name] = parts.get(name, 0.0) + float(power @ speed)
     for name in r.unknown_loads:
@@ -216,7 +216,7 @@ def _powers(sheet: Sheet, c: ReportContext, found: VirtualWork) -> None:
     total = sum(parts.values())
     rows.append(["sum", c.shown.number("power", total)])
     heads = ["Power put in by", f"Power ({c.shown.unit('power')})"]
-    idle = "no reaction has power" if found.independent else "of the reactions friction alone has power"
+    idle = "no reaction has power" if work.independent else "of the reactions friction alone has power"
     sheet.table(heads, rows, f"At the speeds of this position; {idle}", total=True)
 
 

@@ -12,7 +12,7 @@ from dalembert.model import GROUND
 from dalembert.model.joints.pairs import AXES
 from dalembert.reports.sections.kinematics import Ring, joint_end, rings
 from dalembert.reports.sections.terms import Signed, join_signed
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:
@@ -34,13 +34,13 @@ class Side(NamedTuple):
     backwards: bool = False
 
 
-def closing_lines(sheet: Sheet, r: Result, k: int, shown: Shown, moving: bool) -> None:
+def closing_lines(sheet: ReportSheet, r: Result, k: int, shown: Shown, moving: bool) -> None:
     """Each loop in letters, and the components of its sides with their sums."""
     for n, ring in enumerate(rings(r)):
         sides = loop_sides(r, k, ring)
         names = " – ".join(shown.heading(after) for _, _, after in ring)
-        ways = any(s.slide for s in sides)
-        slid = "; s e is the displacement of a slide s along its direction e" if ways else ""
+        slides = any(s.slide for s in sides)
+        slid = "; s e is the displacement of a slide s along its direction e" if slides else ""
         sheet.text(f"Loop {n + 1} through links {names}: the sides sum to zero{slid}.")
         for kind, order in ORDERS[: 3 if moving else 1]:
             sheet.equations(_lines(sides, kind, order, shown))

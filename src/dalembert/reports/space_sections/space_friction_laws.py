@@ -13,7 +13,7 @@ from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array
 from dalembert.reports.report_context import ReportContext, figure
 from dalembert.reports.sections.friction import circle_radius, cost
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views.notation import along
 
 LAWS = {
@@ -30,7 +30,7 @@ LAWS = {
 """Law of the friction of a joint, by its type."""
 
 
-def space_friction(sheet: Sheet, c: ReportContext) -> None:
+def space_friction(sheet: ReportSheet, c: ReportContext) -> None:
     """The section on friction of a solved position; none without friction."""
     if c.r.friction is None or not c.r.friction.known(c.k):
         return

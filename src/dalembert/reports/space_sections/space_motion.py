@@ -15,25 +15,25 @@ from dalembert.arrays import Array
 from dalembert.printing import remainder
 from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.motion import shares, units_of_inertia
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.reports.space_sections.space_closure import closing_lines
 
 AXES = "xyz"
 
 
-def space_motion(sheet: Sheet, c: ReportContext) -> None:
+def space_motion(sheet: ReportSheet, c: ReportContext) -> None:
     """Computation of the position, the loops in figures, joint values, places, and the motion of the links."""
     r, k = c.r, c.k
     sheet.heading("Position and motion" if _moves(c) else "Position")
     spins = len(r.compiled.passive)
     count = r.compiled.layout.constraints.count - spins
-    given = f", {spins} that set spins to none" if spins else ""
-    given += f", {len(r.drives)} of the drives" if r.drives else ""
+    added = f", {spins} that set spins to none" if spins else ""
+    added += f", {len(r.drives)} of the drives" if r.drives else ""
     many = f"{len(r.links)} links" if len(r.links) > 1 else "link"
     gap, length = float(closure_gap(r)[k]), r.compiled.layout.length
     sheet.text(
         f"The {6 * len(r.links)} coordinates of the {many} satisfy {count} closure equations of the "
-        f"joints{given}; they are solved together by Newton's method. The largest gap left in any of them is "
+        f"joints{added}; they are solved together by Newton's method. The largest gap left in any of them is "
         f"{remainder(gap / length)} of the characteristic length {c.shown.text('length', length)}."
     )
     meshes = [n for n in r.joints if r.mechanism.joints[n].wheels]
@@ -53,7 +53,7 @@ def _moves(c: ReportContext) -> bool:
     return any(np.any(c.r.speed(n)[c.k]) or np.any(c.r.acceleration(n)[c.k]) for n in c.r.links)
 
 
-def joint_values(sheet: Sheet, c: ReportContext) -> None:
+def joint_values(sheet: ReportSheet, c: ReportContext) -> None:
     """Turns and slides of the joints, with their rates."""
     rows = []
     for joint, freedom in c.r.compiled.freedoms:
@@ -75,7 +75,7 @@ def _vector(c: ReportContext, kind: str, v: Array) -> list[str]:
     return [c.shown.number(kind, float(x)) for x in v]
 
 
-def _orientations(sheet: Sheet, c: ReportContext) -> None:
+def _orientations(sheet: ReportSheet, c: ReportContext) -> None:
     """Orientation of each link, turned from ground's axes about an axis, and its mass centre."""
     r, rows = c.r, []
     for link in r.links:
@@ -94,7 +94,7 @@ def _orientations(sheet: Sheet, c: ReportContext) -> None:
     )
 
 
-def _rates(sheet: Sheet, c: ReportContext) -> None:
+def _rates(sheet: ReportSheet, c: ReportContext) -> None:
     """omega and alpha of the links, velocity and acceleration of their mass centres."""
     r, k = c.r, c.k
     for letters, kinds, reads in (
@@ -113,7 +113,7 @@ def _rates(sheet: Sheet, c: ReportContext) -> None:
         sheet.table(heads, rows, "Ground axes")
 
 
-def space_inertia(sheet: Sheet, c: ReportContext) -> None:
+def space_inertia(sheet: ReportSheet, c: ReportContext) -> None:
     """F_I = -m a_G and T_I = -(J alpha + omega x J omega) of every link that has them."""
     r = c.r
     heavy = [n for n in r.links if r.mechanism.mass(n) or np.any(turning(r, n).inertia)]
@@ -162,7 +162,7 @@ def _couple(c: ReportContext, link: str) -> list[Working]:
         return f"({', '.join(_vector(c, kind, v))})"
 
     omega, alpha = vector("angular_speed", t.speed[k]), vector("angular_acceleration", t.acceleration[k])
-    rate, gyroscopic, whole = (vector("moment", v) for v in (t.rate[k], t.gyroscopic[k], couple))
+    rate, gyroscopic, total = (vector("moment", v) for v in (t.rate[k], t.gyroscopic[k], couple))
     numbers = [
         c.shown.with_factor(text, "moment", "inertia", *of)
         for text, of in (
@@ -182,7 +182,7 @@ def _couple(c: ReportContext, link: str) -> list[Working]:
         Working(
             f"T_{{I{n}'}} = −({inertia} {second} + {speed} times {inertia} {speed})",
             f"−({rate} + {gyroscopic})",
-            f'{whole} "{unit}, link axes"',
+            f'{total} "{unit}, link axes"',
         ),
         Working(f"T_{{I{n}}}", "", f'{ground} "{unit}, ground axes"'),
     ]

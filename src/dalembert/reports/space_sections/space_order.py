@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import joint_place
-from dalembert.analysis.methods.members import ZERO, Member, Step, members, order_of_solution
+from dalembert.analysis.methods.members import ZERO, Member, SolutionStep, members, order_of_solution
 from dalembert.arrays import Array
 from dalembert.reports.report_context import ReportContext, in_ground
 from dalembert.reports.sections.matrix import Unknown, matrix_equation, unknowns
 from dalembert.reports.sections.terms import floors
-from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.sheet import ReportSheet, Working
 
 ABREAST = 3
 """Unknowns side by side in a list."""
 
 
-def order_and_solution(sheet: Sheet, c: ReportContext) -> None:
+def order_and_solution(sheet: ReportSheet, c: ReportContext) -> None:
     """The two-force members, then the steps with their matrices, or the complete system with its size."""
     r = c.r
     sheet.heading("Order of solution")
@@ -32,14 +32,14 @@ def order_and_solution(sheet: Sheet, c: ReportContext) -> None:
     if r.mobility is not None and r.mobility.redundant:
         _together(sheet, c, every, r.mobility.redundant)
         return
-    found = {link: _two_force_step(c, member) for link, member in members(r).items()}
-    rods = [link for link in found if _between_balls(c, link) and found[link].kind in ("two-force", ZERO)]
+    by_link = {link: _two_force_step(c, member) for link, member in members(r).items()}
+    rods = [link for link in by_link if _between_balls(c, link) and by_link[link].kind in ("two-force", ZERO)]
     for link in rods:
-        _rod(sheet, c, link, found[link])
-    steps = order_of_solution(r, found)
+        _rod(sheet, c, link, by_link[link])
+    steps = order_of_solution(r, by_link)
     order = "; then ".join(step.why for step in steps)
     sheet.text(f"{'In this order' if len(steps) > 1 else 'All at once'}: {order}." if steps else "")
-    tensions = {link: _tension(c, link, found[link]) for link in rods}
+    tensions = {link: _tension(c, link, by_link[link]) for link in rods}
     for step in steps:
         pulled = [u for link, u in tensions.items() if f"the line of {link}" in step.finds]
         _step(sheet, c, step, [*pulled, *(u for u in every if _finds(u, step))])
@@ -66,7 +66,7 @@ def _ends(c: ReportContext, link: str) -> tuple[tuple[str, Array], tuple[str, Ar
     return (a, e), (b, -e)
 
 
-def _rod(sheet: Sheet, c: ReportContext, link: str, member: Member) -> None:
+def _rod(sheet: ReportSheet, c: ReportContext, link: str, member: Member) -> None:
     """A two-force link: its direction and what it pulls or pushes."""
     (a, e), (b, _) = _ends(c, link)
     n, state = c.shown.link(link), member.state(c.k)
@@ -95,7 +95,7 @@ def _tension(c: ReportContext, link: str, member: Member) -> Unknown:
     return Unknown(f"S_{{{c.shown.link(link)}}}", value, "force", on, place, of)
 
 
-def _finds(u: Unknown, step: Step) -> bool:
+def _finds(u: Unknown, step: SolutionStep) -> bool:
     """True if a step determines an unknown."""
     ((kind, name),) = u.of
     return any(
@@ -103,7 +103,7 @@ def _finds(u: Unknown, step: Step) -> bool:
     )
 
 
-def _step(sheet: Sheet, c: ReportContext, step: Step, some: list[Unknown]) -> None:
+def _step(sheet: ReportSheet, c: ReportContext, step: SolutionStep, some: list[Unknown]) -> None:
     """The equations of the links of one step as one, or their number where they are too many to print."""
     links = " and ".join(c.shown.heading(link) for link in step.links)
     spinning = {link: _along(c, link) for link in c.r.compiled.passive if link in step.links}
@@ -129,7 +129,7 @@ def _along(c: ReportContext, link: str) -> int:
     return int(np.abs(e).argmax())
 
 
-def _together(sheet: Sheet, c: ReportContext, every: list[Unknown], redundant: int) -> None:
+def _together(sheet: ReportSheet, c: ReportContext, every: list[Unknown], redundant: int) -> None:
     how = "with the joints' stiffness" if "redundant reactions" in c.r.assumptions else "by least squares"
     sheet.text(
         f"With {redundant} redundant constraint{'' if redundant == 1 else 's'} the links cannot be solved one after "
@@ -138,7 +138,9 @@ def _together(sheet: Sheet, c: ReportContext, every: list[Unknown], redundant: i
     _system_size(sheet, c, "All links", 6 * len(c.r.links), every)
 
 
-def _system_size(sheet: Sheet, c: ReportContext, links: str, equations: int, some: list[Unknown]) -> None:
+def _system_size(
+    sheet: ReportSheet, c: ReportContext, links: str, equations: int, some: list[Unknown]
+) -> None:
     """The size of a system that is not printed, and its solution."""
     sheet.text(
         f"{links}: {equations} equations with {len(some)} unknowns, assembled from those above and solved as one, "

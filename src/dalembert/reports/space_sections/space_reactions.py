@@ -10,10 +10,10 @@ import numpy as np
 from dalembert.model.joints.pairs import AXES
 from dalembert.reports.report_context import ReportContext, as_formula
 from dalembert.reports.sections.terms import floors
-from dalembert.reports.sheet import Sheet
+from dalembert.reports.sheet import ReportSheet
 
 
-def reaction_tables(sheet: Sheet, c: ReportContext) -> None:
+def reaction_tables(sheet: ReportSheet, c: ReportContext) -> None:
     """Forces and moments of all joints by components and sizes; what is not unique in brackets."""
     r, on = c.r, {joint: _acting_link(c, joint) for joint in c.r.joints}
     least = floors(r, c.k)
@@ -39,10 +39,10 @@ def _row(c: ReportContext, joint: str, on: str, axes: Any, least: tuple[float, .
     """One joint's force and moment; a dash where it cannot carry a component along its local axes."""
     r, k, shown = c.r, c.k, c.shown
     exact = np.concatenate([f(joint, on, axes)[k] for f in (r.reaction, r.reaction_moment)])
-    whole = r.least_norm(joint, on, axes)[k]
+    components = r.least_norm(joint, on, axes)[k]
     row = [joint]
     for n, (kind, sign) in enumerate((("force", shown.reaction), ("moment", shown.joint_moment))):
-        part, known = whole[3 * n : 3 * n + 3], np.isfinite(exact[3 * n : 3 * n + 3])
+        part, known = components[3 * n : 3 * n + 3], np.isfinite(exact[3 * n : 3 * n + 3])
         if n and not r.mechanism.joints[joint].pair.moments and not (np.abs(part) > least[1]).any():
             return [*row, *["–"] * 5]
         carried = _carried_components(c, joint, n) if axes == "joint" else (True,) * 3
@@ -68,7 +68,7 @@ def _carried_components(c: ReportContext, joint: str, moments: int) -> tuple[boo
 
 def uniqueness(c: ReportContext) -> str:
     """Reactions that equilibrium alone does not determine, in the joints' axes."""
-    r, found = c.r, []
+    r, names = c.r, []
     for joint in r.joints:
         exact = np.concatenate([f(joint, None, "joint")[c.k] for f in (r.reaction, r.reaction_moment)])
         free = [
@@ -77,10 +77,10 @@ def uniqueness(c: ReportContext) -> str:
             if not np.isfinite(exact[n]) and _carried_components(c, joint, n // 3)[n % 3]
         ]
         if free:
-            found.append(f"{joint} ({', '.join(free)})")
-    if found:
+            names.append(f"{joint} ({', '.join(free)})")
+    if names:
         return (
-            f"Not unique, because equilibrium alone does not determine them: {'; '.join(found)}. Figures in brackets "
+            f"Not unique, because equilibrium alone does not determine them: {'; '.join(names)}. Figures in brackets "
             "have the least sum of squares, one answer of many that balance all links; the others hold in all of them."
         )
     settled = r.assumptions.get("redundant reactions")

@@ -37,7 +37,7 @@ _ESCAPED = {sign: f"${command}$" for sign, command in LATEX_SIGNS.items()} | {
 }  # fmt: skip
 
 
-def latex_text(sheet: blocks.Sheet) -> str:
+def latex_text(sheet: blocks.ReportSheet) -> str:
     """The report as a LaTeX document."""
     body = "\n\n".join(_block(b) for b in sheet.blocks)
     below = r" \\ ".join(_words(line) for line in (sheet.source, sheet.subtitle) if line)
@@ -61,13 +61,13 @@ def _block(b: blocks.Block) -> str:
         return _rich(b.text)
     if isinstance(b, blocks.Equations):
         return "\n".join(_equation(w) for w in b.lines)
-    if isinstance(b, blocks.Table):
+    if isinstance(b, blocks.SheetTable):
         return _table(b)
     if isinstance(b, blocks.Matrix):
         return _matrix(b)
     if isinstance(b, blocks.Blanks):
         return "\n\n".join(_blank(*row) for row in b.rows)
-    assert isinstance(b, blocks.Figure)
+    assert isinstance(b, blocks.Drawings)
     return _figure(b)
 
 
@@ -78,7 +78,7 @@ def _equation(w: blocks.Working) -> str:
     return "\n".join(lines)
 
 
-def _table(b: blocks.Table) -> str:
+def _table(b: blocks.SheetTable) -> str:
     """Columns, made smaller where they are wider than the page; a long table in parts that fit one."""
     columns = "l" + ("r" if len(b.heads) > 5 else "l") * (len(b.heads) - 1)
     heads = " & ".join(_rich(h) for h in b.heads) + r" \\"
@@ -99,8 +99,8 @@ def _matrix(b: blocks.Matrix) -> str:
         return r"\begin{bmatrix}" + r"\\".join(latex(s) for s in some) + r"\end{bmatrix}"
 
     rows = r"\\".join("&".join(latex(c) for c in row) for row in b.rows)
-    whole = rf"\begin{{bmatrix}}{rows}\end{{bmatrix}}{column(b.unknowns)}={column(b.right)}"
-    equation = rf"{whole},\quad {column(b.unknowns)}={column(b.values)}"
+    product = rf"\begin{{bmatrix}}{rows}\end{{bmatrix}}{column(b.unknowns)}={column(b.right)}"
+    equation = rf"{product},\quad {column(b.unknowns)}={column(b.values)}"
     return rf"{_words(b.caption)}\par\medskip\fitted{{\scriptsize ${equation}$}}\par"
 
 
@@ -109,7 +109,7 @@ def _blank(words: str, spaces: tuple[tuple[str, str], ...]) -> str:
     return r" \quad ".join([rf"{_rich(words)} \hfill", *rooms])
 
 
-def _figure(b: blocks.Figure) -> str:
+def _figure(b: blocks.Drawings) -> str:
     """Drawings in rows as they fit; what is larger than the page is made smaller, and says so."""
     pictures = "\n\\hspace{3mm}\n".join(_picture(scene) for scene in b.scenes)
     parts = [b.caption, *map(_smaller, b.scenes)]

@@ -11,7 +11,7 @@ from dalembert.views.paper.lettering import plain as plain_sign
 WIDTH = 100
 
 
-def plain_text(sheet: blocks.Sheet) -> str:
+def plain_text(sheet: blocks.ReportSheet) -> str:
     """The report as text for a terminal."""
     head = [sheet.title, "=" * len(sheet.title), *(t for t in (sheet.source, sheet.subtitle) if t)]
     numbered, count = [], 0
@@ -34,14 +34,14 @@ def _block(b: blocks.Block) -> str:
         return textwrap.fill(_rich(b.text), WIDTH)
     if isinstance(b, blocks.Equations):
         return "\n".join(line for w in b.lines for line in _equation(w))
-    if isinstance(b, blocks.Table):
+    if isinstance(b, blocks.SheetTable):
         return _table([[_rich(c) for c in row] for row in (b.heads, *b.rows)], b.caption, b.total)
     if isinstance(b, blocks.Matrix):
         return _matrix(b)
     if isinstance(b, blocks.Blanks):
         rooms = [(w, "  ".join(f"{n} {'_' * 14} {u}".strip() for n, u in spaces)) for w, spaces in b.rows]
         return "\n".join(f"{_rich(words)}  {room}" for words, room in rooms)
-    assert isinstance(b, blocks.Figure)
+    assert isinstance(b, blocks.Drawings)
     return "\n".join(f"[drawing: {plain_sign(s.title)}]" for s in b.scenes)
 
 

@@ -9,7 +9,17 @@ from typing import Any
 
 from dalembert.arrays import Tree
 from dalembert.reports.formula import typst, write_mixed
-from dalembert.reports.sheet import Blanks, Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table
+from dalembert.reports.sheet import (
+    Blanks,
+    Block,
+    Drawings,
+    Equations,
+    Heading,
+    Matrix,
+    Paragraph,
+    ReportSheet,
+    SheetTable,
+)
 from dalembert.views.formats.svg import MARGIN
 from dalembert.views.paper.scene import Scene
 
@@ -20,7 +30,7 @@ GAP = 3.0
 """Between drawings side by side, mm."""
 
 
-def typst_bytes(sheet: Sheet, kind: str) -> bytes:
+def typst_bytes(sheet: ReportSheet, kind: str) -> bytes:
     """The report as `pdf` or `html`."""
     engine: Any = import_module("typst")
     pictures: dict[str, bytes] = {}
@@ -49,7 +59,7 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
     if isinstance(b, Equations):
         lines = [{n: typst(getattr(w, n)) for n in ("letters", "numbers", "result")} for w in b.lines]
         return {"kind": "equations", "lines": lines}
-    if isinstance(b, Table):
+    if isinstance(b, SheetTable):
         rows = [[_rich(cell) for cell in row] for row in b.rows]
         heads = [_rich(h) for h in b.heads]
         return {"kind": "table", "heads": heads, "rows": rows, "caption": b.caption, "total": b.total}
@@ -62,7 +72,7 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
         }
     if isinstance(b, Blanks):
         return {"kind": "blanks", "rows": [[_rich(words), spaces] for words, spaces in b.rows]}
-    assert isinstance(b, Figure)
+    assert isinstance(b, Drawings)
     caption = " ".join([*filter(None, [b.caption]), *map(_printed_smaller, b.scenes)]).strip()
     return {"kind": "figure", "caption": caption, "files": _pictures(b.scenes, pictures)}
 

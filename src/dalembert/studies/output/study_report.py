@@ -10,7 +10,7 @@ from dalembert.analysis.result.named_quantities import quantity
 from dalembert.answer.column import Scale
 from dalembert.errors import ModelError
 from dalembert.printing import number
-from dalembert.reports.sheet import Sheet
+from dalembert.reports.sheet import ReportSheet
 from dalembert.studies.contributions import Contributions
 from dalembert.studies.output.study_text import (
     extreme_rows,
@@ -34,10 +34,10 @@ AT_LEAST = 0.005
 """Share of the variance from which on a number is listed."""
 
 
-def study_sheet(r: StudyResult) -> Sheet:
+def study_sheet(r: StudyResult) -> ReportSheet:
     """Page of a study's computed designs."""
     m = r.study.mechanism
-    sheet = Sheet(m.title or "Study", m.source_text, heading(r))
+    sheet = ReportSheet(m.title or "Study", m.source_text, heading(r))
     sheet.heading("Varied numbers")
     _numbers(sheet, r)
     sheet.heading("Designs by status")
@@ -60,7 +60,7 @@ def study_sheet(r: StudyResult) -> Sheet:
     return sheet
 
 
-def _numbers(sheet: Sheet, r: StudyResult) -> None:
+def _numbers(sheet: ReportSheet, r: StudyResult) -> None:
     to, kinds, plan = Scale(r.study.mechanism.units), r.study.number_kinds, r.study.plan
     rows = []
     for path, s in zip(plan.paths, plan.spreads, strict=False):
@@ -76,7 +76,7 @@ def _numbers(sheet: Sheet, r: StudyResult) -> None:
 class _Output:
     """The part of a page about one output of one number a design."""
 
-    sheet: Sheet
+    sheet: ReportSheet
     r: StudyResult
     name: str
     order: list[str] = field(default_factory=list)
@@ -100,27 +100,27 @@ class _Output:
 
     def _contributions(self) -> None:
         study = self.r.study
-        found = {"linear": study.contributions(self.name)}
+        by_method = {"linear": study.contributions(self.name)}
         if not study.why_slow:
-            found["Sobol"] = study.contributions(self.name, "sobol", SOBOL)
-        last = list(found.values())[-1]
+            by_method["Sobol"] = study.contributions(self.name, "sobol", SOBOL)
+        last = list(by_method.values())[-1]
         shares = last.total or last.shares
         self.order = sorted(shares, key=lambda path: -shares[path])
-        columns = [of.shares for of in found.values()] + ([last.total] if last.total else [])
+        columns = [of.shares for of in by_method.values()] + ([last.total] if last.total else [])
         rows = [
             [path, *(f"{of[path]:.2%}" for of in columns)]
             for path in self.order
             if max(of[path] for of in columns) >= AT_LEAST
         ]
-        heads = ["number", *found, *(["Sobol, with interactions"] if last.total else [])]
+        heads = ["number", *by_method, *(["Sobol, with interactions"] if last.total else [])]
         left = len(study.paths) - len(rows)
         rest = f"; {left} of less than {AT_LEAST:.1%} left out" if left else ""
         self.sheet.table(heads, rows, f"Shares of the variance of {self.name}{rest}")
-        self._assumed(found)
+        self._assumed(by_method)
 
-    def _assumed(self, found: dict[str, Contributions]) -> None:
-        sigmas = " and ".join(f"{self.text(of.sigma)} ({by})" for by, of in found.items())
-        notes = [f"Mind: {of.note}." for of in found.values() if of.note]
+    def _assumed(self, by_method: dict[str, Contributions]) -> None:
+        sigmas = " and ".join(f"{self.text(of.sigma)} ({by})" for by, of in by_method.items())
+        notes = [f"Mind: {of.note}." for of in by_method.values() if of.note]
         worst = self.r.study.worst_case(self.name)
         case = f"Worst case {self.text(worst.value)}: {worst.assumed}."
         self.sheet.text(" ".join([f"Standard deviation {sigmas}.", *notes, case]))
@@ -129,8 +129,8 @@ class _Output:
         """Over the number that matters most, and over the two of them."""
         for some in (self.order[:1], self.order[:2]) if len(self.order) > 1 else (self.order[:1],):
             try:
-                found = self.r.study.response(self.name, *some, count=9 if self.r.study.why_slow else 33)
-                self.sheet.figure(response_scene(self.r, found))
+                curve = self.r.study.response(self.name, *some, count=9 if self.r.study.why_slow else 33)
+                self.sheet.figure(response_scene(self.r, curve))
             except ModelError as error:
                 self.sheet.text(f"No response: {error}.")
 
@@ -150,9 +150,9 @@ class _Output:
 
     def _drawing(self, design: int) -> Scene:
         """A design where its output has the largest magnitude, or at the end of its motion."""
-        found = self.r.study.answer(self.r.study.mechanism_of(design))
-        at = len(found.status) - 1
+        result = self.r.study.answer(self.r.study.mechanism_of(design))
+        at = len(result.status) - 1
         if not self.at_end:
-            size = np.abs(quantity(found, self.name).values)
+            size = np.abs(quantity(result, self.name).values)
             at = int(np.nanargmax(size)) if np.isfinite(size).any() else 0
-        return draw.mechanism(found, at + 1)
+        return draw.mechanism(result, at + 1)

@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.answer.column import Scale
 from dalembert.errors import NUMBERED
-from dalembert.printing import Part, Table, number, table
+from dalembert.printing import Part, TextTable, number, table
 from dalembert.studies.design_study import Study
 from dalembert.studies.study_result import PERCENTILES, Difference, Failure, StudyResult
 from dalembert.studies.varied_numbers import varied_numbers
@@ -27,13 +27,13 @@ def summary(r: StudyResult) -> str:
 def study_parts(r: StudyResult) -> Iterator[Part]:
     """Designs, their statuses, outputs and limits: sentences and tables."""
     yield heading(r)
-    yield Table(["status", "designs", "share"], status_rows(r))
+    yield TextTable(["status", "designs", "share"], status_rows(r))
     yield from (failure_text(r, f) for f in r.failed())
     heads, rows = output_rows(r)
     if rows:
-        yield Table(heads, rows, 2, " ".join(filter(None, (reduction(r), left_out(r)))))
+        yield TextTable(heads, rows, 2, " ".join(filter(None, (reduction(r), left_out(r)))))
     if limits := limit_rows(r):
-        yield Table(["limit", "designs that keep it", "Cpk"], limits)
+        yield TextTable(["limit", "designs that keep it", "Cpk"], limits)
 
 
 def heading(r: StudyResult) -> str:
@@ -113,15 +113,17 @@ def output_rows(r: StudyResult) -> tuple[list[str], list[list[str]]]:
 def _outputs(r: StudyResult) -> list[str]:
     """The same as text, and their histograms."""
     more = [name for name in r.study.outputs if r.arrays[name].ndim > 1]
-    said = [f"Several numbers a design, to be read in Python or by export: {', '.join(more)}"] if more else []
+    sentences = (
+        [f"Several numbers a design, to be read in Python or by export: {', '.join(more)}"] if more else []
+    )
     heads, rows = output_rows(r)
     if not rows:
-        return said
+        return sentences
     pictures = [_histogram(r, row[0]) for row in rows]
     return [
         "\n".join(part for part in (reduction(r), left_out(r), table(heads, rows, 2)) if part),
         table(["", "from", "", "to", ""], pictures, 1),
-        *said,
+        *sentences,
     ]
 
 
@@ -150,10 +152,10 @@ def extreme_rows(r: StudyResult, name: str) -> list[list[str]]:
     """Number, unit, value in the model file, in the designs with the least and greatest of an output."""
     study, to = r.study, Scale(r.study.mechanism.units)
     designs = [study.design(n) for n in (r.best(name), r.worst(name))]
-    own = {n.path: n.value for path in study.paths for n in varied_numbers(study.mechanism, path)}
+    in_file = {n.path: n.value for path in study.paths for n in varied_numbers(study.mechanism, path)}
     kinds = study.number_kinds | {name: r.kinds[name]}
-    values = {path: [own[path], *(d[path] for d in designs)] for path in study.paths}
-    nominal = study.engine.block(np.array([list(own.values())]))[name][0]
+    values = {path: [in_file[path], *(d[path] for d in designs)] for path in study.paths}
+    nominal = study.engine.block(np.array([list(in_file.values())]))[name][0]
     values |= {name: [float(nominal), *(float(r[name][n]) for n in (r.best(name), r.worst(name)))]}
     return [
         [path, to.text(kinds[path]), *(f"{to(kinds[path], x):.6g}" for x in of)]
@@ -176,18 +178,32 @@ def contributions_text(study: Study, by: str) -> str:
     to, parts = Scale(study.mechanism.units), []
     kinds = study.kinds
     for name in study.outputs:
-        found = study.contributions(name, by)
-        order = sorted(found.shares, key=lambda path: -found.shares[path])
+        contributions = study.contributions(name, by)
+        order = sorted(contributions.shares, key=lambda path: -contributions.shares[path])
         rows = [
-            [path, f"{found.shares[path]:.2%}", *([f"{found.total[path]:.2%}"] if found.total else [])]
+            [
+                path,
+                f"{contributions.shares[path]:.2%}",
+                *([f"{contributions.total[path]:.2%}"] if contributions.total else []),
+            ]
             for path in order
         ]
-        heads = ["number", "share of the variance", *(["with its interactions"] if found.total else [])]
-        sigma = f"{to(kinds[name], found.sigma):.5g} {to.text(kinds[name])}".strip()
+        heads = [
+            "number",
+            "share of the variance",
+            *(["with its interactions"] if contributions.total else []),
+        ]
+        sigma = f"{to(kinds[name], contributions.sigma):.5g} {to.text(kinds[name])}".strip()
         worst = study.worst_case(name)
         case = f"{to(kinds[name], worst.value):.5g} {to.text(kinds[name])}".strip()
-        said = f"{name} ({by}): sigma {sigma}; worst case {case} ({worst.assumed})"
+        title = f"{name} ({by}): sigma {sigma}; worst case {case} ({worst.assumed})"
         parts.append(
-            "\n".join([said, table(heads, rows, 1), *([f"Mind: {found.note}."] if found.note else [])])
+            "\n".join(
+                [
+                    title,
+                    table(heads, rows, 1),
+                    *([f"Mind: {contributions.note}."] if contributions.note else []),
+                ]
+            )
         )
     return "\n\n".join(parts)

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.answer.column import Scale
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.studies.contributions import Response
+from dalembert.studies.contributions import ResponseCurve
 from dalembert.studies.study_result import StudyResult
 from dalembert.views.notation import pretty
 from dalembert.views.paper.canvas import Canvas
@@ -59,17 +59,19 @@ def scatter_scene(r: StudyResult, name: str, path: str) -> Scene:
     to, kind = Scale(r.study.mechanism.units), r.kinds[name]
     count = min(DOTS, r.study.count)
     over = r.study.plan.values(0, count)[:, r.study.paths.index(path)]
-    own = r.study.number_kinds[path]
-    x, y = to(own, over), to(kind, r[name][:count])
-    there = np.isfinite(y)
+    number_kind = r.study.number_kinds[path]
+    x, y = to(number_kind, over), to(kind, r[name][:count])
+    known = np.isfinite(y)
     canvas = Canvas()
-    field = Field.around(x[there], y[there])
-    field.draw_axes(canvas, inner_ticks(*field.x), axis_label(to, path, own), axis_label(to, name, kind))
-    canvas.add(*(Circle(field(a, b), 0.3, "curve-1") for a, b in zip(x[there], y[there], strict=True)))
-    return canvas.scene(f"Designs: {name} over {path}", notes=[f"The first {there.sum():,} that have one"])
+    field = Field.around(x[known], y[known])
+    field.draw_axes(
+        canvas, inner_ticks(*field.x), axis_label(to, path, number_kind), axis_label(to, name, kind)
+    )
+    canvas.add(*(Circle(field(a, b), 0.3, "curve-1") for a, b in zip(x[known], y[known], strict=True)))
+    return canvas.scene(f"Designs: {name} over {path}", notes=[f"The first {known.sum():,} that have one"])
 
 
-def response_scene(r: StudyResult, of: Response) -> Scene:
+def response_scene(r: StudyResult, of: ResponseCurve) -> Scene:
     """A curve over one number; over two, lines of equal value, grey where unsolved."""
     to, kind = Scale(r.study.mechanism.units), r.kinds[of.output]
     z = to(kind, of.values)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import Action, whole_actions
+from dalembert.analysis.methods.applied_forces import Action, full_actions
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import SOLVED, ModelError
@@ -26,9 +26,9 @@ from dalembert.views.plane.mechanism_view import (
     draw_force,
     draw_links,
     draw_traces,
+    full_frame,
     scale_notes,
     unit_size,
-    whole_frame,
 )
 from dalembert.views.space import space_mechanism as drawn
 from dalembert.views.space.camera import Camera
@@ -149,7 +149,7 @@ def animation_scene(
     which = posed[np.unique(np.linspace(0, len(posed) - 1, min(most, len(posed))).astype(int))]
     shown = Shown(r, notation or Notation())
     some = [
-        a for a in whole_actions(r) if a.kind in ("load", "effort", "spring", "joint") and a.link != "ground"
+        a for a in full_actions(r) if a.kind in ("load", "effort", "spring", "joint") and a.link != "ground"
     ]
     film = _in_space(r, which, some, shown, camera) if camera else _in_plane(r, which, some, shown)
     bounds = Animation(tuple(film.still.items), tuple(s for _, s in film.frames)).bounds
@@ -159,7 +159,7 @@ def animation_scene(
 
 
 def _in_plane(r: Result, which: Array, some: list[Action], shown: Shown) -> _Film:
-    frame = whole_frame(r, int(which[0]), 110.0, 85.0)
+    frame = full_frame(r, int(which[0]), 110.0, 85.0)
     sizes = [float(np.nanmax(np.hypot(*a.force.T), initial=0.0)) for a in some]
     per_mm = force_scale(sizes, LONGEST, unit_size(r, "force", shown.notation))
     still = Canvas()
@@ -178,7 +178,7 @@ def _in_plane(r: Result, which: Array, some: list[Action], shown: Shown) -> _Fil
 
 
 def _in_space(r: Result, which: Array, some: list[Action], shown: Shown, camera: Camera) -> _Film:
-    s = drawn.whole_sight(r, int(which[0]), camera, 110.0, 85.0)
+    s = drawn.full_sight(r, int(which[0]), camera, 110.0, 85.0)
     still = Canvas()
     drawn.draw_traces(still, r, s)
     frames = []
@@ -206,10 +206,10 @@ def _fixed_texts(r: Result, bounds: Box, notes: Sequence[str]) -> list[Item]:
 
 def _frame_heading(r: Result, k: int, scene: Scene, bounds: Box, shown: Shown) -> Scene:
     """The position and the efforts of a frame, as text above it."""
-    found = all(np.isfinite(r.least_norm(joint)[k]).all() for joint in r.joints)
-    said = "not unique: those of least norm" if found else "not known: left out"
-    answered = r.status[k] in SOLVED or (r.reverses[k] and found)
-    parts = [] if answered else [f"{r.status[k]}, forces {said}"]
+    solved = all(np.isfinite(r.least_norm(joint)[k]).all() for joint in r.joints)
+    reason = "not unique: those of least norm" if solved else "not known: left out"
+    answered = r.status[k] in SOLVED or (r.reverses[k] and solved)
+    parts = [] if answered else [f"{r.status[k]}, forces {reason}"]
     parts += ["just before contacts reverse"] if r.reverses[k] else []
     largest = float(np.nanmax(np.abs(r.effort_array), initial=0.0))
     for d in reversed(r.drives):

@@ -21,7 +21,7 @@ from dalembert.model import GROUND
 from dalembert.saving import new_file
 from dalembert.views.formats.themes import SOLIDS
 from dalembert.views.space.link_solids import ROD, link_solids, nodes, pose, shape_solids
-from dalembert.views.space.triangles import Mesh, join_meshes, mesh
+from dalembert.views.space.triangles import TriangleMesh, join_meshes, mesh
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -78,7 +78,7 @@ def solid_model(r: Result) -> SolidModel:
     document_nodes: list[Tree] = []
     meshes: list[Tree] = []
     for link in links:
-        by_role: dict[str, list[Mesh]] = {}
+        by_role: dict[str, list[TriangleMesh]] = {}
         for s in [*solids[link], *shape_solids(r, link, size)]:
             role = "thread" if s.role == "hatch" else s.role
             by_role.setdefault(role, []).append(mesh(s, ROD * size))
@@ -154,8 +154,8 @@ def _comes_round(r: Result, places: dict[str, Array], turns: dict[str, Array]) -
     angle = r.drive_position(r.drives[0])
     if not r.compiled.layout.freedoms.angular[r.compiled.layout.driven[0]]:
         return False
-    whole = (angle[-1] - angle[0]) * len(angle) / (len(angle) - 1) / (2 * np.pi)
-    if abs(whole - round(float(whole))) > 1e-6 or round(float(whole)) == 0:
+    turned = (angle[-1] - angle[0]) * len(angle) / (len(angle) - 1) / (2 * np.pi)
+    if abs(turned - round(float(turned))) > 1e-6 or round(float(turned)) == 0:
         return False
     for p, q in ((places[link], turns[link]) for link in places):
         jump, step = np.linalg.norm(p[0] - p[-1]), np.linalg.norm(np.diff(p, axis=0), axis=1).max()
@@ -200,18 +200,18 @@ class _Writer:
         view: Tree = {"buffer": 0, "byteOffset": len(self.numbers), "byteLength": written.nbytes}
         self.views.append(view | ({"target": target} if target else {}))
         self.numbers += written.tobytes() + b"\0" * (-written.nbytes % 4)
-        found: Tree = {
+        accessor: Tree = {
             "bufferView": len(self.views) - 1,
             "componentType": kind,
             "count": len(written),
             "type": KINDS[written.shape[1]],
         }
         if limits:
-            found |= {"min": _list(written.min(axis=0)), "max": _list(written.max(axis=0))}
-        self.accessors.append(found)
+            accessor |= {"min": _list(written.min(axis=0)), "max": _list(written.max(axis=0))}
+        self.accessors.append(accessor)
         return len(self.accessors) - 1
 
-    def primitive(self, m: Mesh, material: int) -> Tree:
+    def primitive(self, m: TriangleMesh, material: int) -> Tree:
         """A mesh of one material."""
         kind = SHORT if len(m.points) < 65535 else INTEGER
         return {

@@ -37,21 +37,21 @@ def _lines(item: object, look: Look, words: Callable[[str], str]) -> Iterator[st
     elif isinstance(item, Circle):
         yield rf"\path[{_stroke(look)}{_fill(look)}] {_at(item.center)} circle[radius={_number(item.radius)}];"
     elif isinstance(item, Polygon):
-        yield rf"\path[{_stroke(look)}{_fill(look)}] {_way(item.points)}--cycle;"
+        yield rf"\path[{_stroke(look)}{_fill(look)}] {_path(item.points)}--cycle;"
     elif isinstance(item, Line):
-        yield rf"\draw[{_stroke(look)}] {_way(item.points)};"
+        yield rf"\draw[{_stroke(look)}] {_path(item.points)};"
     elif isinstance(item, Arc):
-        yield rf"\draw[{_stroke(look)}] {_way(item.points)};"
+        yield rf"\draw[{_stroke(look)}] {_path(item.points)};"
         yield from _head(arc_head(item) if item.arrow else (), look)
     elif isinstance(item, Arrow):
         shaft, head = arrow_parts(item.tail, item.head)
-        yield rf"\draw[{_stroke(look)}] {_way(shaft)};"
+        yield rf"\draw[{_stroke(look)}] {_path(shaft)};"
         yield from _head(head, look)
 
 
 def _head(points: tuple[Point, ...], look: Look) -> Iterator[str]:
     if points:
-        yield rf"\fill[fill={_color(look.stroke)}] {_way(points)}--cycle;"
+        yield rf"\fill[fill={_color(look.stroke)}] {_path(points)}--cycle;"
 
 
 def _node(t: Text, look: Look, words: Callable[[str], str]) -> str:
@@ -87,7 +87,7 @@ def _color(sign: str) -> str:
     return f"{{rgb,255:red,{red};green,{green};blue,{blue}}}"
 
 
-def _way(points: tuple[Point, ...]) -> str:
+def _path(points: tuple[Point, ...]) -> str:
     return "--".join(map(_at, points))
 
 

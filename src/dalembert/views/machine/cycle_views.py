@@ -21,7 +21,7 @@ from dalembert.views.paper.scene import Scene
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.machine.balance.balancing import Balance
+    from dalembert.machine.balance.balancing import CounterweightBalance
     from dalembert.machine.balance.rotors import RotorBalance
     from dalembert.machine.bearings.bearing_table import BearingTable
     from dalembert.machine.flywheel.flywheels import Flywheel
@@ -33,7 +33,7 @@ NOTHING = 1e-6
 
 
 @dataclass(frozen=True)
-class Axis:
+class ChartAxis:
     """Abscissa of charts: values in the reader's unit, their label, and whether they are degrees."""
 
     shown: Shown
@@ -41,24 +41,24 @@ class Axis:
     label: str
     degrees: bool = False
 
-    def chart(self, kind: str, curves: Mapping[str, Array], title: str, said: str = "") -> Scene:
+    def chart(self, kind: str, curves: Mapping[str, Array], title: str, about: str = "") -> Scene:
         """Chart of curves, SI, of one kind of number, with an optional remark on the axis."""
         series = {name: values / self.shown.size(kind) for name, values in curves.items()}
-        label = f"{(said or kind).capitalize()} in {self.shown.unit(kind)}"
+        label = f"{(about or kind).capitalize()} in {self.shown.unit(kind)}"
         return curves_scene(self.values, series, self.label, label, title, self.degrees)
 
-    def percents(self, curves: Mapping[str, Array], title: str, said: str) -> Scene:
+    def percents(self, curves: Mapping[str, Array], title: str, label: str) -> Scene:
         """Chart of numbers in per cent."""
-        return curves_scene(self.values, curves, self.label, f"{said} in %", title, self.degrees)
+        return curves_scene(self.values, curves, self.label, f"{label} in %", title, self.degrees)
 
 
-def cycle_axis(r: Result, notation: Notation) -> Axis:
+def cycle_axis(r: Result, notation: Notation) -> ChartAxis:
     """The first drive, or the number of the position."""
     shown = Shown(r, notation)
-    return Axis(shown, *along(r, shown))
+    return ChartAxis(shown, *along(r, shown))
 
 
-def balance_scenes(b: Balance, notation: Notation) -> list[Scene]:
+def balance_scenes(b: CounterweightBalance, notation: Notation) -> list[Scene]:
     """Force (in the plane a polar diagram, in space its magnitude), moment and torque over the cycle, the trade-off."""
     axis = cycle_axis(b.result, notation)
     return [*comparison_scenes(b, axis), *_trade_off(b, axis)]
@@ -69,18 +69,18 @@ def rotor_scenes(b: RotorBalance, notation: Notation) -> list[Scene]:
     return comparison_scenes(b, cycle_axis(b.result, notation))
 
 
-def comparison_scenes(b: Comparison, axis: Axis) -> list[Scene]:
+def comparison_scenes(b: Comparison, axis: ChartAxis) -> list[Scene]:
     """Force (in the plane a polar diagram, in space its magnitude), moment and torque, before and after."""
     sides, plane = {"before": b.before, "after": b.after}, b.result.mechanism.dimension == 2
-    found = {name: {side: values_of(s)[name] for side, s in sides.items()} for name in values_of(b.before)}
+    by_name = {name: {side: values_of(s)[name] for side, s in sides.items()} for name in values_of(b.before)}
     out = []
     if plane:
-        scaled = {side: values / axis.shown.size("force") for side, values in found.pop("force").items()}
+        scaled = {side: values / axis.shown.size("force") for side, values in by_name.pop("force").items()}
         out.append(polar_scene(scaled, axis.shown.unit("force"), "Shaking force"))
     if len(b.result.status) < 3 or not b.result.drives:
         return out
     titles = {"force": "shaking force", "moment": f"shaking moment about {b.before.about}"}
-    for name, both in found.items():
+    for name, both in by_name.items():
         kind = "force" if name == "force" else "moment"
         sizes = {side: v if v.ndim == 1 else magnitude(v) for side, v in both.items()}
         title = titles.get(name, f"torque of {b.result.drives[0]}")
@@ -90,7 +90,7 @@ def comparison_scenes(b: Comparison, axis: Axis) -> list[Scene]:
     return out
 
 
-def _trade_off(b: Balance, axis: Axis) -> list[Scene]:
+def _trade_off(b: CounterweightBalance, axis: ChartAxis) -> list[Scene]:
     """The minimized quantity against the first one that is not, where one increases as the other decreases."""
     if len(b.result.status) < 3 or not b.result.drives:
         return []
@@ -103,7 +103,7 @@ def _trade_off(b: Balance, axis: Axis) -> list[Scene]:
         return []
     of = " and ".join(b.of)
     title, left = f"Trade-off: {b.least} of {of} against {other}", {other: pairs[:, 1]}
-    return [Axis(axis.shown, pairs[:, 0], f"{of} left in %").percents(left, title, f"{other} left")]
+    return [ChartAxis(axis.shown, pairs[:, 0], f"{of} left in %").percents(left, title, f"{other} left")]
 
 
 def bearing_scenes(t: BearingTable, notation: Notation) -> list[Scene]:
@@ -117,15 +117,15 @@ def bearing_scenes(t: BearingTable, notation: Notation) -> list[Scene]:
         "Turning": ("angular_speed", {j: b.rate for j, b in some}),
         "Pressure": ("pressure", {j: b.pressure for j, b in some if b.sized}),
     }
-    drawn = {said: both for said, both in series.items() if both[1] and len(r.status) > 1}
-    return out + [axis.chart(kind, v, f"{said} of the joints", said) for said, (kind, v) in drawn.items()]
+    drawn = {title: both for title, both in series.items() if both[1] and len(r.status) > 1}
+    return out + [axis.chart(kind, v, f"{title} of the joints", title) for title, (kind, v) in drawn.items()]
 
 
 def flywheel_scenes(f: Flywheel, notation: Notation) -> list[Scene]:
     """The turning-moment diagram with its mean, the energy curve, and the exact speeds, each over the period."""
     shown, q = Shown(f.result, notation), f.result.drive_position(f.drive)
     unit = shown.unit("angle")
-    axis = Axis(shown, q / shown.size("angle"), f"{f.drive} in {unit}", unit == "°")
+    axis = ChartAxis(shown, q / shown.size("angle"), f"{f.drive} in {unit}", unit == "°")
     torque = {"effort": f.torque, "mean": np.full_like(f.torque, f.mean)}
     out = [axis.chart("moment", torque, "Turning moment", "torque")]
     out.append(axis.chart("energy", {"E": f.energy}, "Energy above the mean"))
@@ -134,7 +134,7 @@ def flywheel_scenes(f: Flywheel, notation: Notation) -> list[Scene]:
     some = {"book's flywheel": f.exact} | ({"exact for Cs": f.exact_size} if f.exact_size else {})
     speeds = {n: np.interp(np.sort(q), s.angle, s.speed) for n, s in some.items()}
     percents = {n: 100 * (speed / abs(f.size.speed) - 1) for n, speed in speeds.items()}
-    axis = Axis(shown, np.sort(q) / shown.size("angle"), axis.label, axis.degrees)
+    axis = ChartAxis(shown, np.sort(q) / shown.size("angle"), axis.label, axis.degrees)
     return [*out, axis.percents(percents, "Speed off its mean", "Speed off its mean")]
 
 
@@ -157,7 +157,7 @@ def motor_scenes(c: MotorChoice, notation: Notation) -> list[Scene]:
 def simulation_scenes(s: Simulation, notation: Notation) -> list[Scene]:
     """Speed and effort of each drive, and the energies, over time."""
     shown, out = Shown(s.result, notation), []
-    axis = Axis(shown, s.time / shown.size("time"), f"Time in {shown.unit('time')}")
+    axis = ChartAxis(shown, s.time / shown.size("time"), f"Time in {shown.unit('time')}")
     for k, drive in enumerate(s.drives):
         kinds = drive_kinds(s.result, drive)
         for what, values in (("speed", s.speed(drive)), ("effort", s.applied[:, k])):

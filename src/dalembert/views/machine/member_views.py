@@ -18,9 +18,9 @@ from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.frame import round_up
 from dalembert.views.paper.scene import Line, Point, Scene
-from dalembert.views.plane.mechanism_view import draw_links, place_title, scale_notes, whole_frame
+from dalembert.views.plane.mechanism_view import draw_links, full_frame, place_title, scale_notes
 from dalembert.views.space.camera import Camera
-from dalembert.views.space.space_mechanism import draw_machine, whole_sight
+from dalembert.views.space.space_mechanism import draw_machine, full_sight
 from dalembert.views.space.space_view import scale_notes as sight_notes
 from dalembert.views.space.space_view import triad
 
@@ -67,14 +67,14 @@ class Paper:
     def __init__(self, r: Result, k: int, shown: Shown, facing: Array) -> None:
         self.r, self.k, self.shown, self.canvas = r, k, shown, Canvas()
         if r.mechanism.dimension == 2:
-            frame = whole_frame(r, k, 112.0, 80.0)
+            frame = full_frame(r, k, 112.0, 80.0)
             self.place, self.vector = lambda p: frame(p[:2]), lambda v: v[:2]
             draw_links(self.canvas, r, k, frame)
             self.notes, self.scales = scale_notes(shown, frame, None)
             return
         cameras = [Camera(math.pi * (2 * n + 1) / 4) for n in range(4)]
         camera = max(cameras, key=lambda c: abs(float(np.linalg.det(c(facing)))))
-        s = whole_sight(r, k, camera, 112.0, 80.0)
+        s = full_sight(r, k, camera, 112.0, 80.0)
         self.place, self.vector = s, s.camera
         draw_machine(self.canvas, r, k, s)
         left, bottom, _, _ = Scene(tuple(self.canvas.items)).bounds

@@ -8,7 +8,7 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics
 from dalembert.machine.shaking import Shaking
-from dalembert.views.charts import crank_marks, vector_chart
+from dalembert.views.charts import crank_ticks, vector_chart
 from dalembert.views.machine.cycle_views import cycle_axis
 from dalembert.views.not_shown import refuse_still
 from dalembert.views.notation import Notation
@@ -27,8 +27,8 @@ def shaking_scenes(s: Shaking, notation: Notation) -> list[Scene]:
     whose = "on the ground" if s.whole else f"of {', '.join(s.links)}"
     out = []
     if r.mechanism.dimension == 2:
-        marks = crank_marks(r, shown)
-        out.append(polar_scene({"force": force}, shown.unit("force"), f"Shaking force {whose}", marks=marks))
+        ticks = crank_ticks(r, shown)
+        out.append(polar_scene({"force": force}, shown.unit("force"), f"Shaking force {whose}", labels=ticks))
     out.append(vector_chart(r, force, "force", f"Shaking force {whose}", shown))
     turning = {f"Shaking moment about {s.about}": s.moment, "Shaking couple": s.couple}
     for title, values in turning.items():
@@ -39,11 +39,11 @@ def shaking_scenes(s: Shaking, notation: Notation) -> list[Scene]:
         else:
             out.append(axis.chart("moment", {"moment": values}, title))
     try:
-        found = s.harmonics(6)
+        harmonics = s.harmonics(6)
     except ModelError:
         return out
     title = "Harmonics of the force"
-    return [*out, harmonics_scene(found, 1 / shown.size("force"), shown.unit("force"), title)]
+    return [*out, harmonics_scene(harmonics, 1 / shown.size("force"), shown.unit("force"), title)]
 
 
 WIDTH, HEIGHT = 84.0, 40.0

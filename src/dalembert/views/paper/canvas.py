@@ -93,7 +93,7 @@ class Canvas:
         heading: bool = True,
         notes: Sequence[str] = (),
         least: float = 80.0,
-        **given: Any,
+        **options: Any,
     ) -> Scene:
         """The finished drawing, with its title above and notes below, and a minimum width (mm)."""
         placer = _Placer([*self.items, *self._clear])
@@ -108,7 +108,7 @@ class Canvas:
         self._labels, self._below = [], []
         if heading:
             self._draw_heading(title, notes, least)
-        return Scene(tuple(self.items), title, **given)
+        return Scene(tuple(self.items), title, **options)
 
     def _draw_heading(self, title: str, notes: Sequence[str], least: float) -> None:
         left, bottom, right, top = Scene(tuple(self.items)).bounds

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.friction.friction_circles import friction_circles, two_pins
 from dalembert.model import GROUND
 from dalembert.views.notation import Shown
-from dalembert.views.paper.frame import Frame
+from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Scene, stack_scenes
 from dalembert.views.plane.circle_details import SEEN, pin_detail, with_friction_circle
 from dalembert.views.plane.guide_details import guide_detail, with_rough_guide
@@ -23,7 +23,7 @@ ROW = 190.0
 
 
 def detail_scenes(
-    r: Result, k: int, frame: Frame | None, shown: Shown, link: str | None = None, words: bool = True
+    r: Result, k: int, frame: PaperFrame | None, shown: Shown, link: str | None = None, words: bool = True
 ) -> list[Scene]:
     """Pins whose friction circle is too small in a frame, and guides with friction; of one link, or of all.
 
@@ -34,13 +34,13 @@ def detail_scenes(
     for name in with_friction_circle(r, joints):
         small = frame is None or frame.length(float(friction_circles(r, name).radii[k])) < SEEN
         if (small or words) and np.isfinite(r.reaction(name)[k]).all():
-            out.append(pin_detail(r, name, k, shown, link or _own(r, name), words))
+            out.append(pin_detail(r, name, k, shown, link or _holder(r, name), words))
     return out + [
-        guide_detail(r, n, k, shown, link or _own(r, n), words) for n in with_rough_guide(r, joints)
+        guide_detail(r, n, k, shown, link or _holder(r, n), words) for n in with_rough_guide(r, joints)
     ]
 
 
-def _own(r: Result, joint: str) -> str:
+def _holder(r: Result, joint: str) -> str:
     """The link whose reaction a detail shows: the one that two pins alone load, else j, unless that is ground."""
     two = two_pins(r, joint) if r.mechanism.joints[joint].hinge else None
     i, j = r.mechanism.joints[joint].links
@@ -51,8 +51,8 @@ def with_details(main: Scene, details: Sequence[Scene]) -> Scene:
     """A drawing and its details as one: side by side where they fit, else below."""
     if not details:
         return main
-    whole = stack_scenes([main, stack_scenes(details, width=ROW)], width=ROW, title=main.title)
+    full = stack_scenes([main, stack_scenes(details, width=ROW)], width=ROW, title=main.title)
     scales = dict(main.scales)
     for scene in details:
         scales |= scene.scales
-    return Scene(whole.items, main.title, scales, main.numbers)
+    return Scene(full.items, main.title, scales, main.numbers)

@@ -20,7 +20,7 @@ from dalembert.views.paper.scene import Circle, Line, Point, Polygon, Scene, Tex
 SIZE = (84.0, 52.0)
 """Size of the plotting area of a chart, mm."""
 
-Marks = Sequence[tuple[int, str]]
+Ticks = Sequence[tuple[int, str]]
 """Indices of positions, and the labels beside them."""
 
 
@@ -63,7 +63,7 @@ def curves_scene(
 ) -> Scene:
     """Curves against one axis with a legend; ``levels`` are horizontal lines. Ranges without any value are grey."""
     canvas, levels = Canvas(), levels or {}
-    places, curves = _whole_cycle(np.asarray(x, float), series) if angle else (np.asarray(x, float), series)
+    places, curves = _closed_cycle(np.asarray(x, float), series) if angle else (np.asarray(x, float), series)
     low, high = _reach(np.concatenate([*curves.values(), [*levels.values()]]))
     known = places[np.isfinite(places)]
     left, right = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
@@ -88,7 +88,7 @@ def curves_scene(
     return canvas.scene(title, numbers={name: [float(v) for v in curve] for name, curve in series.items()})
 
 
-def _whole_cycle(x: Array, series: Mapping[str, Array]) -> tuple[Array, Mapping[str, Array]]:
+def _closed_cycle(x: Array, series: Mapping[str, Array]) -> tuple[Array, Mapping[str, Array]]:
     """Angles (degrees) that cover full turns, with the start repeated at the end."""
     try:
         turns = whole_turns(np.radians(x))
@@ -113,10 +113,10 @@ def _reach(values: Array) -> tuple[float, float]:
 
 def _missing(x: Array, known: Flags) -> list[tuple[float, float]]:
     """Parts of the axis between known places in which some values are missing."""
-    there = np.flatnonzero(known)
-    if not there.size:
+    known_places = np.flatnonzero(known)
+    if not known_places.size:
         return [(float(np.nanmin(x)), float(np.nanmax(x)))] if np.isfinite(x).any() else []
-    edges = [0, *there.tolist(), len(x) - 1]
+    edges = [0, *known_places.tolist(), len(x) - 1]
     steps = [(a, b) for a, b in pairwise(edges) if b - a > 1 or not (known[a] and known[b])]
     return [(float(x[a]), float(x[b])) for a, b in steps if x[a] != x[b]]
 
@@ -186,10 +186,10 @@ def _runs(x: Array, y: Array) -> list[list[tuple[float, float]]]:
 
 
 def polar_scene(
-    paths: Mapping[str, Array], unit: str, title: str, size: float = 62.0, marks: Marks = ()
+    paths: Mapping[str, Array], unit: str, title: str, size: float = 62.0, labels: Ticks = ()
 ) -> Scene:
     """Hodographs: ends of force vectors over the cycle around the pole, with circles of equal magnitude as far as the
-    paths extend; ``marks`` label some positions. A path is closed only where its ends are as close as its steps."""
+    paths extend; ``labels`` label some positions. A path is closed only where its ends are as close as its steps."""
     canvas, everything = Canvas(), np.concatenate([*paths.values(), np.zeros((1, 2))])
     known = everything[np.isfinite(everything).all(axis=1)]
     low, high = known.min(axis=0), known.max(axis=0)
@@ -205,7 +205,7 @@ def polar_scene(
         for run in _ring(radius, (left, bottom, right, top)):
             canvas.add(Line(run, "grid"))
     for n, (name, path) in enumerate(paths.items()):
-        _draw_path(canvas, path * scale, f"curve-{n % 6 + 1}", marks)
+        _draw_path(canvas, path * scale, f"curve-{n % 6 + 1}", labels)
         points = [(float(x), float(y)) for x, y in path * scale if math.isfinite(x)]
         if points and len(paths) > 1:
             canvas.label(name, *points[:: max(1, len(points) // 12)], size=2.8)
@@ -229,19 +229,19 @@ def _ring(radius: float, window: Box) -> list[tuple[Point, ...]]:
     return [tuple(run) for run in runs if len(run) > 1]
 
 
-def _draw_path(canvas: Canvas, path: Array, role: str, marks: Marks) -> None:
+def _draw_path(canvas: Canvas, path: Array, role: str, labels: Ticks) -> None:
     """A path in mm in pieces without gaps, with labels at a distance from one another."""
     runs = _runs(*path.T)
     steps = np.hypot(*np.diff(path, axis=0).T)
-    whole = len(runs) == 1 and len(runs[0]) == len(path) > 2
-    if whole and math.dist(runs[0][0], runs[0][-1]) <= 2.0 * float(steps.max()):
+    is_cycle = len(runs) == 1 and len(runs[0]) == len(path) > 2
+    if is_cycle and math.dist(runs[0][0], runs[0][-1]) <= 2.0 * float(steps.max()):
         runs = [[*runs[0], runs[0][0]]]
     for run in runs:
         canvas.add(Line(tuple(run), role) if len(run) > 1 else Circle(run[0], 0.4, role))
-    told: list[Point] = []
-    for k, text in marks:
+    labelled: list[Point] = []
+    for k, text in labels:
         at = (float(path[k, 0]), float(path[k, 1]))
-        if math.isfinite(at[0]) and all(math.dist(at, other) > 3.0 for other in told):
-            told.append(at)
+        if math.isfinite(at[0]) and all(math.dist(at, other) > 3.0 for other in labelled):
+            labelled.append(at)
             canvas.add(Circle(at, 0.5, "mark"))
             canvas.label(text, at, prefer=math.atan2(at[1], at[0]), size=2.3, role="note")

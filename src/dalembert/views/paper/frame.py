@@ -16,7 +16,7 @@ FINE = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 
 @dataclass(frozen=True)
-class Frame:
+class PaperFrame:
     """Metres per millimetre of paper, about a centre."""
 
     per_mm: float
@@ -34,7 +34,9 @@ class Frame:
         return metres / self.per_mm
 
 
-def fit_frame(points: Iterable[Point | Array], width: float, height: float, factor: float = 1.0) -> Frame:
+def fit_frame(
+    points: Iterable[Point | Array], width: float, height: float, factor: float = 1.0
+) -> PaperFrame:
     """The frame that shows all points (metres) in a space on paper; scale in round numbers of the reader's unit.
 
     ``factor`` is the size of that unit in metres.
@@ -42,13 +44,13 @@ def fit_frame(points: Iterable[Point | Array], width: float, height: float, fact
     p = np.array([*points], float).reshape(-1, 2)
     p = p[np.isfinite(p).all(axis=1)]
     if not len(p):
-        return Frame(1.0)
+        return PaperFrame(1.0)
     low, high = p.min(axis=0), p.max(axis=0)
     need = max((high[0] - low[0]) / width, (high[1] - low[1]) / height)
     if need <= 0:
-        return Frame(0.001, (float(low[0]), float(low[1])))
+        return PaperFrame(0.001, (float(low[0]), float(low[1])))
     middle = (low + high) / 2
-    return Frame(round_up(need / factor, FINE) * factor, (float(middle[0]), float(middle[1])))
+    return PaperFrame(round_up(need / factor, FINE) * factor, (float(middle[0]), float(middle[1])))
 
 
 def round_up(value: float, steps: Sequence[float] = STEPS) -> float:

@@ -27,27 +27,27 @@ _BEYOND = {
 }  # fmt: skip
 
 
-class Piece(NamedTuple):
+class Glyphs(NamedTuple):
     """Letters at one level: 0 on the line, -1 lowered, 1 raised."""
 
     text: str
     level: int
 
 
-def pieces(text: str) -> list[Piece]:
+def pieces(text: str) -> list[Glyphs]:
     """A text split at `_{...}` and `^{...}`.
 
     >>> pieces("F_{12} = 3")
     [Piece(text='F', level=0), Piece(text='12', level=-1), Piece(text=' = 3', level=0)]
     """
-    out: list[Piece] = []
+    out: list[Glyphs] = []
     for plain, sign, small in re.findall(r"([^_^]+|[_^](?!\{))|([_^])\{([^}]*)\}", text):
         if plain and out and out[-1].level == 0:
-            out[-1] = Piece(out[-1].text + plain, 0)
+            out[-1] = Glyphs(out[-1].text + plain, 0)
         elif plain:
-            out.append(Piece(plain, 0))
+            out.append(Glyphs(plain, 0))
         elif small:
-            out.append(Piece(small, -1 if sign == "_" else 1))
+            out.append(Glyphs(small, -1 if sign == "_" else 1))
     return out
 
 

@@ -116,8 +116,8 @@ def _sheet(lines: Sequence[Sequence[Scene]], paper: str) -> tuple[float, float] 
     """The paper in portrait or landscape, whichever first contains some rows; a wide row leaves only the height of
     landscape."""
     wide, high = _need(lines)
-    ways = (PAPERS[paper], PAPERS[paper][::-1])
-    return next((way for way in ways if wide <= way[0] + 1e-6 and high <= way[1] + 1e-6), None)
+    formats = (PAPERS[paper], PAPERS[paper][::-1])
+    return next((size for size in formats if wide <= size[0] + 1e-6 and high <= size[1] + 1e-6), None)
 
 
 def _page(lines: Sequence[Sequence[Scene]], paper: str) -> Page:

@@ -25,7 +25,7 @@ from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import Frame, round_up
+from dalembert.views.paper.frame import PaperFrame, round_up
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Point, Scene
 from dalembert.views.plane.outline import link_points
 
@@ -48,7 +48,7 @@ def with_friction_circle(r: Result, joints: Sequence[str]) -> list[str]:
 
 
 def draw_circles(
-    canvas: Canvas, r: Result, k: int, frame: Frame, joints: Sequence[str], link: str | None = None
+    canvas: Canvas, r: Result, k: int, frame: PaperFrame, joints: Sequence[str], link: str | None = None
 ) -> None:
     """Circles of some joints to scale, the lines of their reactions, the other tangents faint.
 
@@ -56,38 +56,40 @@ def draw_circles(
     """
     done: set[tuple[str, str]] = set()
     for name in joints:
-        found = friction_circles(r, name)
-        draw_circle(canvas, found, k, frame)
+        circle = friction_circles(r, name)
+        draw_circle(canvas, circle, k, frame)
         two = two_pins(r, name)
         if two is None or link not in (None, two.link):
-            _own_line(canvas, found, k, frame)
+            _line_of_action(canvas, circle, k, frame)
         elif two.joints not in done:
             done.add(two.joints)
-            _common_lines(canvas, r, k, frame, name, found)
+            _common_lines(canvas, r, k, frame, name, circle)
 
 
-def draw_circle(canvas: Canvas, found: FrictionCircle, k: int, frame: Frame) -> None:
+def draw_circle(canvas: Canvas, circle: FrictionCircle, k: int, frame: PaperFrame) -> None:
     """One friction circle to scale; omitted if too small."""
-    radius = frame.length(float(found.radii[k]))
+    radius = frame.length(float(circle.radii[k]))
     if radius > 0.4:
-        canvas.add(Circle(frame(found.center[k]), radius, "friction-circle"))
+        canvas.add(Circle(frame(circle.center[k]), radius, "friction-circle"))
 
 
-def _own_line(canvas: Canvas, found: FrictionCircle, k: int, frame: Frame) -> None:
+def _line_of_action(canvas: Canvas, circle: FrictionCircle, k: int, frame: PaperFrame) -> None:
     """A short line of action at the point of tangency."""
-    if np.isfinite(found.taken.direction[k]).all() and found.taken.direction[k].any():
-        at, e = frame(found.taken.point[k]), found.taken.direction[k]
+    if np.isfinite(circle.taken.direction[k]).all() and circle.taken.direction[k].any():
+        at, e = frame(circle.taken.point[k]), circle.taken.direction[k]
         canvas.add(Line((onward(at, e, -BEYOND), onward(at, e, BEYOND)), "line-of-action"))
 
 
-def _common_lines(canvas: Canvas, r: Result, k: int, frame: Frame, name: str, found: FrictionCircle) -> None:
+def _common_lines(
+    canvas: Canvas, r: Result, k: int, frame: PaperFrame, name: str, circle: FrictionCircle
+) -> None:
     """The line of a link that two pins load, from one to the other and beyond, and its other tangents."""
     two = two_pins(r, name)
     assert two is not None
     other = two.joints[two.joints[0] == name]
-    toward = pin_center(r, other)[k] - found.center[k]
+    toward = pin_center(r, other)[k] - circle.center[k]
     length = frame.length(float(np.hypot(*toward)))
-    for line, role in [*((x, "faint") for x in found.others), (found.taken, "line-of-action")]:
+    for line, role in [*((x, "faint") for x in circle.others), (circle.taken, "line-of-action")]:
         e = line.direction[k]
         if not np.isfinite(e).all() or not e.any():
             continue
@@ -106,22 +108,24 @@ def pin_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bool
 
     Lengths are to the scale stated; the arrow of the reaction shows its line and sense only.
     """
-    found = friction_circles(r, joint)
-    per_mm = round_up(float(found.radii[k]) / 6.0 / shown.size("length")) * shown.size("length")
-    center = found.center[k]
-    frame = Frame(per_mm, (float(center[0]), float(center[1])))
+    circle = friction_circles(r, joint)
+    per_mm = round_up(float(circle.radii[k]) / 6.0 / shown.size("length")) * shown.size("length")
+    center = circle.center[k]
+    frame = PaperFrame(per_mm, (float(center[0]), float(center[1])))
     canvas = Canvas()
     _draw_links(canvas, r, joint, k, shown, on, words)
-    radius, journal = frame.length(float(found.radii[k])), _journal(r, joint) / per_mm
+    radius, journal = frame.length(float(circle.radii[k])), _journal(r, joint) / per_mm
     if journal <= WINDOW:
         canvas.add(Circle((0.0, 0.0), journal, "journal"))
     canvas.add(Circle((0.0, 0.0), radius, "friction-circle"), Circle((0.0, 0.0), 0.5, "mark"))
-    for line in found.others:
+    for line in circle.others:
         chord(canvas, frame(line.point[k]), line.direction[k], "faint")
-    touch = frame(found.taken.point[k])
-    chord(canvas, touch, found.taken.direction[k], "line-of-action")
+    touch = frame(circle.taken.point[k])
+    chord(canvas, touch, circle.taken.direction[k], "line-of-action")
     canvas.add(Line(((0.0, 0.0), touch), "dimension"))
-    canvas.label(f"r = {shown.text('length', float(found.radii[k]))}", (touch[0] / 2, touch[1] / 2), size=2.6)
+    canvas.label(
+        f"r = {shown.text('length', float(circle.radii[k]))}", (touch[0] / 2, touch[1] / 2), size=2.6
+    )
     _reaction(canvas, r, joint, k, shown, on, touch)
     _turning(canvas, r, joint, k, shown, on)
     notes = [f"1 mm = {shown.plain('length', per_mm)}"]
@@ -158,12 +162,12 @@ def _draw_links(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on:
     for link in r.mechanism.joints[joint].links:
         if link == GROUND or not (both or link == on):
             continue
-        ways = [np.asarray(p) - center for p in link_points(r, link, k).values()]
-        ways = [w / np.hypot(*w) for w in ways if np.hypot(*w) > 1e-9]
-        for w in ways[:3]:
+        directions = [np.asarray(p) - center for p in link_points(r, link, k).values()]
+        directions = [w / np.hypot(*w) for w in directions if np.hypot(*w) > 1e-9]
+        for w in directions[:3]:
             canvas.add(Line(((0.0, 0.0), onward((0.0, 0.0), w, WINDOW)), "link"))
-        if ways:
-            canvas.label(shown.link(link), onward((0.0, 0.0), ways[0], WINDOW), size=3.0, role="note")
+        if directions:
+            canvas.label(shown.link(link), onward((0.0, 0.0), directions[0], WINDOW), size=3.0, role="note")
 
 
 def chord(canvas: Canvas, at: Point, e: Array, role: str) -> None:
@@ -196,8 +200,10 @@ def _turning(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: st
     sense = friction_sense(r, joint, "pin", k) * (1.0 if on == r.mechanism.joints[joint].links[1] else -1.0)
     if not np.isfinite(sense) or sense == 0:
         return
-    ways = [np.asarray(p) - friction_circles(r, joint).center[k] for p in link_points(r, on, k).values()]
-    away = sum((w / max(float(np.hypot(*w)), 1e-9) for w in ways), np.zeros(2))
+    directions = [
+        np.asarray(p) - friction_circles(r, joint).center[k] for p in link_points(r, on, k).values()
+    ]
+    away = sum((w / max(float(np.hypot(*w)), 1e-9) for w in directions), np.zeros(2))
     force = r.reaction(joint, on)[k]
     free = math.atan2(-float(away[1]), -float(away[0])) if away.any() else 0.0
     free += _clear(free, force)

@@ -6,9 +6,9 @@ import math
 from typing import TYPE_CHECKING
 
 from dalembert.analysis.methods.members import displaced_inertia
-from dalembert.views.notation import Notation, Shown, own_name
+from dalembert.views.notation import Notation, Shown, load_sign
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import Frame, fit_frame, force_scale
+from dalembert.views.paper.frame import PaperFrame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
 from dalembert.views.plane.force_polygons import dimension
 from dalembert.views.plane.mechanism_view import place_title, scale_notes, unit_size
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | None = None) -> Scene:
     """A link with the acceleration of its mass centre, its inertia force displaced by h = I alpha / F."""
     shown = Shown(r, notation or Notation(), k)
-    found = displaced_inertia(r, link)
-    g, at = found.center[k], found.at[k]
+    displaced = displaced_inertia(r, link)
+    g, at = displaced.center[k], displaced.at[k]
     places = [*link_points(r, link, k).values(), tuple(g)]
     places += [tuple(at)] if _has_acceleration(r, link, k, shown) else []
     frame = fit_frame(places, 40.0, 34.0, unit_size(r, "length", shown.notation))
@@ -32,7 +32,7 @@ def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | N
     for name, place in link_points(r, link, k).items():
         canvas.add(*plane_symbols.pin(frame(place)))
         if " " not in name:
-            sign = own_name(name) if name in r.mechanism.loads else name
+            sign = load_sign(name) if name in r.mechanism.loads else name
             canvas.label(sign, frame(place), size=3.2, role="title", leads=False)
     canvas.add(*plane_symbols.mass_center(frame(g)))
     canvas.label("G", frame(g), size=3.0, role="title", leads=False)
@@ -44,10 +44,12 @@ def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | N
     return canvas.scene(title, notes=notes, scales=lengths | scales)
 
 
-def _arrows(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: Shown) -> dict[str, float]:
-    found, n = displaced_inertia(r, link), shown.link(link)
-    g, at = frame(found.center[k]), frame(found.at[k])
-    a, f = r.center_acceleration(link)[k], found.force[k]
+def _arrows(
+    canvas: Canvas, r: Result, link: str, k: int, frame: PaperFrame, shown: Shown
+) -> dict[str, float]:
+    displaced, n = displaced_inertia(r, link), shown.link(link)
+    g, at = frame(displaced.center[k]), frame(displaced.at[k])
+    a, f = r.center_acceleration(link)[k], displaced.force[k]
     size, pull = math.hypot(*map(float, a)), math.hypot(*map(float, f))
     if not _has_acceleration(r, link, k, shown):
         canvas.label(f"a_{{G{n}}} = 0", g, size=2.8, role="acceleration")
@@ -62,7 +64,7 @@ def _arrows(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: S
     canvas.add(Arrow(at, tip, "inertia", link, "force", pull))
     canvas.label(f"F_{{I{n}}} = {shown.text('force', pull)}", tip, size=2.8, role="inertia")
     if math.dist(g, at) > 1.0:
-        dimension(canvas, g, at, f"h = {shown.text('length', float(found.offset[k]))}")
+        dimension(canvas, g, at, f"h = {shown.text('length', float(displaced.offset[k]))}")
     return {"force": per_mm, "acceleration": slow}
 
 

@@ -14,26 +14,26 @@ from dalembert.analysis.friction.lines_of_action import acting_lines
 from dalembert.analysis.methods.applied_forces import (
     Action,
     effort_actions,
+    full_actions,
     joint_actions,
     known_actions,
     on_link,
-    whole_actions,
 )
 from dalembert.analysis.methods.members import concurrency, members, order_of_solution
 from dalembert.printing import remainder
 from dalembert.views.not_shown import doubts, has_reactions, on_one
-from dalembert.views.notation import Figures, Notation, Shown, own_name
+from dalembert.views.notation import Figures, Notation, Shown, load_sign
 from dalembert.views.paper.canvas import NO_ROOM, Canvas
-from dalembert.views.paper.frame import Frame, force_scale
+from dalembert.views.paper.frame import PaperFrame, force_scale
 from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Scene, along
 from dalembert.views.plane.circle_details import draw_circle, with_friction_circle
 from dalembert.views.plane.mechanism_view import (
     draw_actions,
     draw_links,
+    full_frame,
     role_of,
     scale_notes,
     unit_size,
-    whole_frame,
 )
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ SHORT = 0.8
 def case_actions(r: Result, case: str | None = None) -> tuple[Action, ...]:
     """All actions, or those of one case of the superposition: one source and its effects."""
     if case is None:
-        return whole_actions(r)
+        return full_actions(r)
     from dalembert.analysis.methods.superposition import superposition
 
     parts = superposition(r)
@@ -79,16 +79,16 @@ def force_polygon_scene(
 ) -> Scene:
     """The forces on a link head to tail; the gap between end and start is the residual."""
     shown = Shown(r, notation or Notation(), k)
-    found = has_reactions(r, link, k)
-    mine = forces_of(some or case_actions(r, case), link, k) if found else []
+    known = has_reactions(r, link, k)
+    mine = forces_of(some or case_actions(r, case), link, k) if known else []
     per_mm = force_scale(
         [float(np.hypot(*a.force[k])) for a in mine], LONGEST, unit_size(r, "force", shown.notation)
     )
     canvas = Canvas()
     gap = draw_polygon(canvas, mine, k, shown, per_mm, (0.0, 0.0))[1]
-    heading = f"Force polygon of link {shown.heading(link)}" + (f": {own_name(case)} alone" if case else "")
+    heading = f"Force polygon of link {shown.heading(link)}" + (f": {load_sign(case)} alone" if case else "")
     if not mine:
-        canvas.label("no forces" if found else "forces not known", (0.0, 0.0))
+        canvas.label("no forces" if known else "forces not known", (0.0, 0.0))
     notes, scales = scale_notes(shown, None, per_mm)
     return canvas.scene(
         heading,
@@ -200,7 +200,7 @@ def _chain_scene(r: Result, k: int, notation: Notation | None, case: str | None,
     names = " → ".join(map(shown.heading, order))
     text = f"Order of solution: {names}. A force shared by two polygons is drawn once."
     return canvas.scene(
-        "Force polygons of the chain" + (f": {own_name(case)} alone" if case else ""),
+        "Force polygons of the chain" + (f": {load_sign(case)} alone" if case else ""),
         notes=[text, f"{notes[0]}; {_gap_text(worst, everything, k)}", *doubts(r, k, r.joints)],
         scales=scales,
         numbers=_numbers(worst, everything, k),
@@ -209,8 +209,8 @@ def _chain_scene(r: Result, k: int, notation: Notation | None, case: str | None,
 
 def chain_order(r: Result) -> list[str]:
     """Links in the order of solution, two-force members where their joints come up, connected ones next."""
-    found = members(r)
-    out = [link for step in order_of_solution(r, found) for link in step.links]
+    by_link = members(r)
+    out = [link for step in order_of_solution(r, by_link) for link in step.links]
     for link in r.links:
         if link not in out:
             joints = [d.links for d in r.mechanism.joints.values() if link in d.links]
@@ -228,7 +228,7 @@ def lines_of_action_scene(
     shown = Shown(r, notation or Notation(), k)
     some = acting_lines(r, k) if case is None else case_actions(r, case)
     mine = forces_of(some, link, k)
-    frame = whole_frame(r, k, 76.0, 58.0)
+    frame = full_frame(r, k, 76.0, 58.0)
     canvas = Canvas()
     draw_links(canvas, r, k, frame)
     for name in with_friction_circle(r, [a.of for a in mine if a.kind == "joint"]):
@@ -240,12 +240,14 @@ def lines_of_action_scene(
     flat = [replace(a, couple=np.zeros_like(a.couple)) for a in mine]
     per_mm = draw_actions(canvas, r, flat, k, frame, shown, 20.0)
     texts, scales = scale_notes(shown, frame, per_mm)
-    heading = f"Lines of action on link {shown.heading(link)}" + (f": {own_name(case)} alone" if case else "")
+    heading = f"Lines of action on link {shown.heading(link)}" + (
+        f": {load_sign(case)} alone" if case else ""
+    )
     return canvas.scene(heading, notes=[*notes, *texts, *doubts(r, k, on_one(r, link))], scales=scales)
 
 
 def _meeting(
-    canvas: Canvas, mine: Sequence[Action], k: int, frame: Frame, span: tuple[float, ...], shown: Shown
+    canvas: Canvas, mine: Sequence[Action], k: int, frame: PaperFrame, span: tuple[float, ...], shown: Shown
 ) -> list[str]:
     """Concurrency symbols, and the note on them."""
     names = [shown.symbol(a).replace("_{", "").replace("}", "") for a in mine]
@@ -289,7 +291,7 @@ def arm_of_couple(two: Sequence[Action], k: int) -> float:
     return abs(float(line[0] * fy - line[1] * fx)) / size if size else 0.0
 
 
-def _arm(canvas: Canvas, mine: Sequence[Action], k: int, frame: Frame, shown: Shown) -> list[str]:
+def _arm(canvas: Canvas, mine: Sequence[Action], k: int, frame: PaperFrame, shown: Shown) -> list[str]:
     """The arm of the couple that two parallel forces make, with its length."""
     h = arm_of_couple(mine, k)
     if frame.length(h) < 0.5:

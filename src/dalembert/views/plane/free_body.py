@@ -9,17 +9,17 @@ import numpy as np
 
 from dalembert.analysis.friction.friction_circles import friction_circles
 from dalembert.analysis.friction.lines_of_action import acting_lines
-from dalembert.analysis.methods.applied_forces import Action, joint_place, link_place, on_link, whole_actions
+from dalembert.analysis.methods.applied_forces import Action, full_actions, joint_place, link_place, on_link
 from dalembert.analysis.methods.members import Member, components_along, members
 from dalembert.views.not_shown import doubts, on_one
-from dalembert.views.notation import Notation, Shown, own_name
+from dalembert.views.notation import Notation, Shown, load_sign
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import detail_scenes, with_details
-from dalembert.views.paper.frame import Frame, fit_frame, force_scale
+from dalembert.views.paper.frame import PaperFrame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
 from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
 from dalembert.views.plane.guide_details import guide_block, guide_corners, with_rough_guide
-from dalembert.views.plane.joint_drawings import own_symbol
+from dalembert.views.plane.joint_drawings import free_symbol
 from dalembert.views.plane.mechanism_view import draw_actions, role_of, scale_notes, unit_size
 from dalembert.views.plane.outline import link_points, link_shape, load_places, wheels
 from dalembert.views.symbols import plane_symbols
@@ -33,8 +33,8 @@ LONGEST = 22.0
 
 def free_body_scenes(r: Result, k: int, notation: Notation | None = None) -> list[Scene]:
     """Every link as a free body, at one force scale."""
-    some, found = acting_lines(r, k), members(r)
-    return [free_body_scene(r, link, k, notation, some, found[link]) for link in r.links]
+    some, by_link = acting_lines(r, k), members(r)
+    return [free_body_scene(r, link, k, notation, some, by_link[link]) for link in r.links]
 
 
 def free_body_scene(
@@ -76,12 +76,12 @@ def common_scale(
     return force_scale(sizes, longest, unit_size(r, "force", shown.notation))
 
 
-def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...]) -> Frame:
+def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...]) -> PaperFrame:
     """A frame that contains the link's points, wheels, friction circles and the places of its reactions."""
     places = [*link_points(r, link, k).values()]
     if r.mechanism.mass(link):
         places.append(tuple(r.center(link)[k]))
-    for center, radius in _own_wheels(r, link, k):
+    for center, radius in _wheels_of(r, link, k):
         places += [(center[0] - radius, center[1] - radius), (center[0] + radius, center[1] + radius)]
     places += [tuple(a.at[k]) for a in on_link(some, link) if a.kind == "joint"]
     for name in with_friction_circle(r, [n for n in r.joints if link in r.mechanism.joints[n].links]):
@@ -92,14 +92,14 @@ def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...])
     return fit_frame(places, 40.0, 34.0, unit_size(r, "length", shown.notation))
 
 
-def _own_wheels(r: Result, link: str, k: int) -> list[tuple[tuple[float, float], float]]:
-    found = (wheel for name, joint in r.mechanism.joints.items() for wheel in wheels(r, name, joint, k))
-    return [(center, radius) for on, center, radius in found if on == link]
+def _wheels_of(r: Result, link: str, k: int) -> list[tuple[tuple[float, float], float]]:
+    all_wheels = (wheel for name, joint in r.mechanism.joints.items() for wheel in wheels(r, name, joint, k))
+    return [(center, radius) for on, center, radius in all_wheels if on == link]
 
 
-def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: Shown) -> None:
+def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: PaperFrame, shown: Shown) -> None:
     m = r.mechanism
-    for center, radius in _own_wheels(r, link, k):
+    for center, radius in _wheels_of(r, link, k):
         canvas.add(*plane_symbols.wheel(frame(center), frame.length(radius), float(r.angle(link)[k])))
     canvas.add(*link_shape(r, link, k, frame))
     for name, joint in m.joints.items():
@@ -112,7 +112,7 @@ def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown
             angle = float(r.angle(link)[k]) - float(getattr(joint, "angle", 0.0) or 0.0)
             canvas.add(*plane_symbols.slider(at, angle))
         if end == 1 or not joint.apart:  # the pin of a slot or slider is j's
-            canvas.add(*own_symbol(joint.type, at))
+            canvas.add(*free_symbol(joint.type, at))
         canvas.label(name, *_corners(at), size=3.2, role="title", leads=False)
     for name, u in load_places(m, link).items():
         if name not in (*m.loads, *m.joints):
@@ -136,15 +136,15 @@ def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
     first = names[0] if names else ""
 
     def sign(name: str) -> str:
-        return own_name(name) if name in r.mechanism.loads else name
+        return load_sign(name) if name in r.mechanism.loads else name
 
-    parts, told = [], [places[first]] if first else []
+    parts, labelled = [], [places[first]] if first else []
     for name in names[1:]:
-        if all(math.dist(places[name], other) > 0 for other in told):
+        if all(math.dist(places[name], other) > 0 for other in labelled):
             parts.append(
                 f"{first}–{sign(name)} = {shown.text('length', math.dist(places[first], places[name]))}"
             )
-            told.append(places[name])
+            labelled.append(places[name])
     if r.mechanism.mass(link) and first:
         g = tuple(map(float, r.center(link)[k]))
         if math.dist(g, places[first]) > 0:
@@ -155,7 +155,7 @@ def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
 def components_scene(r: Result, link: str, k: int, notation: Notation | None = None) -> Scene:
     """Joint forces of a link resolved along and across it."""
     shown = Shown(r, notation or Notation(), k)
-    everything = whole_actions(r)
+    everything = full_actions(r)
     frame = _frame(r, link, k, shown, everything)
     canvas = Canvas()
     _draw_link(canvas, r, link, k, frame, shown)
@@ -174,7 +174,7 @@ def _draw_components(
     canvas: Canvas,
     a: Action,
     k: int,
-    frame: Frame,
+    frame: PaperFrame,
     shown: Shown,
     per_mm: float,
     parts: tuple[float, float],

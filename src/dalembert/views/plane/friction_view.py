@@ -19,5 +19,5 @@ def friction_scene(r: Result, k: int, shown: Shown, camera: Camera | None) -> Sc
     """The mechanism with its friction circles and every joint with friction in detail, in words too."""
     if camera is not None:
         return space_mechanism_scene(r, k, camera, shown.notation)
-    whole = mechanism_scene(r, k, shown.notation, details=False)
-    return stack_scenes([whole, *detail_scenes(r, k, None, shown)], title=whole.title)
+    overview = mechanism_scene(r, k, shown.notation, details=False)
+    return stack_scenes([overview, *detail_scenes(r, k, None, shown)], title=overview.title)

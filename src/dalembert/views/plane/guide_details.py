@@ -21,7 +21,7 @@ from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import Frame, force_scale, round_up
+from dalembert.views.paper.frame import PaperFrame, force_scale, round_up
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Point, Polygon, Scene
 from dalembert.views.space.space_guides import (
     ends_on_paper,
@@ -88,9 +88,9 @@ def guide_words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[st
     i, j = r.mechanism.joints[joint].links
     out = []
     if np.isfinite(sense) and sense != 0:
-        way, against = ("ahead", "back") if sense > 0 else ("back", "ahead")
+        along, against = ("ahead", "back") if sense > 0 else ("back", "ahead")
         verb = "is about to slide" if at_rest(r, joint, sliding_contact(r, joint), k) else "slides"
-        words = f"{j} {verb} {way} on {i}, so friction on {j} points {against}."
+        words = f"{j} {verb} {along} on {i}, so friction on {j} points {against}."
         out.append(words[:1].upper() + words[1:])
     if r.mechanism.dimension == 3:
         return [f"{angle}.", *ends_words(r, joint, k, shown), *out]
@@ -111,15 +111,15 @@ def guide_words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[st
     return [f"Two corners bear: {' and '.join(each)}; {angle} at each.", *out]
 
 
-def guide_block(r: Result, joint: str, k: int, frame: Frame) -> Polygon:
+def guide_block(r: Result, joint: str, k: int, frame: PaperFrame) -> Polygon:
     """The block of a guide in a drawing: at its given length, at least long enough to reach the bearing places."""
     e = np.asarray(slide_direction(r, joint)[k], float)
     across = np.array([-e[1], e[0]])
     f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     places = [float(face.along[k]) for face in faces_of(r, joint, k) if close_by(r, face, k)]
-    given = getattr(f, "guide", None)
-    behind, ahead = given or (0.0, 0.0)
-    room = 0.0 if given else 1.5
+    length = getattr(f, "guide", None)
+    behind, ahead = length or (0.0, 0.0)
+    room = 0.0 if length else 1.5
     low = min(-HALF, *(frame.length(x) - room for x in (-behind, *places)))
     high = max(HALF, *(frame.length(x) + room for x in (ahead, *places)))
     half = max(2.0, frame.length(float(getattr(f, "half_height", None) or 0.0)))

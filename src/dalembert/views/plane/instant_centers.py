@@ -14,7 +14,7 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.lettering import FIXED, unbroken
 from dalembert.views.paper.scene import Circle, Line, Point, Scene
-from dalembert.views.plane.mechanism_view import draw_links, scale_notes, whole_frame
+from dalembert.views.plane.mechanism_view import draw_links, full_frame, scale_notes
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -38,7 +38,7 @@ class Center(NamedTuple):
 
 def instant_centers(r: Result, k: int, drive: int = 0) -> dict[tuple[str, str], tuple[float, float] | None]:
     """Instant centre (metres) of every two links when one drive moves; None at infinity or without relative motion."""
-    return {pair: found.place for pair, found in all_centers(r, k, drive).items()}
+    return {pair: center.place for pair, center in all_centers(r, k, drive).items()}
 
 
 def all_centers(r: Result, k: int, drive: int = 0) -> dict[tuple[str, str], Center]:
@@ -73,12 +73,12 @@ def _center(ta: Array, pa: Array, tb: Array, pb: Array, length: float) -> Center
 def instant_centers_scene(r: Result, k: int, notation: Notation | None = None) -> Scene:
     """The mechanism with the instant centres of its links and the lines on which three of them lie."""
     shown = Shown(r, notation or Notation(), k)
-    frame = whole_frame(r, k, 76.0, 58.0)
+    frame = full_frame(r, k, 76.0, 58.0)
     canvas = Canvas()
     draw_links(canvas, r, k, frame)
     span = Scene(tuple(canvas.items)).bounds
     centers = all_centers(r, k)
-    near = {pair: frame(found.place) for pair, found in centers.items() if found.place is not None}
+    near = {pair: frame(center.place) for pair, center in centers.items() if center.place is not None}
     near = {pair: p for pair, p in near.items() if _within(p, span, ROOM)}
     for a, b, c in combinations(("ground", *r.links), 3):
         three = [near[pair] for pair in ((a, b), (a, c), (b, c)) if pair in near]
@@ -91,20 +91,20 @@ def instant_centers_scene(r: Result, k: int, notation: Notation | None = None) -
         canvas.add(Circle(p, 0.8, "mark"))
         canvas.label(", ".join(names), p, size=3.0, role="velocity")
     notes, scales = scale_notes(shown, frame, None)
-    far = {pair: found for pair, found in centers.items() if pair not in near}
+    far = {pair: center for pair, center in centers.items() if pair not in near}
     return canvas.scene("Instant centres", notes=[*notes, *_beyond(far, shown)], scales=scales)
 
 
 def _beyond(far: dict[tuple[str, str], Center], shown: Shown) -> list[str]:
     """Centres outside the drawing: coordinates, or the direction in which they are at infinity."""
     places, directions, none = [], [], []
-    for (a, b), found in far.items():
+    for (a, b), center in far.items():
         sign = _sign(shown, a, b)
-        if found.place is not None:
-            x, y = (shown.number("length", v) for v in found.place)
+        if center.place is not None:
+            x, y = (shown.number("length", v) for v in center.place)
             places.append(unbroken(f"{sign} ({x}, {y}) {shown.unit('length')}"))
-        elif found.direction is not None:
-            directions.append(f"{sign}{FIXED}{shown.notation.degrees(found.direction)}°")
+        elif center.direction is not None:
+            directions.append(f"{sign}{FIXED}{shown.notation.degrees(center.direction)}°")
         else:
             none.append(sign)
     out = []

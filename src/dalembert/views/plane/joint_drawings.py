@@ -12,10 +12,10 @@ from dalembert.analysis.methods.applied_forces import joint_place, link_angle, l
 from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import Frame
+from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Arc, Item, Line, Point, Polygon
 from dalembert.views.plane.outline import wheels
-from dalembert.views.space.solids import Cylinder, Ring, Solid
+from dalembert.views.space.solids import Ring, RoundBar, Solid
 from dalembert.views.symbols import plane_symbols
 from dalembert.views.symbols.joint_solids import lift, wheel_solids
 
@@ -23,54 +23,54 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-class Spot(NamedTuple):
+class JointPlace(NamedTuple):
     """A joint to be drawn: its name, a position, a frame, and j's point in it."""
 
     r: Result
     name: str
     k: int
-    frame: Frame
+    frame: PaperFrame
     at: Point
 
 
-class Drawing(NamedTuple):
+class JointSymbol(NamedTuple):
     """Symbol of a type of joint.
 
     whole: between its two links; own: at its place in a link's free body; solid: type in space whose solids it uses, or
     a function from the metres per millimetre of a symbol to solids, each with the link whose axes it is in.
     """
 
-    whole: Callable[[Spot], list[Item]]
-    own: Callable[[Point], list[Item]]
+    full: Callable[[JointPlace], list[Item]]
+    free: Callable[[Point], list[Item]]
     solid: str | Callable[[Result, str, float], list[tuple[str, Solid]]]
 
 
-def draw_joint(canvas: Canvas, r: Result, name: str, k: int, frame: Frame) -> None:
+def draw_joint(canvas: Canvas, r: Result, name: str, k: int, frame: PaperFrame) -> None:
     """The symbol of a joint."""
     joint: Any = r.mechanism.joints[name]
     at = frame(link_place(r, joint.links[1], r.mechanism.joint_points(name)[1])[k])
-    canvas.add(*DRAWINGS[joint.type].whole(Spot(r, name, k, frame, at)))
+    canvas.add(*DRAWINGS[joint.type].full(JointPlace(r, name, k, frame, at)))
 
 
-def own_symbol(joint_type: str, at: Point) -> list[Item]:
+def free_symbol(joint_type: str, at: Point) -> list[Item]:
     """Symbol of a joint at its place in a free body."""
-    return DRAWINGS[joint_type].own(at)
+    return DRAWINGS[joint_type].free(at)
 
 
-def _on_ground(s: Spot) -> bool:
+def _on_ground(s: JointPlace) -> bool:
     return GROUND in s.r.mechanism.joints[s.name].links
 
 
-def _pin(s: Spot) -> list[Item]:
+def _pin(s: JointPlace) -> list[Item]:
     return plane_symbols.fixed_pin(s.at) if _on_ground(s) else plane_symbols.pin(s.at)
 
 
-def _along(s: Spot) -> float:
+def _along(s: JointPlace) -> float:
     e = slide_direction(s.r, s.name)[s.k]
     return math.atan2(float(e[1]), float(e[0]))
 
 
-def hydraulic_cylinder(s: Spot) -> list[Item]:
+def hydraulic_cylinder(s: JointPlace) -> list[Item]:
     """Symbol of a driven slide between pins of two links as a hydraulic cylinder: barrel and rod; None otherwise."""
     m = s.r.mechanism
     joint, driven = m.joints[s.name], {m.drives[d].joint or d for d in s.r.drives}
@@ -92,20 +92,20 @@ def hydraulic_cylinder(s: Spot) -> list[Item]:
     return plane_symbols.cylinder(ends[0], ends[1], float(lengths.min()), float(lengths.max()))
 
 
-def _together(one: Array, other: Array, s: Spot) -> bool:
+def _together(one: Array, other: Array, s: JointPlace) -> bool:
     return math.dist(s.frame(one), s.frame(other)) < 0.05
 
 
-def _slider(s: Spot) -> list[Item]:
-    if found := hydraulic_cylinder(s):
-        return found
+def _slider(s: JointPlace) -> list[Item]:
+    if cylinder := hydraulic_cylinder(s):
+        return cylinder
     angle = _along(s)
     side = -1.0 if math.cos(angle) > -1e-9 else 1.0
     ground = plane_symbols.guide(s.at, angle, 13.0, side) if _on_ground(s) else []
     return [*ground, *plane_symbols.slider(s.at, angle)]
 
 
-def _slot(s: Spot) -> list[Item]:
+def _slot(s: JointPlace) -> list[Item]:
     """A slot as long as its slide over the cycle, with a little clearance."""
     values, angle = s.r.freedom(s.name, "slide")[0], _along(s)
     room = min(0.08 * s.r.compiled.layout.length, 12.0 * s.frame.per_mm)
@@ -128,14 +128,14 @@ def _arm(r: Result, name: str) -> Array:
     return np.asarray(at - center)
 
 
-def _circular_slot(s: Spot) -> list[Item]:
+def _circular_slot(s: JointPlace) -> list[Item]:
     """A slot as long as the path of its pin over the cycle, with a little clearance."""
     joint: Any = s.r.mechanism.joints[s.name]
     radius, i = s.frame.length(joint.radius), joint.links[0]
     angle = np.arctan2(*_arm(s.r, s.name).T[::-1]) - link_angle(s.r, i)
-    way = np.unwrap(angle[np.isfinite(angle)])
+    angles = np.unwrap(angle[np.isfinite(angle)])
     here, room = float(link_angle(s.r, i)[s.k]), 3.0 / radius
-    low, high = here + float(way.min()) - room, here + float(way.max()) + room
+    low, high = here + float(angles.min()) - room, here + float(angles.max()) + room
     pin = float(angle[s.k]) + here
     middle = (s.at[0] - radius * math.cos(pin), s.at[1] - radius * math.sin(pin))
     return [
@@ -146,11 +146,11 @@ def _circular_slot(s: Spot) -> list[Item]:
 
 def round_slot(middle: Point, radius: float, low: float, high: float, ground: bool) -> list[Item]:
     """A slot between two angles about its centre, round at its ends; strokes outside it on the ground."""
-    half, ways = plane_symbols.PIN + 0.5, np.linspace(low, high, 2 + int((high - low) / 0.04))
+    half, angles = plane_symbols.PIN + 0.5, np.linspace(low, high, 2 + int((high - low) / 0.04))
     outside, inside = Arc(middle, radius + half, low, high), Arc(middle, max(radius - half, 0.0), low, high)
     ends = [Arc(middle, radius, low, high).at(t) for t in (low, high)]
     caps = Arc(ends[1], half, high, high + math.pi), Arc(ends[0], half, low + math.pi, low + 2 * math.pi)
-    sides = [outside.at(t) for t in ways], [inside.at(t) for t in ways[::-1]]
+    sides = [outside.at(t) for t in angles], [inside.at(t) for t in angles[::-1]]
     out: list[Item] = [Polygon((*sides[0], *caps[0].points, *sides[1], *caps[1].points), "block")]
     for t in np.arange(low, high, 1.5 / outside.radius) if ground else ():
         out.append(
@@ -165,10 +165,10 @@ def _circular_slot_solids(r: Result, name: str, size: float) -> list[tuple[str, 
     (i, j), (ui, uj), up = joint.links, r.mechanism.joint_points(name), np.array([0.0, 0.0, 1.0])
     center, at = lift(r, i, ui, size), lift(r, j, uj, size)
     low, high = (np.array([*at[:2], f(center[2], at[2]) + x * size]) for f, x in ((min, -2.0), (max, 2.0)))
-    return [(i, Ring(center, up, joint.radius, 0.9 * size)), (j, Cylinder(low, high, 0.9 * size, "inner"))]
+    return [(i, Ring(center, up, joint.radius, 0.9 * size)), (j, RoundBar(low, high, 0.9 * size, "inner"))]
 
 
-def _wheels(s: Spot) -> list[Item]:
+def _wheels(s: JointPlace) -> list[Item]:
     joint, out = s.r.mechanism.joints[s.name], []
     for link, center, radius in wheels(s.r, s.name, joint, s.k)[::-1]:
         angle = float(link_angle(s.r, link)[s.k])
@@ -183,13 +183,13 @@ def _nothing(at: Point) -> list[Item]:
     return []
 
 
-DRAWINGS: dict[str, Drawing] = {
-    "pin": Drawing(_pin, plane_symbols.pin, "revolute"),
-    "slider": Drawing(_slider, plane_symbols.pin, "prismatic"),
-    "slot": Drawing(_slot, plane_symbols.pin, "slotted_cylinder"),
-    "circular_slot": Drawing(_circular_slot, plane_symbols.pin, _circular_slot_solids),
-    "weld": Drawing(lambda s: plane_symbols.weld(s.at), plane_symbols.weld, "weld"),
-    "gear": Drawing(_wheels, _nothing, wheel_solids),
-    "rolling": Drawing(_wheels, _nothing, wheel_solids),
+DRAWINGS: dict[str, JointSymbol] = {
+    "pin": JointSymbol(_pin, plane_symbols.pin, "revolute"),
+    "slider": JointSymbol(_slider, plane_symbols.pin, "prismatic"),
+    "slot": JointSymbol(_slot, plane_symbols.pin, "slotted_cylinder"),
+    "circular_slot": JointSymbol(_circular_slot, plane_symbols.pin, _circular_slot_solids),
+    "weld": JointSymbol(lambda s: plane_symbols.weld(s.at), plane_symbols.weld, "weld"),
+    "gear": JointSymbol(_wheels, _nothing, wheel_solids),
+    "rolling": JointSymbol(_wheels, _nothing, wheel_solids),
 }
 """Type of joint -> its symbols."""

@@ -15,7 +15,7 @@ from dalembert.model import GROUND
 from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.paper.canvas import Canvas, segments
 from dalembert.views.paper.details import detail_scenes, with_details
-from dalembert.views.paper.frame import Frame, fit_frame, force_scale
+from dalembert.views.paper.frame import PaperFrame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene, along, around
 from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
 from dalembert.views.plane.guide_details import with_rough_guide
@@ -66,7 +66,7 @@ def mechanism_scene(
     of the reactions, and with ``details`` pins and guides at a larger scale.
     """
     shown = Shown(r, notation or Notation(), k)
-    frame = whole_frame(r, k, width, height)
+    frame = full_frame(r, k, width, height)
     canvas = Canvas()
     draw_traces(canvas, r, frame)
     draw_links(canvas, r, k, frame)
@@ -108,7 +108,7 @@ def is_drawn(r: Result, a: Action) -> bool:
 
 
 def scale_notes(
-    shown: Figures, frame: Frame | None, per_mm: float | None
+    shown: Figures, frame: PaperFrame | None, per_mm: float | None
 ) -> tuple[list[str], dict[str, float]]:
     """The scales as a note and as numbers."""
     notes, scales = [], {}
@@ -140,7 +140,7 @@ def unit_size(r: Result, kind: str, notation: Notation | None = None) -> float:
     return Shown(r, notation or Notation()).size(kind)
 
 
-def whole_frame(r: Result, k: int, width: float, height: float) -> Frame:
+def full_frame(r: Result, k: int, width: float, height: float) -> PaperFrame:
     """A frame for all positions if traces are drawn, else for this one."""
     shown = [k]
     if len(r.status) > 2:
@@ -149,7 +149,7 @@ def whole_frame(r: Result, k: int, width: float, height: float) -> Frame:
     return fit_frame(every_path(r)[:, shown].reshape(-1, 2), width, height, unit_size(r, "length"))
 
 
-def draw_traces(canvas: Canvas, r: Result, frame: Frame) -> None:
+def draw_traces(canvas: Canvas, r: Result, frame: PaperFrame) -> None:
     """Paths of moving joints over the cycle."""
     if len(r.status) < 8 or r.stability is not None:
         return
@@ -160,7 +160,7 @@ def draw_traces(canvas: Canvas, r: Result, frame: Frame) -> None:
         canvas.add(*(Line(tuple(frame(p) for p in run), "trace") for run in unbroken(path)))
 
 
-def draw_links(canvas: Canvas, r: Result, k: int, frame: Frame) -> None:
+def draw_links(canvas: Canvas, r: Result, k: int, frame: PaperFrame) -> None:
     """Links, springs, joints and mass centres."""
     m = r.mechanism
     for name in r.joints:
@@ -183,7 +183,7 @@ def draw_links(canvas: Canvas, r: Result, k: int, frame: Frame) -> None:
             canvas.add(*plane_symbols.mass_center(at))
 
 
-def canvas_names(canvas: Canvas, r: Result, k: int, frame: Frame, shown: Shown) -> None:
+def canvas_names(canvas: Canvas, r: Result, k: int, frame: PaperFrame, shown: Shown) -> None:
     """Names of joints and links."""
     m = r.mechanism
     middle = np.mean([frame(p) for p in every_path(r)[:, k]], axis=0)
@@ -215,7 +215,7 @@ def draw_actions(
     r: Result,
     some: list[Action],
     k: int,
-    frame: Frame,
+    frame: PaperFrame,
     shown: Shown,
     longest: float,
     per_mm: float | None = None,
@@ -247,7 +247,7 @@ def draw_force(
     r: Result,
     a: Action,
     k: int,
-    frame: Frame,
+    frame: PaperFrame,
     shown: Shown,
     per_mm: float,
     values: bool | None,
@@ -305,7 +305,7 @@ def points_inwards(a: Action, k: int, places: Sequence[Point] | Sequence[Array])
 
 
 def draw_couple(
-    canvas: Canvas, r: Result, a: Action, k: int, frame: Frame, shown: Shown, values: bool | None
+    canvas: Canvas, r: Result, a: Action, k: int, frame: PaperFrame, shown: Shown, values: bool | None
 ) -> None:
     """A curved arrow about its place; it shows the sense, and the text the magnitude."""
     at, value = frame(a.at[k]), float(a.couple[k])

@@ -12,14 +12,14 @@ from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.methods.applied_forces import link_place, state
 from dalembert.arrays import Array
 from dalembert.model import GROUND, Joint
-from dalembert.views.notation import Shown, own_name
+from dalembert.views.notation import Shown, load_sign
 from dalembert.views.plane.outline import load_places
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-class Spot(NamedTuple):
+class PointLabel(NamedTuple):
     """A point of a link: its symbol (`B`, `G_{2}`), its letter in a polygon (`b`, `g_{2}`), its place in the link's
     axes, and whether it is a joint's, with separate arrows and sides; ``sliding``: the joint in which another link's
     point slides over it."""
@@ -43,50 +43,50 @@ def letter(sign: str) -> str:
     return sign
 
 
-def spots(r: Result, k: int, shown: Shown) -> dict[str, list[Spot]]:
+def spots(r: Result, k: int, shown: Shown) -> dict[str, list[PointLabel]]:
     """Points of each moving link: joints, points that others slide over, points of loads, mass centres; one
     per place."""
     m = r.mechanism
-    out: dict[str, list[Spot]] = {link: [] for link in r.links}
+    out: dict[str, list[PointLabel]] = {link: [] for link in r.links}
     for name, joint in sorted(m.joints.items(), key=lambda pair: pair[1].slides):
         for link, u in zip(joint.links, m.joint_points(name), strict=True):
-            if link in out and (link == _own(joint) or not (joint.apart or joint.wheels)):
-                _add(out[link], Spot(name, letter(name), np.asarray(u, float)))
+            if link in out and (link == _holder(joint) or not (joint.apart or joint.wheels)):
+                _add(out[link], PointLabel(name, letter(name), np.asarray(u, float)))
     for name, joint in m.joints.items():
-        rail = joint.links[0] if _own(joint) == joint.links[1] else joint.links[1]
+        rail = joint.links[0] if _holder(joint) == joint.links[1] else joint.links[1]
         if joint.apart and rail in out:
             place = np.asarray(
-                link_place(r, _own(joint), m.joint_points(name)[joint.links.index(_own(joint))])[k]
+                link_place(r, _holder(joint), m.joint_points(name)[joint.links.index(_holder(joint))])[k]
             )
-            sign = f"{_pin(out.get(_own(joint), []), r, _own(joint), place, k, name)}_{{{shown.link(rail)}}}"
-            _add(out[rail], Spot(sign, letter(sign), _local(r, rail, place, k), sliding=name))
+            sign = f"{_pin(out.get(_holder(joint), []), r, _holder(joint), place, k, name)}_{{{shown.link(rail)}}}"
+            _add(out[rail], PointLabel(sign, letter(sign), _local(r, rail, place, k), sliding=name))
     for link in r.links:
         for name, u in load_places(m, link).items():
-            sign = own_name(name) if name in m.loads else name
+            sign = load_sign(name) if name in m.loads else name
             small = sign if name in m.loads else letter(name)
-            _add(out[link], Spot(sign, small, np.asarray(u, float), joint=False))
+            _add(out[link], PointLabel(sign, small, np.asarray(u, float), joint=False))
         if m.mass(link):
             sign, center = f"G_{{{shown.link(link)}}}", np.asarray(point_of(m, link, "center"))
-            _add(out[link], Spot(sign, letter(sign), center, joint=False))
+            _add(out[link], PointLabel(sign, letter(sign), center, joint=False))
     return out
 
 
-def _own(joint: Joint) -> str:
+def _holder(joint: Joint) -> str:
     """The link whose point of a joint slides or is the centre of a wheel: j, or i where j is the ground."""
     i, j = joint.links
     return j if j != GROUND else i
 
 
-def _add(some: list[Spot], spot: Spot) -> None:
+def _add(some: list[PointLabel], spot: PointLabel) -> None:
     if all(float(np.abs(other.u - spot.u).max()) > 1e-12 for other in some):
         some.append(spot)
 
 
-def _pin(some: list[Spot], r: Result, link: str, place: Array, k: int, name: str) -> str:
+def _pin(some: list[PointLabel], r: Result, link: str, place: Array, k: int, name: str) -> str:
     """Symbol of the sliding point: that of a pin at the same place, or the joint's."""
     near = 1e-9 * r.compiled.layout.length
-    there = (s.sign for s in some if float(np.abs(link_place(r, link, s.u)[k] - place).max()) < near)
-    return next(there, name)
+    near_signs = (s.sign for s in some if float(np.abs(link_place(r, link, s.u)[k] - place).max()) < near)
+    return next(near_signs, name)
 
 
 def _local(r: Result, link: str, place: Array, k: int) -> Array:

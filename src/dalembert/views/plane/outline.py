@@ -12,7 +12,7 @@ from dalembert.analysis.methods.applied_forces import joint_place, link_place
 from dalembert.arrays import Array, Tree
 from dalembert.model import GROUND
 from dalembert.model.joints.plane_joints import Joint
-from dalembert.views.paper.frame import Frame
+from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Line, Point, Polygon
 
 if TYPE_CHECKING:
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 def link_paths(r: Result, link: str) -> dict[str, Array]:
     """Places (P, 2) in metres that a link's shape connects: joints, then points that carry loads."""
     m = r.mechanism
-    own = {name: joint for name, joint in m.joints.items() if link in joint.links}
+    joints = {name: joint for name, joint in m.joints.items() if link in joint.links}
     places: dict[str, Array] = {}
-    for name, joint in own.items():
+    for name, joint in joints.items():
         for end, u in zip(joint.links, m.joint_points(name), strict=True):
             if end == link and not _slides_on(joint, end):
                 places.setdefault(name, link_place(r, link, u))
-    for name, joint in own.items():
+    for name, joint in joints.items():
         if joint.apart and joint.links[0] == link != GROUND:
             places[f"{name} sliding"] = link_place(r, joint.links[1], m.joint_points(name)[1])
     for name, at in load_places(m, link).items():
@@ -80,11 +80,11 @@ def wheel_paths(r: Result, name: str, joint: Any) -> list[tuple[str, Array, floa
 
 def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[str, tuple[float, float], float]]:
     """Pitch circles of wheels in contact: link, centre and radius in metres."""
-    found = wheel_paths(r, name, joint)
-    return [(link, (float(path[k, 0]), float(path[k, 1])), radius) for link, path, radius in found]
+    paths = wheel_paths(r, name, joint)
+    return [(link, (float(path[k, 0]), float(path[k, 1])), radius) for link, path, radius in paths]
 
 
-def link_shape(r: Result, link: str, k: int, frame: Frame) -> list[Item]:
+def link_shape(r: Result, link: str, k: int, frame: PaperFrame) -> list[Item]:
     """A bar, or an area with its outline for more than two points; the block of a slider is a symbol."""
     places = list(dict.fromkeys(_round(frame(p)) for p in link_points(r, link, k).values()))
     if len(places) == 1 and r.mechanism.mass(link):
@@ -122,7 +122,7 @@ def _turn(a: Point, b: Point, c: Point) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def rail(r: Result, name: str, k: int, frame: Frame) -> list[Item]:
+def rail(r: Result, name: str, k: int, frame: PaperFrame) -> list[Item]:
     """The rail of a block on a moving link, from that link's point to the block."""
     joint = r.mechanism.joints[name]
     if not joint.guides or joint.links[0] == GROUND:

@@ -16,7 +16,7 @@ from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import fit_frame, force_scale
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Point, Scene, along, stack_scenes
-from dalembert.views.plane.joint_drawings import own_symbol
+from dalembert.views.plane.joint_drawings import free_symbol
 from dalembert.views.plane.mechanism_view import place_title, scale_notes
 from dalembert.views.plane.outline import wheels
 from dalembert.views.symbols import plane_symbols
@@ -58,23 +58,23 @@ def tooth_force(r: Result, joint: str, k: int) -> tuple[str, Array, Array]:
 def _mesh_scene(r: Result, joint: str, k: int, shown: Shown, per_mm: float) -> Scene:
     """Two wheels with the force on one of them, and its tangential and radial components."""
     described: Any = r.mechanism.joints[joint]
-    found = wheels(r, joint, described, k)
-    corners = [(c[0] + s * radius, c[1] + s * radius) for _, c, radius in found for s in (-1, 1)]
+    circles = wheels(r, joint, described, k)
+    corners = [(c[0] + s * radius, c[1] + s * radius) for _, c, radius in circles for s in (-1, 1)]
     frame = fit_frame(corners, 84.0, 70.0, shown.size("length"))
     on, force, e = tooth_force(r, joint, k)
     canvas, at = Canvas(), frame(joint_place(r, joint)[k])
-    for link, center, radius in found:
+    for link, center, radius in circles:
         angle = 0.0 if link == GROUND else float(r.angle(link)[k])
         canvas.add(*plane_symbols.wheel(frame(center), frame.length(radius), angle))
         canvas.add(Circle(frame(center), frame.length(radius * math.cos(described.pressure_angle)), "grid"))
-        canvas.add(*own_symbol("pin", frame(center)))
+        canvas.add(*free_symbol("pin", frame(center)))
         rim = frame((center[0] - radius * float(e[1]), center[1] + radius * float(e[0])))
         canvas.label(shown.heading(link), rim, size=3.0, role="title")
     _draw_force(canvas, shown, joint, on, at, force, e, per_mm)
     canvas.add(Circle(at, 0.6, "mark"))
     canvas.label("C", at, size=3.2, role="title")
     notes, scales = scale_notes(shown, frame, per_mm if np.isfinite(force).all() and force.any() else None)
-    words = [_sizes(shown, described, [link for link, _, _ in found]), *doubts(r, k, [joint])]
+    words = [_sizes(shown, described, [link for link, _, _ in circles]), *doubts(r, k, [joint])]
     return canvas.scene(f"Mesh {joint}: force on {shown.heading(on)}", notes=[*words, *notes], scales=scales)
 
 
@@ -88,8 +88,8 @@ def _draw_force(
     radial = float(force @ e) * e
     around = force - radial
     size, tangent = float(np.hypot(*force)), around / np.hypot(*around)
-    for way, role in ((force / size, "line-of-action"), (tangent, "construction")):
-        ends = (_ahead(at, -REACH * way), _ahead(at, REACH * way))
+    for direction, role in ((force / size, "line-of-action"), (tangent, "construction")):
+        ends = (_ahead(at, -REACH * direction), _ahead(at, REACH * direction))
         canvas.add(Line(ends, role))
     sign = shown.reaction(joint, on)
     tip, side = _ahead(at, force / per_mm), _ahead(at, around / per_mm)

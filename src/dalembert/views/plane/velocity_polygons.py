@@ -19,7 +19,7 @@ from dalembert.views.paper.frame import force_scale
 from dalembert.views.paper.lettering import unbroken
 from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Polygon, Scene, along
 from dalembert.views.plane.mechanism_view import unit_size
-from dalembert.views.plane.motion_points import Rates, Spot, rates, spots
+from dalembert.views.plane.motion_points import PointLabel, Rates, rates, spots
 from dalembert.views.plane.outline import convex
 
 if TYPE_CHECKING:
@@ -56,8 +56,8 @@ def motion_polygon_scene(
     motion = rates(r, k, drive)
     points = spots(r, k, shown)
     read = motion.velocity if order == "velocity" else motion.acceleration
-    found = {link: {s.sign: read(link, s.u) for s in some} for link, some in points.items()}
-    if not all(np.isfinite(v).all() for some in found.values() for v in some.values()):
+    vectors = {link: {s.sign: read(link, s.u) for s in some} for link, some in points.items()}
+    if not all(np.isfinite(v).all() for some in vectors.values() for v in some.values()):
         what = "velocities" if order == "velocity" else "accelerations"
         raise AnalysisError(f"position {k + 1} has no {what}: {r.reasons[k]}")
     unit, notes = 1.0, []
@@ -69,10 +69,10 @@ def motion_polygon_scene(
         notes.append(
             f"For {speed} of drive {r.drives[drive]}{others}; where it moves otherwise, in proportion."
         )
-        found = {link: {sign: v * unit for sign, v in some.items()} for link, some in found.items()}
-    sizes = [math.hypot(*v) for some in found.values() for v in some.values()]
+        vectors = {link: {sign: v * unit for sign, v in some.items()} for link, some in vectors.items()}
+    sizes = [math.hypot(*v) for some in vectors.values() for v in some.values()]
     per_mm = force_scale(sizes, LONGEST, unit_size(r, kind_of(order), shown.notation))
-    return _Polygon(r, k, order, shown, motion, points, found, per_mm, unit).scene(notes)
+    return _Polygon(r, k, order, shown, motion, points, vectors, per_mm, unit).scene(notes)
 
 
 def kind_of(order: Order) -> str:
@@ -89,8 +89,8 @@ class _Polygon:
     order: Order
     shown: Shown
     motion: Rates
-    points: dict[str, list[Spot]]
-    found: dict[str, dict[str, Array]]
+    points: dict[str, list[PointLabel]]
+    vectors: dict[str, dict[str, Array]]
     per_mm: float
     unit: float
     canvas: Canvas = field(default_factory=Canvas)
@@ -120,7 +120,7 @@ class _Polygon:
 
     def _images(self) -> None:
         for link in self.points:
-            corners = convex(list({self.head(v) for v in self.found[link].values()}))
+            corners = convex(list({self.head(v) for v in self.vectors[link].values()}))
             if len(corners) >= 3:
                 self.canvas.add(Polygon(tuple(corners), "image"))
             elif len(corners) == 2:
@@ -128,14 +128,14 @@ class _Polygon:
 
     def _rays(self) -> None:
         """Absolute vectors: of joints with their value beside them, of other points the value below."""
-        told: set[str] = set()
+        labelled: set[str] = set()
         for link, some in self.points.items():
             for s in some:
-                vector = self.found[link][s.sign]
+                vector = self.vectors[link][s.sign]
                 head, size = self.head(vector), math.hypot(*vector)
-                if s.sign in told or math.hypot(*head) < 0.1:
+                if s.sign in labelled or math.hypot(*head) < 0.1:
                     continue
-                told.add(s.sign)
+                labelled.add(s.sign)
                 name = f"{self.order[0]}_{{{flat(s.sign)}}}"
                 text = f"{name} = {self.shown.text(kind_of(self.order), size)}"
                 beside, role = (text, "") if s.joint else ("", "-part")
@@ -150,11 +150,11 @@ class _Polygon:
             return
         self.canvas.label(text, *along(tail, head, 0.55, 0.4, 0.7), size=2.6, role=self.order)
 
-    def _sides(self, link: str, some: list[Spot]) -> None:
+    def _sides(self, link: str, some: list[PointLabel]) -> None:
         """Sides from the link's fixed point, or its first joint, to its other points; then across its sliders."""
         if not some:
             return
-        still = next((s for s in some if math.hypot(*self.head(self.found[link][s.sign])) < 0.1), None)
+        still = next((s for s in some if math.hypot(*self.head(self.vectors[link][s.sign])) < 0.1), None)
         base = still or some[0]
         for s in some:
             if s is not base:
@@ -162,36 +162,39 @@ class _Polygon:
             if s.sliding:
                 self._slide(link, s)
 
-    def _side(self, link: str, base: Spot, end: Spot, fixed: bool) -> None:
+    def _side(self, link: str, base: PointLabel, end: PointLabel, fixed: bool) -> None:
         """Velocity or acceleration of a point relative to another of its link, with normal and tangential parts."""
-        start, whole = self.found[link][base.sign], self.found[link][end.sign] - self.found[link][base.sign]
+        start, difference = (
+            self.vectors[link][base.sign],
+            self.vectors[link][end.sign] - self.vectors[link][base.sign],
+        )
         sign = f"{self.order[0]}_{{{flat(end.sign) if fixed else relative(end.sign, base.sign)}}}"
         if not fixed:
-            self._vector(start, whole, sign)
+            self._vector(start, difference, sign)
         if self.order == "acceleration":
             span = link_place(self.r, link, end.u)[self.k] - link_place(self.r, link, base.u)[self.k]
             normal = -(self.motion.spin(link) ** 2) * span
-            self._parts(start, ((f"{sign}^{{n}}", normal), (f"{sign}^{{t}}", whole - normal)))
+            self._parts(start, ((f"{sign}^{{n}}", normal), (f"{sign}^{{t}}", difference - normal)))
 
-    def _slide(self, rail: str, s: Spot) -> None:
+    def _slide(self, rail: str, s: PointLabel) -> None:
         """Velocity or acceleration of the slider relative to the point under it; for accelerations the Coriolis
         component and the one along the slide."""
         i, j = self.r.mechanism.joints[s.sliding].links
         over = i if rail == j else j
         if over == GROUND:
-            start, end = self.found[rail][s.sign], np.zeros(2)
+            start, end = self.vectors[rail][s.sign], np.zeros(2)
             sign, name = "", "o"
         else:
             name = s.sign.partition("_{")[0]
-            sign = name if name in self.found[over] else next(iter(self.found[over]))
-            start, end = self.found[rail][s.sign], self.found[over][sign]
-        whole = f"{self.order[0]}_{{{relative(name, s.sign)}}}"
-        self._vector(start, end - start, whole)
+            sign = name if name in self.vectors[over] else next(iter(self.vectors[over]))
+            start, end = self.vectors[rail][s.sign], self.vectors[over][sign]
+        letter = f"{self.order[0]}_{{{relative(name, s.sign)}}}"
+        self._vector(start, end - start, letter)
         if self.order == "acceleration" and sign:
             u = next(spot.u for spot in self.points[over] if spot.sign == sign)
             vx, vy = self.motion.velocity(over, u) - self.motion.velocity(rail, s.u)
             coriolis = 2 * self.motion.spin(rail) * np.array([-vy, vx])
-            self._parts(start, ((f"{whole}^{{c}}", coriolis), (f"{whole}^{{s}}", end - start - coriolis)))
+            self._parts(start, ((f"{letter}^{{c}}", coriolis), (f"{letter}^{{s}}", end - start - coriolis)))
 
     def _vector(self, start: Array, vector: Array, sign: str) -> None:
         size = math.hypot(*vector)
@@ -215,7 +218,7 @@ class _Polygon:
         at: dict[Point, list[str]] = {(0.0, 0.0): [f"o{mark}"]}
         for link, some in self.points.items():
             for s in some:
-                x, y = self.head(self.found[link][s.sign])
+                x, y = self.head(self.vectors[link][s.sign])
                 place = next((p for p in at if math.dist(p, (x, y)) < 0.1), (x, y))
                 names = at.setdefault(place, [])
                 name = add_prime(s.letter, mark)
@@ -225,7 +228,7 @@ class _Polygon:
             away = math.atan2(y - middle[1], x - middle[0])
             self.canvas.label(", ".join(names), (x, y), prefer=away, size=3.2, role="title")
 
-    def _fixed(self, s: Spot) -> bool:
+    def _fixed(self, s: PointLabel) -> bool:
         """True if a point is a pin on the ground: the pole."""
         joint = self.r.mechanism.joints.get(s.sign)
         return joint is not None and joint.hinge and GROUND in joint.links

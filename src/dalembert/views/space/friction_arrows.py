@@ -86,10 +86,10 @@ def friction_details(r: Result, k: int, shown: Shown, link: str | None = None) -
     joints = [n for n in r.joints if link is None or link in r.mechanism.joints[n].links]
     known = [n for n in with_rough_guide(r, joints) if np.isfinite(r.reaction(n)[k]).all()]
     some = [(n, journal_detail) for n in journals(r, k, joints)] + [(n, guide_detail) for n in known]
-    return [detail(r, n, k, shown, link or _own(r, n), link is None) for n, detail in some]
+    return [detail(r, n, k, shown, link or _holder(r, n), link is None) for n, detail in some]
 
 
-def _own(r: Result, joint: str) -> str:
+def _holder(r: Result, joint: str) -> str:
     """The link whose reaction a detail shows: j, unless that is ground."""
     i, j = r.mechanism.joints[joint].links
     return i if j == GROUND else j

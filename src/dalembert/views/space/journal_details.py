@@ -34,8 +34,8 @@ def journals(r: Result, k: int, joints: Sequence[str]) -> list[str]:
 
 def circle_radius(r: Result, joint: str, k: int) -> float:
     """Radius of the circle that the forces on a journal touch at a position, m; 0 without a bearing force."""
-    found = [float(np.linalg.norm(_touch(end, bearing_axis(r, joint), k))) for end in _bearing(r, joint, k)]
-    return max(found, default=0.0)
+    radii = [float(np.linalg.norm(_touch(end, bearing_axis(r, joint), k))) for end in _bearing(r, joint, k)]
+    return max(radii, default=0.0)
 
 
 def _bearing(r: Result, joint: str, k: int) -> list[BearingEnd]:
@@ -74,16 +74,16 @@ def journal_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: 
         canvas.add(Circle((0.0, 0.0), large, "journal"))
     canvas.add(Circle((0.0, 0.0), radius / per_mm, "friction-circle"), Circle((0.0, 0.0), 0.5, "mark"))
     sign = 1.0 if on == r.mechanism.joints[joint].links[1] else -1.0
-    ways = []
+    directions = []
     for end in ends:
         x, y = camera(_touch(end, axis, k)) / per_mm
         e = camera(sign * end.force[k])
-        ways.append(e / np.hypot(*e))
-        _force(canvas, joint, shown, on, end, k, (float(x), float(y)), ways[-1])
+        directions.append(e / np.hypot(*e))
+        _force(canvas, joint, shown, on, end, k, (float(x), float(y)), directions[-1])
     touch = camera(_touch(ends[0], axis, k)) / per_mm
     canvas.add(Line(((0.0, 0.0), (float(touch[0]), float(touch[1]))), "dimension"))
     canvas.label(f"r = {shown.text('length', radius)}", (float(touch[0]) / 2, float(touch[1]) / 2), size=2.6)
-    _turning(canvas, r, joint, k, shown, on, ways)
+    _turning(canvas, r, joint, k, shown, on, directions)
     triad(canvas, camera, (-WINDOW - 16.0, -WINDOW - 2.0), 7.0)
     notes = [*(_words(r, joint, k, shown, on) if words else ()), f"1 mm = {shown.plain('length', per_mm)}"]
     scene = canvas.scene(f"Journal {joint}, seen along its axis", notes=notes)
@@ -115,14 +115,16 @@ def _force(
     canvas.label(text, free, prefer=math.atan2(free[1], free[0]), size=2.8, role="joint-force")
 
 
-def _turning(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: str, ways: list[Array]) -> None:
+def _turning(
+    canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: str, directions: list[Array]
+) -> None:
     """A curved arrow, away from the forces: the actual or impending rotation of the link relative to the other one."""
     i, j = r.mechanism.joints[joint].links
     sense = friction_sense(r, joint, "pin", k) * (1.0 if on == j else -1.0)
     if not np.isfinite(sense) or sense == 0:
         return
     turns = np.arange(24) * math.pi / 12
-    lines = np.array([math.atan2(e[1], e[0]) + side for e in ways for side in (0.0, math.pi)])
+    lines = np.array([math.atan2(e[1], e[0]) + side for e in directions for side in (0.0, math.pi)])
     off = np.abs((turns[:, None] - lines + math.pi) % (2 * math.pi) - math.pi).min(axis=1)
     free, half = float(turns[int(off.argmax())]), math.copysign(math.radians(28), sense)
     arc = Arc((0.0, 0.0), WINDOW - 2.5, free - half, free + half, "velocity", True, joint)
@@ -144,13 +146,11 @@ def _words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[str]:
     sense = friction_sense(r, joint, "pin", k) * (1.0 if on == j else -1.0)
     if np.isfinite(sense) and sense != 0:
         verb = "is about to turn" if at_rest(r, joint, "pin", k) else "turns"
-        ways = ("counter-clockwise", "clockwise") if sense > 0 else ("clockwise", "counter-clockwise")
+        senses = ("counter-clockwise", "clockwise") if sense > 0 else ("clockwise", "counter-clockwise")
         other = i if on == j else j
-        words = (
-            f"{on} {verb} {ways[0]} against {other}, so each force passes the axis on the side that turns it "
-        )
-        out.append(f"{words[:1].upper()}{words[1:]}{ways[1]}.")
+        words = f"{on} {verb} {senses[0]} against {other}, so each force passes the axis on the side that turns it "
+        out.append(f"{words[:1].upper()}{words[1:]}{senses[1]}.")
     collar = getattr(f, "thrust_radius", None)
-    whole = abs(float(r.friction_moment(joint)[k] @ bearing_axis(r, joint)[k]))
-    about = f"Friction about the axis: {shown.text('moment', whole)}"
+    moment = abs(float(r.friction_moment(joint)[k] @ bearing_axis(r, joint)[k]))
+    about = f"Friction about the axis: {shown.text('moment', moment)}"
     return [*out, f"{about}, with that of the collar." if collar else f"{about}."]

@@ -21,15 +21,15 @@ from dalembert.views.plane.outline import convex, load_places
 from dalembert.views.space.solids import (
     Ball,
     Block,
-    Cylinder,
     Plate,
+    RoundBar,
     Solid,
     Wire,
     across,
     place_solids,
 )
 from dalembert.views.symbols.joint_solids import lift
-from dalembert.views.symbols.pair_symbols import Setting, Symbol, symbol
+from dalembert.views.symbols.pair_symbols import Symbol, SymbolSetting, symbol
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -65,13 +65,13 @@ def link_solids(r: Result, size: float) -> dict[str, list[Solid]]:
         for link, solid in drawing.solid(r, name, size):
             out[link].append(solid)
     for name, m in mounts.items():
-        found = _symbol(r, m, size)
-        for end, solids in enumerate((found.on_i, found.on_j)):
+        mounted = _symbol(r, m, size)
+        for end, solids in enumerate((mounted.on_i, mounted.on_j)):
             out[m.links[end]] += place_solids(solids, m.axes[end].T, m.points[end], size)
-            clear[m.links[end], name] = found.clear * size
+            clear[m.links[end], name] = mounted.clear * size
         if GROUND in m.links:
             height = _layers(r, m)[m.links.index(GROUND)] if r.mechanism.dimension == 2 else 0.0
-            feet = _feet(r, m, found.clear, size)
+            feet = _feet(r, m, mounted.clear, size)
             out[GROUND] += place_solids(feet, np.eye(3), np.array([0.0, 0.0, height * size]))
     for link in r.links:
         out[link] += _frame(r, link, clear, size)
@@ -127,16 +127,16 @@ def _symbol(r: Result, m: Mount, size: float) -> Symbol:
     low, high = m.low / size, m.high / size
     if m.links[0] != GROUND:
         low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
-    found = symbol(m.kind, Setting(to[0], to[1], low, high, m.blocked, m.hand))
+    drawn = symbol(m.kind, SymbolSetting(to[0], to[1], low, high, m.blocked, m.hand))
     if r.mechanism.dimension == 3:
-        return found
+        return drawn
     shift = _layers(r, m)
     up = np.array([0.0, 0.0, 1.0])
-    parts = [place_solids(part, np.eye(3), z * up) for part, z in zip(found[:2], shift, strict=True)]
+    parts = [place_solids(part, np.eye(3), z * up) for part, z in zip(drawn[:2], shift, strict=True)]
     if m.kind in ("revolute", "slotted_cylinder"):
         ends = np.array([[min(shift) - 2.0], [max(shift) + 2.0]]) * up
-        parts[1] = [Cylinder(ends[0], ends[1], 0.9, "inner")]
-    return Symbol(parts[0], parts[1], found.clear)
+        parts[1] = [RoundBar(ends[0], ends[1], 0.9, "inner")]
+    return Symbol(parts[0], parts[1], drawn.clear)
 
 
 def _layers(r: Result, m: Mount) -> list[float]:
@@ -191,7 +191,7 @@ def _frame(r: Result, link: str, clear: dict[tuple[str, str], float], size: floa
         if length > free[a] + free[b] + 0.2 * size:
             e = along / length
             out.append(
-                Cylinder(places[a] + free[a] * e + height, places[b] - free[b] * e + height, ROD * size)
+                RoundBar(places[a] + free[a] * e + height, places[b] - free[b] * e + height, ROD * size)
             )
     return out
 
@@ -254,10 +254,17 @@ def _down(r: Result, m: Mount, rail: Array | None) -> Array:
     away = [v / np.linalg.norm(v) for v in rest if np.linalg.norm(v) > 1e-9]
     z, x, y = np.eye(3)[2], np.eye(3)[0], np.eye(3)[1]
     best, lowest = -z, np.inf
-    ways: tuple[tuple[float, Array], ...] = ((0.0, -z), (0.35, -y), (0.35, -x), (0.4, x), (0.4, y), (0.8, z))
+    directions: tuple[tuple[float, Array], ...] = (
+        (0.0, -z),
+        (0.35, -y),
+        (0.35, -x),
+        (0.4, x),
+        (0.4, y),
+        (0.8, z),
+    )
     if r.mechanism.dimension == 2:
-        ways = ((0.0, -y), (0.35, -x), (0.35, x), (0.8, y))
-    for preference, e in ways:
+        directions = ((0.0, -y), (0.35, -x), (0.35, x), (0.8, y))
+    for preference, e in directions:
         if rail is not None:
             e = e - (e @ rail) * rail
             if np.linalg.norm(e) < 0.3:
@@ -280,7 +287,7 @@ def _foot(at: Array, down: Array, start: float, size: float) -> list[Solid]:
         for t in np.linspace(-0.75, 1.0, 5):
             p = base + half * (away * a + t * b)
             strokes.append(Wire(np.array([p, p + size * (1.2 * down - 0.9 * b)]), "hatch"))
-    post = [Cylinder(at + start * size * down, base, 0.55 * size, "ground-solid")]
+    post = [RoundBar(at + start * size * down, base, 0.55 * size, "ground-solid")]
     return [*post, Plate(corners, 0.4 * size, "ground-solid"), *strokes]
 
 
@@ -300,5 +307,5 @@ def shape_solids(r: Result, link: str, size: float) -> list[Solid]:
             length, middle, axis = shape.line(lambda name: m.point(link, name))
             radius = shape.radius if isinstance(shape, Round) else shape.radii[1]
             ends = [middle + sign * length / 2 * axis + height for sign in (-1, 1)]
-            out.append(Cylinder(ends[0], ends[1], radius, "shape"))
+            out.append(RoundBar(ends[0], ends[1], radius, "shape"))
     return out

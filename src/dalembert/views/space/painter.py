@@ -15,7 +15,18 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.views.paper.scene import Circle, Item, Line, Point, Polygon
 from dalembert.views.space.camera import Camera
-from dalembert.views.space.solids import Ball, Block, Cylinder, Pane, Plate, Ring, Solid, Tube, circle, helix
+from dalembert.views.space.solids import (
+    Ball,
+    Block,
+    GlassTube,
+    Pane,
+    Plate,
+    Ring,
+    RoundBar,
+    Solid,
+    circle,
+    helix,
+)
 
 LONGEST = 2.5
 """Length in mm of the pieces that solids are cut into."""
@@ -25,7 +36,7 @@ LIGHT = np.array([0.35, 0.2, 0.91])
 
 
 @dataclass(frozen=True)
-class Piece:
+class DepthItem:
     """Items and their nearness to the eye."""
 
     depth: float
@@ -38,11 +49,11 @@ def paint(solids: Iterable[Solid], camera: Camera) -> list[Item]:
     return [item for piece in sorted(pieces, key=lambda p: p.depth) for item in piece.items]
 
 
-def _pieces(solid: Solid, camera: Camera) -> Iterator[Piece]:
-    if isinstance(solid, Cylinder):
+def _pieces(solid: Solid, camera: Camera) -> Iterator[DepthItem]:
+    if isinstance(solid, RoundBar):
         yield from _cylinder(solid, camera)
     elif isinstance(solid, Ball):
-        yield Piece(float(camera.depth(solid.center)), tuple(_ball(solid, camera)))
+        yield DepthItem(float(camera.depth(solid.center)), tuple(_ball(solid, camera)))
     elif isinstance(solid, Block):
         yield from _block(solid, camera)
     elif isinstance(solid, Plate):
@@ -50,8 +61,8 @@ def _pieces(solid: Solid, camera: Camera) -> Iterator[Piece]:
     elif isinstance(solid, Ring):
         points = circle(solid.center, solid.axis, solid.radius, 36)
         for a, b in pairwise(points):
-            yield from _cylinder(Cylinder(a, b, solid.thickness, solid.role), camera, capped=False)
-    elif isinstance(solid, Tube):
+            yield from _cylinder(RoundBar(a, b, solid.thickness, solid.role), camera, capped=False)
+    elif isinstance(solid, GlassTube):
         yield from _tube(solid, camera)
     elif isinstance(solid, Pane):
         yield from _wire(np.concatenate([solid.corners, solid.corners[:1]]), solid.role, camera)
@@ -63,19 +74,19 @@ def _at(camera: Camera, points: Array) -> tuple[Point, ...]:
     return tuple((float(x), float(y)) for x, y in camera(np.atleast_2d(points)))
 
 
-def _cuts(a: Array, b: Array, whole: bool = False) -> Array:
+def _cuts(a: Array, b: Array, uncut: bool = False) -> Array:
     """Points (n + 1, 3) that cut a straight line into short pieces."""
-    count = 1 if whole else max(1, math.ceil(float(np.linalg.norm(b - a)) / LONGEST))
+    count = 1 if uncut else max(1, math.ceil(float(np.linalg.norm(b - a)) / LONGEST))
     return np.asarray(a + np.linspace(0.0, 1.0, count + 1)[:, None] * (b - a))
 
 
-def _wire(points: Array, role: str, camera: Camera) -> Iterator[Piece]:
+def _wire(points: Array, role: str, camera: Camera) -> Iterator[DepthItem]:
     for a, b in pairwise(points):
         for c, d in pairwise(_cuts(a, b)):
-            yield Piece(float(camera.depth((c + d) / 2)), (Line(_at(camera, np.array([c, d])), role),))
+            yield DepthItem(float(camera.depth((c + d) / 2)), (Line(_at(camera, np.array([c, d])), role),))
 
 
-def _cylinder(s: Cylinder, camera: Camera, capped: bool = True) -> Iterator[Piece]:
+def _cylinder(s: RoundBar, camera: Camera, capped: bool = True) -> Iterator[DepthItem]:
     """Pieces of a cylinder cut across; the side nearer to the eye shows its round end."""
     far, near = sorted((s.start, s.end), key=lambda p: float(camera.depth(p)))
     length = float(np.linalg.norm(near - far))
@@ -86,7 +97,7 @@ def _cylinder(s: Cylinder, camera: Camera, capped: bool = True) -> Iterator[Piec
     size = float(np.hypot(*seen))
     cap = _at(camera, circle(near, along, s.radius))[:-1]
     if size < 1e-3:
-        yield Piece(float(camera.depth(near)), (Polygon(cap, f"{s.role}-top"),))
+        yield DepthItem(float(camera.depth(near)), (Polygon(cap, f"{s.role}-top"),))
         return
     side = s.radius * np.array([-seen[1], seen[0]]) / size
     places = _cuts(far, near, s.whole)
@@ -107,10 +118,10 @@ def _cylinder(s: Cylinder, camera: Camera, capped: bool = True) -> Iterator[Piec
             items.append(Line(_at(camera, _back(s, camera, far, along)), f"{s.role}-edge"))
         if last and capped:
             items.append(Polygon(cap, f"{s.role}-top"))
-        yield Piece(_depth(camera, a, b, s.whole), tuple(items))
+        yield DepthItem(_depth(camera, a, b, s.whole), tuple(items))
 
 
-def _back(s: Cylinder, camera: Camera, far: Array, along: Array) -> Array:
+def _back(s: RoundBar, camera: Camera, far: Array, along: Array) -> Array:
     """Points of the half of the far end's circle that bounds the visible area."""
     u = np.cross(along, camera.eye)
     u = u / np.linalg.norm(u)
@@ -120,7 +131,7 @@ def _back(s: Cylinder, camera: Camera, far: Array, along: Array) -> Array:
     return np.asarray(far + s.radius * (np.cos(t) * u + np.sin(t) * v))
 
 
-def _thread(s: Cylinder, camera: Camera, far: Array, along: Array, count: int) -> list[list[Item]]:
+def _thread(s: RoundBar, camera: Camera, far: Array, along: Array, count: int) -> list[list[Item]]:
     """Lines of a thread that face the eye, for each of the pieces of its cylinder."""
     out: list[list[Item]] = [[] for _ in range(count)]
     if not s.thread:
@@ -134,10 +145,10 @@ def _thread(s: Cylinder, camera: Camera, far: Array, along: Array, count: int) -
     return out
 
 
-def _depth(camera: Camera, a: Array, b: Array, whole: bool) -> float:
+def _depth(camera: Camera, a: Array, b: Array, uncut: bool) -> float:
     """Nearness of a piece between two places: its middle, for a sleeve slightly nearer than its nearest end."""
     ends = camera.depth(np.array([a, b]))
-    return float(ends.max() + 0.05 if whole else ends.mean())
+    return float(ends.max() + 0.05 if uncut else ends.mean())
 
 
 def _point(p: Array) -> Point:
@@ -152,7 +163,7 @@ def _ball(s: Ball, camera: Camera) -> Iterator[Item]:
     yield Circle((at[0] + float(spot[0]), at[1] + float(spot[1])), 0.28 * s.radius, f"{s.role}-spot")
 
 
-def _block(s: Block, camera: Camera) -> Iterator[Piece]:
+def _block(s: Block, camera: Camera) -> Iterator[DepthItem]:
     """Pieces of a block cut across its longest side; the faces towards the eye, shaded by the light."""
     axis = int(np.argmax(s.half))
     reach = s.half[axis] * s.axes[axis]
@@ -166,7 +177,7 @@ def _block(s: Block, camera: Camera) -> Iterator[Piece]:
                 if float(normal @ camera.eye) <= 1e-9 or (k == axis and (sign, n) not in end):
                     continue
                 items += _face(s, camera, (a, b), axis, k, sign)
-        yield Piece(_depth(camera, a, b, s.whole), tuple(items))
+        yield DepthItem(_depth(camera, a, b, s.whole), tuple(items))
 
 
 def _face(
@@ -202,7 +213,7 @@ def _tone(normal: Array) -> str:
     return "top" if light > 0.6 else "front" if light > 0.25 else "side"
 
 
-def _plate(s: Plate, camera: Camera) -> Iterator[Piece]:
+def _plate(s: Plate, camera: Camera) -> Iterator[DepthItem]:
     """A plate cut into small triangles about its middle, those at the rim with their part of the edge."""
     middle, count = s.corners.mean(axis=0), len(s.corners)
     for n, (a, b) in enumerate(pairwise([*s.corners, s.corners[0]])):
@@ -212,7 +223,7 @@ def _plate(s: Plate, camera: Camera) -> Iterator[Piece]:
             for k in range(3):
                 if rim[k]:
                     items.append(Line(_at(camera, np.array([cell[k], cell[(k + 1) % 3]])), f"{s.role}-edge"))
-            yield Piece(float(camera.depth(np.mean(cell, axis=0))), tuple(items))
+            yield DepthItem(float(camera.depth(np.mean(cell, axis=0))), tuple(items))
 
 
 Corners = tuple[Array, Array, Array]
@@ -233,7 +244,7 @@ def _cells(corners: Corners, rim: Rim) -> Iterator[tuple[Corners, Rim]]:
     yield from _cells((middle, b, c), (ab, bc, False))
 
 
-def _tube(s: Tube, camera: Camera) -> Iterator[Piece]:
+def _tube(s: GlassTube, camera: Camera) -> Iterator[DepthItem]:
     along = (s.end - s.start) / np.linalg.norm(s.end - s.start)
     for end in (s.start, s.end):
         yield from _wire(circle(end, along, s.radius), s.role, camera)

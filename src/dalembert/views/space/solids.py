@@ -18,7 +18,7 @@ Rotation = Array
 
 
 @dataclass(frozen=True)
-class Cylinder:
+class RoundBar:
     """A round bar from start to end; ``whole``: a sleeve, painted in one piece over the part inside it.
 
     ``thread``: advance per turn of its thread, negative if left-handed, 0 without a thread.
@@ -76,7 +76,7 @@ class Ring:
 
 
 @dataclass(frozen=True)
-class Tube:
+class GlassTube:
     """A transparent cylinder: its end circles and its outline."""
 
     start: Array
@@ -101,7 +101,7 @@ class Wire:
     role: str = "guide"
 
 
-Solid = Cylinder | Ball | Block | Plate | Ring | Tube | Pane | Wire
+Solid = RoundBar | Ball | Block | Plate | Ring | GlassTube | Pane | Wire
 
 PLACES = ("start", "end", "center", "corners", "points")
 DIRECTIONS = ("axes", "axis")
@@ -144,7 +144,7 @@ def across(direction: Array) -> tuple[Array, Array]:
     return first, np.cross(direction, first)
 
 
-def helix(solid: Cylinder, count: int = 24) -> Array:
+def helix(solid: RoundBar, count: int = 24) -> Array:
     """Points (n, 3) of a cylinder's thread, ``count`` per turn."""
     length = float(np.linalg.norm(solid.end - solid.start))
     along = (solid.end - solid.start) / length

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import joint_place, link_place, on_link, whole_actions
+from dalembert.analysis.methods.applied_forces import full_actions, joint_place, link_place, on_link
 from dalembert.analysis.result.reaction_axes import axes_of
 from dalembert.arrays import Array, Flags
 from dalembert.model.joints.pairs import AXES, Pair
@@ -47,7 +47,7 @@ def space_free_body_scene(
         at = s(r.center(link)[k])
         mark_center(canvas, at, [s(link_place(r, link, u)[k]) for u in nodes(r, link).values()])
         canvas.label("G", *ring(at, 1.0), size=2.8, role="note", leads=False)
-    everything = whole_actions(r)
+    everything = full_actions(r)
     arrows = Arrows(canvas, r, s, shown, [a for a in everything if a.link != "ground"], k)
     rows = []
     for name in joints_on(r, link):
@@ -68,10 +68,10 @@ def space_free_body_scene(
     drawn = canvas.scene(heading=False, scales=scales)
     _, low, right, top = drawn.bounds
     items = [*drawn.items, *_table(rows, shown, arrows.floor, (right + 6.0, max(top, low + 24.0)))]
-    whole = Canvas()
-    whole.add(*items)
+    full = Canvas()
+    full.add(*items)
     words = [_describe_rows(rows), *notes]
-    scene = whole.scene(f"Link {shown.heading(link)}", notes=[w for w in words if w], scales=scales)
+    scene = full.scene(f"Link {shown.heading(link)}", notes=[w for w in words if w], scales=scales)
     return with_details(scene, friction_details(r, k, shown, link))
 
 
@@ -80,7 +80,7 @@ def joints_on(r: Result, link: str) -> list[str]:
     return [n for n in r.joints if link in r.mechanism.joints[n].links]
 
 
-class Reaction:
+class ReactionInAxes:
     """A joint's force and moment (6,) on a link in the joint's axes, which components are unique, and which it can
     carry."""
 
@@ -88,21 +88,21 @@ class Reaction:
         self.joint, self.numbers, self.unique, self.carried = joint, numbers, unique, carried
 
 
-def reaction(r: Result, joint: str, link: str, k: int) -> Reaction:
+def reaction(r: Result, joint: str, link: str, k: int) -> ReactionInAxes:
     """The reaction of a joint on a link at a position; least-norm numbers where it is not unique."""
     described = r.mechanism.joints[joint]
     pair = Pair(AXES, "") if described.wheels else described.pair
     carried = np.array([a in pair.forces for a in AXES] + [a in pair.moments for a in AXES])
     exact = np.concatenate([f(joint, link, "joint")[k] for f in (r.reaction, r.reaction_moment)])
-    return Reaction(joint, r.least_norm(joint, link, "joint")[k], np.isfinite(exact), carried)
+    return ReactionInAxes(joint, r.least_norm(joint, link, "joint")[k], np.isfinite(exact), carried)
 
 
-def _friction(r: Result, joint: str, link: str, k: int, axes: list[Array]) -> Reaction:
+def _friction(r: Result, joint: str, link: str, k: int, axes: list[Array]) -> ReactionInAxes:
     """Friction's part of a reaction, in the joint's axes."""
     parts = [e @ v for e, v in zip(axes, friction_wrench(r, joint, link, k), strict=True)]
     numbers = np.nan_to_num(np.concatenate(parts))
     least = 1e-12 * max(float(np.abs(numbers).max()), 1e-300)
-    return Reaction(FRICTION, numbers, np.ones(6, bool), np.abs(numbers) > least)
+    return ReactionInAxes(FRICTION, numbers, np.ones(6, bool), np.abs(numbers) > least)
 
 
 def _sight(r: Result, link: str, k: int, camera: Camera) -> Sight:
@@ -110,14 +110,14 @@ def _sight(r: Result, link: str, k: int, camera: Camera) -> Sight:
     places += rims(r, link, k)
     if r.mechanism.mass(link):
         places.append(r.center(link)[k])
-    found = sight(camera, places, WIDTH, HEIGHT, unit_size(r, "length"))
+    view = sight(camera, places, WIDTH, HEIGHT, unit_size(r, "length"))
     if (
         len(places) == 1 or max(np.ptp(camera(np.array(places)), axis=0)) < 1e-9
     ):  # one place: as the whole machine
-        whole = r.compiled.layout.length
-        near = [places[0] + 0.25 * whole * e for e in (*np.eye(3), *-np.eye(3))]
-        found = sight(camera, near, WIDTH, HEIGHT, unit_size(r, "length"))
-    return found
+        length = r.compiled.layout.length
+        near = [places[0] + 0.25 * length * e for e in (*np.eye(3), *-np.eye(3))]
+        view = sight(camera, near, WIDTH, HEIGHT, unit_size(r, "length"))
+    return view
 
 
 def _components(arrows: Arrows, at: Point, link: str, name: str, axes: list[Array], numbers: Array) -> None:
@@ -126,12 +126,12 @@ def _components(arrows: Arrows, at: Point, link: str, name: str, axes: list[Arra
         part = numbers[3:] if turning else numbers[:3]
         for axis, value, e in zip(AXES, part, axes[turning], strict=True):
             if abs(float(value)) > arrows.floor[turning]:
-                whole = (arrows.shown.joint_moment if turning else arrows.shown.reaction)(name, link)
-                sign = along(whole, f"{axis}'")
+                letter = (arrows.shown.joint_moment if turning else arrows.shown.reaction)(name, link)
+                sign = along(letter, f"{axis}'")
                 arrows.vector(at, float(value) * e, "joint-force", name, sign, turning)
 
 
-def _describe_rows(rows: list[Reaction]) -> str:
+def _describe_rows(rows: list[ReactionInAxes]) -> str:
     free = [row.joint for row in rows if not row.unique[row.carried].all()]
     text = "Reactions on this link, along the axes x', y', z' of each joint"
     if any(row.joint == FRICTION for row in rows):
@@ -141,7 +141,7 @@ def _describe_rows(rows: list[Reaction]) -> str:
     return f"{text}." if rows else ""
 
 
-def _table(rows: list[Reaction], shown: Shown, floor: tuple[float, float], at: Point) -> list[Item]:
+def _table(rows: list[ReactionInAxes], shown: Shown, floor: tuple[float, float], at: Point) -> list[Item]:
     """Table of the reactions' components, one row per joint; components that a joint cannot carry have a dash."""
     units = [shown.unit("force")] * 3 + [shown.unit("moment")] * 3
     head = ["", *(f"{letter}_{{{axis}'}}" for letter in "FM" for axis in AXES)]
@@ -160,7 +160,7 @@ def _table(rows: list[Reaction], shown: Shown, floor: tuple[float, float], at: P
     return [*items, Line(((at[0], y), (at[0] + sum(widths), y)), "axis")]
 
 
-def _numbers(row: Reaction, shown: Shown, floor: tuple[float, float]) -> list[str]:
+def _numbers(row: ReactionInAxes, shown: Shown, floor: tuple[float, float]) -> list[str]:
     out = []
     for n, value in enumerate(map(float, row.numbers)):
         text = shown.number("force" if n < 3 else "moment", value, floor[n // 3])

@@ -55,10 +55,10 @@ def ends_on_paper(r: Result, joint: str) -> list[FaceForce]:
 
 
 def _flank(r: Result, joint: str) -> list[FaceForce]:
-    found, e = thread(r, joint), slide_on_paper(r, joint, 0)
-    up = np.array([-math.sin(found.climb), math.cos(found.climb)])
-    normal, friction = found.normal[:, None] * up, found.friction[:, None] * e
-    return [FaceForce("", 0 * normal, 0 * found.normal, normal, friction)]
+    screw, e = thread(r, joint), slide_on_paper(r, joint, 0)
+    up = np.array([-math.sin(screw.climb), math.cos(screw.climb)])
+    normal, friction = screw.normal[:, None] * up, screw.friction[:, None] * e
+    return [FaceForce("", 0 * normal, 0 * screw.normal, normal, friction)]
 
 
 def ends_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
@@ -80,11 +80,11 @@ def ends_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
 
 def _thread_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
     f: Any = getattr(r.mechanism.joints[joint], "friction", None)
-    found = thread(r, joint)
-    climb, write = abs(found.climb), shown.notation
-    slope = math.atan2(abs(found.friction[k]), abs(found.normal[k]))
+    screw = thread(r, joint)
+    climb, write = abs(screw.climb), shown.notation
+    slope = math.atan2(abs(screw.friction[k]), abs(screw.normal[k]))
     more = [f"flanks at {write.degrees(f.thread_angle)}°"] if f.thread_angle else []
-    more += ["the force across the axis"] if found.across[k] > 1e-9 * abs(found.normal[k]) else []
+    more += ["the force across the axis"] if screw.across[k] > 1e-9 * abs(screw.normal[k]) else []
     words = f"Mean radius {shown.text('length', float(f.radius))}, lead angle λ = {write.degrees(climb)}°"
     words += f"; with {' and '.join(more)} the angle of friction is {write.degrees(slope)}°" if more else ""
     locks = "more than λ, so the axial force alone cannot turn the thread"

@@ -49,7 +49,7 @@ def space_mechanism_scene(
     ``friction`` (if any) the friction circles, and journals and guides at a larger scale.
     """
     shown = Shown(r, notation or Notation(), k)
-    s = whole_sight(r, k, camera, WIDTH, HEIGHT)
+    s = full_sight(r, k, camera, WIDTH, HEIGHT)
     canvas = Canvas()
     draw_traces(canvas, r, s)
     draw_machine(canvas, r, k, s)
@@ -81,16 +81,16 @@ def rims(r: Result, link: str, k: int) -> list[Array]:
     """Places around the wheels of a link at a position, metres."""
     gears = [n for n, joint in r.mechanism.joints.items() if joint.wheels and link in joint.links]
     turn, origin = pose(r, link, k)
-    found = [wheel for name in gears for wheel in wheels(r, name) if wheel[0] == link]
+    discs = [wheel for name in gears for wheel in wheels(r, name) if wheel[0] == link]
     return [
         turn @ (at + radius * e) + origin
-        for _, at, axis, radius in found
+        for _, at, axis, radius in discs
         for v in across(axis)
         for e in (v, -v)
     ]
 
 
-def whole_sight(r: Result, k: int, camera: Camera, width: float, height: float) -> Sight:
+def full_sight(r: Result, k: int, camera: Camera, width: float, height: float) -> Sight:
     """A view for all positions if traces are drawn, else for this one."""
     places = every_place(r, k)
     if len(r.status) > 2:

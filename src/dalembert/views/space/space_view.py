@@ -13,7 +13,7 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.views.notation import Figures
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import Frame, fit_frame
+from dalembert.views.paper.frame import PaperFrame, fit_frame
 from dalembert.views.paper.scene import Arrow, Circle, Item, Line, Point
 from dalembert.views.space.camera import CAMERAS, ISOMETRIC, Camera
 from dalembert.views.space.link_solids import link_solids, pose
@@ -50,7 +50,7 @@ class Sight:
     """A camera with its scale."""
 
     camera: Camera
-    frame: Frame
+    frame: PaperFrame
 
     def __call__(self, p: Point | Array) -> Point:
         """A place of the machine (metres) on paper."""
@@ -77,12 +77,12 @@ def sight(camera: Camera, places: Iterable[Array], width: float, height: float, 
 
 def standing(r: Result, k: int, size: float, links: Iterable[str] | None = None) -> list[Solid]:
     """Solids of links, ground included, at a position, in ground axes and metres."""
-    found = link_solids(r, size)
+    solids = link_solids(r, size)
     out = []
-    for link in found if links is None else links:
+    for link in solids if links is None else links:
         turn, at = pose(r, link, k)
         if np.isfinite(turn).all():
-            out += [place_solid(s, turn, at) for s in found[link]]
+            out += [place_solid(s, turn, at) for s in solids[link]]
     return out
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.arrays import Array
 from dalembert.model import GROUND
-from dalembert.views.space.solids import Cylinder, Plate, Ring, Solid, circle
+from dalembert.views.space.solids import Plate, Ring, RoundBar, Solid, circle
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -36,17 +36,17 @@ def wheels(r: Result, name: str, size: float = 0.0) -> list[tuple[str, Array, Ar
 def wheel_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
     """Discs; a ring for the wheel around an internal one; a worm has a thread."""
     joint: Any = r.mechanism.joints[name]
-    found = wheels(r, name, size)
-    largest = max(radius for *_, radius in found)
+    discs = wheels(r, name, size)
+    largest = max(radius for *_, radius in discs)
     helix = float(getattr(joint, "helix_angle", 0.0) or 0.0)
     out: list[tuple[str, Solid]] = []
-    for n, (link, at, axis, radius) in enumerate(found):
+    for n, (link, at, axis, radius) in enumerate(discs):
         if joint.internal and radius == largest:
             out.append((link, Ring(at, axis, radius + 0.9 * size, 0.9 * size)))
             continue
         if abs(helix) > 0.8 and n == 0:
             half, lead = 2.0 * radius * axis, 2 * np.pi * radius / np.tan(helix)
-            out.append((link, Cylinder(at - half, at + half, radius, thread=lead)))
+            out.append((link, RoundBar(at - half, at + half, radius, thread=lead)))
             continue
         out.append((link, Plate(circle(at, axis, radius, 48)[:-1], 1.4 * size, spoke=True)))
     return out

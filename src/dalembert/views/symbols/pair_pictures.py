@@ -23,7 +23,7 @@ def pair_scene(kind: str, camera: Camera) -> Scene:
     """One joint: the part on i is blue, the part on j yellow; forces with one head, moments with two."""
     if kind not in PAIRS:
         raise ModelError(f"unknown joint {kind!r} in space", closest(kind, list(PAIRS)))
-    pair, found = PAIRS[kind], symbol(kind)
+    pair, drawn = PAIRS[kind], symbol(kind)
     canvas = Canvas()
     seen = dict(zip(AXES, camera(np.eye(3)), strict=True))
 
@@ -33,7 +33,7 @@ def pair_scene(kind: str, camera: Camera) -> Scene:
     for axis in AXES:
         if float(np.hypot(*seen[axis])) > 0.05:
             canvas.add(Line((at(axis, 0.0), at(axis, END)), "construction"))
-    solids = place_solids([*found.on_i, *found.on_j], np.eye(3), np.zeros(3), LARGER)
+    solids = place_solids([*drawn.on_i, *drawn.on_j], np.eye(3), np.zeros(3), LARGER)
     canvas.add(*paint(solids, camera))
     for axis in AXES:
         if float(np.hypot(*seen[axis])) <= 0.05:

@@ -99,10 +99,10 @@ def spring(a: Point, b: Point) -> list[Item]:
 def torsion_spring(at: Point) -> list[Item]:
     """A spiral about a joint, with a fixed outer end."""
     turns, least, most = 2.25, PIN + 0.5, 4.2
-    way = [k / 60 for k in range(61)]
+    fractions = [k / 60 for k in range(61)]
     spiral = [
         (at[0] + r * math.cos(t), at[1] + r * math.sin(t))
-        for r, t in ((least + (most - least) * f, 2 * math.pi * turns * f) for f in way)
+        for r, t in ((least + (most - least) * f, 2 * math.pi * turns * f) for f in fractions)
     ]
     return [Line((*spiral, (spiral[-1][0] + 1.6, spiral[-1][1])), "spring")]
 
@@ -134,8 +134,8 @@ def strip_spring(a: Point, b: Point, turns: float = 2.5) -> list[Item]:
     length = math.dist(a, b)
     angle = math.atan2(b[1] - a[1], b[0] - a[0])
     coil = min(1.8, 0.2 * length)
-    way = [k / 40 for k in range(41)]
-    spiral = [(coil * (0.3 + 0.7 * t), math.pi / 2 - 2 * math.pi * turns * (1 - t)) for t in way]
+    fractions = [k / 40 for k in range(41)]
+    spiral = [(coil * (0.3 + 0.7 * t), math.pi / 2 - 2 * math.pi * turns * (1 - t)) for t in fractions]
     strip = [(coil + s * math.cos(turn), -coil + s * math.sin(turn)) for s, turn in spiral]
     parts: list[list[Point]] = [[(0.0, 0.0), (coil, -coil)], [*strip, (length, 0.0)]]
     return [Line(_rotate(p, a, angle), "spring") for p in parts]

@@ -26,7 +26,8 @@ class Branch:
         """Above zero where a pose (L+1, ...) in nodes is on the first branch."""
         known = place_on_branch(Pose(*(part[None] for part in pose)), len(self.plus), self.a, self.b)[:, 0]
         off = [
-            sum((x - w) * (x - w) for x, w in zip(known, way, strict=True)) for way in (self.minus, self.plus)
+            sum((x - w) * (x - w) for x, w in zip(known, pose, strict=True))
+            for pose in (self.minus, self.plus)
         ]
         lead: Node = off[0] - off[1]
         return lead

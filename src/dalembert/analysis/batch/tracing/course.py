@@ -24,7 +24,7 @@ from dalembert.model import Mechanism, Schedule
 
 
 @dataclass(frozen=True)
-class Course:
+class PositionPath:
     """The mechanism with the file's numbers at a list of positions, followed when its motion is asked for.
 
     With the ``result`` of the general executor, which may be of another design, its motion is that.
@@ -36,7 +36,7 @@ class Course:
     target: Mapping[str, Array] | None = None
     """What each output is compared with (position, component)."""
 
-    def with_target(self, target: Mapping[str, Array]) -> Course:
+    def with_target(self, target: Mapping[str, Array]) -> PositionPath:
         """The same course, as far as it is followed."""
         found = copy(self)
         found.__dict__["target"] = target
@@ -122,14 +122,14 @@ class Course:
         """The mechanism with the whole turns of its torsion springs counted along its motion."""
         return self.followed.compiled if self.result is None else self.result.compiled
 
-    def at(self, positions: Array) -> Course:
+    def at(self, positions: Array) -> PositionPath:
         """Another list of positions, at the same speeds and accelerations."""
         count = len(positions)
         rates = [np.repeat(a[:1], count, axis=0) for a in (self.schedule.speed, self.schedule.acceleration)]
         schedule = replace(
             self.schedule, position=positions, speed=rates[0], acceleration=rates[1], time=None
         )
-        return Course(self.mechanism, schedule)
+        return PositionPath(self.mechanism, schedule)
 
 
 def contact_keys(c: Compiled) -> list[tuple[str, str]]:

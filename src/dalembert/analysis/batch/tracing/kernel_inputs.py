@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.batch.tracing.branches import Branch, place_on_branch
-from dalembert.analysis.batch.tracing.course import Course, contact_keys
+from dalembert.analysis.batch.tracing.course import PositionPath, contact_keys
 from dalembert.analysis.batch.tracing.traced_parameters import is_shifted, is_table, traced, varies
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.pose_loads import SPEED, TIME
@@ -30,19 +30,19 @@ class Inputs:
     """
 
     graph: Graph
-    course: Course
+    course: PositionPath
     followed: bool = False
     branches: list[Branch] = field(default_factory=list)
-    found: dict[Node, Callable[[Course], Numeric]] = field(default_factory=dict)
+    sources: dict[Node, Callable[[PositionPath], Numeric]] = field(default_factory=dict)
     named: dict[tuple[str, str], Node] = field(default_factory=dict)
     varying: Tree = field(default_factory=dict)
     motion: Drives = field(init=False)
 
-    def make(self, kind: str, name: str, value: Callable[[Course], Numeric]) -> Node:
+    def make(self, kind: str, name: str, value: Callable[[PositionPath], Numeric]) -> Node:
         """An input, made once."""
         if (kind, name) not in self.named:
             node = self.graph.input(kind, name, value(self.course))
-            self.named[kind, name], self.found[node] = node, value
+            self.named[kind, name], self.sources[node] = node, value
         return self.named[kind, name]
 
     def drives(self, symbolic: Mechanism, kind: str = "channel") -> Drives:
@@ -58,10 +58,10 @@ class Inputs:
                     self._derivative(kind, f, name, k, ufunc) if angular[k] else self.graph.zero
                 )
             for rate in ("speed", "acceleration"):
-                given = getattr(symbolic.drives[name], rate)
+                symbol = getattr(symbolic.drives[name], rate)
                 steady = np.ptp(getattr(self.course.schedule, rate)[:, k]) == 0
                 value = getattr(self.course.schedule, rate)[0, k]
-                node = given if isinstance(given, Node) else self.graph.constant(value) if steady else None
+                node = symbol if isinstance(symbol, Node) else self.graph.constant(value) if steady else None
                 columns[rate].append(self._drive(kind, name, rate, k) if node is None else node)
         found = Drives(*(np.array(column, object) for column in columns.values()))
         if kind == "channel":
@@ -92,8 +92,8 @@ class Inputs:
             self.varying[name] = varying
             return self.make("channel", name, partial(_constant, value=0.0))
         if varies(varying):
-            found: Node = traced(name, varying, self.graph, self.load)
-            return found
+            node: Node = traced(name, varying, self.graph, self.load)
+            return node
         self.varying[name] = varying
         return self.make(
             "channel",
@@ -135,7 +135,7 @@ class Inputs:
         return self.make("channel", "side", lambda c: np.ones(len(c.schedule.position)))
 
     def _by_contact(
-        self, c: Compiled, what: str, of: Callable[[Course], dict[tuple[str, str], Array]]
+        self, c: Compiled, what: str, of: Callable[[PositionPath], dict[tuple[str, str], Array]]
     ) -> Array:
         def one(key: tuple[str, str]) -> Node:
             name = " ".join((f"known {what}", *key))
@@ -146,22 +146,22 @@ class Inputs:
     def turns(self, c: Compiled) -> tuple[Compiled, dict[int, Node]]:
         """The mechanism with full turns of its torsion springs as inputs, and for each such turn, by freedom, how far
         it may differ from the known motion before the count changes."""
-        own, margins = c.forcing.resistances, {}
-        turns = np.array([self.graph.zero] * len(own.row), object)
+        resistances, margins = c.forcing.resistances, {}
+        turns = np.array([self.graph.zero] * len(resistances.row), object)
         for n in self.course.counted.counts:
             k = n.place
             turns[k] = self.make("channel", f"counted turns of {n.spring}", partial(_turns, place=k))
             margin = self.make("channel", f"counted margin of {n.spring}", partial(_margin, place=k))
-            margins[int(own.row[k])] = margin
-        forcing = replace(c.forcing, resistances=replace(own, turns=turns))
+            margins[int(resistances.row[k])] = margin
+        forcing = replace(c.forcing, resistances=replace(resistances, turns=turns))
         return replace(c, forcing=forcing), margins
 
     def whole_turns(self, c: Compiled, row: int) -> Numeric:
         """Value added to the measured value of a freedom, so that it is counted as in a result."""
-        own = c.forcing.resistances
+        resistances = c.forcing.resistances
         for n in self.course.counted.counts:
-            if own.row[n.place] == row:
-                counted: Scalar = own.turns[n.place]
+            if resistances.row[n.place] == row:
+                counted: Scalar = resistances.turns[n.place]
                 return counted
         name = "joints.{}.{}".format(*c.freedoms[row])
         if name in self.course.counted.pose_turns:
@@ -183,9 +183,9 @@ class Inputs:
         if not self.followed and ((signs >= 0).all() or (signs <= 0).all()):
             return 1.0 if signs.sum() >= 0 else -1.0
 
-        def along(c: Course) -> Array:
-            found = _carry_sign_forward(self._signs(c, kind, plus, minus, a, b))
-            return np.broadcast_to(found, (len(c.schedule.position),))
+        def along(c: PositionPath) -> Array:
+            signs = _carry_sign_forward(self._signs(c, kind, plus, minus, a, b))
+            return np.broadcast_to(signs, (len(c.schedule.position),))
 
         sign = self.make("channel", f"way {a} {b} {len(self.named)}", along)
         self.branches.append(Branch(sign, plus, minus, a, b))
@@ -200,57 +200,57 @@ class Inputs:
         return out
 
     def _signs(
-        self, c: Course, kind: str, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int
+        self, c: PositionPath, kind: str, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int
     ) -> Array:
-        values = {} if c is self.course else {n.index: f(c) for n, f in self.found.items()}
+        values = {} if c is self.course else {n.index: f(c) for n, f in self.sources.items()}
         nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
-        ways = np.array(np.broadcast_arrays(*self.graph.evaluate(nodes, values)))
+        both = np.array(np.broadcast_arrays(*self.graph.evaluate(nodes, values)))
         known = place_on_branch(c.pose, len(plus), a, b)
         if kind == "common":
             known = known[:, [c.first]]
-        off = [np.linalg.norm(way - known, axis=0) for way in np.split(ways.reshape(2 * len(plus), -1), 2)]
+        off = [np.linalg.norm(one - known, axis=0) for one in np.split(both.reshape(2 * len(plus), -1), 2)]
         gain = np.nan_to_num(off[1] - off[0])
         return np.where(np.abs(gain) > 1e-5 * np.nanmax(np.abs(known)), np.sign(gain), 0.0)
 
 
-def target_values(course: Course, output: str, component: int) -> Array:
+def target_values(course: PositionPath, output: str, component: int) -> Array:
     """Values (P,) that one component of an output is compared with."""
     if course.target is None:
         return np.zeros(len(course.schedule.position))
     return np.asarray(course.target[output][:, component])
 
 
-def _constant(course: Course, value: float) -> Array:
+def _constant(course: PositionPath, value: float) -> Array:
     """The same value at every position (P,)."""
     return np.full(len(course.schedule.position), value)
 
 
-def _turns(course: Course, place: int) -> Array:
+def _turns(course: PositionPath, place: int) -> Array:
     """Contribution of the full turns to the turn of a torsion spring (P,)."""
     c = course.counted
     turns = c.forcing.resistances.turns
     return turns[:, place] if turns.ndim > 1 else np.zeros(len(c.schedule.position))
 
 
-def _turns_off(course: Course, row: int) -> float:
+def _turns_off(course: PositionPath, row: int) -> float:
     """Whole turns by which a freedom is counted less than measured, so that it begins within half a turn of 0."""
     return turns_off(
         measure(course.compiled.layout.algebra, course.compiled.layout.freedoms, course.pose)[:, row]
     )
 
 
-def _pose_turns(course: Course, name: str) -> Array:
+def _pose_turns(course: PositionPath, name: str) -> Array:
     """Contribution of the full turns to an angle that a load depends on (P,)."""
     return course.counted.pose_turns.get(name, np.zeros(len(course.schedule.position)))
 
 
-def _margin(course: Course, place: int) -> Array:
+def _margin(course: PositionPath, place: int) -> Array:
     """Margin (P,) by which that turn may differ where it is counted; 0 where it was not."""
     c = course.counted
     return next((n.margin for n in c.counts if n.place == place), np.zeros(len(c.schedule.position)))
 
 
-def _one(kind: str, c: Course, column: Array) -> Numeric:
+def _one(kind: str, c: PositionPath, column: Array) -> Numeric:
     return column if kind == "channel" else column[c.first]
 
 
@@ -261,7 +261,7 @@ def _carry_sign_forward(signs: Array) -> Array:
     return np.where(places >= 0, signs[np.maximum(places, 0)], first)
 
 
-def _known_quantity(c: Course, what: str, which: int) -> Array:
+def _known_quantity(c: PositionPath, what: str, which: int) -> Array:
     """One quantity of the known motion (P,)."""
     if what.startswith("line"):
         angle = _line_angle(c, which)
@@ -282,7 +282,7 @@ def _known_quantity(c: Course, what: str, which: int) -> Array:
     return np.asarray(array[:, which, place])
 
 
-def _line_angle(c: Course, row: int) -> Array:
+def _line_angle(c: PositionPath, row: int) -> Array:
     """Angle of the line of centres of a mesh, full turns counted as the mesh counts them."""
     from dalembert.core.layout import Mesh
 

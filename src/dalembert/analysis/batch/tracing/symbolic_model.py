@@ -30,7 +30,7 @@ PLACING = ("period",)
 
 
 @dataclass(frozen=True)
-class Number:
+class VariedNumber:
     """One number of a description: its path and its value, SI."""
 
     path: str
@@ -43,9 +43,9 @@ class Number:
         return ["parameters", self.path] if self.parameter else self.path.split(".")
 
 
-def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
+def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[VariedNumber, ...]:
     """The numbers behind dotted paths, vectors as their components `.0`, `.1`, matrices `.0.1`."""
-    out: list[Number] = []
+    out: list[VariedNumber] = []
     for path in vary:
         name = parameter_name(path, m.parameters, m.keys())
         if name:
@@ -63,7 +63,7 @@ def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
     return tuple(out)
 
 
-def _parameter(m: Mechanism, name: str) -> Number:
+def _parameter(m: Mechanism, name: str) -> VariedNumber:
     """A parameter, if what follows from it may vary."""
     for path in reached(m, name):
         keys = path.split(".")
@@ -74,7 +74,7 @@ def _parameter(m: Mechanism, name: str) -> Number:
             what = f"{name!r} moves the points of the table {'.'.join(keys[:3])!r} along the motion"
             raise ModelError(f"{what}, and cannot vary", "leave it out, or write an expression", keys)
         _refuse_law(m, path)
-    return Number(name, float(m.parameters[name].value), parameter=True)
+    return VariedNumber(name, float(m.parameters[name].value), parameter=True)
 
 
 def may_vary(m: Mechanism, name: str) -> bool:
@@ -86,13 +86,13 @@ def may_vary(m: Mechanism, name: str) -> bool:
     return True
 
 
-def refuse_twofold(m: Mechanism, given: list[Number]) -> None:
+def refuse_twofold(m: Mechanism, varied: list[VariedNumber]) -> None:
     """Raise ModelError for a number that follows from a parameter given beside it."""
-    for parameter in (n for n in given if n.parameter):
+    for parameter in (n for n in varied if n.parameter):
         followers = set(reached(m, parameter.path))
-        for n in given:
-            own = m.parameters[n.path].value if n.parameter else None
-            if n.path in followers or parameter.path in ancestors(parameters_of(own), m.parameters):
+        for n in varied:
+            value = m.parameters[n.path].value if n.parameter else None
+            if n.path in followers or parameter.path in ancestors(parameters_of(value), m.parameters):
                 what = f"{n.path!r} follows from the parameter {parameter.path!r}, and both vary"
                 raise ModelError(what, "leave one of them out", n.keys)
 
@@ -109,7 +109,7 @@ def of_motion(path: str) -> bool:
     return keys[0] == "start" or keys[2:3] == ["motor"]
 
 
-def _numbers(path: str, value: object) -> list[Number]:
+def _numbers(path: str, value: object) -> list[VariedNumber]:
     keys = path.split(".")
     if keys[0] == "drives" and len(keys) > 2 and keys[2] in DRIVEN:
         raise ModelError(
@@ -130,11 +130,13 @@ def _numbers(path: str, value: object) -> list[Number]:
             f"{path!r} is {value!r}, not a number", "give it a number in the description first", keys
         )
     if isinstance(value, (int, float)):
-        return [Number(path, float(value))]
+        return [VariedNumber(path, float(value))]
     if isinstance(value, tuple) and all(isinstance(x, (int, float)) for x in value):
-        return [Number(f"{path}.{k}", float(x)) for k, x in enumerate(value)]
+        return [VariedNumber(f"{path}.{k}", float(x)) for k, x in enumerate(value)]
     if keys[-1] == "inertia" and isinstance(value, tuple):  # what stands twice varies once
-        return [Number(f"{path}.{i}.{j}", float(row[j])) for i, row in enumerate(value) for j in range(i, 3)]
+        return [
+            VariedNumber(f"{path}.{i}.{j}", float(row[j])) for i, row in enumerate(value) for j in range(i, 3)
+        ]
     raise ModelError(
         f"{path!r} is not a number", "name a number, or a vector of numbers, of the description", keys
     )
@@ -148,27 +150,29 @@ def _refuse_absent(m: Mechanism, path: str, keys: list[str]) -> None:
     """Say which key gives what a path asks for and does not have."""
     others = SAME.get(keys[-1], ()) if keys[0] == "links" and len(keys) == 3 else ()
     part = m.links[keys[1]] if others else None
-    given = next((o for o in others if getattr(part, "shapes" if o == "shape" else o) not in (None, ())), "")
-    there = ".".join([*keys[:-1], given])
-    what = f"{path!r} has no number: the file gives {there!r}" if given else f"{path!r} has no number"
-    remedy = {"": f"give {keys[-1]} a value in the model file first", "shape": f"vary a number below {there}"}
-    raise ModelError(what, remedy.get(given, f"vary {there}"), keys)
+    alternative = next(
+        (o for o in others if getattr(part, "shapes" if o == "shape" else o) not in (None, ())), ""
+    )
+    place = ".".join([*keys[:-1], alternative])
+    what = f"{path!r} has no number: the file gives {place!r}" if alternative else f"{path!r} has no number"
+    remedy = {"": f"give {keys[-1]} a value in the model file first", "shape": f"vary a number below {place}"}
+    raise ModelError(what, remedy.get(alternative, f"vary {place}"), keys)
 
 
 ANY = 1.25
 """Value that is not the default of any key: a file leaves out defaults."""
 
 
-def number_kinds(m: Mechanism, numbers: Sequence[Number]) -> tuple[str, ...]:
+def number_kinds(m: Mechanism, numbers: Sequence[VariedNumber]) -> tuple[str, ...]:
     """Kind of each number, from `units.KINDS`: by the unit that a saved file writes for it."""
-    found = [n for n in numbers if not n.parameter]
-    tree = with_numbers(m, found, [ANY] * len(found)).to_tree() if found else {}
+    written = [n for n in numbers if not n.parameter]
+    tree = with_numbers(m, written, [ANY] * len(written)).to_tree() if written else {}
     return tuple(
         _kind(tree, n) if not n.parameter else m.parameters[n.path].kind or "number" for n in numbers
     )
 
 
-def _kind(tree: object, number: Number) -> str:
+def _kind(tree: object, number: VariedNumber) -> str:
     for key in number.keys:
         tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
     unit = tree.partition(" ")[2] if isinstance(tree, str) else ""
@@ -177,13 +181,13 @@ def _kind(tree: object, number: Number) -> str:
 
 def geometric(m: Mechanism, path: str) -> bool:
     """True if the number at a path, or a value that depends on a parameter, places joints."""
-    return any(_places_joints(found.split(".")) for found in reached(m, path))
+    return any(_places_joints(place.split(".")) for place in reached(m, path))
 
 
 def chooses_motion(m: Mechanism, path: str, flips: bool) -> bool:
     """True if a number decides which motion a design has: through `assembly`, with change points through the geometry
     too."""
-    assembly = any(found.startswith("assembly.") for found in reached(m, path))
+    assembly = any(place.startswith("assembly.") for place in reached(m, path))
     return assembly or (flips and geometric(m, path))
 
 
@@ -193,20 +197,20 @@ def _places_joints(keys: list[str]) -> bool:
 
 
 def with_numbers(
-    m: Mechanism, where: Iterable[Number], values: Iterable[Scalar], symbols: Functions | None = None
+    m: Mechanism, where: Iterable[VariedNumber], values: Iterable[Scalar], symbols: Functions | None = None
 ) -> Mechanism:
     """The description with other numbers, or symbols, in their places; not checked again.
 
     symbols: the functions of expressions for symbols, where the values are such.
     """
-    given = list(zip(where, values, strict=True))
-    changed = {number.path: value for number, value in given if number.parameter}
+    pairs = list(zip(where, values, strict=True))
+    changed = {number.path: value for number, value in pairs if number.parameter}
     if changed:
         new = values_of(m.parameters, changed, symbols)
         m = with_dependents(m, lambda leaf: with_new(leaf, new, symbols), None)
         parameters = {name: replace(p, value=new[name]) for name, p in m.parameters.items()}
         m = m.model_copy(update={"parameters": parameters})
-    for number, value in given:
+    for number, value in pairs:
         if not number.parameter:
             m = set_value(m, number.keys, value)
     return m
@@ -228,7 +232,7 @@ class SymbolicForce:
         return self.components
 
 
-def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Channel) -> Mechanism:
+def symbolic(m: Mechanism, where: tuple[VariedNumber, ...], graph: Graph, channel: Channel) -> Mechanism:
     """The description on symbols; ``channel(name, varying)`` gives the input of a load that changes with the drives."""
     nodes = [graph.input("number", n.path, n.value) for n in where]
     try:
@@ -269,12 +273,12 @@ def _load(name: str, load: Any, channel: Channel) -> object:
     return SymbolicForce(load.on, load.at, load.axes, components, load.unknown, load.by)
 
 
-def _direction(given: Scalar | Vector) -> tuple[Scalar, ...]:
-    if isinstance(given, Node):
-        return given.cos(), given.sin()
-    if isinstance(given, tuple):
-        return unit(given)
-    return unit_vector(given)
+def _direction(value: Scalar | Vector) -> tuple[Scalar, ...]:
+    if isinstance(value, Node):
+        return value.cos(), value.sin()
+    if isinstance(value, tuple):
+        return unit(value)
+    return unit_vector(value)
 
 
 def functions(graph: Graph) -> Tree:

@@ -7,10 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dalembert.analysis.batch.tracing.course import Course
+from dalembert.analysis.batch.tracing.course import PositionPath
 from dalembert.analysis.batch.tracing.kernel_inputs import Inputs
 from dalembert.analysis.batch.tracing.outputs import Catalogue
-from dalembert.analysis.batch.tracing.symbolic_model import Number, functions, geometric, numbers, symbolic
+from dalembert.analysis.batch.tracing.symbolic_model import (
+    VariedNumber,
+    functions,
+    geometric,
+    numbers,
+    symbolic,
+)
 from dalembert.analysis.batch.tracing.traced_parameters import is_table
 from dalembert.analysis.batch.tracing.traced_tables import margins
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
@@ -30,7 +36,7 @@ from dalembert.core.layout import Gearing, Idle, Layout, Pose
 from dalembert.core.linear import PseudoInverse
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, node, trace_array
-from dalembert.kernel.trace import Problem, Traced, trace
+from dalembert.kernel.trace import Traced, TracedProblem, trace
 from dalembert.model import Mechanism, Schedule
 
 
@@ -38,9 +44,9 @@ from dalembert.model import Mechanism, Schedule
 class Trace:
     """A traced analysis with the inputs it was traced on."""
 
-    course: Course
+    course: PositionPath
     inputs: Inputs
-    numbers: tuple[Number, ...]
+    numbers: tuple[VariedNumber, ...]
     catalogue: Catalogue
     inertia: bool
     redundant: bool = False
@@ -73,7 +79,7 @@ def trace_analysis(
     moves: bool = False,
     sided: bool = False,
     redundant: bool = False,
-    whole: bool = False,
+    unsplit: bool = False,
     functions_of: Callable[[Graph], Tree] = functions,
     followed: bool = False,
 ) -> Trace:
@@ -82,7 +88,7 @@ def trace_analysis(
     With the general executor's answer for the numbers of the file, ``solved``: starts from a known solution.
     ``moves``: the drives continue from the known motion, which is that of the previous state. ``sided``: with the side
     of reversals as an input. ``redundant``: constraints may repeat each other; reactions that are not unique are then
-    one choice of many; ``whole``: links placed by these are solved with all constraints at once. ``functions_of`` a
+    one choice of many; ``unsplit``: links placed by these are solved with all constraints at once. ``functions_of`` a
     graph: those of loads by the pose. ``followed``: branches of closed forms and phases of wheels are inputs, as the
     motion is followed where the program runs.
     """
@@ -91,7 +97,7 @@ def trace_analysis(
         raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
     if moves:  # time is an input of every state
         schedule = replace(schedule, time=np.zeros(schedule.count))
-    course = Course(m, schedule, solved)
+    course = PositionPath(m, schedule, solved)
     check_knowns(course.compiled)
     repeated = _check(course, redundant)
     where = numbers(m, vary)
@@ -104,7 +110,7 @@ def trace_analysis(
     drives = inputs.drives(description)
     like, phased = course.followed.compiled, followed and m.dimension == 2
     c, margins = inputs.turns(compile_mechanism(description, _symbolic(schedule, drives.position), like=like))
-    problem = Problem(
+    problem = TracedProblem(
         graph=graph,
         layout=with_meshes(c.layout, like.layout),
         forcing=c.forcing,
@@ -128,7 +134,7 @@ def trace_analysis(
         moves=moves,
         side=inputs.side() if sided else None,
         redundant=repeated,
-        whole=whole and repeated,
+        unsplit=unsplit and repeated,
         phased=phased,
     )
     motion = drives.position, drives.speed, drives.acceleration
@@ -185,11 +191,11 @@ def _note_table_ends(inputs: Inputs) -> None:
 
 
 def _substituted(graph: Graph, array: Array, places: dict[int, Node]) -> Array:
-    found = graph.substitute(list(trace_array(graph, array).ravel()), places)
-    return np.array(list(found), object).reshape(array.shape)
+    nodes = graph.substitute(list(trace_array(graph, array).ravel()), places)
+    return np.array(list(nodes), object).reshape(array.shape)
 
 
-def _check(course: Course, redundant: bool) -> bool:
+def _check(course: PositionPath, redundant: bool) -> bool:
     """True if constraints are redundant."""
     followed = course.followed
     if followed.path is None:
@@ -211,7 +217,7 @@ def _check(course: Course, redundant: bool) -> bool:
     return repeated
 
 
-def _refuse_friction(course: Course) -> None:
+def _refuse_friction(course: PositionPath) -> None:
     """Raise ModelError where friction follows a reaction that is not unique."""
     c = course.followed.compiled
     assert c.contacts is not None
@@ -230,7 +236,7 @@ def _refuse_friction(course: Course) -> None:
         )
 
 
-def _check_space(c: Compiled, moved: list[Number]) -> None:
+def _check_space(c: Compiled, moved: list[VariedNumber]) -> None:
     """Refuses cases in space that are not compiled."""
     links = dict(enumerate(c.links))
     for f in c.contacts.rows.families if c.contacts is not None else ():
@@ -275,7 +281,7 @@ def _targets(symbolic: Array, known: Array, layout: Layout, inputs: Inputs | Non
     return out
 
 
-def _run(problem: Problem) -> Traced:
+def _run(problem: TracedProblem) -> Traced:
     try:
         return trace(problem)
     except ZeroDivisionError:  # by constants: what varies is a symbol

@@ -17,7 +17,7 @@ from dalembert.model.quantities.expression_trees import (
     names_in,
     numpy_functions,
 )
-from dalembert.model.quantities.expression_trees import Name as Variable
+from dalembert.model.quantities.expression_trees import NameNode as Variable
 from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.tables import Table
 from dalembert.unit_names import unit
@@ -81,22 +81,22 @@ def traced(name: str, value: Expression | Table, graph: Graph, channel: Channel)
     """The value along the motion of what follows from a parameter that varies, from inputs of the parts that do not."""
     if isinstance(value, Table):
         return _table(name, value, channel)
-    given = dict(value.parameters or ())
+    inputs = dict(value.parameters or ())
     scale, known = unit(value.unit) if value.unit else None, symbol_functions(graph)
 
     def part(tree: Tree) -> Numeric:
         names = names_in(tree)
-        if isinstance(tree, Variable) and tree.name in given:
-            return given[tree.name]
-        if any(isinstance(given.get(n), Node) for n in names):
+        if isinstance(tree, Variable) and tree.name in inputs:
+            return inputs[tree.name]
+        if any(isinstance(inputs.get(n), Node) for n in names):
             assert isinstance(tree, Apply)
             return apply_function(tree.function, [part(argument) for argument in tree.arguments], known)
         text = expression_text(tree)
-        own = Expression(text, "", tuple((n, v) for n, v in given.items() if n in names))
-        return channel(f"{name} {text}", own) if own.names else float(own.at({}))
+        expression = Expression(text, "", tuple((n, v) for n, v in inputs.items() if n in names))
+        return channel(f"{name} {text}", expression) if expression.names else float(expression.at({}))
 
-    found = part(value.tree)
-    return found if scale is None else scale.si(found)
+    result = part(value.tree)
+    return result if scale is None else scale.si(result)
 
 
 def _table(name: str, table: Table, channel: Channel) -> Numeric:

@@ -33,7 +33,7 @@ from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.answer.column import UnitChoice
 from dalembert.arrays import Array
 from dalembert.errors import SOLVED
-from dalembert.printing import Part, Table, number, remainder, round_components, with_unit, wrap
+from dalembert.printing import Part, TextTable, number, remainder, round_components, with_unit, wrap
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -104,7 +104,7 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
         yield from [_link_table(result, to)] if in_plane(result) else space_link_tables(result, to)
 
 
-def _drive_table(result: Result, to: Printed) -> Table:
+def _drive_table(result: Result, to: Printed) -> TextTable:
     rows = []
     for drive in result.drives:
         kinds = drive_kinds(result, drive)
@@ -128,20 +128,20 @@ def _drive_table(result: Result, to: Printed) -> Table:
         *([] if motion_only(result) else ["effort"]),
         *(["stability"] if result.stability else []),
     ]
-    return Table(heads, rows, 1)
+    return TextTable(heads, rows, 1)
 
 
-def _load_table(result: Result, to: Printed) -> Table:
+def _load_table(result: Result, to: Printed) -> TextTable:
     def value(name: str) -> str:
-        if there := open_text(result, name, to):
-            return there
+        if text := open_text(result, name, to):
+            return text
         kind = load_kind(result, name)
         return with_unit(
             float(to(kind, significant(result, kind, result.unknown_load(name)[0]))), to.text(kind)
         )
 
     rows = [[name, value(name)] for name in result.unknown_loads]
-    return Table(["unknown load", "value"], rows)
+    return TextTable(["unknown load", "value"], rows)
 
 
 def _ends(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
@@ -177,9 +177,9 @@ def _reaction_tables(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
             least.append([r.joint, r.by, r.on, *_wrench(r.least_norm[0, :2], r.least_norm[0, 2], to)])
     where = "ground axes" if axes == "ground" else "the axes of link j"
     note = f"F_ij is the force by link i on link j, in {where}; moments about j's point of the joint."
-    yield Table(heads, rows, 3, wrap(note))
+    yield TextTable(heads, rows, 3, wrap(note))
     if least:
-        yield from (NOT_UNIQUE, Table(heads, least, 3))
+        yield from (NOT_UNIQUE, TextTable(heads, least, 3))
 
 
 def _wrench(force: Array, moment: float, to: Printed) -> list[str]:
@@ -194,7 +194,7 @@ def _largest(values: Array) -> float:
     return float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
 
 
-def _link_table(result: Result, to: Printed) -> Table:
+def _link_table(result: Result, to: Printed) -> TextTable:
     def of_all(question: Callable[[str], Array]) -> Array:
         return np.array([np.atleast_1d(question(link)[0]) for link in result.links])
 
@@ -211,7 +211,7 @@ def _link_table(result: Result, to: Printed) -> Table:
         size = 1.0 if kind == "angle" else _largest(values)
         for row, vector in zip(cells, values, strict=True):
             row += [number(float(v), 5) for v in to(kind, np.array(round_components(vector, size)))]
-    return Table(heads, cells, 1)
+    return TextTable(heads, cells, 1)
 
 
 # what did not work, and how far the rest can be trusted
@@ -221,8 +221,8 @@ def problems_text(result: Result, to: Printed) -> str:
     """Runs of positions that are not ok, with their sentence."""
     lines = []
     for which, status, sentence in result.problems():
-        said = any(f"{text} {d}" in sentence for d in result.drives for text in ("of", "at"))
-        at = "" if said else _range(result, to, which)
+        stated = any(f"{text} {d}" in sentence for d in result.drives for text in ("of", "at"))
+        at = "" if stated else _range(result, to, which)
         place = "" if len(result.status) == 1 else f" position{'s' if '-' in which else ''} {which}{at}:"
         lines.append(wrap(f"{status}:{place} {sentence}", "  "))
     return "\n".join(lines)
@@ -252,23 +252,23 @@ def _count(result: Result) -> str:
     if solved == many:
         return f"{solved} of {many} positions solved"
     answered = np.isfinite(result.power_balance) | np.isfinite(result.effort_array).any(axis=-1)
-    said = [
+    outcomes = [
         NOT_IN_FULL[s] if s in NOT_IN_FULL and (known or s == "at_rest") else "without an answer"
         for s, known in zip(result.status, answered, strict=True)
         if s not in SOLVED
     ]
-    others = "; ".join(f"{said.count(words)} {words}" for words in dict.fromkeys(said))
+    others = "; ".join(f"{outcomes.count(words)} {words}" for words in dict.fromkeys(outcomes))
     return f"{solved} of {many} positions solved in full; {others}"
 
 
 def checks_text(result: Result) -> str:
     """Number of solved positions, and their worst residual and power balance."""
-    found = [
+    checks = [
         (n, v[np.isfinite(v)])
         for n, v in (("residual", result.residual), ("power balance", result.power_balance))
     ]
     shown = ", ".join(
-        f"{name} {remainder(float(np.abs(values).max()), 1)}" for name, values in found if values.size
+        f"{name} {remainder(float(np.abs(values).max()), 1)}" for name, values in checks if values.size
     )
     count = _count(result)
     between = "; " if ";" in count else ", "

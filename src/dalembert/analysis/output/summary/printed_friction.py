@@ -12,7 +12,7 @@ from dalembert.analysis.output.columns import friction_joints
 from dalembert.analysis.output.summary.printed_units import Printed, significant
 from dalembert.analysis.result.number_kinds import unknown_kinds
 from dalembert.answer.column import Scale
-from dalembert.printing import Part, Table, number, with_unit
+from dalembert.printing import Part, TextTable, number, with_unit
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -70,10 +70,10 @@ def efficiency_note(result: Result) -> str:
 
     if not (result.schedule.speed != 0).any():
         return ""
-    found = efficiency(result)
+    shares = efficiency(result)
     senses = (
-        (found.forward[0], f"drive moves the load{found.driven(0)}"),
-        (found.reverse[0], f"load moves the drive{found.held(0)}"),
+        (shares.forward[0], f"drive moves the load{shares.driven(0)}"),
+        (shares.reverse[0], f"load moves the drive{shares.held(0)}"),
     )
     parts = [
         f"{number(100 * float(value), 4)} % where the {words}"
@@ -89,22 +89,22 @@ def cycle_table(result: Result, to: Printed) -> Part:
 
     if result.friction is None or not (result.schedule.speed != 0).any():
         return ""
-    found = efficiency(result)
-    if not np.isfinite(found.cycle):
+    values = efficiency(result)
+    if not np.isfinite(values.cycle):
         return ""
     unit = to("moment", 1.0)
     rows = [
-        [joint, number(share * found.put_in * unit), f"{number(100 * share, 4)} %"]
-        for joint, share in found.share.items()
+        [joint, number(share * values.put_in * unit), f"{number(100 * share, 4)} %"]
+        for joint, share in values.share.items()
         if joint in friction_joints(result)
     ]
     heads = ["friction over\nthe positions", f"work lost\n{to.text('moment')}", "of the work\nput in"]
-    cycle = 0.0 if abs(found.cycle) < NOTHING else 100 * found.cycle
+    cycle = 0.0 if abs(values.cycle) < NOTHING else 100 * values.cycle
     words = f"Efficiency over the positions, inertia and all: {number(cycle, 4)} %."
-    return Table(heads, rows, 1, words)
+    return TextTable(heads, rows, 1, words)
 
 
-def friction_table(result: Result, to: Printed) -> Table:
+def friction_table(result: Result, to: Printed) -> TextTable:
     """Friction force, couple and lost power of each joint at the first position, and how guides bear."""
     heads = ["friction", "on j", f"force\n{to.text('force')}", f"couple\n{to.text('moment')}"]
     heads += [f"power lost\n{to.text('power')}", "law"]
@@ -118,7 +118,7 @@ def friction_table(result: Result, to: Printed) -> Table:
         bears = guide_contact(result, joint).mode[0] if bears_on_faces(result, joint) else ""
         law = ", ".join(part for part in (friction_text(result, joint, to), bears) if part)
         rows.append([joint, part.links[1], number(force), number(couple), number(lost), law])
-    return Table(heads, rows, 2)
+    return TextTable(heads, rows, 2)
 
 
 def friction_text(result: Result, joint: str, to: Scale) -> str:

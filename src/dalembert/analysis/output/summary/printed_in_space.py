@@ -11,10 +11,10 @@ import numpy as np
 from dalembert.algebra.space import angle_and_axis
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.arrays import Array
-from dalembert.printing import Part, Table, number, round_components, wrap
+from dalembert.printing import Part, TextTable, number, round_components, wrap
 
 if TYPE_CHECKING:
-    from dalembert.analysis.output.columns import Reaction
+    from dalembert.analysis.output.columns import JointReaction
     from dalembert.analysis.result.reaction_axes import Axes
     from dalembert.analysis.result.result import Result
 
@@ -27,7 +27,7 @@ AXES: dict[Axes, str] = {
 }
 
 
-def space_reaction_tables(reactions: Sequence[Reaction], to: Printed, axes: Axes) -> Iterator[Part]:
+def space_reaction_tables(reactions: Sequence[JointReaction], to: Printed, axes: Axes) -> Iterator[Part]:
     """Forces, then moments, of reactions at one position (3,); what is not unique also with the least norm."""
     note = f"F_ij and M_ij are by link i on link j, in {AXES[axes]}; moments about j's point of the joint."
     yield from _tables(reactions, to, wrap(note))
@@ -41,14 +41,14 @@ def space_reaction_tables(reactions: Sequence[Reaction], to: Printed, axes: Axes
         yield from _tables(least, to)
 
 
-def _tables(reactions: Sequence[Reaction], to: Printed, note: str = "") -> Iterator[Table]:
+def _tables(reactions: Sequence[JointReaction], to: Printed, note: str = "") -> Iterator[TextTable]:
     for letter, kind in (("F", "force"), ("M", "moment")):
         heads = [
             f"{head}\n{to.text(kind)}"
             for head in (*(f"{letter}_ij {axis}" for axis in "xyz"), f"|{letter}_ij|")
         ]
         rows = [[r.joint, r.by, r.on, *_components_and_size(to(kind, getattr(r, kind)))] for r in reactions]
-        yield Table(["joint", "by i", "on j", *heads], rows, 3, note if kind == "moment" else "")
+        yield TextTable(["joint", "by i", "on j", *heads], rows, 3, note if kind == "moment" else "")
 
 
 def _components_and_size(vector: Array) -> list[str]:
@@ -57,7 +57,7 @@ def _components_and_size(vector: Array) -> list[str]:
     return [number(v) for v in (*components, math.hypot(*components))]
 
 
-def space_link_tables(result: Result, to: Printed) -> Iterator[Table]:
+def space_link_tables(result: Result, to: Printed) -> Iterator[TextTable]:
     """Orientation of every link, position of its mass centre, and their rates, at the first position."""
     turned = [f"turned\n{to.text('angle')}", "about x", "y", "z", *_heads("center", to.text("length"))]
     rates = (("speed", "angular_speed"), ("acceler.", "angular_acceleration"))
@@ -84,7 +84,7 @@ def space_link_tables(result: Result, to: Printed) -> Iterator[Table]:
     heads = (turned, turning, _heads("acc. of center", to.text("acceleration")))
     note = wrap("Links are turned from ground's axes about the axis shown; vectors are in ground axes.")
     for head, cells, under in zip(heads, rows, ("", "", note), strict=True):
-        yield Table(["link", *head], cells, 1, under)
+        yield TextTable(["link", *head], cells, 1, under)
 
 
 def _heads(name: str, unit: str) -> list[str]:

@@ -18,7 +18,7 @@ from dalembert.analysis.output.summary.printed_units import (
 from dalembert.analysis.result.number_kinds import drive_kinds, in_plane, load_kind
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
-from dalembert.printing import Part, Table, number
+from dalembert.printing import Part, TextTable, number
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -54,7 +54,7 @@ def position_tables(result: Result, to: Printed, axes: Axes, every: bool, more: 
             rows.append(["", "after", *stability, *[""] * len(result.drives), *behind])
     first = ["no.", *(["status"] if marked else []), *(["stability"] if result.stability else [])]
     drives = len(result.drives)
-    yield Table([*first, *heads], rows, len(first) + drives)
+    yield TextTable([*first, *heads], rows, len(first) + drives)
     if len(shown) < count:
         yield f"{len(shown)} of {count} positions are shown; {more}."
     if any(r.least_norm is not None and np.isfinite(r.least_norm).any() for r in reactions(result, axes)):
@@ -144,7 +144,7 @@ def _peak_table(result: Result, to: Printed, axes: Axes) -> Part:
         rows.append([e.name, e.unit, *largest, number(e.smallest), _place_text(result, to, e.least)])
     marked = any("*" in cell for row in rows for cell in row[3::2])
     heads = ["over the positions", "unit", "largest", "at", "smallest", "at"]
-    return Table(heads, rows, 2, "* one side of a reversal" if marked else "") if rows else ""
+    return TextTable(heads, rows, 2, "* one side of a reversal" if marked else "") if rows else ""
 
 
 def _place_text(result: Result, to: Printed, position: int) -> str:

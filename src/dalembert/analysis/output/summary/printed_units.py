@@ -34,12 +34,12 @@ class Printed(Scale):
         self.powers = powers or {}
 
     def text(self, kind: str) -> str:
-        own = super().text(kind) if self.bare(kind) else RADIANS[kind]
-        return unit_with_power(own, self.powers.get(kind, 0))
+        unit = super().text(kind) if self.bare(kind) else RADIANS[kind]
+        return unit_with_power(unit, self.powers.get(kind, 0))
 
     def __call__(self, kind: str, values: Numeric) -> Numeric:
-        own = super().__call__(kind, values) if self.bare(kind) else values
-        return own / 10.0 ** self.powers[kind] if kind in self.powers else own
+        converted = super().__call__(kind, values) if self.bare(kind) else values
+        return converted / 10.0 ** self.powers[kind] if kind in self.powers else converted
 
     def number(self, kind: str, value: float) -> str:
         """One number in its unit, as text."""
@@ -126,10 +126,10 @@ def _extents(result: Result) -> Tree:
         "angular_speed": (r.twist_array[..., d:],),
         "angular_acceleration": (r.acceleration_array[..., d:],),
     }
-    found = {kind: largest(1, *(a.reshape(1, -1) for a in some)) for kind, some in arrays.items()}
-    force = max(float(found["force"][0]), float(found["moment"][0]) / r.compiled.layout.length)
+    extents = {kind: largest(1, *(a.reshape(1, -1) for a in some)) for kind, some in arrays.items()}
+    force = max(float(extents["force"][0]), float(extents["moment"][0]) / r.compiled.layout.length)
     noise = {"force": PART * force, "moment": PART * force * r.compiled.layout.length}
-    return {kind: np.where(size > noise.get(kind, 0.0), size, 0.0) for kind, size in found.items()}
+    return {kind: np.where(size > noise.get(kind, 0.0), size, 0.0) for kind, size in extents.items()}
 
 
 def _smallest(result: Result) -> float:

@@ -116,7 +116,7 @@ def _arccosine(f: Function, x: bytes) -> bytes:
 
 def _exponential(f: Function, x: bytes) -> bytes:
     """2^n exp(r), the power of two in two factors so that the ends of the range are reached."""
-    given, x = x, f.keep(f.number(-746.0) + f.keep(f.number(710.0) + x + PMIN) + PMAX)
+    argument, x = x, f.keep(f.number(-746.0) + f.keep(f.number(710.0) + x + PMIN) + PMAX)
     n = f.keep(x + f.number(1 / math.log(2)) + MUL + NEAREST)
     r = f.keep(x + n + f.number(LN2_HIGH) + MUL + SUB + n + f.number(LN2_LOW) + MUL + SUB)
     z = f.keep(r + r + MUL)
@@ -129,7 +129,7 @@ def _exponential(f: Function, x: bytes) -> bytes:
         return k + f.number(WHOLE + 1023) + ADD + integer(52) + SHIFT_LEFT
 
     value += power(half) + MUL + power(rest) + MUL
-    return f.choose(given + given + EQUAL, value, given)
+    return f.choose(argument + argument + EQUAL, value, argument)
 
 
 def _logarithm(f: Function, x: bytes) -> bytes:

@@ -93,8 +93,8 @@ class Module:
         p = self.program
         parts = {n.index: k for k, part in enumerate((p.design, p.position, p.seldom, p.rare)) for n in part}
         uses = Counter(x.index for n in p.order for x in (n.a, n.b) if x is not None)
-        wanted = {n.index for n in (*p.outputs, *p.marks.always)}
-        uses.update(n.index for n in (*p.outputs, *p.marks.always, *p.marks.seldom, *p.marks.jam))
+        wanted = {n.index for n in (*p.outputs, *p.flags.always)}
+        uses.update(n.index for n in (*p.outputs, *p.flags.always, *p.flags.seldom, *p.flags.jam))
         kept = {index for index, count in uses.items() if count > 1}
         for n in p.order:
             kept |= {
@@ -120,27 +120,27 @@ class Module:
         tests = [self.values[n.index] + zero + (LESS if numbers else AT_LEAST + NOT) for n in nodes]
         return b"".join(tests) + OR * (len(tests) - 1) if tests else zero
 
-    def marks(self) -> bytes:
+    def flags(self) -> bytes:
         """The status code of each lane."""
-        f, m = self.run, self.program.marks
-        found = {"open": self.below(m.open), "rest": f.keep(self.below(m.rest))}
-        found |= {"outside": self.below(m.outside), "slope": self.below(m.slope, False)}
+        f, m = self.run, self.program.flags
+        lanes = {"open": self.below(m.open), "rest": f.keep(self.below(m.rest))}
+        lanes |= {"outside": self.below(m.outside), "slope": self.below(m.slope, False)}
         slips, locked = self.below(m.slips, False), f.keep(self.below(m.turned))
         if m.seldom:
-            slips, found["jam"], locked = self._seldom(f.keep(slips), locked, found["rest"])
+            slips, lanes["jam"], locked = self._seldom(f.keep(slips), locked, lanes["rest"])
         for certain in ("rest", "jam"):
-            if getattr(m, certain) and certain in found:
-                slips = slips + found[certain] + AND_NOT
-        found.setdefault("jam", f.number(0.0))
-        found |= {"doubt": self.below(m.doubt, False) + slips + OR, "locked": locked}
+            if getattr(m, certain) and certain in lanes:
+                slips = slips + lanes[certain] + AND_NOT
+        lanes.setdefault("jam", f.number(0.0))
+        lanes |= {"doubt": self.below(m.doubt, False) + slips + OR, "locked": locked}
         code = f.number(0.0)
         for name in reversed(m.names):
-            code = f.choose(found[name], f.number(float(CODES[name])), code)
+            code = f.choose(lanes[name], f.number(float(CODES[name])), code)
         return code
 
     def _seldom(self, slips: bytes, turned: bytes, rest: bytes) -> tuple[bytes, bytes, bytes]:
         """Lanes in doubt, jammed and self-locking; rarely needed flags are skipped where no lane needs them."""
-        f, m = self.run, self.program.marks
+        f, m = self.run, self.program.flags
         unsure = f.keep(self.below(m.unsure, False))
         asking = unsure + turned + OR if m.locked else unsure
         jam, more = f.keep(f.number(0.0)), f.keep(f.number(0.0))
@@ -172,8 +172,8 @@ class Module:
         self.compute(p.position)
         for k, n in enumerate(p.outputs):
             f.put(get(out), self.values[n.index], store(8 * self.row * k))
-        marks = self.marks()
-        f.put(get(out), marks, store(8 * self.row * len(p.outputs)))
+        flags = self.flags()
+        f.put(get(out), flags, store(8 * self.row * len(p.outputs)))
         for at in (path, out):
             f.put(get(at), integer(8 * LANES), ADD_INTEGERS, put(at))
         f.put(get(blocks), integer(1), SUB_INTEGERS, b"\x22", unsigned(blocks), REPEAT_IF, END)

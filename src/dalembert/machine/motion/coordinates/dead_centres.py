@@ -14,7 +14,7 @@ from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.coordinates.leading_freedoms import (
     PIVOT,
     best_freedoms,
-    can_be_led,
+    can_change_lead,
     unit_motions,
 )
 from dalembert.machine.motion.stops.impacts import StopState
@@ -34,7 +34,7 @@ class LeadState(StopState):
         super().__init__(m, actuation)
         self.rows: list[tuple[float, Array, Array, Array, Array, Array, Array, Array]] = []
         self.watch, self.lightest, self.turned_over = WATCHED, np.inf, False
-        self.may_turn_over = self.equation.dry is None and can_be_led(m, actuation)
+        self.may_turn_over = self.equation.dry is None and can_change_lead(m, actuation)
 
     @abstractmethod
     def keep_samples(self) -> None:
@@ -57,10 +57,10 @@ class LeadState(StopState):
         self.watch = least / 2 if looks else min(WATCHED, max(self.watch, least / 2))
         if not looks or not self.is_heavy(t, y):
             return False
-        r = unit_motions(self.m, self.way(y), t)
+        r = unit_motions(self.m, self.travel(y), t)
         return r.status[-1] == "ok" and best_freedoms(r, self.acting.free)[1] < PIVOT
 
-    def way(self, y: Array) -> Array:
+    def travel(self, y: Array) -> Array:
         """Positions (K, D) of the drives that have led to a state."""
         self.keep_samples()
         every = -(-len(self.rows) // PLACES)

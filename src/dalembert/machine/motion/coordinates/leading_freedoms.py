@@ -13,7 +13,7 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.result.joint_freedoms import freedom_motion, whole_pose
+from dalembert.analysis.result.joint_freedoms import freedom_motion, full_pose
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.core.constraints import rates, system
@@ -21,7 +21,7 @@ from dalembert.core.equilibrium import with_ground
 from dalembert.machine.motion.actuation import Actuation, joint_stops
 from dalembert.machine.motion.equation import DEAD_CENTRE, Equation, StoppedError
 from dalembert.machine.motion.equation_trace import equation_of
-from dalembert.machine.motion.occurrences import Condition, Value
+from dalembert.machine.motion.occurrences import EventCondition, Value
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.assembly import SpacePose
 from dalembert.model.drives.drives import Drive
@@ -32,10 +32,10 @@ PIVOT = 0.1
 """A drive whose freedom moves by less than this part of what moves most is left as a coordinate."""
 
 
-def unit_motions(m: Mechanism, way: Array, t: float) -> Result:
+def unit_motions(m: Mechanism, travel: Array, t: float) -> Result:
     """The mechanism at the end of a path (K, D) travelled by its drives: at speed 1 of each of them in turn."""
-    k, d = way.shape
-    position, speed = np.vstack([way, *[way[-1:]] * (d - 1)]), np.zeros((k + d - 1, d))
+    k, d = travel.shape
+    position, speed = np.vstack([travel, *[travel[-1:]] * (d - 1)]), np.zeros((k + d - 1, d))
     speed[k - 1 :] = np.eye(d)
     schedule = Schedule(tuple(m.drives), position, speed, 0 * speed, np.full(len(speed), t))
     return at_schedule(m, schedule, inertia=True, forces=False)
@@ -45,7 +45,7 @@ def rates_of_freedoms(r: Result) -> Array:
     """Rates of all freedoms (F, D) of such motions."""
     layout, last = r.compiled.layout, slice(-len(r.drives), None)
     twist = with_ground(r.twist_array[last])
-    return rates(system(layout.algebra, layout.freedoms, whole_pose(r, last)), twist).T
+    return rates(system(layout.algebra, layout.freedoms, full_pose(r, last)), twist).T
 
 
 def best_freedoms(r: Result, free: Array, left_out: Sequence[int] = ()) -> tuple[list[int], float]:
@@ -61,8 +61,8 @@ def best_freedoms(r: Result, free: Array, left_out: Sequence[int] = ()) -> tuple
         if free[k]:
             size[[chosen[j] for j in range(len(free)) if j != k]] = 0.0
             chosen[k] = int(np.argmax(size))
-        way = left[chosen[k]] / max(np.linalg.norm(left[chosen[k]]), 1e-300)
-        left = left - np.outer(left @ way, way)
+        direction = left[chosen[k]] / max(np.linalg.norm(left[chosen[k]]), 1e-300)
+        left = left - np.outer(left @ direction, direction)
     share = moved[layout.driven] @ np.linalg.pinv(moved[chosen])
     return chosen, float(np.linalg.svd(share[np.ix_(free, free)], compute_uv=False).min())
 
@@ -72,18 +72,18 @@ def _drivable(c: Compiled, row: int) -> bool:
     return c.freedoms[row][1] in ("turn", "slide", "turn1", "turn2", "slide1", "slide2")
 
 
-def can_be_led(m: Mechanism, acting: Actuation) -> bool:
+def can_change_lead(m: Mechanism, acting: Actuation) -> bool:
     """True if other freedoms may lead, where they exist: brakes, stops and switches belong to drives, and loads may
     depend on a drive's position."""
     if sum(len(joint.freedoms) for joint in m.joints.values()) <= len(m.drives) or joint_stops(m):
         return False
-    own = getattr(acting, "own", acting)
-    drives = [d for d in own.drives if d.brake or d.stops]
-    motors = [x for x in own.motors.values() if x.kinks or x.on or x.off]
+    original = getattr(acting, "own", acting)
+    drives = [d for d in original.drives if d.brake or d.stops]
+    motors = [x for x in original.motors.values() if x.kinks or x.on or x.off]
     names = {
         n for load in m.loads.values() for v in getattr(load, "varying", ()) for n in getattr(v, "names", ())
     }
-    return not drives and not motors and not names & set(own.names)
+    return not drives and not motors and not names & set(original.names)
 
 
 def lead(m: Mechanism, r: Result, chosen: list[int]) -> tuple[Mechanism, Array]:
@@ -102,7 +102,7 @@ def lead(m: Mechanism, r: Result, chosen: list[int]) -> tuple[Mechanism, Array]:
 
 def _assembly(r: Result) -> dict[str, Any]:
     """Poses of all links at the last position."""
-    c, pose = r.compiled, whole_pose(r, slice(-1, None))
+    c, pose = r.compiled, full_pose(r, slice(-1, None))
     g, out = c.layout.algebra, dict[str, Any]()
     origin = pose.point - g.rotate(pose.rotation, c.layout.reference)[...] + c.layout.reference[-1]
     for k, link in enumerate(c.links):
@@ -130,10 +130,10 @@ class Led(Actuation):
     def follow(self, t: float, p: Array) -> tuple[Array, Array]:
         """Positions (D,) of the drives at the freedoms' positions, full turns counted, and their rates for speed 1 of
         each of these (D, D)."""
-        found = self.equation(t, p, np.zeros(len(p))).freedoms
-        q, turns = found[:, 0], np.array([d.turns for d in self.own.drives])
+        freedoms = self.equation(t, p, np.zeros(len(p))).freedoms
+        q, turns = freedoms[:, 0], np.array([d.turns for d in self.own.drives])
         self.last = q + np.where(turns, 2 * np.pi * np.round((self.last - q) / (2 * np.pi)), 0.0)
-        return self.last, found[:, 3:]
+        return self.last, freedoms[:, 3:]
 
     def set_anchor(self) -> None:
         self.equation.set_anchor()
@@ -149,9 +149,9 @@ class Led(Actuation):
 
     def powers(self, t: float, q: Array, u: Array, effort: Array) -> Array:
         at, rate = self.follow(t, q)
-        given = self.own.effort(t, at, rate @ u)
-        others = effort - rate[self.free].T @ given[self.free]
-        return np.asarray(np.where(self.free, given, others) * (rate @ u))
+        applied = self.own.effort(t, at, rate @ u)
+        others = effort - rate[self.free].T @ applied[self.free]
+        return np.asarray(np.where(self.free, applied, others) * (rate @ u))
 
     def lines(self, u: Array, ahead: Array) -> tuple[Array, Array] | None:
         """None, as they go with the freedoms, but where there are none."""
@@ -159,42 +159,50 @@ class Led(Actuation):
         return None if pushed else (np.zeros(len(u)), np.zeros(len(u)))
 
 
-def led_from(m: Mechanism, acting: Actuation, way: Array, t: float, u: Array) -> tuple[Mechanism, Led]:
+def lead_from(m: Mechanism, acting: Actuation, travel: Array, t: float, u: Array) -> tuple[Mechanism, Led]:
     """The mechanism with the best freedoms leading from a state, the end of a path of its drives, and the efforts on
     them.
 
     Raises StoppedError where none of these equations is finite on both sides of the state.
     """
-    r = unit_motions(m, way, t)
+    r = unit_motions(m, travel, t)
     driven = r.compiled.layout.driven
     known = tuple(r.compiled.freedoms[k] for k in driven)
-    own, last, names = acting, way[-1], known
+    original, last, names = acting, travel[-1], known
     if isinstance(acting, Led):
-        own, last, names = acting.own, acting.follow(t, way[-1])[0], acting.freedoms
+        original, last, names = acting.own, acting.follow(t, travel[-1])[0], acting.freedoms
     best = best_freedoms(r, acting.free)[0]
     for left_out in ([], *([row] for row in best if row not in driven)):
         chosen, _ = best_freedoms(r, acting.free, left_out)
-        led, p = lead(m, r, chosen)
+        mechanism, p = lead(m, r, chosen)
         speed = rates_of_freedoms(r)[chosen] @ u
-        equation = equation_of(led, names)
+        equation = equation_of(mechanism, names)
         beside = (equation.again()(t, p + h * speed, speed) for h in BESIDE)
         if all(np.isfinite(e.mass).all() and np.isfinite(e.freedoms).all() for e in beside):
             steady = acting.acceleration
-            return led, Led(
-                led, acting.free, p, speed, steady, own=own, freedoms=names, equation=equation, last=last
+            return mechanism, Led(
+                mechanism,
+                acting.free,
+                p,
+                speed,
+                steady,
+                own=original,
+                freedoms=names,
+                equation=equation,
+                last=last,
             )
     raise StoppedError(DEAD_CENTRE)
 
 
 @dataclass(frozen=True)
-class LedCondition(Condition):
+class LedCondition(EventCondition):
     """A condition of a drive that is led."""
 
-    led: Led = field(kw_only=True)
+    leading: Led = field(kw_only=True)
 
     def value_at(self, d: int) -> Value:
         def value(t: float, y: Array) -> float:
-            at, rate = self.led.follow(t, y[:d])
+            at, rate = self.leading.follow(t, y[:d])
             return float((at if self.what == "position" else rate @ y[d : 2 * d])[self.drive] - self.value)
 
         return value

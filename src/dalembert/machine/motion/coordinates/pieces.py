@@ -14,11 +14,11 @@ from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.compile.pose_loads import with_pose_loads
 from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.one_pass import at_poses, at_schedule
-from dalembert.analysis.result.joint_freedoms import freedom_motion, whole_pose
+from dalembert.analysis.result.joint_freedoms import freedom_motion, full_pose
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.core.position.motion_path import Path
-from dalembert.machine.motion.coordinates.leading_freedoms import Led, LedCondition, led_from
+from dalembert.machine.motion.coordinates.leading_freedoms import Led, LedCondition, lead_from
 from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.integration import Integration
 from dalembert.model import Mechanism, Schedule
@@ -35,14 +35,14 @@ def integrate(run: Integration) -> list[Integration]:
         last = pieces[-1]
         t, y = last.reached
         try:
-            m, led = led_from(last.m, last.acting, last.way(y), t, y[last.d : 2 * last.d])
+            m, leading = lead_from(last.m, last.acting, last.travel(y), t, y[last.d : 2 * last.d])
         except StoppedError as error:
             last.stop(error)
             break
-        followed = [LedCondition(**vars(c), led=led) for c in conditions]
-        piece = Integration(m, led, last.end, None, followed, last.tolerance, last.limits)
+        followed = [LedCondition(**vars(c), leading=leading) for c in conditions]
+        piece = Integration(m, leading, last.end, None, followed, last.tolerance, last.limits)
         piece.waiting, piece.events, piece.taken = last.waiting, last.events, last.taken
-        near, ahead = " and ".join(last.acting.names), " and ".join(led.names)
+        near, ahead = " and ".join(last.acting.names), " and ".join(leading.names)
         piece.note(t, "coordinates", f"near a dead centre of {near}: the coordinate is {ahead} from here on")
         piece.run(t, y[2 * last.d :])
         pieces.append(piece)
@@ -51,21 +51,21 @@ def integrate(run: Integration) -> list[Integration]:
 
 def instants(pieces: Sequence[Integration]) -> tuple[Instants, Result | None]:
     """The instants of all pieces, of an event the state after it; and the motion at them, where freedoms have led."""
-    found = [_rows(piece) for piece in pieces]
+    parts = [_rows(piece) for piece in pieces]
     if len(pieces) == 1:
-        return found[0], None
-    motions = [_motion(piece.m, rows) for piece, rows in zip(pieces, found, strict=True)]
+        return parts[0], None
+    motions = [_motion(piece.m, rows) for piece, rows in zip(pieces, parts, strict=True)]
     for n, (piece, motion) in enumerate(zip(pieces, motions, strict=True)):
         if isinstance(piece.acting, Led):
-            found[n] = _of_drives(piece.acting, motion, found[n], found[n - 1][1][-1])
-    kept = np.append(np.diff(np.concatenate([x[0] for x in found])) > 0, True)
+            parts[n] = _of_drives(piece.acting, motion, parts[n], parts[n - 1][1][-1])
+    kept = np.append(np.diff(np.concatenate([x[0] for x in parts])) > 0, True)
     for n, motion in enumerate(motions[1:]):  # links turn on from where they have come to
         turned = motions[n].turn_array[-1] - motion.turn_array[0]
         turn = motion.turn_array + 2 * np.pi * np.round(turned / (2 * np.pi))
         motions[n + 1] = replace(motion, turn_array=turn)
     names = ("point_array", "turn_array", "rotation_array", "twist_array", "acceleration_array")
     along = {name: np.concatenate([getattr(x, name) for x in motions])[kept] for name in names}
-    return tuple(np.concatenate(x)[kept] for x in zip(*found, strict=True)), replace(motions[0], **along)
+    return tuple(np.concatenate(x)[kept] for x in zip(*parts, strict=True)), replace(motions[0], **along)
 
 
 def _motion(m: Mechanism, rows: Instants) -> Result:
@@ -75,14 +75,14 @@ def _motion(m: Mechanism, rows: Instants) -> Result:
     return at_schedule(m, schedule, inertia=True, forces=False)
 
 
-def _of_drives(led: Led, motion: Result, rows: Instants, before: Array) -> Instants:
+def _of_drives(leading: Led, motion: Result, rows: Instants, before: Array) -> Instants:
     """Instants of freedoms that lead as those of the drives, which stood so before."""
-    moved = np.array([freedom_motion(motion, *name) for name in led.freedoms])
+    moved = np.array([freedom_motion(motion, *name) for name in leading.freedoms])
     q, u, a = np.moveaxis(moved, 1, 0).transpose(0, 2, 1)
-    turns = np.array([d.turns for d in led.own.drives])
+    turns = np.array([d.turns for d in leading.own.drives])
     q = q + np.where(turns, 2 * np.pi * np.round((before - q[0]) / (2 * np.pi)), 0.0)
-    given = np.array([led.own.effort(*at) for at in zip(rows[0], q, u, strict=True)])
-    return rows[0], q, u, a, np.where(led.free, given, np.nan), *rows[5:]
+    efforts = np.array([leading.own.effort(*at) for at in zip(rows[0], q, u, strict=True)])
+    return rows[0], q, u, a, np.where(leading.free, efforts, np.nan), *rows[5:]
 
 
 def _rows(piece: Integration) -> Instants:
@@ -96,7 +96,7 @@ def _rows(piece: Integration) -> Instants:
 
 def analysis_along(m: Mechanism, schedule: Schedule, motion: Result) -> Result:
     """The analysis of a motion whose poses are known."""
-    first, pose = motion.compiled, whole_pose(motion)
+    first, pose = motion.compiled, full_pose(motion)
     c = replace(
         compile_mechanism(m, schedule), layout=first.layout, target=first.target
     )  # in the phase of its wheels

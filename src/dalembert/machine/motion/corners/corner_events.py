@@ -51,7 +51,7 @@ class CornerState(ContactState):
         loads = [n for n, x in m.loads.items() if any(map(has_corners, getattr(x, "varying", ())))]
         self._loads = f"load {' or '.join(map(repr, loads))}"
 
-    def _own_sides(self) -> Iterator[tuple[Sided, Callable[[float, Array], dict[str, float]]]]:
+    def _acting_sides(self) -> Iterator[tuple[Sided, Callable[[float, Array], dict[str, float]]]]:
         """Loads and efforts that depend on drives, speeds and time, with their variables at a state."""
         d = self.d
         for channel in self.equation.channels:
@@ -88,13 +88,13 @@ class CornerState(ContactState):
 
     def take_sides(self, t: float, y: Array) -> None:
         """The sides on which all switches are at a state."""
-        own, traced = list(self._own_sides()), list(self._traced_sides())
-        for sided, known in own:
+        acting, traced = list(self._acting_sides()), list(self._traced_sides())
+        for sided, known in acting:
             sided.sides.clear()
             sided.at(known(t, y))
         for switch in traced:  # the inner ones of an expression first
             switch.flip(float(np.sign(switch.value(t, y))))
-        self.switching = [*(s for each in own for s in self._switches_of(*each)), *traced]
+        self.switching = [*(s for each in acting for s in self._switches_of(*each)), *traced]
 
     def _yields(self, t: float, y: Array) -> bool:
         self.take_sides(t, y)  # of what goes by time, while all rests

@@ -71,8 +71,8 @@ class Sided:
         if isinstance(self.value, Table):
             return self._of_table(self.value, known)
         with np.errstate(all="ignore"):
-            found = float(self.value.at(known, self._functions))
-        return found if np.isfinite(found) else float(self.value.at(known))  # which says what is wrong
+            number = float(self.value.at(known, self._functions))
+        return number if np.isfinite(number) else float(self.value.at(known))  # which says what is wrong
 
     def switch(self, k: int, known: Mapping[str, Any]) -> float:
         """Value that passes zero where a switch changes to its other side."""

@@ -20,8 +20,8 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.friction.contact_equations import (
+    ContactResponse,
     Contacts,
-    Response,
     SlipState,
     argument,
     bearing,
@@ -65,12 +65,12 @@ class DryFriction:
     own: Ints
     last: Array | None = None
 
-    def senses(self, rates: Array, told: Array) -> Array:
-        """Part of each contact (E,) in the direction of its slip; ``told``: senses of the own ones."""
+    def senses(self, rates: Array, chosen: Array) -> Array:
+        """Part of each contact (E,) in the direction of its slip; ``chosen``: senses of the own ones."""
         c = self.contacts
         sense = sign(c, rates * c.reckoned, (c.group == c.group[:, None]).sum(axis=0) == 1)
-        sense[self.own] = told
-        return np.where(c.fixed, -1.0, sense[c.led])
+        sense[self.own] = chosen
+        return np.where(c.fixed, -1.0, sense[c.leader])
 
     def solve(
         self, f: Linear, a: Array, effort: Array, change: Array, sense: Array, stuck: Flags
@@ -79,7 +79,7 @@ class DryFriction:
         it does not exist, or is not reached on the path from no friction."""
         d = len(a)
         x = np.concatenate([a, effort, f.drift - f.push.T @ a])
-        r = Response(
+        r = ContactResponse(
             x, np.vstack([change, -f.push.T @ change[:d]]), f.y + f.ahead @ a, f.h + f.ahead @ change[:d]
         )
         held = np.flatnonzero(stuck)
@@ -102,32 +102,32 @@ class DryFriction:
         parts = np.where(stuck, -cz / least, sense)
         return Contacted(x[:d], x[d : 2 * d], x[2 * d :], cz, room, parts, pushed)
 
-    def _slip(self, r: Response, sense: Array, c: Array) -> Array | None:
+    def _slip(self, r: ContactResponse, sense: Array, c: Array) -> Array | None:
         """z of those that slip: near the last one, else on the path from no friction."""
-        whole = Response(*(x[None] for x in r))
+        batch = ContactResponse(*(x[None] for x in r))
         if self.last is not None:
-            found = newton(self.contacts, whole, sense[None], c[None], self.last[None])
-            if found.arrived[0] and found.determinant[0] > 0:
-                self.last = np.asarray(found.z[0])
+            solution = newton(self.contacts, batch, sense[None], c[None], self.last[None])
+            if solution.arrived[0] and solution.determinant[0] > 0:
+                self.last = np.asarray(solution.z[0])
                 return self.last
         state = SlipState(sense[None], np.zeros((1, len(sense)), bool), sense[None])
-        z = np.asarray(solve_friction(self.contacts, whole, state).z[0])
+        z = np.asarray(solve_friction(self.contacts, batch, state).z[0])
         self.last = z if np.isfinite(z).all() else None
         return self.last
 
 
-def _sticking(r: Response, rows: Ints, held: Ints) -> Response:
+def _sticking(r: ContactResponse, rows: Ints, held: Ints) -> ContactResponse:
     """The response where friction of some contacts keeps some multipliers at 0: it follows from the others'."""
     if not len(held):
         return r
     inverse = np.linalg.inv(r.change[rows][:, held])
-    own, others = -inverse @ r.x[rows], -inverse @ r.change[rows]
+    base, others = -inverse @ r.x[rows], -inverse @ r.change[rows]
     others[:, held] = 0.0
     change, h = r.change.copy(), r.h.copy()
     change[:, held] = h[..., held] = 0.0
-    return Response(
-        r.x + r.change[:, held] @ own,
+    return ContactResponse(
+        r.x + r.change[:, held] @ base,
         change + r.change[:, held] @ others,
-        r.y + r.h[..., held] @ own,
+        r.y + r.h[..., held] @ base,
         h + r.h[..., held] @ others,
     )

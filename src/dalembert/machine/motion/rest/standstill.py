@@ -35,8 +35,8 @@ INSTANTS = 400
 def at_state(m: Mechanism, first: Array, t: float, q: Array, u: Array, a: Array) -> Result:
     """The analysis at one state (its second position), led by the start, which decides the assembly mode."""
     turns = np.array([d.turns for d in m.drives.values()])
-    whole = np.where(turns, 2 * np.pi * np.round((q - first) / (2 * np.pi)), 0.0)
-    position, speed, rate = (np.stack(pair) for pair in ((first + whole, q), (u, u), (a, a)))
+    turned = np.where(turns, 2 * np.pi * np.round((q - first) / (2 * np.pi)), 0.0)
+    position, speed, rate = (np.stack(pair) for pair in ((first + turned, q), (u, u), (a, a)))
     schedule = Schedule(tuple(m.drives), position, speed, rate, np.array([t, t]))
     return at_schedule(m, schedule, inertia=True)
 
@@ -73,33 +73,33 @@ class ContactState:
 
     def at(self, t: float, y: Array) -> tuple[Array, Array, Terms]:
         """Accelerations (D,), efforts (D,) of the drives with their brakes, and the terms."""
-        found, effort, terms = self.solved(t, y)
-        return found.a, effort, terms
+        contacts, effort, terms = self.solved(t, y)
+        return contacts.a, effort, terms
 
     def solved(self, t: float, y: Array) -> tuple[Contacted, Array, Terms]:
         """Accelerations and friction, efforts (D,) of the drives with their brakes, and the terms."""
         q, u = y[: self.d], y[self.d : 2 * self.d]
         self.evaluations += 1
-        given = self.acting.effort(t, q, u)
-        tau = given - self.acting.brake * self.toward
+        applied = self.acting.effort(t, q, u)
+        tau = applied - self.acting.brake * self.toward
         free = self.acting.free & ~self.locked
         a = np.where(self.acting.free, 0.0, self.acting.acceleration)
-        found, terms = self.equation.accelerations(t, q, u, a, tau, free, self.sense, self.stuck)
-        held = given if self.equation.dry else found.effort
-        return found, np.where(free, tau, np.where(self.acting.free, held, found.effort)), terms
+        contacts, terms = self.equation.accelerations(t, q, u, a, tau, free, self.sense, self.stuck)
+        held = applied if self.equation.dry else contacts.effort
+        return contacts, np.where(free, tau, np.where(self.acting.free, held, contacts.effort)), terms
 
     def rate(self, t: float, y: Array) -> Array:
         """Time derivative of positions, speeds and works; no numbers where there is none, with the reason kept."""
         try:
-            found, effort, terms = self.solved(t, y)
+            contacts, effort, terms = self.solved(t, y)
         except StoppedError as error:
             self.refusal = str(error)
             return np.full_like(y, np.nan)
         u = y[self.d : 2 * self.d]
         braking = -self.acting.brake * self.toward * u * ~self.locked
-        rubbing = found.cz @ np.where(self.stuck, 0.0, terms.rates)
+        rubbing = contacts.cz @ np.where(self.stuck, 0.0, terms.rates)
         power = self.acting.powers(t, y[: self.d], u, effort)
-        return np.concatenate([u, found.a, power - braking, [braking.sum()], terms.power, [rubbing]])
+        return np.concatenate([u, contacts.a, power - braking, [braking.sum()], terms.power, [rubbing]])
 
     def rubbing_rates(self, t: float, y: Array) -> Array:
         """Rates of the contacts (E,) that slip by themselves, those of the last state kept."""
@@ -129,9 +129,9 @@ class ContactState:
         size = np.sqrt(np.abs(mass.diagonal()))
         light = size <= WEIGHTLESS * size.max()
         size[light] = 1.0
-        least, way = np.linalg.eigh((mass + mass.T) / (2 * size * size[:, None]))
+        least, direction = np.linalg.eigh((mass + mass.T) / (2 * size * size[:, None]))
         if light.any() or least[0] < WEIGHTLESS:
-            k = np.flatnonzero(light)[0] if light.any() else np.argmax(np.abs(way[:, 0]))
+            k = np.flatnonzero(light)[0] if light.any() else np.argmax(np.abs(direction[:, 0]))
             raise StoppedError(no_inertia(self.acting.names[free[k]]))
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
@@ -170,10 +170,10 @@ class ContactState:
             return
         self.locked[k], left, self.on_stop[k] = False, self.on_stop[k], 0.0
         self.toward[k] = 1.0 if tau > high or (not wide and tau >= (low + high) / 2) else -1.0
-        there, ahead = self.rubbing_rates(t, y), np.zeros(self.d)
+        rates, ahead = self.rubbing_rates(t, y), np.zeros(self.d)
         ahead[k] = self.toward[k]
         pushed = self.own(self.equation(t, y[: self.d], ahead).rates)
-        still = np.abs(there) <= STILL * np.abs(pushed)
+        still = np.abs(rates) <= STILL * np.abs(pushed)
         self.sense = np.where(still & (pushed != 0), np.where(pushed < 0, -1.0, 1.0), self.sense)
         if t > 0 or was:
             name = self.resting[k] if left else name
@@ -227,9 +227,9 @@ class ContactState:
 
     def _by_time(self) -> list[Any]:
         """Loads and efforts that depend on time."""
-        own = getattr(self.acting, "own", self.acting)
+        acting = getattr(self.acting, "own", self.acting)
         loads = (v for load in self.m.loads.values() for v in getattr(load, "varying", ()))
-        return [v for v in (*loads, *(d.effort for d in own.drives)) if TIME in getattr(v, "names", ())]
+        return [v for v in (*loads, *(d.effort for d in acting.drives)) if TIME in getattr(v, "names", ())]
 
     def next_bend(self, t: float) -> float:
         """The next instant at which a table over time has a point."""

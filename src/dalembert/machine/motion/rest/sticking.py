@@ -114,16 +114,18 @@ class StickState(CornerState):
             raise StoppedError(f"{what}; which of them stick can be decided for at most {AT_ONCE}")
         stuck, sense = self.stuck.copy(), self.sense.copy()
         forced = {e: float(-np.sign(self.solved(t, y)[0].cz[dry.own[e]])) for e in leaving}
-        for way in _ways([(forced[e],) if e in forced else (0.0, sense[e], -sense[e]) for e in resting]):
-            held = resting[way == 0]
+        for senses in _combinations(
+            [(forced[e],) if e in forced else (0.0, sense[e], -sense[e]) for e in resting]
+        ):
+            held = resting[senses == 0]
             if np.linalg.matrix_rank(push[:, held], tol=PARALLEL * np.abs(push).max()) < len(held):
                 continue
             self.stuck[:] = False
             self.stuck[dry.own[held]] = True
-            self.sense[resting[way != 0]] = way[way != 0]
+            self.sense[resting[senses != 0]] = senses[senses != 0]
             dry.last = None
             with suppress(StoppedError, np.linalg.LinAlgError):
-                if self._lawful(resting, way, t, y):
+                if self._lawful(resting, senses, t, y):
                     break
         else:
             self.stuck, self.sense = stuck, sense
@@ -134,13 +136,13 @@ class StickState(CornerState):
         self.bound = _within(np.eye(self.d), push[:, held]) & (y[self.d : 2 * self.d] == 0)
         self._note_change(stuck[dry.own], sense, t)
 
-    def _lawful(self, resting: Ints, way: Array, t: float, y: Array) -> bool:
+    def _lawful(self, resting: Ints, choice: Array, t: float, y: Array) -> bool:
         """True if the sticking contacts can stick, and the others move in their senses."""
         assert self.equation.dry is not None
-        found, own = self.solved(t, y)[0], self.equation.dry.own[resting]
-        ahead, size = found.second[own] * way, found.size[own]
-        room, held = found.room[own], np.abs(found.cz[own])
-        return bool(((way == 0) | (ahead >= -EVEN * size)).all() and (room >= -EVEN * held).all())
+        solved, contacts = self.solved(t, y)[0], self.equation.dry.own[resting]
+        ahead, size = solved.second[contacts] * choice, solved.size[contacts]
+        room, held = solved.room[contacts], np.abs(solved.cz[contacts])
+        return bool(((choice == 0) | (ahead >= -EVEN * size)).all() and (room >= -EVEN * held).all())
 
     def _note_change(self, stuck: Flags, sense: Array, t: float) -> None:
         """Note which contacts stick now, slip again or have turned."""
@@ -155,7 +157,7 @@ class StickState(CornerState):
                 self.note(t, "reversal", f"{joint} reverses: its friction turns round", of=joint)
 
 
-def _ways(options: Sequence[Sequence[float]]) -> Iterator[Array]:
+def _combinations(options: Sequence[Sequence[float]]) -> Iterator[Array]:
     """Choices of one option each, those of most zeros first."""
     return iter(sorted(map(np.array, product(*options)), key=np.count_nonzero))
 

@@ -182,13 +182,13 @@ class StopState(StickState):
             back * (back > SLOW * size),
         )
         ease = np.linalg.solve(terms.mass[np.ix_(free, free)], rows[:, free].T)
-        own = rows[:, free] @ ease
+        response = rows[:, free] @ ease
         for (k, _), row, speed in zip(hit, rows, closing, strict=False):
             if np.abs(row[free]).max() <= UNMOVED * np.abs(row).max() and speed > 0:
                 raise StoppedError(f"{self.stops[k].name} is driven against its stop by what is prescribed")
-        impulse = _impulses(own, closing + back)
+        impulse = _impulses(response, closing + back)
         u[free] -= ease @ impulse
-        after = closing - own @ impulse
+        after = closing - response @ impulse
         after = np.where(impulse > 0, -back, np.where(np.abs(after) <= UNMOVED * size, 0.0, after))
         for n, (k, side) in enumerate(all_):
             stop = self.stops[k]
@@ -240,8 +240,8 @@ class StopState(StickState):
         for stop in self.stops:
             k = self._drive_of(stop)
             if stop.resting and k >= 0:
-                way = self._row(stop, self.equation(t, y[:d], none))[k]
-                self.on_stop[k], self.resting[k], y[d + k] = stop.resting * np.sign(way), stop.name, 0.0
+                push = self._row(stop, self.equation(t, y[:d], none))[k]
+                self.on_stop[k], self.resting[k], y[d + k] = stop.resting * np.sign(push), stop.name, 0.0
             elif stop.resting and self.equation.dry:
                 raise StoppedError(
                     f"{stop.name} rests on its stop while other freedoms move, with friction: "
@@ -285,12 +285,12 @@ class StopState(StickState):
         e = self.equation(t, q, u)
         rows = e.freedoms[[s.joint for s in self.pressed]]
         n, none = rows[:, 3:], np.zeros((len(rows), len(rows)))
-        whole = np.block([[e.mass[np.ix_(f, f)], -n[:, f].T], [n[:, f], none]])
-        if not (np.isfinite(whole).all() and np.isfinite(e.effort).all()):
+        matrix = np.block([[e.mass[np.ix_(f, f)], -n[:, f].T], [n[:, f], none]])
+        if not (np.isfinite(matrix).all() and np.isfinite(e.effort).all()):
             raise StoppedError(OPEN)
         gap = np.append((tau - e.effort - e.mass @ a)[f], -rows[:, 2] - n @ a)
-        found = np.linalg.lstsq(whole, gap)[0]
-        a[f], self.pushing = found[: len(f)], found[len(f) :]
+        solution = np.linalg.lstsq(matrix, gap)[0]
+        a[f], self.pushing = solution[: len(f)], solution[len(f) :]
         effort, no = e.effort + e.mass @ a - n.T @ self.pushing, np.zeros(0)
         return Contacted(a, effort, *(no,) * 5), np.where(acting.free & ~self.locked, tau, effort), e
 
@@ -322,7 +322,7 @@ class StopState(StickState):
         self.losses.append((t, lost))
         kind, rate = kind_of(stop.freedom, ""), kind_of(stop.freedom, "speed")
         back: Words = ("goes back with ", (rate, after)) if after else ("does not go back",)
-        said: Words = (
+        stated: Words = (
             f"{stop.name} strikes its stop at ",
             (kind, stop.end(side)),
             " with ",
@@ -331,15 +331,15 @@ class StopState(StickState):
         )
         rough = self.equation.dry and self.acting.free.sum() > 1
         left: Words = (" (friction during the impact is left out)",) if rough else ()
-        words: Words = (*said, *back, "; ", ("energy", lost), " are lost", *left)
+        words: Words = (*stated, *back, "; ", ("energy", lost), " are lost", *left)
         self.events.append(Event(t, "impact", words, stop.name, before, lost))
 
 
-def _impulses(own: Array, gap: Array) -> Array:
+def _impulses(response: Array, gap: Array) -> Array:
     """I >= 0 with own I >= gap, and I = 0 where own I > gap: own is symmetric and positive semidefinite."""
     if len(gap) == 1:
-        return np.asarray(np.maximum(gap / own[0], 0.0))
-    size, way = np.linalg.eigh(own)
+        return np.asarray(np.maximum(gap / response[0], 0.0))
+    size, modes = np.linalg.eigh(response)
     some = size > UNMOVED * size.max()
     root = np.sqrt(size[some])
-    return np.asarray(nnls(root[:, None] * way[:, some].T, way[:, some].T @ gap / root)[0])
+    return np.asarray(nnls(root[:, None] * modes[:, some].T, modes[:, some].T @ gap / root)[0])

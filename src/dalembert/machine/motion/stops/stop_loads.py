@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
 from dalembert.core.constraints import system
 from dalembert.machine.motion.actuation import Actuation, joint_stops
@@ -43,21 +43,21 @@ def _holding(r: Result, k: int, brake: Array) -> tuple[Array, Array]:
 
 
 def with_stop_loads(
-    r: Result, found: Array, pushed: Array, moves: Actuation
+    r: Result, stop_forces: Array, pushed: Array, moves: Actuation
 ) -> tuple[Result, dict[str, Array]]:
-    """The analysis with the forces of joints' stops, and these (T,) by joint: ``found`` (T, J, 2) from
+    """The analysis with the forces of joints' stops, and these (T,) by joint: ``stop_forces`` (T, J, 2) from
     ``StopState.joint_forces``. Where one drive is at rest it is the least force: friction holds as much as it can."""
     m, names = r.mechanism, list(joint_stops(r.mechanism))
-    force, ratio, loaded = found[..., 0], found[..., 1], r
+    force, ratio, loaded = stop_forces[..., 0], stop_forces[..., 1], r
     k, held = (
         int(np.argmax(moves.free)),
         np.cumsum(ratio != 0, axis=1) * (ratio != 0) == 1,
     )  # by the first of two
-    way = np.sign(-stop_effort(r, pushed, moves.brake)[:, k])
-    for _ in range(ROUNDS if found.any() else 0):
+    sense = np.sign(-stop_effort(r, pushed, moves.brake)[:, k])
+    for _ in range(ROUNDS if stop_forces.any() else 0):
         low, high = _holding(loaded, k, moves.brake)
-        missing = np.where(way > 0, high, low) - pushed[:, k]
-        more = np.where(held & (way != 0)[:, None], missing[:, None] / np.where(held, ratio, 1.0), 0.0)
+        missing = np.where(sense > 0, high, low) - pushed[:, k]
+        more = np.where(held & (sense != 0)[:, None], missing[:, None] / np.where(held, ratio, 1.0), 0.0)
         force = force + np.nan_to_num(more)
         loads = {**m.loads, **_loads(r, names, force)}
         loaded = at_schedule(m.model_copy(update={"loads": loads}), r.schedule, inertia=True)
@@ -70,7 +70,7 @@ def _loads(r: Result, names: list[tuple[str, str]], force: Array) -> dict[str, L
     """Forces along slides and couples about turns, on both links of each joint whose stop gives some, over time."""
     c, m, time = r.compiled, r.mechanism, tuple(np.asarray(r.schedule.time).tolist())
     rows, d, out = (
-        system(c.layout.algebra, c.layout.freedoms, whole_pose(r)),
+        system(c.layout.algebra, c.layout.freedoms, full_pose(r)),
         c.layout.algebra.d,
         dict[str, Load](),
     )

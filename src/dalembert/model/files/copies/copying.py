@@ -37,8 +37,8 @@ class Copying:
         self.shifted = False
 
     def items(self, section: str) -> list[tuple[str, Any]]:
-        found = self.tree.get(section)
-        pairs = found.items() if isinstance(found, Mapping) else ()
+        entries = self.tree.get(section)
+        pairs = entries.items() if isinstance(entries, Mapping) else ()
         return [(str(n), value) for n, value in pairs if isinstance(value, Mapping)]
 
     def run(self) -> None:
@@ -196,8 +196,8 @@ class Copying:
         if self.slides(joint, self.drives[name]):
             return start
         new = {**start, **({"speed": self.image.opposite(start["speed"])} if "speed" in start else {})}
-        there = self.image.angle(start["position"], self.between(joint)) if "position" in start else None
-        return new if there is None else new | {"position": there}
+        position = self.image.angle(start["position"], self.between(joint)) if "position" in start else None
+        return new if position is None else new | {"position": position}
 
     def slides(self, joint: str, drive: Tree) -> bool:
         return (
@@ -282,9 +282,9 @@ class Copying:
 
     def renamed(self, name: str, dimensional: bool) -> str:
         """Name of an expression in the copy; ``dimensional``: in an expression of parameters."""
-        found = self.coordinate(name)
-        if found is not None:
-            new, side, offset = found
+        image = self.coordinate(name)
+        if image is not None:
+            new, side, offset = image
             back = repr(offset) if not dimensional else f"{offset / math.pi!r}*pi"
             if is_speed(new) and not offset:
                 return new if side == 1 else f"({side}*{new})"
@@ -328,14 +328,14 @@ class Copying:
 
     def table(self, value: Mapping[str, object]) -> Mapping[str, object]:
         against, image = path_of(str(value.get("against", ""))), self.image
-        found = self.coordinate(against)
-        if found is None and (against not in self.staying() or not image.shift):
+        coordinate = self.coordinate(against)
+        if coordinate is None and (against not in self.staying() or not image.shift):
             return value
-        if found is None:
+        if coordinate is None:
             self.shifted = True
             kind = "length" if self.slid(against) else "angle"
             return {**value, "shift": image.plus(value.get("shift", 0), image.shift, kind)}
-        new, side, offset = found
+        new, side, offset = coordinate
         table = value if side == 1 else image.reversed_table(value)
         moved = {"shift": image.angle(value.get("shift", 0), offset)} if "shift" in value or offset else {}
         return {**table, "against": new, **moved}

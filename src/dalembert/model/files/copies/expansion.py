@@ -10,7 +10,7 @@ from dalembert.model.files.copies.copying import Copying
 from dalembert.model.files.copies.images import Image
 from dalembert.model.files.copies.likeness import Likeness
 from dalembert.model.links.link import GROUND
-from dalembert.model.part import Reading, mapping
+from dalembert.model.part import ReadingRules, mapping
 from dalembert.model.quantities.values import (
     NAME_OR_NUMBER,
     NUMBER_OR_TEXT,
@@ -46,7 +46,7 @@ def copies_schema() -> JsonSchema:
     kinds: JsonSchema = {"of": names, "count": {"type": "integer"}, "about": {"type": "string"}}
     kinds |= {"phase": by_link | {"additionalProperties": several}, "shift": several, "names": names}
     kinds["mirror"] = {"anyOf": [NUMBER_OR_TEXT, by_link]}
-    keys = {key: kinds[key] | {"description": said} for key, said in words.items()}
+    keys = {key: kinds[key] | {"description": text} for key, text in words.items()}
     return {
         "type": "array",
         "items": object_schema(keys, "of"),
@@ -55,14 +55,14 @@ def copies_schema() -> JsonSchema:
 
 
 def expand(
-    tree: Mapping[str, object], rules: Reading
+    tree: Mapping[str, object], rules: ReadingRules
 ) -> tuple[Mapping[str, object], dict[Path, Path], tuple[Likeness, ...]]:
     """The tree with its copies expanded; paths of the new parts -> path of the copy; relations of copies to
     originals."""
     entries = tree.get("copies")
     if not isinstance(entries, (list, tuple)):
-        said = f"expected a list, not {quote_value(entries)}"
-        raise ModelError(said, f"write copies: [{EXAMPLE}]", ("copies",))
+        problem = f"expected a list, not {quote_value(entries)}"
+        raise ModelError(problem, f"write copies: [{EXAMPLE}]", ("copies",))
     out: Tree = {key: value for key, value in tree.items() if key != "copies"}
     for key in ("links", "joints", "drives", "loads", "assembly", "start"):
         if isinstance(out.get(key), Mapping):
@@ -106,7 +106,7 @@ def _against(value: object, drive: str) -> object:
     )
 
 
-def _images(entry: object, tree: Tree, rules: Reading) -> Iterator[Image]:
+def _images(entry: object, tree: Tree, rules: ReadingRules) -> Iterator[Image]:
     keys = mapping(entry, list(KEYS), EXAMPLE)
     of, links = (
         keys.get("of"),
@@ -116,8 +116,8 @@ def _images(entry: object, tree: Tree, rules: Reading) -> Iterator[Image]:
         raise ModelError("it says no links", f"write {EXAMPLE}", ("of",) if of is not None else ())
     for k, name in enumerate(of):
         if str(name) not in links or name == GROUND:
-            said = f"unknown moving link {str(name)!r}"
-            raise ModelError(said, closest(str(name), sorted(links - {GROUND})), ("of", k))
+            problem = f"unknown moving link {str(name)!r}"
+            raise ModelError(problem, closest(str(name), sorted(links - {GROUND})), ("of", k))
     turned = _phases(keys, links - {str(name) for name in of})
     count = _count(keys, turned)
     phases = {link: at_item("phase", _steps, value, count, "angle", rules) for link, value in turned.items()}
@@ -146,17 +146,17 @@ def _phases(keys: Mapping[str, object], links: set[str]) -> dict[str, object]:
     if "phase" in keys and "mirror" in keys:
         raise ModelError("it is both turned and mirrored", "write phase or mirror", ("mirror",))
     which = "mirror" if "mirror" in keys else "phase"
-    given = keys.get(which, {})
-    if which == "mirror" and not isinstance(given, Mapping):
-        given = {GROUND: given}
-    if not isinstance(given, Mapping):
-        what = f"{quote_value(given)} does not say on which link"
+    angles = keys.get(which, {})
+    if which == "mirror" and not isinstance(angles, Mapping):
+        angles = {GROUND: angles}
+    if not isinstance(angles, Mapping):
+        what = f"{quote_value(angles)} does not say on which link"
         raise ModelError(what, "write phase: {crank: [0, 180]}", (which,))
-    for link in given:
+    for link in angles:
         if str(link) not in links:
-            said = f"{str(link)!r} is not a link outside the copies"
-            raise ModelError(said, closest(str(link), sorted(links)), (which,))
-    return {str(link): [0, value] if which == "mirror" else value for link, value in given.items()}
+            problem = f"{str(link)!r} is not a link outside the copies"
+            raise ModelError(problem, closest(str(link), sorted(links)), (which,))
+    return {str(link): [0, value] if which == "mirror" else value for link, value in angles.items()}
 
 
 def _count(keys: Mapping[str, object], turned: Mapping[str, object]) -> int:
@@ -174,13 +174,13 @@ def _count(keys: Mapping[str, object], turned: Mapping[str, object]) -> int:
     return count
 
 
-def _steps(value: object, count: int, kind: str, rules: Reading) -> list[float]:
+def _steps(value: object, count: int, kind: str, rules: ReadingRules) -> list[float]:
     """One for each, the original's first; a single value is a step."""
     if not isinstance(value, list):
         step = quantity(value, kind, rules.units)
         return [k * step for k in range(count)]
-    found = [at_item(k, quantity, x, kind, rules.units) for k, x in enumerate(value)]
-    if found[0]:
+    steps = [at_item(k, quantity, x, kind, rules.units) for k, x in enumerate(value)]
+    if steps[0]:
         what = f"a list begins with {quote_value(value[0])}, and the original stays"
         raise ModelError(what, "begin with 0", (0,))
-    return found
+    return steps

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from dalembert.errors import ModelError
 from dalembert.model.drives.motors import of_kind, switch
-from dalembert.model.part import Reading
+from dalembert.model.part import ReadingRules
 from dalembert.model.quantities.dependent_numbers import Dependent, factor_text
 from dalembert.model.quantities.expressions import Expression, parse_expression
 from dalembert.model.quantities.figures import unit_vector
@@ -37,7 +37,7 @@ class Image:
     mirrored: bool
     shift: float
     about: str
-    rules: Reading
+    rules: ReadingRules
 
     @property
     def side(self) -> int:
@@ -143,15 +143,17 @@ class Image:
 
     def _read(self, value: object, kind: str) -> float | Expression:
         try:
-            found = varying(value, kind, self.rules) if kind == "force" else self.rules.quantity(value, kind)
+            quantity = (
+                varying(value, kind, self.rules) if kind == "force" else self.rules.quantity(value, kind)
+            )
         except ModelError:
             raise _Unread from None
-        if isinstance(found, Table):
+        if isinstance(quantity, Table):
             raise ModelError(
                 "a component of a rotated vector is a table",
                 "write each component as a separate load, a value with a direction",
             )
-        return found
+        return quantity
 
     def negative(self, value: object) -> object:
         """The negative of a number, a quantity, an expression or a table."""

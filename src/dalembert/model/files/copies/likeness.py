@@ -35,6 +35,6 @@ class Likeness:
     def without(self, links: Iterable[str], ends: Mapping[str, tuple[str, ...]]) -> Likeness:
         """The likeness of what does not touch these links, whose angles are stated by themselves; ``ends``: links of
         joints."""
-        own = set(links)
-        joints = {new: of for new, of in self.joints.items() if not own & set(ends.get(new, ()))}
-        return replace(self, links={k: v for k, v in self.links.items() if k not in own}, joints=joints)
+        stated = set(links)
+        joints = {new: of for new, of in self.joints.items() if not stated & set(ends.get(new, ()))}
+        return replace(self, links={k: v for k, v in self.links.items() if k not in stated}, joints=joints)
