@@ -71,7 +71,7 @@ MADE: dict[str, Callable[[], Answer]] = {
         [0.2, 1.7],
         starts=2,
     ),
-    "Marks": marks,
+    "ClassMarks": marks,
     "System": lambda: da.wrench.System(
         da.wrench.Force("600 @ 60 N", at=["200 mm", 0]), da.wrench.Couple("-20 N*m"), title="Plate"
     ),

@@ -49,7 +49,7 @@ def test_a_class_is_what_it_is_called_and_its_tables_are_its_columns(name: str, 
     ]
     a.save(tmp_path / "a.xlsx")
     sheets = openpyxl.load_workbook(tmp_path / "a.xlsx").worksheets
-    if name != "Marks":
+    if name != "ClassMarks":
         found, *cells = [list(row) for row in sheets[0].values]
         assert found == heads
         for row, kept in zip(cells, rows, strict=True):  # openpyxl writes 16 digits
@@ -76,7 +76,7 @@ def test_json_reads_back(name: str, tmp_path: Path) -> None:
         assert [*record[a.ROWS][0]] == [head.partition(" [")[0] for head in heads[1:]]
 
 
-@pytest.mark.parametrize("name", [name for name in MADE if name not in ("Marks", "System")])
+@pytest.mark.parametrize("name", [name for name in MADE if name not in ("ClassMarks", "System")])
 def test_labelled_arrays_read_back(name: str, tmp_path: Path) -> None:
     a = made(name)
     assert isinstance(a, Labelled)
@@ -93,7 +93,7 @@ def test_labelled_arrays_read_back(name: str, tmp_path: Path) -> None:
 def test_drawings_reports_cards_and_models(name: str, tmp_path: Path) -> None:
     a = made(name)
     title = a.basis()["title"]
-    assert title in str(a) or name == "Marks"
+    assert title in str(a) or name == "ClassMarks"
     assert title in a._repr_html_()
     assert "<table" in a._repr_html_()
     if isinstance(a, Drawn):

@@ -185,7 +185,9 @@ def test_csv(run: Run, folder: Path) -> None:
     assert float(rows[0]["effort.O2 [lbf*in]"]) == pytest.approx(
         27.4821576052 / 0.1129848290276167, rel=1e-10
     )
-    assert float(rows[0]["reaction.A.x [N]"]) == pytest.approx(-525.00541990866, rel=1e-10)
+    assert float(rows[0]["reaction.A.x [lbf]"]) == pytest.approx(
+        -525.00541990866 / 4.4482216152605, rel=1e-10
+    )
     printed = run("solve", "four_bar.yaml", "--csv", "-", "--units", "file").out
     assert printed.splitlines()[0].startswith("position,status,drive.O2 [deg],drive.O2.speed [deg/s]")
     assert len(printed.splitlines()) == 2

@@ -295,7 +295,7 @@ def test_blocks_are_parts_of_the_whole() -> None:
     assert [len(part.values) for part in parts] == [3, 3, 1]
     assert (np.concatenate([part.effort("O2") for part in parts]) == k(values).effort("O2")).all()
     assert len(list(k.blocks(values))) == 1
-    with pytest.raises(da.ModelError, match="size=0 is not a number of match"):
+    with pytest.raises(da.ModelError, match="size=0 is not a number of size"):
         k.blocks(values, size=0)
 
 

@@ -44,7 +44,7 @@ def test_run_up_with_a_straight_motor_curve() -> None:
     assert da.simulate(m, "O.speed = 142.5 rad/s").time[-1] == pytest.approx(8.987196820661973, rel=1e-8)
     assert max(s.energy_residual, s.law_residual, s.closure) < 1e-10
     assert not s.doubt
-    assert "Doubtful" not in str(s)
+    assert "Check failed" not in str(s)
     doubtful = copy(s)
     vars(doubtful).update(law_gap=np.where(s.time > 1.985, 1e-3, 0.0), energy_residual=2e-5)
     assert doubtful.law_residual == 1e-3
@@ -52,7 +52,7 @@ def test_run_up_with_a_straight_motor_curve() -> None:
         "at 1.99 s and 1 more accelerations and forces are uncertain: prescribed, that motion asks for other "
         "efforts, by 0.001 of the largest; the energy balance has a gap of 2e-05 of the largest energy"
     )
-    assert "Doubtful: at 1.99 s" in str(doubtful)
+    assert "Check failed: at 1.99 s" in str(doubtful)
 
 
 FOUR_BAR = """

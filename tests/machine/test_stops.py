@@ -73,9 +73,7 @@ def test_sentences_have_the_units_of_the_tables() -> None:
     text = s.text()
     assert f"in the first, O strikes its stop at 0 deg with {speed:.6g} rad/s" in " ".join(text.split())
     assert text.count("strikes") == 1
-    assert s.record(da.analysis.output.columns.scale(s.result, "file"))["events"][0]["sentence"].startswith(
-        "O strikes its stop at 0 deg with "
-    )
+    assert s.record(s.scale("file"))["events"][0]["sentence"].startswith("O strikes its stop at 0 deg with ")
 
 
 @pytest.mark.parametrize("e", [0.4, 0.9])

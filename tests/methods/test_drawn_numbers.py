@@ -20,7 +20,6 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.machine.members.member_table import member_table
-from dalembert.views.machine import scenes_of
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Item, Line, Polygon, Scene, Text
 from tests.friction.engines import engine
@@ -108,7 +107,7 @@ def machine_views() -> Iterator[tuple[str, Scene]]:
     yield "shaking", d.machine(da.shaking(r))
     yield "balance", d.machine(da.balance(r, ["crank", "rocker"]))
     for name, other in (("four-bar linkage", r), ("linkage in space", space_machines.solved("rssr"))):
-        drawn = [s for s in scenes_of(member_table(other)) if "length" in " ".join(s.scales)]
+        drawn = [s for s in member_table(other).drawings() if "length" in " ".join(s.scales)]
         yield f"members of a {name}", d.beside([drawn[0], drawn[-1]])
 
 

@@ -19,6 +19,7 @@ from tests.model.test_units import NOT_IN_PINT, REGISTRY
 PRODUCTS = {
     "length": "L", "angle": "A", "time": "T", "mass": "M", "force": "F", "number": "1",
     "moment": "F * L", "inertia": "M * L**2", "speed": "L / T", "acceleration": "L / T**2",
+    "jerk": "L / T**3", "angular_jerk": "A / T**3",
     "angular_speed": "A / T", "angular_acceleration": "A / T**2", "stiffness": "F / L", "damping": "F * T / L",
     "torsion_stiffness": "F * L", "torsion_damping": "F * L * T", "density": "M / L**3", "area": "L**2",
     "power": "F * L / T", "energy": "F * L", "pressure": "F / L**2", "pressure_speed": "F / L / T",

@@ -381,7 +381,7 @@ def test_a_polish_of_a_peak_starts_where_both_its_signs_have_room(
 
 
 def test_a_front_of_which_no_design_keeps_its_conditions_is_refused() -> None:
-    with pytest.raises(da.ModelError, match="no design keeps every condition") as refused:
+    with pytest.raises(da.ModelError, match="no design meets every condition") as refused:
         da.pareto(
             da.four_bar(),
             BOX,

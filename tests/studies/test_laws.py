@@ -65,7 +65,9 @@ def test_an_extended_study_is_the_longer_one(tmp_path: Path) -> None:
         pump(designs=5000, draw=draw).run(tmp_path / draw)
         longer = pump(designs=5000, draw=draw).extended(9500).run(tmp_path / draw)
         assert same(longer, pump(designs=9500, draw=draw).run())
-    with pytest.raises(da.ModelError, match="a study drawn by latin is whole; only random and sobol"):
+    with pytest.raises(
+        da.ModelError, match="a study drawn by latin cannot be extended; only random and sobol"
+    ):
         pump(draw="latin").extended(400)
 
 

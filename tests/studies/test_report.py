@@ -174,5 +174,5 @@ def test_bars_of_one_value_have_an_axis_about_it() -> None:
 
 @pytest.mark.parametrize("value", [True, False, None])
 def test_what_is_no_quantity_is_no_level(value: object) -> None:
-    with pytest.raises(da.ModelError, match="is no quantity; write a number with its unit"):
+    with pytest.raises(da.ModelError, match="is not a quantity; write a number with its unit"):
         da.study(da.four_bar(), {"links.coupler.mass": [1.0, value]}, ["effort.O2"], designs=4)

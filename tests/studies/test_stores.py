@@ -207,7 +207,7 @@ def test_a_store_knows_its_study(how: dict[str, object], tmp_path: Path) -> None
         ({"seed": 4}, "what is varied, drawn or asked for has changed since, and results would be mixed"),
         ({"reduce": "rms"}, "what is varied, drawn or asked for has changed since"),
         ({"lanes": 2}, "what is varied, drawn or asked for has changed since"),
-        ({"designs": 100}, "has 20000 designs, and 100 are asked for; request at least as many"),
+        ({"designs": 100}, "has 20000 designs, but 100 are requested; request at least as many"),
     ],
 )
 def test_a_changed_study_is_refused(store: Path, changed: dict[str, object], sentence: str) -> None:

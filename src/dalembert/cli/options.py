@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -181,18 +182,23 @@ class Changes:
     def load(self, file: Path) -> Mechanism:
         """The description with what the command line says otherwise."""
         from dalembert.model import load
+        from dalembert.model.paths import unused_parameters
 
-        m = with_settings(load(file), self.set or ())
+        m = load(file)
+        for name in unused_parameters(m):
+            line = f":{m.source.line(('parameters', name))}" if m.source else ""
+            print(f"{file}{line}: note: nothing in the file uses the parameter {name!r}", file=sys.stderr)
+        m = with_settings(m, self.set or ())
         return m.with_values({"friction.enabled": False}) if self.no_friction else m
 
 
 def with_settings(m: Mechanism, settings: Sequence[str]) -> Mechanism:
     """The mechanism with the values of options `--set NAME=VALUE`; raises ModelError that names the option."""
     values: dict[str, object] = {}
-    for said in settings:
-        path, equals, value = (part.strip() for part in said.partition("="))
+    for setting in settings:
+        path, equals, value = (part.strip() for part in setting.partition("="))
         if not (path and equals and value):
-            raise ModelError(f"--set {said} says no value", "write NAME=VALUE, for example --set r=50mm")
+            raise ModelError(f"--set {setting} has no value", "write NAME=VALUE, for example --set r=50mm")
         if path in values:
             raise ModelError(f"--set gives {path!r} twice", "leave one of them out")
         values[path] = {"true": True, "false": False}.get(value, value)

@@ -1,6 +1,6 @@
 """Contacts that only push: their normal forces from the joints' reactions.
 
-Mechanics: docs/theory.md 5.6.
+Mechanics: docs/theory.md 5.5.
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ from dalembert.grading.answer_sheet import named_figure, without_value
 from dalembert.grading.file_answers import describe_answer, position_of, read, sides_of
 from dalembert.grading.marking import table_files
 from dalembert.grading.quantities import QUANTITIES
-from dalembert.model import GROUND, Answer
+from dalembert.model import GROUND, StatedAnswer
 from dalembert.views.notation import Shown, pretty
 from dalembert.wording import closest
 
@@ -39,14 +39,14 @@ class ExpectedValue(NamedTuple):
     value: Array
 
 
-def requested_quantities(r: Result, ask: Sequence[object], at: int | str | None) -> tuple[Answer, ...]:
+def requested_quantities(r: Result, ask: Sequence[object], at: int | str | None) -> tuple[StatedAnswer, ...]:
     """Required quantities of a problem: those in ``ask``, else its ``answers``, else all efforts and reactions.
 
     ``at`` is the position of quantities that do not name one, the first one by default.
     """
     requested = [a for one in ask for a in _named(r, one)] or _of_file(r) or _forces(r)
     many = len(r.status) > 1
-    out: list[Answer] = []
+    out: list[StatedAnswer] = []
     for a in requested:
         change: dict[str, object] = {}
         if a.quantity in ("reaction", "moment") and a.of in r.joints and a.on is None:
@@ -62,7 +62,7 @@ def requested_quantities(r: Result, ask: Sequence[object], at: int | str | None)
     return tuple(out)
 
 
-def figure(r: Result, answer: Answer) -> ExpectedValue:
+def figure(r: Result, answer: StatedAnswer) -> ExpectedValue:
     """The required figure, just before a reversal where two values exist; rounding is 0."""
     side = sides_of(r, answer)[0]
     series = read(side, answer)
@@ -73,18 +73,18 @@ def figure(r: Result, answer: Answer) -> ExpectedValue:
     )
 
 
-def place_of_answer(r: Result, answer: Answer) -> int:
+def place_of_answer(r: Result, answer: StatedAnswer) -> int:
     """Position of an answer, from 0."""
     side = sides_of(r, answer)[0]
     return position_of(side, answer, read(side, answer))
 
 
-def _named(r: Result, one: object) -> list[Answer]:
+def _named(r: Result, one: object) -> list[StatedAnswer]:
     """An answer itself, a mapping of its keys, or text: effort.O2."""
-    if isinstance(one, Answer):
+    if isinstance(one, StatedAnswer):
         return [one]
     if isinstance(one, Mapping):
-        return [Answer(**one)]
+        return [StatedAnswer(**one)]
     quantity, *words = str(one).split(".")
     if not words and quantity in ("efforts", "reactions"):
         return [a for a in _forces(r) if a.quantity.startswith(quantity[:-1])]
@@ -92,28 +92,28 @@ def _named(r: Result, one: object) -> list[Answer]:
         raise ModelError(f"--ask {one}: unknown quantity {quantity!r}", closest(quantity, [*QUANTITIES]))
     if not words:
         raise ModelError(f"--ask {one} does not say of what", FORMS)
-    return [Answer(**named_figure(str(one), None))]
+    return [StatedAnswer(**named_figure(str(one), None))]
 
 
-def _of_file(r: Result) -> list[Answer]:
+def _of_file(r: Result) -> list[StatedAnswer]:
     """Quantities of the file's answers, without their values."""
     some = (a for a in r.mechanism.answers if a.quantity in QUANTITIES and a.quantity not in CHECKS)
     return [without_value(a) for a in some]
 
 
-def _forces(r: Result) -> list[Answer]:
+def _forces(r: Result) -> list[StatedAnswer]:
     """Efforts or, of equilibria, positions; unknown loads; reactions that are not zero throughout."""
     m, ends = r.mechanism, ("_low", "_high") if "at_rest" in r.status else ("",)
-    out = [Answer(quantity="drive", of=d) for d in r.drives if m.drives[d].unknown]
+    out = [StatedAnswer(quantity="drive", of=d) for d in r.drives if m.drives[d].unknown]
     for end in ends:
-        out += [Answer(quantity=f"effort{end}", of=d) for d in r.drives if m.drives[d].effort is None]
-        out += [Answer(quantity=f"unknown_load{end}", of=u) for u in r.unknown_loads]
+        out += [StatedAnswer(quantity=f"effort{end}", of=d) for d in r.drives if m.drives[d].effort is None]
+        out += [StatedAnswer(quantity=f"unknown_load{end}", of=u) for u in r.unknown_loads]
     if ends != ("",) or r.stability is not None:
         return out
     sizes = {j: float(np.nanmax(np.abs(r.least_norm(j)[:, : m.dimension]), initial=0.0)) for j in r.joints}
     large = max(sizes.values(), default=0.0)
     return out + [
-        Answer(quantity="reaction", of=j)
+        StatedAnswer(quantity="reaction", of=j)
         for j, s in sizes.items()
         if s > NOTHING * large and r.unique(j).all()
     ]
@@ -122,7 +122,7 @@ def _forces(r: Result) -> list[Answer]:
 # in words and in a key
 
 
-def question_words(shown: Shown, answer: Answer) -> str:
+def question_words(shown: Shown, answer: StatedAnswer) -> str:
     """Question for a quantity, with its sign: 'Reaction of A on coupler, $F_{23}$'."""
     one = len(shown.r.status) == 1
     words = describe_answer(answer.model_copy(update={"component": None, "at": None if one else answer.at}))
@@ -136,7 +136,7 @@ def question_words(shown: Shown, answer: Answer) -> str:
     return words + (f": {answer.component}" if answer.component else "")
 
 
-def blanks(answer: Answer, right: ExpectedValue, units: object) -> tuple[tuple[str, str], ...]:
+def blanks(answer: StatedAnswer, right: ExpectedValue, units: object) -> tuple[tuple[str, str], ...]:
     """Blanks to fill in: the name of each number and its unit."""
     unit = pretty(Printed(units).text(right.kind))
     if right.value.ndim == 0:
@@ -176,7 +176,7 @@ COLUMNS = table_files.COLUMNS[1:]
 """Columns of a key, one row an asked figure."""
 
 
-def key_row(answer: Answer, right: ExpectedValue, units: object) -> dict[str, object]:
+def key_row(answer: StatedAnswer, right: ExpectedValue, units: object) -> dict[str, object]:
     """A required figure as a row of the key, without empty cells."""
     row = {name: getattr(answer, name) for name in table_files.KEYS}
     row["axes"] = None if answer.axes == "ground" else answer.axes

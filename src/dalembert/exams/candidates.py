@@ -24,7 +24,7 @@ from dalembert.grading.wrong_problems import WrongProblems
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Answer, Mechanism
+    from dalembert.model import Mechanism, StatedAnswer
 
 ASIDE = {"turn": pi / 90, "slide": 0.01}
 """Distance from its position at which a drive is checked too, rad or characteristic lengths."""
@@ -99,7 +99,7 @@ def difference(right: ExpectedValue, value: Array) -> float:
 def candidate(
     m: Mechanism,
     values: Mapping[str, object],
-    questions: Sequence[Answer],
+    questions: Sequence[StatedAnswer],
     near: float = NEAR,
     static: bool = False,
 ) -> Candidate:
@@ -161,7 +161,7 @@ def _beside(r: Result, k: int, drive: str, static: bool) -> list[float]:
 
 
 def _mistakes(
-    r: Result, questions: Sequence[Answer], figures: Sequence[ExpectedValue], places: Sequence[int]
+    r: Result, questions: Sequence[StatedAnswer], figures: Sequence[ExpectedValue], places: Sequence[int]
 ) -> Iterator[tuple[str, float]]:
     """Every known mistake and how far it takes each figure; infinitely far where it leads to none."""
     which = [*range(len(r.status))] if any(a.extreme for a in questions) else sorted(set(places))
@@ -175,7 +175,7 @@ def _mistakes(
                 yield slip.sentence, difference(f, slip.value)
 
 
-def _change(other: Result, answer: Answer, right: ExpectedValue, place: int) -> float:
+def _change(other: Result, answer: StatedAnswer, right: ExpectedValue, place: int) -> float:
     """Distance of the figure of a wrong problem from the right one."""
     try:
         values, _ = values_of(other, answer, place)

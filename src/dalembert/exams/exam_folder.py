@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from dalembert.arrays import Tree
     from dalembert.exams.candidates import Variant
-    from dalembert.model import Answer, Mechanism
+    from dalembert.model import Mechanism, StatedAnswer
 
 RECORD = "variants.json"
 """The seed, the required quantities and the values of each variant: identifies such a folder."""
@@ -63,7 +63,7 @@ def _strange(folder: Path) -> str:
 
 def write_folder(
     problems: Sequence[Variant],
-    questions: Sequence[Answer],
+    questions: Sequence[StatedAnswer],
     key: list[Tree],
     record: Tree,
     folder: Path,
@@ -80,7 +80,7 @@ def write_folder(
         _write_key(key, record, beside)
 
 
-def _write_variant(v: Variant, questions: Sequence[Answer], folder: Path) -> None:
+def _write_variant(v: Variant, questions: Sequence[StatedAnswer], folder: Path) -> None:
     v.mechanism.save(folder / "problems" / f"{v.name}.yaml")
     _copy_meshes(v.mechanism, folder / "problems")
     for part, sheet in (("questions", question_sheet), ("solutions", solution_sheet)):

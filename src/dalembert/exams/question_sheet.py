@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Answer
+    from dalembert.model import StatedAnswer
 
 
 def question_sheet(
-    r: Result, questions: Sequence[Answer], name: str = "", notation: Notation | None = None
+    r: Result, questions: Sequence[StatedAnswer], name: str = "", notation: Notation | None = None
 ) -> Report:
     """Given data, the figure to scale without computed values, and the questions, with space for each number."""
     notation, k = as_stated(notation), place_of_answer(r, questions[0])
@@ -38,7 +38,7 @@ def question_sheet(
 
 
 def solution_sheet(
-    r: Result, questions: Sequence[Answer], name: str = "", notation: Notation | None = None
+    r: Result, questions: Sequence[StatedAnswer], name: str = "", notation: Notation | None = None
 ) -> Report:
     """The worked report of the position of the question, with the variant's name."""
     worked = report(r, place_of_answer(r, questions[0]) + 1, notation=notation).sheet

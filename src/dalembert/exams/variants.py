@@ -24,7 +24,7 @@ from dalembert.model import ModelOrPath, as_mechanism
 from dalembert.progress import progress
 
 if TYPE_CHECKING:
-    from dalembert.model import Answer, Mechanism
+    from dalembert.model import Mechanism, StatedAnswer
 
 TRIES = 20
 """Sets of values tried for each requested variant."""
@@ -35,7 +35,7 @@ class Variants(Sequence[Variant]):
     """Variants of a problem, their required quantities, and the seed that repeats them."""
 
     found: tuple[Variant, ...]
-    asked: tuple[Answer, ...]
+    asked: tuple[StatedAnswer, ...]
     seed: int
 
     @overload
@@ -84,8 +84,8 @@ def variants(
     """Variants of a problem with random values of stated numbers, all different, each solved and checked.
 
     ``vary``: path -> a range ("40..60 mm step 5 mm"), or a list of values. ``ask``: the required quantities
-    ("effort.O2", "reaction.A", an `Answer`); by default the file's `answers`, else all efforts and reactions. A variant
-    is sound where all asked positions are solved and no dead centre is near (the largest reaction less than doubles
+    ("effort.O2", "reaction.A", a `StatedAnswer`); by default the file's `answers`, else all efforts and reactions. A
+    variant is sound where all asked positions are solved and no dead centre is near (the largest reaction less than doubles
     within 2 degrees of the drive on both sides), where no figure is near zero, and where every mistake that
     `check_answers` knows, and that most sets of values show, changes one asked figure at least by more than
     ``tolerance`` ("3 %", by default 0.5 %). Raises ModelError where too few are sound, with the faults of the others.
@@ -147,7 +147,7 @@ def _draws(choices: Sequence[Choices], possible: int, chance: random.Random) -> 
 class _Pool:
     """The sets of values tried, and what they say together: which mistakes there are to show, how large figures are."""
 
-    def __init__(self, m: Mechanism, questions: Sequence[Answer], near: float, static: bool) -> None:
+    def __init__(self, m: Mechanism, questions: Sequence[StatedAnswer], near: float, static: bool) -> None:
         self.m, self.asked, self.near, self.static = m, questions, near, static
         self.tried: list[Candidate] = []
         self.unfit: list[str] = []
@@ -201,7 +201,7 @@ class _Pool:
         return f"{were}, of {possible} possible ones; rejected: {reasons_text}"
 
 
-def _variant(name: str, c: Candidate, questions: Sequence[Answer], tolerance: str) -> Variant:
+def _variant(name: str, c: Candidate, questions: Sequence[StatedAnswer], tolerance: str) -> Variant:
     """A sound candidate with its answers in the file's units."""
     units = c.mechanism.units
     key, answers = [], []

@@ -14,7 +14,7 @@ from dalembert.model.stated_answers import parts_of_name
 from dalembert.wording import closest, quote_value
 
 if TYPE_CHECKING:
-    from dalembert.model import Answer
+    from dalembert.model import StatedAnswer
 
 KNOWN = (*QUANTITIES, *WORDS, *WHOLE)
 """Quantities that a figure may have."""
@@ -27,7 +27,7 @@ ABOUT = ("student", "variant", "tolerance")
 class AnswerSheet:
     """Figures, their lines, the tolerance of those that give none, the student and the variant."""
 
-    answers: tuple[Answer, ...]
+    answers: tuple[StatedAnswer, ...]
     lines: tuple[int, ...] = ()
     tolerance: str | None = None
     student: str = ""
@@ -68,12 +68,12 @@ def about_sheet(tree: object) -> dict[str, str]:
     return {key: "" if value is None else str(value) for key, value in entries.items()}
 
 
-def without_value(answer: Answer) -> Answer:
+def without_value(answer: StatedAnswer) -> StatedAnswer:
     """The subject of an answer, without the file's values for it."""
     return answer.model_copy(update=dict.fromkeys(("value", "exact", "tolerance", "exact_tolerance", "why")))
 
 
-def figures(tree: object) -> list[Answer]:
+def figures(tree: object) -> list[StatedAnswer]:
     """The answers of a sheet, as in a model file's `answers` or {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}}."""
     return list(read_sheet(tree).answers)
 
@@ -95,14 +95,14 @@ def sheet_items(tree: object) -> Iterator[tuple[Path, Tree]]:
     yield from (((*base, k), dict(item)) for k, item in enumerate(tree))
 
 
-def answer_of(item: Tree) -> Answer:
+def answer_of(item: Tree) -> StatedAnswer:
     """The answer of its keys; ModelError where they are wrong."""
-    from dalembert.model import Answer
+    from dalembert.model import StatedAnswer
 
     if item.get("quantity") not in KNOWN:
         problem = f"unknown quantity {item.get('quantity')!r}"
         raise ModelError(problem, closest(str(item.get("quantity")), [*KNOWN], 40))
-    return Answer(**item)
+    return StatedAnswer(**item)
 
 
 VECTORS = ("reaction", "center", "velocity", "position", "point")

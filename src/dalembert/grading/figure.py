@@ -31,7 +31,7 @@ from dalembert.units import KINDS, NUMBER, Units, file_units
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Answer
+    from dalembert.model import StatedAnswer
 
 NOTHING = 1e-9
 """Part of the machine's largest force, or rate, below which a computed one is zero."""
@@ -41,7 +41,7 @@ NOTHING = 1e-9
 class StudentValue:
     """A figure as given, and the values (SI) that are right: of an interval its two ends."""
 
-    answer: Answer
+    answer: StatedAnswer
     series: Series
     position: int
     given: Target
@@ -98,7 +98,7 @@ class StudentValue:
         return value_text(self.answer.value)
 
 
-def figure(result: Result, answer: Answer, tolerance: object = None) -> StudentValue:
+def figure(result: Result, answer: StatedAnswer, tolerance: object = None) -> StudentValue:
     """A student's figure beside the computed values; ModelError where it cannot be read."""
     series = read(sides_of(result, answer)[0], answer)
     units = file_units(result.mechanism.units)
@@ -123,7 +123,7 @@ def figure(result: Result, answer: Answer, tolerance: object = None) -> StudentV
     )
 
 
-def figure_of_key(answer: Answer, right: Answer, tolerance: object = None) -> StudentValue:
+def figure_of_key(answer: StatedAnswer, right: StatedAnswer, tolerance: object = None) -> StudentValue:
     """A student's figure beside the value of a key alone; the unit of that value gives its kind."""
     units = Units()
     kind = _kind_of(right.value)
@@ -153,7 +153,7 @@ def why(result: Result, position: int) -> str:
     return reason_at(result, position) or "it depends on the elasticity of the links"
 
 
-def values_of(result: Result, answer: Answer, position: int) -> tuple[tuple[Array, ...], bool]:
+def values_of(result: Result, answer: StatedAnswer, position: int) -> tuple[tuple[Array, ...], bool]:
     """Right values of an answer at a position, without missing ones: one value, two at a reversal, at rest those of
     both ends; and whether everything between the two is right as well."""
     if answer.extreme is not None:

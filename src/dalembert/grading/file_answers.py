@@ -21,7 +21,7 @@ from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Answer, Mechanism
+    from dalembert.model import Mechanism, StatedAnswer
 
 
 TOLERANCE = 1e-6
@@ -75,7 +75,7 @@ def check(mechanism: Mechanism, case: str = "") -> list[ComparedAnswer]:
     return [_row(result, answer, k, case or mechanism.title) for k, answer in enumerate(mechanism.answers)]
 
 
-def _row(result: Result, answer: Answer, number: int, case: str) -> ComparedAnswer:
+def _row(result: Result, answer: StatedAnswer, number: int, case: str) -> ComparedAnswer:
     source = result.mechanism.source
     path = ("answers", number)
     try:
@@ -86,7 +86,7 @@ def _row(result: Result, answer: Answer, number: int, case: str) -> ComparedAnsw
     return row._replace(line=source.line(path) if source else 0)
 
 
-def _compare(result: Result, answer: Answer, case: str) -> ComparedAnswer:
+def _compare(result: Result, answer: StatedAnswer, case: str) -> ComparedAnswer:
     if answer.quantity in WHOLE:
         return _word(answer, case, WHOLE[answer.quantity](result), "")
     if answer.quantity in WORDS:
@@ -100,12 +100,12 @@ def _compare(result: Result, answer: Answer, case: str) -> ComparedAnswer:
     return next((row for row in rows if row.ok), rows[0])
 
 
-def read(result: Result, answer: Answer) -> Series:
+def read(result: Result, answer: StatedAnswer) -> Series:
     """The quantity of an answer over the positions."""
     return component(series_of(result, answer), answer.component)
 
 
-def sides_of(result: Result, answer: Answer) -> tuple[Result, ...]:
+def sides_of(result: Result, answer: StatedAnswer) -> tuple[Result, ...]:
     """The results that an answer may be of: just before reversals or just after; of an extreme the one that has it."""
     if result.after is None or answer.quantity.endswith(("_low", "_high")):
         return (result,)
@@ -118,7 +118,7 @@ def sides_of(result: Result, answer: Answer) -> tuple[Result, ...]:
     return (result.sides[int(np.argmax(largest))],)
 
 
-def describe_answer(answer: Answer) -> str:
+def describe_answer(answer: StatedAnswer) -> str:
     """The quantity in words: 'reaction of A on crank, magnitude, at 60 deg'."""
     parts = [answer.quantity.replace("_", " ")]
     parts += [f"of {answer.of}"] if answer.of else []
@@ -136,7 +136,7 @@ def _at_text(at: object) -> str:
 # words and counts
 
 
-def _word(answer: Answer, case: str, value: str | int | None, problem: str) -> ComparedAnswer:
+def _word(answer: StatedAnswer, case: str, value: str | int | None, problem: str) -> ComparedAnswer:
     published, computed = _plain(answer.value), "-" if value is None else str(value)
     ok = computed == published
     why, sentence = answer.why or "", "" if ok else problem
@@ -157,7 +157,7 @@ def reason_at(result: Result, position: int) -> str:
 # positions
 
 
-def position_of(result: Result, answer: Answer, series: Series | None = None) -> int:
+def position_of(result: Result, answer: StatedAnswer, series: Series | None = None) -> int:
     """Position of an answer, from 0."""
     count = len(result.status)
     if answer.extreme is not None and series is not None:
@@ -233,7 +233,7 @@ def _unit_of(value: object, kind: str, units: Units) -> str:
     return units.text(kind)
 
 
-def _difference(result: Result, answer: Answer, series: Series, case: str) -> ComparedAnswer:
+def _difference(result: Result, answer: StatedAnswer, series: Series, case: str) -> ComparedAnswer:
     units = file_units(result.mechanism.units)
     position = position_of(result, answer, series)
     published = target(answer.value, series, units, "value")
@@ -254,7 +254,7 @@ def _difference(result: Result, answer: Answer, series: Series, case: str) -> Co
     )
 
 
-def _meets_exact(value: Array, exact: Target, answer: Answer, series: Series, units: Units) -> bool:
+def _meets_exact(value: Array, exact: Target, answer: StatedAnswer, series: Series, units: Units) -> bool:
     scale = _scale(exact.value, series)
     allowed, _ = _tolerance(answer.exact_tolerance, scale, series.kind, units, EXACT, "exact_tolerance")
     return _away(value, exact.value, series.kind) <= allowed

@@ -21,7 +21,7 @@ from dalembert.model import ModelOrPath, as_mechanism
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Answer, Mechanism
+    from dalembert.model import Mechanism, StatedAnswer
 
 
 class Verdict(NamedTuple):
@@ -42,13 +42,16 @@ class Verdict(NamedTuple):
 
 
 def check_answers(
-    mechanism: ModelOrPath, answers: Sequence[Answer], static: bool = False, tolerance: str | None = None
+    mechanism: ModelOrPath,
+    answers: Sequence[StatedAnswer],
+    static: bool = False,
+    tolerance: str | None = None,
 ) -> list[Verdict]:
     """Verdicts on figures for a mechanism; ``tolerance``, `3 %`, is that of the figures that state none.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
-    >>> mine = da.Answer(quantity="effort", of="O2", value="-243.2 lbf*in")
+    >>> mine = da.StatedAnswer(quantity="effort", of="O2", value="-243.2 lbf*in")
     >>> da.check_answers(da.load(examples()["four_bar"]), [mine])[0].mistake
     'the sense is opposite: action mistaken for reaction'
     """
@@ -65,7 +68,7 @@ class SolvedProblem:
         self.result = solve(mechanism, static=static)
         self._wrong: dict[tuple[int, ...], WrongProblems] = {}
 
-    def verdicts(self, answers: Sequence[Answer], tolerance: str | None = None) -> list[Verdict]:
+    def verdicts(self, answers: Sequence[StatedAnswer], tolerance: str | None = None) -> list[Verdict]:
         """Verdicts on the figures of one sheet."""
         if tolerance is not None:
             percent(tolerance)
@@ -91,7 +94,7 @@ class SolvedProblem:
             raise
         return [v._replace(line=sheet.line(k)) for k, v in enumerate(verdicts)]
 
-    def compare(self, answer: Answer, tolerance: str | None = None) -> StudentValue | Verdict:
+    def compare(self, answer: StatedAnswer, tolerance: str | None = None) -> StudentValue | Verdict:
         """A figure beside what is computed, or the verdict on a word or a count."""
         r = self.result
         if answer.quantity in WHOLE:
@@ -125,7 +128,7 @@ def verdict_of(f: StudentValue, explanation: Explanation | None) -> Verdict:
     return Verdict(f.words, f.written, f.computed, f.off, f.met, mistake, kind)
 
 
-def verdict_on_word(answer: Answer, right: object) -> Verdict:
+def verdict_on_word(answer: StatedAnswer, right: object) -> Verdict:
     """The verdict on a word or a count."""
     answered, known = (value_text(value).strip().removesuffix(".0") for value in (answer.value, right))
     met = answered == known

@@ -17,7 +17,7 @@ from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.model import Answer
+    from dalembert.model import StatedAnswer
 
 __all__ = ["QUANTITIES", "WHOLE", "WORDS", "Series", "component", "series_of", "size"]
 
@@ -25,7 +25,7 @@ QUANTITIES = tuple(NAMES)
 """Quantities with numbers at each position, by the words of an answer."""
 
 
-def series_of(r: Result, answer: Answer) -> Series:
+def series_of(r: Result, answer: StatedAnswer) -> Series:
     """The quantity of an answer over the positions, on the link and in the axes that it names."""
     if answer.quantity == "energy_fluctuation":
         return _energy_fluctuation(r, answer)
@@ -39,7 +39,7 @@ def series_of(r: Result, answer: Answer) -> Series:
     return Series(parts.kind(r), values)
 
 
-def _energy_fluctuation(r: Result, answer: Answer) -> Series:
+def _energy_fluctuation(r: Result, answer: StatedAnswer) -> Series:
     """Energy fluctuation of a flywheel at a drive, over the cycle: the same at every position."""
     from dalembert.machine.flywheel.flywheels import flywheel
 
@@ -48,7 +48,7 @@ def _energy_fluctuation(r: Result, answer: Answer) -> Series:
     return Series("energy", np.full(len(r.status), flywheel(r, answer.of, inertia=1.0).size.energy))
 
 
-def _parts(r: Result, answer: Answer) -> names.QuantityName:
+def _parts(r: Result, answer: StatedAnswer) -> names.QuantityName:
     """The name of an answer taken apart; ModelError with the names that its thing may have."""
     word = NAMES[answer.quantity].partition(".")[0]
     if (
@@ -70,7 +70,7 @@ def _things(r: Result, word: str) -> list[str]:
     return names.things(r, CATALOGUE[word].of)
 
 
-def _on(r: Result, a: Answer, joint: str) -> str | None:
+def _on(r: Result, a: StatedAnswer, joint: str) -> str | None:
     """The link acted on: named by `on`, or the other one than `by`."""
     i, j = r.mechanism.joints[joint].links
     for key, link in (("on", a.on), ("by", a.by)):
@@ -81,7 +81,7 @@ def _on(r: Result, a: Answer, joint: str) -> str | None:
     return a.on if a.by is None else j if a.by == i else i
 
 
-def _in_link_axes(r: Result, a: Answer, link: str, values: Array) -> Array:
+def _in_link_axes(r: Result, a: StatedAnswer, link: str, values: Array) -> Array:
     """Vectors of a link, or of a point of it, in the axes of the link."""
     if values.ndim != 2 or a.axes == "joint":
         what = f"{a.axes} axes mean nothing for the {a.quantity.replace('_', ' ')} of {a.of}"

@@ -20,7 +20,7 @@ from dalembert.units import NUMBER, Units, quantity
 from dalembert.wording import quote_value
 
 if TYPE_CHECKING:
-    from dalembert.model import Answer
+    from dalembert.model import StatedAnswer
 
 
 NEAR = 0.005
@@ -115,7 +115,12 @@ class Closeness:
 
 
 def closeness(
-    answer: Answer, target: Target, kind: str, units: Units, tolerance: object = None, floor: float = 0.0
+    answer: StatedAnswer,
+    target: Target,
+    kind: str,
+    units: Units,
+    tolerance: object = None,
+    floor: float = 0.0,
 ) -> Closeness:
     """Allowed distance of a value from an answer: by its tolerance, or that of the sheet, if one is given, else by its
     digits."""

@@ -63,4 +63,4 @@ from dalembert.model.quantities.expressions import Expression as Expression
 from dalembert.model.quantities.tables import Table as Table
 from dalembert.model.quantities.varying import Varying as Varying
 from dalembert.model.quantities.varying import value_at as value_at
-from dalembert.model.stated_answers import Answer as Answer
+from dalembert.model.stated_answers import StatedAnswer as StatedAnswer

@@ -42,7 +42,7 @@ from dalembert.model.quantities.dependent_numbers import with_new
 from dalembert.model.quantities.parameters import Parameter, change_parameters, read_parameters
 from dalembert.model.quantities.units_and_parameters import ParametersValue, UnitsValue
 from dalembert.model.quantities.values import Name, Scalar, Vector, at_item
-from dalembert.model.stated_answers import Answer
+from dalembert.model.stated_answers import StatedAnswer
 from dalembert.units import Units, file_units
 from dalembert.wording import quote_value
 
@@ -98,7 +98,7 @@ class Mechanism(Part):
         default_factory=dict,
         description="position and speed at time 0 of the drives that forces move: used by simulate",
     )
-    answers: tuple[Answer, ...] = Field((), description="published answers, compared by `check`")
+    answers: tuple[StatedAnswer, ...] = Field((), description="published answers, compared by `check`")
     _source: FileSource | None = PrivateAttr(None)
     _changes: Mapping[str, object] = PrivateAttr({})
     _likenesses: tuple[Likeness, ...] = PrivateAttr(())

@@ -57,10 +57,10 @@ else:
     Quantity = Literal[QUANTITIES]
 
 
-class Answer(Part):
+class StatedAnswer(Part):
     """One claimed value; numbers and texts stay as written, in the file's units.
 
-    >>> Answer(quantity="effort", of="O2", value="243.23 lbf*in", tolerance="0.01 %").of
+    >>> StatedAnswer(quantity="effort", of="O2", value="243.23 lbf*in", tolerance="0.01 %").of
     'O2'
     """
 

@@ -77,7 +77,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
 
     @property
     def _kinds(self) -> list[str]:
-        """Kinds of the aim and of the room of each condition."""
+        """Kinds of the aim and of the margin of each condition."""
         return [quantity(self.after, e).kind for e in (self.aim.of, *(c.margin for c in self.conditions))]
 
     def number_rows(self, units: UnitChoice = "file") -> list[list[str]]:
@@ -87,9 +87,9 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         return [row_of(to, *each) for each in columns]
 
     def aim_rows(self, units: UnitChoice = "file") -> list[list[str]]:
-        """The aim, and the room that each condition has left, before and after."""
+        """The aim, and the margin of each condition, before and after."""
         to = self._printed(units)
-        names = [f"{self.aim.word} {self.aim.of}", *(f"room of {c.text}" for c in self.conditions)]
+        names = [f"{self.aim.word} {self.aim.of}", *(f"margin of {c.text}" for c in self.conditions)]
         both = zip(names, self._kinds, self._sizes(self.before), self._sizes(self.after), strict=True)
         return [row_of(to, *each) for each in both]
 
@@ -110,21 +110,21 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         return super().basis() | self.after.assumptions
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
-        """What is least, and the room of each condition, over the cycle before and after."""
+        """What is least, and the margin of each condition, over the cycle before and after."""
         for drive in self.after.drives:
             kind = drive_kinds(self.after, drive)["position"]
             yield Column(f"drive.{drive}", kind, self.after.drive_position(drive))
         for side, r in (("before", self.before), ("after", self.after)):
             for name, of in (
                 (self.aim.of, self.aim.of),
-                *((f"room of {c.text}", c.margin) for c in self.conditions),
+                *((f"margin of {c.text}", c.margin) for c in self.conditions),
             ):
                 found = quantity(r, of)
                 for part, values in parts(found.values):
                     yield Column(f"{side}.{name}{part}", found.kind, values)
 
     def record(self, to: Scale) -> Tree:
-        """Numbers before and after with their bounds, the aim, the room of conditions, and how sure it is."""
+        """Numbers before and after with their bounds, the aim, the margins of conditions, and how sure it is."""
         columns = zip(self.numbers, self.kinds, self.nominal, self.values, *self.bounds.T, strict=True)
         names = ("before", "after", "from", "to")
         numbers = {n: dict(zip(names, (to(kind, v) for v in of), strict=True)) for n, kind, *of in columns}
@@ -140,8 +140,8 @@ class Optimum(Labelled, Drawn, Worked, Remade):
             "polished": self.polished,
             "started": self.started,
         }
-        rooms = dict(zip(of[1:], both[1:], strict=True))
-        return {"optimum": {"numbers": numbers, "aim": {"of": of[0], **both[0]}, "room": rooms, **found}}
+        margins = dict(zip(of[1:], both[1:], strict=True))
+        return {"optimum": {"numbers": numbers, "aim": {"of": of[0], **both[0]}, "margin": margins, **found}}
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
         """Before and after, and how sure it is."""

@@ -18,7 +18,7 @@ array([-0.9704,  0.    ])
 from dalembert.wrench.arrangements import arrangement as arrangement
 from dalembert.wrench.arrangements import concurrency as concurrency
 from dalembert.wrench.arrangements import parallel_center as parallel_center
-from dalembert.wrench.balance_check import Balance as Balance
+from dalembert.wrench.balance_check import ForceSums as ForceSums
 from dalembert.wrench.forces import Axis as Axis
 from dalembert.wrench.forces import Couple as Couple
 from dalembert.wrench.forces import Force as Force

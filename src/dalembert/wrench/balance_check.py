@@ -15,7 +15,7 @@ from dalembert.wrench.reading import read_only
 
 
 @dataclass(frozen=True, eq=False)
-class Balance:
+class ForceSums:
     """Sums of forces (N) and of moments (N m) about ``at`` (m), and their largest ratio to the applied forces.
 
     ``residual`` is the larger of |sum of forces| / largest force and |sum of moments| / (largest force x length).
@@ -37,7 +37,7 @@ def balance(
     tolerance: float,
     missing: tuple[Force | Couple, ...],
     units: Units,
-) -> Balance:
+) -> ForceSums:
     """The check of equilibrium of a system with these sums of forces, and of moments about ``at``.
 
     ``scales``: the largest force and moment; ``missing``: the parts that would bring it to equilibrium.
@@ -54,7 +54,7 @@ def balance(
         sentence = f"In equilibrium: {residual:.1g} of the largest force is left."
     else:
         sentence = f"Not in equilibrium: {_which(parts, tolerance)}. {_missing(missing, units)}"
-    return Balance(holds, residual, force, read_only(moment), at, missing, sentence)
+    return ForceSums(holds, residual, force, read_only(moment), at, missing, sentence)
 
 
 def _part(sum_of: Array, scale: float) -> float:

@@ -17,7 +17,7 @@ from dalembert.errors import AnalysisError, ModelError
 from dalembert.units import Units, file_units
 from dalembert.wording import closest
 from dalembert.wrench import reading
-from dalembert.wrench.balance_check import Balance, balance
+from dalembert.wrench.balance_check import ForceSums, balance
 from dalembert.wrench.forces import ALGEBRA, Axis, Couple, Force, moment_about, value_of
 from dalembert.wrench.reading import UnitNames, Vector, read_only
 
@@ -363,7 +363,7 @@ class System(Drawn, Worked):
             (force,) if kind == "single force" else (force, Couple(-screw.moment * screw.axis.direction, "E"))
         )
 
-    def equilibrium(self, tolerance: float = EXACT, length: float | None = None) -> Balance:
+    def equilibrium(self, tolerance: float = EXACT, length: float | None = None) -> ForceSums:
         """Equilibrium check: the verdict, the residual force and moment, and the missing parts.
 
         ``tolerance`` is the residual allowed, as a fraction of the largest force, and for moments of that force times

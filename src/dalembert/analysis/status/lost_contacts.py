@@ -1,6 +1,6 @@
 """Positions at which a contact that only pushes would have to pull, in sentences.
 
-Mechanics: docs/theory.md 5.6.
+Mechanics: docs/theory.md 5.5.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ from dalembert.wording import quote_value
 if TYPE_CHECKING:
     from dalembert.answer.workbook import Tab
     from dalembert.arrays import Tree
-    from dalembert.model import Answer, Mechanism
+    from dalembert.model import Mechanism, StatedAnswer
     from dalembert.printing import Part
 
 
@@ -130,7 +130,7 @@ class _Taken(NamedTuple):
     figure."""
 
     asked: Asked
-    given: Answer | None
+    given: StatedAnswer | None
     found: StudentValue | Verdict | None
     sentence: str
     part: bool
@@ -165,7 +165,7 @@ class _Marker:
         self, sheet: StudentSheet, variant: ExamVariant, problems: list[str]
     ) -> tuple[list[_Taken], list[str]]:
         """The sheet's answers to the required figures, and its other figures."""
-        read: list[tuple[Answer | None, str]] = []
+        read: list[tuple[StatedAnswer | None, str]] = []
         for one in sheet.figures:
             try:
                 read.append((answer_of(one.keys), ""))
@@ -196,7 +196,12 @@ class _Marker:
         return out, unused
 
     def _one(
-        self, variant: ExamVariant, question: Asked, answer: Answer | None, part: bool, where: tuple[str, int]
+        self,
+        variant: ExamVariant,
+        question: Asked,
+        answer: StatedAnswer | None,
+        part: bool,
+        where: tuple[str, int],
     ) -> _Taken:
         """An answer beside the computed value: keys that it leaves out are as required, and a student's tolerance is
         ignored."""
@@ -272,7 +277,7 @@ class _Marker:
         return Mark(words, verdict.given, verdict.computed, outcome, sentence, most * share, most, t.line)
 
 
-def _fit(question: Answer, keys: Mapping[str, object]) -> int | None:
+def _fit(question: StatedAnswer, keys: Mapping[str, object]) -> int | None:
     """Match of a given figure with the required one: 0 the same, 1 the complete vector of which it is a component, 2
     only its size; None if it is another."""
     if keys.get("quantity") != question.quantity or (keys.get("of") or None) != question.of:

@@ -25,14 +25,14 @@ from dalembert.units import NUMBER
 from dalembert.wording import closest, quote_value
 
 if TYPE_CHECKING:
-    from dalembert.model import Answer, Mechanism
+    from dalembert.model import Mechanism, StatedAnswer
 
 
 @dataclass(frozen=True)
 class Asked:
     """A required figure: its subject, with its right value if the key has one; its unit, marks and line."""
 
-    answer: Answer
+    answer: StatedAnswer
     unit: str = ""
     marks: float | None = None
     line: int = 0
@@ -52,7 +52,7 @@ class ExamVariant:
         """The problem solved."""
         return None if self.load is None else SolvedProblem(self.load(), self.static)
 
-    def compare(self, question: Asked, answer: Answer, tolerance: str | None) -> StudentValue | Verdict:
+    def compare(self, question: Asked, answer: StatedAnswer, tolerance: str | None) -> StudentValue | Verdict:
         """A student's figure beside the problem's, or without a problem beside the key's; bare numbers in its unit."""
         answer = answer.model_copy(update={"value": with_units(answer.value, question.unit)})
         if self.problem is not None:
@@ -135,7 +135,7 @@ def _cells(row: object) -> dict[str, str]:
 
 
 def _of_model(m: Mechanism, static: bool) -> ExamVariant:
-    from dalembert.model import Answer
+    from dalembert.model import StatedAnswer
 
     out = ExamVariant(m.title or "", load=lambda: m, static=static)
     questions = [without_value(a) for a in m.answers]
@@ -143,7 +143,7 @@ def _of_model(m: Mechanism, static: bool) -> ExamVariant:
         assert out.problem is not None
         r = out.problem.result
         named = {"effort": r.drives, "unknown_load": r.unknown_loads, "reaction": r.joints}
-        questions = [Answer(quantity=q, of=name) for q, names in named.items() for name in names]
+        questions = [StatedAnswer(quantity=q, of=name) for q, names in named.items() for name in names]
     out.asked = [Asked(a) for a in questions]
     return out
 

@@ -63,7 +63,7 @@ class PlacedWeight:
 
 
 @dataclass(frozen=True, eq=False)
-class CounterweightBalance(Comparison):
+class Balance(Comparison):
     """Counterweights by link, the remaining shaking, and the proof that no others leave less.
 
     ``before``, ``after``: shaking without and with them. ``numbers`` (W, N): of each m, m x, m y and I about its base
@@ -176,7 +176,7 @@ def balance(
     of: Of = "force",
     about: About = None,
     positions: AtPositions = None,
-) -> CounterweightBalance:
+) -> Balance:
     """Counterweights on links that leave least of the shaking force, moment, torque, or a weighted sum, over the cycle.
 
     ``weights``: links, or by link the bounds of a `Counterweight`. ``least``: the root mean square over the positions
@@ -210,7 +210,7 @@ def balance(
     after = shaking(at_schedule(with_masses(r.mechanism, masses), r.schedule, r.inertia), about)
     off = _difference(after, solved, problem)
     proof = solved.value, solved.bound, before, after, off
-    return CounterweightBalance(r, allowed, least, wanted, placed, numbers, *proof, problem)
+    return Balance(r, allowed, least, wanted, placed, numbers, *proof, problem)
 
 
 def _over_a_cycle(m: Mechanism, positions: AtPositions) -> Result:

@@ -11,11 +11,11 @@ from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.printing import Part, TextTable, number, remainder, round_components, wrap
 
 if TYPE_CHECKING:
-    from dalembert.machine.balance.balancing import CounterweightBalance
+    from dalembert.machine.balance.balancing import Balance
     from dalembert.machine.balance.comparison import Comparison
 
 
-def balance_parts(b: CounterweightBalance, to: Printed) -> Iterator[Part]:
+def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
     """The counterweights, what is left of force, moment and torque, and the proof."""
     length, mass = to.text("length"), to.text("mass")
     rows = []
@@ -60,7 +60,7 @@ def comparison_table(b: Comparison, to: Printed) -> TextTable:
     return TextTable(["", "before", "after", "left"], rows, note=wrap(note))
 
 
-def proof(b: CounterweightBalance) -> str:
+def proof(b: Balance) -> str:
     """Objective, proof of optimality, and obstacles to full force balance."""
     counted = b.problem.weighted(b.least, b.of)
     what = " + ".join(f"{'' if w == 1 else f'{w:g} '}{name}" for name, w in b.of.items() if w)

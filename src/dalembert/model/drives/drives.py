@@ -11,10 +11,11 @@ from pydantic import Field, FieldSerializationInfo, ValidationInfo, field_serial
 
 from dalembert.errors import ModelError
 from dalembert.model.drives.end_stops import Stops, end_stops, stops_schema
-from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law_schema
+from dalembert.model.drives.laws import Law, Rise, TimeTable, law_schema
 from dalembert.model.drives.laws import law as read_law
 from dalembert.model.drives.motors import MotorCurve, motor_curve, motor_schema
 from dalembert.model.drives.programmes import Programme
+from dalembert.model.drives.written_programmes import count
 from dalembert.model.part import Part, ReadingRules, mapping, reading
 from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.figures import in_units

@@ -10,7 +10,7 @@ from itertools import pairwise
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.drives.programmes import Programme
-from dalembert.model.drives.written_programmes import programme, programme_schema
+from dalembert.model.drives.written_programmes import count, programme, programme_schema
 from dalembert.model.part import ReadingRules, mapping
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -29,8 +29,6 @@ EXAMPLES = {
     "rise": "{type: cycloidal, from: 0, to: 90 deg, duration: 0.2 s, count: 50}",
     "table": "{type: table, time: [...], position: [...], count: 50}",
 }
-MOST = 10_000_000
-"""Positions of one analysis."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,14 +176,6 @@ def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic:
     if periodic and abs(position[-1] - position[0]) > 1e-9 * max(map(abs, position)):
         words = "it does not end where it begins"
         raise ModelError(words, "repeat the first position at the end", ("periodic",))
-
-
-def count(value: object, least: int = 1) -> int:
-    """A number of positions."""
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= MOST:
-        what = f"{quote_value(value)} is not a number of positions"
-        raise ModelError(what, f"write an integer from {least} to {MOST}")
-    return value
 
 
 def law_schema() -> JsonSchema:

@@ -10,8 +10,8 @@ from typing import Any
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model.drives.drives import Drive, Range
-from dalembert.model.drives.laws import MOST
 from dalembert.model.drives.programmes import Programme
+from dalembert.model.drives.written_programmes import MOST
 from dalembert.wording import closest, quote_value
 
 Motion = tuple[Any, Any, Any, Any]

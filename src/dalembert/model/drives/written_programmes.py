@@ -21,6 +21,9 @@ from dalembert.model.quantities.values import (
 )
 from dalembert.wording import closest, quote_value
 
+MOST = 10_000_000
+"""Positions of one analysis."""
+
 FORMS = (*RISES, "polynomial", "spline", "trapezoidal", "s_curve")
 EXAMPLE = "{segments: [{to: 25 mm, in: 0.2 s, by: cycloidal}, {dwell: 0.1 s}], count: 181}"
 RISE_EXAMPLE = "{to: 25 mm, in: 0.2 s, by: cycloidal}"
@@ -35,6 +38,14 @@ KEYS = {
     "rise": ["to", "in", "by"],
 }
 """Form of a segment -> its keys."""
+
+
+def count(value: object, least: int = 1) -> int:
+    """A number of positions."""
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= MOST:
+        what = f"{quote_value(value)} is not a number of positions"
+        raise ModelError(what, f"write an integer from {least} to {MOST}")
+    return value
 
 
 def programme(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Programme:
@@ -61,8 +72,6 @@ def programme(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Pr
         raise ModelError(
             f"{quote_value(periodic)} is neither true nor false", "write periodic: true", ("periodic",)
         )
-    from dalembert.model.drives.laws import count
-
     number = at_item("count", count, value["count"], 1) if "count" in value else 1
     out = Programme(tuple(read), start, number, over, periodic, turn, slides)
     if out.segments[0].form == "spline" and "from" not in value:

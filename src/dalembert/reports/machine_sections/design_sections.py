@@ -9,7 +9,7 @@ from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:
-    from dalembert.machine.balance.balancing import CounterweightBalance
+    from dalembert.machine.balance.balancing import Balance
     from dalembert.machine.balance.rotors import RotorBalance
     from dalembert.machine.bearings.bearing_load import BearingLoad
     from dalembert.machine.bearings.bearing_table import BearingTable
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from dalembert.machine.motors.motor_choice import MotorChoice
 
 
-def balance_section(sheet: ReportSheet, b: CounterweightBalance, shown: Shown) -> None:
+def balance_section(sheet: ReportSheet, b: Balance, shown: Shown) -> None:
     """In letters the columns of a counterweight."""
     sheet.heading("Balance")
     where = "with m x and m y about its base point A, on a link at the angle $theta$, adds to the shaking force, in "

@@ -21,7 +21,7 @@ from dalembert.views.paper.scene import Scene
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-    from dalembert.machine.balance.balancing import CounterweightBalance
+    from dalembert.machine.balance.balancing import Balance
     from dalembert.machine.balance.rotors import RotorBalance
     from dalembert.machine.bearings.bearing_table import BearingTable
     from dalembert.machine.flywheel.flywheels import Flywheel
@@ -58,7 +58,7 @@ def cycle_axis(r: Result, notation: Notation) -> ChartAxis:
     return ChartAxis(shown, *along(r, shown))
 
 
-def balance_scenes(b: CounterweightBalance, notation: Notation) -> list[Scene]:
+def balance_scenes(b: Balance, notation: Notation) -> list[Scene]:
     """Force (in the plane a polar diagram, in space its magnitude), moment and torque over the cycle, the trade-off."""
     axis = cycle_axis(b.result, notation)
     return [*comparison_scenes(b, axis), *_trade_off(b, axis)]
@@ -90,7 +90,7 @@ def comparison_scenes(b: Comparison, axis: ChartAxis) -> list[Scene]:
     return out
 
 
-def _trade_off(b: CounterweightBalance, axis: ChartAxis) -> list[Scene]:
+def _trade_off(b: Balance, axis: ChartAxis) -> list[Scene]:
     """The minimized quantity against the first one that is not, where one increases as the other decreases."""
     if len(b.result.status) < 3 or not b.result.drives:
         return []

@@ -71,6 +71,14 @@ class Trace:
         return tuple(name for name in names if name not in open_)
 
 
+def _schedule(m: Mechanism, moves: bool) -> Schedule:
+    """The positions of the file; where the drives move on, time is an input of every state."""
+    schedule = m.schedule()
+    if schedule.unknown is not None:
+        raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
+    return replace(schedule, time=np.zeros(schedule.count)) if moves else schedule
+
+
 def trace_analysis(
     m: Mechanism,
     vary: Iterable[str],
@@ -92,11 +100,7 @@ def trace_analysis(
     graph: those of loads by the pose. ``followed``: branches of closed forms and phases of wheels are inputs, as the
     motion is followed where the program runs.
     """
-    schedule = m.schedule()
-    if schedule.unknown is not None:
-        raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
-    if moves:  # time is an input of every state
-        schedule = replace(schedule, time=np.zeros(schedule.count))
+    schedule = _schedule(m, moves)
     course = PositionPath(m, schedule, solved)
     check_knowns(course.compiled)
     repeated = _check(course, redundant)
