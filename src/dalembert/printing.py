@@ -116,7 +116,7 @@ def tables(
 class TextTable(NamedTuple):
     """A table before it is text: heads, cells as text, how many columns are aligned left, a note under it.
 
-    >>> print(Table(["joint", "x"], [["A", "1"]], note="in N"))
+    >>> print(TextTable(["joint", "x"], [["A", "1"]], note="in N"))
     joint  x
     --------
     A      1

@@ -221,7 +221,7 @@ def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:
     m = da.mechanism(tree).with_values({"friction.coefficient": mu})
     k = da.compile(m, vary=["friction.coefficient", "joints.A.friction.radius"], outputs=["effort.O2"])
     program, r, course = plain(k), k(redo=False), k.trace.course
-    columns = [k.trace.inputs.found[n](course) for n in program.inputs_in_use("channel")]
+    columns = [k.trace.inputs.sources[n](course) for n in program.inputs_in_use("channel")]
     library, out = shared(tmp_path, k.to_c("machine"), "alone"), np.zeros(1)
     function = pytest.importorskip("casadi") and k.to_casadi()
     for p in range(len(course.schedule.position)):

@@ -421,7 +421,7 @@ def test_c_function(tmp_path: Path) -> None:
     library = shared(tmp_path, k.to_c("four_bar"), "alone")
     r, q = k(), k.trace.course.schedule.position[7, 0]
     channels = np.array(
-        [float(k.trace.inputs.found[n](k.trace.course)[7]) for n in program.inputs_in_use("channel")]
+        [float(k.trace.inputs.sources[n](k.trace.course)[7]) for n in program.inputs_in_use("channel")]
     )
     assert q in channels
     out = np.zeros(len(program.outputs))
@@ -435,7 +435,7 @@ def test_casadi_function() -> None:
     k = da.compile(four_bar(24), vary=VARY, outputs=["effort.O2", "reaction.A"])
     f, r = k.to_casadi(), k()
     program = plain(k)
-    channels = [float(k.trace.inputs.found[n](k.trace.course)[5]) for n in program.inputs_in_use("channel")]
+    channels = [float(k.trace.inputs.sources[n](k.trace.course)[5]) for n in program.inputs_in_use("channel")]
     effort, reaction, mark = f(k.nominal, channels)
     assert abs(float(effort) - r.effort("O2")[0, 5]) < 1e-10
     assert np.abs(np.array(reaction).ravel() - r.reaction("A")[0, 5]).max() < 1e-9

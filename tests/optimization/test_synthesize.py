@@ -167,8 +167,8 @@ def test_free_timing_begins_where_a_design_comes_nearest_either_way_round(
     course = np.linspace(*ends, 25)
     timing = FreeTiming.of(k, np.array([0.2]), np.array([0.1]), targets, course)
     sense = 1.0 if ends[1] > ends[0] else -1.0
-    assert (timing.whole, timing.sense) == (turned, sense)
-    stations = timing.own.stations
+    assert (timing.closed, timing.sense) == (turned, sense)
+    stations = timing.samples.stations
     assert stations[0] == ends[0]
     assert (stations[-1] == ends[1]) is not turned
     x = timing.begin(np.array([[0.5]]))

@@ -85,7 +85,7 @@ def variants(
 
     ``vary``: path -> a range ("40..60 mm step 5 mm"), or a list of values. ``ask``: the required quantities
     ("effort.O2", "reaction.A", a `StatedAnswer`); by default the file's `answers`, else all efforts and reactions. A
-    variant is sound where all asked positions are solved and no dead centre is near (the largest reaction less than doubles
+    variant is sound where all positions are solved and no dead centre is near (the largest reaction less than doubles
     within 2 degrees of the drive on both sides), where no figure is near zero, and where every mistake that
     `check_answers` knows, and that most sets of values show, changes one asked figure at least by more than
     ``tolerance`` ("3 %", by default 0.5 %). Raises ModelError where too few are sound, with the faults of the others.

@@ -30,7 +30,7 @@ def is_stream(path: str | os.PathLike[str]) -> bool:
 class FileSource:
     """A file's name, text and format, and its lines by path, computed when first needed.
 
-    >>> Source("four.yaml", lambda: {("joints",): 3, ("joints", "A"): 5}).line(("joints", "A", "links", 0))
+    >>> FileSource("four.yaml", lambda: {("joints",): 3, ("joints", "A"): 5}).line(("joints", "A", "links", 0))
     5
     """
 

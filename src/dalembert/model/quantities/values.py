@@ -155,7 +155,7 @@ def vector_schema() -> JsonSchema:
 def vector(value: object, kind: str, rules: ReadingRules) -> Vector:
     """The Cartesian components of a vector, SI.
 
-    >>> vector("2 m @ 90 deg", "length", Reading())
+    >>> vector("2 m @ 90 deg", "length", ReadingRules())
     (0.0, 2.0)
     """
     if isinstance(value, str) and "@" in value:

@@ -42,7 +42,7 @@ def varying_schema() -> JsonSchema:
 def varying(value: object, kind: str, rules: ReadingRules) -> Varying:
     """A number, an expression or a table, as its form says.
 
-    >>> varying("2*sin(O2) kN", "force", Reading())
+    >>> varying("2*sin(O2) kN", "force", ReadingRules())
     Expression(text='2*sin(O2)', unit='kN')
     """
     if isinstance(value, Expression) and value.parameters is None and (value.unit or KINDS[kind].si):

@@ -38,7 +38,7 @@ def pieces(text: str) -> list[Glyphs]:
     """A text split at `_{...}` and `^{...}`.
 
     >>> pieces("F_{12} = 3")
-    [Piece(text='F', level=0), Piece(text='12', level=-1), Piece(text=' = 3', level=0)]
+    [Glyphs(text='F', level=0), Glyphs(text='12', level=-1), Glyphs(text=' = 3', level=0)]
     """
     out: list[Glyphs] = []
     for plain, sign, small in re.findall(r"([^_^]+|[_^](?!\{))|([_^])\{([^}]*)\}", text):
