@@ -321,7 +321,7 @@ def along(sign: str, axis: str) -> str:
 def load_sign(name: str) -> str:
     """A load's name as a symbol: F_P gives F_{P}, T4 gives T_{4}.
 
-    >>> own_name("F_P"), own_name("T_4"), own_name("F2"), own_name("gas")
+    >>> load_sign("F_P"), load_sign("T_4"), load_sign("F2"), load_sign("gas")
     ('F_{P}', 'T_{4}', 'F_{2}', 'gas')
     """
     if match := re.fullmatch(r"([A-Za-z]+)_(\w+)", name):

@@ -19,6 +19,7 @@ from dalembert.errors import SOLVED, ModelError
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.degree_of_freedom import Mobility
+    from dalembert.analysis.methods.contact_force import ContactForce
     from dalembert.analysis.result.force_arrays import Friction
     from dalembert.analysis.result.position_lookup import PositionChoice
     from dalembert.answer.workbook import Tab
@@ -123,8 +124,6 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
         from dalembert.views import draw as drawings
 
         return drawings.view(self, view, at, notation)
-
-    # what was asked
 
     @property
     def schedule(self) -> Schedule:
@@ -278,9 +277,8 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
     def friction_force(self, joint: str, on: str | None = None) -> Array:
         """Dry friction's part of a joint's force on one of its links (P, 2), default on j, ground axes."""
         k, sign = self._joint(joint, on)
-        return (
-            sign * (np.zeros_like(self.force_array) if self.friction is None else self.friction.force)[:, k]
-        )
+        force = np.zeros_like(self.force_array) if self.friction is None else self.friction.force
+        return sign * force[:, k]
 
     def friction_moment(self, joint: str, on: str | None = None) -> Array:
         """Dry friction's couple in a joint on one of its links (P,), in space (P, 3), default on j."""
@@ -297,17 +295,14 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
         return joint_friction.power_lost(self, joint, kind)
 
     def interval(self, name: str) -> Array:
-        """Low and high end (P, 2) where motion impends, or one number twice; ``ends`` has the complete result for each
-        end."""
+        """Low and high end (P, 2) where motion impends, or one number twice; ``ends`` has the results of both."""
         from dalembert.analysis.friction import joint_friction
 
         return joint_friction.interval(self, name)
 
     def holding(self, name: str) -> Array:
-        """Low and high (P, 2) of what friction can hold at rest for some history: ``interval`` or more.
-
-        Infinite where the contacts wedge and hold any value; NaN where it is not sought.
-        """
+        """Low and high (P, 2) of what friction can hold at rest for some history: ``interval`` or more; infinite where
+        the contacts wedge and hold any value, NaN where it is not sought."""
         from dalembert.analysis.friction import joint_friction
 
         return joint_friction.holding(self, name)
@@ -316,6 +311,12 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
     def time(self) -> Array | None:
         """Times (P,) of the positions, s, where the drives have a law of motion."""
         return self.schedule.time
+
+    def contact(self, joint: str) -> ContactForce:
+        """Normal force of a contact that only pushes, and the speed at which it is lost: `contact_force.py`."""
+        from dalembert.analysis.methods.contact_force import contact_force
+
+        return contact_force(self, joint)
 
     def freedom(self, joint: str, kind: str) -> tuple[Array, Array, Array]:
         """Value, rate and second rate of a joint's freedom `slide` or `turn`, each (P,)."""
@@ -352,8 +353,9 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
 
     def basis(self) -> dict[str, str]:
         """Title, source, assumptions and mobility."""
-        mobility = {"mobility": self.mobility.sentence if self.mobility else ""}
-        return super().basis() | self.assumptions | mobility
+        return (
+            super().basis() | self.assumptions | {"mobility": self.mobility.sentence if self.mobility else ""}
+        )
 
     def head(self, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
         """What stands before the positions in the JSON answer."""

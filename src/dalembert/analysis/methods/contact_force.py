@@ -1,0 +1,119 @@
+"""Normal force of a contact that only pushes, and the speed at which it is lost.
+
+Mechanics: docs/theory.md 5.5.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.result.joint_freedoms import full_pose
+from dalembert.arrays import Array
+from dalembert.core.pushing import LOST, contact_forces
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism
+from dalembert.model.joints.contact_keys import HOLDS
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+SPEEDS = (0.5, 1.0, 2.0)
+"""Parts of the given speeds at which the force is computed: it is a quadratic function of them."""
+
+
+@dataclass(frozen=True)
+class ContactForce:
+    """Normal force of a joint whose ``contact`` pushes or pulls, at every position (P,), N.
+
+    needed (P,): the force as if the contact held both ways, below 0 where it is lost; ``force`` is NaN there. behind,
+    ahead (P,): of a guide with lengths, the forces at its ends, the same way. lift_factor: the least factor of all
+    speeds (accelerations by its square) from which on the contact is lost somewhere, NaN where it never is, 0 where the
+    loads alone do not close it; lift_speed: that of the first drive that moves. Loads that depend on time or speeds
+    keep their values at the given speeds only to second order.
+    """
+
+    joint: str
+    needed: Array = field(repr=False)
+    behind: Array | None = field(repr=False)
+    ahead: Array | None = field(repr=False)
+    lift_factor: float
+    lift_speed: float
+
+    @property
+    def force(self) -> Array:
+        """The normal force (P,), N, NaN where the contact is lost."""
+        return np.where(self.needed < 0, np.nan, self.needed)
+
+
+def contact_force(r: Result, joint: str) -> ContactForce:
+    """Normal force of a contact along a result, also where it is lost; raises ModelError for a joint that holds.
+
+    >>> import dalembert as da
+    >>> crate = {"points": {"F": [0, 0]}, "mass": 40, "center": [0, 0.6], "inertia": 3}
+    >>> floor = {"type": "slider", "links": ["ground", "crate"], "at": ["O", "F"], "contact": "pushes"}
+    >>> joints = {"floor": floor | {"friction": {"guide": [0.25, 0.25], "coefficient": 0}}}
+    >>> drives = {"floor": {"position": 0, "speed": "10 m/s", "acceleration": "-3 m/s^2"}}
+    >>> links = {"ground": {"points": {"O": [0, 0]}}, "crate": crate}
+    >>> m = da.mechanism({"gravity": "standard", "links": links, "joints": joints, "drives": drives})
+    >>> c = da.dynamics(m).contact("floor")
+    >>> c.ahead.round(3), c.behind.round(3)
+    (array([340.133]), array([52.133]))
+    """
+    pushing = r.compiled.pushing
+    of = [] if pushing is None else sorted({r.joints[k] for k in pushing.joint})
+    if joint not in r.joints:
+        raise ModelError(f"unknown joint {joint!r}", closest(joint, of or list(r.joints)))
+    if pushing is None or joint not in of:
+        what = f"the contact of joint {joint!r} holds both ways"
+        raise ModelError(what, "write contact: pushes" if not of else f"choose among {', '.join(of)}")
+    rows = np.flatnonzero(pushing.joint == r.joints.index(joint))
+    holding = _holding(r.mechanism)
+    parts = np.array([_forces(r, holding, factor)[:, rows] for factor in SPEEDS])  # (3, P, K)
+    size = np.abs(parts[1]).max(initial=0.0)
+    forces = np.where(np.abs(parts[1]) <= LOST * size, 0.0, parts[1])
+    corners = pushing.corner[rows]
+    ends = [forces[:, corners == side] for side in (-1, 1)]
+    behind, ahead = (end[:, 0] if end.size else None for end in ends)
+    factor = _lift_factor(parts, size)
+    moving = r.schedule.speed[:, (r.schedule.speed != 0).any(axis=0)]
+    speed = float(np.abs(moving[:, 0]).max()) if moving.size else np.nan
+    return ContactForce(joint, forces.sum(axis=1), behind, ahead, factor, factor * speed)
+
+
+def _holding(m: Mechanism) -> Mechanism:
+    """The mechanism with contacts that hold both ways."""
+    joints = {
+        name: j.model_copy(update={"contact": HOLDS}) if hasattr(j, "contact") else j
+        for name, j in m.joints.items()
+    }
+    return m.model_copy(update={"joints": joints})
+
+
+def _forces(r: Result, holding: Mechanism, factor: float) -> Array:
+    """Forces (P, K) of all contacts at a factor of the speeds."""
+    s = r.schedule
+    schedule = replace(s, speed=factor * s.speed, acceleration=factor**2 * s.acceleration)
+    other = at_schedule(holding, schedule, r.inertia)
+    c = r.compiled
+    assert c.pushing is not None
+    return contact_forces(c.layout, c.pushing, full_pose(other), other.force_array, other.moment_array)
+
+
+def _lift_factor(parts: Array, size: float) -> float:
+    """Least positive root of the forces (3, P, K) as quadratic functions of the factor; they begin above 0."""
+    still, linear, square = np.linalg.solve(np.vander(SPEEDS, 3, increasing=True), parts.reshape(3, -1))
+    small = LOST * size
+    if (still < -small).any():
+        return 0.0
+    least = np.inf
+    for force in np.stack([square, linear, still], axis=1):
+        c = np.where(np.abs(force) > small, force, 0.0)
+        if np.isfinite(c).all() and c[:2].any():
+            roots = np.roots(c)
+            least = min([least, *(x.real for x in roots if abs(x.imag) <= LOST and x.real > LOST)])
+    return float(least) if np.isfinite(least) else np.nan
