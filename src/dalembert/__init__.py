@@ -77,6 +77,7 @@ if TYPE_CHECKING:
     from dalembert.machine.motors.motor_choice import MotorChoice as MotorChoice
     from dalembert.machine.motors.motor_choice import motor as motor
     from dalembert.machine.shaking import shaking as shaking
+    from dalembert.model import Answer as Answer
     from dalembert.model import Bearing as Bearing
     from dalembert.model import Box as Box
     from dalembert.model import CircularSlot as CircularSlot
@@ -107,7 +108,6 @@ if TYPE_CHECKING:
     from dalembert.model import SpaceJoint as SpaceJoint
     from dalembert.model import Sphere as Sphere
     from dalembert.model import Spring as Spring
-    from dalembert.model import StatedAnswer as StatedAnswer
     from dalembert.model import StlMesh as StlMesh
     from dalembert.model import Table as Table
     from dalembert.model import TimeTable as TimeTable
@@ -186,7 +186,7 @@ _NAMES = {
     "grading.marking.grade": "grade",
     "grading.mistakes": "check_answers",
     "model": (
-        "StatedAnswer Bearing Box CircularSlot ConstantForceSpring Couple Cylinder Damper Drive Expression ForceLoad "
+        "Answer Bearing Box CircularSlot ConstantForceSpring Couple Cylinder Damper Drive Expression ForceLoad "
         "FrictionDefaults Gear GearFriction GuideFriction Link Mechanism Offset Pin PinFriction Range "
         "Rise Rolling Section SlenderBar Slider Slot SlotFriction SpaceJoint Sphere Spring StlMesh Table "
         "TimeTable TorsionDamper TorsionSpring Tube Weld convert json_schema load loads mechanism"

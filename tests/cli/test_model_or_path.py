@@ -17,7 +17,7 @@ from tests.cli.conftest import Run
 FILE = examples()["four_bar"]
 MASS = "links.coupler.weight"
 START = {"O2": {"position": "30 deg", "speed": 0}}
-SOME = [da.StatedAnswer(quantity="effort.O2", value="243.2 lbf*in")]
+SOME = [da.Answer(quantity="effort.O2", value="243.2 lbf*in")]
 
 ENTRIES: dict[str, Callable[[Any], Any]] = {
     "kinematics": da.kinematics,

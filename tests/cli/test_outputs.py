@@ -36,7 +36,7 @@ ANSWERS: dict[str, tuple[str, ...]] = {
     "balance": ("Balance", "RotorBalance"),
     "optimize": ("Optimum",),
     "study show": ("StudyResult",),
-    "grade": ("Marks",),
+    "grade": ("ClassMarks",),
     "wrench": ("System",),
 }
 """Command -> classes of its answers."""

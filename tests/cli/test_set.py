@@ -78,7 +78,7 @@ def test_the_report_gives_the_parameters(run: Run, folder: Path) -> None:
     ("setting", "says"),
     [
         ("stroke=2 kg", "--set stroke=2 kg: parameter 'stroke': '2 kg' is a mass, and a length is needed"),
-        ("stroke", "--set stroke says no value; write NAME=VALUE, for example --set r=50mm"),
+        ("stroke", "--set stroke has no value; write NAME=VALUE, for example --set r=50mm"),
         ("links.rod.mas=2", "--set links.rod.mas=2: path 'links.rod.mas': 'mas' does not exist in links.rod"),
         ("density=-1", "--set density=-1: links.rod: mass: "),
     ],

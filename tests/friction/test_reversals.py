@@ -299,17 +299,13 @@ def test_an_answer_may_be_of_either_side() -> None:
     m = four_stroke.engine()
     r = da.dynamics(m)
     sides = [float(side.effort("O")[0]) for side in r.sides]
-    right = [da.StatedAnswer(quantity="effort", of="O", at=1, value=f"{v!r} N*m") for v in sides]
-    right += [da.StatedAnswer(quantity="effort_low", of="O", at=1, value=f"{min(sides)!r} N*m")]
+    right = [da.Answer(quantity="effort", of="O", at=1, value=f"{v!r} N*m") for v in sides]
+    right += [da.Answer(quantity="effort_low", of="O", at=1, value=f"{min(sides)!r} N*m")]
     peak = [float(np.linalg.norm(side.reaction("B")[0])) for side in r.sides]
     right += [
-        da.StatedAnswer(
-            quantity="reaction", of="B", component="magnitude", extreme="max", value=f"{max(peak)!r} N"
-        )
+        da.Answer(quantity="reaction", of="B", component="magnitude", extreme="max", value=f"{max(peak)!r} N")
     ]
-    wrong = da.StatedAnswer(
-        quantity="effort", of="O", at=1, value=f"{sum(sides) / 2!r} N*m", tolerance="0.001 %"
-    )
+    wrong = da.Answer(quantity="effort", of="O", at=1, value=f"{sum(sides) / 2!r} N*m", tolerance="0.001 %")
     rows = check(m.model_copy(update={"answers": (*right, wrong)}))
     assert [row.ok for row in rows] == [True, True, True, True, False]
     assert "guide reverses" in rows[-1].problem

@@ -41,7 +41,7 @@ def write_class(folder: Path, key: Path, count: int, seed: int, share: float = 0
     rng = np.random.default_rng(seed)
     folder.mkdir(parents=True)
     names = sorted(p.stem for p in key.parent.glob("*.yaml"))
-    made: dict[str, tuple[list[da.StatedAnswer], list[Made]]] = {}
+    made: dict[str, tuple[list[da.Answer], list[Made]]] = {}
     students = []
     for k in range(count):
         variant = names[int(rng.integers(len(names)))]
@@ -58,7 +58,7 @@ def write_class(folder: Path, key: Path, count: int, seed: int, share: float = 0
     return students
 
 
-def write_sheet(path: Path, student: Student, answers: list[da.StatedAnswer], as_csv: bool) -> None:
+def write_sheet(path: Path, student: Student, answers: list[da.Answer], as_csv: bool) -> None:
     if as_csv:
         with path.with_suffix(".csv").open("w", encoding="utf-8", newline="") as file:
             table = csv.writer(file)

@@ -24,7 +24,7 @@ class Made(NamedTuple):
     """A sheet with one mistake in it, in words."""
 
     mistake: str
-    answers: list[da.StatedAnswer]
+    answers: list[da.Answer]
 
 
 def rounded(value: float, digits: int) -> str:
@@ -49,7 +49,7 @@ def asked(problem: SolvedProblem, place: int) -> list[tuple[str, str, str]]:
     found += [("reaction", j) for j in r.joints]
     out = []
     for quantity, name in found:
-        answer = da.StatedAnswer(quantity=quantity, of=name, value=0)
+        answer = da.Answer(quantity=quantity, of=name, value=0)
         values, _ = values_of(r, answer, place)
         if values:
             out.append((quantity, name, unit(problem, quantity, name)))
@@ -67,11 +67,11 @@ def unit(problem: SolvedProblem, quantity: str, name: str) -> str:
 
 def answers_of(
     problem: SolvedProblem, result: Any, place: int, at: int, digits: int
-) -> list[da.StatedAnswer] | None:
+) -> list[da.Answer] | None:
     """The sheet of one who has a result; None where it lacks a number."""
     out = []
     for quantity, name, units in asked(problem, place):
-        answer = da.StatedAnswer(quantity=quantity, of=name, value=0, at=place + 1)
+        answer = da.Answer(quantity=quantity, of=name, value=0, at=place + 1)
         try:
             values, _ = values_of(result, answer, at)
         except DalembertError:
@@ -82,7 +82,7 @@ def answers_of(
     return out
 
 
-def true_sheet(problem: SolvedProblem, place: int, digits: int) -> list[da.StatedAnswer]:
+def true_sheet(problem: SolvedProblem, place: int, digits: int) -> list[da.Answer]:
     found = answers_of(problem, problem.result, place, place, digits)
     assert found is not None
     return found
@@ -102,7 +102,7 @@ def slipped_sheets(problem: SolvedProblem, place: int, digits: int) -> Iterator[
     """The true sheet with one figure of it slipped: its sense, an axis, its unit."""
     sheet = true_sheet(problem, place, digits)
     for k, (quantity, name, units) in enumerate(asked(problem, place)):
-        answer = da.StatedAnswer(quantity=quantity, of=name, value=0, at=place + 1)
+        answer = da.Answer(quantity=quantity, of=name, value=0, at=place + 1)
         values, _ = values_of(problem.result, answer, place)
         series = Series("moment" if units == "N*m" else "force", np.array(values))
         for slip in (*of_value(series, values[0]), *of_units(series, values[0])):

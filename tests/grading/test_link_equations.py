@@ -31,7 +31,7 @@ def unknown() -> Any:
 def given(r: Any, quantity: str, of: str, value: Any, **more: Any) -> Any:
     said = " rad/s^2" if quantity == "acceleration" else ""
     shown = [f"{float(x)!r}" for x in value] if np.ndim(value) else f"{float(value)!r}{said}"
-    return figure(r, da.StatedAnswer(quantity=quantity, of=of, value=shown, **more))
+    return figure(r, da.Answer(quantity=quantity, of=of, value=shown, **more))
 
 
 @pytest.mark.parametrize("make", [machine, unknown])

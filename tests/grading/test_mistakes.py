@@ -55,7 +55,7 @@ def force(r: Any, joint: str) -> str:
 
 
 def named(name: str, quantity: str, of: str, value: str, **more: Any) -> str:
-    answer = da.StatedAnswer(quantity=quantity, of=of, value=value, **more)
+    answer = da.Answer(quantity=quantity, of=of, value=value, **more)
     verdict = da.check_answers(da.load((cases() | examples())[name]), [answer])[0]
     assert not verdict.right
     return verdict.mistake
@@ -232,7 +232,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
 
 
 def verdict(quantity: str, of: str, value: Any, **more: Any) -> Any:
-    answer = da.StatedAnswer(quantity=quantity, of=of, value=value, **more)
+    answer = da.Answer(quantity=quantity, of=of, value=value, **more)
     (found,) = da.check_answers(da.load(examples()["four_bar"]), [answer])
     return found
 
@@ -260,12 +260,10 @@ def test_a_figure_rounded_to_three_digits_and_whole_degrees_is_right(seed: int) 
     m = da.four_bar().with_values({"drives.O2.position": float(rng.uniform(0, 6)), "loads.torque.value": 7.0})
     force = da.dynamics(m).reaction("B")[0]
     size, angle = float(np.hypot(*force)), math.degrees(math.atan2(force[1], force[0]))
-    polar = da.StatedAnswer(quantity="reaction", of="B", value=f"{size:.3g} N @ {angle:.0f} deg")
-    cartesian = da.StatedAnswer(quantity="reaction", of="B", value=[f"{c:.3g} N" for c in force])
-    direction = da.StatedAnswer(
-        quantity="reaction", of="B", component="direction", value=f"{angle % 360:.0f} deg"
-    )
-    far = da.StatedAnswer(quantity="reaction", of="B", value=f"{1.02 * size:.3g} N @ {angle:.0f} deg")
+    polar = da.Answer(quantity="reaction", of="B", value=f"{size:.3g} N @ {angle:.0f} deg")
+    cartesian = da.Answer(quantity="reaction", of="B", value=[f"{c:.3g} N" for c in force])
+    direction = da.Answer(quantity="reaction", of="B", component="direction", value=f"{angle % 360:.0f} deg")
+    far = da.Answer(quantity="reaction", of="B", value=f"{1.02 * size:.3g} N @ {angle:.0f} deg")
     found = da.check_answers(m, [polar, cartesian, direction, far])
     assert [v.right for v in found] == [True, True, True, False]
 

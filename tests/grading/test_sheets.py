@@ -156,7 +156,7 @@ def test_what_has_no_number_is_not_judged() -> None:
 
 @pytest.mark.parametrize(("value", "component"), [(-155, "magnitude"), ("-155 @ 40", None)])
 def test_a_magnitude_is_never_negative(value: Any, component: str | None) -> None:
-    answer = da.StatedAnswer(quantity="reaction", of="A", value=value, component=component)
+    answer = da.Answer(quantity="reaction", of="A", value=value, component=component)
     (found,) = da.check_answers(da.load(BUNDLED["four_bar"]), [answer])
     assert not found.right
     assert found.mistake.startswith("a magnitude is never negative")
@@ -165,7 +165,7 @@ def test_a_magnitude_is_never_negative(value: Any, component: str | None) -> Non
 def test_the_books_g_is_named() -> None:
     m = da.load(BUNDLED["bucket"])
     ten = da.statics(m.with_values({"gravity": [0.0, -10.0]}))
-    effort = da.StatedAnswer(
+    effort = da.Answer(
         quantity="effort", of="cylinder", value=f"{float(ten.effort('cylinder')[0]):.6g} N", at=1
     )
     (found,) = da.check_answers(m, [effort], static=True)

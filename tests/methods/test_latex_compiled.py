@@ -53,5 +53,5 @@ def test_any_name_compiles(sign: str, tmp_path: Path) -> None:
 def test_question_sheets_compile(name: str, tmp_path: Path) -> None:
     r = da.solve(da.load(examples()[name]))
     assert "Output written" in compiled(
-        question_sheet(r, [da.StatedAnswer(quantity="effort", of=r.drives[0], at=1)], "01"), tmp_path
+        question_sheet(r, [da.Answer(quantity="effort", of=r.drives[0], at=1)], "01"), tmp_path
     )

@@ -88,7 +88,7 @@ def test_the_schema_knows_shapes_and_axes() -> None:
     }
     assert sorted(kinds.values()) == ["bar", "box", "cylinder", "mesh", "sphere", "tube"]
     assert {"x", "z"} == schema["$defs"]["Frame"]["properties"].keys()
-    assert schema["$defs"]["Answer"]["properties"]["axes"]["enum"] == ["ground", "link", "joint"]
+    assert schema["$defs"]["StatedAnswer"]["properties"]["axes"]["enum"] == ["ground", "link", "joint"]
 
 
 def test_principal_values_of_a_matrix() -> None:

@@ -332,9 +332,9 @@ def test_slips_in_a_students_figures_are_named() -> None:
     r = da.dynamics(m)
     force = r.reaction("O")[0]
     mine = [
-        da.StatedAnswer(quantity="effort", of="O", at=1, value=float(-r.effort("O")[0])),
-        da.StatedAnswer(quantity="reaction", of="O", at=1, value=[float(x) for x in force[[1, 0, 2]]]),
-        da.StatedAnswer(quantity="effort", of="O", at=1, value=float(da.statics(m).effort("O")[0])),
+        da.Answer(quantity="effort", of="O", at=1, value=float(-r.effort("O")[0])),
+        da.Answer(quantity="reaction", of="O", at=1, value=[float(x) for x in force[[1, 0, 2]]]),
+        da.Answer(quantity="effort", of="O", at=1, value=float(da.statics(m).effort("O")[0])),
     ]
     tree = m.to_tree() | {"units": {}}
     verdicts = [da.check_answers(da.mechanism(tree), [answer])[0] for answer in mine]

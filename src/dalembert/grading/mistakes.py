@@ -51,7 +51,7 @@ def check_answers(
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
-    >>> mine = da.StatedAnswer(quantity="effort", of="O2", value="-243.2 lbf*in")
+    >>> mine = da.Answer(quantity="effort", of="O2", value="-243.2 lbf*in")
     >>> da.check_answers(da.load(examples()["four_bar"]), [mine])[0].mistake
     'the sense is opposite: action mistaken for reaction'
     """

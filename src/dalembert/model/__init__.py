@@ -64,3 +64,6 @@ from dalembert.model.quantities.tables import Table as Table
 from dalembert.model.quantities.varying import Varying as Varying
 from dalembert.model.quantities.varying import value_at as value_at
 from dalembert.model.stated_answers import StatedAnswer as StatedAnswer
+
+Answer = StatedAnswer
+"""Public name of the answer to a question, beside the answers of analyses."""
