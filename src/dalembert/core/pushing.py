@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Ints, Numeric
 from dalembert.core.branchless import root
 from dalembert.core.geometry import span
 from dalembert.core.layout import Along, Distance, Layout, Pose
@@ -54,6 +54,15 @@ def normals(layout: Layout, pose: Pose, row: Ints) -> Array:
             continue
         out |= {int(r): unit[..., k, :] for k, r in enumerate(f.row)}
     return np.stack([out[int(r)] for r in row], axis=-2)
+
+
+def contact_margins(
+    layout: Layout, p: Pushing | None, pose: Pose, force: Array, moment: Array, largest: Numeric
+) -> Array:
+    """Forces (..., K) of contacts with the rounding of the largest force: below 0 where a contact is lost."""
+    if p is None:
+        return np.zeros(0)
+    return np.asarray(contact_forces(layout, p, pose, force, moment) + LOST * largest)
 
 
 def contact_forces(layout: Layout, p: Pushing, pose: Pose, force: Array, moment: Array) -> Array:

@@ -21,7 +21,16 @@ STORED = 32
 longer, since stores then limit the speed."""
 PER_STORE = 12
 
-CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "slope": 12, "outside": 14}
+CODES = {
+    "open": 1,
+    "doubt": 2,
+    "rest": 3,
+    "jam": 7,
+    "locked": 9,
+    "slope": 12,
+    "outside": 14,
+    "contact": 15,
+}
 """The mark of a position, the first of these that applies, else 0; of many positions the first too."""
 
 
@@ -33,8 +42,8 @@ class KernelFlags:
     has no rate to tell its sense. Elsewhere ``slips``, as doubt, and so where both ``unsure`` and ``sure`` are, but for
     ``jam``, which is asked there: it surely jams. turned: friction turns the power of the unknowns round; there
     ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
-    outside (below zero): a table ends before. slope (below zero, or no number): the outputs are right, but some
-    derivative has no value.
+    contact (below zero): a contact that only pushes would have to pull. outside (below zero): a table ends before.
+    slope (below zero, or no number): the outputs are right, but some derivative has no value.
     """
 
     open: tuple[Node, ...] = ()
@@ -47,6 +56,7 @@ class KernelFlags:
     turned: tuple[Node, ...] = ()
     still: tuple[Node, ...] = ()
     locked: tuple[Node, ...] = ()
+    contact: tuple[Node, ...] = ()
     outside: tuple[Node, ...] = ()
     slope: tuple[Node, ...] = ()
 
@@ -54,7 +64,7 @@ class KernelFlags:
     def always(self) -> list[Node]:
         """Those asked at every position."""
         first = [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned]
-        return [*first, *self.outside, *self.slope]
+        return [*first, *self.contact, *self.outside, *self.slope]
 
     @property
     def seldom(self) -> list[Node]:
@@ -69,6 +79,7 @@ class KernelFlags:
             "doubt": [*self.doubt, *self.slips, *self.sure, *self.still],
             "rest": self.rest,
             "jam": self.jam,
+            "contact": self.contact,
             "locked": self.turned,
             "slope": self.slope,
             "outside": self.outside,

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any
 
 import numpy as np
@@ -34,7 +34,7 @@ from dalembert.core.layout import Angle, ConstraintRows, Layout, Pose
 from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_places, held_wheels, phase_rows, with_rows
 from dalembert.core.position.newton import CLOSED, gap
-from dalembert.core.pushing import Pushing, contact_forces
+from dalembert.core.pushing import Pushing, contact_margins
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
 from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, is_zero, trace_array
@@ -115,6 +115,7 @@ class Traced:
     open: list[Node]
     closure: list[Node]
     doubt: list[Node]
+    contacts: list[Node]
     friction: FrictionTrace
     flips: bool
     sources: dict[str, WrenchSource]
@@ -168,7 +169,7 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
         unit = load_rows(layout, p.known, pose)
         sources["asked"] = WrenchSource(unit.j, unit.on_j * balance.load[:, None])
     force, moment = force + friction.force, couple.reshape(friction.moment.shape) + friction.moment
-    pushes = p.pushing and contact_forces(layout, p.pushing, pose, force, moment)
+    pushes = contact_margins(layout, p.pushing, pose, force, moment, _largest(g, trace_array(g, force)))
     return Traced(
         pose=pose,
         twist=trace_array(g, moving.twist),
@@ -190,8 +191,8 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
             *_short(p, layout, pose),
             *_turn_count_doubt(p, layout, pose),
             *_unheld(p.graph, layout, spins, friction.total),
-            *(() if pushes is None else trace_array(g, pushes)),
         ],
+        contacts=list(trace_array(g, pushes)),
         friction=friction,
         flips=placed.flips,
         sources=sources,
@@ -333,10 +334,7 @@ def _decided(graph: Graph) -> list[Node]:
 
 
 def _largest(graph: Graph, array: Array) -> Node:
-    top = graph.zero
-    for x in array.ravel():
-        top = graph.binary("max", top, abs(x))
-    return top
+    return reduce(lambda top, x: graph.binary("max", top, abs(x)), array.ravel(), graph.zero)
 
 
 NEAR = 1e-5

@@ -174,7 +174,9 @@ class Kernel:
         """The program of some outputs: first values (default all requested ones), then derivatives."""
         traced = self.trace.catalogue.traced
         flags = replace(traced.friction.flags, open=tuple(traced.open), doubt=tuple(traced.doubt))
-        flags = replace(flags, outside=tuple(n for n in traced.graph.outside if n.level != CONSTANT))
+        graph = traced.graph
+        margins = (tuple(n for n in of if n.level != CONSTANT) for of in (graph.outside, traced.contacts))
+        flags = replace(flags, **dict(zip(("outside", "contact"), margins, strict=True)))
         values = sum(len(of) for of in self.nodes.values()) if values is None else values
         slope = [] if self.reduce else nodes[values:]
         known = self.trace.course.result is not None

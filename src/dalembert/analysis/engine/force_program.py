@@ -78,7 +78,7 @@ def trace_forces(c: Compiled, pose: Pose, numbers: Numbers, inertia: bool) -> Fo
         return None
     outputs, friction = force_nodes(t), _friction_nodes(problem, symbols.pose, t)
     flags = t.friction.flags
-    outputs["margin"] = _varying(t.doubt, flags.slips, flags.rest)
+    outputs["margin"] = _varying(t.doubt, t.contacts, flags.slips, flags.rest)
     nodes = friction | {name: outputs[name] for name in KEPT} | {name: outputs[name] for name in CHECKS}
     nodes |= {f"mark {name}": _varying(getattr(flags, name)) for name in MARKS}
     graph.samples.clear()

@@ -277,7 +277,7 @@ def _kept(graph: Graph, symbols: Symbols, t: Traced, branches: _Ways, c: Compile
     fixed = np.array([needs[n.index] >= 0 for n in t.pose.turn[:-1]], bool)
     squares = {n.index: n for n in t.closure if n.level != CONSTANT}
     closure = squares | {n.index: n for n in (*t.open, *graph.decisions) if n.level != CONSTANT}
-    margin = {n.index: n for n in t.doubt if n.level != CONSTANT}
+    margin = {n.index: n for n in (*t.doubt, *t.contacts) if n.level != CONSTANT}
     outputs = {
         "closure": np.array(list(closure.values()), object),
         "point": t.pose.point[:-1],

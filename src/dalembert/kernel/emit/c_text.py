@@ -110,7 +110,7 @@ def flags(program: Program, name: Callable[[Node], str], indent: str) -> str:
             "  }",
             "}",
         ]
-    tests = [("rest",) * 2, ("jam",) * 2, ("doubt",) * 2, ("locked",) * 2]
+    tests = [("rest",) * 2, ("jam",) * 2, ("doubt",) * 2, (below(m.contact), "contact"), ("locked",) * 2]
     tests += [(below(m.slope, False), "slope"), (below(m.outside), "outside")]
     then = "".join(f"{test} ? {code[mark]} : " for test, mark in tests)
     out.append(f"if (!here) here = {then}0;")

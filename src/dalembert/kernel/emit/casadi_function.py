@@ -47,7 +47,8 @@ def _mark(ca: ModuleType, program: Program, done: dict[int, Expression]) -> Expr
     rest, jam = below(m.rest), ca.logic_and(single, below(m.jam))
     doubt = ca.logic_or(unsure(m.doubt), ca.logic_and(ca.logic_not(ca.logic_or(rest, jam)), slips))
     mark: Expression = ca.SX(0)
-    flags = {"open": below(m.open), "doubt": doubt, "rest": rest, "jam": jam, "locked": locked}
+    flags = {"open": below(m.open), "doubt": doubt, "rest": rest, "jam": jam}
+    flags |= {"contact": below(m.contact), "locked": locked}
     flags |= {"slope": unsure(m.slope), "outside": below(m.outside)}
     for name, test in reversed(flags.items()):
         mark = ca.if_else(test, CODES[name], mark)

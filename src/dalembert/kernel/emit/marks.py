@@ -19,6 +19,7 @@ def bits(t: ModuleText, program: Program, names: dict[int, str]) -> dict[str, st
         ("open", flags.open, "olt"),
         ("doubt", flags.doubt, "ult"),
         ("rest", flags.rest, "olt"),
+        ("contact", flags.contact, "olt"),
         ("outside", flags.outside, "olt"),
         ("slope", flags.slope, "ult"),
     )

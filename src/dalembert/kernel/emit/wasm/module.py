@@ -124,6 +124,7 @@ class Module:
         """The status code of each lane."""
         f, m = self.run, self.program.flags
         lanes = {"open": self.below(m.open), "rest": f.keep(self.below(m.rest))}
+        lanes["contact"] = self.below(m.contact)
         lanes |= {"outside": self.below(m.outside), "slope": self.below(m.slope, False)}
         slips, locked = self.below(m.slips, False), f.keep(self.below(m.turned))
         if m.seldom:
