@@ -210,7 +210,7 @@ def test_the_commands_take_an_address(
 @pytest.mark.long
 def test_a_report_of_an_address(address: str, study: Study, tmp_path: Path) -> None:
     study.run(address)
-    assert main(["study", "report", address, "-o", str(tmp_path / "s.html")]) == 0
+    assert main(["study", "show", address, "--report", str(tmp_path / "s.html")]) == 0
 
 
 SHORT = "from dalembert.studies import object_store\nobject_store.LEASE = 0.3\n"
