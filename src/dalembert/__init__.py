@@ -74,6 +74,8 @@ if TYPE_CHECKING:
     from dalembert.machine.motion.compiled_motion import compile_motion as compile_motion
     from dalembert.machine.motion.simulation import Simulation as Simulation
     from dalembert.machine.motion.simulation import simulate as simulate
+    from dalembert.machine.motion_law import MotionLaw as MotionLaw
+    from dalembert.machine.motion_law import law as law
     from dalembert.machine.motors.motor_choice import MotorChoice as MotorChoice
     from dalembert.machine.motors.motor_choice import motor as motor
     from dalembert.machine.shaking import shaking as shaking
@@ -204,6 +206,7 @@ _NAMES = {
     "machine.motors.motor_choice": "MotorChoice motor",
     "machine.motion.compiled_motion": "MotionBatch MotionKernel compile_motion",
     "machine.motion.simulation": "Simulation simulate",
+    "machine.motion_law": "MotionLaw law",
     "machine.members.member_forces": "MemberForces member_forces",
     "machine.shaking": "shaking",
     "model.library": (

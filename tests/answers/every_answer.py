@@ -28,6 +28,14 @@ def study() -> Answer:
     return found.run()
 
 
+def law() -> Answer:
+    rise = {"segments": [{"to": 0.025, "in": 0.2, "by": "cycloidal"}], "count": 101}
+    links = {"ground": {"points": {"O": [0, 0]}}, "ram": {"points": {"F": [0, 0]}}}
+    slide = {"S": {"type": "slider", "links": ["ground", "ram"], "at": ["O", "F"]}}
+    tree = {"title": "Ram", "links": links, "joints": slide, "drives": {"S": {"law": rise}}}
+    return da.law(da.mechanism(tree), "S")
+
+
 def marks() -> Answer:
     key = [{"quantity": "effort", "of": "O2", "value": 243.2376, "unit": "lbf*in", "marks": 4}]
     with TemporaryDirectory() as folder:
@@ -71,6 +79,7 @@ MADE: dict[str, Callable[[], Answer]] = {
         [0.2, 1.7],
         starts=2,
     ),
+    "MotionLaw": law,
     "ClassMarks": marks,
     "System": lambda: da.wrench.System(
         da.wrench.Force("600 @ 60 N", at=["200 mm", 0]), da.wrench.Couple("-20 N*m"), title="Plate"

@@ -185,6 +185,31 @@ def test_a_programme_is_written_as_it_is_read() -> None:
     assert short.drives["S"].law.curve.duration == pytest.approx(2 * math.sqrt(0.02 / 4))  # type: ignore[union-attr]
 
 
+def test_the_law_of_a_drive_has_its_coefficients_and_peaks() -> None:
+    m = da.mechanism(ram({"over": "O", "segments": TURN}, position=0))
+    law, other = da.law(m, "S"), da.law(m, "S", by="modified_sine")
+    assert tuple(law.coefficients.values()) == pytest.approx(COEFFICIENTS["cycloidal"])
+    assert tuple(other.coefficients.values()) == pytest.approx(COEFFICIENTS["modified_sine"])
+    b = math.radians(100)
+    assert law.peak_speed == pytest.approx(2 * 0.025 / b)
+    assert law.peak_acceleration == pytest.approx(2 * PI * 0.025 / b**2)
+    assert np.abs(law.acceleration).max() == pytest.approx(law.peak_acceleration, rel=1e-12)
+    assert law.times == pytest.approx(np.radians([0, 100, 140, *(140 + 120 * np.array([1, 7, 8]) / 8), 360]))
+    text = str(other)
+    assert "Law of S over O, 360 deg long." in text
+    assert "First rise: C_v = 1.7596, C_a = 5.52796, C_j = 69.4664." in text
+    harmonic = da.law(da.mechanism(ram({"segments": [{**RISE, "by": "harmonic"}, BACK], "count": 9})), "S")
+    assert "The acceleration jumps at 0.2 s." in str(harmonic)
+    rise = {"type": "polynomial345", "from": 0, "to": 10, "duration": "2 s", "count": 5}
+    assert da.law(da.mechanism(ram(rise)), "S").coefficients["C_j"] == pytest.approx(60)
+    table = {"type": "table", "time": [0, 1, 2, 3], "position": [0, 1, 4, 9], "count": 5}
+    assert da.law(da.mechanism(ram(table)), "S").acceleration == pytest.approx(2e-3)
+    with pytest.raises(ModelError, match="drive 'O' has no law of motion"):
+        da.law(m, "O")
+    with pytest.raises(ModelError, match="unknown motion curve 'sine'; choose among constant_speed"):
+        da.law(m, "S", by="sine")
+
+
 @pytest.mark.parametrize(
     ("law", "words"),
     [

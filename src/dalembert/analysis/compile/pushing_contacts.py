@@ -9,6 +9,7 @@ from dalembert.arrays import Numeric
 from dalembert.core.layout import Along, Distance, Rows
 from dalembert.core.pushing import Pushing
 from dalembert.model import Mechanism
+from dalembert.model.joints.contact_keys import HOLDS
 
 BEHIND, AHEAD = -1, 1
 
@@ -40,6 +41,15 @@ def pushing_contacts(m: Mechanism, rows: Rows) -> Pushing | None:
         numbers(moment),
         np.array(corner, np.intp),
     )
+
+
+def with_held_contacts(m: Mechanism) -> Mechanism:
+    """The mechanism with contacts that hold both ways."""
+    joints = {
+        name: j.model_copy(update={"contact": HOLDS}) if hasattr(j, "contact") else j
+        for name, j in m.joints.items()
+    }
+    return m.model_copy(update={"joints": joints})
 
 
 def _normal_rows(rows: Rows) -> dict[int, int]:

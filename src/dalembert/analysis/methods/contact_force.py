@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.analysis.compile.pushing_contacts import with_held_contacts
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
 from dalembert.core.pushing import LOST, contact_forces
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
-from dalembert.model.joints.contact_keys import HOLDS
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ SPEEDS = (0.5, 1.0, 2.0)
 
 
 @dataclass(frozen=True)
-class ContactForce:
+class ContactHistory:
     """Normal force of a joint whose ``contact`` pushes or pulls, at every position (P,), N.
 
     needed (P,): the force as if the contact held both ways, below 0 where it is lost; ``force`` is NaN there. behind,
@@ -50,7 +50,7 @@ class ContactForce:
         return np.where(self.needed < 0, np.nan, self.needed)
 
 
-def contact_force(r: Result, joint: str) -> ContactForce:
+def contact_force(r: Result, joint: str) -> ContactHistory:
     """Normal force of a contact along a result, also where it is lost; raises ModelError for a joint that holds.
 
     >>> import dalembert as da
@@ -72,7 +72,7 @@ def contact_force(r: Result, joint: str) -> ContactForce:
         what = f"the contact of joint {joint!r} holds both ways"
         raise ModelError(what, "write contact: pushes" if not of else f"choose among {', '.join(of)}")
     rows = np.flatnonzero(pushing.joint == r.joints.index(joint))
-    holding = _holding(r.mechanism)
+    holding = with_held_contacts(r.mechanism)
     parts = np.array([_forces(r, holding, factor)[:, rows] for factor in SPEEDS])  # (3, P, K)
     size = np.abs(parts[1]).max(initial=0.0)
     forces = np.where(np.abs(parts[1]) <= LOST * size, 0.0, parts[1])
@@ -82,16 +82,7 @@ def contact_force(r: Result, joint: str) -> ContactForce:
     factor = _lift_factor(parts, size)
     moving = r.schedule.speed[:, (r.schedule.speed != 0).any(axis=0)]
     speed = float(np.abs(moving[:, 0]).max()) if moving.size else np.nan
-    return ContactForce(joint, forces.sum(axis=1), behind, ahead, factor, factor * speed)
-
-
-def _holding(m: Mechanism) -> Mechanism:
-    """The mechanism with contacts that hold both ways."""
-    joints = {
-        name: j.model_copy(update={"contact": HOLDS}) if hasattr(j, "contact") else j
-        for name, j in m.joints.items()
-    }
-    return m.model_copy(update={"joints": joints})
+    return ContactHistory(joint, forces.sum(axis=1), behind, ahead, factor, factor * speed)
 
 
 def _forces(r: Result, holding: Mechanism, factor: float) -> Array:

@@ -19,7 +19,7 @@ from dalembert.errors import SOLVED, ModelError
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.degree_of_freedom import Mobility
-    from dalembert.analysis.methods.contact_force import ContactForce
+    from dalembert.analysis.methods.contact_force import ContactHistory
     from dalembert.analysis.result.force_arrays import Friction
     from dalembert.analysis.result.position_lookup import PositionChoice
     from dalembert.answer.workbook import Tab
@@ -312,7 +312,7 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
         """Times (P,) of the positions, s, where the drives have a law of motion."""
         return self.schedule.time
 
-    def contact(self, joint: str) -> ContactForce:
+    def contact(self, joint: str) -> ContactHistory:
         """Normal force of a contact that only pushes, and the speed at which it is lost: `contact_force.py`."""
         from dalembert.analysis.methods.contact_force import contact_force
 

@@ -1,0 +1,209 @@
+"""`da.law`: the motion that a drive's law prescribes, with exact peaks of its rates and its coefficients.
+
+Source: Norton, Design of Machinery, chapter 8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
+
+import numpy as np
+
+from dalembert.answer.answer import Labelled
+from dalembert.answer.column import Axes, Column, Scale, UnitChoice
+from dalembert.arrays import Array, Tree
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism
+from dalembert.model.drives.curves import Curve, CurvePiece, unit_rise
+from dalembert.model.drives.drives import Drive, kind_of
+from dalembert.model.drives.laws import Rise
+from dalembert.model.drives.programmes import RISES, Programme, rate_kind
+from dalembert.printing import Part, TextTable, number
+from dalembert.wording import closest
+
+RATES = ("speed", "acceleration", "jerk")
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class MotionLaw(Labelled):
+    """A law of motion over time, or over another drive's position (then its rates are slopes by that).
+
+    times (N + 1,): where its pieces join, s (or rad, m). coefficients: of its first rise h in a length b: C_v = v b/h,
+    C_a = a b^2/h, C_j = j b^3/h, with the largest speed, acceleration and jerk in it.
+    """
+
+    ROWS: ClassVar[str] = "instants"
+
+    mechanism: Mechanism
+    drive: str
+    curve: Curve
+    over: str
+    coefficients: dict[str, float]
+    count: int = field(default=361)
+
+    @property
+    def times(self) -> Array:
+        """Where pieces of the curve join (N + 1,)."""
+        return self.curve.times
+
+    @property
+    def duration(self) -> float:
+        """Its length, s, or rad or m of the drive it is over."""
+        return self.curve.duration
+
+    def at(self, t: Array | float) -> Array:
+        """Position, speed, acceleration and jerk (4, ...) at times; where one jumps, just after it."""
+        return self.curve.at(t)
+
+    def _grid(self) -> Array:
+        """Even instants with all joints of pieces and all extremes (T,)."""
+        extremes = [
+            start + u
+            for start, piece in zip(self.times, self.curve.pieces, strict=False)
+            for order in range(4)
+            for u in piece.extremes(order)
+        ]
+        return np.unique([*np.linspace(0.0, self.duration, self.count), *self.times, *extremes])
+
+    def _values(self, order: int) -> Array:
+        values = self.curve.at(self._grid())
+        values[:, -1] = self.curve.at(self.duration, before=True)
+        return np.asarray(values[order])
+
+    @property
+    def position(self) -> Array:
+        """Positions (T,) at even instants, at joints of pieces and at extremes."""
+        return self._values(0)
+
+    @property
+    def speed(self) -> Array:
+        """Speeds (T,) there."""
+        return self._values(1)
+
+    @property
+    def acceleration(self) -> Array:
+        """Accelerations (T,) there."""
+        return self._values(2)
+
+    @property
+    def jerk(self) -> Array:
+        """Jerks (T,) there."""
+        return self._values(3)
+
+    @property
+    def peak_speed(self) -> float:
+        """Largest magnitude of the speed."""
+        return self.curve.peaks(1)[0]
+
+    @property
+    def peak_acceleration(self) -> float:
+        """Largest magnitude of the acceleration."""
+        return self.curve.peaks(2)[0]
+
+    @property
+    def peak_jerk(self) -> float:
+        """Largest magnitude of the jerk inside the pieces."""
+        return self.curve.peaks(3)[0]
+
+    def _kinds(self) -> list[str]:
+        kind = kind_of(self.mechanism.drives[self.drive].freedom, "")
+        return [kind] * 4 if self.over else [kind, *(rate_kind(kind, rate) for rate in RATES)]
+
+    def _master(self) -> str:
+        if not self.over:
+            return "time"
+        return kind_of(self.mechanism.drives[self.over].freedom, "")
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """Time (or the other drive's position), position, speed, acceleration and jerk."""
+        yield Column(f"drive.{self.over}" if self.over else "time", self._master(), self._grid())
+        for order, (name, kind) in enumerate(zip(("", *RATES), self._kinds(), strict=True)):
+            yield Column(f"drive.{self.drive}" + (f".{name}" if name else ""), kind, self._values(order))
+
+    def record(self, to: Scale) -> Tree:
+        """Length, coefficients, and the peaks with their places."""
+        master = self._master()
+        peaks = {}
+        for order, (name, kind) in enumerate(zip(RATES, self._kinds()[1:], strict=True), 1):
+            size, where = self.curve.peaks(order)
+            peaks[name] = {"peak": float(to(kind, size)), "at": float(to(master, where))}
+        found = {"duration": float(to(master, self.duration)), "coefficients": self.coefficients}
+        return {"law": {"drive": self.drive, "over": self.over or "time", **found, "peaks": peaks}}
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterable[Part]:
+        """Peaks with their places, and the coefficients of the first rise."""
+        to = self.scale(units)
+        tree = self.record(to)["law"]
+        master = to.text(self._master())
+        of = "time" if not self.over else self.over
+        rows = [
+            [name, number(peak["peak"]), to.text(kind), number(peak["at"]), master]
+            for (name, peak), kind in zip(tree["peaks"].items(), self._kinds()[1:], strict=True)
+        ]
+        yield f"Law of {self.drive} over {of}, {number(tree['duration'])} {master} long."
+        yield TextTable(["", "peak", "unit", f"at {of}", "unit"], rows)
+        if self.coefficients:
+            parts = ", ".join(f"{name} = {number(value)}" for name, value in self.coefficients.items())
+            yield f"First rise: {parts}."
+        jumps = [number(float(to(self._master(), x))) for x in self.curve.jumps(2)]
+        if jumps:
+            yield f"The acceleration jumps at {', '.join(jumps)} {master}."
+
+
+def law(m: ModelOrPath, drive: str, by: str | None = None) -> MotionLaw:
+    """The law of motion of a drive; ``by`` puts another curve in place of that of every rise, to compare them.
+
+    >>> import dalembert as da
+    >>> links = {"ground": {"points": {"O": [0, 0]}}, "ram": {"points": {"F": [0, 0]}}}
+    >>> slide = {"S": {"type": "slider", "links": ["ground", "ram"], "at": ["O", "F"]}}
+    >>> rise = {"segments": [{"to": 0.025, "in": 0.2, "by": "cycloidal"}], "count": 101}
+    >>> m = da.mechanism({"links": links, "joints": slide, "drives": {"S": {"law": rise}}})
+    >>> da.law(m, "S").peak_speed, round(da.law(m, "S", by="modified_sine").coefficients["C_a"], 4)
+    (0.25, 5.528)
+    """
+    m = as_mechanism(m)
+    if drive not in m.drives:
+        raise ModelError(f"unknown drive {drive!r}", closest(drive, list(m.drives)))
+    if by is not None and by not in RISES:
+        raise ModelError(f"unknown motion curve {by!r}", closest(by, list(RISES)))
+    programme = _programme(m.drives[drive], drive)
+    if by is not None:
+        rises = [replace(s, by=by) if s.form == "rise" else s for s in programme.segments]
+        programme = replace(programme, segments=tuple(rises))
+    return MotionLaw(m, drive, programme.curve, programme.over, _coefficients(programme))
+
+
+def _programme(d: Drive, name: str) -> Programme:
+    from dalembert.model.drives.programmes import Segment
+
+    if isinstance(d.law, Programme):
+        return d.law
+    if isinstance(d.law, Rise):
+        return Programme((Segment("rise", d.law.type, d.law.duration, d.law.stop),), d.law.start, d.law.count)
+    if d.law is None:
+        raise ModelError(
+            f"drive {name!r} has no law of motion", "write law: {segments: [...]}", ("drives", name)
+        )
+    points = (d.law.time, d.law.position)
+    spline = Segment("spline", "spline", points[0][-1] - points[0][0], points=points)
+    return Programme((spline,), points[1][0], d.law.count)
+
+
+def _coefficients(p: Programme) -> dict[str, float]:
+    """Coefficients of the first rise."""
+    position = p.start
+    for s in p.segments:
+        if s.form in ("rise", "trapezoidal", "polynomial"):
+            pieces: tuple[CurvePiece, ...] = (
+                unit_rise(s.by) if s.form == "rise" else s.pieces(position, s.length)
+            )
+            curve = Curve(pieces)
+            rise, length = (1.0, 1.0) if s.form == "rise" else (abs(s.to - position), s.length)
+            names = ("C_v", "C_a", "C_j")
+            return {n: curve.peaks(k)[0] * length**k / rise for k, n in enumerate(names, 1)} if rise else {}
+        if s.form == "constant" or s.form == "spline":
+            return {}
+        position = s.to if s.form != "dwell" else position
+    return {}
