@@ -138,11 +138,11 @@ STATUSES: dict[str, Status] = {
     ),
     "outside_table": Status(
         "A load is a table that ends before this position: the value at its end was used.",
-        "Give the table more points, make it periodic, or say what it is outside: hold or zero.",
+        "Give the table more points, make it periodic, or write outside: hold or outside: zero.",
     ),
     "contact_lost": Status(
-        "A contact that only pushes would have to pull: it is lost.",
-        "Load or preload the contact, move more slowly, or write contact: holds for one that holds both ways.",
+        "A contact that only pushes would have to pull, or the reverse: it is lost.",
+        "Load or preload the contact, move more slowly, or write contact: holds if it carries forces in both senses.",
     ),
     "at_rest": Status(
         "With friction and no motion the efforts are an interval, not a number.",

@@ -332,9 +332,9 @@ def _phrase(dimension: Dimension) -> str:
 
 def _remedy(unit_text: str, dimension: Dimension, kind: str) -> str:
     if re.search(r"\blb\b", unit_text) and "force" in KINDS[kind].file:
-        return f"lb is a mass: say {re.sub(r'lb', 'lbf', unit_text)} (lbf is the force, lbm the mass)"
+        return f"lb is a mass: write {re.sub(r'lb', 'lbf', unit_text)} (lbf is the force, lbm the mass)"
     if kind == "angular_speed" and dimension == (0, 0, -1, 0):
-        return "Hz and 1/s do not say whether turns or radians are counted: say rev/s, rpm or rad/s"
+        return "Hz and 1/s do not say whether turns or radians are counted: write rev/s, rpm or rad/s"
     return _write(kind)
 
 

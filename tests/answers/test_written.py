@@ -124,7 +124,7 @@ def test_what_an_answer_does_not_have_is_refused_with_what_it_has(name: str, tmp
             a.save(tmp_path / f"a{ending}")
         assert (
             str(error.value)
-            == f"a{ending}: {name} is not written as that; use one of {' '.join(a.writers())}"
+            == f"a{ending}: {name} cannot be written in this format; use one of {' '.join(a.writers())}"
         )
     assert not list(tmp_path.iterdir())
     a.save(tmp_path / "a.csv")

@@ -188,7 +188,7 @@ def test_a_case_that_cannot_be_read_is_no_pass(
     monkeypatch.setattr("dalembert.bundled.cases", lambda: {"right": right, "wrong": folder / "wrong.yaml"})
     ran = run("validate")
     assert ran.status == 1
-    assert "wrong.yaml:1: it is not YAML here" in ran.err
+    assert "wrong.yaml:1: this is not valid YAML" in ran.err
     assert ran.out.splitlines()[-1].startswith("FAILED: 2 problems, 1 of them not read, 10 answers, ")
     monkeypatch.setattr("dalembert.bundled.cases", lambda: {"right": right})
     assert run("validate").status == 0

@@ -170,4 +170,4 @@ def test_wrong_files_are_named_with_the_line(
 def test_broken_text_is_named_with_the_line(run: Run, edited: Callable[..., str]) -> None:
     ran = run("solve", edited(("gravity: none", "gravity: [")))
     assert (ran.status, ran.out) == (2, "")
-    assert ran.err.startswith("edited.yaml:8: it is not YAML here: ")
+    assert ran.err.startswith("edited.yaml:8: this is not valid YAML: ")

@@ -114,7 +114,7 @@ def test_o_writes_what_the_ending_selects(run: Run, folder: Path) -> None:
     refused = run("solve", "four_bar.yaml", "-o", "a.yaml")
     assert refused.status == 2
     assert refused.err.startswith(
-        "--output a.yaml: this answer is not written as that; use one of .json .csv"
+        "--output a.yaml: this answer cannot be written in this format; use one of .json .csv"
     )
 
 

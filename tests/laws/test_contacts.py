@@ -134,9 +134,9 @@ def test_a_follower_leaves_its_cam_at_a_speed() -> None:
     ("keys", "words"),
     [
         ({"contact": "push"}, "unknown contact 'push'; did you mean 'pushes'"),
-        ({"contact": {"pushes": True, "restitution": 2}}, "a restitution of 2"),
-        ({"contact": {"restitution": 0.5}}, "does not say whether it pushes, pulls or holds"),
-        ({"side": "right"}, "a side is given without a contact"),
+        ({"contact": {"pushes": True, "restitution": 2}}, "2 is not a ratio of the speeds after and before"),
+        ({"contact": {"restitution": 0.5}}, "must be exactly one of holds, pushes and pulls"),
+        ({"side": "right"}, "side is given without contact"),
     ],
 )
 def test_a_contact_that_makes_no_sense_is_refused(keys: dict[str, object], words: str) -> None:

@@ -335,7 +335,7 @@ WRONG = [
         {"of": "torque"},
         "its mass and inertia matter here, but its mass has no bound",
     ),
-    ({"crank": {}}, {"of": "power"}, "'power' cannot be balanced"),
+    ({"crank": {}}, {"of": "power"}, "'power' is not an objective"),
     ({"crank": {"x": (1.0, 0.0)}}, {}, "the range of x is empty"),
     ({"crank": {"place": (1.0, 0.0, 0.0)}}, {}, "a place has 2 coordinates"),
     ({}, {}, "no link is to have a counterweight"),

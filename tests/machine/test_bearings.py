@@ -292,8 +292,10 @@ def test_what_half_of_the_positions_would_change_is_printed_and_no_less_than_the
         assert abs(c._summary()[name] / value - 1) <= 1.05 * c.sampling()[name] + 1e-9, name
     said = " ".join(str(da.bearings(r)).split())
     worst = max(x for j in ("O2", "A", "B") for x in da.bearing(r, j).sampling().values())
-    start = f"Means and greatest values are those of the {count} positions, not of the motion between them: with half"
-    assert f"{start} of the positions they differ by {number(100 * worst, 2)} % at most (" in said
+    start = (
+        f"Means and greatest values are those of the {count} positions, not of the motion between them: with"
+    )
+    assert f"{start} every other position they differ by {number(100 * worst, 2)} % at most (" in said
     assert start in " ".join(str(c).split())
 
 

@@ -178,7 +178,7 @@ def test_shapes_are_seen_through() -> None:
 
 def test_only_glb(tmp_path: Path) -> None:
     model = da.draw.solid_model(solved("hooke"))
-    with pytest.raises(da.ModelError, match="solid models are not written as that"):
+    with pytest.raises(da.ModelError, match="solid models cannot be written in this format"):
         model.save(tmp_path / "a.obj")
     model.save(tmp_path / "a.glb")
     with pytest.raises(da.ModelError, match="exists"):

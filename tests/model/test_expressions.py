@@ -118,10 +118,10 @@ def test_any_number_may_have_a_unit(text: str) -> None:
 
 PARTLY = {
     "40 N*S": "'40 N*S' is a moment, and a force is needed; check it, and the units of its parameters",
-    "40 N*(S > 90)": "'(S > 90)' cannot be: S is a length, and 90 is a plain number; only quantities of one kind "
-    "are compared",
-    "40 N*sin(O) + 2": "'40 N*sin(O) + 2' cannot be: 40 N*sin(O) is a force, and 2 is a plain number; only quantities "
-    "of one kind are added",
+    "40 N*(S > 90)": "'(S > 90)' cannot be evaluated: S is a length, and 90 is a plain number; only quantities "
+    "of one kind are compared",
+    "40 N*sin(O) + 2": "'40 N*sin(O) + 2' cannot be evaluated: 40 N*sin(O) is a force, and 2 is a plain number; "
+    "only quantities of one kind are added",
     "40 N*sin(2*O": "'40 N*sin(2*O': the bracket '(' at column 9 is never closed; write ')' where it ends",
     "2*(O": "'2*(O': the bracket '(' at column 3 is never closed; write ')' where it ends",
     "40 N*(3 sin(O))": "'40 N*(3 sin(O))' has a number beside 'sin'; write 3*sin(...)",

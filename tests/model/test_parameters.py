@@ -128,8 +128,8 @@ def test_in_python() -> None:
 
 
 WRONG = {
-    "r: 45 mm|q: r + p|mass: q": "engine.yaml:5: parameter 'q': 'r + p' cannot be: r is a length, and p is a pressure; "
-    "only quantities of one kind are added",
+    "r: 45 mm|q: r + p|mass: q": "engine.yaml:5: parameter 'q': 'r + p' cannot be evaluated: r is a length, and p is a "
+    "pressure; only quantities of one kind are added",
     "p: 1 N|mass: r": "engine.yaml:16: mass of link 'crank': 'r' is a length, and a mass is needed; check it, and the "
     "units of its parameters",
     "a: 2*b|b: a/2|mass: a": "engine.yaml:5: parameter 'a': it follows from itself: a from b from a; give one of them "

@@ -96,7 +96,7 @@ def test_a_text_is_worth(value: str, kind: str) -> None:
         (
             "1.5 lb",
             "force",
-            "'1.5 lb' is a mass, and a force is needed; lb is a mass: say lbf (lbf is the force, lbm the mass)",
+            "'1.5 lb' is a mass, and a force is needed; lb is a mass: write lbf (lbf is the force, lbm the mass)",
         ),
         ("3 degC", "length", "unknown unit 'degC'; did you mean 'deg'?"),
         ("3 V", "length", "unknown unit 'V'; units of length: m, meter, metre, mm, cm, dm, um, µm, ..."),

@@ -111,7 +111,7 @@ FILES = {
     ),
     "array.toml": (
         b'[links.a]\n[links.b]\n[[answers]]\nquantity = "effort"\n[[answers]]\nquantity = "efort"\n',
-        "array.toml:6: quantity of answer 2: 'efort' has no meaning here; did you mean 'effort'?",
+        "array.toml:6: quantity of answer 2: 'efort' is not a valid value; did you mean 'effort'?",
     ),
     "inline.toml": (
         b'[links]\na = {mass = 1}\nb = {mass = "3 N"}\n',

@@ -229,7 +229,7 @@ def test_a_number_that_changes_nothing_is_named() -> None:
 def test_a_peak_that_jumps_between_positions_is_said() -> None:
     s = da.study(da.loads(IN_TURN), {"one": "± 20 %", "other": "± 20 %"}, ["effort.O"])
     assert s.contributions("effort.O").note.startswith("the peak jumps between positions ")
-    assert 'trust by="sobol"' in s.contributions("effort.O").note
+    assert 'use by="sobol"' in s.contributions("effort.O").note
 
 
 def test_a_peak_that_moves_to_the_next_position_does_not_jump() -> None:

@@ -32,7 +32,11 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"model": "3"}, 2, "the file names no model file"),
     ({"study": "2"}, 1, "unknown format version 2; write study: 1"),
     ({"desings": "3"}, 7, "unknown key 'desings'; did you mean 'designs'?"),
-    ({"links": "{a: {}}"}, 7, "this is a model file; name it in a separate file: model: FILE"),
+    (
+        {"links": "{a: {}}"},
+        7,
+        "this is a model file; name it in a separate file: model: FILE",
+    ),
     ({"vary": None}, 1, "the key 'vary' is missing; write vary: {stroke: ± 0.1 mm}"),
     ({"vary": "{}"}, 3, "vary is empty; write vary: {stroke: ± 0.1 mm}"),
     ({"vary": "[stroke]"}, 3, "vary is a list, not a mapping; write vary: {stroke: ± 0.1 mm}"),

@@ -23,7 +23,7 @@ WRONG: list[tuple[Callable[[], Any], str]] = [
     ),
     (lambda: System(), "the system has no force and no couple; give it at least one"),
     (lambda: Force("80 lb @ 30 deg"), "'80 lb' is a mass, and a force is needed; "
-     "lb is a mass: say lbf (lbf is the force, lbm the mass)"),
+     "lb is a mass: write lbf (lbf is the force, lbm the mass)"),
     (lambda: Force([float("nan"), 0]), "nan is not a finite number; write a finite one"),
     (lambda: Force([1e61, 0]), "1e+61 is too large; write a number below 1e+60"),
     (lambda: Force("3, 4"), "'3, 4' is not a vector; write [x, y] or polar text r @ angle"),

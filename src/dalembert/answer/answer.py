@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from dalembert.views.paper.scene import Scene
 
 BLOCK = 1024
-"""Rows turned into Python objects at once: of a hundred thousand few stand in memory together."""
+"""Rows turned into Python objects at once: of a hundred thousand few are in memory together."""
 DRAWINGS, MODELS = (".svg", ".pdf", ".png", ".dxf"), (".yaml", ".yml", ".toml")
 REPORTS = (".html", ".tex", ".txt", ".pdf")
 
@@ -55,12 +55,12 @@ class Answer(Compared):
         return {}
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterable[Part]:
-        """What a person reads: sentences and tables."""
+        """Printed answer: sentences and tables."""
         raise NotImplementedError
 
     @property
     def described(self) -> Any:
-        """What it is an answer to: something with a title, a source and units."""
+        """Subject of the answer: something with a title, a source and units."""
         return self.mechanism  # type: ignore[attr-defined]
 
     def basis(self) -> dict[str, str]:
@@ -76,7 +76,7 @@ class Answer(Compared):
         return (slice(start, min(start + BLOCK, count)) for start in range(0, count, BLOCK))
 
     def head(self, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
-        """What stands before the rows in the JSON answer."""
+        """Part of the JSON answer that precedes the rows."""
         from dalembert.answer.record import head
 
         return head(self, units)
@@ -174,7 +174,7 @@ class Answer(Compared):
         writers = self.writers(theme)
         if ending not in writers:
             raise ModelError(
-                f"{Path(path).name}: {type(self).__name__} is not written as that",
+                f"{Path(path).name}: {type(self).__name__} cannot be written in this format",
                 f"use one of {' '.join(writers)}",
             )
         writers[ending](path, overwrite)
@@ -247,7 +247,7 @@ class Worked(Answer):
     """Answer with a worked solution."""
 
     def sheet(self, notation: Notation | None = None) -> ReportSheet:
-        """Equations in letters and numbers if there are any, what is found, and the drawings."""
+        """Equations in letters and numbers if there are any, the answer, and the drawings."""
         from dalembert.reports.machine_sections import answer_sheet
 
         return answer_sheet(self, notation)

@@ -19,7 +19,7 @@ WORD = "word"
 
 
 class Scale:
-    """SI numbers into the units that were asked for.
+    """SI numbers into the requested units.
 
     >>> scale = Scale(None)
     >>> scale.text("moment"), scale("moment", 2.0)
@@ -30,7 +30,7 @@ class Scale:
         self._units = None if units is None else file_units(units)
 
     def bare(self, kind: str) -> bool:
-        """Whether these units have one for bare numbers of this kind."""
+        """True if these units have one for bare numbers of this kind."""
         return self._units is None or not self._units.refuses_bare(kind)
 
     def text(self, kind: str) -> str:

@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from dalembert.answer.answer import Answer
 
 VERSION = 2
-"""Of the JSON answer."""
+"""Version of the JSON answer."""
 
 
 def head(answer: Answer, units: UnitChoice) -> Tree:
-    """What stands before the rows: title, units, what the numbers rest on, and the numbers that are no column."""
+    """Part that precedes the rows: title, units, what the numbers rest on, and the numbers that are no column."""
     to, basis = answer.scale(units), answer.basis()
     assumed = {key: text for key, text in basis.items() if key not in ("title", "source", "mobility")}
     return {

@@ -1,4 +1,4 @@
-"""What an answer is written to: the same options, with the same meaning and in the same words, in every command.
+"""Files of an answer: the same options, with the same meaning and in the same words, in every command.
 
 A command takes those that its answer has. All are checked before the work; files are written before anything is
 printed, so that a pipe that closes early takes no file with it.
@@ -35,11 +35,11 @@ ENDINGS = {
     "report": (".pdf", ".html", ".tex", ".txt"),
     "model": (".yaml", ".yml", ".toml"),
 }
-"""What is written -> how its name ends."""
+"""Kind of file -> endings of its name."""
 OWN = ("json", "csv", "xlsx", "netcdf")
-"""Kinds with endings of their own: no other kind is written into a file of that name."""
+"""Kinds with reserved endings: no other kind is written into a file of that name."""
 PRINTED = ("json", "csv")
-"""What `-` prints."""
+"""Kind of answer that `-` prints."""
 
 
 @Parameter(name="*")
@@ -50,13 +50,15 @@ class Outputs:
     KINDS: ClassVar[tuple[str, ...]] = ("json", "csv", "xlsx", "report")
 
     json: Annotated[Path | None, target("Write everything as JSON; - prints only the JSON.")] = None
-    csv: Annotated[Path | None, target("Write a table (CSV), a line a row; - prints only the table.")] = None
+    csv: Annotated[Path | None, target("Write a table (CSV), one line per row; - prints only the table.")] = (
+        None
+    )
     xlsx: Annotated[Path | None, target("Write a workbook (Excel) with the table and charts.")] = None
     report: Report = None
     output: Annotated[
         Path | None,
         output_to(
-            "Write what the extension selects: .json, .csv, .xlsx, .nc, a drawing, a report, or the new model file "
+            "Write the format of the extension: .json, .csv, .xlsx, .nc, a drawing, a report, or the new model file "
             "(.yaml, .toml)."
         ),
     ] = None
@@ -98,7 +100,7 @@ class Outputs:
                 check_installed(*PACKAGES[written])
 
     def _written_kind(self, option: str, path: Path, more: tuple[str, ...] = ()) -> str:
-        """What an option writes into a file; raises ModelError where the name is that of another kind."""
+        """Kind of answer that an option writes into a file; raises ModelError if the name is that of another."""
         ending = path.suffix.lower()
         if option != "output":
             other = next((kind for kind in OWN if kind != option and ending in ENDINGS[kind]), None)
@@ -114,18 +116,19 @@ class Outputs:
         if kind is None:
             has = dict.fromkeys(e for k in kinds for e in ENDINGS[k])
             raise ModelError(
-                f"--output {path}: this answer is not written as that", f"use one of {' '.join(has)}"
+                f"--output {path}: this answer cannot be written in this format",
+                f"use one of {' '.join(has)}",
             )
         return kind
 
     @property
     def printed_units(self) -> Literal["SI", "file"]:
-        """Units of what a person reads and opens: the file's unless SI is asked for."""
+        """Units of what a person reads and opens: the file's unless SI is requested."""
         return "SI" if self.units == "si" else "file"
 
     @property
     def program_units(self) -> Literal["SI", "file"]:
-        """Units of what programs read, JSON and netCDF: SI unless the file's are asked for."""
+        """Units of what programs read, JSON and netCDF: SI unless the file's are requested."""
         return "file" if self.units == "file" else "SI"
 
     @property
@@ -136,7 +139,7 @@ class Outputs:
         return Notation(units=self.printed_units, figures=self.figures)
 
     def deliver(self, answer: Answer, others: bool = False, more: str = "", **choice: Any) -> None:
-        """Write every file that is asked for, then print: what - asks for, or the answer and more text below it.
+        """Write every requested file, then print: what - asks for, or the answer and more text below it.
 
         ``others``: JSON with the other solutions of friction. ``choice``: of what is printed.
         """

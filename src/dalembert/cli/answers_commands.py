@@ -41,7 +41,9 @@ def check_answers(
     if interactive:
         sheet = read_sheet(_ask_figures(problem.result))
     elif answers is None:
-        raise ModelError("check-answers needs a file of answers", "name one, or answer with --interactive")
+        raise ModelError(
+            "check-answers needs a file of answers", "name one, or enter the answers with --interactive"
+        )
     else:
         sheet = read_sheet(*read_file(answers))
     verdicts = problem.verdicts_of(sheet, tolerance)

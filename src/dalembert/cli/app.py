@@ -149,6 +149,8 @@ def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
 
 def _report_error(error: CycloptsError, first: str) -> str:
     if isinstance(error, UnknownCommandError):
+        if first in MODULES:  # the command exists, its subcommand does not
+            return f"{first} has no such subcommand"
         meant = next((name for name, words in FIELD_WORDS.items() if first.lower() in words.split()), first)
         return f"unknown command {first!r}; {closest(meant, list(MODULES))}"
     if isinstance(error, UnusedCliTokensError):

@@ -145,7 +145,7 @@ def _paper(output: Path, paper: str | None) -> str | None:
 
 
 def _view_for(output: Path, view: str | None, question: bool) -> str | None:
-    """The view to draw, refused before the work where the file cannot hold it."""
+    """The view to draw, refused at the start if the file cannot contain it."""
     if question and view not in (None, "mechanism"):
         raise ModelError(f"--question draws the mechanism, and not {view}", "leave out --view")
     view = "question" if question else view

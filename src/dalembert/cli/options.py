@@ -44,7 +44,7 @@ def bounded(key: str) -> Callable[..., Any]:
         except ValueError:
             number = text
         if not bound.allows(number):
-            raise ValueError(f"{text!r} cannot be; {bound.remedy_for(number)}")
+            raise ValueError(f"{text!r} is not allowed; {bound.remedy_for(number)}")
         return number  # type: ignore[return-value]
 
     return read
@@ -113,7 +113,7 @@ Report = Annotated[
 Units = Annotated[
     Literal["si", "file"] | None,
     with_help(
-        "Units: si or file (default: file for what people read, CSV and Excel; si for JSON and netCDF)."
+        "Units: si or file (default: file for text, drawings, reports, CSV and Excel; si for JSON and netCDF)."
     ),
 ]
 Theme = Annotated[
@@ -131,7 +131,7 @@ Set = Annotated[
     ),
 ]
 Names = Annotated[bool, flag("Show link names instead of numbers.")]
-Force = Annotated[bool, flag("Overwrite files that exist.")]
+Force = Annotated[bool, flag("Overwrite existing files.")]
 
 
 @Parameter(name="*")
@@ -174,7 +174,7 @@ class Style:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Changes:
-    """What of a model file is analysed: its numbers changed by options."""
+    """The description that is analysed, with numbers changed by options."""
 
     no_friction: NoFriction = False
     set: Set = None
@@ -219,7 +219,7 @@ class Steady(Changes):
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Of(Steady):
-    """The same, at so many positions."""
+    """The same, at a number of positions."""
 
     positions: Positions = None
 
@@ -227,7 +227,7 @@ class Of(Steady):
 @Parameter(name="*")
 @dataclass(frozen=True)
 class OfAt(Of):
-    """The same, of which one position is shown."""
+    """The same; one of its positions is shown."""
 
     at: At = None
 

@@ -36,7 +36,7 @@ def variants(
         list[str] | None,
         Parameter(
             negative=(),
-            help="Quantities asked for, one or more: effort.O2, reaction.A, reaction.A.magnitude, angle.rocker.speed "
+            help="Requested quantities, one or more: effort.O2, reaction.A, reaction.A.magnitude, angle.rocker.speed "
             "(default: the file's answers, else all efforts and reactions).",
         ),
     ] = None,

@@ -173,7 +173,7 @@ class Graph:
         self.samples: dict[int, Numeric] = {}
         self.decisions: list[Node] = []
         self.outside: list[Node] = []
-        """Below zero where a table is asked for more than it has."""
+        """Below zero where an argument is beyond a table's ends."""
         self.zero, self.one = self.constant(0.0), self.constant(1.0)
 
     def constant(self, value: SupportsFloat) -> Node:

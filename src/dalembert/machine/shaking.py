@@ -117,7 +117,7 @@ class Shaking(MachineAnswer):
         return {"shaking": {**stated, "point": to("length", self.point)}}
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
-        """What a person reads, in the units of a scale."""
+        """Printed answer, in the units of a scale."""
         from dalembert.machine.output.shaking_text import shaking_parts
 
         return shaking_parts(self, to, **choice)

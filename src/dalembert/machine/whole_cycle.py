@@ -100,7 +100,7 @@ def sampled(r: Result, changes: Mapping[str, float], what: str = "Means and grea
     )
     if not worst:
         return f"{text}."
-    return f"{text}: with half of the positions they differ by {number(100 * changes[worst], 2)} % at most ({worst})."
+    return f"{text}: with every other position they differ by {number(100 * changes[worst], 2)} % at most ({worst})."
 
 
 def sampling(

@@ -38,7 +38,7 @@ class GravityValue(ValueField):
             return "standard"
         if isinstance(value, str) and "@" not in value:
             raise ModelError(
-                f"{quote_value(value)} says no direction",
+                f"{quote_value(value)} has no direction",
                 closest(value, ["none", "standard"])
                 + "; or write a vector with its unit, gravity: [0, -9.81 m/s^2]",
             )

@@ -250,7 +250,7 @@ def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...])
     elif coordinate is None:
         moved = (x is not None for d in m.drives.values() for x in (d.law, d.motor, d.effort))
         if not m.start and not any(moved) and not any(d.moves for d in m.drives.values()):
-            remedy = "give a drive a constant speed or a law, which says when it is where, or go by the drive"
+            remedy = "give a drive a constant speed or a law, or use its position instead of time"
             yield ModelError(
                 f"{what} depends on time, but no drive has a law of motion or a speed", remedy, path
             )

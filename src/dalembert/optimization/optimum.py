@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Optimum(Labelled, Drawn, Worked, Remade):
-    """The best design that was found; ``values`` (number,) in SI in the order of ``numbers``.
+    """The best design; ``values`` (number,) in SI in the order of ``numbers``.
 
     before, after: the analyses of the original description and of ``mechanism``. value: the aim, SI. found: how many
     of the polished starts came within a thousandth of the best, of ``polished``; started: number of starts that could
@@ -110,7 +110,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         return super().basis() | self.after.assumptions
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
-        """What is least, and the margin of each condition, over the cycle before and after."""
+        """The objective, and the margin of each condition, over the cycle before and after."""
         for drive in self.after.drives:
             kind = drive_kinds(self.after, drive)["position"]
             yield Column(f"drive.{drive}", kind, self.after.drive_position(drive))
@@ -150,7 +150,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         yield self.words
 
     def drawings(self, notation: Notation | None = None) -> list[Scene]:
-        """What is least over the cycle, and the designs before and after."""
+        """The objective over the cycle, and the designs before and after."""
         from dalembert.reports.machine_sections.optimum_section import optimum_scenes
 
         return optimum_scenes(self, notation)

@@ -46,7 +46,7 @@ EXACT = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Synthesis(Labelled, Drawn, Worked, Remade):
-    """The mechanism found; ``error`` its rms error over the spread of the targets, ``exact`` how many of ``started``
+    """A mechanism; ``error`` its rms error over the spread of the targets, ``exact`` how many of ``started``
     designs meet them to a millionth. ``values`` (number,) in SI in the order of ``numbers``; ``positions`` (P, D) are
     those of the drives at the targets, computed where the timing is free."""
 
@@ -64,17 +64,17 @@ class Synthesis(Labelled, Drawn, Worked, Remade):
 
     @cached_property
     def result(self) -> Result:
-        """The analysis of the mechanism found at the positions of the targets."""
+        """The analysis of the mechanism at the positions of the targets."""
         return solve(self.mechanism, True, self.positions)
 
     @property
     def words(self) -> str:
-        """How near it comes."""
+        """Its error."""
         error = number(self.error, 3)
         return f"Rms error {error} of the targets' spread; of {self.started} starts {self.exact} are exact."
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
-        """The drives at the targets, and what the outputs are there."""
+        """The drives at the targets, and the outputs at them."""
         for k, drive in enumerate(self.result.drives):
             yield Column(f"drive.{drive}", drive_kinds(self.result, drive)["position"], self.positions[:, k])
         for name, values in self.found.items():
@@ -96,7 +96,7 @@ class Synthesis(Labelled, Drawn, Worked, Remade):
         yield self.words
 
     def drawings(self, notation: Notation | None = None) -> list[Scene]:
-        """The mechanism found at the first target, with the paths of its points."""
+        """The mechanism at the first target, with the paths of its points."""
         return [self.result.draw(notation=notation)]
 
 

@@ -47,7 +47,7 @@ class Report:
         target = Path(path)
         if target.suffix.lower() not in FORMATS:
             raise ModelError(
-                f"{target.name}: reports are not written as that", f"use one of {' '.join(FORMATS)}"
+                f"{target.name}: reports cannot be written in this format", f"use one of {' '.join(FORMATS)}"
             )
         written = self.to_bytes(target.suffix.lower()[1:])
         with new_file(target, overwrite) as temporary:

@@ -135,9 +135,9 @@ def _trust(study: Study, output: str, linear: float) -> str:
     sampled = float(np.nanstd(answers))
     comparison = f"the linear standard deviation is {linear:.4g}, of {SAMPLE} designs {sampled:.4g} (SI)"
     if study.reduce == "peak" and output not in study.end_kinds and (jump := _jump(study, output, values)):
-        return f'{jump}: {comparison}; trust by="sobol"'
+        return f'{jump}: {comparison}; use by="sobol"'
     if np.isfinite(sampled) and abs(sampled - linear) > 0.25 * max(sampled, linear):
-        return f'it is not linear: {comparison}; trust by="sobol"'
+        return f'it is not linear: {comparison}; use by="sobol"'
     return ""
 
 
@@ -201,7 +201,7 @@ def worst_case(study: Study, output: str) -> WorstCase:
     ends = np.array([s.ends for s in study.plan.spreads])
     if len(ends) <= CORNERS:
         corners = np.array(list(product(*ends)))
-        assumed = f"the largest of all {len(corners)} corners; between them it is not sought"
+        assumed = f"the largest of all {len(corners)} corners; interior points are not searched"
     else:
         up = slopes(study, output) >= 0
         corners = np.array([np.where(up, ends[:, 1], ends[:, 0])])

@@ -250,7 +250,7 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
     ROWS, FIRST = "designs", 0
 
     def blocks(self, count: int) -> Iterator[slice]:
-        """The blocks of designs that are there."""
+        """The existing blocks of designs."""
         for b in np.flatnonzero(self.ledger[:, 0]).tolist():
             yield slice(b * self.block, min((b + 1) * self.block, count))
 
@@ -277,7 +277,7 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
         return summary(self)
 
     def drawings(self, notation: Notation | None = None) -> list[Scene]:
-        """How each output of one number a design spreads."""
+        """Distribution of each output with one number per design."""
         from dalembert.studies.output.study_text import output_rows
         from dalembert.studies.output.study_views import histogram_scene
 

@@ -244,7 +244,7 @@ def force_system(
 
 
 def machine(answer: Any, notation: Notation | None = None) -> Scene:
-    """What an answer of machine design shows over the cycle: of `da.shaking`, `da.balance` or `da.flywheel`."""
+    """Drawing of an answer of machine design over the cycle: of `da.shaking`, `da.balance` or `da.flywheel`."""
     scene: Scene = answer.draw(notation=notation)
     return scene
 

@@ -161,7 +161,7 @@ class System(Drawn, Worked):
     ROWS = "parts"
 
     def compared(self) -> Tree:
-        """What equal systems share: their parts, and how they are shown."""
+        """Parts that equal systems share: their parts, and how they are shown."""
         return {"parts": self.parts, "names": self.names, "units": self.units, "points": self.points}
 
     @property

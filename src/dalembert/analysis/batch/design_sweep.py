@@ -114,7 +114,7 @@ def _shape(varied: Values, together: bool) -> tuple[int, ...]:
         raise ModelError("a sweep needs at least one value for each path", "give a list of values")
     text = ", ".join(f"{count} of {path}" for path, count in counts.items())
     if together and len(set(counts.values())) > 1:
-        raise ModelError(f"values cannot be paired: {text}", "give equally many of each")
+        raise ModelError(f"values cannot be paired: {text}", "give lists of equal length")
     shape = tuple(counts.values())[:1] if together else tuple(counts.values())
     if math.prod(shape) > MOST:
         raise ModelError(f"{math.prod(shape)} designs are too many: {text}", f"ask for at most {MOST}")
@@ -354,7 +354,7 @@ class Sweep(NamedAnswer, Labelled, Drawn):
         return super().basis() | self.nominal.assumptions
 
     def record(self, to: Scale) -> Tree:
-        """What is varied, as it was given."""
+        """Varied quantity, as it was given."""
         return {
             "vary": {path: list(of.inputs) for path, of in self.labels.items()},
             "together": self.together,

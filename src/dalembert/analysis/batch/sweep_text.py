@@ -1,4 +1,4 @@
-"""A sweep as a person reads it: a row a design, and the positions that are not solved."""
+"""A sweep as printed text: a row a design, and the positions that are not solved."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.batch.design_sweep import Sweep
 
 MOST_SAID = 8
-"""Problems that are said one by one."""
+"""Problems that are listed one by one."""
 
 
 def sweep_parts(s: Sweep, units: UnitChoice) -> Iterator[Part]:

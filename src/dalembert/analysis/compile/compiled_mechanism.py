@@ -280,7 +280,7 @@ def _setting(m: Mechanism, schedule: Schedule, geometry: Tree) -> LoadSetting:
 
 
 def _drives(schedule: Schedule) -> dict[str, Array]:
-    """What changing quantities may go by: time, where it is known; the drives' positions and speeds."""
+    """Quantities on which changing quantities may depend: time, where it is known; the drives' positions and speeds."""
     time = schedule.clock
     values = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
     values |= {f"{name}{SPEED}": schedule.speed[:, k] for k, name in enumerate(schedule.names)}

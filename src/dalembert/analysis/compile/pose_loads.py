@@ -1,4 +1,4 @@
-"""Loads that go by a link's angle, a joint's freedom or their speeds: known once the motion is, which loads follow."""
+"""Loads that depend on a link's angle, a joint's freedom or their speeds: known from the motion, which loads follow."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def coordinates(c: Compiled, pose: Pose, names: Iterable[str], twist: Array | No
 
 
 def counted_coordinates(c: Compiled, counted: Compiled, pose: Pose, names: Iterable[str]) -> Tree:
-    """The same (P,) with the whole turns that were counted along the motion of ``counted``."""
+    """The same (P,) with the full turns that were counted along the motion of ``counted``."""
     names, twist = list(names), None
     if any(map(is_speed, names)):
         moving = motion(c.layout, pose, c.schedule.speed, np.zeros_like(c.schedule.speed))[0]

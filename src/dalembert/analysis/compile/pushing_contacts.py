@@ -1,4 +1,4 @@
-"""From the joints of the plane to the contacts among them that only push or pull."""
+"""Contacts that only push or pull, from the planar joints."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ BEHIND, AHEAD = -1, 1
 
 
 def pushing_contacts(m: Mechanism, rows: Rows) -> Pushing | None:
-    """The contacts of a mechanism's joints that hold one way alone; None without."""
+    """The contacts of a mechanism's joints that hold in one sense only; None without."""
     normal = _normal_rows(rows)
     found: list[tuple[int, int, Numeric, Numeric, int]] = []
     for k, joint in enumerate(m.joints.values()):

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
-    """What stands before the positions: title, units, assumptions, mobility."""
+    """Part that precedes the positions: title, units, assumptions, mobility."""
     to = result.scale(units)
     mobility = result.mobility
     return {

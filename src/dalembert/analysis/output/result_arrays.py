@@ -52,7 +52,7 @@ DIMENSIONS = {
     "slide": "sliding_joint",
     "turn": "turning_joint",  # a dimension is not called as a variable over it
 }
-"""Things a quantity is asked of -> the dimension along which they are."""
+"""Subjects of a quantity -> the dimension along which they are."""
 
 
 def _dimension(word: str) -> str:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 Rate = Literal["", "speed", "acceleration"]
-"""What of a coordinate is asked for, the value by default."""
+"""Value or rate of a coordinate, the value by default."""
 
 ORIGIN = "origin"
 """The point of a link where its axes begin, beside its named points and its mass centre."""
@@ -71,7 +71,7 @@ class LinkMotion:
         return np.asarray(result[".".join(filter(None, name))])
 
     def angle(self, link: str, rate: Rate = "") -> Array:
-        """Angle of a link's x axis to ground's (P,), followed through whole turns, or its `speed` or `acceleration`; in
+        """Angle of a link's x axis to ground's (P,), followed through full turns, or its `speed` or `acceleration`; in
         space ask ``rotation``.
 
         Where a load depends on it, the full turns are those that the load counts.

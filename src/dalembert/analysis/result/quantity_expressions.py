@@ -76,7 +76,7 @@ def check_units(tree: Tree, known: Mapping[str, Powers | None], parameters: Coll
     >>> check_units(parse_quantity("abs(effort.O) + 0.1*reaction.A.x - 3 N*m", list(known)), known)
     >>> check_units(parse_quantity("reaction.A.x - 3 kg", list(known)), known)
     Traceback (most recent call last):
-    dalembert.errors.ModelError: 'reaction.A.x - 3 kg' cannot be: reaction.A.x is a force, and 3 kg is a mass; ...
+    dalembert.errors.ModelError: 'reaction.A.x - 3 kg' cannot be evaluated: reaction.A.x is a force, ...
     """
     for part in nodes(tree):
         if not isinstance(part, Apply) or part.function not in (*KEEP_KIND, *COMPARISONS):

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
-    """Answer of one analysis over P positions (a leading axis design may stand before position).
+    """Answer of one analysis over P positions (a leading axis design may precede position).
 
     Everything in SI and radians, vectors in ground axes. A reaction is exerted by a joint's other link on the requested
     link, at that link's point of the joint. NaN where unsolved; ``status`` and ``reasons`` give the reason. Where
@@ -358,7 +358,7 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
         )
 
     def head(self, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
-        """What stands before the positions in the JSON answer."""
+        """Part of the JSON answer that precedes the positions."""
         from dalembert.analysis.output.json_record import head
 
         return head(self, units, axes)
@@ -388,7 +388,7 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
         return answer_parts(self, units, **choice)
 
     def text(self, units: UnitChoice = "file", **choice: Any) -> str:
-        """What `dalembert solve` prints."""
+        """Text that `dalembert solve` prints."""
         from dalembert.analysis.output.summary.printed_answer import answer_text
 
         return answer_text(self, units, **choice)

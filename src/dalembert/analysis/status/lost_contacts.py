@@ -1,4 +1,4 @@
-"""Positions at which a contact that only pushes would have to pull, in sentences.
+"""Positions at which a contact that only pushes would have to pull, or the reverse, in sentences.
 
 Mechanics: docs/theory.md 5.5.
 """
@@ -19,7 +19,10 @@ if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.result.force_arrays import SolvedForces
 
-PULLS = "{joint} would have to pull with {force}{arc}: {what}. A contact only pushes; write contact: holds if it holds."
+LACKS = (
+    "{joint} would have to {missing} with {force}{arc}: {what}. This contact only {mode}; "
+    "write contact: holds if it carries forces in both senses."
+)
 CORNERS = {
     -1: "it tips, its rear end lifts off",
     0: "the contact is lost",
@@ -28,7 +31,7 @@ CORNERS = {
 
 
 def contact_checks(c: Compiled, pose: Pose, f: SolvedForces) -> list[Check]:
-    """Where contacts are lost; none where every joint holds both ways."""
+    """Checks for lost contacts; none if every joint holds in both senses."""
     if c.pushing is None:
         return []
     lacking = lacking_forces(c, pose, f)
@@ -36,7 +39,7 @@ def contact_checks(c: Compiled, pose: Pose, f: SolvedForces) -> list[Check]:
 
 
 def lacking_forces(c: Compiled, pose: Pose, f: SolvedForces) -> Array:
-    """What each contact (P, K) would have to pull with; 0 where it pushes or its force is not determined."""
+    """Force with which each contact (P, K) would have to pull; 0 where it pushes or its force is not determined."""
     assert c.pushing is not None
     force = contact_forces(c.layout, c.pushing, pose, f.force, f.moment)
     largest = np.abs(f.force).max(axis=(1, 2), initial=0.0)[:, None]
@@ -50,8 +53,11 @@ def _lost_sentence(c: Compiled, lacking: Array, run: Ints) -> str:
     assert c.pushing is not None
     position, contact = np.unravel_index(int(np.argmax(lacking[run])), lacking[run].shape)
     joint = c.joints[c.pushing.joint[contact]]
-    return PULLS.format(
+    mode: str = c.mechanism.joints[joint].contact.mode  # type: ignore[union-attr]
+    return LACKS.format(
         joint=joint,
+        missing="push" if mode == "pulls" else "pull",
+        mode=mode,
         force=quantity_text(c, "force", float(lacking[run][position, contact])),
         arc=arc(c, run),
         what=CORNERS[int(c.pushing.corner[contact])],

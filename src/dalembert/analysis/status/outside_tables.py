@@ -1,4 +1,4 @@
-"""What is said where a load's table ends before a position."""
+"""Sentences for positions outside a load's table."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def outside(c: Compiled) -> Flags:
-    """Where (P,) some table was asked for more than it has."""
+    """True (P,) at positions outside some table."""
     flags = np.zeros(len(c.schedule.position), bool)
     for b in c.beyond:
         flags |= b.table.beyond(b.at)
@@ -23,7 +23,7 @@ def outside(c: Compiled) -> Flags:
 
 
 def outside_sentence(c: Compiled, run: Ints) -> str:
-    """Which tables end before these positions, and how far the worst of them goes."""
+    """Tables that end before these positions, and the largest distance beyond an end."""
     units, out = file_units(c.mechanism.units), []
     for b in c.beyond:
         kind, low, high = b.table.along, b.table.x[0] + b.table.shift, b.table.x[-1] + b.table.shift

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 def computed(find: Callable[[], Any], m: Mechanism) -> Any:
-    """What is found; errors name the place in the model file."""
+    """The answer; errors name the place in the model file."""
     try:
         return find()
     except ModelError as error:
@@ -38,7 +38,7 @@ def computed(find: Callable[[], Any], m: Mechanism) -> Any:
 
 
 def cycle_of(file: Path, of: Of, out: LabelledOutputs) -> Result:
-    """The analysis of a file, over a whole turn where it has one position; what cannot be written is refused first."""
+    """The analysis of a file, over a full turn where it has one position; what cannot be written is refused first."""
     from dalembert.analysis import solve
     from dalembert.machine.whole_cycle import over_a_turn
 
@@ -48,7 +48,7 @@ def cycle_of(file: Path, of: Of, out: LabelledOutputs) -> Result:
 
 
 def answer(result: Result, find: Callable[[Result], Any], out: LabelledOutputs, **choice: Any) -> Any:
-    """Find, write and print what is found from an analysis."""
+    """Compute, write and print an answer from an analysis."""
     made = computed(lambda: find(result), result.mechanism)
     out.deliver(made, **choice)
     return made
@@ -181,7 +181,7 @@ def balance(
         out.deliver(computed(lambda: balance_rotor(m, *both), m))
         return 0
     if not on:
-        remedy = "write --on crank rocker, or of a rotor --planes 50mm,450mm --radii 40mm"
+        remedy = "write --on crank rocker, or, for a rotor, --planes 50mm,450mm --radii 40mm"
         raise ModelError("the links for the counterweights are missing", remedy)
     weights = dict(bounds_of(m, text) for text in on)
     out.deliver(computed(lambda: balanced(m, weights, least, sum_of(of), _point(m, about), positions), m))

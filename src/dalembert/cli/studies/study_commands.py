@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 study = App(
     name="study",
-    help="Many designs of one mechanism: drawn, analysed, stored, resumed; what they say together.",
+    help="Many designs of one mechanism: sampled, analysed, stored and resumed; their statistics.",
     help_epilogue="""Examples:
   dalembert study run study.yaml -o pump.zarr
   dalembert study resume pump.zarr
@@ -92,7 +92,7 @@ def extend(
     threads: Threads = None,
     scheduler: Scheduler = None,
 ) -> int:
-    """Add designs to a study with random or sobol sampling; existing designs do not change."""
+    """Add designs to a study with random or Sobol sampling; existing designs do not change."""
     if not designs.is_integer():
         raise ModelError(f"--designs {designs} is not an integer", "give one, such as 100000 or 1e6")
     return _run(_read(store).extended(int(designs)), store, threads, scheduler)

@@ -56,7 +56,7 @@ FIGURE = (
     "file",
     "line",
 )
-"""What is kept of each figure."""
+"""Data kept of each figure."""
 
 
 def figures(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:

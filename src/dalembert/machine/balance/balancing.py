@@ -103,7 +103,7 @@ class Balance(Comparison):
         """
         require("count", count)
         if other not in QUANTITIES:
-            raise ModelError(f"{other!r} cannot be balanced", f"there is: {', '.join(QUANTITIES)}")
+            raise ModelError(f"{other!r} is not an objective", f"choose among {', '.join(QUANTITIES)}")
         out = []
         for angle in np.linspace(0.02, math.pi / 2 - 0.02, count):
             weights = {n: w * math.cos(angle) for n, w in self.of.items()}
@@ -151,7 +151,7 @@ class Balance(Comparison):
         return {"balance": out | {"missing": self.missing()}}
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
-        """What a person reads, in the units of a scale."""
+        """Printed answer, in the units of a scale."""
         from dalembert.machine.output.balance_text import balance_parts
 
         return balance_parts(self, to, **choice)
@@ -221,7 +221,7 @@ def _wanted(of: Of, r: Result) -> dict[str, float]:
     wanted = {of: 1.0} if isinstance(of, str) else dict(of)
     for name, weight in wanted.items():
         if name not in QUANTITIES:
-            raise ModelError(f"{name!r} cannot be balanced", f"there is: {', '.join(QUANTITIES)}")
+            raise ModelError(f"{name!r} is not an objective", f"choose among {', '.join(QUANTITIES)}")
         require("weight", weight, f"the weight of {name}")
         if name == "torque" and not r.drives:
             raise ModelError("no drive has a torque that could be balanced", "balance force or moment")

@@ -91,7 +91,7 @@ class RotorBalance(Comparison):
         return {"rotor": out | self.sizes_record(to)}
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
-        """What a person reads, in the units of a scale."""
+        """Printed answer, in the units of a scale."""
         from dalembert.machine.output.rotor_text import rotor_parts
 
         return rotor_parts(self, to, **choice)

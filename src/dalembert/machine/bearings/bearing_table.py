@@ -72,7 +72,7 @@ class BearingTable(MachineAnswer):
         return {"bearings": out, "hours": self.hours, "factor": self.factor}
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
-        """What a person reads, in the units of a scale."""
+        """Printed answer, in the units of a scale."""
         from dalembert.machine.output.bearing_text import bearing_parts
 
         return bearing_parts(self, to, **choice)

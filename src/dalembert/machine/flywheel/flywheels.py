@@ -107,7 +107,7 @@ class Flywheel(MachineAnswer):
         return {"flywheel": {"drive": self.drive, **book, **exact, "reason": self.reason or None}}
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
-        """What a person reads, in the units of a scale."""
+        """Printed answer, in the units of a scale."""
         from dalembert.machine.output.flywheel_text import flywheel_parts
 
         return flywheel_parts(self, to, **choice)

@@ -81,7 +81,7 @@ def _with_mean_speed(panels: Panels, inertia: Array, surplus: Array, mean: float
         square = 2 * (energy + surplus) / inertia
         if (square <= 0).any():
             raise AnalysisError(
-                f"at {mean:.4g} rad/s on the mean the machine would come to rest within its cycle: give more inertia"
+                f"at {mean:.4g} rad/s mean speed the machine would come to rest within its cycle: give more inertia"
             )
         speed = np.sqrt(square)
         time, slope = panels.mean(1 / speed), -panels.mean(1 / (speed**3 * inertia))

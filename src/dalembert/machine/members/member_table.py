@@ -98,7 +98,7 @@ class MemberTable(MachineAnswer):
         }
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
-        """What a person reads, in the units of a scale."""
+        """Printed answer, in the units of a scale."""
         from dalembert.machine.output.member_text import member_parts
 
         return member_parts(self, to, **choice)

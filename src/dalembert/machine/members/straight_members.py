@@ -87,8 +87,8 @@ def _line(m: Mechanism, link: str, joints: Array) -> Straight:
     t = np.linalg.svd(spread - middle, full_matrices=False)[2][0]
     size = _size(spread)
     if (_off(spread, middle, t) > FLAT * size).any():
-        what = f"the joints of link {link!r} are on no line; its points are {listed}"
-        remedy = f"say which straight members it has: members: [{chain or '[A, B], [B, C]'}]"
+        what = f"the joints of link {link!r} do not lie on one line; its points are {listed}"
+        remedy = f"name its straight members: members: [{chain or '[A, B], [B, C]'}]"
         raise ModelError(what, remedy, ("links", link))
     on = {n: float((p - middle) @ t) for n, p in points.items() if _off(p, middle, t) <= FLAT * size}
     s = np.concatenate([(spread - middle) @ t, [*on.values()]])

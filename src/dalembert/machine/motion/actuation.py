@@ -119,7 +119,7 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
     free = [n for n, d in m.drives.items() if n in m.start or d.motor is not None or d.effort is not None]
     if not free:
         raise ModelError(
-            "no drive is released: none has a start, a motor or an effort",
+            "no drive is free: none has a start, a motor or an effort",
             "write start: {O2: {position: 60 deg, speed: 0}}, with the name of a drive",
             ("drives",),
         )

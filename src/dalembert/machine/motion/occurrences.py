@@ -103,12 +103,12 @@ def read_end(
 ) -> tuple[float, list[EventCondition]]:
     """The end, infinite where only conditions end it, and the conditions."""
     several = [until] if isinstance(until, (str, float, int)) else list(until)
-    times = [u for u in several if not (isinstance(u, str) and "=" in u)]
+    times = [u for u in several if not (isinstance(u, str) and re.search("[=<>]", u))]
     texts = [(str(u), True) for u in several if u not in times] + [(e, False) for e in events]
     conditions = [_condition(m, text, stops) for text, stops in texts]
     end = min((quantity(u, "time", m.units.of_texts()) for u in times), default=np.inf)
     if not end > 0 or not several:
-        raise ModelError("the simulation does not say until when", 'write until="2 s"')
+        raise ModelError("the simulation has no end", 'write until="2 s"')
     return end, conditions
 
 

@@ -285,7 +285,7 @@ class Simulation(NamedAnswer, MachineAnswer):
         return known | ({} if np.isnan(e.lost) else {"lost": float(np.asarray(to("energy", e.lost)))})
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
-        """What a person reads, in the units of a scale."""
+        """Printed answer, in the units of a scale."""
         from dalembert.machine.output.simulation_text import simulation_parts
 
         return simulation_parts(self, to, **choice)

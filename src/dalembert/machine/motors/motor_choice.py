@@ -171,7 +171,7 @@ class MotorChoice(MachineAnswer):
         return {"motor": out}
 
     def printed(self, to: Printed, **choice: Any) -> Iterator[Part]:
-        """What a person reads, in the units of a scale."""
+        """Printed answer, in the units of a scale."""
         from dalembert.machine.output.motor_text import motor_parts
 
         return motor_parts(self, to, **choice)

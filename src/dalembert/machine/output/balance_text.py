@@ -66,7 +66,7 @@ def proof(b: Balance) -> str:
     what = " + ".join(f"{'' if w == 1 else f'{w:g} '}{name}" for name, w in b.of.items() if w)
     if not counted:
         return f"There was no {' and no '.join(b.of)} to balance: no counterweight is needed."
-    text = f"Least {'rms' if b.least == 'rms' else 'greatest'} {what}: {_percent(b.value)} of what it was. "
+    text = f"Least {'rms' if b.least == 'rms' else 'greatest'} {what}: {_percent(b.value)} of the unbalanced value. "
     text += f"No counterweights within the bounds leave less than {_percent(b.bound)} (dual value). "
     zero = [name for name, w in b.of.items() if w and name not in counted]
     text += f"The {' and the '.join(zero)}, 0 before, did not count. " if zero else ""

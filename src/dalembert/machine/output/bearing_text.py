@@ -30,7 +30,7 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
         most, *others = (to.number("force", x) for x in (size, b.axial.max(), b.equivalent))
         turning = [
             to.number("angular_speed", b.speed),
-            "to and fro" if b.swings else "on" if b.speed else "-",
+            "oscillating" if b.swings else "continuous" if b.speed else "-",
         ]
         loads.append([joint, most, where(t.result, to, k), *others, *turning])
         if b.sized:
@@ -41,7 +41,7 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
             life = [number(b.turns / 1e6), number(b.hours), safety]
             rolling.append([joint, b.bearing.kind, to.number("force", b.bearing.rating), *life])
     heads = ["joint", f"radial force\n{force}", "at\n", f"axial\n{force}", f"equivalent\n{force}"]
-    heads += [f"mean turning\n{rate}", "turns\n"]
+    heads += [f"mean speed\n{rate}", "rotation\n"]
     if not any(b.axial.any() for b in t.loads.values()):
         heads, *loads = [[*row[:3], *row[4:]] for row in (heads, *loads)]
     yield TextTable(heads, loads)
@@ -55,8 +55,8 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     if t.hours is not None:
         yield _choice(t, to)
     yield (
-        "The equivalent load is weighted by the turning of the joint's links to each other; exponent 3, of rollers "
-        "10/3. A joint that turns to and fro: turns are the angle swept over 360 deg."
+        "The equivalent load is weighted by the relative rotation of the joint's links; exponent 3, for rollers "
+        "10/3. For oscillating joints, revolutions = swept angle / 360 deg."
     )
     changes = {f"{what} of {j}": part for j, b in t.loads.items() for what, part in b.sampling().items()}
     yield sampled(t.result, changes)

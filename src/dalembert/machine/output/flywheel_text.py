@@ -75,7 +75,9 @@ def comparison(f: Flywheel, to: Printed) -> str:
     elif f.exact_size is not None:
         rule = f.size.inertia - f.own
         text += f"For the required Cs {to.quantity('inertia', f.exact_size.inertia)} is enough"
-        text += f"; the rule less the links' inertia gives {to.quantity('inertia', rule)}" if rule > 0 else ""
+        text += (
+            f"; the rule minus the links' inertia gives {to.quantity('inertia', rule)}" if rule > 0 else ""
+        )
         text += ". "
     elif f.reason:
         text += f"The flywheel for exactly that Cs cannot be computed: {f.reason}. "

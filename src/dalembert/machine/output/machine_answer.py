@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class MachineAnswer(Labelled, Drawn, Worked):
-    """An answer of machine design, found from a ``result``."""
+    """An answer of machine design, computed from a ``result``."""
 
     result: Result
 
@@ -40,7 +40,7 @@ class MachineAnswer(Labelled, Drawn, Worked):
             yield Column(f"drive.{drive}", drive_kinds(r, drive)["position"], r.drive_position(drive))
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterable[Part]:
-        """What a person reads: sentences and tables."""
+        """Printed answer: sentences and tables."""
         return self.printed(print_scale(self.result, units), **choice)
 
     def printed(self, to: Printed, **choice: Any) -> Iterable[Part]:
@@ -62,7 +62,7 @@ class MachineAnswer(Labelled, Drawn, Worked):
         raise NotImplementedError
 
     def sheet(self, notation: Notation | None = None) -> ReportSheet:
-        """Its equations, what is found, and the drawings."""
+        """Its equations, the answer, and the drawings."""
         from dalembert.reports.machine_sections import machine_sheet
 
         return machine_sheet(self, notation)

@@ -29,7 +29,7 @@ def _no_least(c: MotorChoice) -> str:
         )
         return f"The drive needs no effort; {reason}."
     return (
-        "Torque falls as the ratio rises, because accelerating the motor takes no torque: the ratio "
+        "Torque falls as the ratio rises, because the motor does not accelerate: the ratio "
         "is limited only by the motor's speed."
     )
 
@@ -51,7 +51,7 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
     yield sampled(c.result, c.sampling())
     kind = "inertia" if kinds["effort"] == "moment" else "mass"
     low, high = (to.quantity(kind, float(x)) for x in (c.inertia.min(), c.inertia.max()))
-    yield f"All links as seen from {c.drive}: {low} to {high}, {to.quantity(kind, c.mean(c.inertia))} on the mean."
+    yield f"Inertia of all links reduced to {c.drive}: {low} to {high}, mean {to.quantity(kind, c.mean(c.inertia))}."
     rows = []
     for name, n in c.needs.items():
         cells = [number(n.ratio), *(to.number("moment", x) for x in (n.rms, n.torque))]

@@ -193,7 +193,7 @@ class Curve:
 
     @cached_property
     def times(self) -> Array:
-        """Where the pieces begin, and the end (N + 1,)."""
+        """Starts of the pieces, and the end (N + 1,)."""
         return np.concatenate([[0.0], np.cumsum([p.length for p in self.pieces])])
 
     @property

@@ -141,7 +141,7 @@ def _curve(value: object, kinds: Mapping[str, str], rules: ReadingRules) -> tupl
     effort = at_item(kinds["name"], _numbers, keys[kinds["name"]], kinds["effort"], rules)
     if len(speed) != len(effort) or len(speed) < 2:
         what = f"the curve has {len(speed)} speeds and {len(effort)} values of {kinds['name']}"
-        raise ModelError(what, "give equally many, at least two", (kinds["name"],))
+        raise ModelError(what, "give lists of equal length, at least two values each", (kinds["name"],))
     for k, (a, b) in enumerate(pairwise(speed)):
         if not a < b:
             raise ModelError(

@@ -170,7 +170,7 @@ def _sentence(one: ErrorDetails) -> tuple[str, str]:
         return "the key 'type' is missing", HINTS["type"]
     if kind == "literal_error":
         choices = _quote(ctx["expected"])
-        return f"{quote_value(value)} has no meaning here", closest(str(value), choices)
+        return f"{quote_value(value)} is not a valid value", closest(str(value), choices)
     if kind in ("model_type", "model_attributes_type", "dict_type", "mapping_type"):
         return f"expected a mapping, not {quote_value(value)}", "write {key: value, ...}"
     if kind in ("tuple_type", "list_type"):

@@ -32,7 +32,11 @@ def load_task(
             problem = f"expected a mapping, not {quote_value(tree)}"
             raise ModelError(problem, "write model: ... and vary: ...")
         if "links" in tree:
-            raise ModelError("this is a model file", "name it in a separate file: model: FILE", ("links",))
+            raise ModelError(
+                "this is a model file",
+                "name it in a separate file: model: FILE",
+                ("links",),
+            )
         check_keys(tree, list(keys))
         if tree.get(what, 1) != 1 or isinstance(tree.get(what), bool):
             raise ModelError(f"unknown format version {quote_value(tree[what])}", f"write {what}: 1", (what,))

@@ -46,7 +46,7 @@ def read(text: str) -> tuple[object, dict[Path, int]]:
             builder.take(event)
     except MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        what, line = f"it is not YAML here: {_problem(error)}", mark.line + 1 if mark else 1
+        what, line = f"this is not valid YAML: {_problem(error)}", mark.line + 1 if mark else 1
         raise at_line(what, _advice(text, mark), line) from None
     except (YAMLError, ValueError, IndexError, AssertionError, RecursionError, OverflowError) as error:
         if isinstance(error, ModelError):

@@ -1,4 +1,4 @@
-"""Contacts that only push: which joints have one, on which side, and what of a speed comes back from an impact."""
+"""Contacts that only push: the joints that have one, its side, and the restitution of an impact."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ EXAMPLE = "contact: pushes, or {pushes: true, restitution: 0.3}"
 
 @dataclass(frozen=True, slots=True)
 class ContactMode:
-    """Force that a contact can carry: ``holds`` both ways, ``pushes`` or ``pulls`` one way alone; restitution of an
+    """Force that a contact can carry: ``holds`` in both senses, ``pushes`` or ``pulls`` in one; restitution of an
     impact, 0 to 1."""
 
     mode: str = "holds"
@@ -44,11 +44,11 @@ class ContactValue(ValueField):
                 f"{quote_value(keys[wrong])} is neither true nor false", f"write {wrong}: true", (wrong,)
             )
         if len(modes) != 1:
-            raise ModelError("the contact does not say whether it pushes, pulls or holds", f"write {EXAMPLE}")
+            raise ModelError("it must be exactly one of holds, pushes and pulls", f"write {EXAMPLE}")
         back = at_item("restitution", reading(info).quantity, keys.get("restitution", 0.0), "number")
         if not 0 <= back <= 1:
-            what = f"a restitution of {back:g}: the speed after an impact over that before"
-            raise ModelError(what, "write 0 (it stays) to 1 (nothing is lost)", ("restitution",))
+            what = f"{back:g} is not a ratio of the speeds after and before an impact"
+            raise ModelError(what, "write a number from 0 (no rebound) to 1 (no loss)", ("restitution",))
         return ContactMode(modes[0], back)
 
     def write(self, value: ContactMode) -> object:
@@ -59,7 +59,7 @@ class ContactValue(ValueField):
             "type": "number",
             "minimum": 0,
             "maximum": 1,
-            "description": "speed after an impact over before",
+            "description": "ratio of the speeds after and before an impact",
         }
         modes = {mode: {"type": "boolean", "description": f"true: it {mode}"} for mode in MODES}
         return {"anyOf": [{"enum": list(MODES)}, object_schema(modes | {"restitution": restitution})]}
@@ -68,9 +68,12 @@ class ContactValue(ValueField):
 Contact = Annotated[ContactMode, ContactValue()]
 Side = Literal["left", "right"]
 HOLDS, PUSHES = ContactMode(), ContactMode("pushes")
-CONTACT = "whether it holds both ways, or only pushes: holds, pushes, pulls, {pushes: true, restitution: 0.3}"
+CONTACT = (
+    "normal forces that it carries: holds (both senses), pushes or pulls; or {pushes: true, restitution: 0.3}"
+)
 SIDE = (
-    "on which side of the direction (left, default: outside of a circle) a contact that pushes has j's point"
+    "side of the direction on which j's point lies, for a contact that pushes or pulls: left (default; outside "
+    "of a circle) or right"
 )
 
 
@@ -85,14 +88,18 @@ def side_field() -> Any:
 
 
 def check_contact(keys: object) -> object:
-    """Refuse a side of a contact that holds on both."""
+    """Refuse a side of a contact that carries forces in both senses."""
     if isinstance(keys, Mapping) and "side" in keys and "contact" not in keys:
-        raise ModelError("a side is given without a contact", "write contact: pushes beside it", ("side",))
+        raise ModelError("side is given without contact", "write contact: pushes beside it", ("side",))
     return keys
 
 
 def refuse_contact(keys: object, kind: str) -> None:
-    """Refuse a contact on a joint that holds all round."""
+    """Refuse a contact on a joint that transmits forces in all directions."""
     if isinstance(keys, Mapping) and "contact" in keys:
         article = "an" if kind[0] in "aeiou" else "a"
-        raise ModelError(f"{article} {kind} holds all round", "put a slot with contact: pushes", ("contact",))
+        raise ModelError(
+            f"{article} {kind} transmits forces in all directions",
+            "use a slot with contact: pushes",
+            ("contact",),
+        )

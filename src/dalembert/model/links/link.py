@@ -320,7 +320,7 @@ class Link(Part):
     def _place(self, point: str, seen: list[str]) -> Vector | Offset:
         if point in seen:
             circle = " from ".join([*seen, point])
-            what = f"points are placed in a circle: {circle}"
+            what = f"points refer to each other in a circle: {circle}"
             raise ModelError(what, "give one of them a vector", ("points", seen[0], "from"))
         if point == CENTER:
             return self._center()

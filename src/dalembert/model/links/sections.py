@@ -54,7 +54,7 @@ class Members(ValueField):
                 raise ModelError(what, "leave one of them out: members are a tree")
             met = [s for s in met if s is not at_a and s is not at_b] + [at_a | at_b]
         if len(met) > 1:
-            raise ModelError("the members hang together nowhere", "let each begin at a point of another")
+            raise ModelError("the members are not connected", "let each begin at a point of another")
         return members
 
     def write(self, value: tuple[tuple[str, str], ...]) -> object:

@@ -42,7 +42,7 @@ def path_of(value: str) -> str:
 
 
 def quantity_name(path: str) -> str:
-    """The name of a coordinate as a quantity: the other way of `path_of`.
+    """The name of a coordinate as a quantity: the inverse of `path_of`.
 
     >>> quantity_name("joints.G.slide"), quantity_name("links.rod.angle.speed"), quantity_name("O.speed")
     ('slide.G', 'angle.rod.speed', 'O.speed')
@@ -84,7 +84,7 @@ def is_speed(path: str) -> bool:
 
 
 def along_of(path: str, freedoms: Mapping[str, str]) -> str:
-    """Whether it is an angle, a length, a speed of these or a time; empty where that is not known."""
+    """Kind of a coordinate: an angle, a length, a speed of these or a time; empty where that is not known."""
     coordinate = parts(path)
     freedom = freedoms.get(path.removesuffix(SPEED) if is_speed(path) else path) or (
         coordinate[2] if coordinate else ""

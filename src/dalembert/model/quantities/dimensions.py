@@ -103,7 +103,7 @@ def _common(tree: Apply, a: Powers | None, b: Powers | None) -> Powers | None:
     )
     verb = {"+": "added", "-": "subtracted"}.get(tree.function, "compared")
     angle = "; a number of radians is written with its unit, 0.5 rad" if a[:3] == b[:3] else ""
-    what = f"{quote_value(expression_text(tree))} cannot be: {first}, and {second}"
+    what = f"{quote_value(expression_text(tree))} cannot be evaluated: {first}, and {second}"
     raise ModelError(what, f"only quantities of one kind are {verb}{angle}")
 
 
@@ -116,8 +116,8 @@ def _check_argument(tree: Apply, powers: Powers | None) -> None:
     ):
         text = f"{expression_text(tree.arguments[0])} is {phrase(powers)}"
         raise ModelError(
-            f"{quote_value(expression_text(tree))} cannot be: {text}",
-            f"{tree.function} is taken of a plain number or an angle; divide by a quantity of the same kind",
+            f"{quote_value(expression_text(tree))} cannot be evaluated: {text}",
+            f"{tree.function} needs a plain number or an angle; divide by a quantity of the same kind",
         )
 
 

@@ -217,7 +217,7 @@ def _check_name(name: object, drives: Mapping[str, str], keys: Sequence[str]) ->
         **dict.fromkeys(drives, "a drive"),
     }
     if not isinstance(name, str) or not re.fullmatch(r"[^\W\d]\w*", name) or "__" in name:
-        what = "it has no name for an expression"
+        what = "its name cannot be used in expressions"
         raise ModelError(what, "write a word of letters, digits and _, as in rod_length")
     if name in means:
         raise ModelError(f"its name is that of {means[name]}", f"call it otherwise, for example {name}_1")

@@ -17,7 +17,7 @@ UNITS = {"angle": "deg", "length": "m", "time": "s", "angular_speed": "rad/s", "
 FAR = 1e9
 """Spans of a table that it goes on beyond its ends."""
 OUTSIDE = ("refuse", "hold", "zero")
-"""What a table is beyond its ends."""
+"""Value of a table beyond its ends."""
 
 SLACK = 1e-9
 """Relative to the table's span: how far outside its ends a position is still taken as the end."""
@@ -97,7 +97,7 @@ class Table:
         return breaks, np.pad(coefficients, ((0, 0), (1, 1)))
 
     def beyond(self, position: ArrayLike) -> Array:
-        """Where it is asked for more than it has, and refuses that."""
+        """True at arguments beyond its ends, if these are refused."""
         import numpy as np
 
         place = np.asarray(position, float) - self.shift
@@ -163,7 +163,7 @@ def _check(table: Table) -> None:
             words = f"x of a table does not increase from its item {i + 1} to {i + 2}"
             raise ModelError(words, "sort the points; for a jump give two that are close", ("x", i + 1))
     if table.interpolate not in ("linear", "cubic"):
-        problem = f"{table.interpolate!r} has no meaning here"
+        problem = f"{table.interpolate!r} is not a valid value"
         raise ModelError(problem, "write linear or cubic", ("interpolate",))
     _check_period(table)
 

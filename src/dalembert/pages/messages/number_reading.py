@@ -125,7 +125,7 @@ EXAMPLES: dict[str, tuple[str, str, dict[str, str]]] = {
         "length",
         {"a time": "{given}", "a length": "{phrase}", "write one, for example '127 mm'": "{remedy}"},
     ),
-    "pounds": ("7 lb", "force", {"say lbf ": "say {unit} "}),
+    "pounds": ("7 lb", "force", {"write lbf ": "write {unit} "}),
     "hertz": ("7 Hz", "angular_speed", {}),
 }
 """Wrong input, the quantity that it is read as, and the parts of the message that vary."""

@@ -15,7 +15,7 @@ from dalembert.views.notation import Notation, Shown, pretty
 
 
 def machine_sheet(answer: MachineAnswer, notation: Notation | None = None) -> ReportSheet:
-    """The worked solution of an answer: its equations in letters and numbers, what is found, its drawings."""
+    """The worked solution of an answer: its equations in letters and numbers, the results, its drawings."""
     shown = Shown(answer.result, notation or Notation())
     sheet = ReportSheet(answer.result.mechanism.title or "Machine", answer.result.mechanism.source_text)
     answer.section(sheet, shown)

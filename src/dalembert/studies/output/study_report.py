@@ -120,7 +120,7 @@ class _Output:
 
     def _assumed(self, by_method: dict[str, Contributions]) -> None:
         sigmas = " and ".join(f"{self.text(of.sigma)} ({by})" for by, of in by_method.items())
-        notes = [f"Mind: {of.note}." for of in by_method.values() if of.note]
+        notes = [f"Note: {of.note}." for of in by_method.values() if of.note]
         worst = self.r.study.worst_case(self.name)
         case = f"Worst case {self.text(worst.value)}: {worst.assumed}."
         self.sheet.text(" ".join([f"Standard deviation {sigmas}.", *notes, case]))

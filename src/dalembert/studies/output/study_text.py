@@ -42,7 +42,7 @@ def heading(r: StudyResult) -> str:
     seconds = r.ledger[:, 1].sum() / 1e3
     seed = "" if plan.draw in ("table", "factorial") else f", seed {plan.seed}"
     motion = "" if r.study.motion is None else f"; {r.study.motion}"
-    return f"{done:,} of {r.study.count:,} designs ({plan.draw}{seed}), {seconds:.3g} s of one core{motion}"
+    return f"{done:,} of {r.study.count:,} designs ({plan.draw}{seed}), {seconds:.3g} s of core time{motion}"
 
 
 def reduction(r: StudyResult) -> str:
@@ -202,7 +202,7 @@ def contributions_text(study: Study, by: str) -> str:
                 [
                     title,
                     table(heads, rows, 1),
-                    *([f"Mind: {contributions.note}."] if contributions.note else []),
+                    *([f"Note: {contributions.note}."] if contributions.note else []),
                 ]
             )
         )

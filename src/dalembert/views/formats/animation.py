@@ -80,7 +80,9 @@ class Animation:
         target = Path(path)
         kind = target.suffix.lower()
         if kind not in (".svg", ".gif", ".webp"):
-            raise ModelError(f"{target.name}: animations are not written as that", "use .svg, .gif or .webp")
+            raise ModelError(
+                f"{target.name}: animations cannot be written in this format", "use .svg, .gif or .webp"
+            )
         if kind != ".svg":
             check_installed("matplotlib", f"writing {kind[1:].upper()}", "plot")
             check_installed("PIL", f"writing {kind[1:].upper()}", "plot")

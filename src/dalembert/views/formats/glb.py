@@ -60,7 +60,7 @@ class SolidModel:
         """Writes .glb."""
         target = Path(path)
         if target.suffix.lower() != ".glb":
-            raise ModelError(f"{target.name}: solid models are not written as that", "use .glb")
+            raise ModelError(f"{target.name}: solid models cannot be written in this format", "use .glb")
         with new_file(target, overwrite) as temporary:
             temporary.write_bytes(self.to_glb())
 

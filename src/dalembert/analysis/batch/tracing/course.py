@@ -1,4 +1,4 @@
-"""The mechanism at a list of positions, followed when its motion is asked for."""
+"""The mechanism at a list of positions, followed when its motion is needed."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from dalembert.model import Mechanism, Schedule
 
 @dataclass(frozen=True)
 class PositionPath:
-    """The mechanism with the file's numbers at a list of positions, followed when its motion is asked for.
+    """The mechanism with the file's numbers at a list of positions, followed when its motion is needed.
 
     With the ``result`` of the general executor, which may be of another design, its motion is that.
     """
@@ -34,7 +34,7 @@ class PositionPath:
     schedule: Schedule
     result: Result | None = None
     target: Mapping[str, Array] | None = None
-    """What each output is compared with (position, component)."""
+    """Target of each output (position, component)."""
 
     def with_target(self, target: Mapping[str, Array]) -> PositionPath:
         """The same course, as far as it is followed."""
@@ -57,7 +57,7 @@ class PositionPath:
 
     @cached_property
     def cycle(self) -> bool:
-        """Whether its positions come round; raises ModelError where they are not even."""
+        """True if its positions are periodic; raises ModelError where they are not even."""
         drives = [self.mechanism.drives[name].turns for name in self.schedule.names]
         return is_cycle(self.schedule.position, drives)
 
@@ -90,7 +90,7 @@ class PositionPath:
         if TIME in names and clock is None:
             raise ModelError(
                 "a load depends on time, but no times are given for these positions",
-                "leave them out, or give a drive a constant speed in place of a law",
+                "leave them out, or give a drive a constant speed instead of a law",
             )
         by_pose = [name for name in names if parts(name)]
         at = counted_coordinates(self.compiled, self.counted, self.pose, by_pose) if by_pose else {}
@@ -110,7 +110,7 @@ class PositionPath:
 
     @cached_property
     def reversals(self) -> dict[tuple[str, str], Array]:
-        """Sense (P,) of each contact where it reverses in the result, 0 where its rate tells it."""
+        """Sense (P,) of each contact where it reverses in the result, 0 where its rate determines it."""
         f = None if self.result is None else self.result.friction
         if self.result is None or f is None:
             return {}
@@ -119,7 +119,7 @@ class PositionPath:
 
     @property
     def counted(self) -> Compiled:
-        """The mechanism with the whole turns of its torsion springs counted along its motion."""
+        """The mechanism with the full turns of its torsion springs counted along its motion."""
         return self.followed.compiled if self.result is None else self.result.compiled
 
     def at(self, positions: Array) -> PositionPath:

@@ -26,7 +26,7 @@ DRIVEN = ("position", "law", "range")
 
 
 PLACING = ("period",)
-"""What says where the points of a table are."""
+"""Data that determine where the points of a table are."""
 
 
 @dataclass(frozen=True)

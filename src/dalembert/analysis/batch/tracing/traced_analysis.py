@@ -148,7 +148,7 @@ def trace_analysis(
 
 
 def _pose_loads(inputs: Inputs, c: Compiled, known: Tree) -> Callable[[Forcing, Pose, Array], Forcing] | None:
-    """Loads that go by the pose, by speeds, or by the time of a constant speed, as nodes of these."""
+    """Loads that depend on the pose, by speeds, or by the time of a constant speed, as nodes of these."""
     graph = inputs.graph
     _note_table_ends(inputs)
     inside = {k: v for k, v in inputs.varying.items() if k.startswith("loads.") and inputs.inside(v)}
@@ -175,7 +175,7 @@ def _pose_loads(inputs: Inputs, c: Compiled, known: Tree) -> Callable[[Forcing, 
 
 
 def _known(inputs: Inputs, c: Compiled, functions: Tree) -> Known:
-    """What is known of the efforts, those by speeds and by the time of a constant speed as nodes of these."""
+    """Known efforts, those by speeds and by the time of a constant speed as nodes of these."""
     places = {
         inputs.named["channel", name].index: node(inputs.graph, varying.at(inputs.known(), functions))
         for name, varying in inputs.varying.items()
