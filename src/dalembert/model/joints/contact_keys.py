@@ -1,4 +1,4 @@
-"""Contacts that only push: the joints that have one, its side, and the restitution of an impact."""
+"""Contacts that only push: the joints that have one, and its side."""
 
 from __future__ import annotations
 
@@ -9,68 +9,40 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationInfo
 
 from dalembert.errors import ModelError
-from dalembert.model.part import mapping, reading
-from dalembert.model.quantities.values import JsonSchema, ValueField, at_item, object_schema
+from dalembert.model.quantities.values import JsonSchema, ValueField
 from dalembert.wording import closest, quote_value
 
 MODES = ("holds", "pushes", "pulls")
-EXAMPLE = "contact: pushes, or {pushes: true, restitution: 0.3}"
 
 
 @dataclass(frozen=True, slots=True)
 class ContactMode:
-    """Force that a contact can carry: ``holds`` in both senses, ``pushes`` or ``pulls`` in one; restitution of an
-    impact, 0 to 1."""
+    """Force that a contact can carry: ``holds`` in both senses, ``pushes`` or ``pulls`` in one."""
 
     mode: str = "holds"
-    restitution: float = 0.0
 
 
 class ContactValue(ValueField):
-    """A contact: `holds`, `pushes` or `pulls`, or `{pushes: true, restitution: 0.3}`."""
+    """A contact: `holds`, `pushes` or `pulls`."""
 
     def read(self, value: object, info: ValidationInfo) -> ContactMode:
         if isinstance(value, ContactMode):
             return value
-        if isinstance(value, str):
-            if value not in MODES:
-                raise ModelError(f"unknown contact {quote_value(value)}", closest(value, list(MODES)))
-            return ContactMode(value)
-        keys = mapping(value, [*MODES, "restitution"], EXAMPLE)
-        modes = [mode for mode in MODES if keys.get(mode)]
-        wrong = next((mode for mode in MODES if not isinstance(keys.get(mode, False), bool)), None)
-        if wrong:
-            raise ModelError(
-                f"{quote_value(keys[wrong])} is neither true nor false", f"write {wrong}: true", (wrong,)
-            )
-        if len(modes) != 1:
-            raise ModelError("it must be exactly one of holds, pushes and pulls", f"write {EXAMPLE}")
-        back = at_item("restitution", reading(info).quantity, keys.get("restitution", 0.0), "number")
-        if not 0 <= back <= 1:
-            what = f"{back:g} is not a ratio of the speeds after and before an impact"
-            raise ModelError(what, "write a number from 0 (no rebound) to 1 (no loss)", ("restitution",))
-        return ContactMode(modes[0], back)
+        if not isinstance(value, str) or value not in MODES:
+            raise ModelError(f"unknown contact {quote_value(value)}", closest(str(value), list(MODES)))
+        return ContactMode(value)
 
     def write(self, value: ContactMode) -> object:
-        return {value.mode: True, "restitution": value.restitution} if value.restitution else value.mode
+        return value.mode
 
     def json_schema(self) -> JsonSchema:
-        restitution = {
-            "type": "number",
-            "minimum": 0,
-            "maximum": 1,
-            "description": "ratio of the speeds after and before an impact",
-        }
-        modes = {mode: {"type": "boolean", "description": f"true: it {mode}"} for mode in MODES}
-        return {"anyOf": [{"enum": list(MODES)}, object_schema(modes | {"restitution": restitution})]}
+        return {"enum": list(MODES)}
 
 
 Contact = Annotated[ContactMode, ContactValue()]
 Side = Literal["left", "right"]
 HOLDS, PUSHES = ContactMode(), ContactMode("pushes")
-CONTACT = (
-    "normal forces that it carries: holds (both senses), pushes or pulls; or {pushes: true, restitution: 0.3}"
-)
+CONTACT = "normal forces that it carries: holds (both senses), pushes or pulls"
 SIDE = (
     "side of the direction on which j's point lies, for a contact that pushes or pulls: left (default; outside "
     "of a circle) or right"
