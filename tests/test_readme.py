@@ -70,6 +70,7 @@ def test_the_guide_has_every_status() -> None:
         "machine.md",
         "notebooks.md",
         "optimization.md",
+        "quantities.md",
         pytest.param("studies.md", marks=pytest.mark.long),
     ],
 )

@@ -49,8 +49,8 @@ CONDITIONS = (
     *("transmission.B >= 33 kg", "transmission.B >= 33 N", "transmission.B >= 33 furlongs"),
     *("33 mm <= transmission.B", "abs(effort.O2) <= 2*3 N", "peak reaction.O4.magnitude <= 3 kg"),
     *("transmision.B >= 33 deg", "transmission.Q >= 33 deg", "peak magnitud.O4 <= 3 N"),
-    *("reaction.A <= 3 N", "rms effort.O2 <= 3", "peek effort.O2 <= 3 N*m", "mean effort.O2 <= 3 N*m"),
-    *("3 <= peak effort.O2", "peak effort.O2 >= 3"),
+    *("reaction.A <= 3 N", "rms effort.O2 <= 3 N", "peek effort.O2 <= 3 N*m", "mean(effort.O2 <= 3 N*m"),
+    *("3 N <= peak(effort.O2)", "peak effort.O2 + range(effort.O2) >= 3", "range(effort.O9) <= 3"),
 )
 NO_NUMBERS = ("-1", "many", "1.5", "null", "true", "[1]", "1e30", ".nan")
 

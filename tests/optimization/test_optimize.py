@@ -192,7 +192,7 @@ def test_conditions_that_no_design_keeps() -> None:
         ({"least": "peek effort.O2"}, "'peek', which is not an aim; did you mean 'peak'?"),
         ({"least": "peak efort.O2"}, "unknown output 'efort.O2'; did you mean 'effort.O2'?"),
         ({"where": "transmission.B"}, "'transmission.B' is not a condition"),
-        ({"where": "rms effort.O2 <= 3"}, "bounds a rms"),
+        ({"where": "rms effort.O2 <= 3 N"}, "3 N is a force, and rms(effort.O2) is a moment"),
         (
             {"method": "nlopt.slsq"},
             "unknown method 'nlopt.slsq' for this problem; did you mean 'nlopt.slsqp'?",

@@ -65,7 +65,9 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         from dalembert.analysis.batch.over_positions import reduce_positions
 
         values = (self.after if r is None else r)[aim.of]
-        return float(reduce_positions(aim.word, values)) if len(values) else np.nan
+        if not (aim.word and len(values)):
+            return float(values[0]) if len(values) else np.nan
+        return float(reduce_positions(aim.word, values))
 
     def aim_text(self, text: str) -> str:
         """An aim of the best design as text, in the unit of the file."""
@@ -89,7 +91,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
     def aim_rows(self, units: UnitChoice = "file") -> list[list[str]]:
         """The aim, and the margin of each condition, before and after."""
         to = self._printed(units)
-        names = [f"{self.aim.word} {self.aim.of}", *(f"margin of {c.text}" for c in self.conditions)]
+        names = [self.aim.text, *(f"margin of {c.text}" for c in self.conditions)]
         both = zip(names, self._kinds, self._sizes(self.before), self._sizes(self.after), strict=True)
         return [row_of(to, *each) for each in both]
 
@@ -129,7 +131,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         names = ("before", "after", "from", "to")
         numbers = {n: dict(zip(names, (to(kind, v) for v in of), strict=True)) for n, kind, *of in columns}
         sizes = zip(*(self._sizes(r) for r in (self.before, self.after)), strict=True)
-        of = [f"{self.aim.word} {self.aim.of}", *(c.text for c in self.conditions)]
+        of = [self.aim.text, *(c.text for c in self.conditions)]
         both = [
             {name: to(kind, v) for name, v in zip(names, pair, strict=False)}
             for kind, pair in zip(self._kinds, sizes, strict=True)

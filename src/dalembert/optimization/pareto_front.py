@@ -9,12 +9,11 @@ Mechanics: docs/theory.md 11.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.batch.compiled_kernel import compile  # noqa: A004
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.answer.answer import Drawn, Labelled, Worked
@@ -96,10 +95,10 @@ def pareto(
     method: str = DEFAULT,
     **options: Any,
 ) -> Front:
-    """A Pareto front between two aims, of which the second is a peak; all else as in `da.optimize`. A method that
-    computes fronts itself, such as ``pymoo.nsga2``, takes any two aims; its designs are not polished.
+    """A Pareto front between two aims; all else as in `da.optimize`. The designs of a method that computes fronts
+    itself, such as ``pymoo.nsga2``, are not polished.
 
-    Raises ModelError where the second aim is not a peak, or where no design meets the conditions.
+    Raises ModelError where no design meets the conditions.
 
     >>> import dalembert as da
     >>> front = da.pareto(
@@ -120,15 +119,12 @@ def pareto(
     options["method"] = name
     if METHODS[name][0] == "front":
         return _front(least, _evolved(mechanism, vary, least, where, points, {**DEFAULTS, **options}))
-    if second.word != "peak":
-        raise ModelError(
-            f"{least[1]!r} is not a peak, and only a peak can be bounded", "name the peak second"
-        )
+    bounded = second.text if second.word == "peak" and second.plain else second.number
     rules = [where] if isinstance(where, str) else list(where)
     ends = [optimize(mechanism, vary, aim, rules, **options) for aim in least]
     high, low = (end.size_of(second) for end in ends)
     between = [
-        optimize(mechanism, vary, least[0], [*rules, f"peak {second.of} <= {float(bound)!r}"], **options)
+        optimize(mechanism, vary, least[0], [*rules, f"{bounded} <= {float(bound)!r}"], **options)
         for bound in np.linspace(high, low, points)[1:-1]
     ]
     optima = [o for o in (ends[0], *between, ends[1]) if o.feasible]
@@ -152,17 +148,15 @@ def _evolved(
     if not np.isnan(steps).all():
         raise ModelError(f"{method} takes no steps", "give (low, high)", ("vary",))
     aims = [parse_aim(text) for text in least]
-    kernels = [compile(m, p.vary, [aim.of], aim.word, static=static) for aim in aims]
+    problems = [replace(p, aim=aim) for aim in aims]
 
     def of(u: Array) -> dict[str, Array]:
         values = p.numbers(u)
-        outputs = [k(values, p.positions, redo=False).value(a.of) for k, a in zip(kernels, aims, strict=True)]
+        outputs = [each.aims(values).value for each in problems]
         out = {"F": np.nan_to_num(np.stack(outputs, axis=1), nan=OPEN * p.scale)}
         if p.conditions:
-            lacks = p.broken(values, p.positions, redo=False)
-            out["G"] = np.stack(
-                [np.nan_to_num(lacks.value(n), nan=OPEN) for n in lacks.kernel.outputs], axis=1
-            )
+            lacks = [np.nan_to_num(lack.value, nan=OPEN) for lack in p.violations(values)]
+            out["G"] = np.stack(lacks, axis=1)
         return out
 
     begun = starts_of(p, options["starts"], options["seed"])

@@ -47,14 +47,14 @@ class _Design:
     def room(self, x: Array) -> Array:
         """Functions that must not be negative: margins, and t plus and minus the aim's quantity."""
         r = self.rows(x)
-        parts = [(r.margin / self.p.sizes[:, None]).ravel()]
+        parts = [(r.margin / self.p.sizes[:, None])[self.p.rows_of_margins]]
         if self.peak:
             parts += [x[-1] - r.aim / self.p.scale, x[-1] + r.aim / self.p.scale]
         return np.nan_to_num(np.concatenate(parts), nan=-OPEN)
 
     def room_slope(self, x: Array) -> Array:
         r = self.rows(x)
-        part = (r.margin_slope / self.p.sizes[:, None, None]).reshape(-1, len(self.u))[:, self.free]
+        part = (r.margin_slope / self.p.sizes[:, None, None])[self.p.rows_of_margins][:, self.free]
         if self.peak:
             sides = r.aim_slope[:, self.free] / self.p.scale
             one = np.ones((len(sides), 1))

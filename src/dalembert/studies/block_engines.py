@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -15,12 +15,14 @@ from dalembert.analysis.batch.batch_result import CODES, NUMBERED, among, first_
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import REFINED, is_cycle, reduce_sides
-from dalembert.analysis.result.named_quantities import quantity
+from dalembert.analysis.result.named_quantities import cycle_functions, quantity
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array
-from dalembert.errors import DalembertError, ModelError
+from dalembert.errors import DalembertError, ModelError, errors_at
 from dalembert.model import Mechanism
+from dalembert.model.quantities.expression_trees import Tree, evaluate, names_in
+from dalembert.optimization.cycle_expressions import cycle_tree, has_reductions, is_single
 
 ONE_AT_A_TIME = threading.Lock()
 """The general executor keeps programs with their memory: one thread at a time."""
@@ -202,6 +204,67 @@ def make_engine(
 
 def _defaults(r: Result) -> list[str]:
     return [f"effort.{d}" for d in r.drives] + [f"reaction.{j}" for j in r.joints]
+
+
+Make = Callable[[Sequence[str], str | None], Engine]
+"""Engine of some outputs with a reduction."""
+
+
+@dataclass(frozen=True)
+class CycleEngine:
+    """Outputs that are single numbers of a cycle, ``range(slide.G)``, whatever the study reduces by: from quantities at
+    every position (at a reversal those just before), beside the other outputs."""
+
+    trees: Mapping[str, Tree]
+    outputs: tuple[str, ...]
+    inner: Engine
+    other: Engine | None
+
+    @property
+    def why(self) -> str:
+        return self.inner.why or (self.other.why if self.other else "")
+
+    @property
+    def text(self) -> str:
+        return f"{self.inner.text} {dict(self.trees)}{self.other.text if self.other else ''}"
+
+    @property
+    def positions(self) -> int:
+        return self.inner.positions
+
+    @property
+    def most_at_once(self) -> int:
+        return min(engine.most_at_once for engine in (self.inner, self.other) if engine)
+
+    def block(self, values: Array) -> Block:
+        parts = self.inner.block(values)
+        status = first_mark(parts["status"])
+        good = among(status, NUMBERED)
+        along = {name: part.T for name, part in parts.items()}
+        out = self.other.block(values) if self.other else {"status": status}
+        with np.errstate(all="ignore"):
+            for name, tree in self.trees.items():
+                number = np.broadcast_to(evaluate(tree, along, cycle_functions()), (*along["status"].shape,))[
+                    0
+                ]
+                out[name] = np.where(good, number, np.nan)
+        return {name: out[name] for name in (*self.outputs, "status")}
+
+
+def with_cycle_numbers(outputs: Sequence[str], reduce: str | None, nominal: Result, make: Make) -> Engine:
+    """An engine of outputs of which some have reductions inside; raises ModelError for what is not one number."""
+    trees, rest = dict[str, Tree](), [name for name in outputs if not has_reductions(name)]
+    for name in outputs:
+        if name in rest:
+            continue
+        with errors_at("outputs"):
+            if not is_single(name):
+                what = f"{name!r} has a value at every position, and a reduction inside"
+                raise ModelError(what, f"reduce it too: peak({name})")
+            trees[name] = cycle_tree(name, nominal)
+    leaves = sorted({name for tree in trees.values() for name in names_in(tree)})
+    other = make(rest, reduce) if rest else None
+    return CycleEngine(trees, tuple(outputs), make(leaves, None), other)
 
 
 def program_print(engine: Engine, values: Array) -> str:

@@ -16,6 +16,7 @@ from dalembert.analysis.batch.over_positions import PLACES
 from dalembert.arrays import Array
 from dalembert.bounds import require
 from dalembert.errors import ModelError
+from dalembert.optimization.cycle_expressions import has_reductions
 from dalembert.studies.sampling import DesignPlan
 from dalembert.wording import closest
 
@@ -80,7 +81,7 @@ def _check_output(study: Study, output: str) -> None:
         raise ModelError(
             f"{output!r} is not an output of the study", f"the outputs are {', '.join(study.outputs)}"
         )
-    if study.reduce in (None, "envelope", *PLACES):
+    if study.reduce in (None, "envelope", *PLACES) and not has_reductions(output):
         raise ModelError(
             f"reduced by {study.reduce} it is not a single number", 'use reduce="peak", "rms", "mean"'
         )
@@ -134,7 +135,8 @@ def _trust(study: Study, output: str, linear: float) -> str:
     answers = _answers(study, output, values)
     sampled = float(np.nanstd(answers))
     comparison = f"the linear standard deviation is {linear:.4g}, of {SAMPLE} designs {sampled:.4g} (SI)"
-    if study.reduce == "peak" and output not in study.end_kinds and (jump := _jump(study, output, values)):
+    peak = study.reduce == "peak" and output not in study.end_kinds and not has_reductions(output)
+    if peak and (jump := _jump(study, output, values)):
         return f'{jump}: {comparison}; use by="sobol"'
     if np.isfinite(sampled) and abs(sampled - linear) > 0.25 * max(sampled, linear):
         return f'it is not linear: {comparison}; use by="sobol"'

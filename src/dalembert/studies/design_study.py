@@ -22,7 +22,15 @@ from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
-from dalembert.studies.block_engines import Block, Engine, KernelEngine, make_engine, program_print
+from dalembert.optimization.cycle_expressions import has_reductions, is_single
+from dalembert.studies.block_engines import (
+    Block,
+    Engine,
+    KernelEngine,
+    make_engine,
+    program_print,
+    with_cycle_numbers,
+)
 from dalembert.studies.limits import Limit, output_kinds, read_limit
 from dalembert.studies.motion_engines import SimulationPlan, end_kinds, make_motion_engine, read_motion
 from dalembert.studies.sampling import DesignPlan, triangle_of
@@ -64,7 +72,8 @@ def study(
     %"``, ``"uniform ± 5 %"``, ``"70..90 N"``, ``"70..90 N in 5"``, a list, or ``"range"`` for a parameter that has one.
     A vector's path means each component. ``outputs``, ``reduce``, ``static``: as in `da.compile`. ``draw``: ``random``,
     ``sobol``, ``latin``, ``factorial`` (all combinations of levels), or the designs themselves, path -> values, with
-    ``vary`` a list of paths or empty. ``limits``: output -> ``"< 45 N*m"``. ``correlation``: of two paths, between -1
+    ``vary`` a list of paths or empty. ``limits``: output -> ``"< 45 N*m"``, an output also being ``range(slide.G)``.
+    ``correlation``: of two paths, between -1
     and 1, of their normal scores. ``keep``: store the drawn numbers too. ``simulate``: motions under forces,
     ``{"until": ["2 s", "O2.speed = 20 rad/s"], "start": ..., "count": 201, "tolerance": 1e-9}`` as in
     `da.compile_motion`, whose numbers vary too; outputs are also ``time``, ``O2.position`` and ``O2.speed``, those at
@@ -102,6 +111,10 @@ def study(
     mixing = triangle_of(paths, correlation or {}, how)
     plan = DesignPlan(paths, spreads, how, int(number), int(seed), rows, mixing)
     names = (outputs,) if isinstance(outputs, str) else tuple(outputs) if outputs else None
+    extra = tuple(filter(is_single, map(str, limits or ())))
+    if extra and motion is None:  # a limit may name a number of the cycle that is not an output
+        names = names or Study(mechanism, plan, None, reduce, static, positions).outputs
+        names += tuple(name for name in extra if name not in names)
     if names and len(set(names)) < len(names):
         raise ModelError("an output is named twice", "leave one of them out", ("outputs",))
     planned = Study(mechanism, plan, names, reduce, static, positions, keep, lanes, motion=motion)
@@ -156,7 +169,13 @@ class Study:
         if self.motion is not None:
             return make_motion_engine(self.mechanism, self.paths, outputs, reduce, self.motion)
         options = (self.static, self.positions, self.lanes)
-        return make_engine(self.mechanism, self.paths, outputs, reduce, *options)
+
+        def make(names: Sequence[str] | None, by: str | None) -> Engine:
+            return make_engine(self.mechanism, self.paths, names, by, *options)
+
+        if outputs and any(map(has_reductions, outputs)):
+            return with_cycle_numbers(outputs, reduce, self.answer(self.mechanism), make)
+        return make(outputs, reduce)
 
     @property
     def paths(self) -> tuple[str, ...]:

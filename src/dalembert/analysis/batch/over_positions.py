@@ -172,6 +172,30 @@ def larger_side(by: Sequence[Array], sides: Sequence[Array]) -> Array:
     return np.where(second.reshape(second.shape + (1,) * (sides[0].ndim - second.ndim)), sides[1], sides[0])
 
 
+EXTREMES = {"least": (1.0, 0.0), "greatest": (0.0, 1.0), "range": (-1.0, 1.0)}
+"""Reductions that are sums of both ends of the envelope, with their factors."""
+
+
+def reduce_cycle(word: str, values: Array) -> Array:
+    """A reduction of expressions, a word of `REDUCTIONS`, over the first axis; a single number is a cycle of one."""
+    values = np.atleast_1d(values)
+    if word == "final":
+        return np.asarray(values[-1])
+    if word in EXTREMES:
+        return np.asarray(reduce_positions("envelope", values) @ np.array(EXTREMES[word]))
+    return reduce_positions(word, values)
+
+
+def cycle_slope(word: str, values: Array, rates: Array) -> Array:
+    """Derivatives (component, number) of that, from those of values (position, component); of a peak, a range and an
+    extreme at the position where it is now, which is one-sided where two positions are equal."""
+    if word == "final":
+        return np.asarray(rates[-1])
+    if word in EXTREMES:
+        return np.asarray(np.einsum("cen,e->cn", slope("envelope", values, rates), EXTREMES[word]))
+    return slope(word, values, rates)
+
+
 def slope(reduce: str, values: Array, rates: Array, cycle: bool = False) -> Array:
     """Derivatives (component[, side of the envelope], number) of the reduction of values (position, component), from
     theirs (position, component, number)."""

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.result.link_motion import ORIGIN
+from dalembert.analysis.result.number_kinds import written_kind
 from dalembert.analysis.result.quantity_catalogue import (
     CATALOGUE,
     FREEDOMS,
@@ -16,21 +19,30 @@ from dalembert.analysis.result.quantity_catalogue import (
     bearing_areas,
     magnitude,
 )
-from dalembert.analysis.result.quantity_expressions import check_units, kind_of, parse_quantity
+from dalembert.analysis.result.quantity_expressions import (
+    check_reductions,
+    check_units,
+    kind_of,
+    parse_quantity,
+)
 from dalembert.analysis.result.transmission_lines import ground_points, transmission_names
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.model.links.link import CENTER
-from dalembert.model.quantities.expression_trees import evaluate, names_in, numpy_functions
+from dalembert.model.paths import value_at
+from dalembert.model.quantities.expression_trees import REDUCTIONS, evaluate, names_in, numpy_functions
 from dalembert.model.quantities.parameters import Parameters
 from dalembert.units import KINDS
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
 
 BOUNDS = ("low", "high")
 COMPONENTS = ("x", "y", "z", "magnitude", "direction")
+SECTIONS = ("links", "joints", "drives", "loads")
+"""Sections of a file whose numbers an expression may name by path."""
 
 
 class Quantity(NamedTuple):
@@ -178,8 +190,15 @@ def quantity(r: Result, name: str) -> Quantity:
     single = read(r, str(name))
     if single is not None:
         return single
-    value, kind = evaluated(r, str(name), quantity_names(r), numpy_functions(), "quantity")
+    value, kind = evaluated(r, str(name), quantity_names(r), cycle_functions(), "quantity")
     return Quantity(kind, np.broadcast_to(np.asarray(value, float), (len(r.status),)).copy())
+
+
+def cycle_functions() -> Mapping[str, Any]:
+    """Functions of expressions, and the reductions over the positions."""
+    from dalembert.analysis.batch.over_positions import reduce_cycle
+
+    return {**numpy_functions(), **{word: partial(reduce_cycle, word) for word in REDUCTIONS}}
 
 
 def evaluated(
@@ -187,10 +206,12 @@ def evaluated(
 ) -> tuple[Numeric, str]:
     """Value and kind of an expression of quantities and parameters, on numbers or on nodes."""
     parameters: Parameters = r.mechanism.parameters
-    tree = parse_quantity(text, [*names, *parameters], what)
+    tree = parse_quantity(text, [*names, *parameters, *file_paths(r.mechanism, text)], what)
+    check_reductions(tree, functions)
     parts = {name: _number(r, name, names) for name in names_in(tree)}
     known = {
-        n: parameters[n].dimension if n in parameters else KINDS[q.kind].dimension for n, q in parts.items()
+        n: parameters[n].dimension if n in parameters else KINDS[q.kind].dimension if q.kind else None
+        for n, q in parts.items()
     }
     check_units(tree, known, parameters)
     with np.errstate(all="ignore"):
@@ -198,11 +219,31 @@ def evaluated(
     return value, kind_of(tree, lambda name: parts[name].kind, parameters) or "number"
 
 
+def file_paths(m: Mechanism, text: str) -> list[str]:
+    """Paths of numbers of the file that an expression names: ``links.rod.mass``."""
+    known = sorted((re.escape(n) for s in SECTIONS for n in getattr(m, s)), key=len, reverse=True)
+    section, name = "|".join(SECTIONS), "|".join([*known, r"\w+"])
+    return re.findall(rf"(?<![\w.])(?:{section})\.(?:{name})(?:\.\w+)+", text)
+
+
+def _file_number(r: Any, path: str) -> Quantity:
+    """A number of the file by its path, a node where it varies; nodes are of no kind."""
+    value = value_at(r.mechanism, path.split("."))
+    if value is None:
+        raise ModelError(f"{path!r} has no number", "give it a value in the model file first")
+    if isinstance(value, (bool, str)) or np.shape(value) or hasattr(value, "at"):
+        raise ModelError(f"{path!r} is not a single number", f"name one, as {path}.0 of a vector")
+    kind = written_kind(r.mechanism, path) if _leading(r) else ""
+    return Quantity(kind, np.asarray(value))
+
+
 def _number(r: Any, name: str, names: Sequence[str]) -> Quantity:
     part = read(r, name)
     if part is None and name in r.mechanism.parameters:
         parameter = r.mechanism.parameters[name]
         return Quantity(parameter.kind or "number", np.asarray(parameter.value))
+    if part is None and name.split(".")[0] in SECTIONS:
+        return _file_number(r, name)
     if part is None:
         raise ModelError(f"unknown quantity {name!r}", closest(name, list(names)))
     if part.values.ndim > _leading(r):

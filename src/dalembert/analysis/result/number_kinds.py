@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
+
+from dalembert.model.paths import set_value
+from dalembert.units import KINDS
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
 
 LENGTHWISE = {"position": "length", "speed": "speed", "acceleration": "acceleration", "effort": "force"}
 ANGULAR = {
@@ -14,6 +19,24 @@ ANGULAR = {
     "acceleration": "angular_acceleration",
     "effort": "moment",
 }
+
+
+ANY = 1.25
+"""Value that is not the default of any key: a file leaves out defaults."""
+
+
+def kind_in_file(tree: object, keys: Sequence[str]) -> str:
+    """Kind of the number at a path of a saved file, from `units.KINDS`, by the unit that is written there."""
+    for key in keys:
+        tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
+    unit = tree.partition(" ")[2] if isinstance(tree, str) else ""
+    return next((kind for kind, of in KINDS.items() if of.si == unit), "number")
+
+
+def written_kind(m: Mechanism, path: str) -> str:
+    """Kind of the number at a path of a description."""
+    keys = path.split(".")
+    return kind_in_file(set_value(m, keys, ANY).to_tree(), keys)
 
 
 def drive_kinds(result: Result, drive: str) -> dict[str, str]:

@@ -9,6 +9,7 @@ from dalembert.errors import ModelError
 from dalembert.model.quantities.dimensions import Powers, dimension, kind_of_dimension
 from dalembert.model.quantities.expression_trees import (
     COMPARISONS,
+    REDUCTIONS,
     Apply,
     NameNode,
     NumberNode,
@@ -22,7 +23,7 @@ from dalembert.wording import closest, quote_value
 COMPONENTS = ("x", "y", "z", "magnitude", "direction")
 """Components of a vector, after a dot."""
 
-KEEP_KIND = ("+", "-", "max", "min", "abs")
+KEEP_KIND = ("+", "-", "max", "min", "abs", *REDUCTIONS)
 """Functions that keep the kind of their arguments."""
 
 
@@ -48,7 +49,7 @@ def parse_quantity(text: str, names: Sequence[str], what: str = "output") -> Tre
     if unknown:
         raise ModelError(f"unknown {what} {unknown[0]!r}", closest(unknown[0], list(names)))
     try:
-        tree, rest = parse_expression(plain, ())
+        tree, rest = parse_expression(plain, (), reductions=True)
         if rest:
             raise ModelError(f"{quote_value(plain)}: unexpected {quote_value(rest)} at the end", GRAMMAR)
     except ModelError as error:
@@ -88,6 +89,16 @@ def check_units(tree: Tree, known: Mapping[str, Powers | None], parameters: Coll
             except ModelError:
                 continue
             dimension(part, known)
+
+
+def check_reductions(tree: Tree, functions: Collection[str]) -> None:
+    """Raise ModelError for a reduction over the cycle where each position has a value of its own."""
+    for part in nodes(tree):
+        if isinstance(part, Apply) and part.function in REDUCTIONS and part.function not in functions:
+            what = f"{part.function}(...) is a number of a complete cycle, and an output has one at every position"
+            raise ModelError(
+                what, "compile what is inside, with reduce=, or name it in an aim or a condition"
+            )
 
 
 def _with_unit(tree: Tree, parameters: Collection[str]) -> bool:

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dalembert.errors import ModelError
 from dalembert.model.quantities.expression_trees import (
     COMPARISONS,
+    REDUCTIONS,
     Apply,
     NumberNode,
     Tree,
@@ -49,7 +50,7 @@ def dimension(tree: Tree, names: Mapping[str, Powers | None]) -> Powers | None:
         return _power(parts[0], _exponent(tree.arguments[1]))
     if tree.function == "sqrt":
         return _power(parts[0], 0.5)
-    if tree.function in ("+", "-", "abs", "min", "max", "atan2", *COMPARISONS):
+    if tree.function in ("+", "-", "abs", "min", "max", "atan2", *REDUCTIONS, *COMPARISONS):
         common = parts[0]
         for other in parts[1:]:
             common = _common(tree, common, other)

@@ -17,6 +17,9 @@ ARGUMENTS = dict.fromkeys(
 ARGUMENTS |= dict.fromkeys(("atan2", "min", "max"), 2)
 """Function -> how many arguments it takes, of those in `MANY` at least."""
 MANY = ("min", "max")
+REDUCTIONS = ("peak", "mean", "rms", "range", "least", "greatest", "norm8", "final")
+"""Functions of all values of a cycle, where a single number is required: the largest magnitude, the mean, the root mean
+square, the difference of the extremes, these, a smooth stand-in of the peak, and the last value."""
 COMPARISONS = (">=", "<=", ">", "<")
 """Operators worth 1 or 0, in brackets."""
 

@@ -24,6 +24,7 @@ from dalembert.model.quantities.expression_trees import (
     ARGUMENTS,
     COMPARISONS,
     MANY,
+    REDUCTIONS,
     Apply,
     Functions,
     NameNode,
@@ -118,12 +119,15 @@ _UNIT = re.compile(r"\s*([^\W\d_]+|[°%])(\s*(?:\^|\*\*)\s*-?[1-6])?")
 _MORE = re.compile(r"\s*[*/·]" + _UNIT.pattern + r"(?!\w|\.\w|\s*\()")
 
 
-def parse_expression(text: str, parameters: Iterable[str] | None = None) -> tuple[Tree, str]:
+def parse_expression(
+    text: str, parameters: Iterable[str] | None = None, reductions: bool = False
+) -> tuple[Tree, str]:
     """The tree of the longest expression that the text begins with, and the text left over.
 
     With `parameters`, names or none, a number may have a unit behind it; none of the names is read as a unit.
+    reductions: functions over the cycle are read, `peak(effort.O)`; elsewhere they are refused.
     """
-    return _parse(text, None if parameters is None else frozenset(parameters))
+    return _parse(text, None if parameters is None else frozenset(parameters), reductions)
 
 
 PATHS = ("links.", "joints.")
@@ -174,11 +178,11 @@ _MORE_TERMS = re.compile(r"(?<![\^*])\s*[-*/(]\s*\d|\+|[^\W\d_]\w*\s*\(\s*[\d-]"
 
 
 @lru_cache(maxsize=1024)
-def _parse(text: str, parameters: frozenset[str] | None) -> tuple[Tree, str]:
+def _parse(text: str, parameters: frozenset[str] | None, reductions: bool) -> tuple[Tree, str]:
     if len(text) > LONGEST:
         what = f"an expression of {len(text)} characters is too long"
         raise ModelError(what, f"at most {LONGEST}; use a table instead")
-    parser = _Parser(text.replace("\u2212", "-"), parameters)
+    parser = _Parser(text.replace("\u2212", "-"), parameters, reductions)
     tree = parser.sum(0)
     return tree, text[parser.place :].strip()
 
@@ -186,9 +190,10 @@ def _parse(text: str, parameters: frozenset[str] | None) -> tuple[Tree, str]:
 class _Parser:
     """Recursive descent over the grammar at the head of this file."""
 
-    def __init__(self, text: str, parameters: frozenset[str] | None) -> None:
+    def __init__(self, text: str, parameters: frozenset[str] | None, reductions: bool = False) -> None:
         self.text, self.place, self.operations = text, 0, 0
         self.parameters = parameters
+        self.functions = ARGUMENTS | dict.fromkeys(REDUCTIONS if reductions else (), 1)
 
     def error(self, what: str, remedy: str) -> ModelError:
         return ModelError(f"the expression {quote_value(self.text)} {what}", remedy)
@@ -277,7 +282,10 @@ class _Parser:
 
     def parse_name(self, name: str, depth: int) -> Tree:
         call = self.sign_among(("(",))
-        if call and name not in ARGUMENTS:
+        if call and name in REDUCTIONS and name not in self.functions:
+            what = f"{quote_value(self.text)}: {name}(...) is a number of a complete cycle"
+            raise ModelError(what, "use it in an aim, a condition or a limit; here each position has a value")
+        if call and name not in self.functions:
             raise ModelError(f"unknown function {quote_value(name)}", GRAMMAR)
         if call:
             return self.parse_call(name, depth, self.place - 1)
@@ -293,7 +301,7 @@ class _Parser:
         arguments = [self.sum(depth + 1)]
         while self.sign_among((",",)):
             arguments.append(self.sum(depth + 1))
-        least, more = ARGUMENTS[name], name in MANY
+        least, more = self.functions[name], name in MANY
         if len(arguments) < least or (len(arguments) > least and not more):
             what = f"{name} is given {len(arguments)} arguments in {quote_value(self.text)}"
             raise ModelError(what, f"it takes {least}{' or more' if more else ''}")

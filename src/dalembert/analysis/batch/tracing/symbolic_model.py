@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from dalembert.analysis.batch.tracing.traced_parameters import Channel, symbol_functions
 from dalembert.analysis.batch.tracing.traced_tables import table_function
+from dalembert.analysis.result.number_kinds import ANY, kind_in_file
 from dalembert.arrays import Numeric, Tree
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, Scalar
@@ -19,7 +20,6 @@ from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.parameters import values_of
 from dalembert.model.quantities.values import Vector
 from dalembert.model.quantities.vectors import length, unit
-from dalembert.units import KINDS
 
 DRIVEN = ("position", "law", "range")
 """Keys of a drive that are given when a kernel is called."""
@@ -159,24 +159,14 @@ def _refuse_absent(m: Mechanism, path: str, keys: list[str]) -> None:
     raise ModelError(what, remedy.get(alternative, f"vary {place}"), keys)
 
 
-ANY = 1.25
-"""Value that is not the default of any key: a file leaves out defaults."""
-
-
 def number_kinds(m: Mechanism, numbers: Sequence[VariedNumber]) -> tuple[str, ...]:
     """Kind of each number, from `units.KINDS`: by the unit that a saved file writes for it."""
     written = [n for n in numbers if not n.parameter]
     tree = with_numbers(m, written, [ANY] * len(written)).to_tree() if written else {}
     return tuple(
-        _kind(tree, n) if not n.parameter else m.parameters[n.path].kind or "number" for n in numbers
+        kind_in_file(tree, n.keys) if not n.parameter else m.parameters[n.path].kind or "number"
+        for n in numbers
     )
-
-
-def _kind(tree: object, number: VariedNumber) -> str:
-    for key in number.keys:
-        tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
-    unit = tree.partition(" ")[2] if isinstance(tree, str) else ""
-    return next((kind for kind, of in KINDS.items() if of.si == unit), "number")
 
 
 def geometric(m: Mechanism, path: str) -> bool:
