@@ -46,6 +46,8 @@ def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
     problems = [row for row in s.result.problems() if row[1] not in natural]
     if problems:
         yield "\n".join(f"instants {which}: {sentence}" for which, _, sentence in problems)
+    if any(code == "contact_lost" for _, code, _ in problems):
+        yield "The motion is computed as if lost contacts held: from there on it is not that of the machine."
 
 
 def _drives(s: Simulation, to: Printed) -> TextTable:
