@@ -19,6 +19,16 @@ MASS = "links.coupler.weight"
 START = {"O2": {"position": "30 deg", "speed": 0}}
 SOME = [da.Answer(quantity="effort.O2", value="243.2 lbf*in")]
 
+
+def sentence(call: Callable[[], object]) -> str:
+    """The sentence of a model that is refused."""
+    with pytest.raises(da.ModelError) as refused:
+        call()
+    if isinstance(refused.value, FileNotFoundError):
+        raise refused.value
+    return str(refused.value)
+
+
 ENTRIES: dict[str, Callable[[Any], Any]] = {
     "kinematics": da.kinematics,
     "statics": da.statics,
@@ -41,6 +51,7 @@ ENTRIES: dict[str, Callable[[Any], Any]] = {
     "study": lambda m: da.study(m, {MASS: "± 1 %"}, ["effort.O2"], designs=4).run(),
     "variants": lambda m: [v.key for v in da.variants(m, {MASS: "[20, 30]"}, 1, seed=1, ask=["effort.O2"])],
     "check_answers": lambda m: da.check_answers(m, SOME),
+    "law": lambda m: sentence(lambda: da.law(m, "O2")),
     "page": da.page,
 }
 

@@ -294,8 +294,13 @@ def test_a_front_goes_from_one_aim_to_the_other() -> None:
         r = da.solve(design.mechanism, positions=12)
         assert [np.abs(r[aim]).max() for aim in aims] == pytest.approx(values, rel=1e-9)
     assert "reaction.B.magnitude" in str(front)
-    with pytest.raises(da.ModelError, match="name the peak second"):
-        da.pareto(da.four_bar(), box, ["effort.O2", "rms reaction.B.magnitude"])
+    other = da.pareto(
+        da.four_bar(), box, ["effort.O2", "rms reaction.B.magnitude"], points=3, starts=4, positions=12
+    )
+    assert (np.diff(other.values, axis=0) * [1, -1] > 0).all()
+    for design, values in zip(other.designs, other.values, strict=True):
+        force = da.solve(design.mechanism, positions=12)["reaction.B.magnitude"]
+        assert np.sqrt(np.mean(force**2)) == pytest.approx(values[1], rel=1e-9)
 
 
 def test_the_page_of_an_optimum_has_both_designs(tmp_path: Path) -> None:
