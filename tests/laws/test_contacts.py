@@ -127,7 +127,7 @@ def test_a_follower_leaves_its_cam_at_a_speed() -> None:
         r = da.dynamics(m.with_values({"drives.O.speed": limit * part}))
         assert r.status[0] == status
     assert below.contact("contact").needed[0] == pytest.approx(208.5, rel=1e-3)
-    assert da.statics(m).contact("contact").lift_factor != da.statics(m).contact("contact").lift_factor
+    assert math.isnan(da.statics(m).contact("contact").lift_factor)
 
 
 @pytest.mark.parametrize(

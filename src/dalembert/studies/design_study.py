@@ -73,11 +73,11 @@ def study(
     A vector's path means each component. ``outputs``, ``reduce``, ``static``: as in `da.compile`. ``draw``: ``random``,
     ``sobol``, ``latin``, ``factorial`` (all combinations of levels), or the designs themselves, path -> values, with
     ``vary`` a list of paths or empty. ``limits``: output -> ``"< 45 N*m"``, an output also being ``range(slide.G)``.
-    ``correlation``: of two paths, between -1
-    and 1, of their normal scores. ``keep``: store the drawn numbers too. ``simulate``: motions under forces,
-    ``{"until": ["2 s", "O2.speed = 20 rad/s"], "start": ..., "count": 201, "tolerance": 1e-9}`` as in
-    `da.compile_motion`, whose numbers vary too; outputs are also ``time``, ``O2.position`` and ``O2.speed``, those at
-    the end, and ``reduce`` is over the instants, or ``final``. Raises ModelError.
+    ``correlation``: of two paths, between -1 and 1, of their normal scores. ``keep``: store the drawn numbers too.
+    ``simulate``: motions under forces, ``{"until": ["2 s", "O2.speed = 20 rad/s"], "start": ..., "count": 201,
+    "tolerance": 1e-9}`` as in `da.compile_motion`, whose numbers vary too; outputs are also ``time``,
+    ``O2.position`` and ``O2.speed``, those at the end, and ``reduce`` is over the instants, or ``final``. Raises
+    ModelError.
 
     >>> import dalembert as da
     >>> s = da.study(da.four_bar(), {"links.coupler.mass": "± 5 %"}, ["effort.O2"], designs=1000, seed=7)
@@ -92,10 +92,7 @@ def study(
         mechanism, motion = read_motion(mechanism, simulate)
     if motion is None or reduce != "final":
         over_positions.check(reduce)
-    number = int(designs) if isinstance(designs, float) and float(designs).is_integer() else designs
-    counts = {"lanes": lanes, "positions": positions, "designs": number, "seed": seed}
-    for key, value in counts.items():
-        require(key, value, path=(key,))
+    number = _checked_counts(designs, lanes=lanes, positions=positions, seed=seed)
     spread_texts = dict.fromkeys(vary, "") if not isinstance(vary, Mapping) else dict(vary)
     table = dict(draw) if isinstance(draw, Mapping) else None
     if table is None and not spread_texts:
@@ -109,7 +106,7 @@ def study(
     paths = tuple(n.path for n in numbers)
     how = "table" if table is not None else str(draw)
     mixing = triangle_of(paths, correlation or {}, how)
-    plan = DesignPlan(paths, spreads, how, int(number), int(seed), rows, mixing)
+    plan = DesignPlan(paths, spreads, how, number, int(seed), rows, mixing)
     names = (outputs,) if isinstance(outputs, str) else tuple(outputs) if outputs else None
     extra = tuple(filter(is_single, map(str, limits or ())))
     if extra and motion is None:  # a limit may name a number of the cycle that is not an output
@@ -120,6 +117,14 @@ def study(
     planned = Study(mechanism, plan, names, reduce, static, positions, keep, lanes, motion=motion)
     _ = planned.engine  # what cannot be computed is refused here
     return planned.with_limits(limits or {})
+
+
+def _checked_counts(designs: float, **counts: int | None) -> int:
+    """The number of designs, a whole one; every count is within its bounds."""
+    number = int(designs) if isinstance(designs, float) and designs.is_integer() else designs
+    for key, value in (counts | {"designs": number}).items():
+        require(key, value, path=(key,))
+    return int(number)
 
 
 def _refuse_beside_motion(**options: object) -> None:

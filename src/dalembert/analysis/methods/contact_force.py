@@ -75,7 +75,7 @@ def contact_force(r: Result, joint: str) -> ContactHistory:
     holding = with_held_contacts(r.mechanism)
     parts = np.array([_forces(r, holding, factor)[:, rows] for factor in SPEEDS])  # (3, P, K)
     size = np.abs(parts[1]).max(initial=0.0)
-    forces = np.where(np.abs(parts[1]) <= LOST * size, 0.0, parts[1])
+    forces = parts[1]
     corners = pushing.corner[rows]
     ends = [forces[:, corners == side] for side in (-1, 1)]
     behind, ahead = (end[:, 0] if end.size else None for end in ends)
@@ -92,7 +92,9 @@ def _forces(r: Result, holding: Mechanism, factor: float) -> Array:
     other = at_schedule(holding, schedule, r.inertia)
     c = r.compiled
     assert c.pushing is not None
-    return contact_forces(c.layout, c.pushing, full_pose(other), other.force_array, other.moment_array)
+    force = contact_forces(c.layout, c.pushing, full_pose(other), other.force_array, other.moment_array)
+    largest = np.abs(other.force_array).max(axis=(1, 2), initial=0.0)[:, None]
+    return np.where(np.abs(force) <= LOST * largest, 0.0, force)  # rounding, as the status has it
 
 
 def _lift_factor(parts: Array, size: float) -> float:
