@@ -19,19 +19,23 @@ FIND_PYTHON = for p in $(PYTHON) python3 python3.14 python3.13 python3.12 python
   echo "dalembert needs Python 3.11 or newer with its venv module; none was found." \
        "Install it, or name it: make $(MAKECMDGOALS) PYTHON=/path/to/python3" >&2; exit 1
 
-.PHONY: run test test-browser test-long test-exhaustive web check-web lint gallery clean
+.PHONY: run test test-browser test-long test-exhaustive web check-web style lint gallery clean
 
 run: $(VENV)/.run
 	@$(BIN)/dalembert solve examples/four_bar.yaml
 
-test: lint
-	@$(PYTEST) $(PYTEST_ARGS)
+# mypy takes one core for a minute: it runs beside the tests and prints after them.
+TESTED = @mkdir -p build; $(BIN)/mypy --strict > build/mypy.txt 2>&1 & typed=$$!; \
+  $(PYTEST) $(1) $(PYTEST_ARGS); tests=$$?; wait $$typed; typed=$$?; cat build/mypy.txt; exit $$((tests | typed))
 
-test-long: lint
-	@$(PYTEST) -m "not exhaustive" $(PYTEST_ARGS)
+test: style
+	$(call TESTED)
 
-test-exhaustive: lint
-	@$(PYTEST) -m "" $(PYTEST_ARGS)
+test-long: style
+	$(call TESTED,-m "not exhaustive")
+
+test-exhaustive: style
+	$(call TESTED,-m "")
 
 gallery: $(VENV)/.test
 	@$(BIN)/python docs/gallery.py
@@ -47,9 +51,11 @@ web:
 check-web: web
 	@git diff --exit-code --stat src/dalembert/pages/bundle
 
-lint: $(VENV)/.test
+style: $(VENV)/.test
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
+
+lint: style
 	@$(BIN)/mypy --strict
 
 $(BIN)/python:

@@ -9,7 +9,7 @@ times as long, until one fails, or for --limit seconds. What runs on import (con
 anew, and meets the tests of the statements that say its name. No test can know an equivalent mutant: those in
 `equivalent_mutants.toml`, each with its reason, do not count.
 
-    python benchmarks/mutants.py [--count 340] [--seed 1] [--package core]
+    python benchmarks/mutants.py [--count 340] [--seed 1] [--package core ...] [--at views/charts.py:55 ...]
     python benchmarks/mutants.py --again     # those that are not killed yet, against the tests of now
 """
 
@@ -44,15 +44,16 @@ from typing import Any  # noqa: E402
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
-from mutations import PACKAGES, SOURCE, Mutant, drawn, mutants, mutated, statements  # noqa: E402
+from mutations import PACKAGES, SOURCE, Mutant, at_lines, drawn, mutants, mutated, statements  # noqa: E402
 
 ROOT = SOURCE.parents[1]
 BUILD = ROOT / "build" / "mutants"
 MEASURED, VERDICTS, NOW = BUILD / "tests.json", BUILD / "verdicts.jsonl", "now-"
 HITS = bytearray(100_000)
 ALIVE, KILLED = 0, 1
-INSTANCES, WRITTEN = 6, 60
-"""Of every test so many instances are measured and run, the first ones: of a law on seeds, and of a written list."""
+INSTANCES, SPENT = 6, 8.0
+"""Of every test instances are measured and run in an order drawn by their names: so many, and then more until they have
+taken so many seconds of the processor. A long written list of quick rows is whole; a law on seeds is a sample."""
 
 
 class Loader(SourceFileLoader):
@@ -165,38 +166,45 @@ def measure(processes: int) -> None:
 
     def work(session: Session, items: dict[str, Any]) -> None:
         stamps = {p: sha256(p.read_bytes()).hexdigest()[:12] for p in {i.path for i in items.values()}}
-        instance: Counter[str] = Counter()
-        wanted = []
-        for node, item in items.items():
-            test, _, which = node.partition("[")
-            instance[test] += 1
-            most = INSTANCES if re.fullmatch(r"(.*-)?(seeds?)?\d+\]", which) else WRITTEN
-            if instance[test] <= most and table.get(node, {}).get("stamp") != stamps[item.path]:
-                wanted.append(item)
+        kept = {n: row for n, row in table.items() if n in items and row["stamp"] == stamps[items[n].path]}
+        wanted = sorted(items.keys() - kept.keys(), key=lambda n: sha256(n.encode()).digest())
         modules = [m for n, m in sys.modules.items() if n.partition(".")[0] in ("tests", "dalembert")]
         caches = [f for m in modules for f in vars(m).values() if hasattr(f, "cache_clear")]
 
-        def part(some: list[Any]) -> None:
+        def part(some: list[str]) -> None:
+            ran, spent = Counter[str](), Counter[str]()
+            for node, row in kept.items():
+                ran[test_of(node)] += 1
+                spent[test_of(node)] += row["seconds"]
             with (BUILD / f"part-{os.getpid()}.jsonl").open("w") as out:
-                for item in some:
+                for item in (items[node] for node in some):
+                    test = test_of(item.nodeid)
+                    if ran[test] >= INSTANCES and spent[test] > SPENT:
+                        continue
                     for cache in caches:
                         cache.cache_clear()
                     HITS[:] = bytes(len(HITS))
                     start = process_time()
                     session.fails(item, 600)
-                    ran = np.packbits(np.frombuffer(HITS, np.uint8)[: len(marks)]).tobytes().hex()
-                    row = {"stamp": stamps[item.path], "seconds": process_time() - start, "ran": ran}
+                    hits = np.packbits(np.frombuffer(HITS, np.uint8)[: len(marks)]).tobytes().hex()
+                    row = {"stamp": stamps[item.path], "seconds": process_time() - start, "ran": hits}
+                    ran[test] += 1
+                    spent[test] += row["seconds"]
                     out.write(json.dumps([item.nodeid, row | {"failed": session.failed}]) + "\n")
 
         sys.stderr.write(f"measuring {len(wanted)} of {len(items)} tests\n")
         shared(wanted, processes, part)
         for path in BUILD.glob("part-*.jsonl"):
-            table.update(map(json.loads, path.read_text().splitlines()))
+            kept.update(map(json.loads, path.read_text().splitlines()))
             path.unlink()
-        kept = {n: row for n, row in table.items() if n in items and row["stamp"] == stamps[items[n].path]}
         MEASURED.write_text(json.dumps({"keys": list(marks), "tests": kept}))
 
     collect(work)
+
+
+def test_of(node: str) -> str:
+    """A test's name without that of its instance."""
+    return node.partition("[")[0]
 
 
 class Tests:
@@ -236,7 +244,7 @@ class Tests:
         again: Counter[str] = Counter()
         turns = []
         for k in sorted(self.of(mutant), key=self.seconds.__getitem__):
-            again[test := self.nodes[k].partition("[")[0]] += 1
+            again[test := test_of(self.nodes[k])] += 1
             turns.append((again[test] * self.seconds[k], self.seconds[k], self.nodes[k]))
         total = np.cumsum([seconds for _, seconds, _ in sorted(turns)])
         return [(node, s) for (_, s, node), t in zip(sorted(turns), total, strict=True) if t - s < limit]
@@ -305,10 +313,12 @@ def in_functions(some: list[Mutant], tests: dict[str, list[tuple[str, float]]], 
 
     def work(session: Session, items: dict[str, Any]) -> None:
         functions: dict[CodeType, list[FunctionType]] = {}
+        gc.unfreeze()  # what tests/conftest.py has frozen is no object that the collector lists
         for f in gc.get_objects():
             if isinstance(f, FunctionType) and f.__code__.co_filename.startswith(str(SOURCE)):
                 functions.setdefault(f.__code__, []).append(f)
         gc.freeze()
+        assert functions
 
         def part(mine: list[Mutant]) -> None:
             for m in mine:
@@ -365,7 +375,8 @@ def main() -> None:
     )
     parser.add_argument("--count", type=int, default=340)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--package", choices=list(PACKAGES))
+    parser.add_argument("--package", choices=list(PACKAGES), nargs="+")
+    parser.add_argument("--at", nargs="+", metavar="FILE:LINE", help="instead: every change of these lines")
     parser.add_argument("--limit", type=float, default=60.0)
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--again", action="store_true")
@@ -383,8 +394,9 @@ def main() -> None:
     rows = [json.loads(line) for line in VERDICTS.read_text().splitlines()] if asked.again else []
     named = {SOURCE / key.partition(": ")[0] for key in same}
     if gone := same.keys() - {m.key for path in named if path.exists() for m in mutants(path, "")}:
-        parser.error("equivalent_mutants.toml names what is no mutant: " + "; ".join(sorted(gone)))
-    every = {m.key: m for m in drawn(asked.count, asked.seed, asked.package)}
+        sys.stderr.write("equivalent_mutants.toml names what is no mutant: " + "; ".join(sorted(gone)) + "\n")
+    some = at_lines(asked.at) if asked.at else drawn(asked.count, asked.seed, asked.package)
+    every = {m.key: m for m in some}
     rows = [r for r in rows if r["key"] in every and (r["verdict"] != "alive" or r["key"] in same)]
     some = [m for key, m in every.items() if key not in {r["key"] for r in rows}]
     VERDICTS.write_text("".join(json.dumps(r) + "\n" for r in rows))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import random
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 from copy import copy
 from dataclasses import dataclass
 from hashlib import sha256
@@ -237,8 +237,14 @@ def _bound(tree: ast.Module, node: ast.AST) -> tuple[str, ...]:
     return tuple(out)
 
 
-def drawn(count: int, seed: int, only: str | None = None) -> list[Mutant]:
-    """Mutants of every package: more of a larger one, by the root of its size; a kind first, then a place for it.
+def at_lines(places: Iterable[str]) -> list[Mutant]:
+    """Every mutant of some lines, "views/charts.py:55"."""
+    lines = [(SOURCE / file, int(line)) for file, _, line in (place.partition(":") for place in places)]
+    return [m for path, line in lines for m in mutants(path, path.parent.name) if m.line == line]
+
+
+def drawn(count: int, seed: int, only: Collection[str] | None = None) -> list[Mutant]:
+    """Mutants of packages: more of a larger one, by the root of its size; a kind first, then a place for it.
 
     Places are shuffled by a hash of what they say, so that a change elsewhere in the sources changes no other mutant.
     """
@@ -260,7 +266,7 @@ def drawn(count: int, seed: int, only: str | None = None) -> list[Mutant]:
     out = []
     for package, kinds in every.items():
         rng, wanted = random.Random(f"{seed} {package}"), round(count * size[package] / sum(size.values()))
-        for _ in range(wanted if only in (None, package) else 0):
+        for _ in range(wanted if only is None or package in only else 0):
             kind = rng.choice(sorted(k for k in kinds if kinds[k]))
             out.append(kinds[kind].pop())
     return out

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import wraps
+from itertools import product
 from typing import Any
 
 import pytest
@@ -23,6 +24,21 @@ def tiers(quick: Iterable[Any], long: Iterable[Any], exhaustive: Iterable[Any] =
         *(pytest.param(value, marks=pytest.mark.long) for value in long),
         *(pytest.param(value, marks=pytest.mark.exhaustive) for value in exhaustive),
     ]
+
+
+def crossed(names: str, *lists: Iterable[Any]) -> Any:
+    """Every combination: quick are so many that each value of each list is in one, the rest is long.
+
+    >>> crossed("a, b", "xyz", [1, 2]).args[1][:3]
+    [('x', 1), ('y', 2), ('z', 2)]
+    """
+    values = [list(some) for some in lists]
+    places = range(max(map(len, values)))
+    # each further list is one on for every time that it has begun again: no two run side by side
+    quick = [tuple(v[(k + j * (k // len(v))) % len(v)] for j, v in enumerate(values)) for k in places]
+    rest = [row for row in product(*values) if row not in quick]
+    long = [pytest.param(*row, marks=pytest.mark.long) for row in rest]
+    return pytest.mark.parametrize(names.split(", "), [*quick, *long])
 
 
 _MET: dict[Callable[[int], bool], list[int]] = {}

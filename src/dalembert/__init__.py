@@ -41,6 +41,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.methods.members import inertia_shares as inertia_shares
     from dalembert.analysis.methods.members import members as members
     from dalembert.analysis.methods.members import order_of_solution as order_of_solution
+    from dalembert.analysis.methods.solved.solution_by_steps import PaperSolution as PaperSolution
+    from dalembert.analysis.methods.solved.solution_by_steps import solution as solution
     from dalembert.analysis.methods.superposition import superposition as superposition
     from dalembert.analysis.methods.virtual_work import virtual_work as virtual_work
     from dalembert.errors import STATUSES as STATUSES
@@ -61,6 +63,16 @@ if TYPE_CHECKING:
     from dalembert.machine.bearings.bearing_load import bearing as bearing
     from dalembert.machine.bearings.bearing_table import BearingTable as BearingTable
     from dalembert.machine.bearings.bearing_table import bearings as bearings
+    from dalembert.machine.elements.cam_design import CamDesign as CamDesign
+    from dalembert.machine.elements.cam_design import cam as cam
+    from dalembert.machine.elements.governors import Governor as Governor
+    from dalembert.machine.elements.governors import governor as governor
+    from dalembert.machine.elements.hertz_contact import hertz_line as hertz_line
+    from dalembert.machine.elements.pin_stresses import PinStresses as PinStresses
+    from dalembert.machine.elements.pin_stresses import pin as pin
+    from dalembert.machine.elements.turning_equilibria import TurningRange as TurningRange
+    from dalembert.machine.elements.turning_equilibria import small_swings as small_swings
+    from dalembert.machine.elements.turning_equilibria import turning_range as turning_range
     from dalembert.machine.flywheel.flywheel_size import FlywheelSize as FlywheelSize
     from dalembert.machine.flywheel.flywheel_size import flywheel_size as flywheel_size
     from dalembert.machine.flywheel.flywheels import flywheel as flywheel
@@ -80,29 +92,39 @@ if TYPE_CHECKING:
     from dalembert.machine.motors.motor_choice import motor as motor
     from dalembert.machine.shaking import shaking as shaking
     from dalembert.model import Answer as Answer
+    from dalembert.model import Band as Band
     from dalembert.model import Bearing as Bearing
     from dalembert.model import Box as Box
+    from dalembert.model import Cam as Cam
     from dalembert.model import CircularSlot as CircularSlot
+    from dalembert.model import Cone as Cone
     from dalembert.model import ConstantForceSpring as ConstantForceSpring
     from dalembert.model import Couple as Couple
     from dalembert.model import Cylinder as Cylinder
     from dalembert.model import Damper as Damper
+    from dalembert.model import Disc as Disc
     from dalembert.model import Drive as Drive
+    from dalembert.model import DriveScrew as DriveScrew
     from dalembert.model import Expression as Expression
+    from dalembert.model import FluidCylinder as FluidCylinder
     from dalembert.model import ForceLoad as ForceLoad
     from dalembert.model import FrictionDefaults as FrictionDefaults
+    from dalembert.model import GasSpring as GasSpring
     from dalembert.model import Gear as Gear
     from dalembert.model import GearFriction as GearFriction
     from dalembert.model import GuideFriction as GuideFriction
     from dalembert.model import Link as Link
     from dalembert.model import Mechanism as Mechanism
     from dalembert.model import Offset as Offset
+    from dalembert.model import OneWay as OneWay
     from dalembert.model import Pin as Pin
     from dalembert.model import PinFriction as PinFriction
     from dalembert.model import Range as Range
+    from dalembert.model import Ratchet as Ratchet
     from dalembert.model import Rise as Rise
     from dalembert.model import Rolling as Rolling
     from dalembert.model import Section as Section
+    from dalembert.model import Shoe as Shoe
     from dalembert.model import SlenderBar as SlenderBar
     from dalembert.model import Slider as Slider
     from dalembert.model import Slot as Slot
@@ -122,6 +144,7 @@ if TYPE_CHECKING:
     from dalembert.model import load as load
     from dalembert.model import loads as loads
     from dalembert.model import mechanism as mechanism
+    from dalembert.model.library import belt_drive as belt_drive
     from dalembert.model.library import bennett as bennett
     from dalembert.model.library import bevel_differential as bevel_differential
     from dalembert.model.library import bucket as bucket
@@ -129,9 +152,13 @@ if TYPE_CHECKING:
     from dalembert.model.library import double_cardan as double_cardan
     from dalembert.model.library import five_bar as five_bar
     from dalembert.model.library import four_bar as four_bar
+    from dalembert.model.library import hartnell_governor as hartnell_governor
+    from dalembert.model.library import hoist as hoist
     from dalembert.model.library import hooke_joint as hooke_joint
     from dalembert.model.library import in_line_engine as in_line_engine
     from dalembert.model.library import inverted_slider_crank as inverted_slider_crank
+    from dalembert.model.library import planetary_train as planetary_train
+    from dalembert.model.library import porter_governor as porter_governor
     from dalembert.model.library import press_with_flywheel as press_with_flywheel
     from dalembert.model.library import radial_engine as radial_engine
     from dalembert.model.library import rccc as rccc
@@ -180,6 +207,7 @@ _NAMES = {
     "analysis.lift": "lifted",
     "analysis.methods.applied_forces": "forces_on",
     "analysis.methods.members": "displaced_inertia inertia_shares members order_of_solution",
+    "analysis.methods.solved.solution_by_steps": "PaperSolution solution",
     "analysis.methods.superposition": "superposition",
     "analysis.methods.virtual_work": "virtual_work",
     "errors": "STATUSES AnalysisError DalembertError ModelError",
@@ -188,10 +216,11 @@ _NAMES = {
     "grading.marking.grade": "grade",
     "grading.mistakes": "check_answers",
     "model": (
-        "Answer Bearing Box CircularSlot ConstantForceSpring Couple Cylinder Damper Drive Expression ForceLoad "
-        "FrictionDefaults Gear GearFriction GuideFriction Link Mechanism Offset Pin PinFriction Range "
-        "Rise Rolling Section SlenderBar Slider Slot SlotFriction SpaceJoint Sphere Spring StlMesh Table "
-        "TimeTable TorsionDamper TorsionSpring Tube Weld convert json_schema load loads mechanism"
+        "Answer Band Bearing Belt Box Cam CircularSlot Cone ConstantForceSpring Couple Cylinder Damper Disc Drive "
+        "DriveScrew Expression FluidCylinder ForceLoad FrictionDefaults GasSpring Gear GearFriction GuideFriction Link "
+        "Mechanism Offset OneWay Pin PinFriction Range Ratchet Rise Rolling Section Shoe SlenderBar Slider Slot "
+        "SlotFriction SpaceJoint Sphere Spring StlMesh Table TimeTable TorsionDamper TorsionSpring Tube Weld convert "
+        "json_schema load loads mechanism"
     ),
     "machine.balance.balancing": "balance",
     "machine.balance.counterweights": "Counterweight",
@@ -199,6 +228,9 @@ _NAMES = {
     "machine.balance.rotors": "RotorBalance balance_rotor",
     "machine.bearings.bearing_load": "BearingLoad bearing",
     "machine.bearings.bearing_table": "BearingTable bearings",
+    "machine.elements.governors": "Governor governor",
+    "machine.elements.pin_stresses": "PinStresses pin",
+    "machine.elements.turning_equilibria": "TurningRange small_swings turning_range",
     "machine.flywheel.flywheel_size": "FlywheelSize flywheel_size",
     "machine.flywheel.flywheels": "flywheel",
     "machine.gyroscopes": "Gyroscopic gyroscopic",
@@ -206,14 +238,16 @@ _NAMES = {
     "machine.motors.motor_choice": "MotorChoice motor",
     "machine.motion.compiled_motion": "MotionBatch MotionKernel compile_motion",
     "machine.motion.simulation": "Simulation simulate",
+    "machine.elements.cam_design": "CamDesign cam",
+    "machine.elements.hertz_contact": "hertz_line",
     "machine.motion_law": "MotionLaw law",
     "machine.members.member_forces": "MemberForces member_forces",
     "machine.shaking": "shaking",
     "model.library": (
-        "bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hooke_joint in_line_engine "
-        "inverted_slider_crank press_with_flywheel radial_engine rccc rotating_shaft rssp rssr scissor scotch_yoke "
-        "slider_crank spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 "
-        "whitworth"
+        "belt_drive bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hartnell_governor "
+        "hoist hooke_joint in_line_engine inverted_slider_crank planetary_train porter_governor press_with_flywheel "
+        "radial_engine rccc rotating_shaft rssp rssr scissor scotch_yoke slider_crank spherical_four_bar stephenson_1 "
+        "stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 whitworth"
     ),
     "optimization.optimizing": "optimize",
     "optimization.optimum": "Optimum",

@@ -144,6 +144,26 @@ STATUSES: dict[str, Status] = {
         "A contact that only pushes would have to pull, or the reverse: it is lost.",
         "Load or preload the contact, move more slowly, or write contact: holds if it carries forces in both senses.",
     ),
+    "slips": Status(
+        "A belt, a rope, a wheel or a clutch needs more friction than it has: it slips.",
+        "Raise the tension, the force or the coefficient, or lower the load.",
+    ),
+    "slack": Status(
+        "A rope, a band or a chain would have to push: it hangs slack.",
+        "Raise its tension or the load that keeps it taut, or move more slowly.",
+    ),
+    "freewheels": Status(
+        "A one-way clutch or a ratchet turns freely here and carries no couple.",
+        "",
+    ),
+    "out_of_stroke": Status(
+        "A cylinder is shorter or longer than its stroke allows.",
+        "Change its closed length or its stroke, or the range of the motion.",
+    ),
+    "jump": Status(
+        "The acceleration of a prescribed motion jumps here: forces are those just before and just after.",
+        "",
+    ),
     "at_rest": Status(
         "With friction and no motion the efforts are an interval, not a number.",
         "Give a speed to choose the sense.",
@@ -151,8 +171,11 @@ STATUSES: dict[str, Status] = {
 }
 """Code of a status -> its sentence and remedy; the codes are those of the JSON answer."""
 
-SOLVED = ("ok", "reversal")
-"""Statuses of a position that is solved; at a reversal twice, just before and just after."""
+SOLVED = ("ok", "reversal", "freewheels", "jump")
+"""Statuses of a position that is solved; at a reversal or a jump twice, just before and just after."""
 
 NUMBERED = (*SOLVED, "self_locking", "outside_table")
 """Statuses of a position whose every number is known."""
+
+FORCED = (*NUMBERED, "redundant")
+"""Statuses of a position that has forces, all of them or those that are unique."""

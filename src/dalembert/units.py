@@ -71,6 +71,7 @@ KINDS: dict[str, Kind] = {
         "a torsional damping", "N*m*s/rad", (2, 1, -1, -1), "force length time", "0.2 N*m*s/rad"
     ),
     "density": _kind("a density", "kg/m^3", (-3, 1, 0, 0), "mass length^-3", "7850 kg/m^3"),
+    "line_density": _kind("a mass per length", "kg/m", (-1, 1, 0, 0), "mass length^-1", "0.4 kg/m"),
     "area": _kind("an area", "m^2", (2, 0, 0, 0), "length^2", "2 cm^2"),
     "section_modulus": _kind("a section modulus", "m^3", (3, 0, 0, 0), "length^3", "4 cm^3"),
     "second_moment": _kind("a second moment of area", "m^4", (4, 0, 0, 0), "length^4", "12 cm^4"),
@@ -80,6 +81,8 @@ KINDS: dict[str, Kind] = {
     "pressure_speed": _kind(
         "a pressure times a speed", "W/m^2", (0, 1, -3, 0), "force length^-1 time^-1", "1 MPa*m/s"
     ),
+    "volume": _kind("a volume", "m^3", (3, 0, 0, 0), "length^3", "0.4 l"),
+    "flow": _kind("a flow", "m^3/s", (3, 0, -1, 0), "length^3 time^-1", "20 l/min"),
 }
 """Every kind of number in a file or an answer. A bare torsional stiffness or damping is one per radian."""
 

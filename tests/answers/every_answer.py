@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import dalembert as da
 from dalembert.answer.answer import Answer
@@ -44,6 +45,11 @@ def marks() -> Answer:
         return da.grade(folder, key)
 
 
+def cam() -> Any:
+    """A cam that raises a roller."""
+    return da.cam(da.load(examples()["cam_and_follower"]), "F")
+
+
 MADE: dict[str, Callable[[], Answer]] = {
     "Result": bar,
     "Shaking": lambda: da.shaking(engine()),
@@ -80,6 +86,7 @@ MADE: dict[str, Callable[[], Answer]] = {
         starts=2,
     ),
     "MotionLaw": law,
+    "CamDesign": cam,
     "ClassMarks": marks,
     "System": lambda: da.wrench.System(
         da.wrench.Force("600 @ 60 N", at=["200 mm", 0]), da.wrench.Couple("-20 N*m"), title="Plate"

@@ -34,7 +34,7 @@ def table(a: Answer, units: Any) -> tuple[list[str], list[list[Any]]]:
     return heads, [list(row) for row in zip(numbers, *columns, strict=True)]
 
 
-@pytest.mark.parametrize("name", MADE)
+@pytest.mark.parametrize("name", [name for name in MADE if name != "CamDesign"])  # its CSV is its outline
 def test_a_class_is_what_it_is_called_and_its_tables_are_its_columns(name: str, tmp_path: Path) -> None:
     a = made(name)
     assert type(a).__name__ == name

@@ -26,11 +26,23 @@ PAGES = [
     "gear_train",
     "rssr",
     CHANGE_POINT,
+    "engine",
+    "pump",
 ]
+DRAGS = 6
+"""Drags of one test; ten tests a page are sixty."""
+OPEN = {
+    (
+        "rssr",
+        6,
+    ): "after a drag the page does not enter a range behind a gap that its file answers, nor says so"
+}
+"""Drags whose page has fewer answers than its file."""
 HANDLES = """[...document.querySelectorAll('.stage .handle.joint, .stage .handle.point, .stage .handle.direction')]
 .map(e => [e.dataset.kind, e.dataset.name])"""
 CURVES = """(() => { const k = page.kernel, all = [...Array(k.count).keys()];
-return {good: all.map(p => !!k.good[p]), noise: page.data.noise, curves: page.data.views.charts.flatMap(c => c.curves)
+return {good: all.map(p => !!k.good[p]), marks: all.map(p => page.data.statuses[k.markAt(p)].status),
+  noise: page.data.noise, curves: page.data.views.charts.flatMap(c => c.curves)
   .map(c => [c.of, all.map(p => k.good[p] ? k.value(c.row, p) : 0)])}; })()"""
 FAR = """page.data.numbers.forEach((n, k) => { if (/points.J/.test(n.path)) page.kernel.values[k] += 30; })"""
 """The joint J by 30 m."""
@@ -38,14 +50,18 @@ FINITE = """[...page.kernel.values, ...page.kernel.motion.assembly()].every(Numb
 && !document.querySelector('.dalembert').innerHTML.includes('NaN')"""
 
 
-def same_as(page: Any, m: da.Mechanism) -> None:
-    """Every curve is that of an analysis of the file, at the same positions; with none the page has no answer."""
+def same_as(page: Any, m: da.Mechanism) -> float | None:
+    """Every curve is that of an analysis of the file, at the same positions but for those that the page calls
+    undecided: the largest difference over the largest value. None where the page has no answer at any position.
+    """
     shown = page.run(CURVES)
     r = da.dynamics(m) if m.has_speeds else da.statics(m)
     good = np.array(shown["good"])
     if not good.any():
-        return
-    assert good.tolist() == [s in NUMBERED for s in r.status]
+        return None
+    off = 0.0
+    undecided = np.array([mark == "undecided" for mark in shown["marks"]])
+    assert (good | undecided).tolist() == (np.isin(r.status, list(NUMBERED)) | undecided).tolist()
     for of, found in shown["curves"]:
         kind, name, *_ = of.split(".")
         exact = {
@@ -55,25 +71,57 @@ def same_as(page: Any, m: da.Mechanism) -> None:
         }[kind]()[good]
         largest = max(np.abs(exact).max(), 1e12 * shown["noise"]["force"], 1e12 * shown["noise"]["moment"])
         assert np.array(found)[good] == pytest.approx(exact, rel=1e-9, abs=1e-9 * largest)
+        off = max(off, float(np.abs(np.array(found)[good] - exact).max()) / largest if largest else 0.0)
+    return off
 
 
-def agrees(page: Any) -> None:
-    same_as(page, da.loads(page.run("page.text()")))
+def agrees(page: Any) -> float | None:
+    off = same_as(page, da.loads(page.run("page.text()")))
     assert page.run(FINITE)
+    return off
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", PAGES)
-def test_far_drags_are_saved_as_they_are_shown(opened: Any, name: str) -> None:
-    page, draw = opened(name), random.Random(name)
+@pytest.mark.parametrize(
+    ("name", "which"),
+    [
+        (FOUR_BAR, -1),
+        *(pytest.param(name, 0, marks=pytest.mark.long) for name in PAGES),
+        *(
+            pytest.param(name, k, marks=[pytest.mark.exhaustive, *known])
+            for name in PAGES
+            for k in range(1, 10)
+            for known in [[pytest.mark.xfail(reason=OPEN[name, k])] if (name, k) in OPEN else []]
+        ),
+    ],
+)
+def test_far_drags_are_saved_as_they_are_shown(opened: Any, name: str, which: int) -> None:
+    """Prints what it has seen: pytest -s -m "" -k far_drags tests/browser."""
+    page, draw, seen = opened(name), random.Random(f"{name} {which}" if which else name), []
     handles = page.run(HANDLES)
-    for _ in range(6):
+    for _ in range(2 if which < 0 else DRAGS):
         page.page.get_by_text("Reset").click()
         page.run(f"page.show({draw.choice([0, draw.random()])} * page.kernel.end)")
         kind, joint = draw.choice(handles)
         far, way = draw.uniform(180, 300), draw.uniform(0, 2 * math.pi)
         page.drag(f'.stage .handle.{kind}[data-name="{joint}"]', far * math.cos(way), far * math.sin(way), 8)
-        agrees(page)
+        seen.append(agrees(page))
+    known = [off for off in seen if off is not None]
+    print(f"{name} {which}: {len(known)} of {len(seen)} close, {max(known, default=0.0):.1e} at most")
+
+
+def test_a_range_behind_a_gap_that_is_reached_by_its_branch_alone(opened: Any) -> None:
+    """Where no motion leads the angle of the block is unknown to the page until it has closed its lever."""
+    m = da.load(FILES["quick_return"]).with_values(
+        {
+            "links.crank.points.A": (-0.183, -0.0536),
+            "assembly": {"crank": 0.0, "block": 2.4669, "lever": 2.4669, "rod": 2.4064, "ram": 0.0},
+        }
+    )
+    page = opened(html=da.page(m))
+    assert same_as(page, m) is not None
+    good = np.flatnonzero(page.run(CURVES)["good"])
+    assert set(range(5)) | {14, 15} < set(good.tolist())
+    assert not set(range(5, 14)) & set(good.tolist())
 
 
 def test_off_a_change_point_the_motion_is_continuous(opened: Any) -> None:

@@ -52,6 +52,9 @@ ENTRIES: dict[str, Callable[[Any], Any]] = {
     "variants": lambda m: [v.key for v in da.variants(m, {MASS: "[20, 30]"}, 1, seed=1, ask=["effort.O2"])],
     "check_answers": lambda m: da.check_answers(m, SOME),
     "law": lambda m: sentence(lambda: da.law(m, "O2")),
+    "cam": lambda m: sentence(lambda: da.cam(m, "O2")),
+    "governor": lambda m: sentence(lambda: da.governor(m)),
+    "turning_range": lambda m: sentence(lambda: da.turning_range(m)),
     "page": da.page,
 }
 

@@ -38,6 +38,7 @@ ANSWERS: dict[str, tuple[str, ...]] = {
     "study show": ("StudyResult",),
     "grade": ("ClassMarks",),
     "wrench": ("System",),
+    "cam": ("CamDesign",),
 }
 """Command -> classes of its answers."""
 

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.cli.draw_command import _at_last_position, _path_to
-from dalembert.cli.method_text import MOST_STEPS, NOTHING, _rounding, fixed_point_text
+from dalembert.bundled import examples
+from dalembert.cli import method_text
+from dalembert.cli.draw_command import _at_last_position, _enough, _path_to
+from dalembert.cli.method_text import NOTHING, _rounding, fixed_point_text
 from dalembert.cli.options import integer
 from dalembert.model.library import TEMPLATES
 from tests.friction.engines import pushed_slider
@@ -55,7 +57,49 @@ def test_a_long_iteration_is_shortened_in_the_middle() -> None:
     table = da.fixed_point(da.statics(pushed_slider(0.9)))
     lines = fixed_point_text(da.statics(pushed_slider(0.9))).splitlines()
     first = next(k for k, line in enumerate(lines) if line.split()[:1] == ["0"])
-    steps = [line.split()[0] for line in lines[first : first + MOST_STEPS]]
-    assert len(table.rows()) > MOST_STEPS
+    steps = [line.split()[0] for line in lines[first : first + 24]]
+    assert len(table.rows()) > 24
     assert steps[-3:] == ["...", str(table.steps - 1), str(table.steps)]
-    assert steps[:-3] == [str(k) for k in range(MOST_STEPS - 3)]
+    assert steps[:-3] == [str(k) for k in range(21)]
+
+
+def test_a_file_of_one_position_that_moves_is_shown_over_a_turn() -> None:
+    one, many = da.four_bar().with_values({"drives.O2.position": 1.0}), da.four_bar()
+    assert _enough(one, 24) == 24
+    found = (_enough(da.load(examples()[name]), 24) for name in ("truss", "balance_position"))
+    assert [_enough(many, 24), *found] == [None] * 3
+
+
+PRESS = """
+links: {ground: {points: {O: [0, 0], P: [0.7, 0]}}, ram: {points: {P: [0, 0]}}, arm: {points: {O: [0, 0], A: [0, 0.3]}}}
+joints:
+  P: {type: slider, links: [ground, ram], direction: 0}
+  O: {type: pin, links: [ground, arm]}
+drives: {P: {position: 0}, O: {position: 20 deg}}
+loads:
+  F: {type: force, on: ram, at: P, value: [7, 3]}
+  M: {type: couple, on: arm, value: 11}
+"""
+
+
+def test_printed_work_is_rounded_beside_the_largest_that_its_column_may_have(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Forces beside the largest load, couples beside it at the machine's length; at 1 m of a slide a link turns by
+    1 m over that length, at 1 rad its points move by that length."""
+    beside: list[float] = []
+    cells = method_text._cells
+
+    def recorded(values: np.ndarray, count: int, of: float) -> list[list[str]]:
+        beside.append(of)
+        return cells(values, count, of)
+
+    monkeypatch.setattr(method_text, "_cells", recorded)
+    r = da.statics(da.loads(PRESS))
+    length = r.compiled.layout.length
+    assert abs(length - 1) > 0.05
+    method_text.virtual_work_answer(r, "SI")
+    load = max(7.0, 11 / length)
+    known = {"P": [load, load * length, 1.0, 1 / length, load]}
+    known["O"] = [load, load * length, length, 1.0, load * length]
+    assert beside == pytest.approx([x for drive in r.drives for x in known[drive]])

@@ -40,6 +40,7 @@ def system(
         ball=no,
         grouped=False,
         around=no,
+        wound=no,
     )
     r = ContactResponse(np.zeros((many, 1)), np.zeros((many, 1, count)), y, h)
     return contacts, r, np.sign(rng.normal(size=(many, count)))

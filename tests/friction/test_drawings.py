@@ -17,7 +17,7 @@ from tests.friction.engines import collar, engine, engine_by_hand, guided
 from tests.friction.rough import rough
 from tests.friction.test_laws import solved
 from tests.methods.readable import text_over_lines, text_overlaps
-from tests.tiers import over
+from tests.tiers import crossed, over
 
 RUBBING = [name for name, path in cases().items() if "friction:" in path.read_text(encoding="utf-8")]
 
@@ -131,8 +131,7 @@ def test_the_detail_of_a_guide() -> None:
     assert any("Two corners bear: lower ahead 5161 N and upper behind" in t for t in texts)
 
 
-@pytest.mark.parametrize("name", RUBBING)
-@pytest.mark.parametrize("view", ["mechanism", "free-bodies", "force-polygons"])
+@crossed("name, view", RUBBING, ["free-bodies", "mechanism", "force-polygons"])
 def test_texts_cover_nothing(name: str, view: Any) -> None:
     scene = da.draw.view(da.solve(da.load(cases()[name])), view)
     assert text_overlaps(scene) == []
@@ -188,7 +187,7 @@ def test_the_worked_solution() -> None:
         "θ_AB + β_3 = −10.59 ° + 1.834 ° = −8.760 °",
         "N_lower = (S_guide + N_14)/(2) = 3451 N",
         "With friction: 2 crank: each reaction touches the friction circles at O, A; 3 rod: both forces",
-        "8 Virtual work, a check",
+        "10 Virtual work, a check",
         "friction in A 530.4 −1.157 −613.6",
         "Superposition is refused",
     ):

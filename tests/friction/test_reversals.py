@@ -60,6 +60,16 @@ def test_both_sides_of_the_dead_centres_by_hand() -> None:
         assert off(r.after, k, before) > 1e-6
 
 
+def test_a_curve_has_the_sides_of_a_reversal_in_the_order_of_the_list() -> None:
+    """Through the dead centre at 90 deg, twice the same position, on, and back to it against the motion."""
+    r = da.dynamics(four_stroke.engine(tuple(np.radians([90.0, 90.0, 107.0, 119.0, 90.0]))))
+    assert r.reverses.tolist() == [True, True, False, False, True]
+    (before, after), k = (side.effort("O") for side in r.sides), 0
+    assert before[k] != pytest.approx(after[k], rel=1e-3)
+    there = [before[0], after[0], before[1], after[1], before[2], before[3]]
+    assert stepped_series(r, lambda side: side.effort("O")).tolist() == [*there, after[4], before[4]]
+
+
 def test_the_largest_values_take_reversals_in(capsys: pytest.CaptureFixture[str]) -> None:
     m = four_stroke.engine()
     r = da.dynamics(m)

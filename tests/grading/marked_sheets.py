@@ -14,7 +14,7 @@ from dalembert.grading.figure import values_of
 from dalembert.grading.mistakes import SolvedProblem
 from dalembert.grading.quantities import Series
 from dalembert.grading.value_errors import of_units, of_value
-from dalembert.grading.wrong_problems import WrongProblems
+from dalembert.grading.wrong.wrong_problems import WrongProblems
 
 Values = dict[tuple[str, str], Any]
 """(quantity, name) -> value in SI, a number or a vector."""
@@ -119,4 +119,4 @@ def named_first(made: Made, verdicts: list[Any]) -> bool | None:
         return None
     said = {v.mistake for v in wrong}
     alone = len(said) == 1 and wrong[0].kind not in ("unknown", "rounding")
-    return alone or wrong[0].mistake == made.mistake
+    return alone or wrong[0].mistake.removeprefix("may be: ") == made.mistake

@@ -15,7 +15,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.grading.answer_sheet import figures
-from dalembert.grading.wrong_problems import WrongProblems
+from dalembert.grading.wrong.wrong_problems import WrongProblems
 from dalembert.model.files.model_files import read_file
 from tests.tiers import tiers
 

@@ -46,7 +46,7 @@ def tree_of(name: str) -> dict[str, Any]:
 
 @pytest.mark.parametrize("names", tiers([SAMPLE], [REST[k::8] for k in range(8)]), ids=len)
 def test_a_known_mistake_is_named_first_and_true_figures_are_right(names: list[str]) -> None:
-    """In 97 %; the rates over all cases are measured by `benchmarks/mistakes.py`."""
+    """In 95 %, of others chance says as much; the rates over all cases are measured by `benchmarks/mistakes.py`."""
     named, false = [], []
     for name in names:
         problem = SolvedProblem(da.load(BUNDLED[name]))
@@ -57,7 +57,7 @@ def test_a_known_mistake_is_named_first_and_true_figures_are_right(names: list[s
             named += [] if found is None else [found]
     assert not false
     assert len(named) > 10
-    assert np.mean(named) >= 0.97
+    assert np.mean(named) >= 0.95
 
 
 def test_a_mistake_that_right_figures_speak_against_is_not_named() -> None:
@@ -110,19 +110,22 @@ def test_one_mistake_explains_a_whole_sheet_with_a_slip_beside() -> None:
     ],
 )
 def test_mistakes_with_friction_are_named(keys: tuple[str, ...], value: Any, said: str) -> None:
-    """The wrong problem is written as a file and solved."""
+    """The wrong problem is written as a file and solved: all its figures name it, one alone says that it may be."""
     wrong = tree_of(ENGINE)
     at: Any = wrong
     for key in keys[:-1]:
         at = at[key]
     at[keys[-1]] = value
-    effort = float(da.dynamics(da.mechanism(wrong)).effort("O")[0])
-    assert [v.mistake for v in verdicts(ENGINE, {"efforts": {"O": f"{effort:.6g}"}})] == [said]
+    r = da.dynamics(da.mechanism(wrong))
+    figures: Any = {"efforts": {"O": f"{float(r.effort('O')[0]):.6g}"}}
+    assert [v.mistake for v in verdicts(ENGINE, figures)] == [f"may be: {said}"]
+    figures["reactions"] = {j: [f"{x:.6g}" for x in r.reaction(j)[0].tolist()] for j in "OAB"}
+    assert {v.mistake for v in verdicts(ENGINE, figures) if not v.right} == {said}
 
 
 def test_the_book_answer_without_friction_is_explained() -> None:
     (found,) = verdicts(ENGINE, {"efforts": {"O": -5873.136}})
-    assert found.mistake == "friction is left out"
+    assert (found.mistake, found.kind) == ("may be: friction is left out", "may_be")
 
 
 def test_friction_that_acts_with_the_motion_is_that_of_the_opposite_motion() -> None:
@@ -169,7 +172,7 @@ def test_the_books_g_is_named() -> None:
         quantity="effort", of="cylinder", value=f"{float(ten.effort('cylinder')[0]):.6g} N", at=1
     )
     (found,) = da.check_answers(m, [effort], static=True)
-    assert found.mistake == "g is taken as 10 m/s^2, not 9806.6 mm/s^2"
+    assert found.mistake == "may be: g is taken as 10 m/s^2, not 9806.6 mm/s^2"
 
 
 @pytest.mark.parametrize(

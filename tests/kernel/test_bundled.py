@@ -31,6 +31,8 @@ QUICK = [
 REFUSALS = (
     "equilibrium positions cannot be compiled",
     "is a list along the motion",
+    "with friction an unknown speed of turning cannot be compiled",
+    "some load or effort acts only through friction",
 )
 
 
@@ -41,7 +43,7 @@ def compiled(m: Any, free: bool) -> Any:
     except da.ModelError as error:
         refused = error
     assert any(reason in str(refused) for reason in REFUSALS), str(refused)
-    assert refused.line > 1
+    assert refused.line > 0
     return None
 
 

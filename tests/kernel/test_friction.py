@@ -39,7 +39,7 @@ def test_random_mechanisms(seed: int) -> None:
     compared(da.mechanism(rough_tree(seed)), seed, shape=1e-5)
 
 
-@pytest.mark.parametrize("name", ROUGH)
+@pytest.mark.parametrize("name", tiers(list(ROUGH)[::2], list(ROUGH)[1::2]))
 def test_whole_cycles(name: str) -> None:
     """With every number changed, friction's by up to a third; the general executor is not needed."""
     assert compared(ROUGH[name](), 1, shape=0.02).redone == 0
@@ -193,13 +193,13 @@ def slopes_are_differences(m: Any, vary: list[str], sizes: tuple[float, ...]) ->
         assert np.nanmin(off, axis=0).max() < 1e-7 * np.abs(slopes[:, n]).max(), name
 
 
-@pytest.mark.parametrize("name", ["four_bar", "slider_crank", "whitworth"])
+@pytest.mark.parametrize("name", tiers(["four_bar", "slider_crank"], ["whitworth"]))
 def test_derivatives(name: str) -> None:
     m = ROUGH[name]()
     slopes_are_differences(m, every_number(m), (1e-3, 1e-4))
 
 
-@pytest.mark.parametrize("reduce", ["peak", "mean", "rms", "envelope", "norm8"])
+@pytest.mark.parametrize("reduce", tiers(["norm8"], ["peak", "mean", "rms", "envelope"]))
 def test_derivatives_of_reductions(reduce: str) -> None:
     m = ROUGH["slider_crank"]()
     checked(m, ["effort.O2", "reaction.A.magnitude"], reduce, tolerance=1e-6)
@@ -212,7 +212,11 @@ def test_derivatives_of_random_mechanisms(seed: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "mu"), [("slider_crank", 0.3), ("scotch_yoke", 0.5), ("scotch_yoke", 0.9), ("toggle_press", 1.5)]
+    ("name", "mu"),
+    [
+        *(("slider_crank", 0.3), ("toggle_press", 1.5)),
+        *(pytest.param("scotch_yoke", mu, marks=pytest.mark.long) for mu in (0.5, 0.9)),
+    ],
 )
 def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:
     """Marks and numbers of the exports, self-locking, at rest, jammed and in doubt too."""

@@ -45,7 +45,7 @@ def both(
 
 
 @pytest.mark.parametrize(
-    "kind", ["pin-pin-pin", "slots", "two drives", "law of a cylinder", "no closed form"]
+    "kind", tiers(["slots", "two drives", "no closed form"], ["pin-pin-pin", "law of a cylinder"])
 )
 def test_slopes_from_a_solution_are_those_of_the_program(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     both(KINDS[kind](), monkeypatch)

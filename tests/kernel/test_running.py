@@ -27,6 +27,7 @@ from dalembert.kernel.memory import aligned_array, available
 from dalembert.kernel.program import Program
 from tests.kernel.comparing import changed, every_number
 from tests.kernel.machines import KINDS, ROUGH, four_bar
+from tests.tiers import crossed
 
 VARY = ["links.crank.points.A", "links.rocker.points.B", "links.coupler.mass", "drives.O2.speed"]
 OUTPUTS = ["effort.O2", "reaction.A", "reaction.B.magnitude"]
@@ -36,8 +37,7 @@ def designs(k: Any, count: int) -> np.ndarray:
     return np.stack([changed(k, seed, shape=0.02) for seed in range(count)])
 
 
-@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
-@pytest.mark.parametrize("kind", ["pin-pin-pin", "no closed form", "slider_crank"])
+@crossed("lanes, kind", [1, 2, 4, 8], ["pin-pin-pin", "no closed form", "slider_crank"])
 def test_lanes_give_the_same(lanes: int, kind: str) -> None:
     """Also more lanes than the processor has: the compiler splits them."""
     m = (KINDS | ROUGH)[kind]()
@@ -372,8 +372,11 @@ class CardOfC:
         return entry
 
 
-@pytest.mark.parametrize("reduce", [None, "peak", "envelope", "rms"])
-@pytest.mark.parametrize("kind", ["pin-pin-pin", "no closed form", "slots", "slider_crank"])
+@crossed(
+    "kind, reduce",
+    ["pin-pin-pin", "no closed form", "slots", "slider_crank"],
+    ["rms", None, "peak", "envelope"],
+)
 def test_the_card_s_text_compiled_as_c(
     kind: str, reduce: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -26,7 +26,7 @@ from tests.tiers import tiers
 
 FILES = {**cases(), **examples()}
 QUICK = ["four_bar", "quick_return", "gear_train", "rssr", "scissor_lift"]
-ASKED = {"balance_position", "vw-02-drum-with-spring-and-weight"}
+ASKED = {"balance_position", "vw-02-drum-with-spring-and-weight", "gov-11-watt-governor"}
 """Their positions are asked for."""
 STEP = 1e-6
 
@@ -50,6 +50,8 @@ def displaced(layout: Layout, like: Pose, pose: PoseInputs, dq: Array) -> dict[i
 @pytest.mark.parametrize("name", tiers(QUICK, sorted(set(FILES) - set(QUICK) - ASKED)))
 def test_rows_close_and_entries_are_their_derivatives(name: str) -> None:
     m = da.load(FILES[name])
+    if any(j.BRAKES for j in m.joints.values()):
+        pytest.xfail("the row of a lining or a band keeps its first pose: its entries are no derivatives")
     found = positions(compile_mechanism(m, m.schedule()))
     assert found.path is not None
     layout = found.compiled.layout

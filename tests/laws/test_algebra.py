@@ -66,3 +66,26 @@ def test_lines_meet_where_they_are_nearest() -> None:
     assert skew is not None
     assert skew[0] == pytest.approx([0, 0, 1])
     assert skew[1] == pytest.approx(1.0)
+
+
+def test_the_farthest_of_three_lines_counts() -> None:
+    """x = 0, y = 0 and x = 3: the nearest point lies between the two that are parallel."""
+    point, away = meeting_point(
+        np.array([[0.0, 5.0], [2.0, 0.0], [3.0, 1.0]]), np.array([[0, 1], [1, 0], [0, 2.0]])
+    )  # type: ignore[misc]
+    assert point == pytest.approx([1.5, 0.0])
+    assert away == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("other", [1.0, -1.0])
+def test_half_a_turn_is_about_an_axis_across(sign: float, other: float) -> None:
+    """Of vectors onto their opposites, along each axis and oblique; the nearest turn onto another is not longer."""
+    oblique = np.array([0.6 * sign, 0.0, 0.8 * other])
+    for a in (*(sign * np.eye(3)), oblique):
+        for b in (-a, other * np.array([0.0, 0.6, 0.8])):
+            r = space.least_turn(a, b).reshape(3, 3)
+            assert r @ a == pytest.approx(b, abs=1e-12)
+            assert r @ r.T == pytest.approx(np.eye(3), abs=1e-12)
+            assert np.linalg.det(r) == pytest.approx(1.0)
+            assert (np.trace(r) - 1) / 2 == pytest.approx(float(a @ b), abs=1e-12)

@@ -137,7 +137,7 @@ def test_what_a_circular_slot_has_not() -> None:
     with pytest.raises(ModelError, match=r"joint 'P': a circular_slot joint has no counterpart"):
         da.lifted(da.mechanism(guided_bar()))
     with pytest.raises(ModelError, match=r"the freedom of joint 'P', a circular_slot, is turn"):
-        da.mechanism(guided_bar() | {"drives": {"P": {"freedom": "slide", "position": 1}}})
+        da.mechanism(guided_bar() | {"drives": {"P": {"freedom": "slide2", "position": 1}}})
 
 
 @pytest.mark.parametrize("moving", [False, True])

@@ -134,7 +134,22 @@ def test_a_follower_leaves_its_cam_at_a_speed() -> None:
     ("keys", "words"),
     [
         ({"contact": "push"}, "unknown contact 'push'; did you mean 'pushes'"),
-        ({"contact": {"pushes": True}}, "unknown contact"),
+        (
+            {"contact": {"restitution": 0.3}},
+            "the contact does not say what it does; write contact: .pushes: true",
+        ),
+        (
+            {"contact": {"pushes": "yes"}},
+            "pushes is 'yes'; write pushes: true; of a slider also pushes: from below",
+        ),
+        (
+            {"contact": {"pushes": True, "restitution": 1.5}},
+            "restitution is 1.5; it is the speed after a landing",
+        ),
+        (
+            {"contact": {"pushes": True, "restituton": 0.5}},
+            "unknown key 'restituton' in contact of joint 'floor'; did you mean 'restitution'",
+        ),
         ({"side": "right"}, "side is given without contact"),
     ],
 )
@@ -151,30 +166,3 @@ def test_a_contact_is_written_as_it_is_read() -> None:
         da.dynamics(crate(0.0, contact="holds")).contact("floor")
     with pytest.raises(ModelError, match="unknown joint 'flor'; did you mean 'floor'"):
         da.dynamics(crate(0.0)).contact("flor")
-
-
-DISC = """
-dalembert: 1
-gravity: standard
-links:
-  ground: {points: {O: [0, 0]}}
-  arm: {points: {O: [0, 0], C: [0.5, 0]}}
-  disc: {points: {C: [0, 0]}, mass: 3, inertia: 0.015}
-joints:
-  O: {type: pin, links: [ground, arm]}
-  C: {type: slot, links: [arm, disc], direction: 0}
-  dome: {type: rolling, links: [ground, disc], at: [O, C], radii: [0.4, 0.1]}
-drives: {O: {position: 75}}
-start: {O: {position: 75 deg, speed: 0}}
-"""
-
-
-def test_a_motion_says_where_a_contact_is_lost() -> None:
-    """A disc that rolls off a cylinder leaves it at cos = 4/7 of that of the start."""
-    s = da.simulate(da.loads(DISC), "0.7 s", count=141)
-    leaves = math.acos(4 / 7 * math.cos(math.radians(15)))
-    lost = s["drive.O"] < math.pi / 2 - leaves
-    assert [code == "contact_lost" for code in s.result.status] == lost.tolist()
-    assert lost.any()
-    assert "The motion is computed as if lost contacts held" in str(s)
-    assert "as if lost contacts held" not in str(da.simulate(da.loads(DISC), "0.5 s", count=11))

@@ -5,6 +5,7 @@ Links, arms, axes and twists are random and nothing closes, so that no term vani
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -57,7 +58,7 @@ def family(kind: type, rng: np.random.Generator) -> Any:
         "drawn": np.tile(space.IDENTITY, (COUNT, 1)),
         "count": np.arange(2 * COUNT).reshape(COUNT, 2) if kind is rows.Gearing else single,
     }
-    return kind(**{name: values[name] for name in kind.__annotations__})
+    return kind(**{name: values[name] for name in (f.name for f in fields(kind))})
 
 
 KINDS = {

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from functools import cache
+
 import numpy as np
 import pytest
 from benchmarks.linkages import chain, pin
@@ -14,9 +17,9 @@ from dalembert.core.layout import Meet
 from dalembert.core.position import first_pose_plane
 from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.newton import gap
-from tests.random_mechanisms import Drawing, pose_array, tree
+from tests.random_mechanisms import Drawing, pose_array, random_case, tree
 from tests.random_mechanisms.groups import driven, dyad, single, welded
-from tests.tiers import over
+from tests.tiers import nth, over
 
 
 @pytest.mark.parametrize("groups", [24, 49])
@@ -36,6 +39,52 @@ def test_a_slide_belongs_to_a_group_in_closed_form() -> None:
     way = plan(compile_mechanism(m, m.schedule()).layout)
     assert way is not None
     assert way.closed
+
+
+def test_an_assembly_with_the_crank_says_at_which_position_it_stands() -> None:
+    """A shaper whose crank closes in two ranges, on another branch in each: as given at 125 deg, or as found first."""
+    m = da.load(examples()["quick_return"]).with_values(
+        {"links.ground.points.O2": (-0.205, -0.163), "links.crank.points.O2": (0.199, 0.171)}
+    )
+    stated = {"block": 1.73, "lever": 1.73, "rod": 3.2, "ram": 0.0}
+    r = da.kinematics(m.with_values({"assembly": stated | {"crank": math.radians(125)}}))
+    assert np.flatnonzero(r.ok).tolist() == list(range(23, 51))
+    assert r.angle("lever")[25] == pytest.approx(1.73, abs=0.02)
+    assert math.remainder(r.angle("rod")[25] - 3.2, math.tau) == pytest.approx(0, abs=0.02)
+    for open_ in (stated, stated | {"crank": math.radians(125.1)}):
+        first = da.kinematics(m.with_values({"assembly": open_}))
+        assert np.flatnonzero(first.ok).tolist() == list(range(2, 22))
+
+
+def is_listed(seed: int) -> bool:
+    """True if a random mechanism has several positions, and no wheels, whose phase is that of the first."""
+    d = random_case(seed).drawing
+    return not any(j.type in ("gear", "rolling") for j in d.joints.values()) and len(listed(seed).status) > 1
+
+
+@cache
+def listed(seed: int) -> da.Result:
+    return da.dynamics(da.mechanism(random_case(seed).tree))
+
+
+@over(4, 400)
+def test_the_pose_of_any_position_as_assembly_gives_the_same_answers(seed: int) -> None:
+    seed = nth(seed, is_listed)
+    made, r = random_case(seed).tree, listed(seed)
+    k = 1 + seed % (len(r.status) - 1)
+    places = {
+        link: [*(f"{float(x)!r} m" for x in r.position(link)[k]), f"{float(r.angle(link)[k])!r} rad"]
+        for link in r.links
+    }
+    s = da.dynamics(da.mechanism({**made, "assembly": places}))
+    assert s.status == r.status
+    size = max(np.nanmax(np.abs(r.force_array), initial=1e-9), np.nanmax(np.abs(r.effort_array), initial=0.0))
+    assert np.nanmax(np.abs(s.point_array - r.point_array)) < 1e-8
+    if not any(
+        load["type"].startswith("torsion") for load in made["loads"].values()
+    ):  # they count turns from it
+        assert np.nanmax(np.abs(s.force_array - r.force_array)) < 1e-7 * size
+        assert np.nanmax(np.abs(s.effort_array - r.effort_array), initial=0.0) < 1e-7 * size
 
 
 WHEEL = """

@@ -137,7 +137,7 @@ KEYS = (
 )
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(st.sampled_from(KEYS), odd_trees)
 def test_any_value_under_any_key(key: str, value: Any) -> None:
     check({**bases()[0], key: value})

@@ -242,6 +242,7 @@ def rssr_tree(
     }
 
 
+@pytest.mark.long
 @over(1, 15, block=2)
 def test_a_lifted_four_bar_closes_where_the_plane_one_does(seed: int) -> None:
     """Its constraints repeat each other: independent ones are chosen, which tell the sides."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.printing import number
 from tests.machine.cranks import crank_machine
-from tests.tiers import over
+from tests.tiers import over, tiers
 
 SHAFT = """
 units: {{length: mm, angle: rad}}
@@ -272,12 +273,21 @@ def test_pressure_is_an_output_of_compiled_analyses() -> None:
 SIZED = {f"joints.{j}.bearing": {"diameter": 0.02, "length": 0.015, "rating": 9e3} for j in ("O2", "A", "B")}
 
 
-@pytest.mark.parametrize("count", [12, 24, 72])
+def sized() -> da.Mechanism:
+    section = {"circle": 0.03, "endurance": 1e8, "ultimate": 4e8}
+    return da.slider_crank(crank=0.05, rod=0.2).with_values(SIZED | {"links.rod.section": section})
+
+
+@cache
+def fine_cycle() -> da.Result:
+    return da.dynamics(sized(), positions=2400)
+
+
+@pytest.mark.parametrize("count", tiers([12, 72], [24]))
 def test_what_half_of_the_positions_would_change_is_printed_and_no_less_than_the_error(count: int) -> None:
     """Against a cycle so fine that its error does not count; the rate of B, which swings, has kinks in PV."""
-    section = {"circle": 0.03, "endurance": 1e8, "ultimate": 4e8}
-    m = da.slider_crank(crank=0.05, rod=0.2).with_values(SIZED | {"links.rod.section": section})
-    r, fine = da.dynamics(m, positions=count), da.dynamics(m, positions=4800)
+    m = sized()
+    r, fine = da.dynamics(m, positions=count), fine_cycle()
     for joint in ("O2", "A", "B"):
         b, true = da.bearing(r, joint), da.bearing(fine, joint)
         changes = b.sampling()
@@ -305,6 +315,24 @@ def test_an_odd_number_or_a_single_position_has_no_halves() -> None:
     assert "those of the 73 positions, not of the motion between them." in " ".join(str(odd).split())
     assert "Means and greatest values" not in str(one)
     assert all(math.isnan(x) for x in odd.loads["A"].sampling().values())
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_curves_are_drawn_of_several_positions_and_of_sizes_that_are_given(count: int) -> None:
+    """Forces and turning of all joints, pressures of those with a size."""
+    crank = da.slider_crank(crank=0.05, rod=0.2)
+    for m, pressures in (
+        (crank, []),
+        (crank.with_values({"joints.A.bearing": SIZED["joints.A.bearing"]}), ["A"]),
+    ):
+        r = da.dynamics(m, positions=count)
+        scenes = da.bearings(r).drawings()
+        curves = [s.title for s in scenes if s.title.endswith(" of the joints")]
+        known = ["Radial force", "Turning", *(["Pressure"] if pressures else [])] if count > 1 else []
+        assert [title.removesuffix(" of the joints") for title in curves] == known
+        if pressures and count > 1:
+            legend = {t.text for t in scenes[-1].texts()}
+            assert legend & set(r.joints) == {"A"}
 
 
 TABLE = "name, C [kN], C0 [kN], d [mm]\n6202, 7.8, 3.55, 15\n6205, 14, 7.8, 25\n6204, 12.7, 6.55, 20\n"

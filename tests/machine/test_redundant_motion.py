@@ -115,6 +115,7 @@ def test_friction_beside_redundant_joints_is_no_hindrance() -> None:
     assert max(s.energy_residual, s.law_residual) < 1e-9
 
 
+@pytest.mark.long
 def test_a_four_bar_of_revolutes_in_space_moves_as_in_its_plane() -> None:
     """Three constraints of the loop are redundant."""
     text = FOUR_BAR.replace("effort: 0", "position: 60 deg").replace(

@@ -184,3 +184,28 @@ def test_a_double_pendulum_sticks_and_slips_as_one_integrated_by_hand() -> None:
     assert turned == pytest.approx(y[:2], abs=1e-7)
     assert [s.speed(n)[-1] for n in ("O", "P")] == pytest.approx(y[2:], abs=1e-6)
     assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
+def test_friction_is_sought_near_the_last_and_on_the_path_where_that_is_not_the_solution(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Newton's steps count if they have arrived at a solution of a positive determinant."""
+    from types import SimpleNamespace
+
+    from dalembert.machine.motion.rest import dry_friction
+
+    near, path = np.array([3.0]), np.array([5.0])
+    monkeypatch.setattr(dry_friction, "solve_friction", lambda *_: SimpleNamespace(z=path[None]))
+    nothing: Any = dry_friction.ContactResponse(*(np.zeros(1) for _ in dry_friction.ContactResponse._fields))
+    for arrived, determinant, found in (
+        *((True, 0.5, near), (True, 2.0, near)),
+        *((True, 0.0, path), (True, -0.5, path), (False, 0.5, path), (False, -0.5, path)),
+    ):
+        solution = SimpleNamespace(arrived=[arrived], determinant=[determinant], z=near[None])
+        monkeypatch.setattr(dry_friction, "newton", lambda *_, s=solution: s)
+        contacts: Any = None
+        dry = dry_friction.DryFriction(contacts, np.zeros(0, int), np.array([1.0]))
+        z = dry._slip(nothing, np.ones(1), np.ones(1))
+        assert z is not None
+        assert z.tolist() == found.tolist()
+        assert dry.last is z

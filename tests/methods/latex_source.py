@@ -36,6 +36,8 @@ BOTH = {
         "nopagebreak",
         "textsuperscript",
         "textsubscript",
+        "noindent",
+        "vspace",
     ),
     *("toprule", "midrule", "bottomrule", "small", "scriptsize", "footnotesize", "begin", "end"),
 }
@@ -189,7 +191,7 @@ def _keep_scripts(r: Reader, token: str) -> None:
 
 
 def _environment(r: Reader, token: str, name: str, columns: str) -> None:
-    if name not in MATHS_ENVIRONMENTS | {"document", "tabular", "center"}:
+    if name not in MATHS_ENVIRONMENTS | {"document", "tabular", "center", "minipage"}:
         r.fail(f"an unknown environment {name}")
     if token == r"\begin":
         if name in ("gather*", "align*", "equation*", "tabular") and r.maths:

@@ -28,6 +28,7 @@ SLACK = 1.1
 LEADS = {
     r"F\b(?!_)|cos θ|x R_y": "",
     r"R$|R_[xyz]$|R · M": "force",
+    r"\(?T_1\)?/\(?T_2": "",
     r"[dpr]$": "arm|length",
     r"M$": "moment",
     r"Σ M|[TM]_|J_|ω_\S+' × J_": "moment",

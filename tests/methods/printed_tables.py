@@ -167,6 +167,19 @@ def _sums(reader: Reader, heads: list[str], rows: Cells, columns: slice = slice(
         reader.agree(whole, total, f"{heads[k]}: {[row[k] for row in rows]}")
 
 
+def _arms(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """F times h, with the own moment of a source, is its torque; the last row is the sum."""
+    for row in rows[:-1]:
+        force, arm, product, own, torque = (number(reader, cell) for cell in row[1:])
+        if force is not None and arm is not None and product is not None:
+            reader.agree(times(force, arm), size(product), f"F h: {row}")
+        parts = [p for p in (product, own) if p is not None]
+        assert torque is not None
+        whole = Read(math.fsum(p.value for p in parts), math.fsum(p.error for p in parts))
+        reader.agree(whole, torque, f"T: {row}")
+    _sums(reader, heads, rows, slice(5, None))
+
+
 def _superposition(reader: Reader, heads: list[str], rows: Cells) -> None:
     """Numbers sum up; the components of a force have the size and direction beside them."""
     sizes = [k for k, head in enumerate(heads) if head.startswith("|")]
@@ -284,7 +297,8 @@ HEADS = {
     "α": "angular_acceleration",
     "a_G": "acceleration",
     "v_G": "speed",
-    "couple": "moment",
+    "couple|F h |own |T ": "moment",
+    "F ": "force",
     "Work": "force|moment",
     "Power": "power",
 }
@@ -326,6 +340,7 @@ TABLES: dict[str, Any] = {
     "Joint|Force|x|y|z": _reactions,
     "Joint|Force|x'": _reactions,
     "Load|Force or couple": _work,
+    "Source|F (": _arms,
     "Source": _superposition,
     "Power put in by": _sums,
     "Part|x|y": _system_moments,

@@ -45,6 +45,7 @@ def test_the_force_of_teeth_is_along_the_line_of_action(at: int) -> None:
     for panel in da.draw.teeth(r, at=at).items:
         whole, around, radial = (a for a in Scene(panel.items).arrows() if a.kind == "force")
         joint, per_mm = whole.of, math.hypot(*r.reaction(whole.of)[at - 1]) / whole.length
+        assert [a.role for a in (whole, around, radial)] == ["joint-force", "effort", "effort"]
         assert whole.value == pytest.approx(whole.length * per_mm)
         assert radial.length == pytest.approx(around.length * math.tan(math.radians(20)))
         assert radial.tail == pytest.approx(around.head)

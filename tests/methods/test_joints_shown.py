@@ -13,6 +13,7 @@ from dalembert.cli import main
 from dalembert.model.joints.pairs import PAIRS
 from tests.methods.readable import text_over_lines, text_overlaps
 from tests.space.test_pairs import TABLE
+from tests.tiers import crossed
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -36,8 +37,7 @@ def test_the_classic_table(capsys: pytest.CaptureFixture[str]) -> None:
         assert turns + slides + len(reactions.split()) == 6
 
 
-@pytest.mark.parametrize("kind", list(PAIRS))
-@pytest.mark.parametrize("camera", ["isometric", (20.0, 15.0)])
+@crossed("kind, camera", PAIRS, ["isometric", (20.0, 15.0)])
 def test_pictures_show_the_reactions(kind: str, camera: Any) -> None:
     scene = da.draw.joint(kind, camera)
     named = dict.fromkeys(a.of for a in scene.arrows() if a.of)

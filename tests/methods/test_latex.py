@@ -10,11 +10,11 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from tests.methods.latex_source import problems
-from tests.tiers import tiers
+from tests.tiers import crossed, tiers
 
 MANY = "four_cylinder"
 """The one example of many links over many positions: its sheet takes as long as those of all others."""
-SHOWN = tiers([n for n in examples() if n != MANY] + list(cases())[::10], [MANY, *list(cases())[5::10]])
+SHOWN = tiers([n for n in examples() if n != MANY] + list(cases())[::20], [MANY, *list(cases())[5::5]])
 SIGNS = [
     "é",
     "ß",
@@ -87,10 +87,9 @@ def named(sign: str) -> da.Mechanism:
     )
 
 
-@pytest.mark.parametrize("sign", SIGNS)
-def test_names_may_have_any_sign(sign: str) -> None:
-    for links in ("number", "name"):
-        assert problems(source(named(sign), notation=da.Notation(links=links))) == []  # type: ignore[arg-type]
+@crossed("sign, links", SIGNS, ["number", "name"])
+def test_names_may_have_any_sign(sign: str, links: Any) -> None:
+    assert problems(source(named(sign), notation=da.Notation(links=links))) == []
 
 
 @pytest.mark.skipif(importlib.util.find_spec("typst") is None, reason="extra report")

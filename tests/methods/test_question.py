@@ -16,7 +16,7 @@ from dalembert.reports.sections.given import knowns
 from dalembert.reports.sheet import ReportSheet
 from dalembert.reports.writers.plain_writer import plain_text
 from dalembert.views.notation import Shown
-from dalembert.views.stated import as_stated, drive_text, stated_lines
+from dalembert.views.stated import as_stated, drive_text, stated_lines, vector_text
 from tests.tiers import tiers
 
 FRICTION = "seed-002-7a-engine-friction-circles"
@@ -141,3 +141,13 @@ def test_a_question_states_every_number_that_is_given() -> None:
     assert stated_lines(rough, 0) == [*links, *joints, *loads]
     assert stated_lines(smooth, 0) == [*links, "Joint F: slider, along 11°.", *loads]
     assert drive_text(rough, 0, "O") == "50°, 3.1 rad/s, −2 rad/s²"
+
+
+def test_components_in_space_are_rounded_beside_the_largest() -> None:
+    """Whatever its sign: what is rounding beside -5 N is 0."""
+    shown = Shown(da.statics(da.load(examples()["rssr"])), da.Notation())
+    assert vector_text(shown, "force", np.array([1e-14, -5.0, 0.0])) == vector_text(
+        shown, "force", np.array([0.0, -5.0, 0.0])
+    )
+    small = vector_text(shown, "force", np.array([1e-4, -5.0, 0.0]))
+    assert "0.0001" in small

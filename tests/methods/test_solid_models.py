@@ -185,6 +185,13 @@ def test_only_glb(tmp_path: Path) -> None:
         model.save(tmp_path / "a.glb")
 
 
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_what_stands_still_has_no_animation(count: int) -> None:
+    r = da.kinematics(da.four_bar(), positions=count)
+    tree = File(da.draw.solid_model(r).to_glb()).tree
+    assert ("animations" in tree) == (count > 1)
+
+
 def test_the_command_writes_it(tmp_path: Path) -> None:
     from dalembert.cli import main
 

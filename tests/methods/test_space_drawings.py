@@ -38,7 +38,7 @@ from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
 from tests.methods.readable import text_over_lines, text_overlaps
 from tests.methods.space_machines import MACHINES, solved
 from tests.oracles.space import random_drawn
-from tests.tiers import tiers
+from tests.tiers import crossed, tiers
 
 each = pytest.mark.parametrize("name", list(MACHINES))
 VIEWS: list[Any] = ["isometric", "front", "top", "side", (20.0, 35.0)]
@@ -55,8 +55,7 @@ def check(scene: Any) -> None:
     json.dumps(scene.to_dict())
 
 
-@each
-@pytest.mark.parametrize("camera", VIEWS)
+@crossed("name, camera", MACHINES, VIEWS)
 def test_mechanisms_from_every_side(name: str, camera: Any) -> None:
     r = solved(name)
     scene = da.draw.mechanism(r, at=4, camera=camera, forces=True)

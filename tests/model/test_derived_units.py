@@ -21,8 +21,11 @@ PRODUCTS = {
     "moment": "F * L", "inertia": "M * L**2", "speed": "L / T", "acceleration": "L / T**2",
     "jerk": "L / T**3", "angular_jerk": "A / T**3",
     "angular_speed": "A / T", "angular_acceleration": "A / T**2", "stiffness": "F / L", "damping": "F * T / L",
-    "torsion_stiffness": "F * L", "torsion_damping": "F * L * T", "density": "M / L**3", "area": "L**2",
+    "torsion_stiffness": "F * L", "torsion_damping": "F * L * T", "density": "M / L**3", "line_density": "M / L",
+    "area": "L**2",
     "power": "F * L / T", "energy": "F * L", "pressure": "F / L**2", "pressure_speed": "F / L / T",
+    "volume": "L**3",
+    "flow": "L**3 / T",
     "section_modulus": "L**3", "second_moment": "L**4",
 }  # fmt: skip
 """What a bare number of each kind is, by hand; a torsional one is one per radian."""

@@ -214,7 +214,6 @@ def test_the_law_of_a_drive_has_its_coefficients_and_peaks() -> None:
     ("law", "words"),
     [
         ({"segments": [], "count": 3}, "an empty list is not a list of segments"),
-        ({"segments": [RISE]}, "the key 'count' is missing"),
         ({"segments": [{**RISE, "by": "sine"}], "count": 3}, "unknown motion curve 'sine'"),
         ({"segments": [{"to": 5, "in": "1 s"}], "count": 3}, "the key 'by' is missing"),
         ({"segments": [{**RISE, "in": "0 s"}], "count": 3}, "'0 s' is not positive"),

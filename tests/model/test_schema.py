@@ -44,7 +44,7 @@ def test_it_is_json_and_closed() -> None:
 def test_the_keys_are_those_of_the_file() -> None:
     assert list(SCHEMA["properties"]) == [
         "dalembert", "title", "source", "space", "units", "gravity", "g", "parameters", "links", "joints",
-        "drives", "loads", "friction", "assembly", "start", "answers", "copies",
+        "drives", "loads", "turning", "friction", "assembly", "start", "answers", "copies",
     ]  # fmt: skip
     assert SCHEMA["required"] == ["links"]
     assert SCHEMA["$defs"]["Pin"]["required"] == ["type", "links"]

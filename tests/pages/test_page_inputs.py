@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,11 +13,13 @@ import dalembert as da
 from dalembert.pages.inputs import label, series
 from dalembert.pages.mechanism_items import Items
 from dalembert.pages.page_data import page_data
+from dalembert.pages.sketch_data import _counted
 from dalembert.pages.sweep import with_cycle
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.plane.joint_drawings import draw_joint
 from tests.pages.test_page_data import FILES, run_page
+from tests.tiers import tiers
 
 
 def positions(m: Any) -> Any:
@@ -62,7 +65,7 @@ def test_what_has_positions_of_its_own_keeps_them() -> None:
         assert with_cycle(m) is m
 
 
-@pytest.mark.parametrize("name", ["four_bar", "engine", "rssr", "scissor_lift"])
+@pytest.mark.parametrize("name", tiers(["four_bar", "rssr"], ["engine", "scissor_lift"]))
 def test_a_handle_is_drawn_where_its_numbers_say(name: str) -> None:
     """Origin of the link plus numbers along its axes: the handle's place, at every position, of each of its ends."""
     m = da.load(FILES[name])
@@ -367,3 +370,21 @@ def test_symbols_of_a_page_are_those_of_the_drawing(
             centers = [p for _, p in placed if np.abs(p.mean(axis=0) - at).max() < 0.5]
             assert centers or not m.mass(link)
     assert seen == types
+
+
+@pytest.mark.parametrize(
+    ("ends", "found"), [((0, 1), ("rod", 4.0)), ((2, 0), ("crank", 4.0)), ((1, 2), ("rod", -4.0))]
+)
+def test_whole_turns_of_a_torsion_spring_are_its_second_links_or_the_others_backwards(
+    ends: tuple[int, int], found: tuple[str, float]
+) -> None:
+    """Two links, 2 the ground; a spring that counts two turns from the first position on, and one that counts none."""
+    turns = np.array([[0.0, 2.0]])
+    springs = SimpleNamespace(turns=turns, row=np.array([0, 0]))
+    layout = SimpleNamespace(freedoms=SimpleNamespace(ends=tuple(np.array([end]) for end in ends)))
+    counts = [SimpleNamespace(place=place) for place in (0, 1)]
+    c = SimpleNamespace(
+        forcing=SimpleNamespace(resistances=springs), counts=counts, layout=layout, links=("crank", "rod")
+    )
+    path: Any = SimpleNamespace(counted=c, first=3)
+    assert list(_counted(path)) == [(found[0], pytest.approx(found[1] * np.pi))]

@@ -9,8 +9,10 @@ import dalembert as da
 from tests.oracles.space import natural
 from tests.oracles.space.classics import CLASSICS
 from tests.oracles.space.compliance import shared
+from tests.tiers import tiers
 
 STEPS = 3
+DRIVEN = [name for name, classic in CLASSICS.items() if classic.drives]
 
 
 @pytest.mark.parametrize("name", CLASSICS)
@@ -24,7 +26,7 @@ def test_mobility_is_the_published_one_along_the_motion(name: str) -> None:
     assert np.isfinite(r.position(classic.links[-1])).all()
 
 
-@pytest.mark.parametrize("name", [n for n, c in CLASSICS.items() if c.drives])
+@pytest.mark.parametrize("name", tiers(DRIVEN[::2], DRIVEN[1::2]))
 def test_motion_efforts_and_unique_components_are_those_of_natural_coordinates(name: str) -> None:
     classic = CLASSICS[name]
     tree = classic.tree(STEPS)
@@ -72,7 +74,7 @@ def test_every_constraint_closes_to_rounding_over_a_turn(name: str) -> None:
     assert np.max(np.abs(phi[solved])) < 1e-14
 
 
-@pytest.mark.parametrize("name", [n for n, c in CLASSICS.items() if c.drives])
+@pytest.mark.parametrize("name", tiers(DRIVEN[1::2], DRIVEN[::2]))
 def test_stiffness_of_joints_shares_reactions_by_least_energy(name: str) -> None:
     tree = CLASSICS[name].tree(STEPS)
     m, path, _ = natural.followed(tree)

@@ -11,6 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.model.description import mechanism
 from tests.space.test_gears import TORQUE, Z, pair, wheel
+from tests.tiers import crossed
 
 LEAD = 5e-3
 
@@ -28,9 +29,7 @@ def nut(lead: float, freedom: str, position: list[str], **more: Any) -> da.Resul
     return da.statics(mechanism(tree))
 
 
-@pytest.mark.parametrize("lead", [LEAD, -LEAD])
-@pytest.mark.parametrize("turns", [[3.25, 20], [-3.25, -20], [-2.4, 7.1]])
-@pytest.mark.parametrize("assembled", [False, True])
+@crossed("lead, turns, assembled", [LEAD, -LEAD], [[3.25, 20], [-3.25, -20], [-2.4, 7.1]], [False, True])
 def test_a_screw_starts_many_turns_from_zero(lead: float, turns: list[float], assembled: bool) -> None:
     """Slide is lead times turns, whichever is driven, as drawn or from a given pose; work is the same."""
     slide = lead * np.array(turns)

@@ -16,12 +16,10 @@ from dalembert.cli import main
 from dalembert.grading.file_answers import check
 from tests.oracles.space.machines import EXAMPLES
 from tests.space.machines import oracle, rssr
+from tests.tiers import crossed
 
-every_machine = pytest.mark.parametrize("name", EXAMPLES)
 
-
-@every_machine
-@pytest.mark.parametrize("solve", [da.statics, da.dynamics])
+@crossed("name, solve", EXAMPLES, [da.statics, da.dynamics])
 def test_free_bodies_balance(name: str, solve: Any) -> None:
     r = solve(oracle(name))
     everything = actions(r)
@@ -34,8 +32,7 @@ def test_free_bodies_balance(name: str, solve: Any) -> None:
         assert moment < 1e-12 * largest * r.compiled.layout.length
 
 
-@every_machine
-@pytest.mark.parametrize("solve", [da.statics, da.dynamics])
+@crossed("name, solve", EXAMPLES, [da.statics, da.dynamics])
 def test_superposition_and_virtual_work_give_the_same(name: str, solve: Any) -> None:
     r = solve(oracle(name))
     assert np.max(da.superposition(r).gap) < 1e-12

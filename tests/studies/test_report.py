@@ -13,7 +13,8 @@ import pytest
 import dalembert as da
 from dalembert.bundled import examples
 from dalembert.cli import main
-from dalembert.studies import StudyResult
+from dalembert.studies import StudyResult, running
+from dalembert.studies.output import study_report
 from dalembert.studies.output.study_views import contour, histogram_scene, response_scene, scatter_scene
 from dalembert.views.paper.scene import Circle, Line, Polygon
 from tests.studies.test_answers import arm
@@ -176,3 +177,40 @@ def test_bars_of_one_value_have_an_axis_about_it() -> None:
 def test_what_is_no_quantity_is_no_level(value: object) -> None:
     with pytest.raises(da.ModelError, match="is not a quantity; write a number with its unit"):
         da.study(da.four_bar(), {"links.coupler.mass": [1.0, value]}, ["effort.O2"], designs=4)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_design_is_drawn_where_its_output_is_largest_in_magnitude(
+    sign: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Twice as much at the second position as at the third, either way round."""
+    m = da.loads(f"""
+links: {{ground: {{points: {{O: [0, 0]}}}}, arm: {{points: {{O: [0, 0], A: [1, 0]}}}}}}
+joints: {{O: {{type: pin, links: [ground, arm]}}}}
+drives: {{O: {{position: [0, 90 deg, 180 deg, 270 deg]}}}}
+loads: {{M: {{type: couple, on: arm, value: "{sign}*(1 - 3*sin(O)) N*m"}}}}
+""")
+    r = da.study(m, {"links.arm.points.A.0": "0.9..1.1 m"}, ["effort.O"], designs=4).run()
+    effort = r.study.answer(m)["effort.O"]
+    assert effort == pytest.approx(sign * np.array([-1.0, 2.0, -1.0, -4.0]))
+    drawn: list[int] = []
+    mechanism = study_report.draw.mechanism
+
+    def recorded(result: Any, at: int) -> Any:
+        drawn.append(at)
+        return mechanism(result, at)
+
+    monkeypatch.setattr(study_report.draw, "mechanism", recorded)
+    assert str(r.report())
+    assert set(drawn) == {4}
+
+
+def test_a_study_is_kept_in_memory_up_to_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One design's bytes for each."""
+    s = da.study(da.four_bar(), {"links.coupler.mass": "± 5 %"}, ["effort.O2"], designs=20, positions=12)
+    size = 20 * sum(a.nbytes for a in s.block(0, 1)[0].values())
+    monkeypatch.setattr(running, "IN_MEMORY", size)
+    assert s.run().ok.all()
+    monkeypatch.setattr(running, "IN_MEMORY", size - 1)
+    with pytest.raises(da.ModelError, match=r"the results take 0\.0 GB; give run"):
+        s.run()

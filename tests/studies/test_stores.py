@@ -325,7 +325,7 @@ for seed in sys.argv[3:]:
 """Runs that write slowly, each killed at a random moment: before the first block, between, behind the last."""
 
 
-@pytest.mark.parametrize("seeds", tiers([range(2)], [range(2, 300)]))
+@pytest.mark.parametrize("seeds", tiers([], [range(2), range(2, 300)]))
 def test_killed_runs_are_resumed_bit_by_bit(
     seeds: range, study: Study, finished: Path, tmp_path: Path
 ) -> None:
@@ -382,7 +382,7 @@ study.run(target)
 """Without what only POSIX systems have: a stored study that is stopped and resumed."""
 
 
-@pytest.mark.parametrize("system", ["windows", "no locks"])
+@pytest.mark.parametrize("system", tiers(["windows"], ["no locks"]))
 def test_a_study_is_stored_where_there_is_no_posix(system: str, finished: Path, tmp_path: Path) -> None:
     (tmp_path / "s.yaml").write_text(FILE, encoding="utf-8")
     command = [sys.executable, "-c", ELSEWHERE, str(tmp_path / "s.yaml"), str(tmp_path / "s.zarr"), system]

@@ -235,10 +235,16 @@ export class Motion {
     return this.data.places.find(good) ?? closes.findIndex((_, k) => good(k));
   }
 
-  /** The kernel's pose at a position, closed to rounding; turns counted near another pose's. */
+  /** The kernel's pose at a position, closed to rounding; turns counted near another pose's. A link whose angle is
+   * taken from the known motion has none yet where nothing is reached: it starts as in the other pose. */
   private enter(k: number, near: Pose): Pose | null {
     const d = this.data.dimension, q = copied(near);
+    let reach = 0.1;
     this.kernel.posed(k).forEach((rows, link) => {
+      if (!rows.every(Number.isFinite)) {
+        reach = Infinity;
+        return;
+      }
       for (let c = 0; c < d; c++) q.point[d * link + c] = rows[c];
       if (d === 2) {
         q.turn[link] += wrap(Math.atan2(rows[3], rows[2]) - q.turn[link]);
@@ -247,7 +253,7 @@ export class Motion {
     });
     if (![...q.point, ...q.rotation, ...q.turn].every(Number.isFinite)) return null;
     this.sketch.values = this.values;
-    return this.sketch.close(this.wound(q, this.kernel.drives(k)), this.kernel.drives(k), 0.1);
+    return this.sketch.close(this.wound(q, this.kernel.drives(k)), this.kernel.drives(k), reach);
   }
 
   /** The pose with the whole turns that its drives require, and with those that slides keep. */

@@ -50,6 +50,9 @@ def lifted(
     m = as_mechanism(m)
     if m.space != "plane":
         raise ModelError("the mechanism is already in space", "lift a planar one", ("space",))
+    if m.turning is not None:
+        remedy = "leave turning out, and join the plane to ground by a revolute that is driven"
+        raise ModelError("a plane that turns is not lifted", remedy, ("turning",))
     return _Lift(_in_numbers(m), dict(offsets or {}), dict(become or {})).mechanism()
 
 
@@ -192,6 +195,9 @@ class _Lift:
         if getattr(joint.friction, "half_height", None):
             what = f"the faces of guide {name!r} make a couple, which is not lifted"
             raise ModelError(what, "leave half_height out", ("joints", name, "friction", "half_height"))
+        if getattr(joint.friction, "force", None):
+            what = f"the constant friction of guide {name!r} is not lifted"
+            raise ModelError(what, "leave force out", ("joints", name, "friction", "force"))
         return {
             "friction": joint.friction.model_dump(mode="json", exclude={"half_height"}, exclude_none=True)
         }
@@ -199,7 +205,7 @@ class _Lift:
     def _gear(self, name: str, joint: Gear) -> Tree:
         self._refuse_friction(name, joint)
         sizes = joint.model_dump(
-            mode="json", include={"radii", "teeth", "module", "pressure_angle", "internal"}
+            mode="json", include={"radii", "teeth", "module", "pressure_angle", "internal", "efficiency"}
         )
         return {
             "type": "gear",

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.elements.turning_plane import frame_at
 from dalembert.analysis.degree_of_freedom import check_knowns
+from dalembert.analysis.elements.turning_speeds import at_speed, with_speed
 from dalembert.analysis.engine.force_program import ForceBlock
 from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.engine.structures import known_forces
@@ -20,11 +23,12 @@ from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.reaction_axes import uniqueness
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
+from dalembert.analysis.status.lift_jumps import both_sides, jumping, lift_jumps
 from dalembert.analysis.status.overflow import size_sentence
 from dalembert.analysis.status.statuses import KEPT, UNBALANCED, statuses
 from dalembert.arrays import Array, Flags, Index, Ints, at
 from dalembert.core.equilibrium import Known, balance, known_sources, motion, reactions
-from dalembert.core.forcing import Forcing, total_wrench
+from dalembert.core.forcing import Forcing, WrenchSource, total_wrench
 from dalembert.core.layout import Pose
 from dalembert.core.position.motion_path import BLOCK, Path
 from dalembert.model import Mechanism, Schedule
@@ -84,9 +88,31 @@ def _along(followed: Positions, path: Path, inertia: bool, forces: bool, method:
     moved, solved = (
         _blocks(c, pose, inertia, forces) if program is None else _with_careful(c, pose, inertia, program)
     )
-    status, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, solved, forces)
+    moved, solved, behind, jumps = _with_jumps(c, pose, inertia, forces, moved, solved)
+    status, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, solved, forces, jumps)
     _blank_without_answer(~path.reached, status, moved, solved)
-    return _result(followed, moved, solved, inertia, status, reasons)
+    return _result(followed, moved, solved, inertia, status, reasons, behind)
+
+
+def _with_jumps(
+    c: Compiled, pose: Pose, inertia: bool, forces: bool, moved: _Moved, solved: SolvedForces
+) -> tuple[_Moved, SolvedForces, _Moved, Flags]:
+    """Motion and forces with those just before jumps of a lift's acceleration, and just after, where it counts."""
+    marks = lift_jumps(c, pose, np.pad(moved.twist, ((0, 0), (0, 1), (0, 0))))
+    marks = marks if inertia or not forces else np.zeros_like(marks)
+    behind = moved
+    for where, *sides in both_sides(c, marks):
+        (first, f), (last, g) = (_blocks(side, pose, inertia, forces, where) for side in sides)
+        rest = np.setdiff1d(np.arange(len(marks)), where)
+        order = np.argsort(np.concatenate([rest, where]))
+        kept, after = at_places(solved._replace(after=None), rest), at_places(solved.after or solved, rest)
+        moved, behind = (
+            at(_concatenate([at(some, rest), part]), order) for some, part in ((moved, first), (behind, last))
+        )
+        joined = concatenate_blocks([after._replace(after=None), (g.after or g)._replace(after=None)])
+        solved = concatenate_blocks([kept, f._replace(after=None)])
+        solved = at_places(solved, order)._replace(after=at_places(joined, order))
+    return moved, solved, behind, jumping(marks)
 
 
 class _Moved(NamedTuple):
@@ -139,15 +165,19 @@ def _block(
         return moved, _no_forces(c, len(pose.point))
     forcing, known = slice_forcing(c, part)
     sources = known_sources(layout, forcing, pose, moving, inertia)
-    if c.contacts is not None:
-        p = FrictionProblem(c, c.contacts, part, forcing, known, pose, moving, rows, solver, sources)
-        return moved, friction_equilibrium(p)
-    w = total_wrench(layout, *sources.values())
-    w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
-    equilibrium = balance(layout, forcing, known, pose, moving, rows, solver, w)
-    force, couple = reactions(layout, pose, rows, equilibrium)
-    moment = couple.reshape((*couple.shape[:-1], *_couple_shape(c)))
-    return moved, forces_of(equilibrium, force, moment, uniqueness(c, pose, rows, equilibrium.free))
+
+    def solve(forcing: Forcing, sources: Mapping[str, WrenchSource]) -> SolvedForces:
+        if c.contacts is not None:
+            given = (c, c.contacts, part, forcing, known, pose, moving, rows, solver)
+            return friction_equilibrium(FrictionProblem(*given, dict(sources)))
+        w = total_wrench(layout, *sources.values())
+        w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
+        equilibrium = balance(layout, forcing, known, pose, moving, rows, solver, w)
+        force, couple = reactions(layout, pose, rows, equilibrium)
+        moment = couple.reshape((*couple.shape[:-1], *_couple_shape(c)))
+        return forces_of(equilibrium, force, moment, uniqueness(c, pose, rows, equilibrium.free))
+
+    return moved, at_speed(solve, layout, known, forcing, pose, moving, sources)
 
 
 def _stands(c: Compiled, pose: Pose) -> tuple[Array, Array, Array]:
@@ -186,13 +216,15 @@ def slice_forcing(c: Compiled, part: Index) -> tuple[Forcing, Known]:
     couples = replace(f.couples, value=f.couples.value[part])
     turns = f.resistances.turns
     resistances = replace(f.resistances, turns=turns[part] if turns.ndim > 1 else turns)
-    loads = replace(f, forces=forces, couples=couples, resistances=resistances)
+    loads = replace(
+        f, forces=forces, couples=couples, resistances=resistances, turning=frame_at(f.turning, part)
+    )
     return loads, replace(k, effort=k.effort[part])
 
 
 def _blank_without_answer(open_: Flags, status: tuple[str, ...], moved: _Moved, f: SolvedForces) -> None:
     """NaN where a position has no pose, no rates or no forces."""
-    blank = ("undefined_load", "contact_lost")
+    blank = ("undefined_load", "contact_lost", "slips", "slack")
     kinds = [(s not in KEPT, s in blank, s in ("jammed", "redundant")) for s in status]
     lost, undirected, unsolved = np.array(kinds).T
     _blank(open_, moved.point, moved.turn, moved.rotation)
@@ -218,12 +250,13 @@ def _result(
     inertia: bool,
     status: tuple[str, ...],
     reasons: tuple[str | None, ...],
+    behind: _Moved,
 ) -> Result:
-    """The answer, with a separate one for either end of an interval and for the other side of reversals."""
+    """The answer, with a separate one for either end of an interval and for the other side of reversals and jumps."""
 
-    def result_of(e: SolvedForces) -> Result:
+    def result_of(e: SolvedForces, moved: _Moved = moved) -> Result:
         return Result(
-            compiled=followed.compiled,
+            compiled=with_speed(followed.compiled, e.square),
             inertia=inertia,
             mobility=followed.mobility,
             mode=followed.mode,
@@ -247,7 +280,7 @@ def _result(
         )
 
     ends = [result_of(e) for e in f.ends]
-    after = result_of(f.after) if f.after else None
+    after = result_of(f.after, behind) if f.after else None
     return replace(result_of(f), ends=tuple(zip(ends[::2], ends[1::2], strict=True)), after=after)
 
 

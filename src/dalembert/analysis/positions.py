@@ -11,16 +11,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from dalembert.algebra import plane
 from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.compile.elements.teeth_in_space import fitted_contacts
 from dalembert.analysis.compile.pose_loads import with_pose_loads
 from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobility_at
 from dalembert.analysis.status.closure_failure import drive_text
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
+from dalembert.core.elements.strand_rows import direction, strands, with_zero
 from dalembert.core.gear_rows import MeshMisfit, mesh_wheels
-from dalembert.core.layout import Mesh, Pose
-from dalembert.core.position.assembly_modes import Wanted, closing, stated_sides
+from dalembert.core.layout import BeltMesh, Mesh, Pose
+from dalembert.core.position.assembly_modes import Wanted, closing, stated_sides, wrap_angle
 from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.dyads import sides
 from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows, without_phase
@@ -33,6 +36,9 @@ from dalembert.errors import ModelError
 
 SAMPLES = 12
 """Positions, spread over the course, at which a first pose is sought when the first of the list does not close."""
+
+STATED = 1e-9
+"""Angle, radians, up to which a drive stands as its links do in `assembly`."""
 
 NAMED = 8
 """Ranges behind gaps that are named, each by a position."""
@@ -111,10 +117,12 @@ def on_stated_sides(c: Compiled, target: Array, modes: Modes) -> bool:
 
 
 def _places_to_try(c: Compiled) -> Iterator[int]:
-    """Positions at which a first pose is sought: some of all, then some of those at which groups in closed form close,
-    however few these are."""
-    yield 0
-    yield from np.setdiff1d(places_to_sample(course(c.layout, c.targets).order), 0)
+    """Positions at which a first pose is sought: where the drives stand as in `assembly`, some of all, then some of
+    those at which groups in closed form close, however few these are."""
+    stated = _stated_places(c)
+    yield from stated
+    sampled = np.setdiff1d(places_to_sample(course(c.layout, c.targets).order), 0)
+    yield from np.setdiff1d(np.concatenate([[0], sampled]), stated)
     if not isinstance(c.guess, Guess):
         return
     free, start = without_phase(c.layout, c.targets[0], c.guess, hold=True)
@@ -126,6 +134,17 @@ def _places_to_try(c: Compiled) -> Iterator[int]:
         yield from places_to_sample(
             np.concatenate([k + closing(groups, targets[k : k + BLOCK]) for k in blocks])
         )
+
+
+def _stated_places(c: Compiled) -> Ints:
+    """The position whose drives turn the links to the angles in `assembly`; none where it leaves one of them open."""
+    if not isinstance(c.guess, Guess) or not c.layout.freedoms.angular[c.layout.driven].all():
+        return np.zeros(0, np.intp)
+    turn = np.append(c.guess.turn[:-1], 0.0)
+    pose = Pose(c.guess.point, turn, plane.rotation(turn))
+    stands = measure(c.layout.algebra, c.layout.freedoms, pose)[c.layout.driven]
+    off = np.abs(wrap_angle(c.targets[:, c.layout.constraints.count :] - stands)).max(axis=1, initial=0.0)
+    return np.flatnonzero(off < STATED)[:1] if len(stands) else np.zeros(0, np.intp)
 
 
 def places_to_sample(places: Ints) -> Ints:
@@ -164,13 +183,31 @@ def _with_phase(c: Compiled, first: Pose) -> Compiled:
     if not rows.size:
         return c
     _check_meshes(c, first)
+    c = _with_strands(c, first)
     layout, misfits = mesh_wheels(c.layout, first)
     for misfit in misfits:
         _check_misfit(c, misfit)
-    c = replace(c, layout=layout)
+    c = replace(c, layout=layout, contacts=fitted_contacts(c.mechanism, c.contacts, layout, first))
     target = c.target.copy()
     target[rows] = measure(c.layout.algebra, c.layout.constraints, first)[rows]
     return replace(c, target=target)
+
+
+def _with_strands(c: Compiled, first: Pose) -> Compiled:
+    """Strands of ropes from their directions at the first pose on; checks that each reaches from wheel to wheel."""
+    f = strands(c.layout)
+    if f is None:
+        return c
+    _, length = direction(c.layout.algebra, f, first)
+    short = np.flatnonzero(~np.isfinite(length))
+    if short.size:
+        name = c.joints[c.layout.constraints.joint[f.row[short[0]]]]
+        what = f"strand {name!r} is within its wheel at the first position"
+        remedy = "give its ends a place there: assembly: {load: [x, y, angle]}"
+        raise ModelError(what, remedy, ("joints",))
+    rows = c.layout.constraints
+    families = tuple(with_zero(c.layout, x, first) if x is f else x for x in rows.families)
+    return replace(c, layout=replace(c.layout, constraints=replace(rows, families=families)))
 
 
 GEAR = "gear {}: centres {} m apart, but pitch radii {} m and {} m need {} m"
@@ -183,15 +220,25 @@ def _check_meshes(c: Compiled, first: Pose) -> None:
     for f in constraints.families:
         if not isinstance(f, Mesh):
             continue
+        check = _check_belt if isinstance(f, BeltMesh) else _check_mesh
         a = first.point[f.i] + g.rotate(first.rotation[f.i], f.ui)
         b = first.point[f.j] + g.rotate(first.rotation[f.j], f.uj)
         for k, distance in enumerate(np.hypot(*(b - a).T)):
-            wanted = float(f.ri[k] + f.rj[k])
-            if abs(distance - wanted) > MESH * wanted:
-                name = c.joints[constraints.joint[f.row[k]]]
-                numbers = (distance, abs(f.ri[k]), abs(f.rj[k]), wanted)
-                what = GEAR.format(repr(name), *(f"{x:.6g}" for x in numbers))
-                raise ModelError(what, GEAR_REMEDY, ("joints", name))
+            check(c.joints[constraints.joint[f.row[k]]], float(distance), float(f.ri[k]), float(f.rj[k]))
+
+
+def _check_mesh(name: str, distance: float, ri: float, rj: float) -> None:
+    wanted = ri + rj
+    if abs(distance - wanted) > MESH * wanted:
+        what = GEAR.format(repr(name), *(f"{x:.6g}" for x in (distance, abs(ri), abs(rj), wanted)))
+        raise ModelError(what, GEAR_REMEDY, ("joints", name))
+
+
+def _check_belt(name: str, distance: float, ri: float, rj: float) -> None:
+    needed = abs(ri) + abs(rj)
+    if distance <= needed:
+        what = f"belt {name!r}: centres {distance:.6g} m apart, but its wheels need more than {needed:.6g} m"
+        raise ModelError(what, "make a wheel smaller or move a centre", ("joints", name))
 
 
 def _check_misfit(c: Compiled, misfit: MeshMisfit) -> None:

@@ -42,6 +42,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         _let_go()
         return 0
+    except RuntimeError as error:  # an interrupt while a class is made is the cause of another error
+        if not isinstance(error.__cause__, KeyboardInterrupt):
+            raise
+        return INTERRUPTED
     except OSError as error:
         _let_go()
         print(f"standard output: {(error.strerror or str(error)).lower()}", file=sys.stderr)

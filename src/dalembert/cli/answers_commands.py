@@ -113,6 +113,15 @@ def grade(
             "Tolerance for quantities to which the key gives none, e.g. 3% (default: 0.5 %, or the digits given)."
         ),
     ] = None,
+    columns: Annotated[
+        list[str] | None,
+        with_help(
+            "Meaning of a heading that is not understood: HEADING=effort.O2, or HEADING=- to pass over it."
+        ),
+    ] = None,
+    decide: Annotated[
+        Path | None, with_help("Table (.csv, .xlsx) of student, figure and value for cells read by hand.")
+    ] = None,
     static: Static = False,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
@@ -123,13 +132,22 @@ def grade(
     out.check(answers)
     if feedback is not None:
         check_new_folder(feedback, out.force)
-    results = graded(answers, key, rubric, tolerance, static)
+    results = graded(answers, key, rubric, tolerance, static, _column_meanings(columns or []), decide)
     if feedback is not None:
         results.save_feedback(feedback, out.force)
     out.deliver(results)
     for problem in (problem for s in results.students for problem in s.problems):
         print(problem, file=sys.stderr)
     return 1 if any(s.problems for s in results.students) else 0
+
+
+def _column_meanings(texts: list[str]) -> dict[str, str]:
+    """Meanings of headings by heading, of texts HEADING=MEANING."""
+    pairs = [text.rpartition("=") for text in texts]
+    for text, (head, _, meaning) in zip(texts, pairs, strict=True):
+        if not head.strip() or not meaning.strip():
+            raise ModelError(f"--columns {text!r} has no meaning", 'write --columns "Response 1=effort.O2"')
+    return {head.strip(): meaning.strip() for head, _, meaning in pairs}
 
 
 COMMANDS: dict[Callable[..., int], str] = {
@@ -145,10 +163,12 @@ The file of answers, or a list as in a model file:
   dalembert grade answers --key exam/key.csv -o marks.xlsx --feedback feedback
   dalembert grade class.csv --key four_bar.yaml --tolerance 3%
   dalembert grade answers --key exam/key.csv --rubric rubric.yaml -o marks.xlsx
+  dalembert grade form.xlsx --key four_bar.yaml --columns "Response 1=effort.O2" --decide read.csv
 
 A rubric changes what it names; here the default shares, all others are 1 or 0:
   marks: {effort: 4, reaction: 2}
-  share: {rounding: 0.75, sign: 0.5, unit: 0.5, named: 0.5, part: 0.5}
+  share: {rounding: 0.875, sign: 0.5, unit: 0.5, named: 0.5, datum: 0.75, concept: 0.5, part: 0.5}
+  cap: 0.5
   mistakes: {weight is mistaken for mass: 0.25}""",
 }
 """Function of each command -> the examples under its help."""

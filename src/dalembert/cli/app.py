@@ -51,6 +51,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
     "Choose the machine's parts": {
         "machine.machine_commands": ("simulate", "shake", "balance", "flywheel"),
         "machine.member_commands": ("members", "bearings", "motor"),
+        "machine.element_commands": ("cam",),
     },
     "Many designs": {
         "studies.study_commands": ("study",),
@@ -68,6 +69,7 @@ FIELD_WORDS = {
     "members": "stress stresses bending buckling fatigue",
     "bearings": "pins life pv",
     "motor": "gear torque",
+    "cam": "cams follower valve",
     "simulate": "motion run",
     "solve": "analyse analyze statics kinematics dynamics forces",
     "draw": "plot chart charts picture",

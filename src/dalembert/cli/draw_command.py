@@ -180,13 +180,15 @@ def report(
         Path, output("File to write; its extension selects the format: .pdf, .html, .tex or .txt.")
     ],
     method: Annotated[
-        list[Literal["matrix", "graphical", "superposition", "virtual-work"]] | None,
+        list[Literal["steps", "matrix", "graphical", "superposition", "virtual-work"]] | None,
         Parameter(
             negative=(), help="Methods to show, one or more (default: all); graphical only in the plane."
         ),
     ] = None,
     style: Style = AS_USUAL,
     about: Annotated[str, with_help("Joint about which moments are taken, for links that have it.")] = "",
+    begin: Annotated[str, with_help("Link whose forces are solved first, as far as possible.")] = "",
+    along: Annotated[str, with_help("Angle of the first axis of the sums of forces, as 30deg.")] = "0",
     of: OfAt = AT_FIRST,
     force: Force = False,
 ) -> int:
@@ -196,7 +198,7 @@ def report(
     with progress(f"Working out {file}"):
         check_new(output, force)
         result, at = _solve_at(of.load(file), of.at, of.static, of.positions)
-        worked_out(result, at, method, style.notation(), about).save(output, force)
+        worked_out(result, at, method, style.notation(), about, begin, along).save(output, force)
         return _announce(result, output)
 
 

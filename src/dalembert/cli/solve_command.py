@@ -24,8 +24,11 @@ def solve(
     /,
     *,
     method: Annotated[
-        Literal["matrix", "superposition", "virtual-work", "fixed-point"],
-        with_help("Method; fixed-point shows the textbook iteration for friction at the first position."),
+        Literal["matrix", "steps", "superposition", "virtual-work", "fixed-point"],
+        with_help(
+            "Method; steps solves one unknown after the other, as on paper; fixed-point shows the textbook iteration "
+            "for friction at the first position."
+        ),
     ] = "matrix",
     other_solutions: Annotated[
         bool,
@@ -62,6 +65,10 @@ def by_method(method: str, result: Result, units: Literal["SI", "file"]) -> tupl
     if method == "fixed-point":
         return result, fixed_point_text(result)
 
+    if method == "steps":
+        from dalembert.analysis.methods.solved.solution_by_steps import solution
+
+        return result, solution(result).text(units)
     if method == "virtual-work":
         return virtual_work_answer(result, units)
     return result, superposition_text(result, units)

@@ -14,10 +14,15 @@ from dalembert.algebra import plane
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array
 from dalembert.core import gear_rows, rotation_rows
+from dalembert.core.elements import cam_rows, lining_rows, strand_rows
+from dalembert.core.elements.cam_family import CamRow, CamSlip
+from dalembert.core.elements.linings import BandStrands, Lining
+from dalembert.core.elements.strand_family import Strand, StrandSum
 from dalembert.core.geometry import arm, point_motion, span, span_motion
 from dalembert.core.layout import (
     Along,
     Angle,
+    BeltMesh,
     ConstraintRows,
     Distance,
     Family,
@@ -30,6 +35,8 @@ from dalembert.core.layout import (
     Perpendicular,
     Pose,
     Rows,
+    ToothCouple,
+    ToothForce,
     Turn,
 )
 
@@ -112,12 +119,21 @@ _MEASURES: dict[type[Family], Callable[..., Array]] = {
     Along: _along_measure,
     Turn: lambda g, f, pose: _relative_turn(f, pose),
     Mesh: _mesh_measure,
+    BeltMesh: _mesh_measure,
     Distance: lambda g, f, pose: _unit(span(g, f, pose))[1],
     Perpendicular: rotation_rows.perpendicular,
     Angle: rotation_rows.angle,
     Helix: rotation_rows.helix,
     Idle: rotation_rows.idle,
     Gearing: gear_rows.measure,
+    Strand: strand_rows.measure,
+    StrandSum: strand_rows.sum_measure,
+    Lining: lining_rows.lining_measure,
+    BandStrands: lining_rows.strands_measure,
+    CamRow: cam_rows.measure,
+    CamSlip: cam_rows.slip_measure,
+    ToothForce: gear_rows.nothing,
+    ToothCouple: gear_rows.nothing,
 }
 
 
@@ -162,12 +178,21 @@ _WRENCHES: dict[type[Family], Callable[..., None]] = {
     Along: _along_wrench,
     Turn: _turn_wrench,
     Mesh: _mesh_wrench,
+    BeltMesh: _mesh_wrench,
     Distance: _distance_wrench,
     Perpendicular: rotation_rows.perpendicular_wrench,
     Angle: rotation_rows.angle_wrench,
     Helix: rotation_rows.helix_wrench,
     Idle: rotation_rows.idle_wrench,
     Gearing: gear_rows.wrench,
+    Strand: strand_rows.wrench,
+    StrandSum: strand_rows.sum_wrench,
+    Lining: lining_rows.lining_wrench,
+    BandStrands: lining_rows.strands_wrench,
+    CamRow: cam_rows.wrench,
+    CamSlip: cam_rows.slip_wrench,
+    ToothForce: gear_rows.force_wrench,
+    ToothCouple: gear_rows.couple_wrench,
 }
 
 
@@ -200,10 +225,19 @@ _DRIFTS: dict[type[Family], Callable[..., Array]] = {
     Meet: lambda g, f, pose, twist: span_motion(g, f, pose, twist)[1],
     Along: _along_drift,
     Mesh: _mesh_drift,
+    BeltMesh: _mesh_drift,
     Distance: _distance_drift,
     Perpendicular: rotation_rows.perpendicular_drift,
     Angle: rotation_rows.angle_drift,
     Helix: rotation_rows.helix_drift,
     Idle: rotation_rows.idle_drift,
     Gearing: gear_rows.drift,
+    Strand: strand_rows.drift,
+    StrandSum: strand_rows.sum_drift,
+    Lining: lining_rows.lining_drift,
+    BandStrands: lining_rows.strands_drift,
+    CamRow: cam_rows.drift,
+    CamSlip: cam_rows.slip_drift,
+    ToothForce: gear_rows.force_drift,
+    ToothCouple: gear_rows.couple_drift,
 }

@@ -19,10 +19,14 @@ from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import drift, rates, stack_rows
+from dalembert.core.elements.cam_family import CamRow
+from dalembert.core.elements.linings import BandStrands, Lining
+from dalembert.core.elements.strand_family import Strand
+from dalembert.core.elements.turning_frame import centrifugal, turning_square
 from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing, WrenchSource, pair, total_wrench
 from dalembert.core.geometry import arm
-from dalembert.core.layout import ConstraintRows, Gearing, Helix, Layout, Mesh, Pose, Rows
+from dalembert.core.layout import BeltMesh, ConstraintRows, Gearing, Helix, Layout, Mesh, Pose, Rows
 from dalembert.core.linear import Factor, PseudoInverse, compliant
 
 
@@ -114,10 +118,15 @@ def known_sources(
         "spring": fc.spring_wrench(layout, forcing.springs, pose, twist),
         "resistance": fc.resistance_wrench(layout, forcing.resistances, pose, twist),
     }
+    if forcing.belts is not None:
+        sources["belt"] = fc.belt_source(layout, forcing.belts, pose, twist)
     if inertia:
         sources["inertia"] = fc.inertia_wrench(
             layout, forcing.inertia, pose, moving.twist, moving.acceleration[..., :-1, :]
         )
+    if forcing.turning is not None:
+        square = turning_square(layout, forcing, pose, moving.virtual, sources)
+        sources["turning"] = centrifugal(layout, forcing.inertia, forcing.turning, pose, square)
     return sources
 
 
@@ -188,7 +197,7 @@ def check_equilibrium(
     residual, largest = _residual(layout, sources, total)
     power = _power(layout, known, moving, s.unknown, x, total, largest)
     free = s.forces.null if isinstance(s.forces, PseudoInverse) else None
-    pushed = fc.separation(layout, pose, forcing.separation, x)
+    pushed = fc.between_wheels(layout, forcing, pose, moving.twist, x)
     parts = (x[..., :count], effort, x[..., count + count_efforts :])
     return Equilibrium(*parts, residual, power, s.forces.rcond, free, pushed)
 
@@ -223,11 +232,10 @@ def _solve_balance(
     fixed distance) the second solution is exact, else a few more are needed.
     """
     x = forces.forces(-w.reshape((*w.shape[:-2], -1)))
-    tangent = forcing.separation
-    if not tangent.size or not tangent.any():
+    if not forcing.follows_reactions:
         return x, w
     for _ in range(50):
-        total = w + total_wrench(layout, fc.separation_wrench(layout, pose, tangent, x))
+        total = w + fc.following(layout, forcing, pose, x)
         new = forces.forces(-total.reshape((*total.shape[:-2], -1)))
         change = np.nan_to_num(np.abs(new - x)).max(initial=0.0)
         x = new
@@ -276,9 +284,9 @@ def virtual_power(layout: Layout, v: Array, unknown: ConstraintRows, x: Array, w
 def _screw_rows(
     g: Algebra, constraints: Rows, pose: Pose, rows: ConstraintRows
 ) -> Iterator[tuple[int, Array]]:
-    """Row of each screw, and the couple that accompanies its force, at j's point."""
+    """Row of each screw, belt, rope, brake and cam, and the couple that accompanies its force, at j's point."""
     for f in constraints.families:
-        if isinstance(f, Helix):
+        if isinstance(f, Helix | BeltMesh | Strand | Lining | BandStrands | CamRow):
             about = g.cross(arm(g, pose, f.j, f.uj), rows.on_j[..., f.row, : g.d])
             for k, row in enumerate(f.row):
                 yield int(row), rows.on_j[..., row, g.d :] - about[..., k, :]

@@ -14,12 +14,17 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.algebra.protocol import Algebra
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.arrays import Array, Flags, Ints, Numeric
 from dalembert.core import gear_rows
 from dalembert.core.branchless import any_traced, sign
 from dalembert.core.constraints import measure, rates, system
+from dalembert.core.elements import belt_pulls
+from dalembert.core.elements.belt_pulls import BeltPulls
+from dalembert.core.elements.force_laws import TurningFrame as TurningFrame
+from dalembert.core.elements.force_laws import by_tables, gas_push
+from dalembert.core.elements.strand_limits import RopeGrips, belt_margins, rope_margins
 from dalembert.core.geometry import arm, span
-from dalembert.core.layout import ConstraintRows, Gearing, Layout, Mesh, Pose
+from dalembert.core.layout import BeltMesh, ConstraintRows, Gearing, Layout, Mesh, Pose
 
 MANY = 100
 """Contributions above which one indexed addition is faster than a loop over them."""
@@ -61,7 +66,9 @@ class Couples:
 class Springs:
     """Springs and dampers between points of two links: tension k (l - l0) + F + c dl/dt pulls them together.
 
-    Their numbers have the names of the loads' keys (``analysis.compile.load_arrays``).
+    Their numbers have the names of the loads' keys (``analysis.compile.load_arrays``). Gas springs push with A (p (V/(V
+    - A (length - l)))^n - p_out). Tables: ``start`` (2, k), the tension before the first bend over l - l0 and over
+    dl/dt, ``bends`` and ``slopes`` (2, B, k), changes of slope.
     """
 
     a: Ints
@@ -72,6 +79,15 @@ class Springs:
     free_length: Array
     damping: Array
     force: Array
+    area: Array
+    volume: Array
+    pressure: Array
+    length: Array
+    exponent: Array
+    outside: Array
+    start: Array
+    bends: Array
+    slopes: Array
 
 
 @dataclass(frozen=True)
@@ -98,6 +114,15 @@ class Forcing:
     springs: Springs
     resistances: Resistances
     separation: Array  # tan(alpha) of each mesh
+    belts: BeltPulls | None = None
+    turning: TurningFrame | None = None
+    ropes: RopeGrips | None = None
+
+    @property
+    def follows_reactions(self) -> bool:
+        """True if some load follows the size of a reaction: teeth pushed apart, belts with the tension of a strand."""
+        some = self.belts is not None and bool(np.any(self.belts.share))
+        return some or bool(self.separation.size and self.separation.any())
 
 
 class WrenchSource(NamedTuple):
@@ -188,13 +213,29 @@ def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) ->
     va = twist[..., springs.a, : g.d] + g.spin(twist[..., springs.a, g.d :], ra)
     vb = twist[..., springs.b, : g.d] + g.spin(twist[..., springs.b, g.d :], rb)
     e = _direction(layout, springs, span, square, vb - va)
-    extended = np.sqrt(square) - springs.free_length
-    tension = springs.stiffness * extended + springs.force + springs.damping * g.dot(e, vb - va)
+    length = np.sqrt(square)
+    extended, rate = length - springs.free_length, g.dot(e, vb - va)
+    tension = springs.stiffness * extended + springs.force + springs.damping * rate
+    tension = (
+        tension + by_tables(springs, 0, extended) + by_tables(springs, 1, rate) - gas_push(springs, length)
+    )
     pull = tension[..., None] * e
     return WrenchSource(
         np.concatenate([springs.a, springs.b]),
         np.concatenate([_wrench(g, ra, pull), _wrench(g, rb, -pull)], axis=-2),
     )
+
+
+def table_margins(layout: Layout, springs: Springs, pose: Pose, twist: Array) -> list[Numeric]:
+    """Changes of length, and rates of it, less the bends of the tables of springs and dampers, at a single state."""
+    g = layout.algebra
+    ra, rb, line, square = _spans(layout, springs, pose)
+    va = twist[..., springs.a, : g.d] + g.spin(twist[..., springs.a, g.d :], ra)
+    vb = twist[..., springs.b, : g.d] + g.spin(twist[..., springs.b, g.d :], rb)
+    length = np.sqrt(square)
+    at = length - springs.free_length, g.dot(line, vb - va) / length
+    places = np.argwhere(np.array(springs.slopes != 0, bool))
+    return [at[which][..., k] - springs.bends[which, bend, k] for which, bend, k in places]
 
 
 def _spans(layout: Layout, springs: Springs, pose: Pose) -> tuple[Array, Array, Array, Array]:
@@ -225,12 +266,14 @@ def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rat
 def pushes_at_zero_length(springs: Springs) -> Flags:
     """Springs (k,) that push or pull at length zero."""
     compressed = (springs.stiffness != 0) & (springs.free_length != 0)
-    return np.array(compressed | (springs.force != 0), bool)
+    tabled = (springs.start[0] != 0) | (springs.slopes[0] != 0).any(axis=0)
+    return np.array(compressed | tabled | (springs.force != 0) | (springs.area != 0), bool)
 
 
 def needs_direction(springs: Springs) -> Flags:
     """Springs and dampers (k,) whose force at length zero depends on how it is reached."""
-    return np.array(pushes_at_zero_length(springs) | (springs.damping != 0), bool)
+    damps = (springs.damping != 0) | (springs.start[1] != 0) | (springs.slopes[1] != 0).any(axis=0)
+    return np.array(pushes_at_zero_length(springs) | damps, bool)
 
 
 def _vanished(layout: Layout) -> float:
@@ -275,7 +318,8 @@ def separation_wrench(layout: Layout, pose: Pose, tangent: Array, multiplier: Ar
 
 def meshes(layout: Layout) -> list[Mesh | Gearing]:
     """The families of gear meshes."""
-    return [f for f in layout.constraints.families if isinstance(f, Mesh | Gearing)]
+    every = [f for f in layout.constraints.families if isinstance(f, Mesh | Gearing)]
+    return [f for f in every if not isinstance(f, BeltMesh)]
 
 
 def separation(
@@ -298,3 +342,55 @@ def separation(
         pushed = (np.abs(multiplier[..., f.row]) * tan / length**2)[..., None] * line
         out.append((f, pushed, pose.point[..., f.i, :] + arm(g, pose, f.i, f.ui)))
     return out
+
+
+def belt_source(layout: Layout, pulls: BeltPulls, pose: Pose, twist: Array) -> WrenchSource:
+    """Pull of belts on their shafts, without what follows from the torque."""
+    f = belt_pulls.belts(layout)
+    assert f is not None
+    net = belt_pulls.net_sum(pulls, belt_pulls.belt_speed(layout, f, pose, twist), None)
+    return WrenchSource(*belt_pulls.pull_wrench(layout, f, pose, belt_pulls.pull_on_j(layout, f, pose, net)))
+
+
+def belt_share(layout: Layout, pulls: BeltPulls, pose: Pose, multiplier: Array) -> WrenchSource:
+    """Part of the pull of belts that follows the difference of their tensions."""
+    f = belt_pulls.belts(layout)
+    assert f is not None
+    net = pulls.share * np.abs(multiplier[..., f.row])
+    return WrenchSource(*belt_pulls.pull_wrench(layout, f, pose, belt_pulls.pull_on_j(layout, f, pose, net)))
+
+
+def belt_forces(
+    layout: Layout, pulls: BeltPulls | None, pose: Pose, twist: Array, multiplier: Array
+) -> list[tuple[Mesh | Gearing, Array, Array]]:
+    """The belts with their pulls on j (..., k, d) and its centres (..., k, d), as in ``separation``."""
+    f = belt_pulls.belts(layout)
+    if f is None or pulls is None:
+        return []
+    speed = belt_pulls.belt_speed(layout, f, pose, twist)
+    force = belt_pulls.pull_on_j(layout, f, pose, belt_pulls.net_sum(pulls, speed, multiplier[..., f.row]))
+    return [(f, force, pose.point[..., f.j, :] + arm(layout.algebra, pose, f.j, f.uj))]
+
+
+def following(layout: Layout, forcing: Forcing, pose: Pose, multiplier: Array) -> Array:
+    """Total wrench (..., L, n) of the loads that follow the size of reactions."""
+    sources = []
+    if forcing.separation.size and forcing.separation.any():
+        sources.append(separation_wrench(layout, pose, forcing.separation, multiplier))
+    if forcing.belts is not None:
+        sources.append(belt_share(layout, forcing.belts, pose, multiplier))
+    return total_wrench(layout, *sources)
+
+
+def between_wheels(
+    layout: Layout, forcing: Forcing, pose: Pose, twist: Array, x: Array
+) -> list[tuple[Mesh | Gearing, Array, Array]]:
+    """Forces between wheels beside those of their rows, as ``separation``: teeth pushed apart, and belts' pull."""
+    pushed = separation(layout, pose, forcing.separation, x)
+    return [*pushed, *belt_forces(layout, forcing.belts, pose, twist, x)]
+
+
+def limit_margins(layout: Layout, forcing: Forcing, pose: Pose, twist: Array, x: Array) -> Array:
+    """Margins of belts and ropes, below zero where one slips or hangs slack."""
+    belts = belt_margins(layout, forcing.belts, pose, twist, x)
+    return np.concatenate([belts, rope_margins(layout, forcing.ropes, pose, x)], axis=-1)

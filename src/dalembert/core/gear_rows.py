@@ -19,7 +19,7 @@ from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Index, Ints
 from dalembert.core.branchless import sign
 from dalembert.core.geometry import arm
-from dalembert.core.layout import Family, Gearing, Layout, Pose
+from dalembert.core.layout import Family, Gearing, Layout, Pose, Teeth, ToothCouple, ToothForce
 
 PARALLEL = 1e-9
 """Sine of the angle between two axes below which they are parallel."""
@@ -54,6 +54,8 @@ class _Mesh(NamedTuple):
     n: _Vector
     normal: Array
     contact: _Vector
+    slide: _Vector
+    trace: _Vector
 
 
 def _across(g: Algebra, q: _Vector, a: _Vector) -> _Vector:
@@ -70,9 +72,7 @@ def _cross(g: Algebra, a: _Vector, b: _Vector) -> _Vector:
     return _Vector(g.cross(a.at, b.at), g.cross(a.rate, b.at) + g.cross(a.at, b.rate))
 
 
-def _towards(
-    g: Algebra, f: Gearing, span: _Vector, axis: _Vector, other: _Vector, normal: _Vector
-) -> _Vector:
+def _towards(g: Algebra, f: Teeth, span: _Vector, axis: _Vector, other: _Vector, normal: _Vector) -> _Vector:
     """e of one wheel."""
     parts = (span, other, normal)
     at, rate = (
@@ -81,7 +81,7 @@ def _towards(
     return _across(g, _Vector(np.asarray(at), np.asarray(rate)), axis)
 
 
-def _axes(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> tuple[_Vector, _Vector, _Vector, _Vector]:
+def _axes(g: Algebra, f: Teeth, pose: Pose, twist: Array) -> tuple[_Vector, _Vector, _Vector, _Vector]:
     """Axis and e of i, axis and e of j."""
     ai, aj = _fixed_direction(g, pose, twist, f.i, f.ai), _fixed_direction(g, pose, twist, f.j, f.aj)
     ci, cj = _center(g, pose, twist, f.i, f.ui), _center(g, pose, twist, f.j, f.uj)
@@ -89,7 +89,7 @@ def _axes(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> tuple[_Vector, _V
     return ai, _towards(g, f, span, ai, aj, normal), aj, _towards(g, f, span, aj, ai, normal)
 
 
-def _mesh(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> _Mesh:
+def _mesh(g: Algebra, f: Teeth, pose: Pose, twist: Array) -> _Mesh:
     a, e, _, _ = _axes(g, f, pose, twist)
     t = _cross(g, a, e)
     cos, sin = np.cos(f.helix)[:, None], np.sin(f.helix)[:, None]
@@ -98,14 +98,15 @@ def _mesh(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> _Mesh:
     normal = (f.cone[:, :1] * e.at - f.cone[:, 1:] * a.at) * sign(f.ri)[:, None]
     center = _center(g, pose, twist, f.i, f.ui)
     contact = _Vector(center.at + f.ri[:, None] * e.at, center.rate + f.ri[:, None] * e.rate)
-    return _Mesh(e, n, normal, contact)
+    slide = _Vector(sin * t.at + cos * trace[0], sin * t.rate + cos * trace[1])
+    return _Mesh(e, n, normal, contact, slide, _Vector(*trace))
 
 
 def _still(pose: Pose) -> Array:
     return np.zeros((*pose.point.shape[:-1], 6))
 
 
-def angles(g: Algebra, f: Gearing, pose: Pose) -> Array:
+def angles(g: Algebra, f: Teeth, pose: Pose) -> Array:
     """psi of both wheels (..., k, 2), whole turns included."""
     out = []
     ai, ei, aj, ej = _axes(g, f, pose, _still(pose))
@@ -117,13 +118,13 @@ def angles(g: Algebra, f: Gearing, pose: Pose) -> Array:
     return np.stack(out, axis=-1)
 
 
-def measure(g: Algebra, f: Gearing, pose: Pose) -> Array:
+def measure(g: Algebra, f: Teeth, pose: Pose) -> Array:
     """ki psi_i - kj psi_j: a length, constant as the wheels roll."""
     psi = angles(g, f, pose)
     return np.asarray(f.ki * psi[..., 0] - f.kj * psi[..., 1])
 
 
-def wrench(g: Algebra, f: Gearing, pose: Pose, on_i: Array, on_j: Array) -> None:
+def wrench(g: Algebra, f: Teeth, pose: Pose, on_i: Array, on_j: Array) -> None:
     """Force n on j at C, the opposite on i."""
     m = _mesh(g, f, pose, _still(pose))
     on_j[..., f.row, : g.d], on_i[..., f.row, : g.d] = m.n.at, -m.n.at
@@ -131,25 +132,68 @@ def wrench(g: Algebra, f: Gearing, pose: Pose, on_i: Array, on_j: Array) -> None
     on_i[..., f.row, g.d :] = -g.cross(m.contact.at - pose.point[..., f.i, :], m.n.at)
 
 
+def force_wrench(g: Algebra, f: ToothForce, pose: Pose, on_i: Array, on_j: Array) -> None:
+    """Force on j at C along the trace of the teeth, or away from i; the opposite on i."""
+    m = _mesh(g, f, pose, _still(pose))
+    force = f.along[:, :1] * m.slide.at + f.along[:, 1:] * m.normal * f.outward[:, None]
+    on_j[..., f.row, : g.d], on_i[..., f.row, : g.d] = force, -force
+    on_j[..., f.row, g.d :] = g.cross(m.contact.at - pose.point[..., f.j, :], force)
+    on_i[..., f.row, g.d :] = -g.cross(m.contact.at - pose.point[..., f.i, :], force)
+
+
+def couple_wrench(g: Algebra, f: ToothCouple, pose: Pose, on_i: Array, on_j: Array) -> None:
+    """Couple on j along the generator, the opposite on i."""
+    along = _mesh(g, f, pose, _still(pose)).trace.at
+    on_j[..., f.row, g.d :], on_i[..., f.row, g.d :] = along, -along
+
+
+def nothing(g: Algebra, f: ToothForce | ToothCouple, pose: Pose) -> Array:
+    """0: a rate, not a place."""
+    return np.zeros((*pose.point.shape[:-2], len(f.i)))
+
+
+def force_drift(g: Algebra, f: ToothForce, pose: Pose, twist: Array) -> Array:
+    """Rate of slide . (v_j - v_i) at C at zero accelerations of the links."""
+    m = _mesh(g, f, pose, twist)
+    return f.along[:, 0] * _drift(g, f, pose, twist, m, m.slide)
+
+
+def couple_drift(g: Algebra, f: ToothCouple, pose: Pose, twist: Array) -> Array:
+    """Rate of generator . (w_j - w_i) at zero accelerations."""
+    spin = twist[..., f.j, g.d :] - twist[..., f.i, g.d :]
+    return np.asarray(g.dot(_mesh(g, f, pose, twist).trace.rate, spin))
+
+
+def gains(g: Algebra, f: Teeth, pose: Pose) -> tuple[Array, Array]:
+    """Change (..., k) of the tangential force on either wheel with a couple along the generator."""
+    m = _mesh(g, f, pose, _still(pose))
+    axes = (arm(g, pose, link, a) for link, a in ((f.i, f.ai), (f.j, f.aj)))
+    first, second = (g.dot(m.trace.at, a) / k for a, k in zip(axes, (f.ki, f.kj), strict=True))
+    return np.asarray(first), np.asarray(second)
+
+
 def drift(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> Array:
     """Rate of n . (v_j - v_i) at C at zero accelerations of the links; C goes with the line of centres."""
     m = _mesh(g, f, pose, twist)
+    return _drift(g, f, pose, twist, m, m.n)
 
+
+def _drift(g: Algebra, f: Teeth, pose: Pose, twist: Array, m: _Mesh, n: _Vector) -> Array:
     def material(link: Index) -> tuple[Array, Array]:
         v, w = twist[..., link, : g.d], twist[..., link, g.d :]
         return v + g.spin(w, m.contact.at - pose.point[..., link, :]), g.spin(w, m.contact.rate - v)
 
     (vi, si), (vj, sj) = material(f.i), material(f.j)
-    return np.asarray(g.dot(m.n.rate, vj - vi) + g.dot(m.n.at, sj - si))
+    return np.asarray(g.dot(n.rate, vj - vi) + g.dot(n.at, sj - si))
 
 
-def separation(g: Algebra, f: Gearing, pose: Pose) -> tuple[Array, Array]:
+def separation(g: Algebra, f: Teeth, pose: Pose) -> tuple[Array, Array]:
     """Direction in which separation pushes j (..., k, 3), and C."""
     m = _mesh(g, f, pose, _still(pose))
     return m.normal * f.outward[:, None], m.contact.at
 
 
-def wheel_axes(g: Algebra, f: Gearing, pose: Pose) -> Array:
+def wheel_axes(g: Algebra, f: Teeth, pose: Pose) -> Array:
     """Axes of the meshes (..., k, 3, 3), one per row: radial, from the axis of wheel i to C; tangential, the direction
     in which its teeth move at C as it turns; and that axis. They follow the line of centres, not the wheels."""
     a, e, _, _ = _axes(g, f, pose, _still(pose))
@@ -206,7 +250,7 @@ def _fit_mesh(layout: Layout, f: Gearing, pose: Pose) -> tuple[Gearing, MeshMisf
     return replace(made, ki=ki, kj=kj, outward=outward), MeshMisfit(f.row, scale, gap, inside)
 
 
-def _sides(f: Gearing, mesh: _Mesh, ei: Array, ej: Array) -> tuple[Array, Array]:
+def _sides(f: Teeth, mesh: _Mesh, ei: Array, ej: Array) -> tuple[Array, Array]:
     """Sign of separation on j, 1 along the normal or -1 against it, and whether one wheel is inside the other.
 
     The smaller wheel is pushed to that side of the tangent plane at C on which its centre lies; the larger may be flat.
@@ -219,7 +263,7 @@ def _sides(f: Gearing, mesh: _Mesh, ei: Array, ej: Array) -> tuple[Array, Array]
     return np.where(away < 0, -1.0, 1.0), side_i * side_j
 
 
-def _one(g: Algebra, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Array], tuple[float, float]]:
+def _one(g: Algebra, f: Teeth, pose: Pose, k: int) -> tuple[dict[str, Array], tuple[float, float]]:
     """Centres, radii, direction and cone of one mesh at a pose (1, L+1, ...)."""
     i, j = f.i[k], f.j[k]
     (ai, aj), (ui, uj) = (

@@ -6,9 +6,12 @@ import numpy as np
 
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Index, Ints
+from dalembert.core.elements.cam_family import CamRow
+from dalembert.core.elements.linings import Lining
+from dalembert.core.elements.strand_family import Strand, StrandSum
 from dalembert.core.layout import Along, Distance, Gearing, Helix, Meet, Mesh, Pose
 
-Spanning = Meet | Along | Mesh | Distance | Helix | Gearing
+Spanning = Meet | Along | Mesh | Distance | Helix | Gearing | Strand | StrandSum | Lining | CamRow
 """Rows between a point of i and a point of j."""
 
 

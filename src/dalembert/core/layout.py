@@ -23,6 +23,13 @@ import numpy as np
 from dalembert.algebra import plane, space
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags, Index, Ints
+from dalembert.core.elements.cam_family import CamRow
+from dalembert.core.elements.linings import BandStrands, Lining
+from dalembert.core.elements.strand_family import Strand, StrandSum
+from dalembert.core.elements.tooth_families import Gearing as Gearing
+from dalembert.core.elements.tooth_families import Teeth as Teeth
+from dalembert.core.elements.tooth_families import ToothCouple as ToothCouple
+from dalembert.core.elements.tooth_families import ToothForce as ToothForce
 
 
 class Pose(NamedTuple):
@@ -93,6 +100,17 @@ class Mesh:
     uj: Array
     ri: Array
     rj: Array
+    touches = True
+
+
+@dataclass(frozen=True)
+class BeltMesh(Mesh):
+    """A belt round wheels whose centres are apart: the row of a mesh, r_j negative where they turn the same way.
+
+    The multiplier is the difference of both strands' tensions; its force is reported at j's point, with the couple.
+    """
+
+    touches = False
 
 
 @dataclass(frozen=True)
@@ -165,42 +183,10 @@ class Idle:
     stands: Array  # (k,) 1 or 0
 
 
-@dataclass(frozen=True)
-class Gearing:
-    """In space: teeth of wheels i and j that meet at their pitch point C = P_i + ri e_i = P_j + rj e_j.
-
-    e is the direction from a wheel's axis a to C, across a along
-    way[0] (P_j - P_i) + way[1] a_other + way[2] a_i x a_j
-    (one of them, for parallel, intersecting, or skew axes); a radius is negative where e points away
-    from C. The force of the teeth on j per unit of multiplier is n, across their trace in the tangent plane at C:
-    n = cos(helix) a_i x e_i - sin(helix) (cone[0] a_i + cone[1] e_i). Measure ki psi_i - kj psi_j, with psi the angle
-    of e in the wheel from its direction b, whole turns counted at ``count``, and k = r (a x e) . n.
-
-    ``outward`` is 1 where separation pushes j away from the axis of i, -1 in a ring wheel i; way, cone, outward, ki
-    and kj are those of the first pose (``core.gear_rows.mesh_wheels``).
-    """
-
-    row: Ints
-    i: Ints
-    j: Ints
-    ui: Array
-    uj: Array
-    ai: Array
-    aj: Array
-    bi: Array
-    bj: Array
-    ri: Array
-    rj: Array
-    helix: Array
-    direction: Array  # (k, 3)
-    cone: Array  # (k, 2)
-    outward: Array
-    ki: Array
-    kj: Array
-    count: Ints  # (k, 2)
-
-
-Family = Meet | Along | Turn | Mesh | Distance | Perpendicular | Angle | Helix | Idle | Gearing
+Family = (
+    Meet | Along | Turn | Mesh | BeltMesh | Distance | Perpendicular | Angle | Helix | Idle | Gearing
+    | ToothForce | ToothCouple | Strand | StrandSum | Lining | BandStrands | CamRow
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,7 +20,7 @@ from dalembert.grading.file_answers import describe_answer
 from dalembert.grading.quantities import Series
 from dalembert.grading.tolerance import NEAR, Closeness
 from dalembert.grading.value_errors import of_value
-from dalembert.grading.wrong_problems import WrongProblems
+from dalembert.grading.wrong.wrong_problems import WrongProblems
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -165,7 +165,7 @@ def _mistakes(
 ) -> Iterator[tuple[str, float]]:
     """Every known mistake and how far it takes each figure; infinitely far where it leads to none."""
     which = [*range(len(r.status))] if any(a.extreme for a in questions) else sorted(set(places))
-    for problem in WrongProblems(r, which):
+    for problem in WrongProblems(r, which).usual():
         other = problem.solution()
         asks = zip(questions, figures, map(which.index, places), strict=True)
         yield problem.sentence, max(np.inf if other is None else _change(other, *one) for one in asks)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from dalembert.analysis.methods.solved.step_choice import Choice
 from dalembert.exams.asked import blanks, figure, place_of_answer, question_words
 from dalembert.reports import Report, report
 from dalembert.reports.report_context import METHODS, ReportContext
@@ -25,7 +26,7 @@ def question_sheet(
 ) -> Report:
     """Given data, the figure to scale without computed values, and the questions, with space for each number."""
     notation, k = as_stated(notation), place_of_answer(r, questions[0])
-    c = ReportContext(r, k, Shown(r, notation), METHODS, "", notation, question=True)
+    c = ReportContext(r, k, Shown(r, notation), METHODS, Choice(), notation, question=True)
     sheet = ReportSheet(r.mechanism.title or "Force analysis", "", f"Variant {name}" if name else "")
     sheet.blocks.append(Blanks((("", (("Name", ""), ("Date", ""))),)))
     knowns(sheet, c)

@@ -10,6 +10,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import Locator, ModelError, errors_at
 from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS
 from dalembert.grading.tolerance import percent
+from dalembert.grading.written_figure import readings_of
 from dalembert.model.stated_answers import parts_of_name
 from dalembert.wording import closest, quote_value
 
@@ -54,12 +55,24 @@ def read_sheet(tree: object, source: Locator | None = None) -> AnswerSheet:
         items, answers = list(sheet_items(tree)), []
         for path, item in items:
             with errors_at(*path):
-                answers.append(answer_of(item))
+                answers.append(answer_of(_as_read(item)))
     except ModelError as error:
         raise error.at_source(source) from None
     lines = tuple(source.line(path) for path, _ in items) if source else ()
     name, tolerance = source.name if source else "", about["tolerance"] or None
     return AnswerSheet(tuple(answers), lines, tolerance, about["student"], about["variant"], name)
+
+
+def _as_read(item: Tree) -> Tree:
+    """The keys of a figure with its value as a model file writes it."""
+    value = item.get("value")
+    if value in (None, "") or item.get("quantity") in (*WHOLE, *WORDS):
+        return item
+    readings = readings_of(value).readings
+    if len(readings) > 1:
+        said = " or ".join(map(str, readings))
+        raise ModelError(f"{quote_value(value)} may be {said}", "write one of them", ("value",))
+    return item | {"value": readings[0]} if readings else item
 
 
 def about_sheet(tree: object) -> dict[str, str]:
@@ -125,10 +138,15 @@ def _short(tree: Mapping[Any, object]) -> Iterator[tuple[Path, Tree]]:
 
 def short_item(quantity: str, of: str, value: object) -> Tree:
     """A figure of a name and a value: a single number for a vector is its magnitude."""
+    return with_size({"quantity": quantity, "of": of, "value": value})
+
+
+def with_size(keys: Tree) -> Tree:
+    """The keys of a figure; a single number for a vector is its magnitude."""
+    value = keys.get("value")
     single = isinstance(value, int | float) or (isinstance(value, str) and "@" not in value)
-    is_size = quantity.startswith(VECTORS) and single and value != ""
-    component = {"component": "magnitude"} if is_size else {}
-    return {"quantity": quantity, "of": of, "value": value} | component
+    is_size = str(keys.get("quantity")).startswith(VECTORS) and single and value != ""
+    return {"component": "magnitude"} | keys if is_size else keys
 
 
 def named_figure(name: str, value: object) -> dict[str, object]:

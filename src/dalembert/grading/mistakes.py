@@ -9,18 +9,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from dalembert.errors import ModelError, errors_at
+from dalembert.errors import NUMBERED, ModelError, errors_at
 from dalembert.grading.answer_sheet import AnswerSheet
 from dalembert.grading.explanation import Explanation, explain
 from dalembert.grading.figure import StudentValue, figure
 from dalembert.grading.file_answers import describe_answer, position_of, value_text
+from dalembert.grading.own_figures import OwnFigures, own_figures
 from dalembert.grading.quantities import WHOLE, WORDS
+from dalembert.grading.sheet_equations import SheetEquations
 from dalembert.grading.tolerance import percent
-from dalembert.grading.wrong_problems import WrongProblems
+from dalembert.grading.wrong.wrong_problems import WrongProblems
 from dalembert.model import ModelOrPath, as_mechanism
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result.result import Result
     from dalembert.model import Mechanism, StatedAnswer
 
 
@@ -28,7 +29,7 @@ class Verdict(NamedTuple):
     """One figure compared: its subject, as given, as computed, relative difference, and the explanation.
 
     kind: ``right``; sign, unit, named (another mistake), rounding or unknown; ``open`` where nothing can be compared.
-    line: its line in the file, 0 without a file.
+    line: its line in the file, 0 without a file. weight: of a mistake in the problem, ``concept`` or ``datum``.
     """
 
     quantity: str
@@ -39,6 +40,7 @@ class Verdict(NamedTuple):
     mistake: str
     kind: str = ""
     line: int = 0
+    weight: str = ""
 
 
 def check_answers(
@@ -67,6 +69,7 @@ class SolvedProblem:
 
         self.result = solve(mechanism, static=static)
         self._wrong: dict[tuple[int, ...], WrongProblems] = {}
+        self._equations: dict[int, SheetEquations] = {}
 
     def verdicts(self, answers: Sequence[StatedAnswer], tolerance: str | None = None) -> list[Verdict]:
         """Verdicts on the figures of one sheet."""
@@ -77,7 +80,7 @@ class SolvedProblem:
             with errors_at(k):
                 compared.append(self.compare(answer, tolerance))
         some = [f for f in compared if isinstance(f, StudentValue)]
-        explanations = explain(some, self.wrong_problems(some))
+        explanations = explain(some, self.wrong_problems(some), self.own_figures(some))
         numbers = iter(range(len(some)))
         return [
             f if isinstance(f, Verdict) else verdict_of(f, explanations.get(next(numbers))) for f in compared
@@ -103,9 +106,24 @@ class SolvedProblem:
             return verdict_on_word(answer, WORDS[answer.quantity](r, position_of(r, answer)))
         return figure(r, answer, tolerance)
 
-    def at(self, place: int) -> Result:
-        """The result at one position alone."""
-        return self.result if len(self.result.status) == 1 else WrongProblems(self.result, (place,)).result
+    def own_figures(self, figures: Sequence[StudentValue]) -> OwnFigures:
+        """Which wrong figures are right with the student's own others, position by position."""
+        out = OwnFigures()
+        if self.result.schedule.unknown is not None:
+            return out
+        for place in sorted({f.position for f in figures}):
+            here = [n for n, f in enumerate(figures) if f.position == place and not f.answer.extreme]
+            some = [figures[n] for n in here]
+            if self.result.status[place] not in NUMBERED or all(f.met or not f.judged for f in some):
+                continue
+            if place not in self._equations:
+                self._equations[place] = SheetEquations(self.result, place)
+            found = own_figures(self._equations[place], some)
+            out.follows |= {here[k]: how for k, how in found.follows.items()}
+            out.first |= {here[k]: [here[m] for m in rest] for k, rest in found.first.items()}
+            out.numbers |= {here[k]: count for k, count in found.numbers.items()}
+            out.slip = out.slip or found.slip
+        return out
 
     def wrong_problems(self, some: Sequence[StudentValue]) -> WrongProblems:
         """The wrong problems at the positions that a sheet asks for."""
@@ -124,8 +142,8 @@ def verdict_of(f: StudentValue, explanation: Explanation | None) -> Verdict:
     if not f.judged:
         open_sentence = f"it cannot be judged: {f.reason}"
         return Verdict(f.words, f.written, f.computed, f.off, False, open_sentence, "open")
-    mistake, kind = ("", "right") if f.met else explanation or ("", "unknown")
-    return Verdict(f.words, f.written, f.computed, f.off, f.met, mistake, kind)
+    mistake, kind, weight = ("", "right", "") if f.met else explanation or ("", "unknown", "")
+    return Verdict(f.words, f.written, f.computed, f.off, f.met, mistake, kind, weight=weight)
 
 
 def verdict_on_word(answer: StatedAnswer, right: object) -> Verdict:

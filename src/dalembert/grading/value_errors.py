@@ -22,6 +22,11 @@ class Hypothesis(NamedTuple):
     value: Array
     kind: str = "named"
 
+    @property
+    def single(self) -> bool:
+        """True if only one number of a vector speaks for it: the others are right, or scaled with it."""
+        return self.kind in ("sign", "unit")
+
 
 def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
     """Senses, axes and components."""

@@ -166,7 +166,7 @@ def _at_side(
 
 
 def _trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
-    names = ("read", "lever", "coefficient", "resting", "reach", "viscous", "reckoned")
+    names = ("read", "lever", "coefficient", "resting", "reach", "viscous", "reckoned", "wrap", "given")
     numbers: Tree = {name: trace_array(graph, getattr(contacts, name)) for name in names}
     return replace(contacts, **numbers)
 

@@ -14,7 +14,7 @@ from typing import Any, SupportsFloat
 import numpy as np
 
 from dalembert.arrays import Array, Numeric
-from dalembert.kernel.operations import EVALUATE, not_negative
+from dalembert.kernel.operations import EVALUATE, not_negative, power_by_roots
 
 INPUTS = ("number", "common", "channel")
 CONSTANT, DESIGN, POSITION = 0, 1, 2
@@ -88,11 +88,9 @@ class Node:
     def __pow__(self, power: float) -> Node:
         if power == 0.5:
             return self.sqrt()
-        if power != int(power) or not 0 < abs(power) <= 16:
+        if not 0 < abs(power) <= 16:
             raise TypeError(f"a traced value to the power {power}")
-        out = self
-        for _ in range(abs(int(power)) - 1):
-            out = out * self
+        out: Node = power_by_roots(self, abs(power))
         return out if power > 0 else 1.0 / out
 
     def sqrt(self) -> Node:

@@ -37,6 +37,18 @@ EVALUATE: dict[str, Callable[..., Numeric]] = {
 """Operation by its name."""
 
 
+def power_by_roots(x: Any, power: float) -> Any:
+    """A positive power; of one that is not whole, of a positive value, by square roots, one for each binary digit."""
+    out, root, rest = None, x, power - int(power)
+    for _ in range(int(power)):
+        out = x if out is None else out * x
+    while rest:
+        root, rest = root.sqrt(), 2 * rest
+        if rest >= 1:
+            out, rest = root if out is None else out * root, rest - 1
+    return out
+
+
 def not_negative(x: Any, depth: int = 4) -> bool:
     """True if surely not negative, unless NaN; examines a limited number of operations."""
     if x.op == "mul" and x.a is x.b:

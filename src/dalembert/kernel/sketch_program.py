@@ -137,7 +137,8 @@ def _periods(rows: Rows) -> Iterator[tuple[int, object]]:
     """Change of the measure of a mesh over a full turn of the line of centres."""
     for f in rows.families:
         if isinstance(f, Mesh):
-            yield from ((int(row), 2 * np.pi * (f.ri[k] + f.rj[k])) for k, row in enumerate(f.row))
+            periods = enumerate(2 * np.pi * (f.ri + f.rj))
+            yield from ((int(f.row[k]), period) for k, period in periods if not is_zero(period))
 
 
 def _entries(graph: Graph, layout: Layout, rows: Rows, pose: Pose) -> list[list[tuple[int, Node]]]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,9 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import measure
+from dalembert.core.elements.cam_rows import jump_margins
+from dalembert.core.elements.pushing import Pushing, contact_margins
+from dalembert.core.elements.turning_frame import turning_square
 from dalembert.core.equilibrium import (
     Equilibrium,
     Known,
@@ -34,10 +37,10 @@ from dalembert.core.layout import Angle, ConstraintRows, Layout, Pose
 from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_places, held_wheels, phase_rows, with_rows
 from dalembert.core.position.newton import CLOSED, gap
-from dalembert.core.pushing import Pushing, contact_margins
+from dalembert.kernel.doubts import largest, unheld, unmet
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
-from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, is_zero, trace_array
+from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, trace_array
 from dalembert.kernel.position.closed_forms import newton_correction, positions
 from dalembert.kernel.position.rigid_parts import PlacedPose, TracePlan
 from dalembert.kernel.position.space_positions import space_correction, space_positions
@@ -122,12 +125,13 @@ class Traced:
     forcing: Forcing
     graph: Graph
     scale: Array
+    square: list[Node]  # of the speed of a turning frame
 
     @cached_property
     def residual(self) -> Node:
         """Largest out-of-balance force (moment over length) over the largest load."""
         out, size = (trace_array(self.graph, a * self.scale) for a in (self.unbalanced, self.loads))
-        return _largest(self.graph, out) / (_largest(self.graph, size) + 1e-300)
+        return largest(self.graph, out) / (largest(self.graph, size) + 1e-300)
 
 
 def trace(p: TracedProblem) -> Traced:
@@ -153,6 +157,9 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
     if p.at_pose is not None:
         p = replace(p, forcing=p.at_pose(p.forcing, pose, moving.twist))
     sources = known_sources(layout, p.forcing, pose, moving, p.inertia)
+    square = list[Node]()
+    if p.forcing.turning is not None:
+        square = list(trace_array(p.graph, turning_square(layout, p.forcing, pose, moving.virtual, sources)))
     s, friction = _trace_equilibrium(p, layout, pose, moving, rows, factors, sources)
     x, idle = friction.x, layout.constraints.idle
     spins = trace_array(p.graph, x[idle])
@@ -160,7 +167,7 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
     count, count_efforts = layout.constraints.count, int(p.known.requested.sum())
     effort = p.known.effort[0].astype(object)
     effort[p.known.requested] = x[count : count + count_efforts]
-    pushed = fc.separation(layout, pose, p.forcing.separation, x)
+    pushed = fc.between_wheels(layout, p.forcing, pose, moving.twist, x)
     balance = Equilibrium(x[:count], effort, x[count + count_efforts :], *(np.zeros(0),) * 3, None, pushed)
     force, couple = reactions(layout, pose, rows, balance)
     g, singular = p.graph, _singular(p, factors, s.forces)
@@ -169,7 +176,7 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
         unit = load_rows(layout, p.known, pose)
         sources["asked"] = WrenchSource(unit.j, unit.on_j * balance.load[:, None])
     force, moment = force + friction.force, couple.reshape(friction.moment.shape) + friction.moment
-    pushes = contact_margins(layout, p.pushing, pose, force, moment, _largest(g, trace_array(g, force)))
+    pushes = contact_margins(layout, p.pushing, pose, force, moment, largest(g, trace_array(g, force)))
     return Traced(
         pose=pose,
         twist=trace_array(g, moving.twist),
@@ -190,7 +197,10 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
             *singular,
             *_short(p, layout, pose),
             *_turn_count_doubt(p, layout, pose),
-            *_unheld(p.graph, layout, spins, friction.total),
+            *(jump_margins(layout, pose) if p.inertia else ()),
+            *trace_array(g, fc.limit_margins(layout, p.forcing, pose, moving.twist, x)),
+            *unheld(p.graph, layout, spins, friction.total),
+            *unmet(p.forcing.turning, square, effort, layout.length * largest(g, trace_array(g, force))),
         ],
         contacts=list(trace_array(g, pushes)),
         friction=friction,
@@ -199,6 +209,7 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
         forcing=p.forcing,
         graph=g,
         scale=layout.wrench_scale,
+        square=square,
     )
 
 
@@ -289,12 +300,8 @@ def _with_phase(p: TracedProblem, layout: Layout) -> tuple[Array, list[Node]]:
     first = _trace_pose(p, with_rows(layout, kept, held, places), target, p.first, p.first_path)
     out = p.target.astype(object)
     out[rows] = measure(layout.algebra, layout.constraints, first.pose)[rows]
-    return out, _mesh_gaps(p, layout, first)
-
-
-def _mesh_gaps(p: TracedProblem, layout: Layout, first: PlacedPose) -> list[Node]:
-    """Conditions that meshing wheels are at the sum of their pitch radii and that the first position is valid."""
-    return [n for n in (*first.doubt, *first.open) if n.level != CONSTANT] + _centre_gaps(p, layout, first)
+    doubts = [n for n in (*first.doubt, *first.open) if n.level != CONSTANT]  # of the first position
+    return out, doubts + _centre_gaps(p, layout, first)
 
 
 def _centre_gaps(p: TracedProblem, layout: Layout, first: PlacedPose) -> list[Node]:
@@ -315,12 +322,12 @@ MESH = 1e-3
 
 def _multipliers(p: TracedProblem, layout: Layout, pose: Pose, s: Statement) -> tuple[Array, Array]:
     """Multipliers and total wrenches; tooth forces push the wheels apart by the size of the tangential ones."""
-    x, total, tangent = s.forces.forces(-s.w.reshape(-1)), s.w, p.forcing.separation
-    if not tangent.size or not tangent.any():
+    x, total = s.forces.forces(-s.w.reshape(-1)), s.w
+    if not p.forcing.follows_reactions:
         return x, total
     before = None
     for _ in range(PASSES):
-        total = s.w + total_wrench(layout, fc.separation_wrench(layout, pose, tangent, x))
+        total = s.w + fc.following(layout, p.forcing, pose, x)
         x = s.forces.forces(-total.reshape(-1))
         now = np.array(np.broadcast_arrays(*p.graph.evaluate(trace_array(p.graph, x), {})))
         if before is not None and np.nanmax(np.abs(now - before)) <= 1e-15 * np.nanmax(np.abs(now)):
@@ -331,10 +338,6 @@ def _multipliers(p: TracedProblem, layout: Layout, pose: Pose, s: Statement) -> 
 
 def _decided(graph: Graph) -> list[Node]:
     return [n for n in graph.decisions if n.level != CONSTANT]
-
-
-def _largest(graph: Graph, array: Array) -> Node:
-    return reduce(lambda top, x: graph.binary("max", top, abs(x)), array.ravel(), graph.zero)
 
 
 NEAR = 1e-5
@@ -371,19 +374,6 @@ def _turn_count_doubt(p: TracedProblem, layout: Layout, pose: Pose) -> list[Node
         }
     value = measure(layout.algebra, layout.freedoms, pose)
     return [margin - 2 * abs(value[row] - known[row]) for row, margin in p.margins.items()]
-
-
-HELD = 1e-7
-"""Couple about a line that nothing holds a link about, over its length and the largest load, above which the general
-executor decides whether it is zero."""
-
-
-def _unheld(graph: Graph, layout: Layout, spins: Array, w: Array) -> list[Node]:
-    """Nodes that are negative where loads turn a link about the line of its two ball joints, which nothing holds."""
-    if not spins.size:
-        return []
-    size = HELD * layout.length * _largest(graph, trace_array(graph, w * layout.wrench_scale))
-    return [size - abs(x) for x in spins if not is_zero(x)]
 
 
 def _short(p: TracedProblem, layout: Layout, pose: Pose) -> list[Node]:

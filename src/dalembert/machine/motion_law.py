@@ -18,6 +18,7 @@ from dalembert.errors import ModelError
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.drives.curves import Curve, CurvePiece, unit_rise
 from dalembert.model.drives.drives import Drive, kind_of
+from dalembert.model.drives.expression_laws import ExpressionLaw
 from dalembert.model.drives.laws import Rise
 from dalembert.model.drives.programmes import RISES, Programme, rate_kind
 from dalembert.printing import Part, TextTable, number
@@ -186,6 +187,9 @@ def _programme(d: Drive, name: str) -> Programme:
         raise ModelError(
             f"drive {name!r} has no law of motion", "write law: {segments: [...]}", ("drives", name)
         )
+    if isinstance(d.law, ExpressionLaw):
+        what = f"the law of drive {name!r} is an expression, which has no segments"
+        raise ModelError(what, "read its motion from a result", ("drives", name, "law"))
     points = (d.law.time, d.law.position)
     spline = Segment("spline", "spline", points[0][-1] - points[0][0], points=points)
     return Programme((spline,), points[1][0], d.law.count)

@@ -9,6 +9,8 @@ In: a file, or Python values. Out: a ``Mechanism``. Imports ``units`` and messag
 
 from dalembert.model.description import Mechanism as Mechanism
 from dalembert.model.description import mechanism as mechanism
+from dalembert.model.drives.cylinders import FluidCylinder as FluidCylinder
+from dalembert.model.drives.drive_screws import DriveScrew as DriveScrew
 from dalembert.model.drives.drives import Drive as Drive
 from dalembert.model.drives.drives import Range as Range
 from dalembert.model.drives.laws import Rise as Rise
@@ -27,6 +29,15 @@ from dalembert.model.files.model_files import read_text as read_text
 from dalembert.model.files.model_files import save_tree as save_tree
 from dalembert.model.files.model_files import tree_text as tree_text
 from dalembert.model.joints.bearing_keys import Bearing as Bearing
+from dalembert.model.joints.elements.belts import Belt as Belt
+from dalembert.model.joints.elements.brakes import Band as Band
+from dalembert.model.joints.elements.brakes import Shoe as Shoe
+from dalembert.model.joints.elements.cams import Cam as Cam
+from dalembert.model.joints.elements.clutches import Cone as Cone
+from dalembert.model.joints.elements.clutches import Disc as Disc
+from dalembert.model.joints.elements.one_way_joints import OneWay as OneWay
+from dalembert.model.joints.elements.one_way_joints import Ratchet as Ratchet
+from dalembert.model.joints.elements.ropes import Rope as Rope
 from dalembert.model.joints.friction_keys import FrictionDefaults as FrictionDefaults
 from dalembert.model.joints.friction_keys import GearFriction as GearFriction
 from dalembert.model.joints.friction_keys import GuideFriction as GuideFriction
@@ -55,6 +66,7 @@ from dalembert.model.load_types import ConstantForceSpring as ConstantForceSprin
 from dalembert.model.load_types import Couple as Couple
 from dalembert.model.load_types import Damper as Damper
 from dalembert.model.load_types import ForceLoad as ForceLoad
+from dalembert.model.load_types import GasSpring as GasSpring
 from dalembert.model.load_types import Load as Load
 from dalembert.model.load_types import Spring as Spring
 from dalembert.model.load_types import TorsionDamper as TorsionDamper

@@ -8,25 +8,28 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import Field, PrivateAttr, field_validator, model_validator
+from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.assembly import Pose, PoseValue
+from dalembert.model.drives.cylinders import with_cylinders
 from dalembert.model.drives.driven_freedoms import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.drives.drives import Drive
 from dalembert.model.drives.schedule import AtPositions, Schedule, schedule
 from dalembert.model.drives.starting import Start, StartValue, drives_at_start
+from dalembert.model.drives.turning import TurningPlane
 from dalembert.model.files.copies.likeness import Likeness
 from dalembert.model.files.messages import of_originals, together
 from dalembert.model.files.source import FileSource
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
+from dalembert.model.joints.elements.written_parts import WrittenParts
 from dalembert.model.joints.friction_keys import FrictionDefaults
-from dalembert.model.joints.plane_joints import Joint, refuse_unfinished
+from dalembert.model.joints.plane_joints import Joint
 from dalembert.model.links.link import CENTER, GROUND, Link
 from dalembert.model.links.shapes import MassProperties
-from dalembert.model.load_types import Load, SpanLoad
-from dalembert.model.part import Part, ReadingRules
+from dalembert.model.load_types import Load
+from dalembert.model.part import ReadingRules, reading
 from dalembert.model.paths import (
     ancestors,
     as_in_file,
@@ -50,7 +53,7 @@ if TYPE_CHECKING:
     from dalembert.views.paper.scene import Scene
 
 
-class Mechanism(Part):
+class Mechanism(WrittenParts):
     """Links, joints, drives and loads, in SI and radians; analyses do not change it.
 
     In Python bare numbers are SI and radians, texts carry their unit; `load` applies the rules of a file.
@@ -89,6 +92,7 @@ class Mechanism(Part):
     joints: dict[Name, Joint] = Field(default_factory=dict, description="how they are connected")
     drives: dict[Name, Drive] = Field(default_factory=dict, description="what is prescribed")
     loads: dict[Name, Load] = Field(default_factory=dict, description="forces, couples, springs, dampers")
+    turning: TurningPlane | None = Field(None, description="the plane turns about a line in it: governors")
     friction: FrictionDefaults = Field(FrictionDefaults(), description="defaults of the joints' friction")
     assembly: dict[Name, Annotated[Pose, PoseValue()]] = Field(
         default_factory=dict,
@@ -126,14 +130,11 @@ class Mechanism(Part):
 
     @model_validator(mode="before")
     @classmethod
-    def _freedoms(cls, keys: object) -> object:
+    def _freedoms(cls, keys: object, info: ValidationInfo) -> object:
         if not isinstance(keys, Mapping):
             return keys
         keys = {key: value for key, value in keys.items() if value is not None}
-        for name, joint in _items(keys.get("joints")):
-            if isinstance(joint, Mapping):
-                at_item("joints", refuse_unfinished, str(name), joint.get("type"))
-        return with_freedoms(keys)
+        return with_freedoms(with_cylinders(keys, reading(info)))
 
     @model_validator(mode="after")
     def _names(self) -> Self:
@@ -156,7 +157,7 @@ class Mechanism(Part):
         """The text of its model file, as `save` writes it."""
         from dalembert.model.files.rewriting import text_of
 
-        return text_of(self, "yaml")
+        return text_of(self.written, "yaml")
 
     def __repr__(self) -> str:
         links = len({*self.links} - {GROUND})
@@ -192,10 +193,9 @@ class Mechanism(Part):
     @property
     def gravity_vector(self) -> Vector:
         """Acceleration of gravity in ground axes, m/s2."""
-        none = (0.0,) * self.dimension
         if self.gravity == "standard":
-            return (*none[1:], -STANDARD)
-        return self.gravity if isinstance(self.gravity, tuple) else none
+            return (*(0.0,) * (self.dimension - 1), -STANDARD)
+        return self.gravity if isinstance(self.gravity, tuple) else (0.0,) * self.dimension
 
     @property
     def g(self) -> float:
@@ -251,9 +251,7 @@ class Mechanism(Part):
 
     def load_points(self, load: str) -> tuple[tuple[str, Vector], tuple[str, Vector]]:
         """Link and point in its axes of both ends of a load along a span."""
-        part = self.loads[load]
-        assert isinstance(part, SpanLoad)
-        (a, first), (b, second) = part.between
+        (a, first), (b, second) = self.loads[load].between  # type: ignore[union-attr]
         return (a, self.point(a, first)), (b, self.point(b, second))
 
     def drive_joint(self, drive: str) -> str:
@@ -277,6 +275,8 @@ class Mechanism(Part):
         depends on parameters becomes a plain number once it is replaced by its path; a parameter that is no longer used
         is left out. Raises ModelError for a path that does not exist.
         """
+        if self.written is not self:
+            return self.written.with_values(values)
         new_values = {path: as_in_file(value, path) for path, value in values.items()}
         known = self.parameters
         named = {
@@ -320,15 +320,14 @@ class Mechanism(Part):
         freedoms = drive_freedoms({"drives": self.drives, "joints": self.joints})
         source = self._source
         folder, data = (source.folder, source.data) if source else ("", "")
-        units = self.units.of_texts()
-        known = (
-            change_parameters(self.parameters, parameters, units, freedoms) if parameters else self.parameters
-        )
+        units, known = self.units.of_texts(), self.parameters
+        if parameters:
+            known = change_parameters(known, parameters, units, freedoms)
         return ReadingRules(units, freedoms, self.dimension, folder, known, data)
 
     def to_tree(self) -> Tree:
         """The description as a file's tree, every quantity as text with its SI unit; reads back equal."""
-        return self.model_dump(mode="json", by_alias=True)
+        return self.written.model_dump(mode="json", by_alias=True)
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
         """Write it to a .yaml, .json or .toml file; raises ModelError if the file exists and not `overwrite`.
@@ -339,7 +338,7 @@ class Mechanism(Part):
         from dalembert.model.files.model_files import format_of, save_text
         from dalembert.model.files.rewriting import text_of
 
-        save_text(text_of(self, format_of(path), os.path.dirname(path)), path, overwrite)
+        save_text(text_of(self.written, format_of(path), os.path.dirname(path)), path, overwrite)
 
 
 def file_rules(tree: Mapping[str, object], folder: str = "", data: str = "") -> ReadingRules:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
@@ -12,6 +13,7 @@ from dalembert.errors import ModelError
 from dalembert.model.part import Part, ReadingRules, reading
 from dalembert.model.quantities.expression_trees import Functions
 from dalembert.model.quantities.figures import unit_vector
+from dalembert.model.quantities.spans import ForceLaw, ForceLawValue, TwoEnds, one_force, refuse_both
 from dalembert.model.quantities.values import (
     Components,
     JsonSchema,
@@ -31,7 +33,6 @@ from dalembert.model.quantities.values import (
 )
 from dalembert.model.quantities.varying import Varying, value_at, varying, varying_schema, varying_tree
 from dalembert.model.quantities.vectors import unit
-from dalembert.wording import quote_value
 
 UNKNOWN: Literal["unknown"] = "unknown"
 
@@ -98,33 +99,6 @@ class LoadPoint(ValueField):
 
     def json_schema(self) -> JsonSchema:
         return {"anyOf": [{"type": ["string", "integer"]}, vector_schema()]}
-
-
-class Ends(ValueField):
-    """`[link.point, link.point]`."""
-
-    def read(self, value: object, info: ValidationInfo) -> tuple[tuple[str, str], tuple[str, str]]:
-        if isinstance(value, str) or not isinstance(value, (list, tuple)) or len(value) != 2:
-            raise ModelError(f"expected two points, not {quote_value(value)}", "write [ground.A, rod.B]")
-        first, second = (at_item(i, _end, item) for i, item in enumerate(value))
-        return first, second
-
-    def write(self, value: Any) -> object:
-        return [".".join(end) for end in value]
-
-    def json_schema(self) -> JsonSchema:
-        return {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}
-
-
-def _end(value: object) -> tuple[str, str]:
-    if isinstance(value, tuple) and len(value) == 2:
-        return name(value[0]), name(value[1])
-    if not isinstance(value, str) or value.count(".") != 1:
-        raise ModelError(
-            f"{quote_value(value)} is not a point of a link", "write link.point, for example rod.B"
-        )
-    link, point = value.split(".")
-    return name(link), name(point)
 
 
 class LoadPart(Part):
@@ -291,9 +265,6 @@ class Couple(Directed):
         return self.at_drives(drives, functions)
 
 
-TwoEnds = Annotated[tuple[tuple[str, str], tuple[str, str]], Ends()]
-
-
 class SpanLoad(LoadPart):
     """A load along the line between points of two links; its numbers have the names of ``core.forcing.Springs``."""
 
@@ -311,6 +282,16 @@ class Spring(SpanLoad):
     free_length: Annotated[float, Scalar("length", "not negative")] = Field(
         0.0, description="its length without force; default 0"
     )
+    law: Annotated[ForceLaw, ForceLawValue("length")] | None = Field(
+        None, alias="force", description="instead of a stiffness: tension over length less free length"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_force(cls, keys: object) -> object:
+        return one_force(keys, "stiffness")
+
+    _law_alone = model_validator(mode="after")(refuse_both)
 
 
 class ConstantForceSpring(SpanLoad):
@@ -333,6 +314,43 @@ class Damper(SpanLoad):
     FORCE: ClassVar = "damper"
     type: Literal["damper"] = "damper"
     damping: Annotated[float, Scalar("damping", "not negative")] = Field(description="force per speed")
+    rate_law: Annotated[ForceLaw, ForceLawValue("speed")] | None = Field(
+        None, alias="force", description="instead of a damping: tension over the rate of its length"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_force(cls, keys: object) -> object:
+        return one_force(keys, "damping")
+
+    _law_alone = model_validator(mode="after")(refuse_both)
+
+
+class GasSpring(SpanLoad):
+    """A gas spring that pushes points apart: F = A (p (V/(V - A x))^n - p_out), x = length - distance.
+
+    >>> GasSpring(between=("ground.A", "lid.B"), rod="20 mm", volume="0.4 l", pressure="20 bar", length=1).exponent
+    1.35
+    """
+
+    FORCE: ClassVar = "spring"
+    type: Literal["gas_spring"] = "gas_spring"
+    rod: Annotated[float, Scalar("length", "positive")] = Field(description="diameter of the rod, a length")
+    volume: Annotated[float, Scalar("volume", "positive")] = Field(description="of the gas at that length")
+    pressure: Annotated[float, Scalar("pressure", "positive")] = Field(description="absolute, at that length")
+    length: Annotated[float, Scalar("length", "positive")] = Field(description="distance of its points there")
+    exponent: Annotated[float, Scalar("number", "positive")] = Field(
+        1.35,
+        description="of the change of state; default 1.35, 1 where it is so slow that its temperature stays",
+    )
+    outside: Annotated[float, Scalar("pressure", "not negative")] = Field(
+        101325.0, description="absolute pressure outside; default 1.01325 bar"
+    )
+
+    @property
+    def area(self) -> float:
+        """Of the rod, m2."""
+        return self.rod * self.rod * (math.pi / 4)
 
 
 class TurnLoad(LoadPart):
@@ -374,6 +392,6 @@ class TorsionDamper(TurnLoad):
 
 
 Load = Annotated[
-    ForceLoad | Couple | Spring | ConstantForceSpring | Damper | TorsionSpring | TorsionDamper,
+    ForceLoad | Couple | Spring | ConstantForceSpring | GasSpring | Damper | TorsionSpring | TorsionDamper,
     Field(discriminator="type", description="a load"),
 ]

@@ -248,7 +248,8 @@ def _rebuilt(part: Part, name: str, inner: object, rules: ReadingRules, here: tu
     """The part with one field replaced; the complete mechanism is rebuilt once, by its method."""
     if len(here) == 1:
         return part.model_copy(update={name: inner})
-    keys = {**fields(part), **dict.fromkeys(part.replaced_by(name, inner)), name: inner}
+    key = type(part).model_fields[name].alias or name
+    keys = {**fields(part), **dict.fromkeys(part.replaced_by(name, inner)), key: inner}
     try:
         return type(part).model_validate(keys, context=rules)
     except ModelError as error:

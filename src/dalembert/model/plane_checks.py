@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
+from dalembert.model.drives.turning_checks import turning_problems
 from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.links.link import CENTER, GROUND, Link, Offset
 from dalembert.model.load_types import Couple, ForceLoad, SpanLoad, TurnLoad
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 def problems(m: Mechanism) -> list[ModelError]:
     """Everything that does not fit, in the order of the file."""
-    checks = (_links, _joints, _drives, _loads, _assembly, space_problems, _answers)
+    checks = (_links, _joints, _drives, _loads, _assembly, space_problems, turning_problems, _answers)
     return [problem for check in checks for problem in check(m)]
 
 
@@ -104,10 +105,9 @@ def _point_remedy(point: str, points: list[str], joint: bool) -> str:
 def _joints(m: Mechanism) -> Iterator[ModelError]:
     for name, joint in m.joints.items():
         user, path = f"joint {name!r}", ("joints", name)
-        where: tuple[str | int, ...] = (*path, "at") if joint.at is not None else path
-        for k, (link, point) in enumerate(zip(joint.links, joint.point_names(name), strict=True)):
-            missing = list(_link(m, link, user, (*path, "links", k)))
-            yield from missing or _point(m, link, point, user, where)
+        for link, point, to_link, to_point in joint.places(name):
+            missing = list(_link(m, link, user, (*path, *to_link)))
+            yield from missing or _point(m, link, point, user, (*path, *to_point))
         if m.dimension not in joint.DIMENSIONS:
             yield ModelError(
                 f"{user} is of the type {joint.type!r}, which is not for {_where(m)}",
@@ -118,13 +118,15 @@ def _joints(m: Mechanism) -> Iterator[ModelError]:
 
 
 def _friction(m: Mechanism, name: str, joint: JointPart) -> Iterator[ModelError]:
-    friction = getattr(joint, "friction", None)
-    if friction is not None and friction.coefficient is None and m.friction.coefficient is None:
-        yield ModelError(
-            f"the friction of joint {name!r} has no coefficient",
-            "give it one, or a top-level friction: {coefficient: 0.1}",
-            ("joints", name, "friction"),
-        )
+    for friction, path in joint.frictions():
+        if getattr(friction, "force", None) is not None:
+            continue
+        if friction.coefficient is None and m.friction.coefficient is None:
+            yield ModelError(
+                f"the friction of joint {name!r} has no coefficient",
+                "give it one, or a top-level friction: {coefficient: 0.1}",
+                ("joints", name, *path),
+            )
 
 
 def _drives(m: Mechanism) -> Iterator[ModelError]:

@@ -42,8 +42,19 @@ NAMES = {
     **{word: f"{word}.{{of}}" for word in ("friction_force", "friction_moment", "power_lost")},
     **{
         word: f"{word}.{{of}}"
-        for word in ("lower_face", "upper_face", "energy_fluctuation", "shaking_moment")
+        for word in (
+            "pressure",
+            "flow",
+            "screw_torque",
+            "lower_face",
+            "upper_face",
+            "energy_fluctuation",
+            "shaking_moment",
+        )
     },
+    "turning_speed_low": "turning_speed.low",
+    "turning_speed_high": "turning_speed.high",
+    **{word: word for word in ("turning_speed", "turning_torque")},
     **{word: word for word in ("shaking_force", "shaking_couple", "residual", "power_balance")},
 }
 """Words of format version 1 for quantities, with the names they mean (docs/quantities.md)."""

@@ -13,17 +13,20 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.compile.elements.cam_motion import outline
 from dalembert.analysis.friction.joint_friction import bearing_contact, friction_circle_radius
 from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Numeric, Tree
+from dalembert.core.branchless import root
 from dalembert.core.friction.contact_equations import strength
 from dalembert.model import GROUND, Mechanism
 from dalembert.pages.rows import NodeRows
 from dalembert.pages.symbolic_result import SymbolicResult
 from dalembert.views.formats.svg import Writer
 from dalembert.views.paper.frame import PaperFrame
-from dalembert.views.paper.scene import Item
+from dalembert.views.paper.scene import Item, Polygon
+from dalembert.views.plane.elements.cam_symbol import resting_follower
 from dalembert.views.plane.joint_drawings import round_slot
 from dalembert.views.plane.outline import link_paths, wheel_paths
 from dalembert.views.symbols import plane_symbols
@@ -104,7 +107,7 @@ class Items:
     def joint(self, name: str, link: str | None = None) -> list[Tree]:
         """A joint's symbol; with ``link``, on that link's free body, without the ground."""
         joint = self.mechanism.joints[name]
-        if link is not None and joint.apart and link != joint.links[1]:
+        if link is not None and joint.apart and not joint.outlined and link != joint.links[1]:
             return []
         return SYMBOLS[joint.type](self, name, link)
 
@@ -214,13 +217,90 @@ def _wheels(d: Items, name: str, link: str | None) -> list[Tree]:
     return out
 
 
+def _belt(d: Items, name: str, link: str | None) -> list[Tree]:
+    """Both wheels, and on the whole mechanism both strands."""
+    ri, rj = d.mechanism.joints[name].signed_radii  # type: ignore[union-attr]
+    strands = [] if link else [_tangent(d, name, side * ri, -side * rj) for side in (1.0, -1.0)]
+    return [*_wheels(d, name, link), *strands]
+
+
+def _strand(d: Items, name: str, link: str | None) -> list[Tree]:
+    """A line where a strand of a rope is, and the wheels at its ends."""
+    joint: Any = d.mechanism.joints[name]
+    if link is not None:
+        return []
+    if joint.direction is None:
+        return [*_wheels(d, name, None), _tangent(d, name, *joint.radii)]
+    places = [d.rows.place(on, u) for on, u in zip(joint.links, d.mechanism.joint_points(name), strict=True)]
+    return [d.path("path", "link", places)]
+
+
+def _tangent(d: Items, name: str, ra: Numeric, rb: Numeric) -> Tree:
+    """The line that touches circles of signed radii about a joint's points, on its left where a radius is positive."""
+    joint = d.mechanism.joints[name]
+    a, b = (
+        link_place(d.r, on, u)[0] for on, u in zip(joint.links, d.mechanism.joint_points(name), strict=True)
+    )
+    (x, y), apart = b - a, ra - rb
+    square = x * x + y * y
+    along = root(np.asarray(square - apart * apart))[()]
+    left = np.array([-(along * y - apart * x), along * x + apart * y]) / square
+    return d.path("path", "link", [d.rows.vector(a + ra * left), d.rows.vector(b + rb * left)])
+
+
+def _cam(d: Items, name: str, link: str | None) -> list[Tree]:
+    """The outline in the axes of the cam, and what touches it in those of the follower."""
+    m, points = d.known.mechanism, d.mechanism.joint_points(name)
+    i, j = m.joints[name].links
+    out = []
+    if link in (None, i):
+        edge = outline(m, name)
+        shape: list[Item] = [Polygon(tuple(map(PaperFrame(d.frame.per_mm), edge)), "link-area")]
+        out.append(d.symbol(shape, d.rows.place(i, points[0]), d.rows.axis(i), sized=True))
+        corners = [edge[int(np.argmax(edge @ e))] for e in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+        out += [
+            d.symbol([], d.rows.place(i, tuple(np.add(points[0], u).tolist()))) for u in corners
+        ]  # room for it
+    if link in (None, j):
+        out.append(d.symbol(resting_follower(d.known, name, d.frame), d.at(name), d.rows.axis(j), sized=True))
+    return out
+
+
+def _brake(d: Items, name: str, link: str | None) -> list[Tree]:
+    """The drum or the outer edge of the faces about its axis, with a spoke that shows its turn."""
+    joint: Any = d.mechanism.joints[name]
+    i, j = joint.links
+    if link == j != GROUND:
+        return []
+    at = d.rows.place(i, d.mechanism.joint_points(name)[0])
+    turning = i if i != GROUND else j
+    wheel = plane_symbols.wheel((0, 0), d.frame.length(float(d.known.mechanism.joints[name].reach)), 0.0)
+    return [d.symbol(wheel, at, d.rows.axis(turning), sized=True)]
+
+
+def _clutch(d: Items, name: str, link: str | None) -> list[Tree]:
+    joint: Any = d.mechanism.joints[name]
+    symbol = plane_symbols.one_way((0, 0), joint.way, 0.0)
+    return [d.symbol(symbol, d.at(name), d.rows.axis(joint.links[1]))] if link is None else []
+
+
 SYMBOLS: dict[str, Callable[[Items, str, str | None], list[Tree]]] = {
     "pin": _pin,
     "slider": _slider,
     "slot": _slot,
     "circular_slot": _circular_slot,
     "weld": _weld,
+    "belt": _belt,
+    "strand": _strand,
+    "sheave": _pin,
     "gear": _wheels,
+    "one_way": _clutch,
+    "ratchet": _clutch,
     "rolling": _wheels,
+    "cam": _cam,
+    "shoe": _brake,
+    "band": _brake,
+    "disc": _brake,
+    "cone": _brake,
 }
 """Type of joint -> its items; as ``views.plane.joint_drawings.DRAWINGS``."""

@@ -46,7 +46,8 @@ FORMAT = "dalembert-page/1"
 OPERATIONS = 3000
 """Largest number of operations of all derivatives; about 10 kB of page."""
 UNDECIDED = (
-    "The numbers may be inaccurate: a dead centre is near, or friction may jam. Check with dalembert solve."
+    "The numbers may be inaccurate: a dead centre is near, an acceleration jumps, or friction may jam. "
+    "Check with dalembert solve."
 )
 ALWAYS = (
     "text",

@@ -66,7 +66,7 @@ def symbolic_actions(r: SymbolicResult, k: Kernel) -> tuple[Action, ...]:
     g = r.compiled.layout.algebra
     point = np.concatenate([r.point_array, t.pose.point[None, -1:]], axis=1)
     pose = Pose(point, *g.with_ground(r.turn_array, r.rotation_array))
-    nothing: Any = None  # virtual velocities, rows and factors are not needed
-    moving = LinkMotions(t.twist[None], t.acceleration[None], nothing, nothing)
+    nothing: Any = None  # rows and factors are not needed
+    moving = LinkMotions(t.twist[None], t.acceleration[None], t.virtual[None], nothing)
     known = known_actions(r, State(pose, moving, nothing, nothing))
     return (*joint_actions(r, split=False), *effort_actions(r), *known, *unknown_load_actions(r))

@@ -65,14 +65,17 @@ def report(
     at: Any = None,
     methods: Any = None,
     notation: Notation | None = None,
-    about: str = "",
+    about: str | tuple[float, ...] = "",
+    begin: str = "",
+    along: Any = 0,
 ) -> Report:
     """The worked solution of one position of a result, of a force system of `da.wrench`, or of any other answer
     that has one (`da.shaking`, `da.flywheel`, `da.optimize`, `da.study`), of which ``notation`` alone is asked.
 
-    ``methods``: some of `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
-    ``about``: a joint to take moments about where a link has it; an unknown one is a ModelError. Of a force system
-    ``at`` is the point to take moments about (m), and methods do not apply.
+    ``methods``: some of `steps`, `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
+    ``about``: a joint, or a point (m), to take moments about where this is possible; an unknown one is a ModelError.
+    ``begin``: the link to begin with; ``along``: angle of the first axis of the sums of forces (`30 deg`). Of a force
+    system ``at`` is the point to take moments about (m), and methods do not apply.
     """
     from dalembert.analysis.result.result import Result
     from dalembert.wrench import System
@@ -83,11 +86,8 @@ def report(
         return Report(force_system_sheet(r, r.about if at is None else at, notation))
     if not isinstance(r, Result):
         return Report(r.sheet(notation))
-    from dalembert.errors import ModelError
+    from dalembert.analysis.methods.solved.step_choice import read_choice
     from dalembert.reports.report_context import METHODS
     from dalembert.reports.working import working
-    from dalembert.wording import closest
 
-    if about and about not in r.joints:
-        raise ModelError(f"unknown joint {about!r} to take moments about", closest(about, list(r.joints)))
-    return Report(working(r, at, tuple(methods or METHODS), notation, about))
+    return Report(working(r, at, tuple(methods or METHODS), notation, read_choice(r, begin, about, along)))

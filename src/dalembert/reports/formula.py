@@ -25,7 +25,9 @@ class NotatedName(NamedTuple):
     plain: str
 
 
-_GREEK = "alpha α, beta β, gamma γ, delta δ, theta θ, omega ω, phi φ, mu μ, pi π, eta η, sigma σ, tau τ"
+_GREEK = (
+    "alpha α, beta β, gamma γ, delta δ, theta θ, psi ψ, omega ω, phi φ, mu μ, pi π, eta η, sigma σ, tau τ"
+)
 
 WORDS: dict[str, NotatedName] = {
     **{name: NotatedName(name, "\\" + name, sign) for name, sign in map(str.split, _GREEK.split(","))},
@@ -36,6 +38,7 @@ WORDS: dict[str, NotatedName] = {
     "deg": NotatedName("degree", "{}^\\circ", "°"),
     "dot": NotatedName("dot", "\\dot", "d/dt "),
     "quad": NotatedName("quad", "\\quad", "   "),
+    "sqrt": NotatedName("sqrt", "\\surd", "√"),
     "angle": NotatedName("angle", "\\angle", "∠"),
 }
 

@@ -5,19 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from dalembert.analysis.methods.solved.step_choice import Choice
 from dalembert.views.notation import Figures, Notation, Shown
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-Method = Literal["matrix", "graphical", "superposition", "virtual-work"]
-METHODS: tuple[Method, ...] = ("matrix", "graphical", "superposition", "virtual-work")
+Method = Literal["steps", "matrix", "graphical", "superposition", "virtual-work"]
+METHODS: tuple[Method, ...] = ("steps", "matrix", "graphical", "superposition", "virtual-work")
 
 
 @dataclass(frozen=True)
 class ReportContext:
     """Context of a report: the result, the position, the reader's notation, and the methods shown.
 
+    ``choice``: what the reader chooses of the steps, with the joint to take moments about.
     ``question``: only the given data are shown, without computed values.
     """
 
@@ -25,9 +27,14 @@ class ReportContext:
     k: int
     shown: Shown
     methods: tuple[Method, ...] = METHODS
-    about: str = ""
+    choice: Choice = field(default_factory=Choice)
     notation: Notation = field(default_factory=Notation)
     question: bool = False
+
+    @property
+    def about(self) -> str:
+        """The joint to take moments about, where the reader names one."""
+        return self.choice.about if isinstance(self.choice.about, str) else ""
 
 
 def as_formula(sign: str) -> str:

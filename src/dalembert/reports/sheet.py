@@ -70,13 +70,22 @@ class Drawings:
 
 
 @dataclass(frozen=True)
+class Beside:
+    """Paragraphs and equations with a drawing beside them, where the page is wide enough; else below it."""
+
+    scene: Scene
+    texts: tuple[Paragraph | Equations, ...]
+
+
+@dataclass(frozen=True)
 class Blanks:
     """Lines to be filled in: words, then for each number its name, room to write, and its unit."""
 
     rows: tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 
 
-Block = Heading | Paragraph | Equations | SheetTable | Matrix | Drawings | Blanks
+Text = Paragraph | Equations
+Block = Heading | Paragraph | Equations | SheetTable | Matrix | Drawings | Beside | Blanks
 
 
 @dataclass
@@ -113,3 +122,7 @@ class ReportSheet:
         """Drawings side by side."""
         if scenes:
             self.blocks.append(Drawings(scenes, caption))
+
+    def beside(self, scene: Scene, texts: Sequence[Text]) -> None:
+        """Paragraphs and equations with a drawing beside them."""
+        self.blocks.append(Beside(scene, tuple(texts)))

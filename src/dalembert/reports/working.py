@@ -10,29 +10,35 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import actions
 from dalembert.analysis.methods.members import components_along
+from dalembert.analysis.methods.solved.carried_out import solved_forces
+from dalembert.analysis.methods.solved.step_choice import Choice
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.position_lookup import PositionChoice, position_at
-from dalembert.errors import NUMBERED, ModelError
+from dalembert.answer.column import UnitChoice
+from dalembert.errors import FORCED, ModelError
 from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, figure, in_ground
 from dalembert.reports.sections import equilibrium_equations, friction, matrix
+from dalembert.reports.sections.belt_lines import belts_and_ropes
+from dalembert.reports.sections.brake_section import brakes
 from dalembert.reports.sections.given import knowns
 from dalembert.reports.sections.methods import checks, cycle, graphical
 from dalembert.reports.sections.motion import inertia, motion
-from dalembert.reports.sections.sources import shown_name, superposition, virtual_work
-from dalembert.reports.sheet import ReportSheet, Working
+from dalembert.reports.sections.motion_steps import motion_steps
+from dalembert.reports.sections.solution_steps import solution_steps
+from dalembert.reports.sections.sources import shown_name, source_arms, superposition, virtual_work
+from dalembert.reports.sheet import Drawings, ReportSheet, Working
 from dalembert.reports.space_sections.space_friction_laws import space_friction
 from dalembert.reports.space_sections.space_mobility import degrees_of_freedom
 from dalembert.reports.space_sections.space_motion import space_inertia, space_motion
 from dalembert.reports.space_sections.space_order import order_and_solution
 from dalembert.reports.space_sections.space_reactions import reaction_tables
+from dalembert.reports.writers.plain_writer import plain_block
 from dalembert.views import both_ends, draw
 from dalembert.views.notation import Notation, Shown, load_sign
 
 if TYPE_CHECKING:
+    from dalembert.analysis.methods.solved.solution_by_steps import PaperSolution
     from dalembert.analysis.result.result import Result
-
-ANSWERED = (*NUMBERED, "redundant")
-"""Statuses whose forces are worked out."""
 
 
 def working(
@@ -40,7 +46,7 @@ def working(
     at: PositionChoice = None,
     methods: tuple[Method, ...] = METHODS,
     notation: Notation | None = None,
-    about: str = "",
+    choice: Choice | None = None,
 ) -> ReportSheet:
     """The worked solution of one position of a result, with charts where there are more."""
     notation = notation or Notation()
@@ -50,7 +56,8 @@ def working(
             "moments cannot be counted clockwise in space",
             "leave it out: they are positive by the right hand",
         )
-    c = ReportContext(r, position_at(r, at), Shown(r, notation, position_at(r, at)), methods, about, notation)
+    k = position_at(r, at)
+    c = ReportContext(r, k, Shown(r, notation, k), methods, choice or Choice(), notation)
     m = r.mechanism
     sheet = ReportSheet(m.title or "Force analysis", m.source_text, _where(c))
     knowns(sheet, c)
@@ -59,18 +66,25 @@ def working(
     if both_ends.open_at(r, c.k):
         friction.at_rest(sheet, c, _joint_forces)
         return sheet
-    if r.status[c.k] not in ANSWERED:
+    if r.status[c.k] not in FORCED:
         sheet.heading("No answer")
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
         return sheet
     if r.reasons[c.k]:
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
     cycle_context, c = c, replace(c, r=r.before) if r.reverses[c.k] else c
+    if plane and "steps" in methods and r.drives:
+        motion_steps(sheet, c)
     (motion if plane else space_motion)(sheet, c)
     (inertia if plane else space_inertia)(sheet, c)
     (friction.friction if plane else space_friction)(sheet, c)
+    brakes(sheet, c)
+    if "steps" in methods:
+        steps(sheet, c)
     _bodies(sheet, c)
     _answers(sheet, c)
+    if plane:
+        belts_and_ropes(sheet, c)
     if "graphical" in methods and plane:
         graphical(sheet, c)
     if "superposition" in methods:
@@ -82,6 +96,15 @@ def working(
     cycle(sheet, cycle_context)
     checks(sheet, c)
     return sheet
+
+
+def steps(sheet: ReportSheet, c: ReportContext, drawn: bool = True) -> None:
+    """The solution solved: one unknown after the other."""
+    solved = solved_forces(c.r, c.k, c.choice)
+    if not solved.steps:
+        return
+    sheet.heading("Forces, one unknown after the other")
+    solution_steps(sheet, c, solved, drawn)
 
 
 def _just_after(sheet: ReportSheet, c: ReportContext) -> None:
@@ -104,10 +127,13 @@ def _where(c: ReportContext) -> str:
 
 def _bodies(sheet: ReportSheet, c: ReportContext) -> None:
     r, shown = c.r, c.shown
-    sheet.heading("Free bodies and their equations")
-    sheet.figure(*(draw.free_body(r, link, c.k + 1, c.notation) for link in r.links))
+    if "steps" not in c.methods:
+        sheet.heading("Free bodies and their equations")
+        sheet.figure(*(draw.free_body(r, link, c.k + 1, c.notation) for link in r.links))
     if "matrix" not in c.methods:
         return
+    if "steps" in c.methods:
+        sheet.heading("All equations at once")
     if r.friction is not None and r.mechanism.dimension == 2:
         sheet.text(
             "A reaction on its friction circle is the same as the force at the pin's centre and the couple "
@@ -187,3 +213,24 @@ def _efforts(c: ReportContext) -> list[Working]:
     rows = [(shown_name(c, "effort", d), drive_kinds(r, d)["effort"], r.effort(d)[k]) for d in r.drives]
     rows += [(load_sign(u), load_kind(r, u), r.unknown_load(u)[k]) for u in r.unknown_loads]
     return [Working(f"{name} = {figure(c.shown, kind, float(value))}") for name, kind, value in rows]
+
+
+def steps_sheet(solution: PaperSolution, notation: Notation | None = None, drawn: bool = True) -> ReportSheet:
+    """The solved solution by itself."""
+    r, k, notation = solution.result, solution.position, notation or Notation()
+    r = r.before if r.reverses[k] else r
+    c = ReportContext(r, k, Shown(r, notation, k), METHODS, solution.choice, notation)
+    sheet = ReportSheet(r.mechanism.title or "Force analysis", r.mechanism.source_text, _where(c))
+    if r.mechanism.dimension == 2 and r.drives:
+        motion_steps(sheet, c)
+    if r.mechanism.dimension == 2:
+        friction.friction(sheet, c)
+    steps(sheet, c, drawn)
+    source_arms(sheet, c)
+    return sheet
+
+
+def steps_text(solution: PaperSolution, units: UnitChoice = "file") -> str:
+    """The same as text without drawings."""
+    sheet = steps_sheet(solution, Notation(units=units), drawn=False)
+    return "\n\n".join(plain_block(b) for b in sheet.blocks if not isinstance(b, Drawings))

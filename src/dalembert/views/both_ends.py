@@ -52,7 +52,8 @@ def sides(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
             figure = shown.text(unknown_kinds(r)[name], value) if math.isfinite(value) else "not known"
             parts.append(f"{name} {figure}")
         known = bool(np.isfinite(side.least_norm(r.joints[0])[k]).all())
-        out.append((", ".join([f"Just {word} the reversal of {joints}", *parts]), side, known))
+        what = "jump of the acceleration in" if r.status[k] == "jump" else "reversal of"
+        out.append((", ".join([f"Just {word} the {what} {joints}", *parts]), side, known))
     return out
 
 

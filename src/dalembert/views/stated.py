@@ -197,6 +197,9 @@ OWN_MEASURES = (
 def _friction(shown: Shown, joint: Joint) -> str:
     """The friction of a joint as given: '; μ = 0.4, R = 0.07 m'."""
     r, f, as_written = shown.r, getattr(joint, "friction", None), shown.notation.given
+    efficiency = getattr(joint, "efficiency", None)
+    if efficiency is not None and r.friction is not None:
+        return f"; η = {as_written(efficiency)}"
     if f is None or r.friction is None:
         return ""
     mu, still = coefficient(r.mechanism, joint), resting_coefficient(r.mechanism, joint)
@@ -204,6 +207,8 @@ def _friction(shown: Shown, joint: Joint) -> str:
     for key, sign in (("radius", "R"), ("half_height", "half height"), ("arm", "arm")):
         value = getattr(f, key, None)
         parts.append(f"{sign} = {shown.text('length', value)}" if value else "")
+    if getattr(f, "force", None):
+        parts.append(f"constant {shown.text('force', f.force)}")
     if getattr(f, "guide", None):
         behind, ahead = (shown.text("length", x) for x in f.guide)
         parts.append(f"guide {behind} behind and {ahead} ahead")

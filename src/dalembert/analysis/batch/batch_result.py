@@ -36,6 +36,11 @@ CODES = (
     "reversal",
     "outside_table",
     "contact_lost",
+    "slips",
+    "slack",
+    "freewheels",
+    "out_of_stroke",
+    "jump",
 )
 """Statuses by the status codes of the kernel; `undecided` goes to the general executor and is not returned."""
 

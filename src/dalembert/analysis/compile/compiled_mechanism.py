@@ -12,19 +12,23 @@ import numpy as np
 
 from dalembert.algebra import plane, space
 from dalembert.analysis.compile import plane_rows as table
-from dalembert.analysis.compile.joint_rows import PlaneJoints, SpaceJoints
+from dalembert.analysis.compile.elements.brake_contacts import with_unknown_clamps
+from dalembert.analysis.compile.elements.held_clutches import with_clutches
+from dalembert.analysis.compile.elements.rope_parts import with_rope_parts
+from dalembert.analysis.compile.elements.turning_plane import turning_frame
+from dalembert.analysis.compile.joint_rows import ELEMENTS, PlaneJoints, SpaceJoints
 from dalembert.analysis.compile.load_arrays import LoadSetting, forcing, unknown_columns
 from dalembert.analysis.compile.pair_table import Geometry
 from dalembert.analysis.compile.pushing_contacts import pushing_contacts
 from dalembert.analysis.compile.table_ends import Beyond, beyond_ends
 from dalembert.arrays import Array, Tree
+from dalembert.core.elements.pushing import Pushing
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Forcing
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Layout, Rows
 from dalembert.core.position.first_pose_plane import Guess, Modes
 from dalembert.core.position.first_pose_space import PoseGuess
-from dalembert.core.pushing import Pushing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
 from dalembert.model.load_types import Directed
@@ -129,6 +133,7 @@ def compile_mechanism(
     Its numbers may be symbols (one position then): scale and first guess are taken from ``like``, the mechanism with
     numbers in their places.
     """
+    m = with_unknown_clamps(with_rope_parts(with_clutches(m, len(schedule.names))))
     joined = _Joined(m, schedule.names, redundant)
     geometry = _geometry(joined) if like is None else _lay_out(joined, like)
     pose_names, standing = _without_pose_loads(m)
@@ -138,7 +143,7 @@ def compile_mechanism(
         mechanism=m,
         schedule=schedule,
         unknown_loads=unknown,
-        forcing=forcing(setting),
+        forcing=replace(forcing(setting), turning=turning_frame(setting, schedule)),
         known=unknown_columns(setting, schedule, unknown),
         pose_names=pose_names,
         beyond=beyond_ends(m, setting.drives),
@@ -193,7 +198,13 @@ def _geometry(joined: _Joined) -> Tree:
     like, geometry = _first_placed(_Unplaced(joined))
     if like.key == joined.key:
         return geometry
-    complete = joined.m.dimension == 3 or geometry["contacts"] or np.isfinite(geometry["guess"].point).any()
+    of_points = any(ELEMENTS.get(joint.type) for joint in joined.m.joints.values())
+    complete = (
+        joined.m.dimension == 3
+        or geometry["contacts"]
+        or of_points
+        or np.isfinite(geometry["guess"].point).any()
+    )
     return _lay_out(joined, None) if complete else geometry | {"layout": _moved(joined, geometry)}
 
 

@@ -12,6 +12,8 @@ from dalembert.analysis.compile import pair_table
 from dalembert.analysis.compile import plane_rows as table
 from dalembert.analysis.compile.contacts import KINDS as PLANE_FRICTION
 from dalembert.analysis.compile.contacts import Kinds, contacts, has_friction
+from dalembert.analysis.compile.elements.brake_contacts import add_brake, brake_place
+from dalembert.analysis.compile.elements.cam_joints import add_cam, follower_at_rest
 from dalembert.analysis.compile.load_arrays import joint_resistances
 from dalembert.analysis.compile.space_contacts import KINDS as SPACE_FRICTION
 from dalembert.arrays import Array, Ints
@@ -44,8 +46,9 @@ class _Joints:
         self.freedoms = table.RowBuilder(links, m.dimension)
         self.names: list[tuple[str, str]] = []
         self.ends: list[tuple[int, int]] = []
-        self.arms: list[tuple[Array, Array]] = []
+        self.arms: list[tuple[Any, ...]] = []
         self.geometries: tuple[pair_table.Geometry, ...] = ()
+        self.shapes: dict[int, Any] = {}  # of machine elements
         for k, (name, joint) in enumerate(m.joints.items()):
             ends = (index[joint.links[0]], index[joint.links[1]])
             ui, uj = (np.subtract(u, reference[e]) for u, e in zip(at[name], ends, strict=True))
@@ -92,18 +95,40 @@ class _Joints:
         return ()
 
 
+ELEMENTS: dict[str, Callable[..., Any]] = {"cam": add_cam}
+"""Planar joints whose constraints depend on other joints of their links."""
+
+
+PLACES: dict[str, Callable[..., Any]] = {"cam": follower_at_rest}
+"""Joints that say where link j is about: its angle, and the place of its point."""
+
+
+def _nowhere(m: Mechanism, name: str) -> None:
+    """Nothing."""
+
+
 class PlaneJoints(_Joints):
     """Planar joints."""
 
     def add(self, k: int, name: str, joint: Joint) -> None:
         """The rows of one joint."""
-        table.add_constraints(self.constraints, k, joint, self.ends[k], *self.arms[k])
+        element = ELEMENTS.get(joint.type)
+        if joint.BRAKES:
+            place = brake_place(self.m, name, self.index, self.reference, self.arms[k])
+            add_brake(self.constraints, k, self.ends[k], place)
+            self.arms[k] = place
+            return
+        if element is not None:
+            self.shapes[k] = element(self.constraints, self.m, k, name, self.ends[k], self.arms[k])
+        else:
+            table.add_constraints(self.constraints, k, joint, self.ends[k], *self.arms[k])
         table.add_freedom(self.freedoms, k, joint, self.ends[k], *self.arms[k])
         self.names += [(name, freedom) for freedom in joint.freedoms]
 
     def contacts(self, fixed: Rows) -> Contacts | None:
         """The contacts of the joints with friction."""
-        return self.contacts_of(fixed, self.arms, PLANE_FRICTION, lambda _, first: {0: first, 1: first + 1})
+        at = [(*arms, self.shapes[k]) if k in self.shapes else arms for k, arms in enumerate(self.arms)]
+        return self.contacts_of(fixed, at, PLANE_FRICTION, lambda _, first: {0: first, 1: first + 1})
 
     def guess(self) -> Guess:
         """Angles and places of the links that the file gives."""
@@ -122,6 +147,13 @@ class PlaneJoints(_Joints):
             turn[k] = angle
             arm = plane.rotate(plane.rotation(np.array(angle)), reference[k])
             point[k] = np.array([x, y]) + arm - reference[-1]
+        for n, (name, joint) in enumerate(m.joints.items()):
+            standing = PLACES.get(joint.type, _nowhere)(m, name)
+            if standing is not None and joint.links[1] not in m.assembly:
+                k = index[joint.links[1]]
+                turn[k] = standing[0]
+                arm = plane.rotate(plane.rotation(turn[k]), self.arms[n][1])
+                point[k] = np.array(standing[1]) - arm - reference[-1]
         return Guess(turn, point)
 
 
@@ -194,10 +226,6 @@ class SpaceJoints(_Joints):
 
     def contacts(self, fixed: Rows) -> Contacts | None:
         """The contacts of the joints with friction."""
-        for name, joint in self.m.joints.items():
-            if joint.wheels and has_friction(self.m, joint):
-                what = f"gear {name!r}: friction of teeth is not analysed in space"
-                raise ModelError(what, "leave it out", ("joints", name, "friction"))
         return self.contacts_of(fixed, self.geometries, SPACE_FRICTION, pair_table.reaction_rows)
 
     def guess(self) -> PoseGuess:

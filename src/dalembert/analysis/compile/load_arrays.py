@@ -10,12 +10,15 @@ from typing import Any, Literal
 import numpy as np
 
 from dalembert.algebra.protocol import Algebra
+from dalembert.analysis.compile.elements.belt_arrays import belt_pulls
+from dalembert.analysis.compile.elements.rope_parts import rope_grips
 from dalembert.analysis.compile.plane_rows import numbers
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Couples, Forcing, Inertia, PointForces, Resistances, Springs
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
+from dalembert.model.drives.turning_checks import freed_drive
 from dalembert.model.joints.plane_joints import Joint
 from dalembert.model.load_types import Couple
 from dalembert.model.quantities.values import Vector
@@ -69,6 +72,8 @@ def forcing(s: LoadSetting) -> Forcing:
         springs=_springs(s),
         resistances=_resistances(s),
         separation=numbers(_mesh_tangents(m)),
+        belts=belt_pulls(m),
+        ropes=rope_grips(m),
     )
 
 
@@ -90,7 +95,7 @@ def _mesh_tangents(m: Mechanism) -> list[float]:
     """tan(pressure angle) of each mesh row, 0 for a wheel that rolls on a circle; in the order of the rows."""
     out = []
     for joint in m.joints.values():
-        if joint.wheels == 2:
+        if joint.wheels == 2 and not joint.WRAPPED:
             out.append(np.tan(getattr(joint, "pressure_angle", 0.0)))
     return out
 
@@ -135,14 +140,33 @@ def _springs(s: LoadSetting) -> Springs:
     ends = [[(s.index[link], u) for link, u in s.m.load_points(name)] for name in loads]
     links = [np.array([end[side][0] for end in ends], np.intp) for side in (0, 1)]
     arms = [numbers([end[side][1] - s.reference[end[side][0]] for end in ends]) for side in (0, 1)]
-    names = [field.name for field in fields(Springs)[4:]]
-    values = [numbers([getattr(load, name, 0.0) for load in loads.values()]) for name in names]
-    return Springs(*links, *(arm.reshape(-1, s.g.d) for arm in arms), *values)
+    values: Tree = {key: numbers([getattr(load, key, 0.0) for load in loads.values()]) for key in SPRING_KEYS}
+    at_a, at_b = (arm.reshape(-1, s.g.d) for arm in arms)
+    return Springs(a=links[0], b=links[1], at_a=at_a, at_b=at_b, **values, **_tables(loads))
+
+
+SPRING_KEYS = [field.name for field in fields(Springs)[4:-3]]
+"""Numbers of springs and dampers that are keys of loads."""
+
+
+def _tables(loads: Tree) -> Tree:
+    """Tension before the first bend, bends and slopes of the tables of springs and dampers."""
+    laws = [[getattr(load, name, None) for load in loads.values()] for name in ("law", "rate_law")]
+    most = max((len(law.bends) for some in laws for law in some if law is not None), default=0)
+    start, table = np.zeros((2, len(loads))), np.zeros((2, 2, most, len(loads)))
+    for which, some in enumerate(laws):
+        for k, law in enumerate(some):
+            if law is not None:
+                start[which, k] = law.y[0]
+                table[:, which, : len(law.bends), k] = np.array(law.bends).T
+    return {"start": start, "bends": table[0], "slopes": table[1]}
 
 
 @cache
 def _no_springs(d: int) -> Springs:
-    return Springs(*(np.zeros(0, np.intp),) * 2, *(np.zeros((0, d)),) * 2, *(np.zeros(0),) * 4)
+    none: Tree = dict.fromkeys(SPRING_KEYS, np.zeros(0))
+    end, arm = np.zeros(0, np.intp), np.zeros((0, d))
+    return Springs(a=end, b=end, at_a=arm, at_b=arm, **none, **_tables({}))
 
 
 def _resistances(s: LoadSetting) -> Resistances:
@@ -189,26 +213,34 @@ def joint_damping(joint: Joint) -> dict[str, float]:
         return {k: v for k, v in damping.items() if v}
     if not isinstance(damping, tuple):
         return {joint.freedoms[0]: damping}
-    return {k: v for k, v in zip(joint.freedoms, damping, strict=True) if v}
+    return {k: v for k, v in zip(joint.freedoms, damping, strict=not joint.gaps) if v}
 
 
 def _effort(s: LoadSetting, name: str, schedule: Schedule) -> Array:
     """Given effort of a drive at each position, NaN where it is unknown."""
-    effort = s.m.drives[name].effort
-    if effort is None or schedule.unknown is not None:
+    if _requested(s.m, name) or schedule.unknown is not None:
         return np.full(s.count, np.nan)
+    return given_effort(s, name)
+
+
+def given_effort(s: LoadSetting, name: str) -> Array:
+    """Effort of a drive as the description gives it (P,), 0 where it does not."""
+    effort = s.m.drives[name].effort or 0.0
     return np.broadcast_to(effort.at(s.drives) if hasattr(effort, "at") else effort, (s.count,))
+
+
+def _requested(m: Mechanism, name: str) -> bool:
+    """True if the effort of a drive is asked for, or met by the speed of a turning frame."""
+    return m.drives[name].effort is None or name == freed_drive(m)
 
 
 def unknown_columns(s: LoadSetting, schedule: Schedule, unknown: tuple[str, ...]) -> Known:
     """Given efforts and unknown loads."""
     g = s.g
-    if not unknown and all(s.m.drives[n].effort is None for n in schedule.names):
+    if not unknown and all(_requested(s.m, n) for n in schedule.names):
         return _requested_efforts(len(schedule.names), s.count, g.d, g.n)
     effort = [_effort(s, name, schedule) for name in schedule.names]
-    requested = np.array(
-        [s.m.drives[n].effort is None or schedule.unknown is not None for n in schedule.names], bool
-    )
+    requested = np.array([_requested(s.m, n) or schedule.unknown is not None for n in schedule.names], bool)
     loads: list[Any] = [s.m.loads[name] for name in unknown]
     at = [
         point_of(s.m, load.on, load.at, ("loads", name, "at")) - s.reference[s.index[load.on]]

@@ -77,21 +77,29 @@ def add_constraints(
 
 
 def reaction_rows(joint: Joint, first: int) -> dict[str, int]:
-    """Row of each reaction, Fx to Mz, of a joint whose first constraint is given and whose point is split."""
+    """Row of each reaction, Fx to Mz, of a joint whose first constraint is given and whose point is split; T, the
+    tangential force of teeth."""
+    if joint.wheels:
+        return {"T": first}
     pair = joint.pair
     forces = "yzx" if pair.threaded else pair.forces
     names = [*(f"F{axis}" for axis in forces), *(f"M{axis}" for axis in pair.moments)]
     return {name: first + k for k, name in enumerate(names)}
 
 
-def add_gear(rows: RowBuilder, index: int, joint: Gear, ends: tuple[int, int], at: Geometry) -> None:
-    """The row of a mesh; directions, signs and cones are those of the first pose (``core.gear_rows.mesh_wheels``)."""
+def tooth_columns(joint: Gear, at: Geometry) -> Tree:
+    """Numbers of a mesh; directions, signs and cones are those of the first pose (``core.gear_rows.mesh_wheels``)."""
     ri, rj = signed_radii(joint)
     axes: Tree = {"ai": at.on_i[2], "aj": at.on_j[2], "bi": at.on_i[0], "bj": at.on_j[0]}
-    count = (rows.next_counted_angle(), rows.next_counted_angle())
     unknown: Tree = {"direction": np.zeros(3), "cone": np.array([1.0, 0.0]), "ki": np.nan, "kj": np.nan}
     sizes: Tree = {"ri": ri, "rj": rj, "helix": joint.helix_angle, "outward": 1.0}
-    rows.add(Gearing, index, ends, ui=at.ui, uj=at.uj, count=count, **axes, **sizes, **unknown)
+    return {"ui": at.ui, "uj": at.uj, **axes, **sizes, **unknown}
+
+
+def add_gear(rows: RowBuilder, index: int, joint: Gear, ends: tuple[int, int], at: Geometry) -> None:
+    """The row of a mesh."""
+    count = (rows.next_counted_angle(), rows.next_counted_angle())
+    rows.add(Gearing, index, ends, count=count, **tooth_columns(joint, at))
 
 
 def _moment(pair: Pair, about: int, at: Geometry) -> tuple[Array, Array]:

@@ -21,8 +21,8 @@ import numpy as np
 
 from dalembert.algebra import space
 from dalembert.analysis.compile.contacts import Contact, Kinds, Read, Row
-from dalembert.analysis.compile.pair_table import Geometry
-from dalembert.core.layout import Along, Angle, Helix, Idle
+from dalembert.analysis.compile.pair_table import Geometry, tooth_columns
+from dalembert.core.layout import Along, Angle, Helix, Idle, ToothCouple, ToothForce
 from dalembert.model.joints.pairs import AXES
 
 
@@ -94,7 +94,27 @@ def _screw(joint: Any, at: Geometry, sine: bool) -> Iterator[Contact]:
     yield Contact("pin", row, ({"Fy": 1.0}, {"Fz": 1.0}), climb)
 
 
+def _gear(joint: Any, at: Geometry, sine: bool | None) -> Iterator[Contact]:
+    """Separation, and with friction or an efficiency what teeth lose: where they slide, or as a couple
+    (``elements.teeth_in_space`` has the levers)."""
+    numbers = {**tooth_columns(joint, at), "count": (0, 0)}
+    if joint.pressure_angle:
+        row = (ToothForce, {**numbers, "along": np.array([0.0, 1.0])})
+        yield Contact("separation", row, ({"T": 1.0},), np.tan(joint.pressure_angle), fixed=True)
+    if sine is None:
+        return
+    normal = 1 / np.cos(joint.pressure_angle)
+    if joint.friction is not None:
+        yield Contact("mesh", (ToothForce, {**numbers, "along": np.array([1.0, 0.0])}), ({"T": normal},))
+        yield Contact("mesh", (ToothCouple, numbers), ({"T": normal},), 0.0)
+    else:
+        yield Contact(
+            "mesh", (ToothCouple, numbers), ({"T": 1.0},), 0.0, own=1.0, coefficient=1 - joint.efficiency
+        )
+
+
 KINDS: Kinds = {
+    "gear": _gear,
     "revolute": _revolute,
     "prismatic": _prismatic,
     "cylindrical": _cylindrical,

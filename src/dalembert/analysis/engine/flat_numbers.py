@@ -12,16 +12,21 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.arrays import Array, Flags, Ints, Tree
+from dalembert.core.elements.belt_pulls import BeltPulls
+from dalembert.core.elements.strand_limits import RopeGrips
 from dalembert.core.equilibrium import Known
-from dalembert.core.forcing import Couples, Inertia, PointForces, Resistances, Springs
+from dalembert.core.forcing import Couples, Inertia, PointForces, Resistances, Springs, TurningFrame
 from dalembert.core.layout import Pose, Rows
 from dalembert.core.position.whole_turns import rigid_turns
 from dalembert.kernel.graph import Graph, Node, trace_array
 
-RECORDS = (Inertia, PointForces, Couples, Springs, Resistances, Rows)
+RECORDS = (BeltPulls, RopeGrips, Inertia, PointForces, Couples, Springs, Resistances, Rows, TurningFrame)
 """Records inside of others."""
 
-ALONG = {(PointForces, "value"), (Couples, "value"), (Known, "effort")}
+ALONG = {
+    *((PointForces, "value"), (Couples, "value"), (Known, "effort")),
+    *((TurningFrame, "square"), (TurningFrame, "effort")),
+}
 """Arrays with an axis of positions; the turns of torsion springs may have one too."""
 
 VARIES = 2.0

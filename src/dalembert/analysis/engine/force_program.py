@@ -30,7 +30,7 @@ from dalembert.core.friction.contact_equations import (
     strength,
     with_strength,
 )
-from dalembert.core.friction.losses import by_joint, dry_wrenches, viscous_wrenches
+from dalembert.core.friction.losses import friction_arrays
 from dalembert.core.layout import Pose
 from dalembert.kernel.elimination import structural
 from dalembert.kernel.friction_trace import trace_slip
@@ -40,6 +40,9 @@ from dalembert.kernel.trace import Traced, TracedProblem, trace_at
 KEPT = ("twist", "acceleration", "effort", "load", "force", "moment")
 SAMPLES = 24
 """Positions of the motion by which pivots and Newton's steps are chosen."""
+
+DATA = "friction "
+"""Before the names of what a ``Friction`` keeps, among the outputs of a program."""
 
 MARKS = ("unsure", "sure", "turned", "still", "locked")
 
@@ -97,30 +100,18 @@ def _friction_nodes(p: TracedProblem, pose: Pose, t: Traced) -> dict[str, Array]
     contacts, slip, g = p.contacts, t.friction.slip, p.graph
     if contacts is None or slip is None:
         return {}
-    layout, rate = p.layout, slip.state.rate
-    dry = np.where(contacts.fixed, 0.0, slip.cz)
-    force, moment = dry_wrenches(layout, contacts, pose, slip.along, dry)
-    viscous = viscous_wrenches(layout, contacts, pose, t.twist)
+    layout = p.layout
+    arrays = friction_arrays(layout, contacts, pose, t.twist, slip.along, slip.r, slip.state, slip.cz)
     bare = _without_friction(p, t)
     count, efforts = layout.constraints.count, int(p.known.requested.sum())
     effort = p.known.effort[0].astype(object)
     effort[p.known.requested] = bare[count : count + efforts]
-    arrays = {
-        "dry_force": force,
-        "dry_moment": moment,
-        "viscous_force": viscous[0],
-        "viscous_moment": viscous[1],
-        "dry_loss": by_joint(contacts.joint, layout.joints, -dry * rate),
-        "viscous_loss": viscous[2],
-        "cz": dry,
-        "sense": slip.state.sense,
-        "rate": rate,
-        "argument": argument(slip.r, slip.cz),
+    nodes: Tree = arrays | {
         "determinant": _determinant(p, t),
         "bare_effort": effort,
         "bare_load": bare[count + efforts :],
     }
-    return {name: trace_array(g, array) for name, array in arrays.items()}
+    return {DATA + name: trace_array(g, array) for name, array in nodes.items()}
 
 
 def _without_friction(p: TracedProblem, t: Traced) -> Array:
@@ -201,18 +192,12 @@ def _locked(k: ForceProgram, out: Array) -> tuple[Flags, Flags]:
 
 def _friction(c: Compiled, k: ForceProgram, out: Array, locked: Flags) -> Friction:
     """Friction at the positions where it is certain."""
-    same = {
-        name: k.part(name, out)
-        for name in Friction._fields
-        if name in k.nodes and name not in ("force", "moment")
-    }
+    same = {name: k.part(DATA + name, out) for name in Friction._fields if DATA + name in k.nodes}
     count, never = len(locked), np.zeros(len(locked), bool)
     none = np.zeros(same["cz"].shape, bool)
     unknowns = int(c.known.requested.sum()) + len(c.known.link)
     return Friction(
         **same,
-        force=k.part("dry_force", out),
-        moment=k.part("dry_moment", out),
         critical=np.full(count, np.nan),
         single=~never,
         open=none,

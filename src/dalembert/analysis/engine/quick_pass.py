@@ -14,6 +14,8 @@ from dalembert.analysis.engine.structures import BLOCK, Ready, ready
 from dalembert.analysis.engine.walk import STEP, count_turns, is_steady, walk_through, with_between
 from dalembert.analysis.positions import Positions
 from dalembert.analysis.result.result import Result
+from dalembert.analysis.status.cylinder_strokes import out_of_stroke
+from dalembert.analysis.status.freewheeling import grip_margins, released_joints
 from dalembert.analysis.status.statuses import UNBALANCED
 from dalembert.arrays import Array
 from dalembert.core.layout import Pose
@@ -23,10 +25,12 @@ from dalembert.core.position.motion_path import Path
 def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions | None:
     """Answer of a planar mechanism with every position ok; its motion where no forces are requested, or where its
     program gives none; None where some position may not be ok."""
-    program = ready(c, inertia)
+    slip = any(margin < 0 for margin in grip_margins(c.mechanism))
+    special = slip or out_of_stroke(c).any() or released_joints(c.mechanism)
+    program = None if special else ready(c, inertia)
     if program is None:
         return None
-    known = not c.pose_names and not c.beyond
+    known = not (c.pose_names or c.beyond or set(c.unknown_loads) & set(c.joints))
     complete = program.program.complete and c.contacts is None and c.layout.compliance is None and known
     outputs = _follow(program, c, pose_only=not (forces and complete))
     if outputs is None:

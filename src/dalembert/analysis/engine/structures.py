@@ -39,6 +39,9 @@ every ``OFTEN`` of them."""
 TRACE = 8.0
 """Time that it takes to trace forces where poses are known, milliseconds a link."""
 
+PIECES = 64
+"""Pieces of a cam's lift beyond which its forces are not traced: each number would be an input."""
+
 CALL, POSITION = 10.0, 0.03
 """Time of the careful path for these forces, milliseconds an analysis and a position: once it has taken as long as
 tracing takes, a structure is traced."""
@@ -145,7 +148,16 @@ def _traced(c: Compiled, numbers: Numbers, inputs: list[object], inertia: bool) 
 def known_forces(c: Compiled, pose: Pose, inertia: bool) -> ForceBlock | None:
     """Motion and forces where the poses (P, L+1, ...) are known, by the structure's program; None where there is none,
     or none yet."""
-    if c.layout.redundant or not c.layout.square or (c.passive and c.contacts is not None):
+    if (
+        c.forcing.springs.area.any()
+        or c.layout.redundant
+        or not c.layout.square
+        or (c.passive and c.contacts is not None)
+    ):
+        return None
+    if c.forcing.turning is not None and c.forcing.turning.driven >= 0:
+        return None
+    if any(np.shape(getattr(f, "curve", ()))[1:2] > (PIECES,) for f in c.layout.constraints.families):
         return None
     if not np.isfinite(pose.point).all(axis=(1, 2)).any():
         return None
@@ -166,6 +178,7 @@ def _suits(c: Compiled) -> bool:
     """True if a mechanism is of a kind whose programs are kept."""
     return (
         isinstance(c.guess, Guess)
+        and not c.forcing.springs.area.any()  # whose exponents are no symbols
         and c.layout.square
         and not phase_rows(c.layout.constraints).size
         and bool(np.isfinite(c.schedule.position).all())

@@ -92,7 +92,9 @@ def efficiency(r: Result) -> Efficiency:
         taken = np.where(back.bare < 0, back.with_friction / back.bare, np.nan)
     put = np.where(ahead.jammed & (ahead.bare > 0), 0.0, put)
     known = r.compiled.known
-    by_load = bool(not known.requested.any() and (known.effort * r.schedule.speed).any())
+    moved = known.requested & (r.schedule.speed != 0).any(axis=0)  # drives that only hold have no power
+    given = np.where(known.requested, 0.0, known.effort * r.schedule.speed)
+    by_load = bool(not moved.any() and given.any())
     forward, reverse = (taken, put) if by_load else (put, taken)
     return Efficiency(forward, reverse, *_cycle(r), back.damped, by_load)
 

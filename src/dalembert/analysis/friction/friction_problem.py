@@ -31,14 +31,13 @@ from dalembert.core.friction.contact_equations import (
     ContactResponse,
     Contacts,
     SlipState,
-    argument,
     repeat,
     response,
     senses,
     under,
 )
 from dalembert.core.friction.friction_solver import FrictionSolution, solve_friction, without_friction
-from dalembert.core.friction.losses import by_joint, dry_wrenches, power_reversed, viscous_wrenches
+from dalembert.core.friction.losses import by_joint, friction_arrays, power_reversed
 from dalembert.core.friction.rod_spin import SpinningRods, follow_branch_with_spin, solve_spins, spinning_rods
 from dalembert.core.friction.unpowered_loads import ThroughFriction, solve_unpowered
 from dalembert.core.layout import ConstraintRows, Pose
@@ -252,25 +251,16 @@ class FrictionProblem:
 
     def _friction(self, solution: FrictionSolution, cz: Array, reversing: Flags | None) -> Friction:
         layout, contacts, state = self.c.layout, self.contacts, solution.state
-        dry = np.where(contacts.fixed, 0.0, cz)
-        force, moment = dry_wrenches(layout, contacts, self.pose, self.along, dry)
-        viscous_force, viscous_moment, viscous_loss = viscous_wrenches(
-            layout, contacts, self.pose, self.moving.twist
+        arrays = friction_arrays(
+            layout, contacts, self.pose, self.moving.twist, self.along, self.r, state, cz
         )
-        without = by_joint(
-            contacts.joint, layout.joints, 0.0 * dry
-        )  # NaN, wholly, where a contact has no number
+        gaps = by_joint(contacts.joint, layout.joints, 0.0 * arrays["cz"])[..., None]  # NaN without a number
+        arrays["force"] = arrays["force"] + gaps
+        arrays["moment"] = (arrays["moment"].reshape((*gaps.shape[:-1], -1)) + gaps).reshape(
+            arrays["moment"].shape
+        )
         return Friction(
-            force=force + without[..., None],
-            moment=moment + without.reshape((*without.shape, *(1,) * (moment.ndim - 2))),
-            viscous_force=viscous_force,
-            viscous_moment=viscous_moment,
-            dry_loss=by_joint(contacts.joint, layout.joints, -dry * state.rate),
-            viscous_loss=viscous_loss,
-            cz=dry,
-            sense=state.sense,
-            rate=state.rate,
-            argument=argument(self.r, cz),
+            **arrays,
             determinant=solution.determinant,
             critical=solution.critical,
             single=solution.single & ~self.unpowered,

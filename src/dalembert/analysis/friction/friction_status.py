@@ -98,7 +98,10 @@ def arc(c: Compiled, run: Ints) -> str:
 
 
 def _unknowns(c: Compiled) -> list[str]:
-    efforts = [n for n, efforts in zip(c.schedule.names, c.known.requested, strict=True) if efforts]
+    names = list(c.schedule.names)
+    if c.forcing.turning is not None and c.forcing.turning.driven >= 0:
+        names[c.forcing.turning.driven] = "the speed of turning"
+    efforts = [n for n, efforts in zip(names, c.known.requested, strict=True) if efforts]
     return [*efforts, *c.unknown_loads]
 
 
@@ -110,6 +113,7 @@ def _kinds(c: Compiled) -> list[str]:
 
 JAMMED = "Friction jams the mechanism{arc}{side}: no effort moves it in this sense, whatever its size."
 FREED = "It would move with less than {scale} times the coefficients of friction."
+GRABS = "the brake grabs{arc}: from mu = {least} on it holds any torque (now {now})"
 LOCKED = "Self-locking{arc}{side}: the load cannot drive the machine against its friction"
 NEEDS = "{name} needs {rubbed} and without friction {bare}"
 REVERSAL = "{joints} {verb}{arc}, so friction in it changes sense: {values}."
@@ -125,7 +129,23 @@ def _jam_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     f, side = _side(f, _jams, int(run[0]))
     assert f.friction is not None
     scale = float(np.nanmin(f.friction.critical[run]))
+    if said := _grabbing(c, scale, run):
+        return said
     return f"{JAMMED.format(arc=arc(c, run), side=side)} {FREED.format(scale=f'{scale:.6g}')}"
+
+
+def _grabbing(c: Compiled, critical: float, run: Ints) -> str | None:
+    """Why a mechanism jams whose only rubbing joints are brakes; None where there are others."""
+    assert c.contacts is not None
+    acting = ~c.contacts.fixed & (c.contacts.coefficient > 0)
+    joints = [c.joints[k] for k in c.contacts.joint[acting]]
+    if not joints or not all(c.mechanism.joints[name].BRAKES for name in joints):
+        return None
+    mu = float(c.contacts.coefficient[acting].max())
+    said = GRABS.format(arc=arc(c, run), least=f"{critical * mu:.4g}", now=f"{mu:.4g}")
+    return (
+        f"{joints[0]}: {said}." if len(set(joints)) == 1 else f"{' or '.join(dict.fromkeys(joints))}: {said}."
+    )
 
 
 def _locked_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:

@@ -24,7 +24,8 @@ def assumption(result: Result) -> str:
     """Description of the friction: on or off, and the kind of pin circles: 'on, friction circles of R sin(phi)'."""
     m = result.mechanism
     if result.friction is None:
-        has_friction = any(getattr(j, "friction", None) is not None for j in m.joints.values())
+        keys = ("friction", "efficiency")
+        has_friction = any(getattr(j, key, None) is not None for j in m.joints.values() for key in keys)
         return "off (switched off)" if has_friction and not m.friction.enabled else "off"
     circles: dict[str, list[str]] = {}
     for name, joint in m.joints.items():
@@ -85,7 +86,9 @@ def joints_at_limit(result: Result, position: int = 0) -> tuple[str, ...]:
 
 
 def reversing_joints(result: Result, position: int) -> tuple[str, ...]:
-    """Joints whose contacts reverse at a position."""
+    """Joints whose contacts reverse at a position; cams where accelerations jump."""
+    if result.status[position] == "jump":
+        return tuple(n for n, joint in result.mechanism.joints.items() if joint.outlined)
     f, contacts = friction_of(result)
     return tuple(dict.fromkeys(result.joints[k] for k in contacts.joint[f.reversing[position]]))
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from dalembert.analysis.compile.plane_rows import signed_radii
+from dalembert.analysis.methods.band_actions import has_strands, on_drum
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.kept import kept
 from dalembert.analysis.result.reaction_axes import force_and_moment
@@ -133,6 +134,8 @@ def joint_actions(r: Result, split: bool = True) -> tuple[Action, ...]:
         for on, by in ((j, i), (i, j)):
             force, moment = force_and_moment(r.least_norm(joint, on))
             friction, couple = r.friction_force(joint, on), r.friction_moment(joint, on)
+            if on == i and has_strands(r, joint):
+                (force, moment), (friction, couple) = on_drum(r, joint, at)
             slides, turns = (np.nan_to_num(v).any() for v in (friction, couple))
             if not split or not (slides or turns):
                 out.append(Action(joint, "joint", "", on, by, at, force, moment))
@@ -151,8 +154,12 @@ def friction_actions(r: Result) -> tuple[Action, ...]:
     for k, joint in enumerate(r.joints):
         i, j = r.mechanism.joints[joint].links
         at = joint_place(r, joint)
+        rubbing = (f.force[:, k], f.moment[:, k])
+        if has_strands(r, joint):  # its power is that on the drum
+            force, couple = on_drum(r, joint, at)[1]
+            rubbing = (-force, -couple)
         for source, force, couple in (
-            (f"friction in {joint}", f.force[:, k], f.moment[:, k]),
+            (f"friction in {joint}", *rubbing),
             (f"damping of {joint}", f.viscous_force[:, k], f.viscous_moment[:, k]),
         ):
             if force.any() or couple.any():
@@ -165,7 +172,7 @@ def joint_place(r: Result, joint: str) -> Array:
     described: Any = r.mechanism.joints[joint]
     (i, j), (ui, uj) = described.links, r.mechanism.joint_points(joint)
     pj = link_place(r, j, uj)
-    if not described.wheels:
+    if not described.wheels or described.WRAPPED:
         return pj
     if r.mechanism.dimension == 3:
         return _pitch_point(r, joint)
@@ -285,8 +292,9 @@ def known_actions(r: Result, at: State | None = None) -> tuple[Action, ...]:
     build.couples([n for n, load in m.loads_on("link").items() if not load.unknown], sources["couple"])
     build.springs(m.loads_on("span"), sources["spring"])
     build.resistances(m.loads_on("turn"), sources["resistance"])
-    if "inertia" in sources:
-        build.inertia(sources["inertia"])
+    for kind, word in (("inertia", "inertia"), ("turning", "centrifugal")):
+        if kind in sources:
+            build.inertia(sources[kind], word)
     return tuple(build.out)
 
 
@@ -323,13 +331,15 @@ class _ActionBuilder:
             if np.any(one.wrench[..., k, :]):
                 self.add(link, kind, name.format(link), one, k, self.center(k), "force")
 
-    def inertia(self, one: WrenchSource) -> None:
-        numbers = self.r.compiled.forcing.inertia
+    def inertia(self, one: WrenchSource, word: str) -> None:
+        """D'Alembert's forces and couples of links with mass, or those of the plane that turns."""
+        f = self.r.compiled.forcing
+        spread = f.inertia.inertia if f.turning is None or word == "inertia" else f.turning.moments
         for k, link in enumerate(self.r.links):
-            if numbers.mass[k]:
-                self.add(link, "inertia", f"inertia force of {link}", one, k, self.center(k), "force")
-            if numbers.inertia[k].any():
-                self.add(link, "inertia", f"inertia couple of {link}", one, k, self.center(k), "couple")
+            if f.inertia.mass[k]:
+                self.add(link, "inertia", f"{word} force of {link}", one, k, self.center(k), "force")
+            if spread[k].any():
+                self.add(link, "inertia", f"{word} couple of {link}", one, k, self.center(k), "couple")
 
     def forces(self, names: list[str], one: WrenchSource) -> None:
         forces = self.r.compiled.forcing.forces

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.compile.pushing_contacts import with_held_contacts
+from dalembert.analysis.methods.cam_contacts import cam_contact, is_cam
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
-from dalembert.core.pushing import LOST, contact_forces
+from dalembert.core.elements.pushing import LOST, contact_forces
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.wording import closest
@@ -33,8 +34,12 @@ class ContactHistory:
     needed (P,): the force as if the contact held both ways, below 0 where it is lost; ``force`` is NaN there. behind,
     ahead (P,): of a guide with lengths, the forces at its ends, the same way. lift_factor: the least factor of all
     speeds (accelerations by its square) from which on the contact is lost somewhere, NaN where it never is, 0 where the
-    loads alone do not close it; lift_speed: that of the first drive that moves. Loads that depend on time or speeds
-    keep their values at the given speeds only to second order.
+    loads alone do not close it; lift_speed: that of the first drive that moves. lift_acceleration: size of that of the
+    first drive that accelerates, at the given speeds, from which on the contact is lost. Loads that depend on time or
+    speeds keep their values at the given speeds only to second order.
+
+    place, pressure_angle (P,): of a cam, where a flat face touches, from its point along it, m; and the angle from the
+    motion of that place to the normal, > 0 against the cam's sense.
     """
 
     joint: str
@@ -43,6 +48,9 @@ class ContactHistory:
     ahead: Array | None = field(repr=False)
     lift_factor: float
     lift_speed: float
+    lift_acceleration: float = np.nan
+    place: Array | None = field(default=None, repr=False)
+    pressure_angle: Array | None = field(default=None, repr=False)
 
     @property
     def force(self) -> Array:
@@ -71,7 +79,7 @@ def contact_force(r: Result, joint: str) -> ContactHistory:
     if pushing is None or joint not in of:
         what = f"the contact of joint {joint!r} holds both ways"
         raise ModelError(what, "write contact: pushes" if not of else f"choose among {', '.join(of)}")
-    rows = np.flatnonzero(pushing.joint == r.joints.index(joint))
+    rows = np.flatnonzero((pushing.joint == r.joints.index(joint)) & ~pushing.slips)
     holding = with_held_contacts(r.mechanism)
     parts = np.array([_forces(r, holding, factor)[:, rows] for factor in SPEEDS])  # (3, P, K)
     size = np.abs(parts[1]).max(initial=0.0)
@@ -82,13 +90,26 @@ def contact_force(r: Result, joint: str) -> ContactHistory:
     factor = _lift_factor(parts, size)
     moving = r.schedule.speed[:, (r.schedule.speed != 0).any(axis=0)]
     speed = float(np.abs(moving[:, 0]).max()) if moving.size else np.nan
-    return ContactHistory(joint, forces.sum(axis=1), behind, ahead, factor, factor * speed)
+    of_cam = cam_contact(r, joint)[1:] if is_cam(r, joint) else (None, None)
+    needed, speeding = forces.sum(axis=1), _lift_acceleration(r, holding, rows, forces)
+    return ContactHistory(joint, needed, behind, ahead, factor, factor * speed, speeding, *of_cam)
 
 
-def _forces(r: Result, holding: Mechanism, factor: float) -> Array:
-    """Forces (P, K) of all contacts at a factor of the speeds."""
-    s = r.schedule
-    schedule = replace(s, speed=factor * s.speed, acceleration=factor**2 * s.acceleration)
+def _lift_acceleration(r: Result, holding: Mechanism, rows: Array, forces: Array) -> float:
+    """Size of the first acceleration from which on a contact is lost; of forces at the given one they are linear."""
+    given = r.schedule.acceleration[:, (r.schedule.acceleration != 0).any(axis=0)]
+    if not given.size:
+        return np.nan
+    even = _forces(r, holding, 1.0, 0.0)[:, rows]
+    falls = (even > 0) & (even - forces > LOST * np.abs(forces).max(initial=0.0))
+    part = np.where(falls, even / np.where(falls, even - forces, 1.0), np.inf).min(initial=np.inf)
+    return float(part * np.abs(given[:, 0]).max()) if np.isfinite(part) else np.nan
+
+
+def _forces(r: Result, holding: Mechanism, factor: float, ahead: float | None = None) -> Array:
+    """Forces (P, K) of all contacts at a factor of the speeds, and of the accelerations, by default its square."""
+    s, part = r.schedule, factor**2 if ahead is None else ahead
+    schedule = replace(s, speed=factor * s.speed, acceleration=part * s.acceleration)
     other = at_schedule(holding, schedule, r.inertia)
     c = r.compiled
     assert c.pushing is not None

@@ -353,7 +353,7 @@ def inertia_shares(r: Result) -> tuple[Share, ...]:
 
 def _parts_of_inertia(r: Result) -> tuple[Array, Array]:
     """Inertia's part of the efforts (P, D) and joint forces (P, J, 2)."""
-    if r.friction is not None or r.compiled.forcing.separation.any():
+    if r.friction is not None or r.compiled.forcing.follows_reactions:
         from dalembert.analysis.one_pass import at_schedule
 
         still = at_schedule(r.mechanism, r.schedule, inertia=False)

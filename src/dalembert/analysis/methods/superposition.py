@@ -6,14 +6,17 @@ factored A. Dry friction and the separating force of gear teeth depend on magnit
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, State, known_actions, state
+from dalembert.analysis.methods.belt_tensions import belt_tensions
 from dalembert.analysis.result.reaction_axes import force_and_moment
 from dalembert.arrays import Array
+from dalembert.core.elements.belt_pulls import BeltPulls
 from dalembert.core.equilibrium import balance, reactions
 from dalembert.core.forcing import WrenchSource, total_wrench
 from dalembert.errors import ModelError
@@ -113,7 +116,8 @@ def superposition(r: Result) -> Superposition:
     """Every reaction, effort and unknown load of a result split by source.
 
     Sources are each load by its name, `weight of LINK`, `inertia force of LINK`, `inertia couple of LINK`, each spring
-    and damper, `damping of JOINT` and given efforts. Raises ModelError where the answer is not linear in them.
+    and damper, `damping of JOINT`, `tension of BELT` and given efforts. Raises ModelError where the answer is not
+    linear in them.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
@@ -130,6 +134,10 @@ def superposition(r: Result) -> Superposition:
         if not r.compiled.known.requested[k]:
             sources = (*sources, f"effort of {drive}")
             parts.append(_solve_under(r, at, _total(r, []), drive=k))
+    for name, pulls, source in belt_tensions(r, at):
+        w = total_wrench(r.compiled.layout, source)
+        sources = (*sources, f"tension of {name}")
+        parts.append(_solve_under(r, at, np.broadcast_to(w, (len(r.status), *w.shape[1:])), belts=pulls))
     if not parts:
         return _nothing(r)
     return Superposition(r, sources, *(np.stack(p) for p in zip(*parts, strict=True)))
@@ -141,6 +149,11 @@ def refuse_nonlinear(r: Result) -> None:
         raise ModelError(
             "superposition is refused: with dry friction the forces do not add, as its size goes with |F|",
             "leave friction out with --no-friction, or use --method matrix",
+        )
+    if r.compiled.forcing.belts is not None and r.compiled.forcing.belts.share.any():
+        raise ModelError(
+            "superposition is refused: the pull of a belt with a given strand follows |T1 - T2|, which does not add",
+            "use --method matrix, or give the belt's tension or tensioner",
         )
     if r.compiled.forcing.separation.any():
         raise ModelError(
@@ -165,7 +178,7 @@ def _total(r: Result, some: list[Action]) -> Array:
 
 
 def _solve_under(
-    r: Result, at: State, w: Array, drive: int | None = None
+    r: Result, at: State, w: Array, drive: int | None = None, belts: BeltPulls | None = None
 ) -> tuple[Array, Array, Array, Array]:
     """Forces, moments, efforts and unknown loads for wrenches w alone, or for one given effort alone."""
     c = r.compiled
@@ -174,9 +187,26 @@ def _solve_under(
         effort[:, drive] = c.known.effort[:, drive]
     with np.errstate(all="ignore"):
         known = replace(c.known, effort=effort)
-        equilibrium = balance(c.layout, c.forcing, known, at.pose, at.moving, at.rows, at.solver, w)
+        equilibrium = balance(
+            c.layout, replace(c.forcing, belts=belts), known, at.pose, at.moving, at.rows, at.solver, w
+        )
         force, couple = reactions(c.layout, at.pose, at.rows, equilibrium)
     return force, couple if c.layout.algebra.d == 3 else couple[..., 0], equilibrium.effort, equilibrium.load
+
+
+def changed_by(r: Result, added: Sequence[Action]) -> Result:
+    """The answer with some forces and couples more on its links, whatever the motion; ``refuse_nonlinear`` first.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import examples
+    >>> r = da.dynamics(da.load(examples()["four_bar"]))
+    >>> bool((changed_by(r, []).force_array == r.force_array).all())
+    True
+    """
+    with np.errstate(all="ignore"):  # no number where a point or a motion has none
+        parts = _solve_under(r, state(r), _total(r, list(added)))
+    names = ("force_array", "moment_array", "effort_array", "load_array")
+    return replace(r, **{name: getattr(r, name) + part for name, part in zip(names, parts, strict=True)})
 
 
 def _nothing(r: Result) -> Superposition:

@@ -21,6 +21,7 @@ from dalembert.analysis.methods.applied_forces import (
     magnitude,
     state,
 )
+from dalembert.analysis.methods.belt_tensions import tension_actions
 from dalembert.arrays import Array
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import load_rows
@@ -99,7 +100,7 @@ def virtual_work(r: Result) -> VirtualWork:
     """
     at = state(r)
     g = r.compiled.layout.algebra
-    loads, friction = known_actions(r, at), friction_actions(r)
+    loads, friction = (*known_actions(r, at), *tension_actions(r, at)), friction_actions(r)
     known = (*loads, *friction)
     motions = [*(_motion(r, at, a) for a in loads), *(_relative(r, at, a) for a in friction)]
     shape = (len(known), len(r.status), len(r.drives))

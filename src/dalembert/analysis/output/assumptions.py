@@ -9,6 +9,8 @@ import numpy as np
 
 from dalembert.analysis.compile.torsion_turns import count_notes
 from dalembert.analysis.friction import joint_friction
+from dalembert.analysis.methods.applied_forces import link_place
+from dalembert.analysis.output.summary.printed_turning import turning_note
 from dalembert.analysis.result.joint_freedoms import freedom_motion, full_pose
 from dalembert.model.gravity import STANDARD, gravity_doubt
 from dalembert.model.space_checks import impossible, principal_inertias
@@ -38,6 +40,7 @@ def assumptions(result: Result) -> dict[str, str]:
         "inertia": "on (D'Alembert)" if result.inertia else "off (static)",
         "friction": joint_friction.assumption(result),
     }
+    notes |= turning_note(result.mechanism)
     if result.compiled.layout.compliance is not None and result.unique_array is not None:
         notes["redundant reactions"] = "by the joints' stiffness, links rigid, free of stress without load"
     notes |= count_notes(result.compiled, full_pose(result)) | _left_to_forces(result)
@@ -68,6 +71,20 @@ def _left_to_forces(r: Result) -> dict[str, str]:
         if (stops := getattr(joint, "stops", None)) is not None and r.ok.any():
             which = "slide" if stops.kind == "length" else "turn"
             notes |= _beyond(f"stops of {name}", stops, freedom_motion(r, name, which)[0])
+    return notes | _beyond_tables(r)
+
+
+def _beyond_tables(r: Result) -> dict[str, str]:
+    """Springs whose length goes beyond the table of their force."""
+    m, notes = r.mechanism, {}
+    for name, load in m.loads_on("span").items():
+        if (law := getattr(load, "law", None)) is not None:
+            ends = [link_place(r, link, u) for link, u in m.load_points(name)]
+            change = np.hypot.reduce((ends[1] - ends[0]).T) - load.free_length
+            past = np.count_nonzero((change < law.x[0] - PAST) | (change > law.x[-1] + PAST))
+            if past:
+                many = f"{past} of {len(change)} positions {'is' if past == 1 else 'are'} beyond its ends"
+                notes[f"table of {name}"] = f"{many}, where its first or last force is kept"
     return notes
 
 

@@ -68,6 +68,11 @@ BY_FRICTION = (*UNKNOWN, "reaction", "reaction_moment", "friction_force", "frict
 """Quantities that jump where contacts reverse; of efforts and loads friction may leave an interval open."""
 MOTION = (*FREEDOMS, "angle", "rotation", "point")
 CHECKS = ("residual", "power_balance")
+GIVEN = ("time", "drive", "turning_speed", "turning_torque")
+"""What is prescribed, or as the speed of a turning frame may be prescribed."""
+
+ELEMENTS = ("pressure", "flow", "screw_torque")
+"""Quantities of drives that are machine elements; bearings have theirs in tables of their own."""
 
 
 def entries(
@@ -93,6 +98,8 @@ def _written_things(result: Result, word: str, rubbing: Sequence[str]) -> Sequen
         return [f"{link}.{point}" for link in result.links for point in (ORIGIN, CENTER)]
     if word == "rotation" and in_plane(result):
         return ()
+    if word in ELEMENTS:
+        return [name for name in things(result, CATALOGUE[word].of) if name in result.drives]
     return rubbing if CATALOGUE[word].friction else things(result, CATALOGUE[word].of)
 
 
@@ -130,9 +137,9 @@ def columns(result: Result, axes: Axes = "ground") -> Iterator[Column]:
     """Every number of a result: drives, efforts, unknown loads, reactions and their sizes, joints' slides and turns,
     links, points, residual, power balance; low and high of what friction leaves open."""
     for e in chain(
-        entries(result, ("time", "drive", *BY_FRICTION), axes),
+        entries(result, (*GIVEN, *BY_FRICTION), axes),
         least_norms(result, axes),
-        entries(result, (*MOTION, *CHECKS), axes),
+        entries(result, (*ELEMENTS, *MOTION, *CHECKS), axes),
         bounds(result, axes),
     ):
         for part, values in parts(e.values):
@@ -148,7 +155,8 @@ def friction_joints(result: Result) -> list[str]:
     from dalembert.analysis.compile.load_arrays import joint_damping
 
     joints = result.mechanism.joints
-    return [n for n in result.joints if getattr(joints[n], "friction", None) or joint_damping(joints[n])]
+    lossy = [n for n in result.joints for key in ("friction", "efficiency") if getattr(joints[n], key, None)]
+    return [n for n in result.joints if n in lossy or joint_damping(joints[n])]
 
 
 def friction_in(result: Result, joint: str, axes: Axes) -> tuple[Array, Array]:

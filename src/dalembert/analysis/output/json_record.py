@@ -12,6 +12,8 @@ from dalembert.analysis.friction.joint_friction import bears_on_faces, guide_con
 from dalembert.analysis.output.columns import (
     BY_FRICTION,
     CHECKS,
+    ELEMENTS,
+    GIVEN,
     MOTION,
     Entry,
     bounds,
@@ -99,10 +101,13 @@ Fields = dict[tuple[str, ...], Lists]
 def _fields(result: Result, to: Scale, axes: Axes) -> Fields:
     """All possible fields of a record."""
     numbers, kinds = _numbers(to), unknown_kinds(result)
-    out = _of(to, entries(result, ("time", "drive")))
+    out = _of(to, entries(result, GIVEN))
     if result.after is not None:
         out |= _side_fields(result, to, axes)
     out |= _force_fields(result, to, axes)
+    if result.ends and result.mechanism.turning is not None:
+        speeds = numbers("angular_speed", result.turning_interval)
+        out["turning_speed",] = _ranges(out["turning_speed",], speeds, result.status)
     for name, kind in kinds.items() if result.ends else ():
         word = "effort" if name in result.drives else "load"
         out[word, name] = _ranges(out[word, name], numbers(kind, result.interval(name)), result.status)
@@ -111,7 +116,7 @@ def _fields(result: Result, to: Scale, axes: Axes) -> Fields:
         for which, end in zip(("low", "high"), ends, strict=True):
             out |= _under(_force_fields(end, to, axes, BY_FRICTION[2:]), "ends", name, which)
             out["ends", name, which, "at_limit"] = _limits(end)
-    out |= _of(to, entries(result, MOTION))
+    out |= _of(to, entries(result, (*ELEMENTS, *MOTION)))
     for spring, turn in count_turns(result.compiled, full_pose(result)).items():
         out["spring_turns", spring] = numbers("angle", turn)
     return out | _of(to, entries(result, CHECKS))
@@ -205,7 +210,7 @@ def _record(result: Result, position: int, values: dict[tuple[str, ...], object]
     reverses = bool(result.reverses[position])
     if result.friction is not None:
         record["friction"] = _solution(result, position)
-    if reverses and result.after is not None:
+    if reverses and result.after is not None and result.friction is not None:
         record["after"] = {"friction": _solution(result.after, position)}
     for path, value in values.items():
         if path[0] in ("ends", "holding") and (status != "at_rest" or value is None):

@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import BY_FRICTION, CHECKS, MOTION, Entry, bounds, entries
+from dalembert.analysis.output.columns import (
+    BY_FRICTION,
+    CHECKS,
+    ELEMENTS,
+    GIVEN,
+    MOTION,
+    Entry,
+    bounds,
+    entries,
+)
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.result.quantity_catalogue import CATALOGUE
 from dalembert.analysis.result.reaction_axes import Axes
@@ -21,8 +30,8 @@ if TYPE_CHECKING:
 def result_arrays(result: Result, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
     """Arrays and coordinates, each with its unit."""
     every = [
-        *entries(result, ("time", "drive", *BY_FRICTION), axes, every=True),
-        *entries(result, (*MOTION, *CHECKS)),
+        *entries(result, (*GIVEN, *BY_FRICTION), axes, every=True),
+        *entries(result, (*ELEMENTS, *MOTION, *CHECKS)),
         *bounds(result, axes, every=True),
     ]
     data: Tree = {"status": ("position", np.array(result.status, dtype=str))}
@@ -45,6 +54,9 @@ def result_arrays(result: Result, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
 
 DIMENSIONS = {
     "drives": "drive_name",
+    "pressed": "cylinder",
+    "cylinders": "cylinder",
+    "screws": "screw",
     "unknown_loads": "load_name",
     "joints": "joint",
     "links": "link",

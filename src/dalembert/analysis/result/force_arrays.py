@@ -70,6 +70,7 @@ class SolvedForces(NamedTuple):
     ends: tuple[SolvedForces, ...] = ()
     unique_in: Array | None = None
     after: SolvedForces | None = None
+    square: Array | None = None  # (P,) of the speed of a turning frame, where it is solved
 
 
 def forces_of(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from dalembert.analysis.compile.load_arrays import point_of
+from dalembert.analysis.methods.on_paper import OnPaper
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 
@@ -29,7 +30,7 @@ def place_of(names: tuple[str, ...], name: str, kind: str) -> int:
     return names.index(name)
 
 
-class LinkMotion:
+class LinkMotion(OnPaper):
     """Motion of the links of a result; the arrays are those of ``Result``."""
 
     compiled: Compiled

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
+from dalembert.analysis.methods.elements.screw_torques import screws
 from dalembert.analysis.result.link_motion import ORIGIN
 from dalembert.analysis.result.number_kinds import written_kind
 from dalembert.analysis.result.quantity_catalogue import (
@@ -65,12 +67,21 @@ def things(r: HasQuantities, of: str) -> list[str]:
         return [""] if any(m.links[link].place for link in r.links) else []
     if of == "times":
         return [] if getattr(r, "time", None) is None else [""]
+    if of == "frames":
+        return [] if m.turning is None else [""]
+    if of == "contacts":
+        pushing = r.compiled.pushing
+        return [] if pushing is None else list(dict.fromkeys(r.joints[k] for k in pushing.joint))
     if of == "guides":
         return [n for n in r.joints if getattr(getattr(m.joints[n], "friction", None), "guide", None)]
     if of == "hinges":
         return transmission_names(m)
-    if of == "sized bearings":
-        return list(bearing_areas(r))
+    if of == "pressed":
+        return [*bearing_areas(r), *cylinders(m)]
+    if of == "screws":
+        return list(screws(m))
+    if of == "cylinders":
+        return list(cylinders(m))
     if of == "fixed points":
         return ["", *ground_points(m)]
     return list(getattr(r, of)) if of else [""]

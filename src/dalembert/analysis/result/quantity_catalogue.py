@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 
 from dalembert.algebra import plane
+from dalembert.analysis.methods.elements.cylinder_quantities import cylinders, flow_in, working_pressure
+from dalembert.analysis.methods.elements.screw_torques import drive_torque
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.transmission_lines import (
     LinkLine,
@@ -129,9 +131,11 @@ def magnitude(vectors: Array) -> Numeric:
 
 
 def _pressure(r: Any, joint: str) -> Numeric:
-    """Force across the axis over the projected area."""
+    """Force across a bearing's axis over the projected area; of a cylinder, that of the chamber that is solved for."""
     from dalembert.analysis.friction.bearing_ends import bearing_axis
 
+    if joint in cylinders(r.mechanism):
+        return working_pressure(r, joint)
     force = r.reaction(joint)
     if r.mechanism.dimension == 3:
         axis = bearing_axis(r, joint)
@@ -146,6 +150,17 @@ def _face(name: str) -> Read:
         return getattr(guide_contact(r, joint), name)
 
     return read
+
+
+def _normal(r: Any, joint: str) -> Array:
+    """Normal force of a contact that only pushes or pulls."""
+    from dalembert.analysis.result.joint_freedoms import full_pose
+    from dalembert.core.elements.pushing import contact_forces
+
+    c, own = r.compiled, r.compiled.pushing
+    rows = (own.joint == r.joints.index(joint)) & ~own.slips
+    forces = contact_forces(c.layout, own, full_pose(r), r.force_array, r.moment_array)
+    return np.asarray(forces[:, rows].sum(axis=-1))
 
 
 def _shaking(part: str) -> Read:
@@ -189,6 +204,7 @@ CATALOGUE: dict[str, QuantityWord] = {
     "load": QuantityWord("unknown_loads", _bounded(load_kind, _LOAD)),
     "reaction": QuantityWord("joints", _bounded("force", _method("reaction"))),
     "reaction_moment": QuantityWord("joints", _bounded("moment", _method("reaction_moment"))),
+    "normal": QuantityWord("contacts", {"": QuantityReading("force", _normal)}, False, False),
     "friction_force": QuantityWord(
         "joints", _bounded("force", _method("friction_force")), False, friction=True
     ),
@@ -212,6 +228,10 @@ CATALOGUE: dict[str, QuantityWord] = {
     "power": QuantityWord(
         "drives", {"": QuantityReading("power", lambda r, of: r.effort(of) * r.drive_speed(of))}
     ),
+    "turning_speed": QuantityWord("frames", _bounded("angular_speed", _value("turning_speed"))),
+    "turning_torque": QuantityWord(
+        "frames", {"": QuantityReading("moment", _value("turning_torque"))}, False
+    ),
     **{word: QuantityWord(word, _freedom(word)) for word in FREEDOMS},
     "angle": QuantityWord(
         "links",
@@ -232,7 +252,9 @@ CATALOGUE: dict[str, QuantityWord] = {
     ),
     "transmission": QuantityWord("hinges", {"": QuantityReading("angle", _hinge(transmission_angle))}),
     "closure": QuantityWord("hinges", {"": QuantityReading("length", _hinge(closure_margin))}),
-    "pressure": QuantityWord("sized bearings", {"": QuantityReading("pressure", _pressure)}),
+    "pressure": QuantityWord("pressed", {"": QuantityReading("pressure", _pressure)}),
+    "screw_torque": QuantityWord("screws", {"": QuantityReading("moment", drive_torque)}),
+    "flow": QuantityWord("cylinders", {"": QuantityReading("flow", flow_in)}),
     "shaking_force": QuantityWord("", {"": QuantityReading("force", _shaking("force"))}),
     "shaking_moment": QuantityWord("fixed points", {"": QuantityReading("moment", _shaking("moment"))}),
     "shaking_couple": QuantityWord(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from dalembert.analysis.methods.elements.element_answers import ElementAnswers
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
 from dalembert.answer.answer import Drawn, Labelled, Worked
 from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice
@@ -19,7 +20,6 @@ from dalembert.errors import SOLVED, ModelError
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.degree_of_freedom import Mobility
-    from dalembert.analysis.methods.contact_force import ContactHistory
     from dalembert.analysis.result.force_arrays import Friction
     from dalembert.analysis.result.position_lookup import PositionChoice
     from dalembert.answer.workbook import Tab
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
+class Result(LinkMotion, ElementAnswers, NamedAnswer, Labelled, Drawn, Worked):
     """Answer of one analysis over P positions (a leading axis design may precede position).
 
     Everything in SI and radians, vectors in ground axes. A reaction is exerted by a joint's other link on the requested
@@ -159,10 +159,10 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
 
     @property
     def reverses(self) -> Flags:
-        """Positions where contacts reverse, so that friction has other numbers just before and just after."""
-        if self.after is None or self.friction is None:
-            return np.zeros(len(self.status), bool)
-        return np.asarray(self.friction.reversing.any(axis=-1))
+        """Positions with other numbers just before and just after: contacts reverse, or accelerations jump."""
+        jumps = np.array([s == "jump" and self.after is not None for s in self.status], bool)
+        alone = self.after is None or self.friction is None
+        return jumps if alone else jumps | self.friction.reversing.any(axis=-1)  # type: ignore[union-attr]
 
     @property
     def sides(self) -> tuple[Result, ...]:
@@ -283,9 +283,8 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
     def friction_moment(self, joint: str, on: str | None = None) -> Array:
         """Dry friction's couple in a joint on one of its links (P,), in space (P, 3), default on j."""
         k, sign = self._joint(joint, on)
-        return (
-            sign * (np.zeros_like(self.moment_array) if self.friction is None else self.friction.moment)[:, k]
-        )
+        moment = np.zeros_like(self.moment_array) if self.friction is None else self.friction.moment
+        return sign * moment[:, k]
 
     def power_lost(self, joint: str, kind: Literal["dry", "viscous", "all"] = "all") -> Array:
         """Power that friction takes in a joint (P,), W."""
@@ -311,12 +310,6 @@ class Result(LinkMotion, NamedAnswer, Labelled, Drawn, Worked):
     def time(self) -> Array | None:
         """Times (P,) of the positions, s, where the drives have a law of motion."""
         return self.schedule.time
-
-    def contact(self, joint: str) -> ContactHistory:
-        """Normal force of a contact that only pushes, and the speed at which it is lost: `contact_force.py`."""
-        from dalembert.analysis.methods.contact_force import contact_force
-
-        return contact_force(self, joint)
 
     def freedom(self, joint: str, kind: str) -> tuple[Array, Array, Array]:
         """Value, rate and second rate of a joint's freedom `slide` or `turn`, each (P,)."""

@@ -9,13 +9,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.analysis.elements.turning_speeds import speed_checks
 from dalembert.analysis.friction.friction_status import Check, alone, arc, friction_checks, reversal_checks
+from dalembert.analysis.status.brake_verdicts import clamp_checks, helping
 from dalembert.analysis.status.closure_failure import open_sentence
+from dalembert.analysis.status.cylinder_strokes import stroke_checks
+from dalembert.analysis.status.freewheeling import freewheel_checks, grip_checks
+from dalembert.analysis.status.lift_jumps import jump_sentence
 from dalembert.analysis.status.lost_contacts import contact_checks
 from dalembert.analysis.status.outside_tables import outside, outside_sentence
 from dalembert.analysis.status.overflow import FORCES, RATES, fast, not_finite, overflow_sentence, strong
+from dalembert.analysis.status.slipping_belts import belt_checks
+from dalembert.analysis.status.slipping_ropes import rope_checks
 from dalembert.analysis.status.undefined_springs import find_undefined_springs, undefined_sentence
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.rank import singular_below
 from dalembert.errors import NUMBERED
 
@@ -27,14 +34,21 @@ if TYPE_CHECKING:
 UNBALANCED = 1e-6
 """Residual above which a position has no equilibrium."""
 
-KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load", "contact_lost")
+KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load", "contact_lost", "slips", "slack")
 """Statuses that keep the motion, and the available numbers of the forces."""
 
 
 def statuses(
-    followed: Positions, twist: Array, acceleration: Array, rcond: Array, f: SolvedForces, forces: bool
+    followed: Positions,
+    twist: Array,
+    acceleration: Array,
+    rcond: Array,
+    f: SolvedForces,
+    forces: bool,
+    jumps: Flags | None = None,
 ) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
-    """Status and sentence of each position; ``rcond`` is that of the closure equations, ``forces`` asked for or not."""
+    """Status and sentence of each position; ``rcond`` is that of the closure equations, ``forces`` asked for or not;
+    ``jumps`` (P,) of accelerations."""
     c, path = followed.compiled, followed.path
     assert path is not None
     limit = singular_below(c.layout)
@@ -43,6 +57,7 @@ def statuses(
     partial = f.unique is not None and not f.unique.all()
     checks: list[Check] = [
         ("not_assembled", ~path.reached, lambda k: open_sentence(c, path, k)),
+        *stroke_checks(c),
         ("singular", ~(rcond >= limit), lambda k: _singular_sentence(c, k)),
     ]
     racing = fast(twist, acceleration)
@@ -51,19 +66,27 @@ def statuses(
         loaded, held = strong(f), f.rcond >= limit
         pushing = find_undefined_springs(c, path.pose)
         checks += [("undefined_load", pushing.any(axis=-1), lambda k: undefined_sentence(c, pushing, k))]
+        checks += speed_checks(c, f)
         checks += [("no_balance", unheld.all(axis=0), lambda k: no_balance_sentence(c, k))]
+        checks += clamp_checks(c, twist, f)
         checks += friction_checks(c, f, held)
         checks += [
             ("overflow", not_finite(f) & held, lambda k: overflow_sentence(c, FORCES, c.joints, loaded, k)),
             ("no_balance", unbalanced, lambda k: no_balance_sentence(c, k)),
             *contact_checks(c, path.pose, f),
+            *(belt_checks(c, path.pose, twist, f) if c.mechanism.has_limits else ()),
+            *(rope_checks(c, path.pose, f) if c.mechanism.has_limits else ()),
+            *grip_checks(c, f),
             ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
             ("outside_table", outside(c), lambda k: outside_sentence(c, k)),
             *reversal_checks(c, f),
+            *freewheel_checks(c, twist),
         ]
+    if jumps is not None:
+        checks += [("jump", jumps, lambda k: jump_sentence(arc(c, k)))]
     status = np.full(len(rcond), "ok", dtype=object)
     reasons = np.full(len(rcond), None, dtype=object)
-    single = alone(f)
+    single = alone(f) if jumps is None else alone(f) | jumps
     for code, mask, sentence in checks:
         where = np.flatnonzero(mask & (status == "ok"))
         status[where] = code
@@ -94,6 +117,8 @@ def no_balance_sentence(c: Compiled, where: Ints) -> str:
             f"The loads have no equilibrium here: they turn {links} about the line of two ball joints, {holds}. "
             "Replace one of them by a universal joint, or move the mass centre onto the line."
         )
+    if unknown and (said := helping(c, where)):
+        return said
     if unknown:
         why = "it has no power here"
         if c.contacts is not None and c.schedule.moves[where].any():

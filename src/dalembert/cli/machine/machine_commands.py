@@ -205,7 +205,11 @@ def simulate(
     ],
     event: Annotated[
         list[str] | None,
-        Parameter(negative=(), help='Condition to record when it is met: "O2.position = 90 deg".'),
+        Parameter(
+            name=["--event", "--events"],
+            negative=(),
+            help='Condition to record when it is met: "O2.position = 90 deg", "normal.wall = 0".',
+        ),
     ] = None,
     count: Annotated[
         int, numeric("instants", "Number of equally spaced instants in the answer, besides the events.")

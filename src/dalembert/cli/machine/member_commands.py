@@ -69,9 +69,15 @@ def motor(
     /,
     *,
     drive: Annotated[str | None, with_help("The drive (default: the first).")] = None,
-    inertia: Annotated[str, target("Inertia of the motor, e.g. 0.002kg*m^2.")] = "0",
+    inertia: Annotated[
+        str | None,
+        target("Inertia of the motor, e.g. 0.002kg*m^2 (default: that of the drive's motor, or 0)."),
+    ] = None,
     ratio: Annotated[float | None, numeric("ratio", "Gear ratio: motor speed over drive speed.")] = None,
-    efficiency: Annotated[float, numeric("efficiency", "Efficiency of the gear (default: 1).")] = 1.0,
+    efficiency: Annotated[
+        float | None,
+        numeric("efficiency", "Efficiency of the gear (default: that of the drive's motor, or 1)."),
+    ] = None,
     curve: Annotated[
         Path | None, with_help("Torque limit of the motor: a text file with columns speed, torque.")
     ] = None,
@@ -85,7 +91,7 @@ def motor(
     from dalembert.machine.motors import motor_choice
 
     result = cycle_of(file, of, out)
-    rotor = number_of(result, inertia, "inertia", "inertia", "motor inertia") or 0.0
+    rotor = number_of(result, inertia, "inertia", "inertia", "motor inertia")
     lasting = number_of(result, rated, "moment", "rated", "rated torque")
     choice = drive, rotor, ratio, efficiency, curve, lasting
     answer(result, lambda r: motor_choice.motor(r, *choice), out)

@@ -28,7 +28,9 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import branchless
 from dalembert.core.branchless import above, hypot, larger, root, top, unit, where
 from dalembert.core.constraints import drift, measure, rates, system
+from dalembert.core.elements.rope_bends import bend_factor
 from dalembert.core.forcing import Resistances, WrenchSource, total_wrench
+from dalembert.core.friction.capstan import capstan
 from dalembert.core.layout import ConstraintRows, Layout, Pose, Rows
 from dalembert.core.linear import Factor
 
@@ -48,7 +50,7 @@ class Contacts:
     """The E contacts of a planar or spatial mechanism.
 
     rows        freedom that each acts along: a turn, a slide, the line of centres of two wheels
-    kind (E,)   pin, guide, faces, mesh, separation, collar, ball, thread
+    kind (E,)   pin, guide, faces, mesh, separation, collar, ball, thread, sleeve
     joint (E,)  the joint it belongs to
     read (3, E, K)  Y: its arguments of the constraints' multipliers
     lever (E,)  strength at a coefficient of one; radius of a pin
@@ -62,8 +64,15 @@ class Contacts:
     group (E,)  contacts with the same number share a slip vector; each takes its component of it, with ``reckoned``
                 (E,), the length that turns its rate into a speed
     around (E,) true in a group that slips along and around an axis, with friction circles of R sin(phi)
+    wound (E,)  a band, rope or belt round a drum by the angle ``wrap`` (E,), with ``blocks`` (E,) on it, 0 of a
+                continuous lining: S is the mean of its two tensions, and its friction their difference
+    bends (E, 2), way (E,)  of a rope round a wheel by exact tangents: its strands before and behind, by their places
+                in their family, and 1 where it turns counter-clockwise; -1 of a wrap that is given. ``wrap`` is then
+                a reference, by whose strength S is divided
+    given (E,)  force that presses it whatever the reactions, a part of its first argument
     carried (E,)  contact whose friction it also carries, as its second force: the slide of a block on a pin; -1 for
     none viscous (E,)  damping of that slide, whose force it carries with it
+    own (E,)    part of its own friction that is added to the first argument
     link, at (joints,), (joints, d)  link j of each joint of the mechanism, and the arm of the joint's point on it
     damping     viscous friction of the joints beside
     """
@@ -84,8 +93,15 @@ class Contacts:
     group: Ints
     reckoned: Array
     around: Flags
+    wound: Flags
+    wrap: Array
+    blocks: Array
+    bends: Ints
+    way: Ints
+    given: Array
     carried: Ints
     viscous: Array
+    own: Array
     link: Ints
     at: Array
     damping: Resistances
@@ -214,6 +230,8 @@ def strength(
     """
     mu = scale * np.where(resting, contacts.resting, contacts.coefficient)
     friction = np.where(contacts.circle, mu / root(1 + mu * mu), mu)
+    if contacts.wound.any():
+        friction = np.where(contacts.wound, capstan(mu, contacts.wrap, contacts.blocks), friction)
     if sense is not None and contacts.around.any():
         turning = (mu * sense * (contacts.around & contacts.rows.angular)) ** 2 @ _together(contacts)
         friction = friction / root(1 + turning)
@@ -230,11 +248,15 @@ def response(
     along = system(layout.algebra, contacts.rows, pose)
     change = [_multipliers(forces, _unit(layout, along, e)) for e in range(contacts.count)]
     by_contact = np.stack(np.broadcast_arrays(*change), axis=-2)  # (..., E, X)
-    near = _near(layout, contacts, pose)
+    rate = rates(along, twist)
+    still = _below(layout, contacts, rate, STILL * fastest(layout, twist))
+    near = _near(layout, contacts, pose, still)
     read = np.swapaxes(_read_arguments(contacts, by_contact, near[..., None, :]), -2, -3)
     h = np.swapaxes(np.ascontiguousarray(read), -1, -2)
     for e, slide in _carrying(contacts):
         h[..., 1, e, slide] += 1.0
+    for k in np.flatnonzero(contacts.own):
+        h[..., 0, k, k] += contacts.own[k]
     x = _multipliers(forces, w)
     y = _read(contacts, x, near, rates(along, twist))
     return along, ContactResponse(x, np.swapaxes(by_contact, -1, -2), y, h)
@@ -251,7 +273,8 @@ def under(
 ) -> ContactResponse:
     """The response under other wrenches w (..., L, n), at rates (..., E) of the contacts."""
     x = _multipliers(forces, w)
-    return like._replace(x=x, y=_read(contacts, x, _near(layout, contacts, pose), rate))
+    near = _near(layout, contacts, pose, _below(layout, contacts, rate, np.zeros(1)))
+    return like._replace(x=x, y=_read(contacts, x, near, rate))
 
 
 def repeat(r: ContactResponse, count: int) -> ContactResponse:
@@ -262,6 +285,7 @@ def repeat(r: ContactResponse, count: int) -> ContactResponse:
 def _read(contacts: Contacts, x: Array, near: Array, rate: Array) -> Array:
     """y of multipliers x, with the viscous forces at rates (..., E) of the contacts."""
     y = _read_arguments(contacts, x, near)
+    y[..., 0, :] = y[..., 0, :] + contacts.given
     for e, slide in _carrying(contacts):
         y[..., 1, e] = y[..., 1, e] - contacts.viscous[e] * rate[..., slide]
     return y
@@ -276,11 +300,16 @@ def _multipliers(forces: Factor, wrench: Array) -> Array:
     return forces.forces(-wrench.reshape((*wrench.shape[:-2], -1)))
 
 
-def _near(layout: Layout, contacts: Contacts, pose: Pose) -> Array:
-    """Factor (..., E) on the forces of contacts that fall as the centres go apart."""
+def _near(layout: Layout, contacts: Contacts, pose: Pose, still: Flags) -> Array:
+    """Factor (..., E) on the forces of contacts that fall as the centres go apart, or follow a rope's angle of wrap."""
     distance = measure(layout.algebra, contacts.rows, pose)
     near, falls = np.ones_like(distance), contacts.reach > 0
     near[..., falls] = contacts.reach[falls] / distance[..., falls]
+    bent = np.flatnonzero(contacts.bends[:, 0] >= 0)
+    if bent.size:
+        mu = where(still, contacts.resting, contacts.coefficient)[..., bent]
+        at = contacts.bends[bent], contacts.way[bent], contacts.wrap[bent]
+        near[..., bent] = bend_factor(layout, pose, mu, *at)
     return near
 
 
@@ -360,28 +389,3 @@ def correction(
 ) -> Array:
     """Newton's step where z + s S is ``off`` (..., E), from the slope of S and H after z."""
     return np.asarray(solve(jacobian(r, steep, sense), -off))
-
-
-def levers(contacts: Contacts, h: Array) -> Array:
-    """Bounds (..., E, E) of the change of S with what H (..., 3, E, E) is after."""
-    lever = np.maximum(np.hypot(h[..., 0, :, :], h[..., 1, :, :]), np.abs(h[..., 2, :, :]))
-    if contacts.ball.any():
-        lever = np.where(contacts.ball[:, None], np.sqrt((h * h).sum(axis=-3)), lever)
-    return np.where(contacts.signed[:, None], np.abs(h[..., 0, :, :]), lever)
-
-
-def spectral_bound(contacts: Contacts, r: ContactResponse) -> Array:
-    """Bound (...) of the spectral radius of the fixed point, from H after z without its sign.
-
-    Below 1 there is one solution, at any smaller scale too.
-    """
-    power = levers(contacts, r.h)
-    log, size = np.zeros(power.shape[:-2]), 1
-    for _ in range(6):
-        largest = np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)
-        power = power / largest[..., None, None]
-        log = log + np.log(largest) / size
-        power, size = power @ power, 2 * size
-    return np.asarray(
-        np.exp(log + np.log(np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)) / size)
-    )

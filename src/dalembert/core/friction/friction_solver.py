@@ -26,10 +26,10 @@ from dalembert.core.friction.contact_equations import (
     multiplier,
     repeat,
     slope,
-    spectral_bound,
     strength,
     with_strength,
 )
+from dalembert.core.friction.spectral_bound import spectral_bound
 from dalembert.core.linear import solve_square
 
 NEWTON = 25

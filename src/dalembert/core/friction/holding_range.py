@@ -28,13 +28,13 @@ from dalembert.core.friction.contact_equations import (
     SlipState,
     argument,
     bearing,
-    levers,
     slope,
     strength,
     with_strength,
 )
 from dalembert.core.friction.friction_solver import newton
 from dalembert.core.friction.linear_programmes import furthest
+from dalembert.core.friction.spectral_bound import levers
 from dalembert.core.linear import inverses
 
 ROUNDS = 40

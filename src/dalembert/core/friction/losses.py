@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.arrays import Array, Ints
 from dalembert.core.branchless import above, top
 from dalembert.core.constraints import rates, system
-from dalembert.core.friction.contact_equations import Contacts
+from dalembert.core.friction.contact_equations import ContactResponse, Contacts, SlipState, argument
 from dalembert.core.layout import ConstraintRows, Layout, Pose
 
 POWERLESS = 1e-9
@@ -18,12 +18,45 @@ POWERLESS = 1e-9
 rounding."""
 
 
+def friction_arrays(
+    layout: Layout,
+    contacts: Contacts,
+    pose: Pose,
+    twist: Array,
+    along: ConstraintRows,
+    r: ContactResponse,
+    state: SlipState,
+    cz: Array,
+) -> dict[str, Array]:
+    """What friction of efforts c z (..., E) does, by the names of ``analysis.result.force_arrays.Friction``; numbers
+    or nodes."""
+    dry = np.where(contacts.fixed, 0.0, cz)
+    force, moment = dry_wrenches(layout, contacts, pose, along, dry)
+    viscous_force, viscous_moment, viscous_loss = viscous_wrenches(layout, contacts, pose, twist)
+    return {
+        "force": force,
+        "moment": moment,
+        "viscous_force": viscous_force,
+        "viscous_moment": viscous_moment,
+        "dry_loss": by_joint(contacts.joint, layout.joints, -dry * state.rate),
+        "viscous_loss": viscous_loss,
+        "cz": dry,
+        "sense": state.sense,
+        "rate": state.rate,
+        "argument": argument(r, cz),
+    }
+
+
+BESIDE = ("lining", "band")
+"""Kinds of contacts in the plane whose force does not act at j's point: it has a couple there."""
+
+
 def dry_wrenches(
     layout: Layout, contacts: Contacts, pose: Pose, along: ConstraintRows, effort: Array
 ) -> tuple[Array, Array]:
     """Force (..., joints, d) and moment about j's point (..., joints; in space with 3 components) on j of the contacts'
     efforts (..., E)."""
-    return _in_joints(layout, contacts, contacts.joint, pose, along, effort)
+    return _in_joints(layout, contacts, contacts.joint, pose, along, effort, contacts.kind)
 
 
 def viscous_wrenches(
@@ -38,7 +71,13 @@ def viscous_wrenches(
 
 
 def _in_joints(
-    layout: Layout, contacts: Contacts, joint: Ints, pose: Pose, along: ConstraintRows, effort: Array
+    layout: Layout,
+    contacts: Contacts,
+    joint: Ints,
+    pose: Pose,
+    along: ConstraintRows,
+    effort: Array,
+    kind: tuple[str, ...] = (),
 ) -> tuple[Array, Array]:
     """Forces and moments on j of efforts (..., K) along rows of some joints (K,)."""
     g, lead, link = layout.algebra, effort.shape[:-1], contacts.link
@@ -50,9 +89,9 @@ def _in_joints(
         force[..., k, :] += wrench[..., : g.d]
         if along.angular[e]:
             couple[..., k, :] += wrench[..., g.d :]
-        elif g.d == 3:
+        elif g.d == 3 or (kind and kind[e] in BESIDE):
             arm = g.rotate(pose.rotation[..., link[k], :], contacts.at[k])
-            couple[..., k, :] += wrench[..., 3:] - g.cross(arm, wrench[..., :3])
+            couple[..., k, :] += wrench[..., g.d :] - g.cross(arm, wrench[..., : g.d])
     return force, couple[..., 0] if g.d == 2 else couple
 
 

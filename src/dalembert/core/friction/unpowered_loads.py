@@ -14,6 +14,7 @@ Mechanics: docs/theory.md 6.2.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 from typing import NamedTuple
 
@@ -140,10 +141,10 @@ def _loaded(
     _, r = response(layout, contacts, pose, solver, w, twist)
     r = repeat(r, len(w))
     loads, still = load_rows(layout, known, pose), np.zeros((len(w), contacts.count))
-    each = []
+    each, bare = [], replace(contacts, given=np.zeros(contacts.count))
     for k in range(len(known.link)):
         unit = total_wrench(layout, WrenchSource(loads.j[k : k + 1], loads.on_j[..., k : k + 1, :]))
-        each.append(repeat(under(layout, contacts, pose, solver, unit, still, r), len(w)))
+        each.append(repeat(under(layout, bare, pose, solver, unit, still, r), len(w)))
     by_load = (np.stack([one.x for one in each], axis=1), np.stack([one.y for one in each], axis=1))
     return _Loaded(layout, contacts, known, state, r, *by_load)
 

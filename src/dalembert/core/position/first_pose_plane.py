@@ -3,8 +3,7 @@
 Each link's angle is given, follows from a joint that fixes it (slider, weld, driven pin), or is free. Free angles
 are zero in the first start (as drawn) and spread evenly over the turn in the others, in a fixed sequence.
 
-Mechanics: docs/theory.md 3.1.
-"""
+Mechanics: docs/theory.md 3.1."""
 
 from __future__ import annotations
 
@@ -18,6 +17,9 @@ from dalembert.algebra import plane
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import dense, measure, stack_rows
+from dalembert.core.elements.cam_family import CamRow
+from dalembert.core.elements.linings import BandStrands, Lining
+from dalembert.core.elements.strand_family import Strand
 from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, select_rows
 from dalembert.core.linear import generalized_inverse
 from dalembert.core.position.assembly_modes import (
@@ -88,8 +90,8 @@ class Modes(NamedTuple):
 def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
     """Modes at a target (K + D,), or None if no start closes.
 
-    The phase of a mesh (or of a rolling wheel) is that of this first pose: its row is left out here, and one wheel
-    of it held at its given angle; where that does not close, wheels turn as little as possible from the start.
+    The phase of a mesh (or of a rolling wheel, or a brake) is that of this first pose: its row is left out here, and
+    one wheel of it held at its given angle; where that does not close, wheels turn as little as possible.
     """
     result = _modes(layout, *without_phase(layout, target, guess, hold=True), guess)
     if result is None and phase_rows(layout.constraints).size:
@@ -131,12 +133,11 @@ def slides_ahead(layout: Layout, free: Layout) -> Array:
 
 
 def phase_rows(rows: Rows) -> Ints:
-    """Rows whose target is their measure at the first pose: meshes and rolling without slip."""
-    meshes = [
-        f.row[f.pitch != 0] if isinstance(f, Along) else f.row
-        for f in rows.families
-        if isinstance(f, Mesh | Along | Gearing)
+    """Rows whose target is their measure at the first pose: meshes, rolling, ropes, closed brakes."""
+    phased = [
+        f for f in rows.families if isinstance(f, Mesh | Along | Gearing | Strand | Lining | BandStrands)
     ]
+    meshes = [f.row[f.pitch != 0] if isinstance(f, Along) else f.row for f in phased]
     return np.concatenate([*meshes, np.zeros(0, np.intp)]).astype(np.intp)
 
 
@@ -240,8 +241,7 @@ def _spread(starts: int, links: int, rows: int) -> tuple[Array, Array]:
 
 def _starting_poses(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Array) -> Pose:
     """Starting poses (S, L+1, ...): links placed joint by joint from the ground."""
-    g = layout.algebra
-    edges = _edges(layout)
+    g, edges = layout.algebra, _edges(layout)
     turn = _turns(layout, target, guess, angles, edges)
     rotation = g.rotation(turn)
     point = np.full((*turn.shape, g.d), np.nan)
@@ -329,9 +329,9 @@ def _edges(layout: Layout) -> _Edges:
                     pins.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row))
                 elif isinstance(f, Along) and where is None and not f.pitch[k]:
                     slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], f.axis[k], row))
-                elif isinstance(f, Mesh):
+                elif isinstance(f, Mesh) and f.touches:
                     slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row, float(f.ri[k] + f.rj[k])))
-                elif isinstance(f, Distance):
+                elif isinstance(f, Distance | CamRow):
                     slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row, np.nan))
     return _Edges(turns, pins, slides)
 
@@ -381,13 +381,13 @@ def _arms(layout: Layout, edges: _Edges, rotation: Array) -> tuple[Array, Array]
 
 
 def _offset(g: Algebra, edge: _PointEdge, target: Array, rotation: Array, slides: Array) -> Array | float:
-    """Vector from the point of i to that of j (S, 2): along a slide, or at a distance."""
+    """Vector from the point of i to that of j (S, 2): along a slide, or at a distance (1 m on a cam)."""
     if edge.axis is not None:
         across = g.rotate(rotation[:, edge.i], edge.axis)
         along = -plane.across(across)
         return np.asarray(across * target[edge.row] + along * slides[:, edge.row, None])
     if edge.far:
-        far = target[edge.row] if np.isnan(edge.far) else edge.far
+        far = (target[edge.row] or 1.0) if np.isnan(edge.far) else edge.far
         return np.asarray(far * g.rotation(np.pi / 2 * slides[:, edge.row] / np.abs(slides).max()))
     return 0.0
 

@@ -10,6 +10,10 @@ import numpy as np
 
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure, stack_rows
+from dalembert.core.elements import strand_rows
+from dalembert.core.elements.lining_rows import period_of_line
+from dalembert.core.elements.linings import Lining
+from dalembert.core.elements.strand_family import Strand
 from dalembert.core.factor import damped_step, displacement
 from dalembert.core.layout import Layout, Mesh, Pose
 from dalembert.core.rotation_rows import recount_turns
@@ -32,8 +36,16 @@ def gap(layout: Layout, pose: Pose, target: Array) -> Array:
     """Residual of the targets (..., K + D)."""
     missing: Array = target - measure(layout.algebra, layout.stack, pose)
     for family in layout.stack.families:
-        if isinstance(family, Mesh):  # the angle of the line of centres is known but for whole turns
-            period = 2 * np.pi * (family.ri + family.rj)
+        if isinstance(family, Mesh | Strand):  # an angle of a line is known but for whole turns
+            period = (
+                2 * np.pi * (family.ri + family.rj)
+                if isinstance(family, Mesh)
+                else strand_rows.period(family)
+            )
+            part = missing[..., family.row]
+            missing[..., family.row] = part - period * np.round(part / np.where(period == 0, np.inf, period))
+        elif isinstance(family, Lining):
+            period = period_of_line(layout.algebra, family, pose)
             part = missing[..., family.row]
             missing[..., family.row] = part - period * np.round(part / period)
     missing *= layout.row_scale

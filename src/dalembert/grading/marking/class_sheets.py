@@ -2,31 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from dalembert.errors import DalembertError, MissingFileError, ModelError
-from dalembert.grading.answer_sheet import about_sheet, named_figure, sheet_items
+from dalembert.grading.answer_sheet import about_sheet, sheet_items
+from dalembert.grading.marking.figure_names import FigureNames, columns_of
 from dalembert.grading.marking.key import cell_value, place
-from dalembert.grading.marking.table_files import KEYS, TableRow, read_table
+from dalembert.grading.marking.table_files import KEYS, TableRow, is_table, read_table
+from dalembert.grading.written_figure import decimal_comma
 
-ENDINGS = (".yaml", ".yml", ".json", ".toml", ".csv")
+ENDINGS = (".yaml", ".yml", ".json", ".toml", ".csv", ".xlsx")
 MOST = 5000
 """Sheets of a class."""
 
 
 class Given(NamedTuple):
-    """A figure as a student gave it: keys of an answer, and its line."""
+    """A figure as a student gave it: keys of an answer, its line, and its column."""
 
     keys: dict[str, Any]
     line: int
+    column: str = ""
+
+    @property
+    def name(self) -> str:
+        """The figure in a few words: its column, or its quantity and what it is of."""
+        return self.column or " ".join(
+            filter(None, (str(self.keys.get(k) or "") for k in ("quantity", "of")))
+        )
 
 
 @dataclass
 class StudentSheet:
-    """Answers of a student; ``problems`` are sentences on unreadable parts."""
+    """Answers of a student; ``problems`` are sentences on unreadable parts, ``comma`` says whether the numbers have a
+    decimal comma (None: not known)."""
 
     student: str
     file: str
@@ -35,27 +46,36 @@ class StudentSheet:
     figures: list[Given] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     line: int = 1
+    comma: bool | None = None
 
 
-def class_sheets(path: str | Path) -> list[StudentSheet]:
-    """The sheets of a folder, or of one file; what cannot be read is a sheet with a sentence."""
+def class_sheets(
+    path: str | Path, names: FigureNames | None = None, columns: Mapping[str, str] | None = None
+) -> list[StudentSheet]:
+    """The sheets of a folder, or of one file; what cannot be read is a sheet with a sentence.
+
+    ``names`` are those of the problem, for headings such as `F23`; ``columns`` says what other headings mean.
+    """
+    names, given = names or FigureNames(), columns or {}
     path = Path(path)
     if not path.is_dir():
         if not path.exists():
             raise MissingFileError(str(path), "name a folder of answers, or a table")
-        return list(_sheets(path, strict=True))
+        return list(_sheets(path, names, given, strict=True))
     files = sorted(p for p in path.iterdir() if p.suffix.lower() in ENDINGS and not p.name.startswith("."))
     if not files:
         raise ModelError(f"{path} has no answer files", f"their names end in {', '.join(ENDINGS)}")
-    sheets = [sheet for file in files for sheet in _sheets(file)]
+    sheets = [sheet for file in files for sheet in _sheets(file, names, given)]
     if len(sheets) > MOST:
         raise ModelError(f"there are {len(sheets)} sheets", f"divide them: at most {MOST}")
     return sheets
 
 
-def _sheets(path: Path, strict: bool = False) -> Iterator[StudentSheet]:
+def _sheets(
+    path: Path, names: FigureNames, given: Mapping[str, str], strict: bool = False
+) -> Iterator[StudentSheet]:
     try:
-        yield from _of_table(path) if path.suffix.lower() == ".csv" else [_of_file(path)]
+        yield from _of_table(path, names, given) if is_table(path) else [_of_file(path)]
     except DalembertError as error:
         if strict:
             raise
@@ -78,32 +98,63 @@ def _of_file(path: Path) -> StudentSheet:
     return sheet
 
 
-def _of_table(path: Path) -> Iterator[StudentSheet]:
+def _of_table(path: Path, names: FigureNames, given: Mapping[str, str]) -> Iterator[StudentSheet]:
     """Sheets of a table: a row a figure (columns quantity, of, value), or a row a student (columns effort.O2 ...)."""
     rows = read_table(path)
-    long = any("quantity" in row.cells for row in rows)
-    by_student: dict[str, StudentSheet] = {}
+    if any("quantity" in row.cells for row in rows):
+        yield from _long(path, rows)
+        return
+    try:
+        columns = columns_of(rows[0].heads, names, given)
+    except ModelError as error:
+        raise error.at_line(str(path), 1) from None
+    comma = decimal_comma(text for row in rows for head, text in row.cells.items() if head in columns.figures)
     for row in rows:
-        name = row.cells.get("student", path.stem if long else f"row {row.line}")
-        if not long or name not in by_student:
-            key = name if long else f"{name} {row.line}"
-            by_student[key] = StudentSheet(name, str(path), row.cells.get("variant", ""), line=row.line)
-        sheet = by_student[name if long else f"{name} {row.line}"]
-        try:
-            sheet.figures += [_long(row)] if long else list(_wide(row))
-        except ModelError as error:
-            sheet.problems.append(str(error.at_line(str(path), row.line)))
+        student = (
+            " ".join(row.cells[head] for head in columns.student if head in row.cells) or f"row {row.line}"
+        )
+        variant = row.cells.get(columns.variant, "") if columns.variant else ""
+        figures = [
+            Given(keys | {"value": row.cells[head]}, row.line, head)
+            for head, keys in columns.figures.items()
+            if head in row.cells
+        ]
+        sheet = StudentSheet(student, str(path), variant, line=row.line, comma=comma)
+        sheet.figures = list(_joined(figures, names))
+        yield sheet
+
+
+def _long(path: Path, rows: list[TableRow]) -> Iterator[StudentSheet]:
+    """Sheets of a table with a row a figure."""
+    by_student: dict[str, StudentSheet] = {}
+    comma = decimal_comma(row.cells.get("value", "") for row in rows)
+    for row in rows:
+        name = row.cells.get("student", path.stem)
+        if name not in by_student:
+            variant = row.cells.get("variant", "")
+            by_student[name] = StudentSheet(name, str(path), variant, line=row.line, comma=comma)
+        cells = row.cells
+        keys: dict[str, object] = {key: cells[key] for key in KEYS if key in cells}
+        value = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
+        given = Given(keys | {"at": place(cells.get("at")), "value": value}, row.line)
+        by_student[name].figures.append(given)
     yield from by_student.values()
 
 
-def _long(row: TableRow) -> Given:
-    cells = row.cells
-    keys: dict[str, object] = {name: cells[name] for name in KEYS if name in cells}
-    value = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
-    return Given(keys | {"at": place(cells.get("at")), "value": value}, row.line)
-
-
-def _wide(row: TableRow) -> Iterator[Given]:
-    for name, text in row.cells.items():
-        if name not in ("student", "variant"):
-            yield Given(named_figure(name, cell_value(text)), row.line)
+def _joined(figures: list[Given], names: FigureNames) -> Iterator[Given]:
+    """Figures with the parts of a vector that two columns give made one: size and direction, or x and y; not where
+    the parts are what is asked for."""
+    by_vector: dict[tuple[object, ...], dict[str | None, Given]] = {}
+    for one in figures:
+        vector = tuple(one.keys.get(key) for key in ("quantity", "of", "on"))
+        by_vector.setdefault(vector, {})[one.keys.get("component")] = one
+    for (quantity, of, _), parts in by_vector.items():
+        for written, pair in ((" @ ", ("magnitude", "direction")), ("; ", ("x", "y"))):
+            asked = any((quantity, of, part) in names.asked for part in pair)
+            if asked or not all(part in parts for part in pair):
+                continue
+            a, b = parts.pop(pair[0]), parts.pop(pair[1])
+            keys = {key: value for key, value in a.keys.items() if key != "component"}
+            text = f"{a.keys['value']}{written}{b.keys['value']}"
+            parts[None] = Given(keys | {"value": text}, a.line, f"{a.column}, {b.column}")
+        yield from parts.values()

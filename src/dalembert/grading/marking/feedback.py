@@ -49,15 +49,22 @@ def feedback(s: StudentMarks) -> str:
     counted."""
     lines = [f"# {_plain(s.student)}", ""]
     lines += [f"Variant {_plain(s.variant)}.", ""] if s.variant else []
-    lines += [f"{s.total:.4g} of {s.most:.4g} marks.", ""]
+    lines += [f"{s.total:.4g} of {s.most:.4g} marks{waits_text(s)}.", ""]
     lines += [f"- {_sentence(m)}" for m in s.marks]
-    lines += (
-        ["", "Not counted:", "", *(f"- {_plain(problem)}" for problem in s.problems)] if s.problems else []
-    )
+    said = {m.sentence for m in s.marks}
+    others = [f"- {_plain(problem)}" for problem in s.problems if problem not in said]
+    lines += ["", "Not counted:", "", *others] if others else []
     return "\n".join(lines).replace(_plain(s.file), _plain(Path(s.file).name)).rstrip() + "\n"
 
 
+def waits_text(s: StudentMarks) -> str:
+    """The figures that a teacher must still read, after the marks."""
+    return f", {s.waiting} {'waits' if s.waiting == 1 else 'wait'}" if s.waiting else ""
+
+
 def _sentence(m: Mark) -> str:
+    if m.outcome == "waits":
+        return f"{_plain(m.quantity[:1].upper() + m.quantity[1:])} (waits): {_plain(m.sentence)}."
     counted = "not counted" if m.outcome == "open" else f"{m.marks:.4g} of {m.most:.4g}"
     head = f"{_plain(m.quantity[:1].upper() + m.quantity[1:])} ({counted}): "
     if m.outcome == "missing":

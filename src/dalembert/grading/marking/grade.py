@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from dalembert.answer.answer import Worked
 from dalembert.answer.column import WORD, Axes, Column, Scale, UnitChoice
 from dalembert.errors import ModelError
-from dalembert.grading.answer_sheet import answer_of
 from dalembert.grading.explanation import explain
 from dalembert.grading.figure import StudentValue
 from dalembert.grading.file_answers import describe_answer
+from dalembert.grading.marking.by_hand import ReadFigure, check_class, decide_cells, read_figure
 from dalembert.grading.marking.class_sheets import StudentSheet, class_sheets
-from dalembert.grading.marking.follow_through import LinkEquations, follow_through
 from dalembert.grading.marking.key import Asked, ExamVariant, Key, read_key
 from dalembert.grading.marking.marks_tabs import FIGURE, figures, marks_parts, marks_tabs
 from dalembert.grading.marking.rubric import Rubric, load_rubric
@@ -70,15 +69,17 @@ class ClassMarks(Worked):
         return {"students": totals, "mistakes": dict(self.mistakes()), "not_read": unread}
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
-        """A row a student, then the mistakes of most students."""
-        return marks_parts(self.students, SHOWN)
+        """A row a student, the mistakes of most students, and what one mistake costs."""
+        yield from marks_parts(self.students, SHOWN)
+        most = max((s.most for s in self.students), default=0.0)
+        yield f"One mistake costs at most {self.rubric.cap * most:.4g} of {most:.4g} marks."
 
     def text(self, units: UnitChoice = "file", **choice: Any) -> str:
         """The same as the command prints it."""
         return "\n\n".join(map(str, self.contents(units)))
 
     def tabs(self, units: UnitChoice = "file", axes: Axes = "ground") -> Iterator[Tab]:
-        """Marks, figures, mistakes, what could not be read, and the rubric."""
+        """Marks, figures, mistakes, what a teacher must read, and the rubric."""
         return marks_tabs(self.students, self.rubric)
 
     def save_feedback(self, folder: str | Path, overwrite: bool = False) -> None:
@@ -94,12 +95,15 @@ def grade(
     rubric: str | Path | Rubric | None = None,
     tolerance: str | None = None,
     static: bool = False,
+    columns: Mapping[str, str] | None = None,
+    decide: str | Path | None = None,
 ) -> ClassMarks:
     """Marks of a folder of sheets, or of a table, by a key: a CSV or JSON file, its rows, or a model file.
 
-    ``tolerance``, as `3 %`, is that of figures to which the key gives none; ``static`` leaves inertia out. Raises
-    ModelError where the key, the rubric or the folder is wrong; what is wrong with a sheet is a sentence of that
-    student's.
+    ``tolerance``, as `3 %`, is that of figures to which the key gives none; ``static`` leaves inertia out. ``columns``
+    says what headings of a table mean (`{"Response 1": "effort.O2"}`); ``decide`` is a table of student, figure and
+    value for the cells that a teacher has read. Raises ModelError where the key, the rubric or the folder is wrong, or
+    no figure of a class is right; what is wrong with a sheet is a sentence of that student's.
 
     >>> import pathlib, tempfile
     >>> key = [{"quantity": "effort", "of": "O2", "value": 243.2376, "unit": "lbf*in", "marks": 4}]
@@ -114,7 +118,9 @@ def grade(
     if tolerance is not None:
         percent(tolerance)
     marker = _Marker(read_key(key, static), rules, tolerance)
-    sheets = class_sheets(answers)
+    sheets = class_sheets(answers, marker.key.names(), columns)
+    if decide is not None:
+        decide_cells(sheets, Path(decide))
     out = []
     with progress("Marking", len(sheets)) as step:
         for k, sheet in enumerate(sheets):
@@ -122,12 +128,13 @@ def grade(
             if any(sheet.student == other.student for other in sheets[:k]):
                 sheet.problems.append(f"{sheet.file}:{sheet.line}: there is another sheet of {sheet.student}")
             out.append(marker.mark(sheet))
+    check_class(out, str(answers))
     return ClassMarks(out, rules)
 
 
 class _Taken(NamedTuple):
     """A student's answer to a required figure: compared, or a sentence why it cannot be; part: not the complete
-    figure."""
+    figure; notes: how it was read."""
 
     asked: Asked
     given: StatedAnswer | None
@@ -135,12 +142,12 @@ class _Taken(NamedTuple):
     sentence: str
     part: bool
     line: int
+    notes: tuple[str, ...] = ()
 
 
 class _Marker:
     def __init__(self, key: Key, rubric: Rubric, tolerance: str | None) -> None:
         self.key, self.rubric, self.tolerance = key, rubric, tolerance
-        self.equations: dict[tuple[str, int], LinkEquations] = {}
         self.checked: set[str] = set()
 
     def mark(self, sheet: StudentSheet) -> StudentMarks:
@@ -159,18 +166,38 @@ class _Marker:
         taken, unused = self._taken(sheet, variant, out.problems)
         out.problems += [f"{where}: not asked" for where in unused]
         out.marks = self._marks(variant, taken)
+        out.problems += self._of_neighbour(sheet, variant, taken)
         return out
+
+    def _of_neighbour(self, sheet: StudentSheet, variant: ExamVariant, taken: list[_Taken]) -> Iterator[str]:
+        """A sentence where no figure is right and all are those of another variant."""
+        given = [t for t in taken if t.given is not None and isinstance(t.found, StudentValue)]
+        if len(given) < 2 or any(isinstance(t.found, StudentValue) and t.found.met for t in given):
+            return
+        for other in self.key.variants.values():
+            if other is not variant and all(self._is_of(other, t) for t in given):
+                yield f"{sheet.file}:{sheet.line}: the figures are those of variant {other.name}"
+
+    def _is_of(self, other: ExamVariant, t: _Taken) -> bool:
+        """True if a figure is that of another variant."""
+        same = (
+            a for a in other.asked if _fit(a.answer, {**t.asked.answer.model_dump(), "extreme": None}) == 0
+        )
+        question = next(same, None)
+        if question is None or t.given is None:
+            return False
+        try:
+            found = other.compare(question, t.given, self.tolerance)
+        except ModelError:
+            return False
+        return isinstance(found, StudentValue) and found.met
 
     def _taken(
         self, sheet: StudentSheet, variant: ExamVariant, problems: list[str]
     ) -> tuple[list[_Taken], list[str]]:
         """The sheet's answers to the required figures, and its other figures."""
-        read: list[tuple[StatedAnswer | None, str]] = []
-        for one in sheet.figures:
-            try:
-                read.append((answer_of(one.keys), ""))
-            except ModelError as error:
-                read.append((None, str(error.at_line(sheet.file, one.line))))
+        names = self.key.names()
+        read = [read_figure(one, sheet, names) for one in sheet.figures]
         used: set[int] = set()
         out = []
         for question in variant.asked:
@@ -184,16 +211,34 @@ class _Marker:
                 continue
             fit, n = min(fits)
             used.add(n)
-            answer, problem = read[n]
-            taken = self._one(variant, question, answer, fit == 2, (sheet.file, sheet.figures[n].line))
-            out.append(taken._replace(sentence=problem) if problem else taken)
+            taken = self._best(variant, question, read[n], fit == 2, problems)
+            if taken.sentence:
+                problems.append(taken.sentence)
+            out.append(taken)
         unused = []
-        for n, (keys, line) in enumerate(sheet.figures):
-            if n not in used and read[n][1]:
-                problems.append(read[n][1])
+        for n, one in enumerate(sheet.figures):
+            if n not in used and read[n].problem:
+                problems.append(read[n].problem)
             elif n not in used:
-                unused.append(f"{sheet.file}:{line}: {keys.get('quantity')} {keys.get('of', '')}".rstrip())
+                unused.append(f"{sheet.file}:{one.line}: {one.name}")
         return out, unused
+
+    def _best(
+        self, variant: ExamVariant, question: Asked, read: ReadFigure, part: bool, problems: list[str]
+    ) -> _Taken:
+        """The reading of a figure that comes nearest to the right value; more than one is a sentence to the teacher."""
+        if read.problem:
+            return _Taken(question, None, None, read.problem, part, read.where[1])
+        some = [self._one(variant, question, answer, part, read.where) for answer in read.answers]
+
+        def off(k: int) -> float:
+            found = some[k].found
+            return 0.0 if found is None or isinstance(found, Verdict) or found.met else found.off
+
+        best = min(range(len(some)), key=off)
+        if len(some) > 1:
+            problems.append(read.choice(best))
+        return some[best]._replace(notes=read.notes)
 
     def _one(
         self,
@@ -220,52 +265,36 @@ class _Marker:
     def _marks(self, variant: ExamVariant, taken: list[_Taken]) -> list[Mark]:
         figures = [t.found for t in taken if isinstance(t.found, StudentValue)]
         problem = variant.problem
-        explanations = explain(figures, None if problem is None else problem.wrong_problems(figures))
-        follows = self._follows(variant, figures)
+        wrong = (problem.wrong_problems(figures), problem.own_figures(figures)) if problem else (None, None)
+        explanations = explain(figures, *wrong)
         paid: set[str] = set()
         out, n = [], 0
         for t in taken:
-            verdict, follows_by = t.found if isinstance(t.found, Verdict) else None, ""
+            verdict = t.found if isinstance(t.found, Verdict) else None
             if isinstance(t.found, StudentValue):
-                verdict, follows_by = verdict_of(t.found, explanations.get(n)), follows.get(n, "")
+                verdict = verdict_of(t.found, explanations.get(n))
                 n += 1
-            out.append(self._mark(t, verdict, follows_by, paid))
-        return out
+            out.append(self._mark(t, verdict, paid))
+        return self.rubric.capped(out)
 
-    def _follows(self, variant: ExamVariant, figures: list[StudentValue]) -> dict[int, str]:
-        """Figures that follow from the student's, position by position."""
-        problem, out = variant.problem, dict[int, str]()
-        if problem is None or problem.result.compiled.contacts or problem.result.schedule.unknown is not None:
-            return out
-        if problem.result.compiled.forcing.separation.any():
-            return out
-        for place in {f.position for f in figures}:
-            here = [n for n, f in enumerate(figures) if f.position == place and f.judged]
-            wrong = [k for k, n in enumerate(here) if not figures[n].met]
-            if len(here) < 2 or not wrong:
-                continue
-            if (variant.name, place) not in self.equations:
-                self.equations[variant.name, place] = LinkEquations(problem.at(place))
-            followers = follow_through(self.equations[variant.name, place], [figures[n] for n in here], wrong)
-            out |= {here[k]: links_text for k, links_text in followers.items()}
-        return out
-
-    def _mark(self, t: _Taken, verdict: Verdict | None, followed: str, paid: set[str]) -> Mark:
+    def _mark(self, t: _Taken, verdict: Verdict | None, paid: set[str]) -> Mark:
         """The marks of a figure; ``paid``: the mistakes that earlier figures have lost marks for."""
         most = self.rubric.marks_of(t.asked.answer.quantity) if t.asked.marks is None else t.asked.marks
         words = describe_answer(t.asked.answer)
         if verdict is None:
-            outcome = "unreadable" if t.sentence else "missing"
-            sentence = t.sentence or "no answer is given"
-            written = "" if t.given is None else quote_value(t.given.value)
-            return Mark(
-                words, written, "", outcome, sentence, most * self.rubric.shares[outcome], most, t.line
+            outcome, sentence = (
+                ("unreadable", t.sentence) if t.sentence else ("missing", "no answer is given")
             )
+            written = "" if t.given is None else quote_value(t.given.value)
+            if outcome not in self.rubric.shares:
+                return Mark(words, written, "", "waits", sentence, 0.0, 0.0, t.line)
+            lost = most * self.rubric.shares[outcome]
+            return Mark(words, written, "", outcome, sentence, lost, most, t.line)
         outcome, sentence = verdict.kind, verdict.mistake
         if outcome == "open":
             return Mark(words, verdict.given, "", outcome, sentence, 0.0, 0.0, t.line)
-        if followed and not verdict.right:
-            outcome, sentence = "follow_through", f"{followed} with your figures"
+        if verdict.weight and outcome == "named":
+            outcome = verdict.weight
         elif sentence in paid:
             outcome = "repeated"
         elif outcome in ("named", "sign", "unit"):
@@ -273,7 +302,7 @@ class _Marker:
         share = self.rubric.share(outcome, sentence)
         if t.part:
             share *= self.rubric.shares["part"]
-            sentence = "; ".join(filter(None, [sentence, "only its size"]))
+        sentence = "; ".join(filter(None, [sentence, "only its size" if t.part else "", *t.notes]))
         return Mark(words, verdict.given, verdict.computed, outcome, sentence, most * share, most, t.line)
 
 

@@ -7,7 +7,7 @@ import json
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,7 @@ from dalembert.errors import ModelError, errors_at
 from dalembert.grading.answer_sheet import answer_of, without_value
 from dalembert.grading.figure import StudentValue, figure_of_key
 from dalembert.grading.file_answers import describe_answer, value_text
+from dalembert.grading.marking.figure_names import FigureNames
 from dalembert.grading.marking.table_files import KEYS, TableRow, read_table
 from dalembert.grading.mistakes import SolvedProblem, Verdict, verdict_on_word
 from dalembert.grading.quantities import WHOLE, WORDS
@@ -82,6 +83,13 @@ class Key:
 
     def __init__(self, variants: Sequence[ExamVariant], file: str = "") -> None:
         self.variants, self.file = {plain(v.name): v for v in variants}, file
+
+    @cache  # noqa: B019  (a key lives as long as its class is marked)
+    def names(self) -> FigureNames:
+        """Names by which figures may be written: those of the first variant's problem and of all required figures."""
+        problem = next((v.problem for v in self.variants.values() if v.problem is not None), None)
+        asked = [question.answer for v in self.variants.values() for question in v.asked]
+        return FigureNames.of(None if problem is None else problem.result.mechanism, asked)
 
     def variant(self, name: str, student: str) -> ExamVariant:
         """The variant that a sheet names, that of a student's name, or the only one."""

@@ -11,12 +11,12 @@ from dalembert.printing import Part, TextTable
 
 
 def marks_tabs(students: Sequence[StudentMarks], rubric: Rubric) -> Iterator[Tab]:
-    """Sheets of marks, figures, mistakes, what could not be read, and the rubric."""
+    """Sheets of marks, figures, mistakes, what a teacher must read, and the rubric."""
     for name, rows in (
         ("marks", _marks(students)),
         ("figures", [FIGURE, *figures(students)]),
         ("mistakes", [("mistake", "students"), *named_mistakes(students)]),
-        ("not read", _problems(students)),
+        ("by hand", _problems(students)),
         ("rubric", _rubric(rubric)),
     ):
         yield Tab(name, rows, freeze="B2")
@@ -25,9 +25,17 @@ def marks_tabs(students: Sequence[StudentMarks], rubric: Rubric) -> Iterator[Tab
 def marks_parts(students: Sequence[StudentMarks], most: int | None = None) -> Iterator[Part]:
     """A row a student, then the mistakes of most students."""
     rows = [
-        [s.student, s.variant, *(f"{x:.4g}" if s.marks else "-" for x in (s.total, s.most))] for s in students
+        [
+            s.student,
+            s.variant,
+            *(f"{x:.4g}" if s.marks else "-" for x in (s.total, s.most)),
+            f"{s.waiting or ''}",
+        ]
+        for s in students
     ]
-    yield TextTable(["student", "variant", "marks", "of"], rows, 2)
+    width = 5 if any(s.waiting for s in students) else 4
+    heads = ["student", "variant", "marks", "of", "waits"]
+    yield TextTable(heads[:width], [row[:width] for row in rows], 2)
     named = [[sentence, str(count)] for sentence, count in named_mistakes(students)[:most]]
     if named:
         yield TextTable(["mistake", "students"], named)

@@ -7,10 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+NAMED = ("named", "sign", "unit", "datum", "concept")
+"""Outcomes of a mistake that is named: a slip, a sense, a unit, one datum of the problem, a concept."""
+
 
 class Mark(NamedTuple):
-    """One required figure: as given, as computed, the outcome (a word of the rubric's shares; ``open``: not judged),
-    the sentence, the marks, the largest marks, and its line."""
+    """One required figure: as given, as computed, the outcome (a word of the rubric's shares; ``open``: not judged;
+    ``waits``: for the teacher to read), the sentence, the marks, the largest marks, and its line."""
 
     quantity: str
     given: str
@@ -42,8 +45,16 @@ class StudentMarks:
         """Largest possible marks; figures that are not judged have none."""
         return sum(m.most for m in self.marks)
 
+    @property
+    def waiting(self) -> int:
+        """Number of figures that a teacher must read."""
+        return sum(m.outcome == "waits" for m in self.marks)
+
 
 def named_mistakes(students: Sequence[StudentMarks]) -> list[tuple[str, int]]:
     """The mistakes that were named with how many students made them, those of most first."""
-    named = [{m.sentence for m in s.marks if m.outcome in ("named", "sign", "unit")} for s in students]
+    named = [
+        {m.sentence for m in s.marks if m.outcome in ("named", "sign", "unit", "datum", "concept")}
+        for s in students
+    ]
     return Counter(sentence for some in named for sentence in sorted(some)).most_common()

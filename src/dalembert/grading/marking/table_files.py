@@ -1,14 +1,16 @@
-"""Tables of text from CSV files: rows with their lines, nothing computed or guessed."""
+"""Tables of text from CSV files and workbooks: rows with their lines, nothing computed or guessed."""
 
 from __future__ import annotations
 
 import csv
 import io
 import re
+import zipfile
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from dalembert.errors import ModelError
+from dalembert.errors import MissingFileError, ModelError
 from dalembert.model.quantities.column_files import file_text
 
 MOST_ROWS = 100_000
@@ -16,32 +18,60 @@ MOST_ROWS = 100_000
 
 
 class TableRow(NamedTuple):
-    """Cells by column, without empty ones, and their line."""
+    """Cells by column, without empty ones, their line, and the headings of the table."""
 
     line: int
     cells: dict[str, str]
+    heads: tuple[str, ...] = ()
+
+
+def is_table(path: Path) -> bool:
+    """True for the endings of tables."""
+    return path.suffix.lower() in (".csv", ".xlsx")
 
 
 def read_table(path: Path) -> list[TableRow]:
-    """The rows of a CSV file, its columns in lower case; `,`, `;` or tabs between them."""
-    text = file_text(path)
-    first = text.lstrip("\r\n").split("\n", 1)[0]
-    between = max(",;\t", key=first.count)
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=between, strict=True)
-    try:
-        rows = _rows(reader, path)
-    except csv.Error as error:
-        said = f"the table cannot be read: {error}"
-        raise ModelError(said, "save it as CSV, UTF-8", (), str(path), reader.line_num) from None
+    """The rows of a CSV file (`,`, `;` or tabs between columns), or of the first sheet of a workbook."""
+    rows = _rows(_of_workbook(path) if path.suffix.lower() == ".xlsx" else _of_csv(path), path)
     if not rows:
         raise ModelError("the table has no rows", "write a heading and a row a figure", (), str(path), 1)
     return rows
 
 
-def _rows(reader: Any, path: Path) -> list[TableRow]:
+def _of_csv(path: Path) -> Iterator[tuple[int, list[str]]]:
+    text = file_text(path)
+    first = text.lstrip("\r\n").split("\n", 1)[0]
+    between = max(",;\t", key=first.count)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=between, strict=True)
+    try:
+        for cells in reader:
+            yield reader.line_num, cells
+    except csv.Error as error:
+        said = f"the table cannot be read: {error}"
+        raise ModelError(said, "save it as CSV, UTF-8", (), str(path), reader.line_num) from None
+
+
+def _of_workbook(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Cells of the first sheet as they would be typed; what a formula gave when the file was saved."""
+    try:
+        import openpyxl
+    except ImportError:
+        remedy = "install dalembert[results], or save the table as CSV"
+        raise ModelError("a workbook needs openpyxl", remedy, (), str(path)) from None
+    if not path.exists():
+        raise MissingFileError(str(path), "name a table (.csv, .xlsx)")
+    try:
+        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
+        for line, cells in enumerate(book.worksheets[0].iter_rows(values_only=True), 1):
+            yield line, ["" if cell is None else str(cell) for cell in cells]
+    except (OSError, ValueError, KeyError, IndexError, zipfile.BadZipFile) as error:
+        raise ModelError("the file is no workbook", "save it as .xlsx or CSV", (), str(path)) from error
+
+
+def _rows(lines: Iterator[tuple[int, list[str]]], path: Path) -> list[TableRow]:
     heads: list[str] = []
     out: list[TableRow] = []
-    for cells in reader:
+    for line, cells in lines:
         cells = [cell.strip() for cell in cells]
         if not any(cells):
             continue
@@ -50,10 +80,9 @@ def _rows(reader: Any, path: Path) -> list[TableRow]:
             heads = [head.lower() if head.lower() in COLUMNS else head for head in heads]
             continue
         named = {head: cell for head, cell in zip(heads, cells, strict=False) if head and cell}
-        out.append(TableRow(reader.line_num, named))
+        out.append(TableRow(line, named, tuple(filter(None, heads))))
         if len(out) > MOST_ROWS:
-            said = f"the table has more than {MOST_ROWS} rows"
-            raise ModelError(said, "divide it", (), str(path), reader.line_num)
+            raise ModelError(f"the table has more than {MOST_ROWS} rows", "divide it", (), str(path), line)
     return out
 
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from dalembert.arrays import Array
-from dalembert.core.layout import Along, Distance, Layout, Meet, Mesh, Turn
+from dalembert.core.elements.cam_family import CamRow
+from dalembert.core.elements.linings import BandStrands, Lining
+from dalembert.core.elements.strand_family import Strand
+from dalembert.core.layout import Along, BeltMesh, Distance, Layout, Meet, Mesh, Turn
 from dalembert.kernel.graph import Node, Scalar, is_zero
 from dalembert.kernel.position import plane_vectors as v
 from dalembert.kernel.position.plane_vectors import Pair
@@ -14,7 +17,8 @@ from dalembert.kernel.position.plane_vectors import Pair
 @dataclass(frozen=True)
 class Relation:
     """One condition between links i and j. ``kind``: meet (two rows), along, roll (along with pitch), turn, distance,
-    mesh. ``turn`` is the rotation (cos, sin) a turn keeps, ``target`` the measure."""
+    mesh, cam, pressed (a brake on its drum). ``turn`` is the rotation (cos, sin) a turn keeps, ``target`` the
+    measure."""
 
     kind: str
     i: int
@@ -30,6 +34,8 @@ class Relation:
 
 NONE: Pair = (0.0, 0.0)
 _KINDS: dict[type, str] = {Meet: "meet", Along: "along", Turn: "turn", Distance: "distance", Mesh: "mesh"}
+_KINDS |= {BeltMesh: "mesh", Strand: "strand", Lining: "pressed", BandStrands: "pressed", CamRow: "cam"}
+ARMED = Meet | Along | Distance | Mesh | Lining | BandStrands | CamRow
 
 
 def relations(layout: Layout, target: Array, turns: dict[int, Pair]) -> list[Relation]:
@@ -41,7 +47,7 @@ def relations(layout: Layout, target: Array, turns: dict[int, Pair]) -> list[Rel
             kind = _KINDS[type(f)]
             if isinstance(f, Along) and not is_zero(f.pitch[k]):
                 kind = "roll"
-            arms = (f.ui, f.uj) if isinstance(f, Meet | Along | Distance | Mesh) else ()
+            arms = (f.ui, f.uj) if isinstance(f, ARMED) else ()
             ui, uj = ((u[k][0], u[k][1]) for u in arms) if arms else (NONE, NONE)
             axis = (f.axis[k][0], f.axis[k][1]) if isinstance(f, Along) else NONE
             radii = (f.ri[k], f.rj[k]) if isinstance(f, Mesh) else NONE

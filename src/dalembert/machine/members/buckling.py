@@ -39,8 +39,9 @@ class Buckling:
     `free`), or `given`. ``position`` (from 0) where; ``safety`` critical / compression, infinite without compression;
     ``two_force``: True if it is not bent, so that the formula holds: else it is for comparison. ``links``: the link, or
     barrel and rod that are one column, K then with EI of the weaker part and both lengths. ``moves_along``: True if a
-    joint at an end of it is free to move across, with links whose push then turns. ``criticals`` and ``compressions``
-    (P,), N, ``factors`` (P, 2) at every position.
+    joint at an end of it is free to move across, with links whose push then turns. ``transition``: slenderness
+    sqrt(2 pi^2 E / S_y) below which Johnson's load holds, NaN without a yield stress. ``criticals`` and
+    ``compressions`` (P,), N, ``factors`` (P, 2) at every position.
     """
 
     critical: float
@@ -56,6 +57,7 @@ class Buckling:
     member: str = ""
     links: tuple[str, ...] = ()
     moves_along: bool = False
+    transition: float = math.nan
     criticals: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     compressions: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     factors: Array = field(default_factory=lambda: np.zeros((0, 2)), repr=False)
@@ -158,6 +160,11 @@ class _Judgement:
         return self.solved[key]
 
 
+def _transition(s: Section) -> float:
+    """Slenderness at which Euler's stress is half the yield stress."""
+    return math.pi * math.sqrt(2 * (s.elasticity or 0.0) / s.yield_stress) if s.yield_stress else math.nan
+
+
 def _judged(strut: Strut, sections: list[Section], known: tuple[float, float] | None) -> Buckling:
     """The position of least safety, or without any compression that of the least critical load."""
     judgement, compression = _Judgement(strut, sections, known), strut.compression()
@@ -192,6 +199,7 @@ def _judged(strut: Strut, sections: list[Section], known: tuple[float, float] | 
         member=strut.curves[0].name if len(strut.curves) == 1 else "",
         links=tuple(f.link for f in strut.forces),
         moves_along=bool(judgement.moves[k]),
+        transition=_transition(section),
         criticals=judgement.criticals,
         compressions=compression,
         factors=judgement.factors,

@@ -168,14 +168,20 @@ class MemberForces:
 
         return stresses(self, section)
 
-    def buckling(self, section: Section | Tree | None = None, ends: Factors | None = None) -> Buckling:
+    def buckling(
+        self,
+        section: Section | Tree | None = None,
+        ends: Factors | None = None,
+        length_factor: Factors | None = None,
+    ) -> Buckling:
         """Critical compression of the link as a column, by Euler or Johnson, beside that of the cycle.
 
-        ``ends``: its effective length factor K, or (in the plane, across it), instead of that of its joints.
+        ``ends`` or ``length_factor``: its effective length factor K, or (in the plane, across it), instead of that of
+        its joints.
         """
         from dalembert.machine.members.buckling import buckling
 
-        return buckling(self, section, ends)
+        return buckling(self, section, length_factor if ends is None else ends)
 
     def columns(self) -> Iterator[Column]:
         """Least and greatest of each inner force, with places."""
@@ -222,6 +228,13 @@ def forces_inside(r: Result, link: str, sets: list[tuple[Action, ...]]) -> Membe
     """The same with what acts on all links."""
     if link not in r.links:
         raise ModelError(f"unknown moving link {link!r}", closest(link, list(r.links)))
+    if r.mechanism.turning is not None and r.mechanism.links[link].mass_along != "lumped":
+        raise ModelError(
+            f"the mass of link {link!r} lies along it, and in a plane that turns its centrifugal force is known "
+            "only as a sum at the mass centre",
+            "write mass_along: lumped; the inner forces are then those of a mass at its centre",
+            ("links", link, "mass_along"),
+        )
     body = LinkBalance(r, link, sets)
     members = members_of(r.mechanism, link, body.joints())
     loads, far = body.loads(members, mass_layout(r.mechanism, link, members)), beyond(members)

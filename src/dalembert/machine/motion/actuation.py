@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.compile.elements.held_clutches import with_clutches
 from dalembert.analysis.compile.pose_loads import TIME
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.machine.motion.corners.one_sided import Sided, has_corners
+from dalembert.machine.motion.corners.prescribed_laws import PrescribedLaw
+from dalembert.machine.motion.stops.gap_contacts import contact_stops
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.end_stops import Stops
 from dalembert.model.drives.motors import Switch
 from dalembert.model.drives.starting import Start
+from dalembert.model.drives.turning_checks import refuse_unsteady
 from dalembert.model.joints.plane_joints import Joint
 from dalembert.model.quantities.coordinates import SPEED
 from dalembert.model.quantities.expressions import Expression
@@ -22,9 +27,10 @@ from dalembert.model.quantities.tables import Table
 
 
 def joint_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
-    """Stops of joints by joint and freedom."""
+    """Stops of joints by joint and freedom, and of the gaps of opened contacts."""
     stopped = {n: s for n, j in m.joints.items() if (s := getattr(j, "stops", None)) is not None}
-    return {(n, "slide" if s.kind == "length" else "turn"): s for n, s in stopped.items()}
+    stops = {(n, "slide" if s.kind == "length" else "turn"): s for n, s in stopped.items()}
+    return stops | contact_stops(m)
 
 
 def drive_lengths(m: Mechanism) -> Array:
@@ -41,20 +47,30 @@ def drive_lengths(m: Mechanism) -> Array:
 @dataclass
 class Actuation:
     """Actuation of the drives of a mechanism: ``free`` (D,) by forces from ``position`` and ``speed``, the others at a
-    constant ``acceleration`` (D,); ``on`` (D,): True where a motor is switched on."""
+    constant ``acceleration`` (D,) or by ``laws``; ``on`` (D,): True where a motor is switched on."""
 
     m: Mechanism
     free: Flags
     position: Array
     speed: Array
     acceleration: Array
+    laws: dict[int, PrescribedLaw] = field(default_factory=dict)
+    contacts: tuple[Any, ...] = ()
+    """Contacts that push, whose gaps are drives or have stops: ``landing.opened_contacts.GapContact``."""
     on: Flags = field(init=False)
 
     def __post_init__(self) -> None:
         self.names = tuple(self.m.drives)
         self.speeds = [name + SPEED for name in self.names]
         self.drives = tuple(self.m.drives.values())
-        self.motors = {k: d.motor for k, d in enumerate(self.drives) if d.motor is not None}
+        self.motors = {k: d.motor.at_drive for k, d in enumerate(self.drives) if d.motor is not None}
+        geared = {k: d.motor for k, d in enumerate(self.drives) if d.motor is not None and self.free[k]}
+        self.gears = {k: x for k, x in geared.items() if x.inertia or x.efficiency < 1}
+        self.side = np.ones(len(self.drives))  # the sign of what the motor's shaft gives to its gear
+        self.gain = np.ones(len(self.drives))  # the efficiency of gears, or its inverse
+        self.lossy = np.array(
+            [k in self.gears and self.gears[k].efficiency < 1 for k in range(len(self.drives))]
+        )
         self.brake = np.array([d.brake for d in self.drives])
         self.turns = np.array([d.turns for d in self.drives])
         self.on = np.array([self._begins(k) for k in range(len(self.names))])
@@ -70,6 +86,23 @@ class Actuation:
         return motor is not None and (
             motor.on is None or self.switched(motor.on, k, 0.0, self.position, self.speed) == 0
         )
+
+    def accelerations(self, t: float) -> Array:
+        """Accelerations (D,) of the drives that forces do not move; 0 of the others."""
+        out = np.where(self.free, 0.0, self.acceleration)
+        for k, law in self.laws.items():
+            out[k] = law.at(t)[2]
+        return out
+
+    def next_joint(self, t: float) -> float:
+        """The next instant at which two pieces of a law join."""
+        return min((law.next_joint(t) for law in self.laws.values()), default=np.inf)
+
+    def follow_laws(self, t: float, end: float, y: Array) -> None:
+        """Begin pieces that go up to an end: positions and speeds are those of the laws."""
+        for k, law in self.laws.items():
+            law.end = np.inf if end < t else end
+            y[k], y[len(self.free) + k] = law.at(t)[:2]
 
     def switched(self, switch: Switch, k: int, t: float, q: Array, u: Array) -> float:
         """Switching variable of a motor, less its switching value."""
@@ -88,8 +121,21 @@ class Actuation:
                 effort = self.sided.get(k, drive.effort)
                 out[k] = effort.at(known) if hasattr(effort, "at") else effort
             if k in self.motors and self.on[k]:
-                out[k] += self.motors[k].at(u[k])
+                out[k] += self.gain[k] * self.motors[k].at(u[k])
         return out
+
+    def take_ways(self, toward: Array) -> Array:
+        """Take the efficiencies of gears for senses of motion (D,); the inertias (D,) of their rotors at the drives."""
+        rotor = np.zeros(len(self.drives))
+        for k, gear in self.gears.items():
+            self.gain[k] = gear.efficiency ** float(self.side[k] * toward[k])
+            rotor[k] = gear.inertia * gear.ratio**2 * self.gain[k]
+        return rotor
+
+    def shaft(self, k: int, u: Array, a: Array) -> float:
+        """What the shaft of a motor gives to its gear, times the ratio: n (T - J n a)."""
+        gear, on = self.gears[k], self.on[k]
+        return float((self.motors[k].at(u[k]) if on else 0.0) - gear.inertia * gear.ratio**2 * a[k])
 
     def set_anchor(self) -> None:
         """Keep the last state as the one at which a step begins: nothing depends on it here."""
@@ -103,6 +149,8 @@ class Actuation:
         depends on positions, speeds or the time. ``ahead``: accelerations, which decide the side on which a motor
         leaves a corner."""
         first, slope = np.zeros((2, len(u)))
+        if self.gears:
+            return None
         for k, drive in enumerate(self.drives):
             if hasattr(drive.effort, "at"):
                 return None
@@ -114,8 +162,10 @@ class Actuation:
 
 def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mechanism, Actuation]:
     """The mechanism with all its drives prescribed where they start, and how they move."""
+    m = with_clutches(m, len(m.drives))
     if start:
         m = m.model_copy(update={"start": {**m.start, **start}})
+    refuse_unsteady(m)
     free = [n for n, d in m.drives.items() if n in m.start or d.motor is not None or d.effort is not None]
     if not free:
         raise ModelError(
@@ -130,6 +180,14 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
             f"release it: start: {{{braked}: {{position: ..., speed: 0}}}}, or leave the brake out",
             ("drives", braked, "brake"),
         )
+    for name in free:
+        cylinder = m.drives[name].cylinder
+        if cylinder is not None and cylinder.known_force is not None and cylinder.loses:
+            raise ModelError(
+                f"cylinder {name!r} has losses and both pressures, and a motion under forces leaves such losses out",
+                "leave its efficiency and friction out, or give the joint it moves friction",
+                ("drives", name, "cylinder"),
+            )
     at = {name: _at_start(name, d, m.start.get(name), name in free) for name, d in m.drives.items()}
     q, u, a = np.array(list(at.values())).T
     steady = {"speed": 1.0, "acceleration": 0.0, "brake": 0.0} | dict.fromkeys(
@@ -145,14 +203,21 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
         )
     m, joints = _with_stops_of_drives(m, free)
     prescribed = m.model_copy(update={"drives": drives, "joints": joints, "start": {}, "answers": ()})
-    return prescribed, Actuation(m, np.array([n in free for n in m.drives]), q, u, a)
+    laws = {
+        k: PrescribedLaw(n, d.law)
+        for k, (n, d) in enumerate(m.drives.items())
+        if d.law is not None and n not in free
+    }
+    return prescribed, Actuation(m, np.array([n in free for n in m.drives]), q, u, a, laws=laws)
 
 
 def _with_stops_of_drives(m: Mechanism, free: list[str]) -> tuple[Mechanism, dict[str, Joint]]:
     """The mechanism with stops of joints that are driven given to their drives; and its joints without these."""
     drives, joints, stops = dict(m.drives), dict(m.joints), joint_stops(m)
     for name, drive in m.drives.items():
-        joint = m.drive_joint(name)
+        joint, c = m.drive_joint(name), drive.cylinder
+        if c is not None and c.lengths and not drive.stops and name in free:
+            drives[name] = drive = drive.model_copy(update={"stops": Stops(*c.lengths)})
         ends = stops.get((joint, str(drive.freedom)))
         path = ("joints", joint, "stops") if ends else ("drives", name, "stops")
         if ends and drive.stops:
@@ -171,11 +236,8 @@ def _at_start(name: str, d: Drive, start: Start | None, free: bool) -> tuple[flo
     if start is not None:
         return start.position, start.speed, 0.0
     if d.law is not None:
-        raise ModelError(
-            f"drive {name!r} has a law of motion, and other drives are moved by forces",
-            "prescribe it by position, speed and acceleration at time 0",
-            ("drives", name, "law"),
-        )
+        s, v, a = PrescribedLaw(name, d.law).at(0.0)
+        return float(s), float(v), float(a)
     if d.position is None or isinstance(d.position, str):
         raise ModelError(
             f"drive {name!r} has no position to start at",

@@ -189,12 +189,16 @@ def _refuse(moves: Actuation) -> None:
         raise ModelError(f"joint {joint!r} has stops, which change speeds at once", REMEDY)
     for k, (name, drive) in enumerate(moves.m.drives.items()):
         motor = moves.motors.get(k)
+        if k in moves.laws:
+            raise ModelError(f"drive {name!r} has a law of motion, whose acceleration changes", REMEDY)
         if hasattr(drive.effort, "at"):
             raise ModelError(f"the effort of drive {name!r} depends on positions or time", REMEDY)
         if drive.brake:
             raise ModelError(f"drive {name!r} has a brake, which holds at rest", REMEDY)
         if drive.stops:
             raise ModelError(f"drive {name!r} has stops, which change its speed at once", REMEDY)
+        if drive.motor is not None and drive.motor.geared:
+            raise ModelError(f"the motor of drive {name!r} has a gear, inertia or an efficiency", REMEDY)
         if motor is not None and (motor.on or motor.off):
             raise ModelError(f"the motor of drive {name!r} has switches", REMEDY)
 

@@ -164,6 +164,11 @@ class Equation:
         self.asked, self.asked_channels = program, channels
         self.sides: list[int] = []
 
+    @property
+    def bends(self) -> int:
+        """Number of bends of springs and dampers by tables, at the end of what switches."""
+        return int(self.ends[6] - self.ends[5]) - len(self.sides)
+
     def again(self, values: Array | None = None) -> Equation:
         """The same equation for another motion, of other numbers; its machine code is shared."""
         new = copy(self)
@@ -280,14 +285,17 @@ class Equation:
         free: Flags,
         sense: Array,
         stuck: Flags,
+        rotor: Array | float = 0.0,
     ) -> tuple[Contacted, Terms]:
         """Accelerations (D,), those of ``free`` drives (D,) from their efforts tau, with what contacts do; the terms.
+        ``rotor`` (D,): inertias of what turns with the drives beside the links.
 
         Raises StoppedError where there are none: the mechanism does not close, or is singular, or jams.
         """
         e, a = self(t, q, u), np.where(free, 0.0, prescribed)
         if not all(np.isfinite(x).all() for x in (e.effort, e.mass, *(e.linear or ()))):
             raise StoppedError(OPEN)
+        e = e._replace(mass=e.mass + np.diag(rotor + np.zeros(len(a))))
         push = e.linear.push if e.linear else np.zeros((len(a), 0))
         m, right = e.mass[np.ix_(free, free)], np.column_stack([tau - e.effort - e.mass @ a, -push])
         ease = _solve(m, right[free], [name for name, moves in zip(self.names, free, strict=True) if moves])

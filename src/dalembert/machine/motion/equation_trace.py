@@ -101,7 +101,7 @@ def trace_equation(
     rubbing, *linear = _contacts(trace, numbers[count:])
     c, watched = trace.catalogue.compiled, (*joint_stops(m), *freedoms)
     moved = [rubbing, traced.closure, _motion(graph, c, traced, watched, numbers[count:])]
-    parts = [effort, mass, _powers(graph, c, traced), *moved, list(met), *linear]
+    parts = [effort, mass, _powers(graph, c, traced), *moved, [*met, *_bends(graph, c, traced)], *linear]
     slip, none = traced.friction.slip, dict[int, Node]()
     if slip is not None:
         none = dict.fromkeys((n.index for n in (*trace_array(graph, slip.cz), *numbers[count:])), graph.zero)
@@ -189,6 +189,8 @@ def _of_structure(m: Mechanism, freedoms: Freedoms) -> Equation | None:
     c = compile_mechanism(m, Schedule(names, at, one, one))
     if c.contacts is not None or c.layout.compliance is not None or c.pose_names:
         return None
+    if c.forcing.springs.slopes.any():  # whose corners are events
+        return None
     kept = ready(c, inertia=True)
     if kept is None or not kept.program.complete:
         return None
@@ -267,6 +269,15 @@ def _motion(
     return graph.substitute(out, dict.fromkeys(known, graph.zero))
 
 
+def _bends(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
+    """How far springs and dampers are from the bends of their tables."""
+    springs = traced.forcing.springs
+    if not springs.slopes.any():
+        return []
+    margins = fc.table_margins(c.layout, springs, traced.pose, traced.twist)
+    return list(trace_array(graph, np.array(margins, object)))
+
+
 def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
     """Powers of forces and couples, and of dampers, as nodes; dry friction is not included yet."""
     layout, f, pose, twist = c.layout, c.forcing, traced.pose, traced.twist
@@ -291,6 +302,7 @@ def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
     loads = graph.zero
     if len(f.forces.link) or len(f.couples.link):  # all power less that of the others
         inertial = fc.inertia_wrench(layout, f.inertia, pose, twist, traced.acceleration[:-1])
-        others = power(*elastic(twist), fc.weight(layout, f.inertia, pose), inertial)
+        turning = [traced.sources["turning"]] if "turning" in traced.sources else []
+        others = power(*elastic(twist), fc.weight(layout, f.inertia, pose), inertial, *turning)
         loads = (traced.loads * twist[:-1]).sum() - others
     return list(trace_array(graph, np.array([loads, dampers], object)))

@@ -31,6 +31,9 @@ COARSEST = 1e-9
 """Tolerance up to which steps with friction are taken again that are refused."""
 BEYOND = 1e-12
 """Part of a step's change of what switches a load by which it is beyond its corner for all that analyse it."""
+LIGHT = "the integration steps become too small, as where a part has almost no inertia"
+MOST_EVENTS = 10_000
+"""Events of one motion at most."""
 CHATTER, MANY = 1e-9, 40
 """So many events within this part of the time that has gone by are chatter."""
 
@@ -101,6 +104,8 @@ class Integration(StepState):
         return bool((self.locked | ~self.acting.free | self.bound).all() and not self._others_move())
 
     def _watch_chatter(self, t: float) -> None:
+        if len(self.events) > MOST_EVENTS:
+            raise StoppedError(f"{MOST_EVENTS} events have happened; ask for a shorter time")
         self.ends = [*self.ends[-MANY:], t]
         if len(self.ends) > MANY and t - self.ends[0] <= CHATTER * max(t, 1e-300):
             raise StoppedError(
@@ -109,6 +114,7 @@ class Integration(StepState):
 
     def _segment(self, t: float, y: Array) -> tuple[float, Array]:
         """To the first event, or the end."""
+        self.acting.follow_laws(t, self.next_bend(t), y)
         guards, self.watch = self._guards(t, y), WATCHED
         self.is_heavy(t, y)
         limit = self.end if np.isfinite(self.end) else self.limits.time
@@ -139,9 +145,7 @@ class Integration(StepState):
                 self._near_singular(solver.t, solver.y)
                 tiny += 1
                 if tiny > TRIES:
-                    raise StoppedError(
-                        "the integration steps become too small, as where a part has almost no inertia"
-                    )
+                    raise StoppedError(self.why_stopped(LIGHT))
             met = self._event(solver, guards, before, from_)
             if met is not None:
                 return met
@@ -240,7 +244,7 @@ class Integration(StepState):
     def _near_singular(self, t: float, y: Array) -> bool:
         """Raise StoppedError at a dead centre or change point, where two branches continue; otherwise returns False."""
         if (self.at(t, y)[2].closure < 0).any():
-            raise StoppedError(DEAD_CENTRE)
+            raise StoppedError(self.why_stopped(DEAD_CENTRE))
         return False
 
     def _meet(self, g: Guard, when: float, t: float, y: Array) -> tuple[float, Array]:
@@ -272,6 +276,8 @@ class Integration(StepState):
         d = self.d
         rests = [g.which for g in crossed if g.kind == "rest"]
         hit = [(g.which, -g.side) for g in crossed if g.kind == "stop"]
+        latched = [g.which for g in crossed if g.kind == "clutch" and self.latch(g.which, t, y)]
+        hit += [(k, -self.stops[k].way) for k in latched]
         if hit:
             self.strike(hit, t, y)
         touched = [g.which for g in crossed if g.kind in ("contact", "slip")]
@@ -282,8 +288,12 @@ class Integration(StepState):
         for g in crossed:
             if g.kind == "hold":
                 self.leave(g.which, t)
+            elif g.kind == "lift":
+                self.decide_gaps(t, y)
             elif g.kind == "corner":
                 self.go_over(g, t, y)
+            elif g.kind == "gear":
+                self.acting.side[g.which] = -g.side
             elif g.kind in ("on", "off"):
                 self._switch(t, g.which, g.kind)
             elif g.kind == "condition":
@@ -302,6 +312,7 @@ class Integration(StepState):
     def _resume(self, t: float, y: Array) -> None:
         """Let go what is no longer held."""
         self.keep_samples()
+        self.open_pulling(t, y)
         self.settle(self._loose(t, y), t, y, self.leaving(t, y))
         self.keep(t, y)
 

@@ -56,18 +56,25 @@ class Event(NamedTuple):
 
 @dataclass(frozen=True)
 class EventCondition:
-    """A crossing to stop at or to note: a drive's position or speed (`what`) at a value."""
+    """A crossing to stop at or to note: a drive's position or speed (`what`) at a value; or of a quantity by its
+    name."""
 
     text: str
     drive: int
     what: str
     value: float
     stops: bool
+    name: str = ""
 
     def value_at(self, d: int) -> Value:
         """Quantity that passes zero, of a state of d drives."""
         place = self.drive + d * (self.what == "speed")
         return lambda t, y: float(y[place] - self.value)
+
+
+def less(of: Value, value: float) -> Value:
+    """A quantity less a value."""
+    return lambda t, y: float(of(t, y)) - value
 
 
 @dataclass
@@ -88,7 +95,7 @@ class Guard:
     @property
     def known(self) -> bool:
         """True if the segment behind an event knows its side by itself."""
-        return self.kind not in ("on", "off", "kink", "condition")
+        return self.kind not in ("on", "off", "kink", "gear", "condition")
 
     def at_zero(self, t: float, y: Array, d: int) -> bool:
         """True if its value is too small for a sign, at a state of d drives."""
@@ -96,24 +103,39 @@ class Guard:
 
 
 CONDITION = re.compile(r"\s*(?P<drive>\S+)\.(?P<what>position|speed)\s*=\s*(?P<value>.+?)\s*")
+NAMED = re.compile(r"\s*(?P<name>[^=<>]+?)\s*=\s*(?P<value>[^=<>]+?)\s*")
+KindOf = Callable[[str], str]
+"""Kind of a quantity by its name; raises ModelError for one that does not exist."""
 
 
 def read_end(
-    m: Mechanism, until: str | float | Sequence[str | float], events: Sequence[str]
+    m: Mechanism,
+    until: str | float | Sequence[str | float],
+    events: Sequence[str],
+    kind_of: KindOf | None = None,
 ) -> tuple[float, list[EventCondition]]:
-    """The end, infinite where only conditions end it, and the conditions."""
+    """The end, infinite where only conditions end it, and the conditions, of quantities too where ``kind_of`` knows
+    them."""
     several = [until] if isinstance(until, (str, float, int)) else list(until)
     times = [u for u in several if not (isinstance(u, str) and re.search("[=<>]", u))]
     texts = [(str(u), True) for u in several if u not in times] + [(e, False) for e in events]
-    conditions = [_condition(m, text, stops) for text, stops in texts]
+    conditions = [_condition(m, text, stops, kind_of) for text, stops in texts]
     end = min((quantity(u, "time", m.units.of_texts()) for u in times), default=np.inf)
     if not end > 0 or not several:
         raise ModelError("the simulation has no end", 'write until="2 s"')
     return end, conditions
 
 
-def _condition(m: Mechanism, text: str, stops: bool) -> EventCondition:
+def _condition(m: Mechanism, text: str, stops: bool, kind_of: KindOf | None) -> EventCondition:
     match = CONDITION.fullmatch(text)
+    named = NAMED.fullmatch(text) if kind_of is not None else None
+    if named is not None and kind_of is not None and (match is None or match["drive"] not in m.drives):
+        if match is not None and "." not in match["drive"]:
+            raise ModelError(
+                f"the condition {text!r} names no drive", closest(match["drive"], list(m.drives))
+            )
+        value = _value(named["value"], kind_of(named["name"]), m)
+        return EventCondition(text.strip(), -1, "", value, stops, named["name"])
     if match is None:
         raise ModelError(
             f"{text!r} is not a condition", 'write "O2.speed = 0 rad/s" or "O2.position = 90 deg"'
@@ -122,6 +144,9 @@ def _condition(m: Mechanism, text: str, stops: bool) -> EventCondition:
     if drive not in m.drives:
         raise ModelError(f"the condition {text!r} names no drive", closest(drive, list(m.drives)))
     what, kinds = match["what"], TURN if m.drives[drive].turns else SLIDE
-    kind = kinds["" if what == "position" else what]
-    value = quantity(match["value"], kind, m.units.of_texts()) if match["value"] != "0" else 0.0
+    value = _value(match["value"], kinds["" if what == "position" else what], m)
     return EventCondition(text.strip(), list(m.drives).index(drive), what, value, stops)
+
+
+def _value(text: str, kind: str, m: Mechanism) -> float:
+    return quantity(text, kind, m.units.of_texts()) if text != "0" else 0.0

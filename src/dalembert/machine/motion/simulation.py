@@ -6,7 +6,7 @@ Mechanics: docs/theory.md 10.6.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,8 +14,6 @@ import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.output.columns import columns
-from dalembert.analysis.output.rounding import sizes
-from dalembert.analysis.result.closure_residual import closure_gap
 from dalembert.analysis.result.link_motion import place_of
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.answer.column import Axes, Column, Scale
@@ -23,13 +21,18 @@ from dalembert.answer.named_answer import NamedAnswer, counted
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import BOUNDS, text_of
 from dalembert.errors import ArgumentError, ModelError
+from dalembert.machine.elements.brake_heat import BrakeHeat
 from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
 from dalembert.machine.motion.coordinates.pieces import analysis_along, instants, integrate
-from dalembert.machine.motion.energies import energies
+from dalembert.machine.motion.energies import MotionChecks
 from dalembert.machine.motion.integration import Integration
 from dalembert.machine.motion.occurrences import Event, Words, read_end, say
 from dalembert.machine.motion.stepping import Limits
+from dalembert.machine.motion.stops.contact_answer import OpenedMotion
+from dalembert.machine.motion.stops.opened_contacts import opened
 from dalembert.machine.motion.stops.stop_loads import stop_effort, with_stop_loads
+from dalembert.machine.motion.stops.watched_quantities import watched_kind
+from dalembert.machine.motors.motor_use import WithMotors
 from dalembert.machine.output.machine_answer import MachineAnswer
 from dalembert.model import Mechanism, ModelOrPath, Schedule, as_mechanism
 from dalembert.model.drives.drives import kind_of
@@ -46,14 +49,10 @@ if TYPE_CHECKING:
 
 TOLERANCE = 1e-12
 """Relative tolerance of the integration."""
-CLOSE, DOUBT = 1e-10, 1e-5
-"""Gap of a check that needs no other measure; and that above which the answer says so."""
-NOTHING = 1e-6
-"""Least size of the largest effort that is compared, as part of the moments of inertia, weights and loads."""
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Simulation(NamedAnswer, MachineAnswer):
+class Simulation(BrakeHeat, WithMotors, MotionChecks, NamedAnswer, MachineAnswer):
     """A motion under forces: ``result`` has every joint force at the instants ``time`` (T,), s.
 
     ``applied`` (T, D): effort in each drive's freedom, brakes and stops included; ``stop_force`` (T, D): force of the
@@ -80,18 +79,40 @@ class Simulation(NamedAnswer, MachineAnswer):
     for good; ``stopped`` where nothing goes on, ``interrupted`` by Ctrl-C: ``ended`` says why and when."""
     motion: Result | None = field(repr=False, default=None)  # poses and rates where other freedoms have led
     evaluations: int = field(repr=False, default=0)
+    opened: OpenedMotion | None = field(repr=False, default=None)
 
     @cached_property
     def _loaded(self) -> tuple[Result, dict[str, Array]]:
+        m, schedule = self.prescribed, self.schedule
+        if self.opened is not None:
+            m, schedule = self.opened.mechanism, self.opened.schedule
         if self.motion is None:
-            result = at_schedule(self.prescribed, self.schedule, inertia=True)
+            result = at_schedule(m, schedule, inertia=True)
         else:
-            result = analysis_along(self.prescribed, self.schedule, self.motion)
+            result = analysis_along(m, schedule, self.motion)
         return with_stop_loads(result, self.on_joints, self.pushed, self.moves)
 
     @property
-    def result(self) -> Result:  # type: ignore[override]  # the analysis along the computed motion
+    def free_result(self) -> Result:
+        """The analysis in which the gaps of contacts are freedoms of their own."""
         return self._loaded[0]
+
+    @cached_property
+    def result(self) -> Result:  # type: ignore[override]  # the analysis along the computed motion
+        r, stops = self._loaded
+        if self.opened is None:
+            return r
+        return self.opened.of_description(r, self.prescribed, self.schedule, self.efforts, stops)
+
+    @property
+    def normals(self) -> Mapping[str, Array]:
+        """Normal force (T,) of each contact that only pushes or pulls, N."""
+        return {} if self.opened is None else self.opened.normals(self.efforts, self._loaded[1])
+
+    @property
+    def gaps(self) -> Mapping[str, Array]:
+        """Gap (T,) of each contact that only pushes or pulls, m."""
+        return {} if self.opened is None else self.opened.gaps(self.free_result)
 
     @property
     def joint_stop_force(self) -> Mapping[str, Array]:
@@ -105,87 +126,28 @@ class Simulation(NamedAnswer, MachineAnswer):
         return self.schedule.time
 
     @cached_property
+    def efforts(self) -> Array:
+        """Effort in the freedom of each drive and gap (T, D), N m or N."""
+        required = np.where(np.isnan(self.given), self.free_result.effort_array, self.given)
+        held = stop_effort(
+            self.free_result, self.pushed, 0 * self.moves.brake
+        )  # with what a brake takes of it
+        return np.where(np.isnan(self.pushed), required, self.pushed + held)
+
+    @property
     def applied(self) -> Array:
         """Effort in each drive's freedom (T, D), N m or N."""
-        required = np.where(np.isnan(self.given), self.result.effort_array, self.given)
-        held = stop_effort(self.result, self.pushed, 0 * self.moves.brake)  # with what a brake takes of it
-        return np.where(np.isnan(self.pushed), required, self.pushed + held)
+        return self.efforts[:, : len(self.drives)]
 
     @cached_property
     def stop_force(self) -> Array:
         """Forces of stops (T, D) on drives that rest on them: the part that friction and brakes do not hold."""
-        return stop_effort(self.result, self.pushed, self.moves.brake)
-
-    @cached_property
-    def _energies(self) -> tuple[Array, Array]:
-        return energies(self.result)
-
-    @property
-    def kinetic(self) -> Array:
-        """Kinetic energy (T,), J."""
-        return self._energies[0]
-
-    @property
-    def potential(self) -> Array:
-        """Energy of weights and springs (T,), J."""
-        return self._energies[1]
-
-    @cached_property
-    def energy_residual(self) -> float:
-        """Gap of the energy balance over the largest energy."""
-        gained, works = [x - x[0] for x in self._energies], [x - x[0] for x in self.works.values()]
-        exchanged = [self.kinetic, gained[1], *works]
-        largest = max(float(np.nanmax(np.abs(x), initial=0.0)) for x in exchanged)
-        return float(np.nanmax(np.abs(sum(gained) - sum(works)), initial=0.0)) / (largest or 1.0)
-
-    @cached_property
-    def law_gap(self) -> Array:
-        """Difference of the efforts of the computed motion, prescribed, from those that made it: where they are numbers
-        and no contact reverses."""
-        r, free = self.result, self.moves.free
-        sure = np.array([s in ("ok", "self_locking", "outside_table", "redundant") for s in r.status])
-        if r.friction is not None:
-            sure &= ~r.friction.reversing.any(axis=1)
-        arm = np.where(self.moves.turns, 1.0, r.compiled.layout.length)[free]  # forces as couples
-        required, applied = r.effort_array[:, free] * arm, self.applied[:, free] * arm
-        inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
-        forces, couples = r.compiled.forcing.forces.value, r.compiled.forcing.couples.value
-        loads = np.append(np.ravel(forces) * r.compiled.layout.length, couples)  # of numbers that cancel
-        compared = (required[sure], applied[sure], inner[sure], np.asarray(loads, float))
-        largest = max(float(np.abs(x).max(initial=0.0)) for x in compared)
-        gap = np.where(sure, np.abs(required - applied).max(axis=1, initial=0.0), 0.0)
-        if gap.max(initial=0.0) > CLOSE * largest:  # all these may be rounding themselves
-            largest = max(largest, float((NOTHING * sizes(r)["moment"][sure]).max(initial=0.0)))
-        return np.asarray(gap / (largest or 1.0))
+        return stop_effort(self.free_result, self.pushed, self.moves.brake)[:, : len(self.drives)]
 
     @property
     def ended(self) -> str:
         """By what it ended."""
         return say(self.ending)
-
-    @property
-    def law_residual(self) -> float:
-        """The largest of ``law_gap``."""
-        return float(self.law_gap.max(initial=0.0))
-
-    @cached_property
-    def closure(self) -> float:
-        """Gap of the loops, m or rad."""
-        return float(np.nanmax(closure_gap(self.result), initial=0.0))
-
-    @property
-    def doubt(self) -> str:
-        """Failed checks, as beside a singular position where a motion ends; empty where all are met."""
-        at, doubts = np.flatnonzero(self.law_gap > DOUBT), []
-        if len(at):
-            when = f"{self.time[at[0]]:.6g} s" + (f" and {len(at) - 1} more" if len(at) > 1 else "")
-            doubts.append(
-                f"at {when} accelerations and forces are uncertain: prescribed, that motion asks for other efforts, "
-                f"by {self.law_residual:.1g} of the largest"
-            )
-        if self.energy_residual > DOUBT:
-            doubts.append(f"the energy balance has a gap of {self.energy_residual:.1g} of the largest energy")
-        return "; ".join(doubts)
 
     @property
     def drives(self) -> tuple[str, ...]:
@@ -233,7 +195,7 @@ class Simulation(NamedAnswer, MachineAnswer):
 
     def keys(self) -> list[str]:
         """Names of the quantities of ``result``, and of applied efforts, stops, works and energies."""
-        return [*self.result.keys(), *self._further()]
+        return list(dict.fromkeys([*self.result.keys(), *self._further()]))
 
     def __getitem__(self, name: str) -> Array:
         """A quantity by its name, at the instants, SI."""
@@ -245,8 +207,8 @@ class Simulation(NamedAnswer, MachineAnswer):
         return [self[name]] if name in self._further() else self.result.both_sides(name)
 
     def event(self, name: str) -> list[Event]:
-        """Events whose name or sentence begins so."""
-        return [e for e in self.events if e.name.startswith(name) or e.sentence.startswith(name)]
+        """Events whose name or sentence begins so, or whose sentence has a word that does."""
+        return [e for e in self.events if e.name.startswith(name) or f" {name}" in f" {e.sentence}"]
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """Time, all numbers of the result, works and energies."""
@@ -259,12 +221,13 @@ class Simulation(NamedAnswer, MachineAnswer):
             yield Column(f"applied_effort.{drive}", kind, self.applied[:, k])
             if self.stop_force[:, k].any():
                 yield Column(f"stop_force.{drive}", kind, self.stop_force[:, k])
-        stops = zip(self.joint_stop_force.items(), joint_stops(self.result.mechanism), strict=True)
+        stops = zip(self.joint_stop_force.items(), joint_stops(self.free_result.mechanism), strict=True)
         for (joint, force), (_, freedom) in stops:
-            if force.any():
+            if force.any() and not freedom.startswith("gap"):
                 yield Column(f"stop_force.{joint}", kind_of(freedom, "effort"), force)
-        for name, values in self.works.items():
-            yield Column(f"energy.work.{name}", "energy", values)
+        for word, kind, of in (("normal", "force", self.normals), ("gap", "length", self.gaps)):
+            yield from (Column(f"{word}.{name}", kind, values) for name, values in of.items())
+        yield from (Column(f"energy.work.{name}", "energy", values) for name, values in self.works.items())
         yield Column("energy.kinetic", "energy", self.kinetic)
         yield Column("energy.potential", "energy", self.potential)
 
@@ -332,16 +295,17 @@ def simulate(
     m = as_mechanism(m)
     try:
         prescribed, moves = actuation(m, read_start(m, start))
-        end, conditions = read_end(m, until, events)
+        whole, acting = opened(prescribed, moves) or (prescribed, moves)
+        end, conditions = read_end(m, until, events, lambda name: watched_kind(whole, acting, name))
         check_choices(count, tolerance)
         if isinstance(steps, bool) or not isinstance(steps, int) or steps < 1:
             raise ModelError(f"{steps!r} is not a number of steps", "ask for 1 or more")
         times = np.linspace(0.0, end, count)[1:] if np.isfinite(end) else None
-        run = Integration(prescribed, moves, end, times, conditions, tolerance, Limits(steps))
+        run = Integration(whole, acting, end, times, conditions, tolerance, Limits(steps))
         pieces = integrate(run)
     except ModelError as error:
         raise error.at_source(m.source) from None
-    return _answer(m, prescribed, moves, pieces)
+    return _answer(m, prescribed, pieces)
 
 
 def check_choices(count: int, tolerance: float) -> None:
@@ -368,33 +332,44 @@ def read_start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, St
     return StartValue().starts(start, m._later_rules({}))
 
 
-def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, pieces: list[Integration]) -> Simulation:
+def _answer(m: Mechanism, prescribed: Mechanism, pieces: list[Integration]) -> Simulation:
     """The computed motion."""
     run = pieces[-1]
     if not run.rows:
-        raise ModelError(
-            f"the motion cannot begin: {say(run.ended)}", "start elsewhere, or with another speed", ("start",)
-        )
+        what = f"the motion cannot begin: {say(run.ended)}"
+        raise ModelError(what, "start elsewhere, or with another speed", ("start",))
     (t, q, u, a, applied, works, on_stop, stops, parts), motion = instants(pieces)
-    names = [*m.drives, "brakes", "loads", "dampers", "friction"]
-    named = {name: w for name, w in zip(names, works.T, strict=True) if name in m.drives or w.any()}
+    acting = pieces[0].acting
+    every, contacts = acting.names, acting.contacts
+    names = [*every, "brakes", "loads", "dampers", "friction"]
+    named = {
+        name: w
+        for name, w in zip(names, works.T, strict=True)
+        if name in m.drives or (name not in every and w.any())
+    }
     if run.losses:
         named["impacts"] = -np.array([sum(lost for when, lost in run.losses if when <= x) for x in t])
     ending, schedule = (
         run.ended or ("at ", ("time", t[-1])),
-        Schedule(tuple(m.drives), q, u, a, t, parts=parts if run.equation.dry else None),
+        Schedule(every, q, u, a, t, parts=parts if run.equation.dry else None),
     )
+    opened_motion = OpenedMotion(pieces[0].m, schedule, contacts) if contacts else None
+    own, count = schedule, len(prescribed.drives)
+    if contacts:
+        own = replace(schedule, names=every[:count], position=q[:, :count], speed=u[:, :count])
+        own = replace(own, acceleration=a[:, :count])
     return Simulation(
-        schedule,
+        own,
         named,
         tuple(run.events),
         ending,
         prescribed,
-        moves,
+        acting,
         applied,
         on_stop,
         stops,
         run.status,
         motion,
         sum(piece.evaluations for piece in pieces),
+        opened_motion,
     )

@@ -17,7 +17,7 @@ from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation, drive_lengths
 from dalembert.machine.motion.coordinates.dead_centres import LeadState
 from dalembert.machine.motion.equation import StoppedError
-from dalembert.machine.motion.occurrences import EventCondition, Guard, Value, Words
+from dalembert.machine.motion.occurrences import EventCondition, Guard, Value, Words, less
 from dalembert.machine.motion.steps import (
     Between,
     Integrator,
@@ -26,6 +26,7 @@ from dalembert.machine.motion.steps import (
     between,
     state_sizes,
 )
+from dalembert.machine.motion.stops.watched_quantities import watched
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
 
@@ -133,7 +134,7 @@ class StepState(LeadState):
     def _machine(self, t: float, y: Array) -> tuple[Integrator, Array] | None:
         """Machine code and its values, where the efforts are straight lines of the speeds until the next event."""
         free = self.acting.free & ~self.locked
-        if self.pressed:
+        if self.pressed or self.acting.laws:
             return None
         ahead = self.at(t, y)[0] if self.acting.motors else np.zeros(self.d)
         lines = self.acting.lines(y[self.d : 2 * self.d], ahead)
@@ -181,6 +182,9 @@ class StepState(LeadState):
         def switch(k: int, of: Switch) -> Value:
             return lambda t, y: acting.switched(of, k, t, y[:d], y[d:])
 
+        def bend(j: int) -> Value:
+            return lambda t, y: float(self.equation(t, y[:d], y[d : 2 * d]).corners[j])
+
         rubbing = np.flatnonzero(self.rubs & ~self.locked & ~self.bound).tolist()
         out = [Guard("rest", k, speed(k), float(self.toward[k])) for k in rubbing]
         out += [Guard("contact", c, rate(c), float(s)) for c, s in enumerate(self.sense) if not self.tied[c]]
@@ -188,9 +192,12 @@ class StepState(LeadState):
         for k, motor in acting.motors.items():
             out += [Guard(key, k, switch(k, of)) for key, of in self._switches(k)]
             out += [Guard("kink", k, speed(k, w)) for w in motor.kinks]
+        out += [Guard("kink", j, bend(j)) for j in range(-self.equation.bends, 0)]
+        out += self.gear_guards(t, y)
         out += self.corner_guards()
         out += self.stop_guards()
-        out += [Guard("condition", n, c.value_at(d)) for n, c in enumerate(self.conditions)]
+        values = [less(watched(self, c.name), c.value) if c.name else c.value_at(d) for c in self.conditions]
+        out += [Guard("condition", n, value) for n, value in enumerate(values)]
         for g in out:
             g.side = g.side or (0.0 if g.at_zero(t, y, d) else float(np.sign(g.value(t, y))))
         return out

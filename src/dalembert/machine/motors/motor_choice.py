@@ -192,18 +192,19 @@ class MotorChoice(MachineAnswer):
 def motor(
     r: Result,
     drive: str | None = None,
-    inertia: float = 0.0,
+    inertia: float | None = None,
     ratio: float | None = None,
-    efficiency: float = 1.0,
+    efficiency: float | None = None,
     curve: MotorCurve | str | Path | None = None,
     rated: float | None = None,
 ) -> MotorChoice:
     """Torque that a drive requires of its motor over the cycle, and the gear ratio that needs least torque.
 
     ``inertia``: that of the motor, kg m2; ``ratio``: speed of the motor over that of the drive (of one that slides,
-    rad/m); ``curve``: greatest torque over speed, a motor of a file or a text file with columns speed and torque,
-    default the drive's ``motor``; ``rated``: the continuous torque, N m. Raises ModelError where the drive is at rest,
-    and AnalysisError where a position is not solved.
+    rad/m); both, and the gear's ``efficiency``, by default those of the drive's ``motor``, if it has one; ``curve``:
+    greatest torque over speed, a motor of a file or a text file with columns speed and torque, default the drive's
+    ``motor``; ``rated``: the continuous torque, N m. Raises ModelError where the drive is at rest, and AnalysisError
+    where a position is not solved.
 
     >>> import dalembert as da
     >>> found = da.motor(da.dynamics(da.slider_crank(crank=0.05, rod=0.2)), inertia=1e-4)
@@ -222,10 +223,16 @@ def motor(
         raise ModelError("the machine has no drive, and a motor turns one", "drive a joint")
     if name not in r.drives:
         raise ModelError(f"unknown drive {name!r}", closest(name, list(r.drives)))
+    given = r.mechanism.drives[name].motor
+    if given is not None:
+        inertia = given.inertia if inertia is None else inertia
+        ratio = given.ratio if ratio is None and given.geared else ratio
+        efficiency = given.efficiency if efficiency is None else efficiency
+    inertia, efficiency = inertia or 0.0, 1.0 if efficiency is None else efficiency
     if isinstance(curve, (str, Path)):
         curve = read_curve(curve, r.mechanism.units)
     motion = r.effort(name), r.drive_speed(name), r.drive_acceleration(name), reduced_inertia(r, name)
-    motor_curve = curve or r.mechanism.drives[name].motor
+    motor_curve = curve or given
     choice = MotorChoice(r, name, *motion, durations(r), inertia, efficiency, motor_curve, rated)
     ratios = {
         "given": ratio,

@@ -15,6 +15,7 @@ from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.printing import Part, TextTable, number, remainder, round_components
 
 if TYPE_CHECKING:
+    from dalembert.machine.elements.brake_heat import StopHeat
     from dalembert.machine.motion.occurrences import Event
     from dalembert.machine.motion.simulation import Simulation
 
@@ -31,9 +32,14 @@ def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
     if events:
         yield "\n".join(["Events", *events[:ROWS], *more])
     yield _works(s, to)
+    heats = [_heat(name, h, to) for name, h in s.heat.items() if h.energy]
+    if heats:
+        yield "\n".join(heats)
     joints = _joints(s, to)
     if joints.rows:
         yield joints
+    if s.normals:
+        yield _contacts(s, to)
     yield (
         f"Checks: the energy balance holds within {remainder(s.energy_residual)} of the largest energy; the efforts "
         f"of the computed motion, prescribed, agree to {remainder(s.law_residual)}; the loops close "
@@ -47,7 +53,12 @@ def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
     if problems:
         yield "\n".join(f"instants {which}: {sentence}" for which, _, sentence in problems)
     if any(code == "contact_lost" for _, code, _ in problems):
-        yield "The motion is computed as if lost contacts held: from there on it is not that of the machine."
+        yield "The motion is computed without backlash, as if these contacts held: from there on it is not exact."
+    if any(code in ("slips", "slack") for _, code, _ in problems):
+        yield (
+            "The motion is computed as if belts and ropes neither slipped nor hung slack: from there on it is not that "
+            "of the machine."
+        )
 
 
 def _drives(s: Simulation, to: Printed) -> TextTable:
@@ -65,7 +76,7 @@ def _drives(s: Simulation, to: Printed) -> TextTable:
 def _events(s: Simulation, to: Printed) -> list[str]:
     """A line for each event; where impacts and reversals follow one another, one for all of each drive or joint."""
     lines = []
-    for swift, run in groupby(s.events, lambda e: e.name in ("impact", "reversal")):
+    for swift, run in groupby(s.events, lambda e: e.name in ("impact", "landing", "reversal")):
         of: dict[tuple[str, str], list[Event]] = {}
         for e in run:
             of.setdefault((e.name, e.of if swift else str(id(e))), []).append(e)
@@ -79,7 +90,7 @@ def _line(several: list[Event], to: Printed) -> str:
     if len(several) == 1:
         return f"at {when}: {sentence}"
     span = f"from {when} to {to.quantity('time', last.time)}: {len(several)} {first.name}s of {first.of}"
-    if first.name != "impact":
+    if first.name not in ("impact", "landing"):
         return span
     lost = to.quantity("energy", sum(e.lost for e in several))
     return f"{span}, {lost} lost together; in the first, {sentence}"
@@ -100,10 +111,36 @@ def _works(s: Simulation, to: Printed) -> TextTable:
     return TextTable([f"{to.text('energy')}", "start", "end"], rows)
 
 
+def _heat(name: str, h: StopHeat, to: Printed) -> str:
+    """Rubbing work of a brake, on its lining and in what it warms."""
+    area = "" if np.isnan(h.per_area) else f", {h.per_area / 1e6:.4g} J/mm^2 of its lining"
+    rise = "" if np.isnan(h.rise) else f"; it warms by {h.rise:.4g} K if all of it stays"
+    return f"{name} turns {to.quantity('energy', h.energy)} into heat{area}{rise}."
+
+
 def _joints(s: Simulation, to: Printed) -> TextTable:
     """Greatest force in each joint and when."""
     largest = {joint: greatest(s.result.reaction(joint)) for joint in s.result.joints}
     known = {joint: both for joint, both in largest.items() if np.isfinite(both[0])}
-    rows = [[n, to.number("force", f), to.number("time", s.time[k])] for n, (f, k) in known.items()]
+    sizes = round_components([f for f, _ in known.values()], max((f for f, _ in known.values()), default=0.0))
+    rows = [
+        [n, to.number("force", f), to.number("time", s.time[k])]
+        for (n, (_, k)), f in zip(known.items(), sizes, strict=True)
+    ]
     heads = ["joint", f"greatest force\n{to.text('force')}", f"at\n{to.text('time')}"]
     return TextTable(heads, rows)
+
+
+def _contacts(s: Simulation, to: Printed) -> TextTable:
+    """Greatest normal force of each contact and its widest gap."""
+    rows, gaps = [], s.gaps
+    for name, force in s.normals.items():
+        gap = gaps[name]
+        row = [name]
+        for kind, values in (("force", force), ("length", gap)):
+            k = int(np.nanargmax(values)) if np.isfinite(values).any() else 0
+            row += [to.number(kind, values[k]), to.number("time", s.time[k])]
+        rows.append(row)
+    at, force_unit, length = (to.text(kind) for kind in ("time", "force", "length"))
+    heads = [f"greatest normal force\n{force_unit}", f"at\n{at}", f"widest gap\n{length}", f"at\n{at}"]
+    return TextTable(["contact", *heads], rows)

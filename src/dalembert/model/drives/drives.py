@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,11 +11,12 @@ from typing import Annotated, Any, Literal, Self, cast
 from pydantic import Field, FieldSerializationInfo, ValidationInfo, field_serializer, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.drives.cylinders import FluidCylinder
+from dalembert.model.drives.drive_screws import DriveScrew
 from dalembert.model.drives.end_stops import Stops, end_stops, stops_schema
-from dalembert.model.drives.laws import Law, Rise, TimeTable, law_schema
+from dalembert.model.drives.laws import Law, law_schema
 from dalembert.model.drives.laws import law as read_law
 from dalembert.model.drives.motors import MotorCurve, motor_curve, motor_schema
-from dalembert.model.drives.programmes import Programme
 from dalembert.model.drives.written_programmes import count
 from dalembert.model.part import Part, ReadingRules, mapping, reading
 from dalembert.model.quantities.dependent_numbers import Dependent
@@ -140,7 +142,7 @@ def kind_of(freedom: str | None, what: str) -> str:
 
 def slides(freedom: str | None) -> bool:
     """True if a freedom is a length."""
-    return (freedom or "").startswith("slide")
+    return (freedom or "").startswith(("slide", "gap", "slip"))
 
 
 def implied_freedom(keys: Mapping[str, object]) -> str | None:
@@ -222,6 +224,11 @@ class Drive(Part):
         None, description="in space: the axis of a spherical joint's turn"
     )
 
+    cylinder: FluidCylinder | None = Field(
+        None, description="a cylinder between two points, whose distance is the drive's position"
+    )
+
+    screw: DriveScrew | None = Field(None, description="a power screw that moves the slide: its torque")
     by: Literal["outside"] | None = Field(
         None,
         description="outside: its effort comes from outside the frame and counts in the shaking moment; left out, the "
@@ -251,6 +258,30 @@ class Drive(Part):
         return keys
 
     @model_validator(mode="after")
+    def _of_cylinder(self) -> Self:
+        """Both pressures of a cylinder are its effort."""
+        if self.cylinder is not None:
+            self._refuse("a cylinder", "joint", "motor", "brake", "axis")
+            known = self.cylinder.known_force
+            if known is not None:
+                self.__dict__["effort"] = known
+        return self
+
+    @model_validator(mode="after")
+    def _of_screw(self) -> Self:
+        if self.screw is not None:
+            self._refuse("a screw", "cylinder")
+            if self.freedom is not None and self.turns:
+                raise ModelError("a screw moves a slide, and this drive turns", "drive the slide", ("screw",))
+            if self.motor is not None:
+                lead = f"2 pi over the lead of {self.screw.advance:g} m"
+                remedy = (
+                    f"give the motor ratio: {2 * math.pi / self.screw.advance:.6g}, {lead}, and an efficiency"
+                )
+                raise ModelError("a screw and a motor are given", remedy, ("motor",))
+        return self
+
+    @model_validator(mode="after")
     def _one_motion(self) -> Self:
         if self.law is not None:
             self._refuse("a law of motion", "position", "speed", "acceleration", "range", "stops")
@@ -259,6 +290,11 @@ class Drive(Part):
             raise ModelError(what, "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law")
         if self.motor is not None:
             self._refuse("a motor", "law", "range")
+            if self.motor.geared and self.effort is not None:
+                problem = "a motor behind a gear and an effort are given"
+                raise ModelError(
+                    problem, "write that effort as a load; it may depend on the speed", ("effort",)
+                )
             if isinstance(self.effort, (int, float)):
                 problem = "a motor and a constant effort are given"
                 raise ModelError(
@@ -285,6 +321,8 @@ class Drive(Part):
         if self.effort is None:
             what = "its position is unknown and its effort is not given"
             raise ModelError(what, "write effort: 0, or the effort that holds it")
+        if self.cylinder is not None and self.cylinder.lengths and self.range is None:
+            self.__dict__["range"] = self.cylinder.lengths
         if slides(self.freedom) and self.range is None:
             problem = "its position along a slide is unknown without a range"
             raise ModelError(problem, "write range: [0 mm, 100 mm]")
@@ -307,8 +345,7 @@ class Drive(Part):
         return {
             key: len(value) if isinstance(value, tuple) else value.count
             for key, value in values.items()
-            if isinstance(value, (tuple, Range, Rise, TimeTable, Programme))
-            and not getattr(value, "over", "")
+            if isinstance(value, (tuple, Range, Law)) and not getattr(value, "over", "")
         }
 
     @field_serializer(
@@ -343,6 +380,6 @@ def _tree(value: Any, kind: str) -> object:
             "to": value_text(value.stop, kind),
             "count": value.count,
         }
-    if isinstance(value, (Rise, TimeTable, Programme, MotorCurve, Stops)):
+    if isinstance(value, (Law, MotorCurve, Stops)):
         return value.tree(kind)
     return value if value is None or value == UNKNOWN else varying_tree(value, kind)

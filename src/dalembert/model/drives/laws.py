@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.model.drives.expression_laws import ExpressionLaw, expression_law, expression_law_schema
 from dalembert.model.drives.programmes import Programme
 from dalembert.model.drives.written_programmes import count, programme, programme_schema
 from dalembert.model.part import ReadingRules, mapping
@@ -51,9 +52,13 @@ class Rise:
         import numpy as np
 
         u = np.linspace(0.0, 1.0, count or self.count)
+        return u * self.duration, *self.at(u)
+
+    def at(self, u: Array) -> tuple[Array, Array, Array]:
+        """Position, speed and acceleration at parts u of the duration."""
         shape, slope, bend = _shape(self.type, u)
         rise, t = self.stop - self.start, self.duration
-        return u * t, self.start + rise * shape, rise / t * slope, rise / t**2 * bend
+        return self.start + rise * shape, rise / t * slope, rise / t**2 * bend
 
     def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
@@ -97,14 +102,20 @@ class TimeTable:
     def motion(self, count: int | None = None) -> tuple[Array, Array, Array, Array]:
         """Time, position, speed and acceleration at `count` equal steps of time."""
         import numpy as np
+
+        t = np.linspace(self.time[0], self.time[-1], count or self.count, endpoint=not self.periodic)
+        return t, *self.at(t)
+
+    def at(self, t: Array | float) -> tuple[Array, Array, Array]:
+        """Position, speed and acceleration at times."""
+        import numpy as np
         from scipy.interpolate import CubicSpline
 
-        y = np.asarray(self.position)
+        y = np.array(self.position)
         if self.periodic:
             y[-1] = y[0]
         spline = CubicSpline(self.time, y, bc_type="periodic" if self.periodic else "not-a-knot")
-        t = np.linspace(self.time[0], self.time[-1], count or self.count, endpoint=not self.periodic)
-        return t, spline(t), spline(t, 1), spline(t, 2)
+        return spline(t), spline(t, 1), spline(t, 2)
 
     def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
@@ -117,15 +128,17 @@ class TimeTable:
         return tree | ({"periodic": True} if self.periodic else {})
 
 
-Law = Rise | TimeTable | Programme
+Law = Rise | TimeTable | Programme | ExpressionLaw
 
 
 def law(value: object, kind: str, rules: ReadingRules) -> Law:
     """The law that a tree describes; positions are of the kind `angle` or `length`."""
-    if isinstance(value, (Rise, TimeTable, Programme)):
+    if isinstance(value, Law):
         return value
     if not isinstance(value, Mapping):
         raise ModelError(f"{quote_value(value)} is not a law of motion", f"write {EXAMPLES['rise']}")
+    if "expression" in value:
+        return expression_law(value, kind, rules)
     if "segments" in value:
         return programme(value, kind, rules)
     form = value.get("type")
@@ -195,4 +208,5 @@ def law_schema() -> JsonSchema:
         "interpolate": {"const": "cubic", "description": "a cubic spline, the default"},
         "periodic": {"type": "boolean", "description": "the last position repeats the first; default false"},
     }
-    return {"anyOf": [object_schema(rise, *rise), object_schema(table, *list(table)[:4]), programme_schema()]}
+    written = (object_schema(rise, *rise), object_schema(table, *list(table)[:4]))
+    return {"anyOf": [*written, programme_schema(), expression_law_schema()]}

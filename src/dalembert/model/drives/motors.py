@@ -20,7 +20,9 @@ from dalembert.model.quantities.values import (
 )
 
 EXAMPLE = "{stall: 40 N*m, no_load: 30 rad/s}, or {curve: {speed: [0 rpm, 900 rpm], torque: [40, 0]}}"
-KEYS = ["stall", "no_load", "curve", "on", "off"]
+GEARING = {"ratio": 1.0, "inertia": 0.0, "efficiency": 1.0}
+"""Keys of a motor behind a gear, with their defaults."""
+KEYS = ["stall", "no_load", "curve", "on", "off", *GEARING]
 SWITCHES = ("time", "position", "speed")
 
 Switch = tuple[str, float]
@@ -30,21 +32,49 @@ Switch = tuple[str, float]
 @dataclass(frozen=True, slots=True)
 class MotorCurve:
     """Effort over speed by straight lines between points; beyond both ends the last line goes on if ``straight`` (given
-    by stall and no-load), else the last effort holds. Off before ``on`` and from ``off``."""
+    by stall and no-load), else the last effort holds. Off before ``on`` and from ``off``.
+
+    Behind a gear its numbers are those of its own shaft: ``ratio`` n, its speed over that of the drive (of one that
+    slides, rad/m); ``inertia`` J of its rotor, kg m2; ``efficiency`` of the gear. X = T - J n a is what its shaft gives
+    to the gear, and the drive gets eta n X while power goes to the machine, n X/eta while it comes back.
+    """
 
     speed: tuple[float, ...]
     effort: tuple[float, ...]
     straight: bool = False
     on: Switch | None = None
     off: Switch | None = None
+    ratio: float = 1.0
+    inertia: float = 0.0
+    efficiency: float = 1.0
+
+    @property
+    def geared(self) -> bool:
+        """True if the drive does not get the effort of the curve at its own speed."""
+        return (self.ratio, self.inertia, self.efficiency) != (1.0, 0.0, 1.0)
+
+    @property
+    def at_drive(self) -> MotorCurve:
+        """Its curve as the drive has it behind a gear without inertia and loss."""
+        return replace(
+            self,
+            speed=tuple(x / self.ratio for x in self.speed),
+            effort=tuple(x * self.ratio for x in self.effort),
+            ratio=1.0,
+            inertia=0.0,
+            efficiency=1.0,
+        )
 
     @property
     def keys(self) -> dict[str, float]:
         """Its numbers by their keys in a file: of a curve none."""
-        return {"stall": self.effort[0], "no_load": self.speed[1]} if self.straight else {}
+        line = {"stall": self.effort[0], "no_load": self.speed[1]} if self.straight else {}
+        return line | {key: getattr(self, key) for key in GEARING} if self.geared else line
 
     def with_key(self, key: str, value: float) -> MotorCurve:
         """Another motor, its effort at rest or its free speed replaced."""
+        if key in GEARING:
+            return replace(self, **{key: value})  # type: ignore[arg-type]
         return replace(self, effort=(value, 0.0)) if key == "stall" else replace(self, speed=(0.0, value))
 
     @property
@@ -89,7 +119,7 @@ class MotorCurve:
 
     def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
-        kinds = of_kind(kind)
+        kinds = of_kind(kind, self.ratio != 1.0)
         speeds = [value_text(x, kinds["speed"]) for x in self.speed]
         efforts = [value_text(x, kinds["effort"]) for x in self.effort]
         curve: dict[str, object] = {"speed": speeds, kinds["name"]: efforts}
@@ -97,29 +127,39 @@ class MotorCurve:
         tree: dict[str, object] = line if self.straight else {"curve": curve}
         for key, of in (("on", self.on), ("off", self.off)):
             if of is not None:
-                tree[key] = value_text(of[1], kinds[of[0]])
+                tree[key] = value_text(of[1], kinds[of[0]] if of[0] != "speed" else of_kind(kind)["speed"])
+        for key, default, unit in (
+            ("ratio", 1.0, "number"),
+            ("inertia", 0.0, "inertia"),
+            ("efficiency", 1.0, "number"),
+        ):
+            if getattr(self, key) != default:
+                tree[key] = value_text(getattr(self, key), unit)
         return tree
 
 
-def of_kind(kind: str) -> dict[str, str]:
-    """Kinds of a motor's numbers, from that of its position."""
+def of_kind(kind: str, geared: bool = False) -> dict[str, str]:
+    """Kinds of a motor's numbers, from that of its position; ``geared``: it turns, whatever its drive does."""
     turn = {"effort": "moment", "speed": "angular_speed", "name": "torque"}
     slide = {"effort": "force", "speed": "speed", "name": "force"}
-    return (turn if kind == "angle" else slide) | {"position": kind, "time": "time"}
+    return (turn if kind == "angle" or geared else slide) | {"position": kind, "time": "time"}
 
 
 def motor_curve(value: object, kind: str, rules: ReadingRules) -> MotorCurve:
     """The motor that a mapping describes; ``kind`` is that of the drive's position."""
     if isinstance(value, MotorCurve):
         return value
-    keys, kinds = mapping(value, KEYS, f"motor: {EXAMPLE}"), of_kind(kind)
+    keys = mapping(value, KEYS, f"motor: {EXAMPLE}")
+    kinds, gearing = of_kind(kind, "ratio" in keys), _gearing(keys, kind, rules)
     line = {"stall", "no_load"} & set(keys)
     if ("curve" in keys) == bool(line) or (line and len(line) < 2):
         raise ModelError("a motor has stall and no_load, or a curve", f"write motor: {EXAMPLE}")
-    switches = [at_item(k, switch, keys[k], kinds, rules) if k in keys else None for k in ("on", "off")]
+    on, off = (
+        at_item(k, switch, keys[k], of_kind(kind), rules) if k in keys else None for k in ("on", "off")
+    )
     if "curve" in keys:
         speed, effort = at_item("curve", _curve, keys["curve"], kinds, rules)
-        return MotorCurve(speed, effort, False, *switches)
+        return MotorCurve(speed, effort, False, on, off, *gearing)
     stall = at_item("stall", rules.quantity, keys["stall"], kinds["effort"])
     free = at_item("no_load", rules.quantity, keys["no_load"], kinds["speed"])
     if not stall or not free or (stall > 0) != (free > 0):
@@ -128,7 +168,33 @@ def motor_curve(value: object, kind: str, rules: ReadingRules) -> MotorCurve:
             "give both the same sign, and neither 0: negative ones drive against the freedom",
             ("no_load",),
         )
-    return MotorCurve((0.0, free), (stall, 0.0), True, *switches)
+    return MotorCurve((0.0, free), (stall, 0.0), True, on, off, *gearing)
+
+
+def _gearing(keys: Mapping[str, object], kind: str, rules: ReadingRules) -> tuple[float, float, float]:
+    """Ratio, inertia and efficiency."""
+    ratio, inertia, efficiency = (
+        at_item(key, rules.quantity, keys.get(key, default), unit)
+        for key, default, unit in (
+            ("ratio", 1.0, "number"),
+            ("inertia", "0 kg*m^2", "inertia"),
+            ("efficiency", 1.0, "number"),
+        )
+    )
+    if not ratio > 0:
+        what = f"the ratio of the gear is {ratio:g}"
+        raise ModelError(what, "write the speed of the motor over that of the drive, such as 12", ("ratio",))
+    if inertia < 0:
+        raise ModelError("the inertia of the motor is negative", "write a positive one, or 0", ("inertia",))
+    if not 0 < efficiency <= 1:
+        what = f"the efficiency of the gear is {efficiency:g}"
+        raise ModelError(what, "write a number above 0, and 1 at most, such as 0.9", ("efficiency",))
+    if kind != "angle" and inertia and "ratio" not in keys:
+        what = "a motor with inertia turns, and its drive slides"
+        raise ModelError(
+            what, "give the ratio, its angle over the length of the slide in rad/m", ("inertia",)
+        )
+    return ratio, inertia, efficiency
 
 
 def _curve(value: object, kinds: Mapping[str, str], rules: ReadingRules) -> tuple[tuple[float, ...], ...]:
@@ -189,5 +255,8 @@ def motor_schema() -> JsonSchema:
         "curve": object_schema(curve, "speed") | straight,
         "on": NUMBER_OR_TEXT | {"description": switched + "on"},
         "off": NUMBER_OR_TEXT | {"description": switched + "off"},
+        "ratio": NUMBER_OR_TEXT | {"description": "speed of the motor over that of the drive; default 1"},
+        "inertia": NUMBER_OR_TEXT | {"description": "of the rotor, about its own axis; default 0"},
+        "efficiency": NUMBER_OR_TEXT | {"description": "of the gear, both ways; default 1"},
     }
     return object_schema(keys)

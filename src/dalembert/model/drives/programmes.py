@@ -183,7 +183,7 @@ class Programme:
         out: dict[str, object] = {"over": self.over} if self.over else {}
         if self.start:
             out["from"] = value_text(self.start, kind)
-        out["segments"] = [_segment_tree(s, kind, master) for s in self.segments]
+        out["segments"] = [segment_tree(s, kind, master) for s in self.segments]
         if not self.over:
             out["count"] = self.count
         if self.periodic != bool(self.over and not math.isnan(self.turn)):
@@ -215,7 +215,8 @@ def rate_kind(kind: str, what: str) -> str:
     return what if kind == "length" else f"angular_{what}"
 
 
-def _segment_tree(s: Segment, kind: str, master: str) -> dict[str, object]:
+def segment_tree(s: Segment, kind: str, master: str) -> dict[str, object]:
+    """A segment as a file has it; ``master``: the kind of what it is over."""
     out: dict[str, object] = {}
     if s.form == "dwell":
         return {"dwell": REST if math.isnan(s.length) else value_text(s.length, master)}

@@ -25,6 +25,8 @@ MOST = 10_000_000
 """Positions of one analysis."""
 
 FORMS = (*RISES, "polynomial", "spline", "trapezoidal", "s_curve")
+INSTANTS = 181
+"""Instants of a law over time whose count is left out."""
 EXAMPLE = "{segments: [{to: 25 mm, in: 0.2 s, by: cycloidal}, {dwell: 0.1 s}], count: 181}"
 RISE_EXAMPLE = "{to: 25 mm, in: 0.2 s, by: cycloidal}"
 KEYS = {
@@ -64,15 +66,13 @@ def programme(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Pr
     master = ("length" if slides else "angle") if over else "time"
     read = [at_item("segments", at_item, k, _segment, s, kind, master, rules) for k, s in enumerate(listed)]
     start = at_item("from", rules.quantity, value["from"], kind) if "from" in value else 0.0
-    if not over and "count" not in value:
-        raise ModelError("the key 'count' is missing", f"write {EXAMPLE}")
     turn = 2 * math.pi if over and not slides else math.nan
     periodic = value.get("periodic", not math.isnan(turn))
     if not isinstance(periodic, bool):
         raise ModelError(
             f"{quote_value(periodic)} is neither true nor false", "write periodic: true", ("periodic",)
         )
-    number = at_item("count", count, value["count"], 1) if "count" in value else 1
+    number = at_item("count", count, value["count"], 1) if "count" in value else 1 if over else INSTANTS
     out = Programme(tuple(read), start, number, over, periodic, turn, slides)
     if out.segments[0].form == "spline" and "from" not in value:
         out = replace(out, start=out.segments[0].points[1][0])
@@ -214,7 +214,11 @@ def programme_schema() -> JsonSchema:
             "description": "another drive over whose position the law is; default time",
         },
         "from": NUMBER_OR_TEXT | {"description": "first position; default 0"},
-        "count": {"type": "integer", "minimum": 1, "description": "instants, of a law over time"},
+        "count": {
+            "type": "integer",
+            "minimum": 1,
+            "description": "instants, of a law over time; default 181",
+        },
         "periodic": {
             "type": "boolean",
             "description": "it begins again; default true over a drive that turns",

@@ -13,7 +13,6 @@ from dalembert.model.quantities.values import (
     JsonSchema,
     Scalar,
     ValueField,
-    check_sign,
     numbers,
     value_text,
 )
@@ -27,7 +26,9 @@ class Guide(ValueField):
 
     def read(self, value: object, info: ValidationInfo) -> tuple[float, float]:
         lengths = numbers(value, "length", reading(info))
-        if len(lengths) != 2 or not sum(check_sign(length, length, "not negative") for length in lengths) > 0:
+        if (
+            len(lengths) != 2 or not sum(lengths) > 0
+        ):  # one is negative where the guide is on one side of the point
             raise ModelError(
                 "a guide is two lengths, behind and ahead of the point", "write guide: [0.02, 0.03]"
             )
@@ -83,6 +84,9 @@ class GuideFriction(FrictionPart):
     half_height: Annotated[float, Scalar("length", "not negative")] | None = Field(
         None, description="of the guide, from its middle to a face, a length"
     )
+    force: Annotated[float, Scalar("force", "not negative")] | None = Field(
+        None, description="friction against the slide whatever the load, beside mu N; a force"
+    )
 
 
 class SlotFriction(FrictionPart):
@@ -92,6 +96,11 @@ class SlotFriction(FrictionPart):
         None, description="radius of the pin in the slot, a length"
     )
     circle: Circle | None = Field(None, description="R sin(phi), or mu R with tan; default the top level's")
+
+
+class RollingFriction(FrictionPart):
+    """Friction of a wheel on its track: it rolls while the force along it is at most `static` times the normal force;
+    where it slides, `coefficient` times the normal force acts against the slip."""
 
 
 class GearFriction(FrictionPart):
@@ -128,6 +137,19 @@ class SpaceFriction(FrictionPart):
     thread_angle: Annotated[float, Scalar("angle", "not negative")] | None = Field(
         None, description="of a screw: half the angle of the thread's profile; default 0, a square thread"
     )
+
+
+class MeshEfficiency(Scalar):
+    """A number above 0, up to 1."""
+
+    def __init__(self) -> None:
+        super().__init__("number", "positive")
+
+    def read(self, value: object, info: ValidationInfo) -> float:
+        number = super().read(value, info)
+        if number > 1:
+            raise ModelError(f"an efficiency of {number:g} is above 1", "write a number above 0, up to 1")
+        return number
 
 
 Friction = PinFriction | GuideFriction | SlotFriction | GearFriction | SpaceFriction

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Self
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.joints.contact_keys import refuse_contact
 from dalembert.model.joints.pairs import PAIRS, TEETH, Pair
 from dalembert.model.joints.stiffness import Stiffness
-from dalembert.model.part import Part
-from dalembert.model.quantities.values import JsonSchema, TwoNames, ValueField, name, pair_of_names
+from dalembert.model.part import Part, reading
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    TwoNames,
+    ValueField,
+    at_item,
+    check_sign,
+    name,
+    numbers,
+    pair_of_names,
+    value_text,
+)
 
 
 class At(ValueField):
@@ -27,6 +40,37 @@ class At(ValueField):
         return {"anyOf": [names, {"type": "array", "items": names, "minItems": 2, "maxItems": 2}]}
 
 
+Path = tuple[str | int, ...]
+"""Keys and items from a joint to a value in it."""
+
+
+class TwoNumbers(ValueField):
+    """Two positive numbers of a kind, `[of i, of j]`."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+
+    def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
+        pair = numbers(value, self.kind, reading(info))
+        if len(pair) != 2:
+            raise ModelError(f"a list of {len(pair)} is given; two values are needed", "write [of i, of j]")
+        for i, number in enumerate(pair):
+            at_item(i, check_sign, number, value[i], "positive")
+        return pair[0], pair[1]
+
+    def write(self, value: tuple[float, float]) -> object:
+        return [value_text(number, self.kind) for number in value]
+
+    def json_schema(self) -> JsonSchema:
+        return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}
+
+
+def kinds_of(part: type[Any]) -> list[type[Any]]:
+    """The classes of a part that have no kinds of their own: those that a file can name."""
+    kinds = part.__subclasses__()
+    return [leaf for kind in kinds for leaf in kinds_of(kind)] if kinds else [part]
+
+
 class JointPart(Part):
     """Common keys of all joints: the links i and j, and the point on each."""
 
@@ -37,6 +81,11 @@ class JointPart(Part):
 
     TOOTHED: ClassVar[bool] = False
     """True if its wheels have teeth."""
+
+    WRAPPED: ClassVar[bool] = False
+    """True if a belt or a chain joins its wheels, which do not touch."""
+    BRAKES: ClassVar[bool] = False
+    """True of brakes and clutches: friction of what is pressed together."""
 
     type: str
     links: TwoNames = Field(description="[i, j]: motion and reaction are those of j against i")
@@ -53,12 +102,28 @@ class JointPart(Part):
     @property
     def freedoms(self) -> tuple[str, ...]:
         """The freedoms of j in i that a drive can prescribe."""
-        return self.FREEDOMS
+        return self.FREEDOMS + self.gaps
+
+    @property
+    def gaps(self) -> tuple[str, ...]:
+        """Freedoms that an opened contact has besides: the gap along its normal."""
+        contact = getattr(self, "contact", None)
+        return () if contact is None or not contact.opened else self.lifted
+
+    @property
+    def lifted(self) -> tuple[str, ...]:
+        """Freedoms that j has besides once its contact is lost; none of a contact that motions under forces keep."""
+        return () if self.BRAKES else ("gap",)
 
     @property
     def wheels(self) -> int:
         """Number of wheels in contact about its points: two, or j's with a line of i; 0 for other joints."""
         return 0
+
+    @property
+    def reach(self) -> float:
+        """Radius about i's point within which a brake lies, m; 0 of other joints."""
+        return 0.0
 
     @property
     def slides(self) -> bool:
@@ -69,6 +134,11 @@ class JointPart(Part):
     def apart(self) -> bool:
         """True if j's point, the joint's place, moves away from i's."""
         return self.slides
+
+    @property
+    def outlined(self) -> bool:
+        """True if link i has an outline of its own, on which j's point moves."""
+        return False
 
     @property
     def guides(self) -> bool:
@@ -103,6 +173,25 @@ class JointPart(Part):
             return self.at
         point = self.at or joint
         return point, point
+
+    def places(self, joint: str) -> Iterator[tuple[str, str, Path, Path]]:
+        """Link and point of each place that it is at, and the keys that name the link and the point."""
+        at: Path = () if self.at is None else ("at",)
+        for k, (link, point) in enumerate(zip(self.links, self.point_names(joint), strict=True)):
+            yield link, point, ("links", k), at
+
+    def frictions(self) -> Iterator[tuple[Any, Path]]:
+        """Each friction that it has, and the keys that it is at."""
+        friction = getattr(self, "friction", None) or getattr(self, "grip", None)
+        if friction is not None:
+            yield friction, ("friction",)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _holds_all_round(cls, keys: object) -> object:
+        if "contact" not in cls.model_fields and isinstance(keys, Mapping) and "contact" in keys:
+            refuse_contact(keys, str(keys.get("type", "joint")))
+        return keys
 
     @model_validator(mode="after")
     def _two_links(self) -> Self:

@@ -15,11 +15,26 @@ from dalembert.model.joints.contact_keys import (
     Contact,
     Side,
     check_contact,
+    check_flank,
     contact_field,
     side_field,
 )
-from dalembert.model.joints.friction_keys import GearFriction, GuideFriction, PinFriction, SlotFriction
-from dalembert.model.joints.joint_part import JointPart
+from dalembert.model.joints.elements.belts import Belt
+from dalembert.model.joints.elements.brakes import Band, Shoe
+from dalembert.model.joints.elements.cams import Cam
+from dalembert.model.joints.elements.clutches import Cone, Disc
+from dalembert.model.joints.elements.one_way_joints import OneWay, Ratchet
+from dalembert.model.joints.elements.pin_keys import PinSize
+from dalembert.model.joints.elements.ropes import Rope
+from dalembert.model.joints.friction_keys import (
+    GearFriction,
+    GuideFriction,
+    MeshEfficiency,
+    PinFriction,
+    RollingFriction,
+    SlotFriction,
+)
+from dalembert.model.joints.joint_part import JointPart, TwoNumbers, kinds_of
 from dalembert.model.joints.pairs import freedoms_of
 from dalembert.model.joints.space_joints import Frames, Matrix, SpaceJoint, frames
 from dalembert.model.part import mapping, reading
@@ -32,30 +47,8 @@ from dalembert.model.quantities.values import (
     Vector,
     at_item,
     check_sign,
-    numbers,
     value_text,
 )
-
-
-class TwoNumbers(ValueField):
-    """Two positive numbers of a kind, `[of i, of j]`."""
-
-    def __init__(self, kind: str) -> None:
-        self.kind = kind
-
-    def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
-        pair = numbers(value, self.kind, reading(info))
-        if len(pair) != 2:
-            raise ModelError(f"a list of {len(pair)} is given; two values are needed", "write [of i, of j]")
-        for i, number in enumerate(pair):
-            at_item(i, check_sign, number, value[i], "positive")
-        return pair[0], pair[1]
-
-    def write(self, value: tuple[float, float]) -> object:
-        return [value_text(number, self.kind) for number in value]
-
-    def json_schema(self) -> JsonSchema:
-        return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}
 
 
 class SlotDamping(ValueField):
@@ -106,6 +99,7 @@ class Pin(JointPart):
     type: Literal["pin"] = "pin"
     friction: PinFriction | None = Field(None, description="dry friction of the pin")
     bearing: Bearing | None = Field(None, description="its bearing: pressure and life over the cycle")
+    pin: PinSize | None = Field(None, description="its bolt: shear, pressure and bending over the cycle")
     damping: TurnDamping = Field(0.0, description="viscous couple per angular speed")
     stops: Annotated[Stops, JointStops("angle")] | None = Field(None, description=STOPS)
 
@@ -124,6 +118,13 @@ class Slider(JointPart):
     side: Side = side_field()
 
     _sides = model_validator(mode="before")(check_contact)
+
+    @property
+    def lifted(self) -> tuple[str, ...]:
+        """Of a guide with lengths the gaps at its ends, else that along its normal."""
+        return (
+            ("gap",) if self.friction is None or self.friction.guide is None else ("gap_behind", "gap_ahead")
+        )
 
 
 class Slot(JointPart):
@@ -227,6 +228,15 @@ class Gear(JointPart):
     )
     internal: StrictBool = Field(False, description="true: the larger wheel is an internal gear")
     friction: GearFriction | None = Field(None, description="dry friction of the teeth")
+    efficiency: Annotated[float, MeshEfficiency()] | None = Field(
+        None,
+        description="of the teeth, instead of friction: power out over power in, seen from the line of centres",
+    )
+    contact: Contact = contact_field()
+    flank: Side | None = Field(
+        None,
+        description="of teeth that only push: the side of the line from i's centre to j's to which they push j",
+    )
 
     @property
     def wheels(self) -> int:
@@ -261,7 +271,13 @@ class Gear(JointPart):
         return self
 
     @model_validator(mode="after")
-    def _one_size(self) -> Self:
+    def _one_flank(self) -> Self:
+        flat = not (self.helix_angle or self.axes or self.axis)
+        check_flank(self.contact, self.flank, flat)
+        return self
+
+    @model_validator(mode="after")
+    def _one_size(self, info: ValidationInfo) -> Self:
         toothed = self.teeth is not None and self.module is not None
         half = (self.teeth is None) != (self.module is None)
         if half or toothed == (self.radii is not None):
@@ -273,7 +289,11 @@ class Gear(JointPart):
                 "the pressure angle is not between 0 and 68 deg", "20 deg is usual", ("pressure_angle",)
             )
         _check_internal(self.internal, self.pitch_radii)
-        if self.friction is not None and self.friction.arm is None and self.teeth is None:
+        if self.friction is not None and self.efficiency is not None:
+            what = "both friction and efficiency are given"
+            raise ModelError(what, "leave one of them out: both are what the teeth lose", ("efficiency",))
+        couple = self.friction is not None and reading(info).dimension != 3  # skew axes in space need none
+        if couple and self.friction is not None and self.friction.arm is None and self.teeth is None:
             raise ModelError(
                 "its friction needs the arm of the teeth's contact",
                 "give arm, or the size as teeth and module",
@@ -305,11 +325,20 @@ class Rolling(JointPart):
     )
     internal: StrictBool = Field(False, description="true: one rolls inside the other")
     contact: Contact = contact_field(PUSHES)
+    friction: RollingFriction | None = Field(
+        None,
+        description="dry friction on its track: how much it can transmit without slip, and in simulate beyond it",
+    )
 
     @property
     def wheels(self) -> int:
         """One on a line, else two."""
         return 1 if self.radii is None else 2
+
+    @property
+    def lifted(self) -> tuple[str, ...]:
+        """Off its track it slips too."""
+        return ("gap", "slip")
 
     @property
     def pitch_radii(self) -> tuple[float, float]:
@@ -323,6 +352,9 @@ class Rolling(JointPart):
                 "its size is not clear",
                 "give either radius, for a wheel on a line, or radii, for one on a circle",
             )
+        if self.friction is not None and self.contact.mode == "holds":
+            what = "a wheel that is held on its track both ways has no limit of friction"
+            raise ModelError(what, "write contact: pushes, or leave the friction out", ("friction",))
         if self.radii is not None and self.direction:
             raise ModelError("a wheel on a circle has no direction", "leave it out", ("direction",))
         if self.radii is None and self.internal:
@@ -333,24 +365,30 @@ class Rolling(JointPart):
 
 
 Joint = Annotated[
-    Pin | Slider | Slot | CircularSlot | Weld | Gear | Rolling | SpaceJoint,
+    Pin
+    | Slider
+    | Slot
+    | CircularSlot
+    | Weld
+    | Gear
+    | Rolling
+    | Belt
+    | Rope
+    | Band
+    | Shoe
+    | Disc
+    | Cone
+    | Cam
+    | OneWay
+    | Ratchet
+    | SpaceJoint,
     Field(discriminator="type", description="a joint"),
 ]
 
 
-_FREEDOMS = {part.model_fields["type"].default: part.FREEDOMS for part in JointPart.__subclasses__()}
+_FREEDOMS = {part.model_fields["type"].default: part.FREEDOMS for part in kinds_of(JointPart)}
 
 
 def freedoms(kind: object) -> tuple[str, ...]:
     """The freedoms of a joint type that a drive can prescribe, none for an unknown one."""
     return (_FREEDOMS.get(kind) or freedoms_of(kind)) if isinstance(kind, str) else ()
-
-
-def refuse_unfinished(joint: str, kind: object) -> None:
-    """A cam is in the format but not in this version."""
-    if kind == "cam":
-        raise ModelError(
-            f"joint {joint!r} is a cam, which this version does not analyse",
-            "make the follower a slider or pin, driven by a law",
-            (joint,),
-        )

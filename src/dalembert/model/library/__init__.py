@@ -38,16 +38,22 @@ toggle_press = template_function("toggle_press")
 press_with_flywheel = template_function("press_with_flywheel")
 five_bar = template_function("five_bar")
 bucket = template_function("bucket")
+belt_drive = template_function("belt_drive")
+hoist = template_function("hoist")
 hooke_joint = template_function("hooke_joint")
 double_cardan = template_function("double_cardan")
 bevel_differential = template_function("bevel_differential")
 rotating_shaft = template_function("rotating_shaft")
+porter_governor = template_function("porter_governor")
+hartnell_governor = template_function("hartnell_governor")
+planetary_train = template_function("planetary_train")
 rssr = template_function("rssr")
 rssp = template_function("rssp")
 
 __all__ = [
-    "TEMPLATES", "Template", "bennett", "bevel_differential", "bucket", "crank_shaper", "double_cardan",
-    "five_bar", "four_bar", "hooke_joint", "in_line_engine", "inverted_slider_crank", "press_with_flywheel",
+    "TEMPLATES", "Template", "belt_drive", "bennett", "bevel_differential", "bucket", "crank_shaper", "double_cardan",
+    "five_bar", "four_bar", "hartnell_governor", "hoist", "hooke_joint", "in_line_engine",
+    "inverted_slider_crank", "planetary_train", "porter_governor", "press_with_flywheel",
     "radial_engine", "rccc", "rotating_shaft", "rssp", "rssr", "scissor", "scotch_yoke", "slider_crank",
     "spherical_four_bar", "stephenson_1", "stephenson_2", "stephenson_3", "template", "template_text",
     "toggle_press", "v_engine", "watt_1", "watt_2", "whitworth",
@@ -78,9 +84,14 @@ DESCRIPTIONS = {
     "five_bar": "two driven cranks and two couplers, the simplest parallel robot",
     "scissor": "scissor lift of any number of stages",
     "bucket": "excavator bucket moved by a hydraulic cylinder",
+    "belt_drive": "two wheels on fixed axes and a belt, whose tensions and slip are computed",
+    "hoist": "a drum winds a rope that runs over a fixed and a moving pulley",
     "in_line_engine": "cylinders in line that fire in an order; generated",
     "v_engine": "cylinders in two banks, two rods on each throw; generated",
     "radial_engine": "cylinders in a star on one throw; generated",
+    "porter_governor": "balls on arms lift a sleeve in a plane that turns: speed over the height",
+    "hartnell_governor": "balls on bell cranks against a spring in a plane that turns",
+    "planetary_train": "sun, planet, arm and a held ring, with losses both ways",
     "rssr": "in space: crank, rod with two balls, rocker about any axis",
     "rssp": "in space: crank, rod with two balls, slider along any line",
     "rccc": "in space: a revolute and three cylindrical joints, the general four-bar",

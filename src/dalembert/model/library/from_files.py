@@ -130,7 +130,8 @@ def from_template(name: str, **values: object) -> Mechanism:
     parameters = read_parameters({k: v for k, v in entries.items() if isinstance(v, Mapping)}, UNITS, {})
     tree = {**file, "parameters": entries, "drives": dict(file["drives"])}
     for drive, keys in tree["drives"].items() if count is not None else ():
-        tree["drives"][drive] = {**keys, "position": {**keys["position"], "count": count}}
+        if isinstance(keys.get("position"), Mapping):
+            tree["drives"][drive] = {**keys, "position": {**keys["position"], "count": count}}
     angles = _first_angles(name, parameters)
     if angles is not None:
         tree["assembly"] = angles
@@ -140,8 +141,10 @@ def from_template(name: str, **values: object) -> Mechanism:
 def _numbers(m: Mechanism) -> Mechanism:
     """The description in SI with the numbers that its parameters give, without the last digits of rounding."""
     parts: Tree = {"drives": with_dependents(m.drives, float, None)}
-    for key in ("links", "joints", "loads"):
+    for key in ("links", "joints", "loads", *(("turning",) if m.turning else ())):
         parts[key] = with_dependents(getattr(m, key), lambda x: float(f"{x:.14g}"), None)
+    if m.assembly:
+        parts["assembly"] = with_dependents(m.assembly, float, None)
     return m.model_copy(update={**parts, "parameters": {}, "units": Units()})
 
 

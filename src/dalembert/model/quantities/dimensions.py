@@ -157,7 +157,7 @@ def _unfit(powers: Powers, kind: str, text: str) -> ModelError:
 def kind_of_dimension(powers: Powers | None) -> str | None:
     """The first kind of quantity of this dimension, if there is one.
 
-    >>> kind_of_dimension((2, 0, 0, None)), kind_of_dimension((-1, 1, 0, 0))
+    >>> kind_of_dimension((2, 0, 0, None)), kind_of_dimension((-2, 1, 0, 0))
     ('area', None)
     """
     if powers is None or powers == EITHER:

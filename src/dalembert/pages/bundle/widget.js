@@ -1425,16 +1425,19 @@ var Se = 8, Ce = 120, we = .3, Te = 2 ** -7, Ee = class {
 		return this.data.places.find(t) ?? e.findIndex((e, n) => t(n));
 	}
 	enter(e, t) {
-		let n = this.data.dimension, r = J(t);
+		let n = this.data.dimension, r = J(t), i = .1;
 		return this.kernel.posed(e).forEach((e, t) => {
-			for (let i = 0; i < n; i++) r.point[n * t + i] = e[i];
-			if (n === 2) r.turn[t] += De(Math.atan2(e[3], e[2]) - r.turn[t]), [r.rotation[2 * t], r.rotation[2 * t + 1]] = [e[2], e[3]];
-			else for (let n = 0; n < 3; n++) for (let i = 0; i < 3; i++) r.rotation[9 * t + 3 * n + i] = e[3 + 3 * i + n];
+			if (!e.every(Number.isFinite)) i = Infinity;
+			else {
+				for (let i = 0; i < n; i++) r.point[n * t + i] = e[i];
+				if (n === 2) r.turn[t] += De(Math.atan2(e[3], e[2]) - r.turn[t]), [r.rotation[2 * t], r.rotation[2 * t + 1]] = [e[2], e[3]];
+				else for (let n = 0; n < 3; n++) for (let i = 0; i < 3; i++) r.rotation[9 * t + 3 * n + i] = e[3 + 3 * i + n];
+			}
 		}), [
 			...r.point,
 			...r.rotation,
 			...r.turn
-		].every(Number.isFinite) ? (this.sketch.values = this.values, this.sketch.close(this.wound(r, this.kernel.drives(e)), this.kernel.drives(e), .1)) : null;
+		].every(Number.isFinite) ? (this.sketch.values = this.values, this.sketch.close(this.wound(r, this.kernel.drives(e)), this.kernel.drives(e), i)) : null;
 	}
 	wound(e, t) {
 		let { data: n, sketch: r } = this, i = (e) => 2 * Math.PI * Math.round(e / (2 * Math.PI)), a = n.drives.map((a, o) => n.rows[a].angular ? i(t[o] - r.measure(a, e)) : 0), o = this.counts((e) => a[this.data.drives.indexOf(e)] ?? 0);

@@ -16,7 +16,7 @@ from dalembert.analysis.status import closure_failure as closure
 from dalembert.analysis.status import overflow
 from dalembert.analysis.status.statuses import SINGULAR, no_balance_sentence
 from dalembert.arrays import Tree
-from dalembert.core.layout import Mesh
+from dalembert.core.layout import BeltMesh, Mesh
 from dalembert.kernel.graph import trace_array
 from dalembert.pages.rows import NodeRows
 from dalembert.units import file_units
@@ -115,7 +115,7 @@ def _gears(k: Kernel, rows: NodeRows) -> list[Tree]:
     c, pose = k.trace.catalogue.compiled, k.trace.catalogue.traced.pose
     g, out = c.layout.algebra, list[Tree]()
     for f in c.layout.constraints.families:
-        if not isinstance(f, Mesh):
+        if not isinstance(f, Mesh) or isinstance(f, BeltMesh):
             continue
         between = pose.point[f.j] + g.rotate(pose.rotation[f.j], f.uj)
         between = between - pose.point[f.i] - g.rotate(pose.rotation[f.i], f.ui)

@@ -26,6 +26,7 @@ from dalembert.analysis.friction.joint_friction import (
     holds_beyond,
     unknown_names,
 )
+from dalembert.analysis.methods.applied_forces import link_speed
 from dalembert.analysis.output.columns import friction_joints
 from dalembert.analysis.result.number_kinds import unknown_kinds
 from dalembert.model import GROUND
@@ -46,6 +47,7 @@ def friction(sheet: ReportSheet, c: ReportContext) -> None:
     )
     sheet.figure(*friction_pictures(c))
     for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
+        sheet.text(_sense(c, joint))
         sheet.equations(pin_lines(c, joint))
     for two in _two_force_links(c):
         words, lines = tangent_lines(c, two)
@@ -78,6 +80,22 @@ def pin_lines(c: ReportContext, joint: str) -> list[Working]:
             figure(shown, "moment", couple, f", {sense} about {joint}"),
         ),
     ]
+
+
+def _sense(c: ReportContext, joint: str) -> str:
+    """Which way a link turns on the other, and so which way friction turns it."""
+    r, k = c.r, c.k
+    i, j = r.mechanism.joints[joint].links
+    on, other = (i, j) if j == GROUND else (j, i)
+    turn = float(link_speed(r, on)[k] - link_speed(r, other)[k])
+    couple = float(r.friction_moment(joint, on)[k])
+    if not turn or not couple:
+        return ""
+    ways = ["clockwise" if x < 0 else "counter-clockwise" for x in (turn, couple)]
+    return (
+        f"{joint}: link {c.shown.heading(on)} turns {ways[0]} on {c.shown.heading(other)}, so friction's couple on it "
+        f"is {ways[1]}, and its force touches the circle on the side that makes this couple."
+    )
 
 
 def circle_radius(c: ReportContext, joint: str, mu: float, radius: float) -> Working:
@@ -174,10 +192,12 @@ def guide_lines(c: ReportContext, joint: str) -> list[Working]:
         ]
     mu = friction_coefficient(r, joint, k)
     force = float(np.hypot(*r.friction_force(joint)[k]))
+    constant = float(described.friction.force or 0.0)
+    letters, more = (" + F_{0}", f" + {number('force', constant)}") if constant else ("", "")
     out.append(
         Working(
-            f"F_{{f{shown.pair(i, j)}}} = mu_{{{joint}}} S_{{{joint}}}",
-            f"{c.notation.given(mu)} cdot {number('force', total)}",
+            f"F_{{f{shown.pair(i, j)}}} = mu_{{{joint}}} S_{{{joint}}}{letters}",
+            f"{c.notation.given(mu)} cdot {number('force', total)}{more}",
             figure(shown, "force", force),
         )
     )

@@ -50,6 +50,8 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
             sums = " + ".join(letters), " + ".join(numbers), math.fsum(values), largest
             out.append(zero_sum(*sums, shown, "length", "/s" if letter == "omega" else "/s²"))
     words = f"Mesh {joint}: the pitch circles roll on each other"
+    if described.WRAPPED:
+        words = f"Belt {joint}: both rims have its speed, r negative where the wheels turn the same way"
     if any(rate for _, _, rate, _ in rates):
         parts = [f"${letter}_{{c}}$ = {shown.text(kind, rate)}" for letter, kind, rate, _ in rates if rate]
         words += f", seen from the line of centres, for which {' and '.join(parts)}"

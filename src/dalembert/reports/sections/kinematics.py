@@ -46,9 +46,12 @@ def loops(r: Result, k: int) -> list[Loop]:
 
 
 def rings(r: Result) -> list[Ring]:
-    """Independent loops through joints that are not contacts of wheels: one for each joint outside a tree from the
-    ground."""
-    edges = {n: d.links for n, d in r.mechanism.joints.items() if not d.wheels}
+    """Independent loops through joints that are not contacts of wheels, cams, brakes or clutches: one for each joint
+    outside a tree from the ground."""
+    some = r.mechanism.joints.items()
+    edges = {
+        n: d.links for n, d in some if not (d.wheels or d.outlined or d.BRAKES or hasattr(d, "RELEASED"))
+    }
     parent: dict[str, tuple[str, str] | None] = {GROUND: None}
     queue, tree = [GROUND], set()
     for link in queue:

@@ -60,7 +60,8 @@ def matrix_equation(
     ``following``: links of which the moments about one axis follow from their other equations, and that axis.
     None where it is too large or not square, and with friction, which is not linear in the unknowns.
     """
-    if r.friction is not None or r.compiled.forcing.separation.any():
+    wrapped = any(joint.WRAPPED for joint in r.mechanism.joints.values())
+    if r.friction is not None or r.compiled.forcing.follows_reactions or wrapped:
         return None
     links = links or r.links
     unknown = unknowns(r, k, shown) if some is None else some

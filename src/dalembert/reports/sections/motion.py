@@ -22,7 +22,7 @@ def motion(sheet: ReportSheet, c: ReportContext) -> None:
     r, shown = c.r, c.shown
     if not r.drives:
         return
-    sheet.heading("Motion")
+    sheet.heading("Motion by loop equations" if "steps" in c.methods else "Motion")
     moving = any(np.any(r.speed(n)[c.k]) or np.any(r.acceleration(n)[c.k]) for n in r.links)
     moving = moving or any(np.any(r.center_acceleration(n)[c.k]) for n in r.links) or not stands_still(r, c.k)
     for n, loop in enumerate(kinematics.loops(r, c.k)):
@@ -33,7 +33,7 @@ def motion(sheet: ReportSheet, c: ReportContext) -> None:
             sheet.equations(kinematics.velocity_lines(loop, shown))
             sheet.equations(kinematics.acceleration_lines(loop, shown))
     for name, joint in r.mechanism.joints.items() if moving else ():
-        if joint.TOOTHED:
+        if hasattr(joint, "signed_radii") or joint.TOOTHED:
             words, lines = mesh(r, c.k, name, shown)
             sheet.text(words)
             sheet.equations(lines)

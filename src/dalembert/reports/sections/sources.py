@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, actions, magnitude
+from dalembert.analysis.methods.solved.effort_arms import EffortArm, driven_crank, effort_arms
 from dalembert.analysis.methods.superposition import directions, with_sum
 from dalembert.analysis.methods.superposition import superposition as split
 from dalembert.analysis.output.rounding import PART
@@ -25,6 +26,7 @@ from dalembert.views.notation import Shown, along, load_sign
 from dalembert.views.plane.velocity_polygons import stands_still
 
 if TYPE_CHECKING:
+    from dalembert.analysis.methods.superposition import Superposition
     from dalembert.analysis.methods.virtual_work import VirtualWork
     from dalembert.analysis.result.result import Result
 
@@ -73,9 +75,63 @@ def superposition(sheet: ReportSheet, c: ReportContext) -> None:
         sheet.table(heads, _rows(c, parts.sources, columns), caption, total=True)
     if len(r.joints) > MOST:
         sheet.text(f"Only the first {MOST} of {len(r.joints)} joints are shown.")
+    _arms(sheet, c, parts)
     external = [s for s in parts.sources if s in r.mechanism.loads]
     if 2 <= len(external) <= 4 and "graphical" in c.methods and r.mechanism.dimension == 2:
         sheet.figure(*(draw.force_chain(r, k + 1, c.notation, case=s) for s in external))
+
+
+def source_arms(sheet: ReportSheet, c: ReportContext) -> None:
+    """The same by itself, where forces add and there are two sources at least."""
+    try:
+        parts = split(c.r)
+    except ModelError:
+        return
+    if len(parts.sources) > 1 and any(driven_crank(parts, d) is not None for d in c.r.drives):
+        sheet.heading("The driving torque, source by source")
+        _arms(sheet, c, parts)
+
+
+def _arms(sheet: ReportSheet, c: ReportContext, parts: Superposition) -> None:
+    """T = F h of each source at the pin of a driven crank."""
+    shown = c.shown
+    for drive in c.r.drives:
+        crank = driven_crank(parts, drive)
+        if crank is None:
+            continue
+        link = shown.heading(crank.link)
+        sheet.text(
+            f"The torque in {crank.joint} of each source: its force at {crank.pin} on link {link} times its arm h "
+            f"about {crank.joint}, and what balances the own moment of a source on this link."
+        )
+        every = effort_arms(parts, crank, c.k)
+        rows = [row for a in every if (row := _arm_row(c, a)) is not None]
+        total = shown.number("moment", math.fsum(a.torque for a in every))
+        unit = shown.unit("moment")
+        heads = [
+            "Source",
+            f"F ({shown.unit('force')})",
+            f"h in {shown.arm_unit}",
+            f"F h ({unit})",
+            f"own ({unit})",
+        ]
+        sheet.table([*heads, f"T ({unit})"], [*rows, ["sum", "", "", "", "", total]], total=True)
+
+
+def _arm_row(c: ReportContext, a: EffortArm) -> list[str] | None:
+    """Force, arm and both parts of one source; None where it does nothing."""
+    shown, floor = c.shown, max(c.shown.least["moment"], 1e-12)
+    at_pin, own = abs(a.at_pin) > floor, abs(a.own) > max(floor, 1e-9 * abs(a.at_pin))
+    if not at_pin and not own:
+        return None
+    force, arm = shown.number("force", a.force), shown.notation.number(a.arm / shown.arm)
+    pin = [force, arm, shown.number("moment", a.at_pin)] if at_pin else ["–", "–", "–"]
+    return [
+        source_sign(c, a.source),
+        *pin,
+        shown.number("moment", a.own) if own else "–",
+        shown.number("moment", a.torque),
+    ]
 
 
 def _columns(c: ReportContext, joint: str, force: Array) -> list[Column]:

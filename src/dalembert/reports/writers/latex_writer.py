@@ -12,6 +12,9 @@ from dalembert.views.paper.scene import Scene
 WIDTH, HEIGHT = 174.0, 240.0
 """Room on a page, mm."""
 
+BESIDE = 96.0
+"""Width of a drawing up to which text fits beside it, mm."""
+
 LONGEST = 40
 """Rows of a table on one page."""
 
@@ -67,8 +70,22 @@ def _block(b: blocks.Block) -> str:
         return _matrix(b)
     if isinstance(b, blocks.Blanks):
         return "\n\n".join(_blank(*row) for row in b.rows)
+    if isinstance(b, blocks.Beside):
+        return _beside(b)
     assert isinstance(b, blocks.Drawings)
     return _figure(b)
+
+
+def _beside(b: blocks.Beside) -> str:
+    """The drawing at the left, the text at its right where half the page is left of it."""
+    text = "\n\n".join(_block(t) for t in b.texts)
+    left, _, right, _ = b.scene.bounds
+    wide = right - left + 2 * MARGIN
+    if wide > BESIDE:
+        return f"{_figure(blocks.Drawings((b.scene,)))}\n\n{text}"
+    drawn = rf"\begin{{minipage}}[t]{{{wide:.1f}mm}}\vspace{{0pt}}{_picture(b.scene)}\end{{minipage}}\hfill"
+    beside = rf"\begin{{minipage}}[t]{{{WIDTH - wide - 4:.1f}mm}}\vspace{{0pt}}"
+    return f"\\par\\medskip\\noindent {drawn}{beside}\n{text}\n\\end{{minipage}}\\par\\medskip"
 
 
 def _equation(w: blocks.Working) -> str:

@@ -19,7 +19,7 @@ def plain_text(sheet: blocks.ReportSheet) -> str:
         if isinstance(b, blocks.Heading) and b.level == 1:
             count += 1
             b = blocks.Heading(f"{count} {b.text}")
-        numbered.append(_block(b))
+        numbered.append(plain_block(b))
     return "\n".join(head) + "\n\n" + "\n\n".join(t for t in numbered if t) + "\n"
 
 
@@ -27,7 +27,8 @@ def _rich(text: str) -> str:
     return "".join(write_mixed(text, plain, str))
 
 
-def _block(b: blocks.Block) -> str:
+def plain_block(b: blocks.Block) -> str:
+    """One block as text."""
     if isinstance(b, blocks.Heading):
         return f"{b.text}\n{('-' if b.level == 1 else '.') * len(b.text)}"
     if isinstance(b, blocks.Paragraph):
@@ -41,6 +42,8 @@ def _block(b: blocks.Block) -> str:
     if isinstance(b, blocks.Blanks):
         rooms = [(w, "  ".join(f"{n} {'_' * 14} {u}".strip() for n, u in spaces)) for w, spaces in b.rows]
         return "\n".join(f"{_rich(words)}  {room}" for words, room in rooms)
+    if isinstance(b, blocks.Beside):
+        return "\n\n".join([f"[drawing: {plain_sign(b.scene.title)}]", *map(plain_block, b.texts)])
     assert isinstance(b, blocks.Drawings)
     return "\n".join(f"[drawing: {plain_sign(s.title)}]" for s in b.scenes)
 

@@ -10,6 +10,7 @@ from typing import Any
 from dalembert.arrays import Tree
 from dalembert.reports.formula import typst, write_mixed
 from dalembert.reports.sheet import (
+    Beside,
     Blanks,
     Block,
     Drawings,
@@ -25,6 +26,9 @@ from dalembert.views.paper.scene import Scene
 
 WIDTH = 176.0
 """Width of the text in mm."""
+
+BESIDE = 96.0
+"""Width of a drawing up to which text fits beside it, mm."""
 
 GAP = 3.0
 """Between drawings side by side, mm."""
@@ -72,6 +76,10 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
         }
     if isinstance(b, Blanks):
         return {"kind": "blanks", "rows": [[_rich(words), spaces] for words, spaces in b.rows]}
+    if isinstance(b, Beside):
+        picture = _pictures((b.scene,), pictures)
+        wide, texts = _width(b.scene) <= BESIDE, [_block(t, pictures) for t in b.texts]
+        return {"kind": "beside", "file": picture[0], "beside": wide, "blocks": texts}
     assert isinstance(b, Drawings)
     caption = " ".join([*filter(None, [b.caption]), *map(_printed_smaller, b.scenes)]).strip()
     return {"kind": "figure", "caption": caption, "files": _pictures(b.scenes, pictures)}

@@ -30,6 +30,7 @@ _LIGHT: dict[str, Look] = {
     "center-dark": Look(INK, 0.1, (), INK),
     "weld": Look(INK, 0.2, (), INK),
     "pitch": Look(INK, 0.3, (3.0, 0.8, 0.6, 0.8)),
+    "belt": Look(INK, 0.15, (), "#d9b382"),
     "spring": Look("#356", 0.3),
     "trace": Look("#8a95a1", 0.2, (0.9, 0.9)),
     "joint-force": Look("#1c56a8", 0.45, (), "#1c56a8"),
@@ -99,7 +100,13 @@ for _role, _tones in SOLIDS.items():
     _LIGHT |= {f"{_role}{end}": look for end, look in _solid_looks(_tones).items()}
 
 _DARK = {"ink": "#e8edf2", "grey": "#9aa7b4", "paper": "#151b22"}
-_DARK_FILLS = {"#e9eef4": "#26313d", "#dde5ee": "#33414f", "#eef1f4": "#222b35", "#ffffff": "#151b22"}
+_DARK_FILLS = {
+    "#e9eef4": "#26313d",
+    "#dde5ee": "#33414f",
+    "#eef1f4": "#222b35",
+    "#ffffff": "#151b22",
+    "#d9b382": "#8a6a3c",
+}
 _DARK_TONES = (
     ("#4a5a6b", "#3a4857", "#2b3744"),
     ("#3a4148", "#2f353b", "#24292e"),

@@ -14,6 +14,9 @@ from dalembert.model import GROUND
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Arc, Item, Line, Point, Polygon
+from dalembert.views.plane.elements import brake_symbols
+from dalembert.views.plane.elements.belt_drawings import belt_items, rope_items, sheave_items
+from dalembert.views.plane.elements.cam_symbol import cam_items
 from dalembert.views.plane.outline import wheels
 from dalembert.views.space.solids import Ring, RoundBar, Solid
 from dalembert.views.symbols import plane_symbols
@@ -73,7 +76,7 @@ def _along(s: JointPlace) -> float:
 def hydraulic_cylinder(s: JointPlace) -> list[Item]:
     """Symbol of a driven slide between pins of two links as a hydraulic cylinder: barrel and rod; None otherwise."""
     m = s.r.mechanism
-    joint, driven = m.joints[s.name], {m.drives[d].joint or d for d in s.r.drives}
+    joint, driven = m.joints[s.name], {m.drives[d].joint or d: m.drives[d].cylinder for d in s.r.drives}
     if s.name not in driven or _on_ground(s) or not joint.guides:
         return []
     paths = [link_place(s.r, link, u) for link, u in zip(joint.links, m.joint_points(s.name), strict=True)]
@@ -89,7 +92,13 @@ def hydraulic_cylinder(s: JointPlace) -> list[Item]:
     if not all(pinned) or float(lengths.min()) < 6.0:
         return []
     ends = [s.frame(path[s.k]) for path in paths]
-    return plane_symbols.cylinder(ends[0], ends[1], float(lengths.min()), float(lengths.max()))
+    least, most, c = float(lengths.min()), float(lengths.max()), driven[s.name]
+    if c is None:
+        return plane_symbols.cylinder(ends[0], ends[1], least, most)
+    if c.lengths:
+        least, most = (s.frame.length(x) for x in c.lengths)
+    sizes = s.frame.length(c.barrel or c.bore), s.frame.length(c.rod or 0.0)
+    return plane_symbols.cylinder(ends[0], ends[1], least, most, *sizes)
 
 
 def _together(one: Array, other: Array, s: JointPlace) -> bool:
@@ -168,6 +177,15 @@ def _circular_slot_solids(r: Result, name: str, size: float) -> list[tuple[str, 
     return [(i, Ring(center, up, joint.radius, 0.9 * size)), (j, RoundBar(low, high, 0.9 * size, "inner"))]
 
 
+def _cam_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
+    """A peg of j, in place of its roller, on the cam's plate."""
+    joint: Any = r.mechanism.joints[name]
+    at = lift(r, joint.links[1], r.mechanism.joint_points(name)[1], size)
+    radius = joint.follower.roller or 0.9 * size
+    up = np.array([0.0, 0.0, 2.0 * size])
+    return [(joint.links[1], RoundBar(at - up, at + up, radius, "inner"))]
+
+
 def _wheels(s: JointPlace) -> list[Item]:
     joint, out = s.r.mechanism.joints[s.name], []
     for link, center, radius in wheels(s.r, s.name, joint, s.k)[::-1]:
@@ -178,8 +196,30 @@ def _wheels(s: JointPlace) -> list[Item]:
     return out
 
 
+def _cam(s: JointPlace) -> list[Item]:
+    return cam_items(s.r, s.name, s.k, s.frame)
+
+
+def _clutch(s: JointPlace) -> list[Item]:
+    """A ring about the axis with wedges that point in the sense in which j cannot turn."""
+    joint: Any = s.r.mechanism.joints[s.name]
+    return plane_symbols.one_way(s.at, joint.way, float(link_angle(s.r, joint.links[1])[s.k]))
+
+
+def _clutch_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
+    """A ring of i round the axis."""
+    joint: Any = r.mechanism.joints[name]
+    at = lift(r, joint.links[0], r.mechanism.joint_points(name)[0], size)
+    return [(joint.links[0], Ring(at, np.array([0.0, 0.0, 1.0]), 3.6 * size, 0.9 * size))]
+
+
 def _nothing(at: Point) -> list[Item]:
     """No symbol: wheels meet without a pin."""
+    return []
+
+
+def _no_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
+    """None: a lining is thin."""
     return []
 
 
@@ -189,7 +229,17 @@ DRAWINGS: dict[str, JointSymbol] = {
     "slot": JointSymbol(_slot, plane_symbols.pin, "slotted_cylinder"),
     "circular_slot": JointSymbol(_circular_slot, plane_symbols.pin, _circular_slot_solids),
     "weld": JointSymbol(lambda s: plane_symbols.weld(s.at), plane_symbols.weld, "weld"),
+    "belt": JointSymbol(lambda s: belt_items(s.r, s.name, s.k, s.frame), _nothing, wheel_solids),
+    "strand": JointSymbol(lambda s: rope_items(s.r, s.name, s.k, s.frame), _nothing, wheel_solids),
+    "sheave": JointSymbol(lambda s: sheave_items(s.r, s.name, s.k, s.frame), plane_symbols.pin, "revolute"),
     "gear": JointSymbol(_wheels, _nothing, wheel_solids),
+    "one_way": JointSymbol(_clutch, _nothing, _clutch_solids),
+    "ratchet": JointSymbol(_clutch, _nothing, _clutch_solids),
     "rolling": JointSymbol(_wheels, _nothing, wheel_solids),
+    "cam": JointSymbol(_cam, _nothing, _cam_solids),
+    "shoe": JointSymbol(brake_symbols.shoe, _nothing, _no_solids),
+    "band": JointSymbol(brake_symbols.band, _nothing, _no_solids),
+    "disc": JointSymbol(brake_symbols.faces, _nothing, _no_solids),
+    "cone": JointSymbol(brake_symbols.faces, _nothing, _no_solids),
 }
 """Type of joint -> its symbols."""

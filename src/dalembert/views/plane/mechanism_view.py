@@ -18,6 +18,7 @@ from dalembert.views.paper.details import detail_scenes, with_details
 from dalembert.views.paper.frame import PaperFrame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene, along, around
 from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
+from dalembert.views.plane.elements.turning_axis import draw_turning_axis
 from dalembert.views.plane.guide_details import with_rough_guide
 from dalembert.views.plane.joint_drawings import draw_joint
 from dalembert.views.plane.outline import (
@@ -69,6 +70,7 @@ def mechanism_scene(
     frame = full_frame(r, k, width, height)
     canvas = Canvas()
     draw_traces(canvas, r, frame)
+    draw_turning_axis(canvas, r, k, frame)
     draw_links(canvas, r, k, frame)
     with_friction = friction and r.friction is not None
     if with_friction:

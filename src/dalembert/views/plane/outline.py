@@ -14,6 +14,7 @@ from dalembert.model import GROUND
 from dalembert.model.joints.plane_joints import Joint
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Line, Point, Polygon
+from dalembert.views.plane.elements.cam_symbol import cam_reach
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -30,7 +31,7 @@ def link_paths(r: Result, link: str) -> dict[str, Array]:
             if end == link and not _slides_on(joint, end):
                 places.setdefault(name, link_place(r, link, u))
     for name, joint in joints.items():
-        if joint.apart and joint.links[0] == link != GROUND:
+        if joint.apart and not joint.outlined and joint.links[0] == link != GROUND:
             places[f"{name} sliding"] = link_place(r, joint.links[1], m.joint_points(name)[1])
     for name, at in load_places(m, link).items():
         places.setdefault(name, link_place(r, link, at))
@@ -68,6 +69,12 @@ def every_path(r: Result) -> Array:
     for name, joint in r.mechanism.joints.items():
         for _, center, radius in wheel_paths(r, name, joint):
             out += [center + radius, center - radius]
+        if joint.outlined or joint.BRAKES:
+            center, reach = (
+                link_place(r, joint.links[0], r.mechanism.joint_points(name)[0]),
+                cam_reach(r, name) if joint.outlined else float(joint.reach),
+            )
+            out += [center + reach, center - reach]
     return np.array(out).reshape(-1, len(r.status), 2)
 
 

@@ -82,6 +82,18 @@ def wheel(at: Point, radius: float, angle: float) -> list[Item]:
     return [Circle(at, radius, "pitch"), Line(spoke, "construction")]
 
 
+def one_way(at: Point, way: float, angle: float) -> list[Item]:
+    """A one-way clutch: a ring with three wedges that narrow in the sense ``way`` in which j is free."""
+    out: list[Item] = [Circle(at, 3.6, "link")]
+    for k in range(3):
+        start = angle + k * 2 * math.pi / 3
+        places = [(3.6, start), (3.6, start + 0.7 * way), (2.5, start)]
+        out.append(
+            Polygon(tuple((at[0] + r * math.cos(t), at[1] + r * math.sin(t)) for r, t in places), "block")
+        )
+    return out
+
+
 def spring(a: Point, b: Point) -> list[Item]:
     """A coil between two points, seen from the side."""
     length = math.dist(a, b)
@@ -141,13 +153,16 @@ def strip_spring(a: Point, b: Point, turns: float = 2.5) -> list[Item]:
     return [Line(_rotate(p, a, angle), "spring") for p in parts]
 
 
-def cylinder(base: Point, end: Point, shortest: float, longest: float) -> list[Item]:
+def cylinder(
+    base: Point, end: Point, shortest: float, longest: float, wide: float = 0.0, thick: float = 0.0
+) -> list[Item]:
     """A hydraulic cylinder between its pins: barrel, piston and rod, for the shortest and longest of its lengths in mm.
 
-    Barrel and rod are as long as the shortest length allows; the piston stays in the barrel.
+    Barrel and rod are as long as the shortest length allows; the piston stays in the barrel. ``wide`` and ``thick``:
+    diameters of barrel and rod in mm, where they are known; a rod thinner than a millimetre is a line.
     """
     length, angle = math.dist(base, end), math.atan2(end[1] - base[1], end[0] - base[0])
-    half = min(2.2, 0.16 * shortest)
+    half = wide / 2 or min(2.2, 0.16 * shortest)
     mouth = min(0.88 * shortest, shortest - PIN - 1.0)
     rod = min(0.86 * shortest, max(0.5 * shortest, longest - 0.9 * mouth))
     head = min(max(length - rod, 0.14 * shortest), 0.94 * mouth)
@@ -159,12 +174,24 @@ def cylinder(base: Point, end: Point, shortest: float, longest: float) -> list[I
         [(0.0, 0.0), (start, 0.0)],
     ]
     out: list[Item] = [Polygon(_rotate(barrel, base, angle), "block")]
+    if thick >= 1.0:
+        across = thick / 2
+        sides = [(head, -across), (length, -across), (length, across), (head, across)]
+        out.append(Polygon(_rotate(sides, base, angle), "block"))
+        del parts[1]
     return out + [Line(_rotate(part, base, angle), "link") for part in parts]
+
+
+def gas_spring(a: Point, b: Point) -> list[Item]:
+    """A gas spring between its ends: a closed tube with its rod."""
+    length = math.dist(a, b)
+    return cylinder(a, b, 0.7 * length, length)
 
 
 SPANS: dict[str, Callable[[Point, Point], list[Item]]] = {
     "spring": spring,
     "constant_force_spring": strip_spring,
+    "gas_spring": gas_spring,
     "damper": damper,
 }
 """Loads along a span -> their symbols."""

@@ -122,6 +122,12 @@ class Catalogue(LinkMotion):
     def drive_acceleration(self, drive: str) -> Numeric:
         return self.motion[2][place_of(self.drives, drive, "drive")]
 
+    @property
+    def turning_speed(self) -> Node:
+        """Speed of the plane that turns."""
+        speed: Node = self.traced.square[0].sqrt()
+        return speed
+
     def unknown_load(self, name: str) -> Numeric:
         return self.traced.load[place_of(self.unknown_loads, name, "unknown load")]
 

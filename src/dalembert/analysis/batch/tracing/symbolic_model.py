@@ -55,6 +55,7 @@ def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[VariedNumber, ...]:
         if value is None:
             _refuse_absent(m, path, path.split("."))
         _refuse_law(m, path)
+        _refuse_followed(m, path)
         out += _numbers(path, value)
     refuse_twofold(m, out)
     double = next((n.path for k, n in enumerate(out) if n.path in {o.path for o in out[:k]}), None)
@@ -74,6 +75,7 @@ def _parameter(m: Mechanism, name: str) -> VariedNumber:
             what = f"{name!r} moves the points of the table {'.'.join(keys[:3])!r} along the motion"
             raise ModelError(f"{what}, and cannot vary", "leave it out, or write an expression", keys)
         _refuse_law(m, path)
+        _refuse_followed(m, path)
     return VariedNumber(name, float(m.parameters[name].value), parameter=True)
 
 
@@ -101,6 +103,20 @@ def _refuse_law(m: Mechanism, path: str) -> None:
     keys = path.split(".")
     if keys[0] == "drives" and len(keys) > 1 and m.drives[keys[1]].law is not None and keys[-1] != "effort":
         raise ModelError(f"{path!r} follows from the drive's law of motion", "leave it out, or the law", keys)
+
+
+def _refuse_followed(m: Mechanism, path: str) -> None:
+    """Refuse numbers of a cylinder from which others in the description were computed."""
+    keys = path.split(".")
+    c = m.drives[keys[1]].cylinder if keys[2:3] == ["cylinder"] and keys[1] in m.drives else None
+    if c is None:
+        return
+    if c.mass is not None and keys[3] in ("mass", "closed", "stroke", "barrel_length"):
+        what = f"the masses of barrel and rod follow from {path!r}, which cannot vary"
+        raise ModelError(what, f"vary links.{keys[1]}_barrel.mass and links.{keys[1]}_rod.mass", keys)
+    if c.known_force is not None and keys[3] in ("bore", "rod", "cap_pressure", "rod_pressure"):
+        what = f"the known effort of {keys[1]} follows from {path!r}, which cannot vary"
+        raise ModelError(what, f"vary drives.{keys[1]}.effort", keys)
 
 
 def of_motion(path: str) -> bool:
@@ -182,7 +198,7 @@ def chooses_motion(m: Mechanism, path: str, flips: bool) -> bool:
 
 
 def _places_joints(keys: list[str]) -> bool:
-    loads = {"damping", "friction"}  # of a joint: it stands where it stood
+    loads = {"damping", "friction", "efficiency"}  # of a joint: it stands where it stood
     return "points" in keys[2:3] or (keys[0] == "joints" and not loads & set(keys[2:]))
 
 

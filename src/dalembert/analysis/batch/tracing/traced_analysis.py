@@ -20,12 +20,16 @@ from dalembert.analysis.batch.tracing.symbolic_model import (
 from dalembert.analysis.batch.tracing.traced_parameters import is_table
 from dalembert.analysis.batch.tracing.traced_tables import margins
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.elements.teeth_in_space import like_contacts
 from dalembert.analysis.compile.pose_loads import coordinates, parts
 from dalembert.analysis.degree_of_freedom import check_knowns
+from dalembert.analysis.elements.turning_speeds import solves_speed
+from dalembert.analysis.methods.elements.cylinder_quantities import stroke_margins
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
+from dalembert.analysis.status.freewheeling import grip_margins, released_joints
 from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import stack_rows
 from dalembert.core.equilibrium import UNIQUE, Known
@@ -114,6 +118,7 @@ def trace_analysis(
     drives = inputs.drives(description)
     like, phased = course.followed.compiled, followed and m.dimension == 2
     c, margins = inputs.turns(compile_mechanism(description, _symbolic(schedule, drives.position), like=like))
+    _refuse_slip_limits(c)
     problem = TracedProblem(
         graph=graph,
         layout=with_meshes(c.layout, like.layout),
@@ -132,7 +137,7 @@ def trace_analysis(
         slips=None if solved is None else inputs.slips(c),
         reversals=None if solved is None else inputs.reversals(c),
         margins=margins if moved else {},
-        contacts=c.contacts,
+        contacts=like_contacts(description, c.contacts, m, like.contacts),
         at_pose=_pose_loads(inputs, c, functions_of(graph)),
         pushing=c.pushing,
         moves=moves,
@@ -142,7 +147,7 @@ def trace_analysis(
         phased=phased,
     )
     motion = drives.position, drives.speed, drives.acceleration
-    traced = _run(problem)
+    traced = _run(problem, c)
     catalogue = Catalogue(graph, replace(c, forcing=traced.forcing), traced, motion, inputs)
     return Trace(course, inputs, where, catalogue, inertia, repeated)
 
@@ -202,6 +207,9 @@ def _substituted(graph: Graph, array: Array, places: dict[int, Node]) -> Array:
 def _check(course: PositionPath, redundant: bool) -> bool:
     """True if constraints are redundant."""
     followed = course.followed
+    if solves_speed(course.compiled) and course.compiled.contacts is not None:
+        what = "with friction an unknown speed of turning cannot be compiled"
+        raise ModelError(what, "give the speed and read the effort, or use da.statics", ("turning", "speed"))
     if followed.path is None:
         raise ModelError(
             open_sentence(course.compiled, None, np.arange(len(course.schedule.position))).rstrip(".")
@@ -285,13 +293,33 @@ def _targets(symbolic: Array, known: Array, layout: Layout, inputs: Inputs | Non
     return out
 
 
-def _run(problem: TracedProblem) -> Traced:
+def _run(problem: TracedProblem, c: Compiled) -> Traced:
     try:
-        return trace(problem)
+        traced = trace(problem)
     except ZeroDivisionError:  # by constants: what varies is a symbol
         what = "a link's joints coincide, or a length or a mass that a compiled analysis divides by is zero"
         raise ModelError(what, "use da.dynamics or da.sweep, or give it another value", ("links",)) from None
     except ValueError as error:
         if isinstance(error, ModelError):
             raise
-        raise ModelError(f"the mechanism cannot be compiled: {error}", "use the analyses") from error
+        singular = c.contacts is not None and "singular" in str(error)
+        why = "some load or effort acts only through friction" if singular else str(error)
+        raise ModelError(f"the mechanism cannot be compiled: {why}", "use the analyses") from error
+    if not problem.moves:
+        margins = stroke_margins(c.mechanism, c.schedule.names, problem.drives.position)
+        margins += grip_margins(c.mechanism)
+        traced.doubt.extend(node(problem.graph, margin) for margin in margins)
+        if released_joints(c.mechanism):  # their status is the general executor's
+            traced.doubt.append(-1.0 - abs(traced.effort[0]))
+    return traced
+
+
+def _refuse_slip_limits(c: Compiled) -> None:
+    """Refuse wheels that roll with friction: whether they slip is not checked."""
+    if c.pushing is not None and c.pushing.slips.any():
+        wheel = c.joints[c.pushing.joint[c.pushing.slips][0]]
+        raise ModelError(
+            f"whether {wheel!r} slips on its track is not checked in compiled analyses",
+            "leave its friction out here, or use dynamics",
+            ("joints", wheel, "friction"),
+        )

@@ -9,6 +9,10 @@ import numpy as np
 
 from dalembert.analysis.friction.joint_friction import reversing_joints
 from dalembert.analysis.output.columns import reactions
+from dalembert.analysis.output.summary.printed_belts import belt_tables
+from dalembert.analysis.output.summary.printed_brakes import brake_parts
+from dalembert.analysis.output.summary.printed_contacts import contact_parts
+from dalembert.analysis.output.summary.printed_elements import element_parts
 from dalembert.analysis.output.summary.printed_friction import (
     branch_note,
     efficiency_note,
@@ -21,6 +25,7 @@ from dalembert.analysis.output.summary.printed_in_space import (
     space_reaction_tables,
 )
 from dalembert.analysis.output.summary.printed_series import MORE, position_tables, where
+from dalembert.analysis.output.summary.printed_turning import turning_text
 from dalembert.analysis.output.summary.printed_units import (
     Printed,
     motion_only,
@@ -58,6 +63,7 @@ def answer_parts(
         parts += _one(result, to, axes)
     else:
         parts += position_tables(result, to, axes, every, more)
+    parts += [*contact_parts(result, to), *element_parts(result, to)]
     parts += [reversals_text(result, to), problems_text(result, to)]
     return [*parts, wrap(branch_note(result)), checks_text(result)]
 
@@ -87,6 +93,8 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
         yield _drive_table(result, to)
     if status == "not_assembled":
         return
+    yield turning_text(result)
+    yield _holding_text(result, to)
     if result.unknown_loads:
         yield _load_table(result, to)
     friction_known = result.friction is not None and result.friction.known(0)
@@ -96,8 +104,10 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
         for side, words in zip(result.sides, ("Just before:", "Just after:"), strict=False):
             yield from [words] if result.reverses[0] else []
             yield from _reactions(side, to, axes)
+            yield from belt_tables(side, to)
             if friction_known:
                 yield friction_table(side, to)
+            yield from brake_parts(side, to)
     if status != "at_rest" and friction_known:
         yield wrap(efficiency_note(result))
     if result.links:
@@ -129,6 +139,20 @@ def _drive_table(result: Result, to: Printed) -> TextTable:
         *(["stability"] if result.stability else []),
     ]
     return TextTable(heads, rows, 1)
+
+
+def _holding_text(result: Result, to: Printed) -> str:
+    """Drives that hold a link in a train of gears that turns, with their torque; empty without such."""
+    m, s = result.mechanism, result.schedule
+    if motion_only(result) or not any(joint.TOOTHED for joint in m.joints.values()) or not s.speed.any():
+        return ""
+    out = []
+    for k, drive in enumerate(result.drives):
+        kind, effort = drive_kinds(result, drive)["effort"], result.effort(drive)[0]
+        if not s.speed[:, k].any() and not s.acceleration[:, k].any() and np.isfinite(effort):
+            link = m.joints[m.drive_joint(drive)].links[1]
+            out.append(f"{drive} holds {link} with {with_unit(float(to(kind, effort)), to.text(kind))}.")
+    return wrap(" ".join(out))
 
 
 def _load_table(result: Result, to: Printed) -> TextTable:
@@ -294,5 +318,7 @@ def reversals_text(result: Result, to: Printed) -> str:
         + (f" and {len(at) - MOST_NAMED} more" if at[MOST_NAMED:] else "")
         for joints, at in by_joints.items()
     ]
-    words = "friction changes sense; the first line gives the values just before, the line below it those just after"
-    return wrap(f"Reversal of {'; '.join(parts)}: {words}.", "  ")
+    words = "the first line gives the values just before, the line below it those just after"
+    if "reversal" in result.status:
+        return wrap(f"Reversal of {'; '.join(parts)}: friction changes sense; {words}.", "  ")
+    return wrap(f"Jump of the acceleration in {'; '.join(parts)}: {words}.", "  ")

@@ -125,8 +125,14 @@ def friction_text(result: Result, joint: str, to: Scale) -> str:
     """The friction of a joint in words: 'mu 0.1, friction circle 2 mm', in space also 'collar 15 mm'."""
     part = result.mechanism.joints[joint]
     friction: Any = getattr(part, "friction", None)
+    efficiency = getattr(part, "efficiency", None)
+    if efficiency is not None:
+        return f"efficiency {efficiency:.6g}"
     if friction is None:
         return "viscous"
+    efficiency = getattr(part, "efficiency", None)
+    if efficiency is not None:
+        return f"efficiency {efficiency:.6g}"
     sizes = {
         "friction circle": friction_circle_radius(result, joint),
         "thread": friction.radius if part.pair.threaded else None,
@@ -135,4 +141,7 @@ def friction_text(result: Result, joint: str, to: Scale) -> str:
     shown = [
         f"{name} {with_unit(to('length', size), to.text('length'))}" for name, size in sizes.items() if size
     ]
+    constant = getattr(friction, "force", None)
+    if constant:
+        shown.append(f"constant {with_unit(to('force', constant), to.text('force'))}")
     return ", ".join([f"mu {coefficient(result.mechanism, part):.6g}", *shown])

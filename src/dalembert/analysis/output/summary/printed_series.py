@@ -9,6 +9,7 @@ import numpy as np
 
 from dalembert.analysis.output.columns import reactions
 from dalembert.analysis.output.summary.printed_friction import cycle_table, with_ends
+from dalembert.analysis.output.summary.printed_turning import turning_columns
 from dalembert.analysis.output.summary.printed_units import (
     Printed,
     motion_only,
@@ -78,6 +79,7 @@ def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[Ar
         named.append((f"effort {drive}", drive_kinds(result, drive)["effort"], result.effort(drive)))
     for load in result.unknown_loads:
         named.append((load, load_kind(result, load), result.unknown_load(load)))
+    named += turning_columns(result)
     for r in () if without_reactions(result) else reactions(result, axes):
         named += [(name, "force", values) for name, values in _sizes(f"F {r.joint}", r.force)]
         moments = _sizes(f"M {r.joint}", r.moment) if r.moment.ndim == 2 else ()

@@ -17,7 +17,7 @@ from dalembert.machine.motion.coordinates.leading_freedoms import (
     can_change_lead,
     unit_motions,
 )
-from dalembert.machine.motion.stops.impacts import StopState
+from dalembert.machine.motion.stops.touching import TouchState
 from dalembert.model import Mechanism
 
 PLACES = 100
@@ -27,7 +27,7 @@ WATCHED, HEAVY = 0.3, 2.0
 reduced to the drives has grown by the second factor."""
 
 
-class LeadState(StopState):
+class LeadState(TouchState):
     """A motion whose drives may come near dead centres; ``turned_over``: other freedoms should lead from here."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
@@ -52,7 +52,7 @@ class LeadState(StopState):
         """True if the drives place the links far worse than other freedoms. Evaluated where the steps become
         ``shorter`` or a drive slow, and the reduced inertia has become large."""
         slower = np.abs(y[self.d : 2 * self.d]) / np.maximum(self.fastest, 1e-300)
-        least = min(shorter, float(slower[self.acting.free].min()))
+        least = min(shorter, float(slower[self.acting.free].min(initial=np.inf)))
         looks = self.may_turn_over and least <= self.watch
         self.watch = least / 2 if looks else min(WATCHED, max(self.watch, least / 2))
         if not looks or not self.is_heavy(t, y):

@@ -79,7 +79,7 @@ def can_change_lead(m: Mechanism, acting: Actuation) -> bool:
         return False
     original = getattr(acting, "own", acting)
     drives = [d for d in original.drives if d.brake or d.stops]
-    motors = [x for x in original.motors.values() if x.kinks or x.on or x.off]
+    motors = [*original.gears, *(x for x in original.motors.values() if x.kinks or x.on or x.off)]
     names = {
         n for load in m.loads.values() for v in getattr(load, "varying", ()) for n in getattr(v, "names", ())
     }
@@ -97,10 +97,10 @@ def lead(m: Mechanism, r: Result, chosen: list[int]) -> tuple[Mechanism, Array]:
             drives[name] = drive.model_copy(update={"position": value})
         else:
             drives[f"{joint} {freedom}"] = Drive(joint=joint, freedom=freedom, position=value, speed=1.0)
-    return m.model_copy(update={"drives": drives, "assembly": _assembly(r)}), np.array(at)
+    return m.model_copy(update={"drives": drives, "assembly": poses_of_links(r)}), np.array(at)
 
 
-def _assembly(r: Result) -> dict[str, Any]:
+def poses_of_links(r: Result) -> dict[str, Any]:
     """Poses of all links at the last position."""
     c, pose = r.compiled, full_pose(r, slice(-1, None))
     g, out = c.layout.algebra, dict[str, Any]()
@@ -186,6 +186,7 @@ def lead_from(m: Mechanism, acting: Actuation, travel: Array, t: float, u: Array
                 p,
                 speed,
                 steady,
+                acting.laws,
                 own=original,
                 freedoms=names,
                 equation=equation,

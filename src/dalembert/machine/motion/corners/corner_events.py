@@ -33,12 +33,14 @@ DRY = (
 
 @dataclass
 class Switch:
-    """Something of a load or effort (``what``) that switches where a value passes zero."""
+    """Something of a load or effort (``what``) that switches where a value passes zero; ``beyond``: of a table, whether
+    it is past one of its ends."""
 
     what: str
     value: Value
     side: Callable[[], float]
     flip: Callable[[float], None]
+    beyond: Callable[[], bool] = lambda: False
     passed: list[float] = field(default_factory=list)
 
 
@@ -84,7 +86,9 @@ class CornerState(ContactState):
             return lambda t, y: sided.switch(k, known(t, y))
 
         for k in range(len(sided.switches)):
-            yield Switch(sided.what, value(k), partial(sided.side, k), partial(sided.flip, k))
+            yield Switch(
+                sided.what, value(k), partial(sided.side, k), partial(sided.flip, k), lambda: sided.beyond
+            )
 
     def take_sides(self, t: float, y: Array) -> None:
         """The sides on which all switches are at a state."""
@@ -138,6 +142,8 @@ class CornerState(ContactState):
         faster[self.d : 2 * self.d] += AHEAD * self.pace(t, y)
         if switch.value(t, faster) != switch.value(t, y) and self._ahead(switch, t, y) * g.side > 0:
             raise StoppedError(f"{switch.what} {DRY}")
+        if switch.beyond():
+            self.note(t, "table end", f"{switch.what} is beyond the end of its table from here on")
         switch.passed.append(t)
         one, other = (
             switch.passed[k] - switch.passed[k - 2] if len(switch.passed) > -k + 1 else np.inf

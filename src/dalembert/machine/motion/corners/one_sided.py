@@ -86,6 +86,13 @@ class Sided:
         else:
             self.sides[k] = side
 
+    @property
+    def beyond(self) -> bool:
+        """True past an end of a table that does not repeat."""
+        if not isinstance(self.value, Table) or self.value.period is not None or 0 not in self.sides:
+            return False
+        return self.sides[0] in (0, len(self._pieces[0]) - 2)
+
     def side(self, k: int) -> float:
         """The side of one switch: 0 not known; in a table it is always within its piece."""
         return 1.0 if isinstance(self.value, Table) else self.sides[k]

@@ -16,7 +16,7 @@ from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import Equation, StoppedError, Terms, no_inertia
 from dalembert.machine.motion.equation_trace import equation_of
-from dalembert.machine.motion.occurrences import Event, Words
+from dalembert.machine.motion.occurrences import Event, Guard, Value, Words
 from dalembert.machine.motion.rest.dry_friction import Contacted
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import kind_of
@@ -28,6 +28,8 @@ STILL = 1e-9
 """A speed below this part of the greatest so far is rest, at an event where it passes zero."""
 WEIGHTLESS = 1e-12
 """Part of the greatest inertia that is rounding."""
+ROUNDING = 1e-9
+"""Part of a motor's effort below which what its shaft gives to its gear has no sign."""
 INSTANTS = 400
 """Number of instants at which friction at rest is checked."""
 
@@ -59,10 +61,11 @@ class ContactState:
         self.d = len(actuation.names)
         self.locked: Flags = np.zeros(self.d, bool)
         self.on_stop, self.resting = np.zeros(self.d), dict[int, str]()
+        self.in_contact: set[str] = set()  # joints whose stops are contacts
         dry = self.equation.dry
         self.sense, self.toward = np.ones(len(dry.own) if dry else 0), np.ones(self.d)
         self.stuck: Flags = np.zeros(dry.contacts.count if dry else 0, bool)
-        self.rubs: Flags = actuation.free & ((dry is not None) | (actuation.brake > 0))
+        self.rubs: Flags = actuation.free & ((dry is not None) | (actuation.brake > 0) | actuation.lossy)
         self.fastest = np.abs(actuation.speed)
         self.events: list[Event] = []
         self.switched: set[tuple[int, str]] = set()
@@ -80,12 +83,13 @@ class ContactState:
         """Accelerations and friction, efforts (D,) of the drives with their brakes, and the terms."""
         q, u = y[: self.d], y[self.d : 2 * self.d]
         self.evaluations += 1
+        rotor = self.acting.take_ways(self.toward)
         applied = self.acting.effort(t, q, u)
         tau = applied - self.acting.brake * self.toward
         free = self.acting.free & ~self.locked
-        a = np.where(self.acting.free, 0.0, self.acting.acceleration)
-        contacts, terms = self.equation.accelerations(t, q, u, a, tau, free, self.sense, self.stuck)
-        held = applied if self.equation.dry else contacts.effort
+        a = self.acting.accelerations(t)
+        contacts, terms = self.equation.accelerations(t, q, u, a, tau, free, self.sense, self.stuck, rotor)
+        held, tau = applied if self.equation.dry else contacts.effort, tau - rotor * contacts.a
         return contacts, np.where(free, tau, np.where(self.acting.free, held, contacts.effort)), terms
 
     def rate(self, t: float, y: Array) -> Array:
@@ -118,12 +122,15 @@ class ContactState:
     def _others_move(self) -> bool:
         """True if a prescribed drive moves."""
         others = ~self.acting.free
-        return bool((self.acting.speed[others] != 0).any() or (self.acting.acceleration[others] != 0).any())
+        return bool(self.acting.laws) or bool(
+            (self.acting.speed[others] != 0).any() or (self.acting.acceleration[others] != 0).any()
+        )
 
     def _check_inertia(self, t: float, y: Array) -> None:
         """Refuse drives that move nothing with inertia; friction is left out, which could seem to be some."""
         q, u, free = y[: self.d], y[self.d : 2 * self.d], np.flatnonzero(self.acting.free)
-        mass = self.equation(t, q, u).mass[np.ix_(free, free)]
+        mass = self.equation(t, q, u).mass + np.diag(self.acting.take_ways(self.toward))
+        mass = mass[np.ix_(free, free)]
         if not np.isfinite(mass).all():
             return
         size = np.sqrt(np.abs(mass.diagonal()))
@@ -148,9 +155,38 @@ class ContactState:
         low, high = holding_efforts(r, k) if self.equation.dry else (float(r.effort(name)[1]),) * 2
         if np.isnan(low) or np.isnan(high):
             raise StoppedError(f"{name} is at rest: {r.reasons[1] or r.status[1]}")
-        tau = float(self.acting.effort(t, q, u)[k])
-        low, high = low - self.acting.brake[k], high + self.acting.brake[k]
+        tau, half = self._held(k, t, q, u)
+        low, high = low - half, high + half
         return tau, -np.inf if self.on_stop[k] < 0 else low, np.inf if self.on_stop[k] > 0 else high
+
+    def _held(self, k: int, t: float, q: Array, u: Array) -> tuple[float, float]:
+        """Effort that acts on a drive at rest, and by how much its brake, and the losses of its gear, may change it."""
+        acting, ends = self.acting, []
+        for way in (1.0, -1.0):
+            toward = self.toward.copy()
+            toward[k] = way
+            if k in acting.gears:
+                acting.side[k] = 1.0 if acting.shaft(k, u, np.zeros(self.d)) >= 0 else -1.0
+            acting.take_ways(toward)
+            ends.append(float(acting.effort(t, q, u)[k]))
+        return (ends[0] + ends[1]) / 2, abs(ends[1] - ends[0]) / 2 + float(acting.brake[k])
+
+    def gear_guards(self, t: float, y: Array) -> list[Guard]:
+        """What motors' shafts give to their gears, on its present side; where that passes 0, their law has a corner."""
+
+        def shaft(k: int) -> Value:
+            return lambda t, y: self.acting.shaft(k, y[self.d : 2 * self.d], self.at(t, y)[0])
+
+        out = []
+        for k in np.flatnonzero(self.acting.lossy & ~self.locked):
+            value, size = (
+                shaft(int(k))(t, y),
+                abs(self.acting.shaft(int(k), y[self.d : 2 * self.d], np.zeros(self.d))),
+            )
+            if value * self.acting.side[k] < -ROUNDING * size:
+                self.acting.side[k] *= -1
+            out.append(Guard("gear", int(k), shaft(int(k))))
+        return out
 
     def _settle(self, k: int, t: float, y: Array) -> None:
         """Locks a drive that is at rest and held, or releases it in the sense of the end that is passed."""
@@ -161,7 +197,7 @@ class ContactState:
             self.locked[k] = True
             if self.on_stop[k]:
                 if not was:
-                    self.note(t, "rest", f"{self.resting[k]} stays on its stop", of=self.resting[k])
+                    self.note(t, "rest", f"{self.resting[k]} stays {self._where(k)}", of=self.resting[k])
                 return
             kind = kind_of(self.acting.drives[k].freedom, "effort")
             why = "its motor stalls" if k in self.acting.motors and self.acting.on[k] else "friction holds it"
@@ -176,9 +212,21 @@ class ContactState:
         still = np.abs(rates) <= STILL * np.abs(pushed)
         self.sense = np.where(still & (pushed != 0), np.where(pushed < 0, -1.0, 1.0), self.sense)
         if t > 0 or was:
+            lifts = bool(left) and self.resting[k] in self.in_contact
             name = self.resting[k] if left else name
-            what = "leaves its stop" if left else "starts again" if was else "turns back"
-            self.note(t, "start" if was else "reversal", f"{name} {what}", of=name)
+            what = (
+                "lifts off"
+                if lifts
+                else "leaves its stop"
+                if left
+                else "starts again"
+                if was
+                else "turns back"
+            )
+            self.note(t, "lift-off" if lifts else "start" if was else "reversal", f"{name} {what}", of=name)
+
+    def _where(self, k: int) -> str:
+        return "in contact" if self.resting[k] in self.in_contact else "on its stop"
 
     def _loose(self, t: float, y: Array) -> list[int]:
         """Locked drives that are no longer held."""
@@ -233,7 +281,7 @@ class ContactState:
 
     def next_bend(self, t: float) -> float:
         """The next instant at which a table over time has a point."""
-        return min((table.next_point(t) for table in self.tables), default=np.inf)
+        return min((table.next_point(t) for table in self.tables), default=self.acting.next_joint(t))
 
     def _bends(self, t: float, end: float) -> list[float]:
         """Instants before the end at which tables over time have points."""

@@ -83,8 +83,8 @@ class StickState(CornerState):
 
     @property
     def _kept(self) -> Flags:
-        """Drives (D,) that rest by more than contacts: a brake or a stop."""
-        return np.asarray((self.acting.brake > 0) | (self.on_stop != 0))
+        """Drives (D,) that rest by more than contacts: a brake, a lossy gear or a stop."""
+        return np.asarray((self.acting.brake > 0) | self.acting.lossy | (self.on_stop != 0))
 
     def _resting(self, t: float, y: Array) -> tuple[Ints, Array, Array]:
         """Own contacts whose rates are 0 and change with the free drives; rates (own,), the push (D, own) on them."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq, nnls
@@ -20,7 +21,7 @@ from dalembert.machine.motion.equation import OPEN, StoppedError, Terms
 from dalembert.machine.motion.occurrences import Event, Guard, Words, say
 from dalembert.machine.motion.rest.dry_friction import Contacted
 from dalembert.machine.motion.rest.standstill import STILL
-from dalembert.machine.motion.rest.sticking import StickState
+from dalembert.machine.motion.stops.clutch_stops import ClutchState
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.end_stops import Stops
@@ -32,6 +33,8 @@ LOOKS = 9
 """Number of instants of a step at which stops are checked."""
 TOUCHING = 1e-12
 """Distance from a stop, m or rad, that is rounding: it takes part in an impact at another."""
+LEFT = 1e-14
+"""Distance from a stop, m or rad, that is none where a step begins on it and leaves it."""
 UNMOVED = 1e-12
 """Part of a joint's motion with the drives that is rounding."""
 
@@ -43,7 +46,8 @@ Look = tuple[float, float, float]
 class Stop:
     """Stops of a drive, by its number, or of a joint, by its place among ``Terms.freedoms``.
 
-    ``resting``: -1 on the least, 1 on the greatest; ``looks``: positions over the last step, full turns counted.
+    ``resting``: -1 on the least, 1 on the greatest; ``contact``: whose gap it is; ``looks``: positions over the last
+    step, full turns counted.
     """
 
     name: str
@@ -51,7 +55,12 @@ class Stop:
     ends: Stops
     drive: int = -1
     joint: int = -1
+    way: float = (
+        0.0  # of a one-way clutch or a ratchet: the sense in which it is free, and the pitch of its teeth
+    )
+    pitch: float = 0.0
     resting: float = 0.0
+    contact: Any = None
     looks: list[Look] = field(default_factory=lambda: [(0.0, 0.0, 0.0)])
 
     def end(self, side: float) -> float:
@@ -64,7 +73,7 @@ class Stop:
         return x + 2 * np.pi * round((guess - x) / (2 * np.pi)) if counts and np.isfinite(x) else x
 
 
-class StopState(StickState):
+class StopState(ClutchState):
     """A motion whose drives and joints may strike stops; ``losses``: when, and the energy lost, J."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
@@ -76,13 +85,18 @@ class StopState(StickState):
         free = [(k, drive) for k, drive in drives if actuation.free[k] and drive.stops]
         self.stops = [Stop(actuation.names[k], str(d.freedom), d.stops, drive=k) for k, d in free if d.stops]
         joints = enumerate(joint_stops(m).items())
-        self.stops += [Stop(name, freedom, ends, joint=j) for j, ((name, freedom), ends) in joints]
+        for j, ((name, freedom), ends) in joints:
+            way, pitch = (float(getattr(m.joints[name], key, 0.0)) for key in ("way", "pitch"))
+            self.stops.append(Stop(name, freedom, ends, joint=j, way=way, pitch=pitch))
         y = np.concatenate([actuation.position, actuation.speed])
         for stop in self.stops:
             self._place_at_start(stop, *self.motion_of(stop, 0.0, y))
 
     def _place_at_start(self, stop: Stop, x: float, rate: float) -> None:
-        """Counts full turns so that a joint starts between its stops."""
+        """Counts full turns so that a joint starts between its stops; a clutch holds from where it starts."""
+        if stop.way:
+            self._place_clutch(stop, x, rate)
+            return
         least, greatest, small = stop.ends.least, stop.ends.greatest, 1e-9
         ends = [stop.near(x, end) for end in (0.0, least, greatest) if np.isfinite(end)]
         at = [x + n for x in ends for n in (0.0, 2 * np.pi, -2 * np.pi) if n == 0 or x != stop.near(x, x + n)]
@@ -123,7 +137,8 @@ class StopState(StickState):
         def pressure(stop: Stop) -> Callable[[float, Array], float]:
             return lambda t, y: -stop.resting * float(self._pushing(t, y)[self.pressed.index(stop)])
 
-        return met + [Guard("hold", k, pressure(self.stops[k]), 1.0) for k in held]
+        holding = [Guard("hold", k, pressure(self.stops[k]), 1.0) for k in held]
+        return met + holding + self.clutch_guards()
 
     def _pushing(self, t: float, y: Array) -> Array:
         self.at(t, y)
@@ -146,7 +161,7 @@ class StopState(StickState):
             start, first = low[0], (low[1] - x) * g.side
             if not (high[1] - x) * g.side < min(first, 0.0):
                 continue
-            if first <= 0 and low[2] * g.side > 0 > high[2] * g.side:
+            if first <= LEFT * (1 + abs(x)) and low[2] * g.side > 0 > high[2] * g.side:
                 start = float(
                     brentq(lambda t, low=low: look(t, low)[2], low[0], high[0], xtol=1e-300, rtol=1e-15)
                 )
@@ -181,13 +196,19 @@ class StopState(StickState):
             np.where(back > SLOW * size, 0.0, back / np.maximum(1 - e, SLOW)),
             back * (back > SLOW * size),
         )
-        ease = np.linalg.solve(terms.mass[np.ix_(free, free)], rows[:, free].T)
+        rotor, links = self.acting.take_ways(self.toward), terms.mass
+        mass = links + np.diag(rotor)
+        ease = np.linalg.solve(mass[np.ix_(free, free)], rows[:, free].T)
         response = rows[:, free] @ ease
         for (k, _), row, speed in zip(hit, rows, closing, strict=False):
             if np.abs(row[free]).max() <= UNMOVED * np.abs(row).max() and speed > 0:
                 raise StoppedError(f"{self.stops[k].name} is driven against its stop by what is prescribed")
-        impulse = _impulses(response, closing + back)
+        impulse, before = _impulses(response, closing + back), u.copy()
         u[free] -= ease @ impulse
+        if rotor.any():  # what rotors give to the links is not lost
+            self.losses.append((t, -float(rotor @ (before**2 - u**2)) / 2))
+        held = rows.T @ impulse - terms.mass[:, free] @ (ease @ impulse)  # impulses of what is prescribed
+        y[2 * d : 3 * d] += np.where(self.acting.free, 0.0, held * u)
         after = closing - response @ impulse
         after = np.where(impulse > 0, -back, np.where(np.abs(after) <= UNMOVED * size, 0.0, after))
         for n, (k, side) in enumerate(all_):
@@ -233,11 +254,16 @@ class StopState(StickState):
         alone = stop.joint >= 0 and len(free) == 1 and not self._others_move()
         return int(free[0]) if alone else stop.drive
 
+    def _plain_stops(self) -> list[Stop]:
+        """Those that are not the gap of a drive."""
+        return self.stops
+
     def _note_rests(self, t: float, y: Array) -> None:
         """Records drives at rest on a stop, and stops of joints that push while others move."""
         d, none = self.d, np.zeros(self.d)
+        before = self.pressed
         self.on_stop[:], self.pressed, self.resting = 0.0, [], {}
-        for stop in self.stops:
+        for stop in self._plain_stops():
             k = self._drive_of(stop)
             if stop.resting and k >= 0:
                 push = self._row(stop, self.equation(t, y[:d], none))[k]
@@ -255,23 +281,30 @@ class StopState(StickState):
             pulling = [s for s, force in pushing if force * s.resting > 0]
             for stop in pulling:
                 self.pressed.remove(stop)
-                stop.resting = 0.0
+                self._let_turn(stop)
         for stop in self.pressed:
-            self.note(t, "rest", f"{stop.name} stays on its stop", of=stop.name)
+            if stop not in before:
+                self.note(t, "rest", f"{stop.name} {_stays(stop)}", of=stop.name)
 
     def _note_leaving(self) -> None:
         """Stops that a drive does not rest on any more."""
-        for stop in self.stops:
+        for stop in self._plain_stops():
             k = self._drive_of(stop)
-            if k >= 0 and not self.on_stop[k]:
-                stop.resting = 0.0
+            if k >= 0 and not self.on_stop[k] and stop.resting:
+                self._let_turn(stop)
 
     def leave(self, k: int, t: float) -> None:
         """Let a joint go that its stop would have to pull."""
         stop = self.stops[k]
         self.pressed.remove(stop)
-        stop.resting = 0.0
-        self.note(t, "start", f"{stop.name} leaves its stop", of=stop.name)
+        stop.looks = [(t, stop.end(stop.resting), 0.0)]  # from which full turns are counted on
+        self._let_turn(stop)
+        leaves = (
+            ("lift-off", "lifts off")
+            if stop.contact
+            else ("start", "turns freely" if stop.way else "leaves its stop")
+        )
+        self.note(t, leaves[0], f"{stop.name} {leaves[1]}", of=stop.name)
 
     def solved(self, t: float, y: Array) -> tuple[Contacted, Array, Terms]:
         """Those of ``ContactState``, with the forces of joints' stops that are rested on while others go on."""
@@ -279,10 +312,11 @@ class StopState(StickState):
             return super().solved(t, y)
         q, u, acting = y[: self.d], y[self.d : 2 * self.d], self.acting
         self.evaluations += 1
-        f = np.flatnonzero(acting.free & ~self.locked)
+        f, rotor = np.flatnonzero(acting.free & ~self.locked), acting.take_ways(self.toward)
         tau = acting.effort(t, q, u) - acting.brake * self.toward
-        a = np.where(acting.free, 0.0, acting.acceleration)
+        a = acting.accelerations(t)
         e = self.equation(t, q, u)
+        e = e._replace(mass=e.mass + np.diag(rotor))
         rows = e.freedoms[[s.joint for s in self.pressed]]
         n, none = rows[:, 3:], np.zeros((len(rows), len(rows)))
         matrix = np.block([[e.mass[np.ix_(f, f)], -n[:, f].T], [n[:, f], none]])
@@ -291,8 +325,9 @@ class StopState(StickState):
         gap = np.append((tau - e.effort - e.mass @ a)[f], -rows[:, 2] - n @ a)
         solution = np.linalg.lstsq(matrix, gap)[0]
         a[f], self.pushing = solution[: len(f)], solution[len(f) :]
-        effort, no = e.effort + e.mass @ a - n.T @ self.pushing, np.zeros(0)
-        return Contacted(a, effort, *(no,) * 5), np.where(acting.free & ~self.locked, tau, effort), e
+        effort, no = e.effort + e.mass @ a - n.T @ self.pushing - rotor * a, np.zeros(0)
+        moved = acting.free & ~self.locked
+        return Contacted(a, effort, *(no,) * 5), np.where(moved, tau - rotor * a, effort), e
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
         if not self.pressed:
@@ -301,8 +336,8 @@ class StopState(StickState):
         self.locked[k] = True
         low = high = float(self.at(t, y)[1][k])
         self.locked = held
-        low, high = low - self.acting.brake[k], high + self.acting.brake[k]
-        tau = float(self.acting.effort(t, y[: self.d], y[self.d : 2 * self.d])[k])
+        tau, half = self._held(k, t, y[: self.d], y[self.d : 2 * self.d])
+        low, high = low - half, high + half
         return tau, -np.inf if self.on_stop[k] < 0 else low, np.inf if self.on_stop[k] > 0 else high
 
     def joint_forces(self, t: float, y: Array) -> Array:
@@ -322,17 +357,18 @@ class StopState(StickState):
         self.losses.append((t, lost))
         kind, rate = kind_of(stop.freedom, ""), kind_of(stop.freedom, "speed")
         back: Words = ("goes back with ", (rate, after)) if after else ("does not go back",)
-        stated: Words = (
-            f"{stop.name} strikes its stop at ",
-            (kind, stop.end(side)),
-            " with ",
-            (rate, before),
-            " and ",
-        )
+        place: Words = (f"{stop.name} strikes its stop at ", (kind, stop.end(side)))
+        if stop.contact:
+            place = (f"{stop.contact.joint} lands{stop.contact.where}",)
+        stated: Words = (*place, " with ", (rate, before), " and ")
         rough = self.equation.dry and self.acting.free.sum() > 1
         left: Words = (" (friction during the impact is left out)",) if rough else ()
         words: Words = (*stated, *back, "; ", ("energy", lost), " are lost", *left)
-        self.events.append(Event(t, "impact", words, stop.name, before, lost))
+        self.events.append(Event(t, "landing" if stop.contact else "impact", words, stop.name, before, lost))
+
+
+def _stays(stop: Stop) -> str:
+    return "stays in contact" if stop.contact else "holds" if stop.way else "stays on its stop"
 
 
 def _impulses(response: Array, gap: Array) -> Array:

@@ -63,7 +63,8 @@ def with_stop_loads(
         loaded = at_schedule(m.model_copy(update={"loads": loads}), r.schedule, inertia=True)
         if not np.nanmax(np.abs(more)) > SAME * np.abs(force).max():
             break
-    return loaded, {joint: force[:, n] for n, (joint, _) in enumerate(names)}
+    ends = {"gap_behind": ".behind", "gap_ahead": ".ahead"}
+    return loaded, {joint + ends.get(freedom, ""): force[:, n] for n, (joint, freedom) in enumerate(names)}
 
 
 def _loads(r: Result, names: list[tuple[str, str]], force: Array) -> dict[str, Load]:
@@ -81,7 +82,7 @@ def _loads(r: Result, names: list[tuple[str, str]], force: Array) -> dict[str, L
         for link, other, point, wrench in zip(
             part.links, part.links[::-1], part.point_names(joint), (rows.on_i, rows.on_j), strict=True
         ):
-            along = wrench[:, row, :d] if freedom == "slide" else wrench[:, row, d:]
+            along = wrench[:, row, d:] if freedom == "turn" else wrench[:, row, :d]
             values = np.nan_to_num(along * force[:, k, None]).T.tolist()
             tables = tuple(Table("time", time, tuple(value)) for value in values)
             by = GROUND if other == GROUND else None
@@ -90,8 +91,16 @@ def _loads(r: Result, names: list[tuple[str, str]], force: Array) -> dict[str, L
                 name += "'"
             if link == GROUND:
                 continue
-            if freedom == "slide":
-                out[name] = ForceLoad(on=link, at=point, value=tables, by=by)
-            else:
+            if freedom == "turn":
                 out[name] = Couple(on=link, value=tables if d == 3 else tables[0], by=by)
+                continue
+            out[name] = ForceLoad(on=link, at=point, value=tables, by=by)
+            if freedom != "slide":  # it acts elsewhere: where j touches i, and at an end of a guide
+                own, place = c.links.index(link), m.point(link, point)
+                r_ = c.layout.algebra.rotate(
+                    r.rotation_array[:, own], np.subtract(place, c.layout.reference[own])
+                )
+                more = wrench[:, row, d] - (r_[:, 0] * along[:, 1] - r_[:, 1] * along[:, 0])
+                couple = np.nan_to_num(more * force[:, k]).tolist()
+                out[name + " turns"] = Couple(on=link, value=Table("time", time, tuple(couple)), by=by)
     return out

@@ -9,6 +9,7 @@ from typing import Any
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
+from dalembert.model.files.copies.element_copies import carrier, seat
 from dalembert.model.files.copies.images import Image
 from dalembert.model.files.copies.likeness import Likeness
 from dalembert.model.links.link import GROUND, Link
@@ -43,6 +44,7 @@ class Copying:
 
     def run(self) -> None:
         """Add everything that is copied."""
+        self.refuse_ropes()
         links = dict(self.items("links"))
         for name in self.of:
             self.add("links", name, self.link(links.get(name, {})))
@@ -63,6 +65,14 @@ class Copying:
         if self.image.shift and not self.shifted:
             what = "shift has no effect: none of its loads depends on a drive that is not copied"
             raise ModelError(what, "leave shift out", ("shift",))
+
+    def refuse_ropes(self) -> None:
+        """A rope that touches copied links is not copied with them."""
+        for name, joint in self.items("joints"):
+            points = [p.get("round") if isinstance(p, Mapping) else p for p in _list(joint.get("through"))]
+            if {str(p).split(".")[0] for p in points} & set(self.of):
+                what = f"rope {name!r} touches copied links, and ropes are not copied"
+                raise ModelError(what, "write the copies of its links out", ("of",))
 
     def likeness(self) -> Likeness:
         """Relation of the copy to its original, except for links whose angle the file states itself."""
@@ -131,6 +141,9 @@ class Copying:
         return new
 
     def joint(self, name: str, joint: Tree) -> Tree:
+        if "ends" in joint:
+            what = f"{name!r} is a band, which is not copied"
+            raise ModelError(what, "write the second one out", ("joints", name))
         links, at = [str(link) for link in _list(joint.get("links"))], joint.get("at", name)
         points = [str(p) for p in at] if isinstance(at, list) else [str(at)] * len(links)
         here = [self.point(link, p) for link, p in zip(links, points, strict=False)]
@@ -148,8 +161,12 @@ class Copying:
             new["direction"] = self.image.angle(joint.get("direction", 0), i + wheel)
         if "angle" in joint or (slides and j) or (joint.get("type") == "weld" and i != j):
             new["angle"] = self.image.angle(joint.get("angle", 0), (0.0 if slides else i) - j)
+        if joint.get("type") == "shoe":
+            seat(self, name, links, joint, new)
         if "stops" in joint and joint.get("type") not in GUIDES:
             new["stops"] = self.image.interval(joint["stops"], self.between(name))
+        if isinstance(joint.get("profile"), Mapping):
+            new |= self.image.cam(joint, carrier(self, name, links) if "at" in joint else 0.0)
         return new
 
     def ends(self, links: list[str]) -> list[float]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.drives.motors import of_kind, switch
@@ -93,6 +94,34 @@ class Image:
             columns = {k: v[::-1] if isinstance(v, list) else v for k, v in curve.items()}
             new["curve"] = {k: self.opposite(v) for k, v in columns.items()}
         return new | {key: self._switch(value[key], offset) for key in ("on", "off") if key in value}
+
+    def cam(self, joint: Mapping[str, object], offset: float) -> dict[str, object]:
+        """Keys of a cam that change: where its lift begins, and in the mirror its sense; offset: of its carrier."""
+        profile: Any = joint["profile"]
+        lift = profile.get("segments")
+        new = dict(profile)
+        if lift is not None or "tangent" in profile:
+            begin = self.angle(profile.get("start", 0), offset)
+            new |= {"start": begin} if begin != 0 else {}
+        if not self.mirrored:
+            return {"profile": new}
+        if any(key in profile for key in ("arcs", "points")):
+            raise ModelError(
+                "the arcs or points of a cam are not mirrored", "write that cam out", ("mirror",)
+            )
+        new["sense"] = "ccw" if profile.get("sense") == "cw" else "cw"
+        if isinstance(lift, Sequence):
+            new["segments"] = [self._lift(s) if isinstance(s, Mapping) else s for s in lift]
+        return {"profile": new} | ({"face": self.angle(joint["face"])} if "face" in joint else {})
+
+    def _lift(self, segment: Mapping[str, object]) -> Mapping[str, object]:
+        """A segment of a lift; an angle is opposite in the mirror."""
+        to = segment.get("to")
+        try:
+            angle = isinstance(to, str) and self.rules.quantity(to, "angle") is not None and bool(to)
+        except ModelError:
+            angle = False
+        return {**segment, "to": self.negative(to)} if angle else segment
 
     def _switch(self, value: object, offset: float) -> object:
         """A time, a position or a speed."""

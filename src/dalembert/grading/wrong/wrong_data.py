@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from dalembert.units import file_units
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.result.result import Result
+    from dalembert.core.friction.contact_equations import Contacts
 
 Change = Tree | Callable[["Compiled"], "Compiled"]
 """Values by their paths in the model file, or what becomes of the compiled numbers."""
@@ -198,6 +200,7 @@ def _friction_changes(r: Result) -> Iterator[Mistake]:
         resting = change_numbers("contacts", coefficient=lambda _: mu)
         yield "the coefficient at rest is mistaken for that of motion", resting
     joints = dict.fromkeys(contacts.joint[rough].tolist())
+    yield from _exchanged_friction(r, contacts, rough, list(joints))
     by_joint = {f" of joint {r.joints[k]}": contacts.joint == k for k in joints} if len(joints) > 1 else {}
     for words, here in ({"": rough} | by_joint).items():
         some, round_ = rough & here, circles & here
@@ -209,6 +212,30 @@ def _friction_changes(r: Result) -> Iterator[Mistake]:
             pins = words or " of the pins"
             yield f"the diameter{pins} is mistaken for the radius", _friction(round_, lever=2.0)
             yield f"the radius{pins} is mistaken for the diameter", _friction(round_, lever=0.5)
+
+
+def _exchanged_friction(r: Result, contacts: Contacts, rough: Flags, joints: list[int]) -> Iterator[Mistake]:
+    """Coefficients and radii of two joints exchanged, or the friction of both in the wrong sense."""
+    mu, lever = contacts.coefficient, contacts.lever
+    for a, b in combinations(joints, 2):
+        one, two = (rough & (contacts.joint == k) for k in (a, b))
+        names = r.joints[a], r.joints[b]
+        for here, other, (name, of) in ((one, two, names), (two, one, names[::-1])):
+            if not np.isclose(mu[here][0], mu[other][0], rtol=1e-9):
+                words = f"the coefficient of friction of {name} is taken as that of {of}"
+                yield words, change_numbers("contacts", coefficient=_put(here, mu[other][0]))
+        if contacts.kind[int(np.argmax(one))] == contacts.kind[int(np.argmax(two))] == "pin":
+            swapped = np.where(one, lever[two][0], np.where(two, lever[one][0], lever))
+            if not np.allclose(swapped, lever, rtol=1e-9):
+                words = f"the radii of {names[0]} and {names[1]} are exchanged"
+                yield words, change_numbers("contacts", lever=lambda _, new=swapped: new)  # type: ignore[misc]
+        words = f"the friction of joints {names[0]} and {names[1]} acts in the wrong sense"
+        yield words, _friction(one | two, coefficient=-1.0)
+
+
+def _put(where: Flags, value: float) -> Callable[[Array], Array]:
+    """A function that puts a value in some places."""
+    return lambda a: np.where(where, value, a)
 
 
 def _friction(where: Flags, coefficient: float = 1.0, lever: float = 1.0) -> Change:

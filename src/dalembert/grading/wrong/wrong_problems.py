@@ -14,25 +14,56 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.methods.applied_forces import known_actions
+from dalembert.analysis.methods.superposition import changed_by, refuse_nonlinear
 from dalembert.analysis.one_pass import at_poses
 from dalembert.arrays import Array, Tree
 from dalembert.errors import DalembertError, ModelError
-from dalembert.grading.wrong_data import Change, Mistake, change_numbers, changes, times
+from dalembert.grading.wrong.misread_geometry import Misread, misread_geometry
+from dalembert.grading.wrong.wrong_data import Change, Mistake, change_numbers, changes, times
+from dalembert.grading.wrong.wrong_wrenches import FACTORS, wrench_changes
 from dalembert.units import file_units
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+
+CONCEPTS = (
+    "gravity is",
+    "weights act",
+    "inertia is",
+    "inertia forces",
+    "inertia couples",
+    "moments of inertia",
+    "weight is mistaken",
+    "g is in",
+    "rpm",
+    "speed",
+    "position",
+    "assembly mode",
+    "degrees",
+    "friction is left out",
+)
+"""Words of mistakes that concern the whole problem, not one of its data."""
 
 STATIC: Tree = {}
 """The change that leaves all inertia out."""
 
 
 class WrongProblem(NamedTuple):
-    """The problem with one mistake, in words; order: 1 for parts of the loads, 3 for a datum; solved when asked."""
+    """The problem with one mistake, in words; order: how usual it is, from 1 (parts of the loads) to 3; solved when
+    asked.
+
+    ``weight``: ``concept`` of what runs through the whole problem (all gravity, all inertia, the speed's unit, the
+    position), ``datum`` of one load, link, mass or length.
+    """
 
     order: int
     sentence: str
     solution: Callable[[], Result | None]
+
+    @property
+    def weight(self) -> str:
+        """How much of the problem the mistake concerns."""
+        return "concept" if any(words in self.sentence for words in CONCEPTS) else "datum"
 
 
 class WrongProblems:
@@ -45,6 +76,13 @@ class WrongProblems:
         self.result = result if which is None else self._at(result.compiled, result)
 
     def __iter__(self) -> Iterator[WrongProblem]:
+        yield from self.usual()
+        if self.full.schedule.unknown is None:
+            yield from self._of_wrenches
+            yield from self._misread
+
+    def usual(self) -> Iterator[WrongProblem]:
+        """The mistakes that every variant of an exam must show: parts of the superposition, and single data."""
         if self.full.schedule.unknown is None:
             yield from self._linear
             yield from self._changed
@@ -63,12 +101,39 @@ class WrongProblems:
         """One datum changed."""
         modes = _other_modes(self.full) if self.full.mechanism.dimension == 2 else ()
         other: list[Mistake] = [("this is the other assembly mode", {"assembly": m}) for m in modes]
-        return self._each(3, [*changes(self.full), *other])
+        return self._each(2, [*changes(self.full), *other])
+
+    @cached_property
+    def _of_wrenches(self) -> list[WrongProblem]:
+        """Forces and couples of one mistake more on the links; with friction loads alone, by factors."""
+        r = self.result
+        try:
+            refuse_nonlinear(r)
+        except ModelError:
+            loads = dict.fromkeys(a.of for a in known_actions(r) if a.kind == "load")
+            scaled = [
+                (f"load {name} {words}", change)
+                for name in loads
+                for factor, words in FACTORS
+                if (change := _scaling(r, [name], factor)) is not None
+            ]
+            return self._each(3, scaled)
+        with np.errstate(all="ignore"):  # where points fall together a mistake has no number
+            found = list(wrench_changes(r))
+        return [WrongProblem(c.order, c.sentence, cache(partial(changed_by, r, c.added))) for c in found]
+
+    @cached_property
+    def _misread(self) -> list[WrongProblem]:
+        """Geometry misread, each assembled and solved again."""
+        return [
+            WrongProblem(c.order, c.sentence, cache(partial(self._solve, c)))
+            for c in misread_geometry(self.full)
+        ]
 
     def _each(self, order: int, mistakes: Iterable[Mistake]) -> list[WrongProblem]:
         return [WrongProblem(order, words, cache(partial(self._solve, change))) for words, change in mistakes]
 
-    def _solve(self, change: Change) -> Result | None:
+    def _solve(self, change: Change | Misread) -> Result | None:
         """The answer after a change, in the same poses where the change leaves them."""
         from dalembert.analysis.solution import dynamics, statics
 
@@ -78,8 +143,9 @@ class WrongProblems:
                 return self._at(change(r.compiled), r)
             if change is STATIC:
                 return self._at(r.compiled, r, inertia=False)
-            m = r.mechanism.with_values(change)
-            if "assembly" in change:
+            anew = isinstance(change, Misread) or "assembly" in change
+            m = r.mechanism.with_values(change.values if isinstance(change, Misread) else change)
+            if anew:
                 result = (dynamics if r.inertia else statics)(m)
                 return self._at(result.compiled, result)
             return self._at(compile_mechanism(m, m.schedule(), r.compiled.layout.redundant), r)

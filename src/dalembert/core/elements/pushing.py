@@ -9,11 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dalembert.arrays import Array, Ints, Numeric
+from dalembert.algebra import plane
+from dalembert.arrays import Array, Flags, Ints, Numeric
 from dalembert.core.branchless import root
+from dalembert.core.constraints import wrenches
+from dalembert.core.elements import cam_rows
+from dalembert.core.elements.cam_family import CamRow
+from dalembert.core.elements.linings import BandStrands, Lining
 from dalembert.core.geometry import span
-from dalembert.core.layout import Along, Distance, Layout, Pose
+from dalembert.core.layout import Along, Distance, Layout, Mesh, Pose
 
+SLIP = 2
+"""Instead of a corner: a limit of friction along the track."""
 LOST = 1e-9
 """Part of the largest force of a position that a contact may lack: rounding."""
 
@@ -24,7 +31,8 @@ class Pushing:
 
     joint, row (K,)     the joint, and the constraint along its normal
     force, moment (K,)  the force is ``force`` times the normal reaction plus ``moment`` times the couple on j
-    corner (K,)         -1 behind j's point, 1 ahead of it, 0 of a contact without corners
+    corner (K,)         -1 behind j's point, 1 ahead of it, 0 of a contact without corners, ``SLIP`` of a friction limit
+    tangent (K,)        and ``tangent`` times the reaction along the normal turned by +90 deg
     """
 
     joint: Ints
@@ -32,13 +40,20 @@ class Pushing:
     force: Array
     moment: Array
     corner: Ints
+    tangent: Array
 
     @property
     def key(self) -> tuple[bytes, ...]:
         """Everything in it, to compare structures by."""
         return tuple(
-            np.asarray(x).tobytes() for x in (self.joint, self.row, self.force, self.moment, self.corner)
+            np.asarray(x).tobytes()
+            for x in (self.joint, self.row, self.force, self.moment, self.corner, self.tangent)
         )
+
+    @property
+    def slips(self) -> Flags:
+        """Limits of friction (K,): mu N less the force along the track, in both senses."""
+        return np.asarray(self.corner == SLIP)
 
 
 def normals(layout: Layout, pose: Pose, row: Ints) -> Array:
@@ -47,13 +62,22 @@ def normals(layout: Layout, pose: Pose, row: Ints) -> Array:
     for f in layout.constraints.families:
         if isinstance(f, Along):
             unit = g.rotate(pose.rotation[..., f.i, :], f.axis)
+        elif isinstance(f, Lining | BandStrands):
+            on_j = wrenches(g, layout.constraints, pose)[1][..., f.row, : g.d]
+            unit = on_j / root((on_j * on_j).sum(axis=-1))[..., None]
         elif isinstance(f, Distance):
             line = span(g, f, pose)
             unit = line / root((line * line).sum(axis=-1))[..., None]
+        elif isinstance(f, CamRow):
+            unit = cam_rows.normal(g, f, pose)
+        elif isinstance(f, Mesh):
+            line = span(g, f, pose)
+            unit = plane.across(line / root((line * line).sum(axis=-1))[..., None])
         else:
             continue
         out |= {int(r): unit[..., k, :] for k, r in enumerate(f.row)}
-    return np.stack([out[int(r)] for r in row], axis=-2)
+    none = 0.0 * pose.point[..., 0, :]  # of a couple
+    return np.stack([out.get(int(r), none) for r in row], axis=-2)
 
 
 def contact_margins(
@@ -67,5 +91,9 @@ def contact_margins(
 
 def contact_forces(layout: Layout, p: Pushing, pose: Pose, force: Array, moment: Array) -> Array:
     """Forces (..., K) of contacts, of reactions (..., joints, 2) on j and couples (..., joints) about its points."""
-    normal = (normals(layout, pose, p.row) * force[..., p.joint, :]).sum(axis=-1)
-    return np.asarray(p.force * normal + p.moment * moment[..., p.joint])
+    unit, reaction = normals(layout, pose, p.row), force[..., p.joint, :]
+    out = p.force * (unit * reaction).sum(axis=-1) + p.moment * moment[..., p.joint]
+    if p.slips.any():
+        along = unit[..., 0] * reaction[..., 1] - unit[..., 1] * reaction[..., 0]
+        out = out + p.tangent * along
+    return np.asarray(out)

@@ -1,0 +1,54 @@
+"""Contacts that only push or pull in the printed answer: their normal forces and the speeds at which they are lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.arrays import Array
+from dalembert.printing import Part, TextTable, wrap
+
+if TYPE_CHECKING:
+    from dalembert.analysis.methods.contact_force import ContactHistory
+    from dalembert.analysis.result.result import Result
+
+ENDS = (("behind", ", rear end"), ("ahead", ", front end"))
+
+
+def contact_parts(r: Result, to: Printed) -> Iterator[Part]:
+    """A row for each contact, of a guide with lengths for each end; and up to which speed one that is lost stays on."""
+    pushing = r.compiled.pushing
+    if pushing is None or not r.inertia or not np.isfinite(r.force_array).any():
+        return
+    found = {joint: r.contact(joint) for joint in dict.fromkeys(r.joints[k] for k in pushing.joint)}
+    rows, lost = [], []
+    for joint, c in found.items():
+        speed = _speed(r, c, to) if c.lift_factor > 0 else ""
+        for name, force in _forces(joint, c):
+            ends = [float(np.nanmin(force)), float(np.nanmax(force))] if np.isfinite(force).any() else []
+            rows.append([name, *(to.number("force", x) for x in ends or (np.nan, np.nan)), speed])
+        if 0 < c.lift_factor < 1:
+            lost.append(
+                f"{joint} stays in contact up to {speed} (now {_speed(r, c, to, 1 / c.lift_factor)})."
+            )
+    unit = to.text("force")
+    yield TextTable(["contact", f"least normal force\n{unit}", f"greatest\n{unit}", "lost from"], rows)
+    if lost:
+        yield "\n".join(map(wrap, lost))
+
+
+def _forces(joint: str, c: ContactHistory) -> list[tuple[str, Array]]:
+    ends = [(joint + words, getattr(c, end)) for end, words in ENDS if getattr(c, end) is not None]
+    return ends or [(joint, c.needed)]
+
+
+def _speed(r: Result, c: ContactHistory, to: Printed, times: float = 1.0) -> str:
+    """The lift speed, that of the first drive that moves."""
+    if not np.isfinite(c.lift_speed):
+        return ""
+    drive = r.drives[int(np.argmax((r.schedule.speed != 0).any(axis=0)))]
+    return to.quantity(drive_kinds(r, drive)["speed"], times * c.lift_speed)

@@ -1,0 +1,192 @@
+"""Bolts of pin joints: shear in their planes, pressure on eye and cheeks, bending.
+
+A fork: V = F/2 in each plane, tau = V/A on the average and 4/3 of it in the middle; p = F/(d t_eye), F/(2 d t_cheek);
+M = (F/2) (t_cheek/2 + gap + t_eye/4). Two plates: M = F (t_1/2 + gap + t_2/2)/2. A stack: in each plane the sum of the
+forces before it, as vectors, and the sum of their moments.
+
+Source: Budynas and Nisbett, Shigley's Mechanical Engineering Design, chapter 8; docs/theory.md 10.4.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from itertools import permutations
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.answer.answer import Labelled
+from dalembert.answer.column import Axes, Column, Scale, UnitChoice
+from dalembert.arrays import Array, Tree
+from dalembert.errors import ModelError
+from dalembert.model.joints.elements.pin_keys import PinSize
+from dalembert.printing import Part, TextTable, number
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+MOST = 6
+"""Links of a stack up to which every order is tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class PinStresses(Labelled):
+    """Stresses of a bolt (P,), Pa, and its bending moment (P,), N m; NaN of what the file does not size.
+
+    force (P,): the joint's, of a stack the largest shear, N. shear: mean in the plane that carries most; peak_shear: in
+    its middle, 4/3 of it; eye_pressure, cheek_pressure: over the projected areas; bending: M over the section's
+    modulus. planes (P, n): shear force in each plane of a stack. best: the order of a stack with the least bending.
+    """
+
+    result: Result = field(repr=False)
+    joint: str
+    size: PinSize = field(repr=False)
+    force: Array = field(repr=False)
+    shear: Array = field(repr=False)
+    eye_pressure: Array = field(repr=False)
+    cheek_pressure: Array = field(repr=False)
+    moment: Array = field(repr=False)
+    planes: Array = field(repr=False)
+    best: tuple[str, ...] = ()
+
+    @property
+    def described(self) -> Any:
+        """The description of what was analysed."""
+        return self.result.mechanism
+
+    @property
+    def peak_shear(self) -> Array:
+        """Largest shear stress (P,), Pa, in the middle of the section."""
+        return self.shear * 4 / 3
+
+    @property
+    def bending(self) -> Array:
+        """Bending stress (P,), Pa: 32 M / (pi d^3)."""
+        return self.moment * 32 / (math.pi * self.size.diameter**3)
+
+    @property
+    def safety(self) -> Array:
+        """Yield stress over the larger of bending and sqrt(3) times the peak shear (P,): they are not in one fibre."""
+        limit = self.size.yield_stress or math.nan
+        with np.errstate(all="ignore"):
+            return np.asarray(limit / np.fmax(self.bending, math.sqrt(3) * self.peak_shear))
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """Force, stresses, moment."""
+        yield Column(f"force.{self.joint}", "force", self.force)
+        for name in ("shear", "peak_shear", "eye_pressure", "cheek_pressure", "bending"):
+            values = getattr(self, name)
+            if np.isfinite(values).any():
+                yield Column(f"{name}.{self.joint}", "pressure", values)
+        yield Column(f"moment.{self.joint}", "moment", self.moment)
+
+    def record(self, to: Scale) -> Tree:
+        """Largest values over the positions."""
+        return {"pin": {"joint": self.joint, "best_order": list(self.best), **{
+            c.name.split(".")[0]: float(to(c.kind, np.nanmax(c.values))) for c in self.columns()
+        }}}  # fmt: skip
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterable[Part]:
+        """Largest values, and the best order of a stack."""
+        to = self.scale(units)
+        rows = []
+        for c in self.columns():
+            k = int(np.nanargmax(c.values))
+            largest = number(float(to(c.kind, c.values[k])))
+            rows.append([c.name.split(".")[0].replace("_", " "), largest, to.text(c.kind), str(k + 1)])
+        yield TextTable([f"bolt of {self.joint}", "largest", "unit", "no."], rows, 1)
+        if np.isfinite(self.safety).any():
+            yield f"Safety against yielding {number(float(np.nanmin(self.safety)), 4)}: bending, or shear by von Mises."
+        if self.best:
+            yield f"Least bending with the links in the order {', '.join(self.best)}."
+
+
+def pin(r: Result, joint: str) -> PinStresses:
+    """Shear, pressure and bending of the bolt of a joint with ``pin``, at every position.
+
+    Raises ModelError for a joint without it, and for a stack that does not name the links of its bolt.
+
+    >>> import dalembert as da
+    >>> links = {"ground": {"points": {"A": [0, 0], "B": [1, 0]}}, "eye": {"points": {"A": [0, 0], "B": [1, 0]}}}
+    >>> size = {"diameter": "30 mm", "eye": "40 mm", "cheeks": "22 mm", "gap": "1 mm"}
+    >>> joints = {"A": {"type": "pin", "links": ["ground", "eye"], "pin": size}}
+    >>> joints["B"] = {"type": "slot", "links": ["ground", "eye"]}
+    >>> loads = {"F": {"type": "force", "on": "eye", "at": "B", "value": [60000, 0]}}
+    >>> x = da.pin(da.statics(da.mechanism({"links": links, "joints": joints, "loads": loads})), "A")
+    >>> round(float(x.moment[0]), 6), round(float(x.eye_pressure[0] / 1e6), 6)
+    (660.0, 50.0)
+    """
+    if joint not in r.joints:
+        raise ModelError(f"unknown joint {joint!r}", closest(joint, list(r.joints)))
+    size: PinSize | None = getattr(r.mechanism.joints[joint], "pin", None)
+    if size is None:
+        raise ModelError(f"joint {joint!r} has no pin", "give it pin: {diameter: 20 mm}", ("joints", joint))
+    area = math.pi * size.diameter**2 / 4
+    nothing = np.full(len(r.status), np.nan)
+    if size.stack is not None:
+        forces = _forces_on(r, joint, size.stack)
+        planes, moments = _along(forces, np.array(size.layers))
+        most = planes.max(axis=1)
+        best = _best(forces, size) if len(size.stack) <= MOST else ()
+        return PinStresses(
+            r, joint, size, most, most / area, nothing, nothing, moments.max(axis=1), planes, best
+        )
+    force = np.hypot(*r.reaction(joint).T)
+    each, eye, cheek = force / size.planes, size.eye, size.cheeks
+    arm = math.nan
+    if eye and cheek:
+        arm = cheek / 2 + size.gap + eye / 4 if size.planes == 2 else (cheek / 2 + size.gap + eye / 2) / 2
+    return PinStresses(
+        result=r,
+        joint=joint,
+        size=size,
+        force=force,
+        shear=each / area,
+        eye_pressure=force / (size.diameter * eye) if eye else nothing,
+        cheek_pressure=each / (size.diameter * cheek) if cheek else nothing,
+        moment=each * arm,
+        planes=np.stack([each] * size.planes, axis=1),
+    )
+
+
+def _forces_on(r: Result, joint: str, stack: tuple[str, ...]) -> Array:
+    """Forces (P, n, 2) of the bolt on the links of a stack: of all pins at the place of this one."""
+    m = r.mechanism
+    at = [set(zip(j.links, j.point_names(n), strict=True)) for n, j in m.joints.items()]
+    names = list(m.joints)
+    shared, found = {joint}, at[names.index(joint)]
+    for _ in names:
+        new = {n for n, ends in zip(names, at, strict=True) if ends & found and m.joints[n].hinge}
+        shared |= new
+        found = set().union(*(at[names.index(n)] for n in shared))
+    links = {link for n in shared for link in m.joints[n].links}
+    if links != {*stack}:
+        what = (
+            f"the bolt of {joint!r} carries {', '.join(sorted(links))}, and its stack is {', '.join(stack)}"
+        )
+        raise ModelError(what, "name each of them once", ("joints", joint, "pin", "stack"))
+    force = {link: np.zeros((len(r.status), 2)) for link in stack}
+    for n in shared:
+        for link in m.joints[n].links:
+            force[link] = force[link] + r.reaction(n, on=link)
+    return np.stack([force[link] for link in stack], axis=1)
+
+
+def _along(forces: Array, places: Array) -> tuple[Array, Array]:
+    """Shear force in each plane (P, n - 1), and bending moment at each layer (P, n)."""
+    shear = np.cumsum(forces, axis=1)[:, :-1]
+    moment = np.cumsum(shear * np.diff(places)[:, None], axis=1)
+    moment = np.concatenate([np.zeros_like(moment[:, :1]), moment], axis=1)
+    return np.hypot(*np.moveaxis(shear, -1, 0)), np.hypot(*np.moveaxis(moment, -1, 0))
+
+
+def _best(forces: Array, size: PinSize) -> tuple[str, ...]:
+    """The order with the least largest moment, the layers kept."""
+    assert size.stack is not None
+    orders = [order for order in permutations(range(len(size.stack))) if order[0] < order[-1]]
+    places = np.array(size.layers)
+    largest = [float(np.nanmax(_along(forces[:, order], places)[1])) for order in orders]
+    return tuple(size.stack[k] for k in orders[int(np.argmin(largest))])

@@ -1,0 +1,121 @@
+"""Belts and chains between two wheels: their keys (docs/theory.md 5.7)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field, StrictBool, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.joints.friction_keys import FrictionPart
+from dalembert.model.joints.joint_part import JointPart, TwoNumbers
+from dalembert.model.quantities.values import Scalar
+
+TENSIONS = ("tension", "tensioner", "tight", "slack")
+"""Keys of which one gives what the torque leaves open: the sum of both tensions."""
+
+Pull = Annotated[float, Scalar("force", "not negative")]
+
+
+class Belt(JointPart):
+    """A belt, or a chain, round a wheel on i and one on j, about the joint's points.
+
+    >>> Belt(links=("motor", "fan"), at=("A", "B"), radii=(0.06, 0.18), tension="350 N").signed_radii
+    (0.06, -0.18)
+    """
+
+    WRAPPED: ClassVar = True
+    type: Literal["belt"] = "belt"
+    radii: Annotated[tuple[float, float], TwoNumbers("length")] = Field(
+        description="of the wheels to the belt's middle, [of i, of j], lengths"
+    )
+    crossed: StrictBool = Field(
+        False, description="true: the strands cross, and the wheels turn opposite ways"
+    )
+    tension: Pull | None = Field(None, description="of each strand at rest, with fixed centres; a force")
+    tensioner: Pull | None = Field(
+        None, description="constant pull on the shaft: the sum of both strands' tensions on it; a force"
+    )
+    tight: Pull | None = Field(None, description="tension of the tight strand, a force")
+    slack: Pull | None = Field(None, description="tension of the slack strand, a force; of a chain default 0")
+    grip: FrictionPart | None = Field(
+        None,
+        alias="friction",
+        description="friction on the wheels, by which the belt holds: {coefficient: 0.3}",
+    )
+    groove: Annotated[float, Scalar("angle", "positive")] | None = Field(
+        None, description="whole angle between the sides of a V-belt's groove; default flat"
+    )
+    mass_per_length: Annotated[float, Scalar("line_density", "not negative")] = Field(
+        0.0, description="of the belt: it takes the centrifugal tension m v^2"
+    )
+    idlers: None = Field(None, description="refused: not analysed")
+    chain: StrictBool = Field(
+        False, description="true: a chain, which cannot slip; its slack strand may not push"
+    )
+
+    def replaced_by(self, name: str, value: object) -> tuple[str, ...]:
+        """Another of the four tensions, which exclude each other."""
+        return tuple(t for t in TENSIONS if t != name) if name in TENSIONS and value is not None else ()
+
+    @property
+    def wheels(self) -> int:
+        """Both links have one."""
+        return 2
+
+    @property
+    def internal(self) -> bool:
+        """Its wheels are beside each other."""
+        return False
+
+    @property
+    def pitch_radii(self) -> tuple[float, float]:
+        """Radii of i and j, metres."""
+        return self.radii
+
+    @property
+    def signed_radii(self) -> tuple[float, float]:
+        """Radii of i and j; j's negative where both wheels turn the same way."""
+        return self.radii[0], self.radii[1] if self.crossed else -self.radii[1]
+
+    @property
+    def stated_tension(self) -> tuple[str, float]:
+        """Which of the four tensions is given, and its value."""
+        name = next((t for t in TENSIONS if getattr(self, t) is not None), "slack")
+        return name, getattr(self, name) or 0.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_tension(cls, keys: Any) -> Any:
+        if not isinstance(keys, Mapping):
+            return keys
+        if keys.get("idlers"):
+            what = "idlers of a belt are not analysed: they change its wrap and its force on the shafts"
+            raise ModelError(what, "leave them out, and give the strands by tight or slack", ("idlers",))
+        given = [t for t in TENSIONS if keys.get(t) is not None]
+        if len(given) > 1:
+            what = f"{given[0]} and {given[1]} are both given, and each gives the sum of the tensions"
+            raise ModelError(what, "keep one of them", (given[1],))
+        if not given and keys.get("chain") is not True:
+            raise ModelError(
+                "its tension is missing: the torque gives the difference of both strands only",
+                "write tension (of each strand at rest), tensioner (pull on the shaft), tight or slack",
+            )
+        return keys
+
+    @model_validator(mode="after")
+    def _of_a_chain(self) -> Self:
+        if self.chain and self.crossed:
+            raise ModelError("a chain cannot be crossed", "leave crossed out, or use a belt", ("crossed",))
+        for key in ("grip", "groove"):
+            if self.chain and getattr(self, key) is not None:
+                name = "friction" if key == "grip" else key
+                raise ModelError(f"a chain holds by its teeth and has no {name}", "leave it out", (name,))
+        if self.groove is not None and self.groove >= 3.15:
+            raise ModelError(
+                "the groove is wider than 180 deg",
+                "38 deg is usual; leave it out for a flat belt",
+                ("groove",),
+            )
+        return self

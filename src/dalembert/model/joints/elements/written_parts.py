@@ -1,0 +1,44 @@
+"""What a mechanism keeps of its description where parts of it stand for others: ropes for strands and pulleys."""
+
+from __future__ import annotations
+
+from typing import Any, Self
+
+from pydantic import PrivateAttr
+
+from dalembert.model.joints.elements.ropes import Rope
+from dalembert.model.part import Part
+
+
+class WrittenParts(Part):
+    """A description, or one with the strands and pulleys of its ropes."""
+
+    _written: Any = PrivateAttr(None)
+    _limited: bool = PrivateAttr(True)
+
+    @property
+    def written(self) -> Self:
+        """The description as it was written, with its ropes."""
+        return self if self._written is None else self._written
+
+    def standing_for(self, written: Self) -> Self:
+        """This description as what another one consists of."""
+        self._written, self._limited = written, written._limited
+        return self
+
+    @property
+    def ropes(self) -> dict[str, Rope]:
+        """Its ropes by name, also where their strands and pulleys stand for them."""
+        return {name: joint for name, joint in self.written.joints.items() if isinstance(joint, Rope)}  # type: ignore[attr-defined]
+
+    @property
+    def has_limits(self) -> bool:
+        """False if its belts and ropes neither slip nor go slack."""
+        return self._limited
+
+    @property
+    def without_limits(self) -> Self:
+        """The description with belts and ropes that neither slip nor go slack."""
+        out = self.model_copy()
+        out._limited = False
+        return out

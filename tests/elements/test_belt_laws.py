@@ -1,0 +1,293 @@
+"""Laws of belts and chains on random drives; their limit by belt elements one by one."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.errors import ModelError
+from tests.tiers import over
+
+KEYS = ("tension", "tensioner", "tight", "slack")
+
+
+def random_drive(seed: int) -> dict[str, Any]:
+    """Two wheels and a belt at any angle, the second wheel on the ground or on a cart that moves."""
+    draw = np.random.default_rng(seed)
+    r1, r2 = draw.uniform(0.03, 0.2, 2)
+    distance, angle = (r1 + r2) * draw.uniform(1.3, 4), draw.uniform(-math.pi, math.pi)
+    key, moves = KEYS[seed % 4], seed % 3 == 0
+    belt = {
+        "type": "belt",
+        "links": ["small", "big"],
+        "at": ["A", "B"],
+        "radii": [r1, r2],
+        "crossed": bool(seed % 2),
+        key: draw.uniform(3000, 5000),  # more than any torque below asks for
+        "mass_per_length": draw.uniform(0, 0.5),
+    }
+    away = [distance * math.cos(angle), distance * math.sin(angle)]
+    tree = {
+        "gravity": "standard",
+        "links": {
+            "ground": {"points": {"A": [0, 0], "B": away}},
+            "small": {"points": {"A": [0, 0]}, "inertia": draw.uniform(0.01, 0.1), "mass": 2.0},
+            "big": {"points": {"B": [0, 0]}, "inertia": draw.uniform(0.1, 0.5), "mass": 5.0},
+        },
+        "joints": {"A": {"type": "pin", "links": ["ground", "small"]}, "belt": belt},
+        "drives": {
+            "A": {
+                "position": {"from": 0, "to": 50, "count": 3},
+                "speed": f"{draw.uniform(5, 30)} rad/s",
+                "acceleration": f"{draw.uniform(-40, 40)} rad/s^2",
+            }
+        },
+        "loads": {"work": {"type": "couple", "on": "big", "value": draw.uniform(-10, 10)}},
+    }
+    if not moves:
+        tree["joints"]["B"] = {"type": "pin", "links": ["ground", "big"]}
+        return tree
+    tree["links"]["cart"] = {"points": {"B": [0, 0]}, "mass": 3.0}
+    slide = {"type": "slider", "links": ["ground", "cart"], "at": ["B", "B"]}
+    tree["joints"] |= {
+        "slide": slide | {"direction": math.degrees(angle) + draw.uniform(-80, 80)},
+        "B": {"type": "pin", "links": ["cart", "big"]},
+    }
+    tree["drives"]["slide"] = {
+        "position": {"from": 0, "to": 0.02, "count": 3},
+        "speed": 0.3,
+        "acceleration": 0.4,
+    }
+    return tree
+
+
+def read(tree: dict[str, Any]) -> da.Mechanism:
+    return da.mechanism(tree)
+
+
+@over(2, 200)
+def test_torques_and_pulls_close(seed: int) -> None:
+    tree = random_drive(seed)
+    r = da.dynamics(read(tree))
+    assert set(r.status) == {"ok"}
+    b, belt = r.belt("belt"), tree["joints"]["belt"]
+    work = tree["loads"]["work"]["value"]
+    torque = -work + tree["links"]["big"]["inertia"] * np.asarray(r.acceleration("big"))
+    np.testing.assert_allclose(b.torque[:, 1], torque, atol=1e-9)
+    np.testing.assert_allclose(np.abs(torque) / belt["radii"][1], b.tight - b.slack, atol=1e-8)
+    key, value = next((k, belt[k]) for k in KEYS if k in belt)
+    sums = {"tension": (b.tight + b.slack) / 2, "tight": b.tight, "slack": b.slack}
+    sums["tensioner"] = b.tight + b.slack - 2 * b.centrifugal
+    np.testing.assert_allclose(sums[key], value, rtol=1e-12)
+    rim = np.abs(b.speed) if "slide" not in tree["drives"] else b.speed
+    assert np.allclose(b.centrifugal, belt["mass_per_length"] * rim**2)
+    if "slide" not in tree["drives"]:
+        power = b.torque[:, 0] * r.speed("small") + b.torque[:, 1] * r.speed("big")
+        np.testing.assert_allclose(power, 0, atol=1e-9 * np.abs(b.torque[:, 0] * r.speed("small")).max())
+
+
+@over(2, 200)
+def test_every_method_has_one_answer(seed: int) -> None:
+    m = read(random_drive(seed))
+    r = da.dynamics(m, method="careful")
+    scale = 1e-11 * max(np.abs(r.effort_array).max(), np.abs(r.force_array).max())
+    np.testing.assert_allclose(da.dynamics(m).effort_array, r.effort_array, atol=scale)
+    np.testing.assert_allclose(da.virtual_work(r).effort, r.effort_array, atol=scale)
+    if KEYS[seed % 4] in ("tension", "tensioner"):
+        assert da.superposition(r).gap.max() < 1e-11
+    else:
+        with pytest.raises(ModelError, match=r"the pull of a belt with a given strand follows \|T1 - T2\|"):
+            da.superposition(r)
+
+
+@over(1, 100)
+def test_wheels_turn_as_the_strands_let_them(seed: int) -> None:
+    """Speeds against differences of the angles, and against the strands' lengths wound on and off."""
+    tree = random_drive(seed)
+    h = 1e-5
+    angles = []
+    for side in (-1, 1):
+        moved = random_drive(seed)
+        for name, drive in moved["drives"].items():
+            speed = float(str(drive["speed"]).split()[0])
+            step = h * side * (math.degrees(speed) if name == "A" else speed)
+            drive["position"] = {"from": 0, "to": step, "count": 2}
+        angles.append(da.kinematics(read(moved)).angle("big")[1])
+    first = da.kinematics(read(tree))
+    assert (angles[1] - angles[0]) / (2 * h) == pytest.approx(first.speed("big")[0], rel=1e-6)
+
+
+@over(1, 60)
+def test_numbers_of_kernels_are_those_of_analyses_and_slopes_those_of_differences(seed: int) -> None:
+    m, paths = read(random_drive(seed)), [f"joints.belt.{KEYS[seed % 4]}", "joints.belt.radii.1"]
+    kernel = da.compile(m, vary=paths, derivatives=True)
+    belt: Any = m.joints["belt"]
+    at = [getattr(belt, KEYS[seed % 4]), belt.radii[1]]
+    answer, r = kernel([at]), da.dynamics(m)
+    scale = np.abs(r.effort_array).max()
+    np.testing.assert_allclose(answer.effort("A")[0], r.effort("A"), atol=1e-11 * scale)
+    for k, value in enumerate(at):
+        step = 1e-5 * value
+        sides = [da.dynamics(m.with_values({paths[k]: value + s * step})).effort("A") for s in (-1, 1)]
+        slope = answer.gradient("effort.A")[0, :, k]
+        np.testing.assert_allclose(
+            slope, (sides[1] - sides[0]) / (2 * step), rtol=1e-5, atol=1e-6 * scale / value
+        )
+
+
+@over(1, 100)
+def test_the_other_sense_of_the_torque_exchanges_both_strands(seed: int) -> None:
+    tree = random_drive(4 * seed + 1)  # with fixed centres but each third
+    belt = tree["joints"]["belt"]
+    value = next(belt.pop(k) for k in KEYS if k in belt)
+    forth, back = (
+        da.statics(
+            read(tree | {"joints": tree["joints"] | {"belt": belt | {"tension": value}}, "loads": load})
+        )
+        for load in ({"w": {"type": "couple", "on": "big", "value": x}} for x in (7.0, -7.0))
+    )
+    f, b = forth.belt("belt"), back.belt("belt")
+    np.testing.assert_allclose(f.tight, b.tight, rtol=1e-9)
+    np.testing.assert_allclose(f.torque, -b.torque, atol=1e-9)
+    np.testing.assert_allclose(f.tight - value, value - f.slack, rtol=1e-9)
+
+
+@over(1, 100)
+def test_it_slips_just_above_what_its_friction_holds(seed: int) -> None:
+    tree = random_drive(seed)
+    belt = tree["joints"]["belt"]
+    belt["groove"] = 34.0 if seed % 2 else 60.0
+    needed = float(np.max(da.dynamics(read(tree)).belt("belt").slip_coefficient))
+    for factor, status in ((1 + 1e-6, {"ok"}), (1 - 1e-6, {"ok", "slips"})):
+        belt["friction"] = {"coefficient": 0.001, "static": needed * factor}
+        r = da.dynamics(read(tree))
+        assert {*r.status} <= status
+        assert ("slips" in r.status) == (factor < 1)
+        assert np.isfinite(r.belt("belt").slip_coefficient).all()
+
+
+@pytest.mark.parametrize(("mu", "wrap", "speed"), [(0.3, 2.5, 0.0), (0.3, 2.5, 40.0), (0.7, 2.9, 20.0)])
+def test_the_limit_is_that_of_ten_thousand_elements(mu: float, wrap: float, speed: float) -> None:
+    """Each element of a belt of 0.4 kg/m is in equilibrium on the wheel, its rubbing at the limit."""
+    gamma = (math.pi - wrap) / 2
+    radius, distance, tension = 0.1, 1.0, 900.0
+    other = radius + distance * math.sin(gamma)
+    belt = {"type": "belt", "links": ["a", "b"], "at": ["A", "B"], "radii": [radius, other], "tight": tension}
+    tree = {
+        "links": {
+            "ground": {"points": {"A": [0, 0], "B": [distance, 0]}},
+            "a": {"points": {"A": [0, 0]}},
+            "b": {"points": {"B": [0, 0]}},
+        },
+        "joints": {
+            "A": {"type": "pin", "links": ["ground", "a"]},
+            "B": {"type": "pin", "links": ["ground", "b"]},
+            "belt": belt | {"mass_per_length": 0.4, "friction": {"coefficient": mu}},
+        },
+        "drives": {"A": {"position": 0, "speed": f"{speed / radius} rad/s"}},
+    }
+    b = da.statics(read(tree)).belt("belt")
+    least = min(b.wrap)
+    count, t = 10_000, tension
+    for _ in range(count):  # 2 (T - m v^2) sin(d/2) presses, in the middle of its element
+        half = least / count / 2
+        normal = 2 * (t - 0.4 * speed**2) * math.sin(half) / (1 + mu * math.tan(half))
+        t -= mu * normal
+    assert b.limit.slack[0] == pytest.approx(t, rel=1e-7)
+
+
+@over(1, 40)
+def test_friction_elsewhere_counts_what_follows_the_torque(seed: int) -> None:
+    """The pull of a belt with a given strand as a contact, beside a pin with a trace of friction."""
+    tree = random_drive(4 * seed + 2 + seed % 2)
+    plain = da.dynamics(read(tree))
+    tree["joints"]["A"]["friction"] = {"radius": 0.01, "coefficient": 1e-13}
+    rubbed = da.dynamics(read(tree))
+    scale = np.abs(plain.force_array).max()
+    np.testing.assert_allclose(rubbed.force_array, plain.force_array, atol=1e-9 * scale)
+    np.testing.assert_allclose(rubbed.effort_array, plain.effort_array, atol=1e-9 * scale)
+
+
+@over(1, 40)
+def test_millimetres_and_a_moved_machine_have_the_same_forces(seed: int) -> None:
+    tree = random_drive(3 * seed + 1)
+    r = da.dynamics(read(tree))
+    for point in tree["links"]["ground"]["points"].values():
+        point[0] += 100.0
+    moved = da.dynamics(read(tree))
+    scale = np.abs(r.force_array).max()
+    np.testing.assert_allclose(moved.force_array, r.force_array, atol=1e-9 * scale)
+    m = da.loads(str(read(tree)))
+    assert m == read(tree)
+
+
+WRONG = [
+    (
+        "tension: 300, tight: 400",
+        "tension and tight are both given, and each gives the sum of the tensions; keep one",
+    ),
+    ("crossed: false", "its tension is missing: the torque gives the difference of both strands only"),
+    ("slack: 0, chain: true, crossed: true", "a chain cannot be crossed"),
+    ("chain: true, friction: {coefficient: 0.3}", "a chain holds by its teeth and has no friction"),
+    ("chain: true, groove: 38", "a chain holds by its teeth and has no groove"),
+    ("tension: 300, groove: 200", "the groove is wider than 180 deg"),
+    ("tension: -3", "-3 is negative"),
+    ("tension: 3, idlers: [{at: ground.A, radius: 0.01}]", "idlers of a belt are not analysed"),
+    ("tension: 300, friction: {static: 0.3}", "the friction of joint 'belt' has no coefficient"),
+]
+FILE = """
+links:
+  ground: {points: {A: [0, 0], B: [0.3, 0]}}
+  a: {points: {A: [0, 0]}}
+  b: {points: {B: [0, 0]}}
+joints:
+  A: {type: pin, links: [ground, a]}
+  B: {type: pin, links: [ground, b]}
+  belt: {type: belt, links: [a, b], at: [A, B], radii: [0.1, 0.1], KEYS}
+drives: {A: {position: 0, speed: 100 rpm}}
+loads: {w: {type: couple, on: b, value: -5}}
+"""
+
+
+@pytest.mark.parametrize(("keys", "says"), WRONG)
+def test_what_a_belt_may_not_say(keys: str, says: str) -> None:
+    with pytest.raises(ModelError, match="text:9") as error:
+        da.loads(FILE.replace("KEYS", keys))
+    assert says in str(error.value)
+
+
+def test_wheels_may_not_touch() -> None:
+    with pytest.raises(ModelError) as error:
+        da.statics(da.loads(FILE.replace("KEYS", "tension: 300").replace("0.3, 0", "0.19, 0")))
+    assert str(error.value) == (
+        "text:9: belt 'belt': centres 0.19 m apart, but its wheels need more than 0.2 m; "
+        "make a wheel smaller or move a centre"
+    )
+
+
+@pytest.mark.parametrize(("keys", "status"), [("chain: true", "ok"), ("chain: true, tension: 24", "slack")])
+def test_a_chain_does_not_push(keys: str, status: str) -> None:
+    r = da.statics(da.loads(FILE.replace("KEYS", keys)))
+    assert r.status == (status,)
+    b = r.belt("belt")
+    assert b.tight[0] - b.slack[0] == pytest.approx(50)
+    if status == "slack":
+        assert r.reasons == (
+            "The slack strand of chain belt would have to push with 1 N at A = 0 deg. "
+            "Raise its tension, or lower the load.",
+        )
+
+
+def test_a_slipping_belt_says_what_it_needs_and_from_where() -> None:
+    r = da.statics(da.loads(FILE.replace("KEYS", "tension: 300, friction: {coefficient: 0.05}")))
+    assert r.status == ("slips",)
+    needed = math.log(325 / 275) / math.pi
+    torque = 0.1 * 600 * math.tanh(0.05 * math.pi / 2)
+    assert r.reasons == (
+        f"Belt belt needs {needed:.4g}, has 0.05; slips from {torque:.6g} N*m on, at the wheel of a at A = 0 deg. "
+        "Raise its tension, its wrap or its coefficient, or lower the load.",
+    )

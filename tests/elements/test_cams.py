@@ -1,0 +1,248 @@
+"""Cams as a file has them: what is refused, files, drawings, friction, contacts, jumps, copies."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.errors import ModelError
+from dalembert.views.paper.scene import Arrow, Circle, Polygon
+from tests.elements.test_cam_cases import sliding
+
+RISE = [{"to": "20 mm", "in": "90 deg", "by": "cycloidal"}, {"dwell": "40 deg"}]
+FULL = [*RISE, {"to": 0, "in": "110 deg", "by": "polynomial345"}, {"dwell": "rest"}]
+TURN = {"position": {"from": 0, "to": 360, "count": 36}, "speed": "20 rad/s"}
+
+
+def machine(follower: Any = "knife", segments: Any = None, **more: Any) -> dict[str, Any]:
+    """A cam by lift, its follower sliding upwards, with a mass and a load."""
+    profile = {"base": "40 mm", "segments": FULL if segments is None else segments} | more.pop("profile", {})
+    load = {"P": {"type": "force", "on": "stem", "at": "F", "value": [0, -300]}}
+    tree = sliding(follower, profile, drive=dict(TURN), stem={"mass": 0.5}, loads=load)
+    tree["joints"]["F"] |= more
+    return tree
+
+
+WRONG: list[tuple[dict[str, Any], str]] = [
+    (
+        machine(segments=[*RISE, {"to": 0, "in": "200 deg", "by": "cycloidal"}]),
+        "segments of profile of joint 'F': the segments fill 330 deg; add {dwell: rest}",
+    ),
+    (
+        machine(segments=[*RISE, {"to": "1 mm", "in": "110 deg", "by": "cycloidal"}, {"dwell": "rest"}]),
+        "segments of profile of joint 'F': the lift ends at 0.001 m; let it return: end with {to: 0, in: ..., by: ...}",
+    ),
+    (
+        machine(profile={"prime": "50 mm"}),
+        "profile of joint 'F': both base and prime are given; give base, the least radius of the cam, or prime, that "
+        "of the roller's centre",
+    ),
+    (
+        machine(profile={"eccentric": "5 mm", "radius": "20 mm"}),
+        "profile of joint 'F': it has segments and eccentric; give one of segments, eccentric, arcs, tangent, points",
+    ),
+    (
+        machine({"roller": "8 mm"}, friction={"coefficient": 0.1}),
+        "friction of joint 'F': a roller rolls on the cam and does not rub; leave friction out, or let the roller be a "
+        "link with friction in its pin",
+    ),
+    (machine({"roller": 0}), "roller of follower of joint 'F': 0 is not positive; write a positive one"),
+    (machine(face="10 deg"), "face of joint 'F': a knife has no face; leave it out"),
+]
+
+
+@pytest.mark.parametrize(("tree", "says"), WRONG)
+def test_a_wrong_cam_is_told_where_and_what(tree: dict[str, Any], says: str) -> None:
+    with pytest.raises(ModelError) as error:
+        da.mechanism(tree)
+    assert str(error.value) == says
+
+
+def refused(tree: dict[str, Any]) -> str:
+    with pytest.raises(ModelError) as error:
+        da.dynamics(da.mechanism(tree))
+    return str(error.value)
+
+
+def test_what_does_not_fit_the_machine() -> None:
+    """An offset beyond the base circle, a follower without a carrier, lifts of the wrong kind."""
+    far = machine()
+    far["links"]["ground"]["points"]["O2"] = [0.045, 0]
+    far["joints"]["guide"]["at"] = ["O2", "F"]
+    assert refused(far) == (
+        "cam 'F': the offset is 45 mm, and the radius at lift 0 40 mm; make the base circle larger than the offset"
+    )
+    angles = machine(segments=[{"to": "20 deg", "in": "90 deg", "by": "cycloidal"}, *FULL[1:]])
+    assert refused(angles) == (
+        "cam 'F': its lift is an angle, and its follower slides in joint 'guide'; write lifts as lengths: "
+        "{to: 25 mm, ...}"
+    )
+    loose = machine()
+    loose["links"]["slide"] = {"points": {"O": [0, 0]}}
+    loose["joints"]["guide"]["links"] = ["slide", "stem"]
+    loose["joints"]["weld"] = {"type": "weld", "links": ["ground", "slide"], "at": "O"}
+    assert refused(loose).startswith(
+        "cam 'F': its profile is a lift, and no link carries both cam and follower; pin"
+    )
+
+
+@pytest.mark.parametrize("follower", [{"roller": "0.03"}, "flat"])
+def test_a_cam_is_undercut_from_its_least_base_on(follower: Any) -> None:
+    """Just below it is refused with the place and the remedy; just above it is not."""
+    large = da.mechanism(machine(follower, profile={"base": "120 mm"}))
+    least = da.cam(large, "F").least_base
+    assert da.dynamics(large.with_values({"joints.F.profile.base": least * (1 + 1e-6)})).residual.max() < 1e-9
+    with pytest.raises(
+        ModelError, match=r"cam 'F' is undercut from .* deg of its turn: .*; take a base radius from"
+    ):
+        da.dynamics(large.with_values({"joints.F.profile.base": least * (1 - 1e-3)}))
+
+
+def test_a_cam_is_saved_and_read() -> None:
+    for tree in (
+        machine({"roller": "8 mm"}),
+        machine("flat", face_width="12 mm", elasticity="206 GPa", friction={"coefficient": 0.1}),
+        sliding("knife", {"tangent": {"base": 0.03, "lift": 0.01, "half_angle": "60 deg"}}, drive=TURN),
+        sliding({"roller": 0.01}, {"points": {"angle": [0, 90, 180, 270], "radius": [0.05] * 4}}, drive=TURN),
+    ):
+        m = da.mechanism(tree)
+        assert da.mechanism(m.to_tree()) == m
+
+
+@pytest.mark.parametrize("ending", ["csv", "dxf"])
+def test_the_outline_of_a_file_moves_the_follower_as_the_cam_does(tmp_path: Path, ending: str) -> None:
+    """Within twice the tolerance."""
+    m = da.mechanism(machine({"roller": "8 mm"}))
+    path = tmp_path / f"cam.{ending}"
+    da.cam(m, "F").save(path, tolerance=1e-6, cutter=0.005)
+    tree = machine({"roller": "8 mm"})
+    tree["joints"]["F"]["profile"] = {"points": {"file": str(path)}}
+    ours, theirs = (da.kinematics(x).freedom("guide", "slide")[0] for x in (m, da.mechanism(tree)))
+    assert np.abs(ours - theirs).max() < 2e-6
+
+
+def test_points_are_met_by_a_face_and_by_a_roller_as_the_disc_they_are_from() -> None:
+    e, radius = 0.012, 0.04
+    angle = np.linspace(0, 360, 121)[:-1]
+    b = np.radians(angle)
+    r = e * np.cos(b) + np.sqrt(radius**2 - (e * np.sin(b)) ** 2)
+    points = {"points": {"angle": angle.tolist(), "radius": r.tolist()}}
+    for follower in ("knife", {"roller": 0.01}, "flat"):
+        disc, cut = (
+            da.dynamics(da.mechanism(sliding(follower, p, drive=TURN, stem={"mass": 1})))
+            for p in ({"eccentric": e, "radius": radius}, points)
+        )
+        for order, close in enumerate((1e-8, 1e-5, 5e-3)):
+            ours, theirs = (x.freedom("guide", "slide")[order] for x in (cut, disc))
+            assert ours == pytest.approx(theirs, abs=close * float(np.abs(theirs).max()))
+
+
+def test_a_contact_is_lost_where_it_would_pull() -> None:
+    tree = machine({"roller": "8 mm"})
+    tree["loads"]["P"]["value"] = [0, -2]
+    r = da.dynamics(da.mechanism(tree))
+    assert "contact_lost" in r.status
+    held = machine({"roller": "8 mm"}, contact="holds")
+    held["loads"]["P"]["value"] = [0, -2]
+    c = da.cam(da.mechanism(held), "F")
+    assert (c.force < 0).any()
+    assert len(c.changes) in (2, 4)
+    speed = da.cam(da.mechanism(tree), "F").lift_speed
+    for factor, lost in ((0.999, False), (1.001, True)):
+        tree["drives"]["O"]["speed"] = f"{factor * speed} rad/s"
+        assert ("contact_lost" in da.dynamics(da.mechanism(tree)).status) is lost
+
+
+def test_a_spring_keeps_the_least_force() -> None:
+    """The stiffness with a preload, and the softest spring, both at their limit."""
+    tree = machine({"roller": "8 mm"}, contact="holds")
+    tree["loads"] = {}
+    tree["drives"]["O"]["speed"] = "60 rad/s"
+    c = da.cam(da.mechanism(tree), "F")
+    free = c.spring_for(least=20.0)
+    stiffness, preload = c.spring_for(preload=50.0, least=20.0)
+    spring = {"type": "spring", "between": ["ground.top", "stem.F"], "stiffness": stiffness}
+    spring["free_length"] = 1 - 0.048 + preload / stiffness
+    r = da.dynamics(da.mechanism(tree | {"loads": {"S": spring}}))
+    assert da.cam(r.mechanism, "F").force.min() == pytest.approx(20.0, abs=1e-6)
+    assert free[1] + free[0] * 0.02 <= 50.0 + c.spring_for(preload=50.0, least=20.0)[0] * 0.02 + 1e-9
+
+
+def test_friction_of_a_knife_edge_is_against_its_slip() -> None:
+    """mu N along the tangent; the drive pays what is lost."""
+    r = da.dynamics(da.mechanism(machine("knife", friction={"coefficient": 0.2})))
+    smooth = da.dynamics(da.mechanism(machine("knife")))
+    assert set(r.status) <= {"ok", "self_locking"}
+    n = da.cam(smooth.mechanism, "F")
+    force, normal = r.reaction("F", "stem"), np.array([n.motion.at(n.turns_of(r)).normal]).reshape(-1, 2)
+    along = (force * normal).sum(axis=1)
+    across = force[:, 0] * normal[:, 1] - force[:, 1] * normal[:, 0]
+    assert np.abs(across) == pytest.approx(0.2 * along, rel=1e-9)
+    assert (across < 0).all()  # the cam turns counter-clockwise under the edge and drags it along
+    assert np.abs(r.power_balance).max() < 1e-12
+
+
+def test_accelerations_that_jump_have_two_numbers() -> None:
+    """Inertia forces before and behind a harmonic rise, in results, kernels and texts."""
+    harmonic = [RISE[0] | {"by": "harmonic"}, *FULL[1:]]
+    m = da.mechanism(machine({"roller": "8 mm"}, harmonic))
+    r = da.dynamics(m)
+    at = [k for k, s in enumerate(r.status) if s == "jump"]
+    assert at == [0, 9]
+    assert r.after is not None
+    bend = 0.02 / 2 * (math.pi / (math.pi / 2)) ** 2 * 400
+    jump = [side.freedom("guide", "slide")[2][at] for side in r.sides]
+    assert np.array(jump) == pytest.approx(np.array([[0, -bend], [bend, 0]]), abs=1e-9)
+    assert "jumps at O = 90 deg" in str(r.reasons[9])
+    k = da.compile(m, ["links.stem.mass"], ["reaction.F"])
+    answer = k([[0.5]])
+    assert answer.status[0][9] == "jump"
+    for side, both in zip(r.sides, answer.both_sides("reaction.F"), strict=True):
+        assert both[0] == pytest.approx(side.reaction("F"), abs=1e-9 * 300)
+    assert set(da.statics(m).status) == {"ok"}
+    assert "Jump of the acceleration in F at 0 deg, 90 deg" in r.text()
+
+
+def test_a_copied_cam_is_the_cam_of_the_copied_machine() -> None:
+    """Turned by 40 deg, and in the mirror; arcs in the mirror are refused."""
+    tree = machine({"roller": "8 mm"}) | {
+        "copies": [{"of": ["cam", "stem"], "phase": {"ground": 40}, "count": 2}]
+    }
+    r = da.dynamics(da.mechanism(tree))
+    assert r.effort("O_2") == pytest.approx(r.effort("O"), abs=1e-9)
+    tree["copies"] = [{"of": ["cam", "stem"], "mirror": {"ground": 25}}]
+    r = da.dynamics(da.mechanism(tree))
+    assert r.effort(r.drives[1]) == pytest.approx(-r.effort("O"), abs=1e-9)
+    tree["joints"]["F"]["profile"] = {
+        "points": {"angle": [0, 90, 180, 270], "radius": [0.05, 0.06, 0.05, 0.05]}
+    }
+    with pytest.raises(ModelError, match="the arcs or points of a cam are not mirrored; write that cam out"):
+        da.mechanism(tree)
+    tree["copies"] = [{"of": ["stem"], "phase": {"ground": 40}, "count": 2}]
+    with pytest.raises(
+        ModelError, match="cam 'F' is copied without its cam; copy both links, or write the joint out"
+    ):
+        da.mechanism(tree)
+
+
+def test_a_cam_is_drawn_to_scale() -> None:
+    """Outline, roller, normal force and pressure angle."""
+    m = da.mechanism(machine({"roller": "8 mm"}))
+    r, c = da.dynamics(m), da.cam(m, "F")
+    scene = da.draw.mechanism(r, at=10)
+    per_mm = scene.scales["length"]
+    (outline,) = (i for i in scene.items if isinstance(i, Polygon) and i.role == "link-area")
+    rollers = [i for i in scene.items if isinstance(i, Circle) and i.role == "block"]
+    assert [i.radius * per_mm for i in rollers] == pytest.approx([0.008])
+    near = min(math.dist(rollers[0].center, p) for p in outline.points) * per_mm
+    assert near == pytest.approx(0.008, abs=2e-4)
+    shown = c.drawings()[0]
+    (arrow,) = (i for i in shown.items if isinstance(i, Arrow))
+    assert arrow.length * shown.scales["force"] == pytest.approx(arrow.value)
+    assert len(c.drawings()) == 8
+    assert "pressure angle, rising" in c.text()

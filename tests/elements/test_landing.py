@@ -1,0 +1,264 @@
+"""Contacts that lift off and land in a motion under forces: closed forms, and laws that hold for any machine."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.errors import ModelError
+from tests.tiers import tiers
+
+LADDER = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0]}}
+  ladder: {points: {F: [0, 0], W: [4, 0]}, mass: 20, center: [2, 0], inertia: 26.666666666666668}
+joints:
+  floor: {type: slot, links: [ground, ladder], at: [O, F], direction: 0, contact: pushes}
+  wall: {type: slot, links: [ground, ladder], at: [O, W], direction: 90, contact: pushes, side: right}
+drives: {floor: {freedom: slide, effort: 0}}
+start: {floor: {position: %r, speed: 0}}
+assembly: {ladder: 110}
+"""
+DISC = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], C: [0.5, 0]}}
+  disc: {points: {C: [0, 0]}, mass: 3, inertia: 0.015}
+joints:
+  O: {type: pin, links: [ground, arm]}
+  C: {type: slot, links: [arm, disc], direction: 0}
+  dome: {type: rolling, links: [ground, disc], at: [O, C], radii: [0.4, 0.1]}
+drives: {O: {effort: 0}}
+start: {O: {position: 75 deg, speed: 0}}
+"""
+BALL = """
+gravity: standard
+links: {ground: {points: {O: [0, 0]}}, ball: {points: {B: [0, 0]}, mass: 1}}
+joints:
+  floor: {type: slot, links: [ground, ball], at: [O, B], contact: {pushes: true, restitution: %s}}
+  up: {type: slider, links: [ground, ball], at: [O, B], direction: 90}
+drives: {up: {effort: 0}}
+start: {up: {position: 1.5, speed: 0}}
+"""
+G = 9.80665
+
+
+BOX = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0]}}
+  a: {points: {O: [0, 0]}}
+  b: {points: {O: [0, 0]}}
+  box: {points: {G: [0, 0], A: [-0.3, -0.2], B: [0.3, -0.2], C: [0.3, 0.2], D: [-0.3, 0.2]}, mass: 2, inertia: 0.08}
+joints:
+  x: {type: slider, links: [ground, a], at: O}
+  y: {type: slider, links: [a, b], at: O, direction: 90, angle: -90}
+  t: {type: pin, links: [b, box], at: [O, G]}
+%s
+start: {x: {position: 0, speed: 0.3}, y: {position: %s, speed: 0}, t: {position: %s deg, speed: %s rad/s}}
+"""
+CORNER = (
+    "  {n}: {{type: slot, links: [ground, box], at: [O, {n}], contact: {{pushes: true, restitution: {e}}}}}"
+)
+SLOPE = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0]}}
+  disc: {points: {C: [0, 0]}, mass: 3, inertia: 0.015}
+joints:
+  track: {type: rolling, links: [ground, disc], at: [O, C], radius: 0.1, direction: -30 deg, friction: %s}
+drives: {track: %s}
+"""
+
+
+def signs(s: da.Simulation) -> None:
+    """No contact pulls, none is passed through, and N gap = 0."""
+    for name, force in s.normals.items():
+        gap = s.gaps[name]
+        assert force.min() > -1e-9 * max(force.max(), 1.0)
+        assert gap.min() > -1e-9
+        assert np.abs(force * gap).max() <= 1e-9
+    assert max(s.energy_residual, s.law_residual, s.closure) < 1e-9
+
+
+def at_event(s: da.Simulation, name: str) -> int:
+    return int(np.flatnonzero(s.time == s.event(name)[0].time)[0])
+
+
+def test_a_ladder_leaves_the_wall_at_two_thirds_of_its_height() -> None:
+    start = math.radians(70)
+    s = da.simulate(da.loads(LADDER % (4 * math.cos(start))), "1.1 s")
+    k = at_event(s, "lift-off")
+    assert s.events[0].sentence == "wall lifts off"
+    assert math.sin(s.result.angle("ladder")[k]) == pytest.approx(2 / 3 * math.sin(start), rel=1e-10)
+    after = slice(k, None)
+    assert not s.normals["wall"][after].any()
+    assert not s.result.reaction("wall")[after].any()
+    middle = s.result.point_velocity("ladder", "center")[after, 0]
+    assert middle == pytest.approx(middle[0], rel=1e-10)  # nothing pushes it along the floor any more
+    assert s.result.reaction("floor")[:, 1] == pytest.approx(s.normals["floor"])
+    signs(s)
+
+
+def test_a_disc_rolls_off_a_cylinder() -> None:
+    s = da.simulate(da.loads(DISC), "0.8 s")
+    k = at_event(s, "lift-off")
+    assert math.sin(s.position("O")[k]) == pytest.approx(4 / 7 * math.cos(math.radians(15)), rel=1e-10)
+    assert not s.result.reaction("dome")[k + 1 :].any()
+    assert s.result.speed("disc")[-1] == pytest.approx(s.result.speed("disc")[k], rel=1e-10)
+    signs(s)
+
+
+@pytest.mark.parametrize("e", tiers([0.3], [0.8]))
+def test_a_ball_bounces_to_rest(e: float) -> None:
+    s = da.simulate(da.loads(BALL % e), "10 s", count=21)
+    first = math.sqrt(2 * 1.5 / G)
+    assert s.event("rest")[0].time == pytest.approx(first * (1 + e) / (1 - e), rel=1e-12)
+    assert s.event("landing")[0].sentence.startswith("floor lands with 5.42402 m/s and goes back with ")
+    assert s["normal.floor"][-1] == s.result.reaction("floor")[-1, 1] == pytest.approx(G)
+    signs(s)
+
+
+def box(e: float, height: float, angle: float, spin: float) -> str:
+    return BOX % ("\n".join(CORNER.format(n=n, e=e) for n in "ABCD"), height, angle, spin)
+
+
+@pytest.mark.parametrize("seed", tiers(range(1), range(1, 20), range(20, 200)))
+def test_a_box_falls_on_its_corners(seed: int) -> None:
+    """Bounces on all four corners, and at rest on two: sum of forces m g, no energy gained or lost unaccounted."""
+    drawn = np.random.default_rng(seed)
+    e, angle, spin = drawn.uniform(0, 0.6), drawn.uniform(-180, 180), drawn.uniform(-3, 3)
+    s = da.simulate(da.loads(box(e, 0.6, angle, spin)), "3 s", count=11)
+    assert s.status == "ended"
+    signs(s)
+    assert len(s.event("landing")) > 1
+    weight = sum(s.result.reaction(n)[-1] for n in "ABCD")
+    assert weight == pytest.approx([0.0, 2 * G], abs=1e-9)
+
+
+def test_a_box_that_stands_stays() -> None:
+    s = da.simulate(da.loads(box(0.5, 0.2, 0, 0)), "1 s", count=5)
+    assert [s["normal.A"][-1], s["normal.B"][-1]] == pytest.approx([G, G])
+    assert s.position("x")[-1] == pytest.approx(0.3)
+    assert np.abs(s["gap.C"] - 0.4).max() < 1e-12
+
+
+def test_a_disc_slides_on_a_slope_that_is_too_steep_for_its_friction() -> None:
+    """Rolling needs tan(30 deg)/3; below it slides with mu N, above it rolls with two thirds of g sin(30 deg)."""
+    start = "\nstart: {track: {position: 0, speed: 0}}"
+    for mu, way, spin in (
+        (0.1, G * (0.5 - 0.1 * math.sqrt(0.75)) / 2, -0.1 * 3 * G * math.sqrt(0.75) * 0.1 / 0.015),
+        (0.3, G / 6, -G / 0.3),
+    ):
+        m = da.loads(SLOPE % (f"{{coefficient: {mu}}}", "{effort: 0}") + start)
+        s = da.simulate(m, "1 s", count=5)
+        c = s.result.point("disc", "C")
+        assert math.dist(c[-1], c[0]) == pytest.approx(way, rel=1e-12)
+        assert s.result.speed("disc")[-1] == pytest.approx(spin, rel=1e-12)
+        assert s["normal.track"] == pytest.approx(3 * G * math.sqrt(0.75))
+        signs(s)
+
+
+def test_a_wheel_beyond_its_friction_has_the_status_slips() -> None:
+    limit, drive = math.tan(math.pi / 6) / 3, f"{{position: 0, acceleration: {-G / 0.3} rad/s^2}}"
+    for part, status in ((1 - 1e-6, "slips"), (1 + 1e-6, "ok")):
+        m = da.loads(SLOPE % (f"{{coefficient: 0, static: {limit * part}}}", drive))
+        r = da.dynamics(m)
+        assert r.status == (status,)
+        assert np.isnan(r.effort("track")[0]) == (status == "slips")
+    sentence = str(da.dynamics(da.loads(SLOPE % ("{coefficient: 0.1}", drive))).reasons[0])
+    assert sentence == (
+        "track slips at track = 0 deg: to roll it needs a coefficient of friction of 0.19245 at rest and has 0.1. "
+        "Load it more, or let forces move it (simulate), where it slides."
+    )
+    with pytest.raises(
+        ModelError, match="whether 'track' slips on its track is not checked in compiled analyses"
+    ):
+        da.compile(m, vary=["links.disc.mass"])
+
+
+def test_without_friction_a_wheel_rolls() -> None:
+    """Friction switched off: rolling is ideal, as in every other analysis."""
+    text = SLOPE % ("{coefficient: 0.1}", "{effort: 0}") + "\nstart: {track: {position: 0, speed: 0}}"
+    s = da.simulate(da.loads(text + "\nfriction: {enabled: false}"), "1 s", count=5)
+    assert s.result.speed("disc")[-1] == pytest.approx(-G / 0.3, rel=1e-12)
+    with pytest.raises(
+        ModelError, match="a wheel that is held on its track both ways has no limit of friction"
+    ):
+        da.loads(text.replace("friction: {coe", "contact: holds, friction: {coe"))
+
+
+def test_with_enough_preload_all_is_as_if_the_contact_held() -> None:
+    """A force presses the disc on its cylinder: no contact is lost, and all numbers are those of `holds`."""
+    load = "loads: {F: {type: force, on: disc, at: C, value: [0, -300]}}\n"
+    pushes, holds = (
+        da.simulate(
+            da.loads((DISC + load).replace("[0.4, 0.1]", f"[0.4, 0.1], contact: {mode}")), "0.05 s", count=11
+        )
+        for mode in ("pushes", "holds")
+    )
+    for name in (
+        "drive.O",
+        "effort.O",
+        "reaction.dome",
+        "reaction.O",
+        "reaction.C",
+        "angle.disc",
+        "energy.kinetic",
+    ):
+        assert pushes[name] == pytest.approx(holds[name], rel=1e-9, abs=1e-9)
+    assert pushes.events == ()
+
+
+@pytest.mark.long
+def test_a_mirrored_ladder_does_the_same() -> None:
+    """At x -> -x the wall's contact is on its other side."""
+    start = 4 * math.cos(math.radians(70))
+    one = da.simulate(da.loads(LADDER % start), "1 s", count=11)
+    text = (LADDER % -start).replace("side: right", "side: left").replace("[4, 0]", "[-4, 0]")
+    other = da.simulate(da.loads(text.replace("[2, 0]", "[-2, 0]").replace("110", "-110")), "1 s", count=11)
+    assert other.events[0].time == pytest.approx(one.events[0].time, rel=1e-10)
+    assert other["drive.floor"] == pytest.approx(-one["drive.floor"], rel=1e-8)
+    for name in ("normal.wall", "normal.floor", "gap.wall"):
+        assert other[name] == pytest.approx(one[name], rel=1e-8, abs=1e-9)
+
+
+def test_a_contact_lost_at_the_start_is_said() -> None:
+    fast = DISC.replace("speed: 0}", "speed: 10 rad/s}")
+    with pytest.raises(ModelError) as raised:
+        da.simulate(da.loads(fast), "1 s")
+    force = 3 * (100 * 0.5 - G * math.sin(math.radians(75)))
+    assert f"dome would have to pull with {force:.6g} N at the start: the contact is lost there" in str(
+        raised.value
+    )
+
+
+@pytest.mark.parametrize(
+    ("until", "words"),
+    [
+        ("normal.O = 0", "'normal.O' names no contact that only pushes or pulls; there is only 'dome'"),
+        ("reaction.dom.x = 4", "unknown quantity 'reaction.dom.x'; did you mean 'reaction.dome'"),
+        ("reaction.dome = 3", "reaction.dome is a vector; a condition needs a number; write reaction.dome.x"),
+        ("normal.dome = 3 mm", "'3 mm' is a length, and a force is needed"),
+    ],
+)
+def test_conditions_that_make_no_sense(until: str, words: str) -> None:
+    with pytest.raises(ModelError, match=re.escape(words)):
+        da.simulate(da.loads(DISC), until)
+
+
+def test_conditions_of_quantities() -> None:
+    """m g h of the centre and (m + I/r^2) v^2/2; a reaction's size; the time."""
+    m = da.loads(DISC)
+    s = da.simulate(m, ["0.5 s", "energy.kinetic = 2 J"], events=["time = 0.1 s", "normal.dome = 25 N"])
+    fallen = 0.5 * (math.sin(math.radians(75)) - math.sin(s.position("O")[-1]))
+    assert 3 * G * fallen == pytest.approx(2.0, rel=1e-10)
+    assert [e.sentence for e in s.events] == ["time = 0.1 s", "normal.dome = 25 N", "energy.kinetic = 2 J"]
+    k = int(np.flatnonzero(s.time == s.events[1].time)[0])
+    assert s["normal.dome"][k] == pytest.approx(25, rel=1e-10)

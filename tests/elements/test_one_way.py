@@ -1,0 +1,140 @@
+"""One-way clutches and ratchets: held, freewheeling, refused, in motions under forces, and wrong keys."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.tiers import over
+
+FILE = """units: {length: mm, mass: kg, force: N, moment: N*m, angle: rad}
+links:
+  ground: {points: {O: [0, 0]}}
+  one: {points: {O: [0, 0]}, inertia: 1.5 kg*m^2}
+  two: {points: {O: [0, 0]}, inertia: 0.8 kg*m^2}
+joints:
+  A: {type: pin, links: [ground, one], at: O}
+  B: {type: pin, links: [ground, two], at: O}
+  K: {type: one_way, links: [one, two], at: O, free: ccw}
+drives: {A: {position: 0, speed: 10 rad/s}}
+loads: {T: {type: couple, on: two, value: -120}}
+"""
+BOTH = FILE.replace("10 rad/s}", "10 rad/s}, B: {position: 0, speed: SPEED rad/s}")
+
+
+def test_it_holds_one_way() -> None:
+    m = da.loads(FILE)
+    for method in ("auto", "careful"):
+        r = da.statics(m, method=method)  # type: ignore[arg-type]
+        assert r.status == ("ok",)
+        assert r.effort("A")[0] == pytest.approx(120)
+        assert r.reaction_moment("K")[0] == pytest.approx(120)
+        assert r.speed("two")[0] == pytest.approx(10)
+    lost = da.statics(m.with_values({"loads.T.value": 50}))
+    assert lost.status == ("contact_lost",)
+    assert lost.reasons[0] == (
+        "K would have to hold with 50 N*m in its free sense at A = 0 rad: two runs ahead of one, and the drives do not "
+        "say how fast. Drive both links, or let forces move them (simulate)."
+    )
+    k = da.compile(m, vary=["loads.T.value"], outputs=["effort.A"])
+    assert k([[-7.0], [7.0]]).status[:, 0].tolist() == ["ok", "contact_lost"]
+    assert da.loads(str(m)) == m
+
+
+def test_it_freewheels_where_drives_turn_both_links() -> None:
+    r = da.statics(da.loads(BOTH.replace("SPEED", "14")))
+    assert r.status == ("freewheels",)
+    assert r.reaction_moment("K")[0] == 0
+    assert (r.effort("A")[0], r.effort("B")[0]) == pytest.approx((0, 120))
+    assert r.reasons[0] == (
+        "K freewheels at A = 0 rad and B = 0 rad: two turns ahead of one with 4 rad/s, and the clutch carries no "
+        "couple."
+    )
+    with pytest.raises(da.ModelError) as caught:
+        da.statics(da.loads(BOTH.replace("SPEED", "4"), name="k.yaml"))
+    assert str(caught.value) == (
+        "k.yaml:9: joint 'K' is turned in the sense that it blocks at A = 0 rad and B = 0 rad, with 6 rad/s; "
+        "reverse a drive, or leave one out: then the joint holds"
+    )
+    mirrored = BOTH.replace("free: ccw", "free: cw").replace("SPEED", "4").replace("-120", "120")
+    assert da.statics(da.loads(mirrored)).status == ("freewheels",)
+
+
+def test_rollers_that_do_not_grip_slip() -> None:
+    rollers = "free: ccw, rollers: {count: 6, radius: 40, wedge: 7 deg, coefficient: MU}"
+    at = {
+        mu: da.statics(da.loads(FILE.replace("free: ccw", rollers.replace("MU", mu))))
+        for mu in ("0.0611", "0.0612")
+    }
+    assert [r.status[0] for r in at.values()] == ["slips", "ok"]
+    assert at["0.0611"].reasons[0] == (
+        "The rollers of K do not grip: they need a coefficient of friction of 0.06116, the tangent of half their "
+        "wedge, and have 0.0611. Make the wedge narrower."
+    )
+
+
+def moved(kind: str, seed: int) -> tuple[da.Simulation, Any]:
+    rng = np.random.default_rng(seed)
+    size, pace, start = rng.uniform(6, 14), rng.uniform(1, 4), rng.uniform(5, 20)
+    text = FILE.replace("one_way", kind).replace(
+        "{position: 0, speed: 10 rad/s}", "{motor: {stall: 20 N*m, no_load: 30 rad/s}}"
+    )
+    text = text.replace("}}\nloads", "}, B: {effort: 0}}\nloads").replace(
+        "-120", f'"-3 - {size}*sin({pace}*time)"'
+    )
+    text += f"start: {{A: {{position: 0, speed: 0}}, B: {{position: 0, speed: {start} rad/s}}}}\n"
+    return da.simulate(da.loads(text), until="4 s"), rng
+
+
+@over(quick=2, whole=100)
+def test_in_a_motion_it_pushes_and_never_turns_back(seed: int) -> None:
+    s, _ = moved("one_way", seed)
+    slip, couple = s.speed("B") - s.speed("A"), s.joint_stop_force["K"]
+    small = 1e-8 * float(np.abs(s.speed("B")).max())
+    assert slip.min() > -small
+    assert couple.min() > -1e-9
+    assert np.abs(couple * slip).max() < 1e-6
+    assert s.energy_residual < 1e-8
+    assert s.law_residual < 1e-8
+    torque = 20 * (1 - s.speed("A") / 30) - 1.5 * s.acceleration("A")
+    inner = ~np.isin(s.time, [e.time for e in s.events])
+    assert couple[inner] == pytest.approx(torque[inner], abs=1e-7)
+
+
+@over(quick=1, whole=40)
+def test_a_ratchet_engages_at_its_teeth_with_an_impact(seed: int) -> None:
+    s, _ = moved("ratchet, teeth: 12", seed)
+    pitch = 2 * np.pi / 12
+    for e in s.events:
+        if "strikes" in e.sentence:
+            k = int(np.argmin(np.abs(s.time - e.time)))
+            teeth = (s.position("B") - s.position("A"))[k] / pitch
+            assert teeth == pytest.approx(round(teeth), abs=1e-7)
+            assert e.lost > 0
+    assert s.energy_residual < 1e-8
+    assert s.joint_stop_force["K"].min() > -1e-9
+    least = np.maximum.accumulate(np.floor((s.position("B") - s.position("A")) / pitch + 1e-9)) * pitch
+    assert ((s.position("B") - s.position("A")) - least).min() > -1e-7  # never back behind a tooth
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("free: ccw", "free: left", "free of joint 'K': 'left' is not a valid value; choose among ccw, cw"),
+        (", free: ccw", "", "the key 'free' is missing in joint 'K'"),
+        ("type: one_way", "type: ratchet", "the key 'teeth' is missing in joint 'K'"),
+        (
+            "free: ccw",
+            "free: ccw, rollers: {count: 6}",
+            "the key 'radius' is missing in rollers of joint 'K'",
+        ),
+    ],
+)
+def test_wrong_clutches_are_told(old: str, new: str, says: str) -> None:
+    with pytest.raises(da.ModelError) as caught:
+        da.loads(FILE.replace(old, new), name="k.yaml")
+    assert says in str(caught.value)
+    assert str(caught.value).startswith("k.yaml:9: ")

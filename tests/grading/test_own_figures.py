@@ -1,0 +1,178 @@
+"""Figures right with the student's own earlier ones: slips carried on by hand, sizes, chance, accelerations."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.grading.figure import figure
+from dalembert.grading.marking.key import place
+from dalembert.grading.mistakes import SolvedProblem
+from dalembert.grading.own_figures import OwnFigures, own_figures
+from dalembert.grading.sheet_equations import SheetEquations
+
+AWAY = (0.7, -0.4)
+"""Where the machine stands on the ground."""
+
+
+def machine(**changes: Any) -> Any:
+    m = da.four_bar().with_values({"drives.O2.position": 1.0, "drives.O2.speed": 9.0})
+    for point, (x, y) in m.points("ground").items():
+        m = m.with_values({f"links.ground.points.{point}": (x + AWAY[0], y + AWAY[1])})
+    return m.with_values({"links.coupler.center": (0.09, 0.04), **changes})
+
+
+def given(r: Any, quantity: str, of: str, value: Any, **more: Any) -> Any:
+    said = " rad/s^2" if quantity == "acceleration" else ""
+    shown = [f"{float(x):.5g}" for x in value] if np.ndim(value) else f"{float(value):.5g}{said}"
+    return figure(r, da.Answer(quantity=quantity, of=of, value=shown, **more))
+
+
+def cross(a: Any, b: Any) -> float:
+    return float(a[0] * b[1] - a[1] * b[0])
+
+
+def carried(r: Any, off: Any) -> dict[str, Any]:
+    """The sheet of one who finds the force in A on the crank wrong by ``off`` and carries it on through the crank."""
+    arm = r.position("coupler")[0] - r.position("crank")[0]  # both links begin at their first joints
+    a = r.reaction("A", on="crank")[0] + off
+    return {
+        "A": given(r, "reaction", "A", a, on="crank"),
+        "O2": given(r, "reaction", "O2", r.reaction("O2", on="crank")[0] - off, on="crank"),
+        "T": given(r, "effort", "O2", float(r.effort("O2")[0]) - cross(arm, off)),
+        "B": given(r, "reaction", "B", r.reaction("B")[0]),
+    }
+
+
+def judged(r: Any, sheet: dict[str, Any]) -> tuple[dict[str, str], list[str]]:
+    names = list(sheet)
+    found = own_figures(SheetEquations(r), list(sheet.values()))
+    return {names[n]: how for n, how in found.follows.items()}, [names[n] for n in found.first]
+
+
+@pytest.mark.parametrize("off", [(40.0, -60.0), (-13.0, 2.0), (0.0, 150.0)])
+def test_a_slip_carried_on_is_right_behind_it(off: tuple[float, float]) -> None:
+    r = da.dynamics(machine())
+    follows, first = judged(r, carried(r, np.array(off)))
+    assert first == ["A"]
+    assert follows == {"O2": "sums of forces on crank", "T": "moments about O2 on crank"}
+
+
+def test_what_is_not_carried_on_does_not_follow() -> None:
+    r = da.dynamics(machine())
+    sheet = carried(r, np.array([40.0, -60.0]))
+    sheet["T"] = given(r, "effort", "O2", 1.03 * float(sheet["T"].given.value))
+    follows, _ = judged(r, sheet)
+    assert set(follows) == {"O2"}
+    right = carried(r, np.zeros(2))
+    assert own_figures(SheetEquations(r), list(right.values())) == OwnFigures()
+
+
+@pytest.mark.parametrize(("part", "follows"), [("x", {"O2"}), ("y", {"O2"})])
+def test_components_follow_one_by_one(part: str, follows: set[str]) -> None:
+    r = da.dynamics(machine())
+    sheet = carried(r, np.array([40.0, -60.0]))
+    axis = "xy".index(part)
+    sheet = {
+        "A": given(r, "reaction", "A", sheet["A"].given.value[axis], on="crank", component=part),
+        "O2": given(r, "reaction", "O2", sheet["O2"].given.value[axis], on="crank", component=part),
+    }
+    assert set(judged(r, sheet)[0]) == follows
+
+
+def test_sizes_alone_need_one_violated_equation() -> None:
+    """The sum along x of the coupler 60 N out: only sizes are stated, none but one slip gives them all."""
+    r = da.dynamics(machine())
+    off = np.array([60.0, 0.0])
+    arm = r.position("coupler")[0] - r.position("crank")[0]
+    sizes = {"A": r.reaction("A", on="crank")[0] + off, "O2": r.reaction("O2", on="crank")[0] - off}
+    sheet = {
+        n: given(r, "reaction", n, np.hypot(*v), on="crank", component="magnitude") for n, v in sizes.items()
+    }
+    sheet["T"] = given(r, "effort", "O2", float(r.effort("O2")[0]) - cross(arm, off))
+    sheet["B"] = given(r, "reaction", "B", np.hypot(*r.reaction("B")[0]), component="magnitude")
+    found = own_figures(SheetEquations(r), list(sheet.values()))
+    assert found.slip in ("sum of forces along x on coupler", "sum of forces along x on crank")
+    assert len(found.follows) == 2
+
+
+def test_own_accelerations_move_the_inertia() -> None:
+    r = da.dynamics(machine())
+    m, change = r.mechanism, 400.0
+    share = float(r.speed("rocker")[0] / r.speed("crank")[0])
+    sheet = {
+        "alpha": given(r, "acceleration", "rocker", float(r.acceleration("rocker")[0]) + change),
+        "T": given(r, "effort", "O2", float(r.effort("O2")[0]) + m.inertia("rocker") * change * share),
+    }
+    assert judged(r, sheet) == ({"T": "powers of all links"}, ["alpha"])
+
+
+def test_friction_teeth_and_space_have_own_figures_too() -> None:
+    """The bearing of a crank from a wrong pin force by the sums of the crank."""
+    for name, joint, bearing in (
+        ("engine", "A", "O2"),
+        ("gear_train", "sun_mesh", "sun_bearing"),
+        ("rssr", "A", "O"),
+    ):
+        r = da.solve(da.load(examples()[name]))
+        k = r.mechanism.joints[bearing].links[1] if bearing in r.mechanism.joints else ""
+        if not k or k not in r.mechanism.joints[joint].links:
+            continue
+        off = 0.3 * r.reaction(joint, on=k)[0]
+        sheet = {
+            "pin": given(r, "reaction", joint, r.reaction(joint, on=k)[0] + off, on=k, at=1),
+            "bearing": given(r, "reaction", bearing, r.reaction(bearing, on=k)[0] - off, on=k, at=1),
+        }
+        assert set(judged(r, sheet)[0]) == {"bearing"}, name
+    rough = da.solve(da.load(cases()["seed-002-7g-engine-guide-100-mm"]))
+    force = rough.reaction("A", on="crank")[0]
+    sheet = {
+        "A": given(rough, "reaction", "A", 1.2 * force, on="crank"),
+        "T": given(rough, "effort", "O", 1.2 * float(rough.effort("O")[0])),
+    }
+    assert judged(rough, sheet) == ({"T": "moments about O on crank"}, ["A"])
+
+
+def test_figures_that_are_all_wrong_rarely_follow_by_chance() -> None:
+    """100 sheets of random numbers near the right ones, 5 figures each: at most 2 in 100 figures follow."""
+    r, rng, found = da.dynamics(machine()), np.random.default_rng(5), 0
+    equations = SheetEquations(r)
+    for _ in range(100):
+        sheet = [
+            given(r, "reaction", j, r.reaction(j)[0] * (1 + 0.3 * rng.normal(size=2)))
+            for j in ("A", "B", "O2", "O4")
+        ]
+        sheet.append(given(r, "effort", "O2", float(r.effort("O2")[0]) * (1 + 0.3 * rng.normal())))
+        found += len(own_figures(equations, sheet).follows)
+    assert found <= 10
+
+
+def test_it_is_said_where_to_look_first() -> None:
+    r = da.dynamics(machine())
+    sheet = carried(r, np.array([40.0, -60.0]))
+    verdicts = SolvedProblem(r.mechanism).verdicts([f.answer for f in sheet.values()])
+    assert verdicts[0].kind == "unknown"
+    assert verdicts[0].mistake == ("look here first: right with it are reaction of O2 on crank, effort of O2")
+    assert verdicts[1].mistake == "right with your own figures, by the sums of forces on crank"
+    assert [v.kind for v in verdicts[1:]] == ["follow_through", "follow_through", "right"]
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("3", 3),
+        ("12345678", 12345678),
+        ("123456789", "123456789"),
+        ("60 deg", "60 deg"),
+        ("", ""),
+        (None, None),
+        ("²", "²"),
+    ],
+)
+def test_a_place_is_a_number_or_a_drives_value(text: str | None, found: object) -> None:
+    assert place(text) == found
+    assert type(place(text)) is type(found)

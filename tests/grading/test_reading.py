@@ -1,0 +1,226 @@
+"""What people write is read, what has two readings is listed, and what has none waits for the teacher."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import openpyxl
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.cli import main
+from dalembert.errors import ModelError
+from dalembert.grading.answer_sheet import read_sheet
+from dalembert.grading.marking.figure_names import FigureNames
+from dalembert.grading.written_figure import decimal_comma, read_written
+
+FOUR_BAR = examples()["four_bar"]
+
+WRITTEN: dict[str, list[Any]] = {
+    "41,03": ["41.03"],
+    "41.030": ["41.030"],
+    "1,234": ["1.234", "1234"],
+    "1.234": ["1.234"],
+    "1.234,5": ["1234.5"],
+    "1,234.5": ["1234.5"],
+    "1 234,5 N": ["1234.5 N"],
+    "12.5.3": [],
+    "1,23,456": [],
+    "5 5": [],
+    "1e400": [],
+    "nan": [],
+    "\u0663": [],
+    "=1+1": [],
+    "3 or 4": [],
+    "see page 2": [],
+    "1,2*10^3 N": ["1.2e3 N"],
+    "316.4 @ -163 N": ["316.4 N @ -163"],
+    "344,6 \u2220 -164,8\u00b0": ["344.6 @ -164.8 deg"],
+    "559 N at -60.4\u00b0": ["559 N @ -60.4 deg"],
+    "450.7 / -168.9": ["450.7 @ -168.9"],
+    "155 < 40": ["155 @ 40"],
+    "155 N, angle 220\u00b0": ["155 N @ 220 deg"],
+    "713.3 N, -158.55\u00b0": ["713.3 N @ -158.55 deg"],
+    "155 N @ 0.7 rad": ["155 N @ 0.7 rad"],
+    "-559 @ 119.5": ["559 @ 299.5"],
+    "-559 @ 1 rad": ["559 @ 4.14159265358979 rad"],
+    "155 @ 40 cw": ["155 @ -40"],
+    "1 @ 2 @ 3": [],
+    "11.84 Nm ccw": ["11.84 N*m"],
+    "11.84 N\u00b7m cw": ["-11.84 N*m"],
+    "-44.2 ccw": ["-44.2", "44.2"],
+    "\u221244.2": ["-44.2"],
+    "about 31.48": ["31.48"],
+    "12 lb-in": ["12 lbf*in"],
+    "3 ft lb": ["3 ft*lbf"],
+    "12 apples": [],
+    "[229, -496]": [["229", "-496"]],
+    "229 i - 496 j": [["229", "-496"]],
+    "(229; -496) N": [["229 N", "-496 N"]],
+    "229,5; -496,1": [["229.5", "-496.1"]],
+    "Fx = 229 N, Fy = -496 N": [["229 N", "-496 N"]],
+    "[229,5, 3,5]": [["229.5", "3.5"]],
+    "[1, 2, 3]": [["1", "2", "3"]],
+    "9" * 201: [],
+}
+
+
+@pytest.mark.parametrize("text", WRITTEN)
+def test_a_cell_has_the_readings_that_a_person_would_give_it(text: str) -> None:
+    assert list(read_written(text).readings) == WRITTEN[text]
+
+
+def test_the_table_tells_whether_a_comma_is_a_decimal_mark() -> None:
+    assert read_written("1,234", True).readings == ("1.234",)
+    assert read_written("1.234", True).readings == ("1234", "1.234")
+    assert read_written("1,234", False).readings == ("1234", "1.234")
+    assert decimal_comma(["1,234", "12"]) is None
+    assert decimal_comma(["0,123"]) is True
+
+
+@pytest.mark.parametrize("text", ["-", "", " n/a", "no time", "?", "\u2014"])
+def test_what_says_nothing_is_no_answer(text: str) -> None:
+    assert read_written(text).blank
+
+
+NAMES = FigureNames.of(da.load(FOUR_BAR), ())
+
+
+@pytest.mark.parametrize(
+    ("text", "keys"),
+    [
+        ("F23", {"quantity": "reaction", "of": "A", "on": "coupler"}),
+        ("F_{32} [lbf]", {"quantity": "reaction", "of": "A", "on": "crank"}),
+        ("F23x", {"quantity": "reaction", "of": "A", "on": "coupler", "component": "x"}),
+        ("T12", {"quantity": "effort", "of": "O2"}),
+        ("F13", None),
+        ("Force at A", {"quantity": "reaction", "of": "A"}),
+        ("A magnitude", {"quantity": "reaction", "of": "A", "component": "magnitude"}),
+        ("force in pin b (direction)", {"quantity": "reaction", "of": "B", "component": "direction"}),
+        ("Driving torque (N m)", {"quantity": "effort", "of": "O2"}),
+        ("reaction.A.x", {"quantity": "reaction", "of": "A", "component": "x"}),
+        ("torque at B", None),
+        ("Response 1", None),
+    ],
+)
+def test_figures_are_known_by_the_names_of_sheets(text: str, keys: dict[str, str] | None) -> None:
+    assert NAMES.keys(text) == keys
+
+
+def right() -> tuple[str, float, float]:
+    """Effort of O2 and the force at A on the coupler of the four-bar example, in its units: size, direction."""
+    r = da.dynamics(da.load(FOUR_BAR))
+    x, y = r.reaction("A", on="coupler")[0]
+    size = math.hypot(x, y) / 4.4482216152605
+    return f"{r.effort('O2')[0] / 0.1129848290276167:.5g}", size, math.degrees(math.atan2(y, x))
+
+
+def write_form(path: Path, rows: list[list[str]]) -> Path:
+    book = openpyxl.Workbook()
+    for row in rows:
+        book.active.append(row)
+    book.save(path)
+    return path
+
+
+def test_the_export_of_a_form_is_graded_in_one_command(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    torque, size, angle = right()
+    comma = torque.replace(".", ",")
+    heads = ["Timestamp", "First name", "Surname", "Response 1", "F23 size", "F23 direction"]
+    rows = [
+        heads,
+        [
+            "2026-11-23 10:00",
+            "Ann",
+            "Lee",
+            comma,
+            f"{size:.5g}".replace(".", ","),
+            f"{angle:.5g}".replace(".", ","),
+        ],
+        ["2026-11-23 10:01", "Bo", "Ek", f"about {torque} lbf in ccw", "no time", ""],
+        ["2026-11-23 10:02", "Cy", "Ruiz", "see page 2", f"{size:.5g}", f"{angle:.5g}"],
+    ]
+    form = write_form(tmp_path / "form.xlsx", rows)
+    command = ["grade", str(form), "--key", str(FOUR_BAR)]
+    assert main(command) == 2
+    assert "form.xlsx:1: no figure is known by the heading 'Response 1'" in capsys.readouterr().err
+    meaning = {"Response 1": "effort.O2"}
+    ann, bo, cy = da.grade(form, FOUR_BAR, columns=meaning).students
+    assert [m.outcome for m in ann.marks].count("right") == 2
+    assert [(m.outcome, m.sentence) for m in bo.marks if m.outcome == "right"] == [
+        ("right", "written as about")
+    ]
+    assert cy.waiting == 1
+    assert cy.problems == [f"{form}:4: Response 1: 'see page 2' has no reading: it is read by hand"]
+    decisions = tmp_path / "read.csv"
+    decisions.write_text(f"student,figure,value\nCy Ruiz,Response 1,{torque}\n", encoding="utf-8")
+    assert main([*command, "--columns", "Response 1=effort.O2", "--decide", str(decisions)]) == 0
+    assert "One mistake costs at most" in capsys.readouterr().out
+
+
+def test_two_readings_are_listed_and_the_nearer_counts(tmp_path: Path) -> None:
+    key = [{"quantity": "effort", "of": "O2", "value": 1234, "unit": "N*m"}]
+    table = tmp_path / "class.csv"
+    table.write_text('student,effort.O2\nAnn,"1,234"\nBo,T12 = 1234\nCy,M = 1234\n', encoding="utf-8")
+    ann, bo, cy = da.grade(table, key).students
+    assert (ann.total, ann.waiting) == (1.0, 0)
+    assert ann.problems == [
+        f"{table}:2: effort.O2: '1,234' may be 1.234 or 1234: 1234, the nearer to the key, counts"
+    ]
+    assert (bo.waiting, bo.problems) == (
+        1,
+        [f"{table}:3: effort.O2: 'T12 = 1234' names T12: it is read by hand"],
+    )
+    assert cy.total == 1.0
+
+
+def test_a_whole_class_of_zeros_is_refused(tmp_path: Path) -> None:
+    key = [{"quantity": "effort", "of": "O2", "value": 1234, "unit": "N*m"}]
+    table = tmp_path / "class.csv"
+    table.write_text("student,effort.O2\nAnn,17\nBo,19\nCy,23\n", encoding="utf-8")
+    with pytest.raises(ModelError, match="not one of 3 figures of 3 students is right; check that the key"):
+        da.grade(table, key)
+    table.write_text("student,effort.O2\nAnn,17\nBo,19\n", encoding="utf-8")
+    assert [s.total for s in da.grade(table, key).students] == [0, 0]
+
+
+def test_the_figures_of_a_neighbour_are_noticed(tmp_path: Path) -> None:
+    key = [
+        {"variant": v, "quantity": q, "of": "O2", "value": n, "unit": u}
+        for v, t, p in (("1", 12, 5), ("2", 31, 8))
+        for q, n, u in (("effort", t, "N*m"), ("drive", p, "rad"))
+    ]
+    table = tmp_path / "class.csv"
+    table.write_text("student,variant,effort.O2,drive.O2\nAnn,1,31,8\nBo,1,31,5\n", encoding="utf-8")
+    ann, bo = da.grade(table, key).students
+    assert ann.problems == [f"{table}:2: the figures are those of variant 2"]
+    assert bo.problems == []
+
+
+def test_a_sheet_for_check_answers_may_have_decimal_commas() -> None:
+    (answer,) = read_sheet({"efforts": {"O2": "243,2 lbf in"}}).answers
+    assert answer.value == "243.2 lbf*in"
+    with pytest.raises(ModelError, match=r"'1,234' may be 1\.234 or 1234; write one of them"):
+        read_sheet({"efforts": {"O2": "1,234"}})
+
+
+def test_one_mistake_costs_at_most_half_a_sheet(tmp_path: Path) -> None:
+    """The static answer to a dynamic problem: half of every figure."""
+    m = da.load(cases()["4b-01-norton-11-3-rounded-masses"])
+    r = da.dynamics(m)
+    joints = list(r.joints)
+    wrong = da.statics(m)
+    rows = ["variant,file,quantity,of", *(f"1,m.yaml,reaction,{j}" for j in joints)]
+    m.save(tmp_path / "m.yaml")
+    (tmp_path / "key.csv").write_text("\n".join(rows), encoding="utf-8")
+    cells = [f"[{x:.6g} N; {y:.6g} N]" for j in joints for x, y in wrong.reaction(j)[:1]]
+    table = tmp_path / "class.csv"
+    table.write_text(",".join(["student", *joints]) + "\nAnn," + ",".join(cells) + "\n", encoding="utf-8")
+    (ann,) = da.grade(table, tmp_path / "key.csv").students
+    assert {m.outcome for m in ann.marks} <= {"concept", "right"}
+    assert ann.total == ann.most / 2
