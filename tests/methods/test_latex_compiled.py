@@ -13,6 +13,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.exams.question_sheet import question_sheet
 from dalembert.reports import Report
+from dalembert.reports.sheet import Beside
 from tests.methods.test_latex import SIGNS, named
 from tests.tiers import tiers
 
@@ -38,7 +39,7 @@ def compiled(report: Report, folder: Path) -> str:
 def test_reports_with_their_drawings_compile_and_fit_the_page(name: str, tmp_path: Path) -> None:
     report = da.report(da.solve(da.load((examples() | cases())[name])))
     said = compiled(report, tmp_path)
-    pictures = sum(len(getattr(b, "scenes", ())) for b in report.sheet.blocks)
+    pictures = sum(len(getattr(b, "scenes", ())) + isinstance(b, Beside) for b in report.sheet.blocks)
     assert (tmp_path / "report.tex").read_text(encoding="utf-8").count(r"\begin{tikzpicture}") == pictures > 0
     too_wide = [float(x) for x in re.findall(r"Overfull \\hbox \(([\d.]+)pt too wide\)", said)]
     assert max(too_wide, default=0.0) < 10.0
