@@ -19,6 +19,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import examples
 from dalembert.pages.html_page import html_text
+from dalembert.pages.inputs import floats
 from dalembert.pages.page_data import page_data
 from tests.methods.test_drawn_alike import Seen, plane_machine
 from tests.methods.test_drawn_numbers import alike
@@ -57,7 +58,7 @@ def short(value: Any) -> str | None:
     if isinstance(value, (bool, int, float)) or value is None:
         return f"{value:.6g}" if isinstance(value, float) else str(value)
     if isinstance(value, str):
-        return summary(decoded(value)) if len(value) > 60 and decoded(value) is not None else repr(value)
+        return repr(value) if len(value) < 40 or decoded(value) is None else summary(decoded(value))
     if isinstance(value, list) and all(isinstance(x, (int, float)) for x in value):
         return f"[{' '.join(f'{x + 0.0:.6g}' for x in value)}]" if len(value) <= LONG else summary(value)
     if isinstance(value, list) and all(isinstance(x, str) for x in value) and len(" ".join(value)) < 200:
@@ -71,6 +72,15 @@ def decoded(text: str) -> Any:
         return np.frombuffer(base64.b64decode(text, validate=True), "<f8")
     except (ValueError, binascii.Error):
         return None
+
+
+def written_out(value: Any) -> Any:
+    """Data with evenly spaced series as the others are: which of the two a channel of mere rounding is, is chance."""
+    if isinstance(value, dict):
+        if value.keys() == {"from", "to", "count"} and isinstance(value["count"], int):
+            return floats(np.linspace(value["from"], value["to"], value["count"]))
+        return {key: written_out(inner) for key, inner in value.items()}
+    return [written_out(inner) for inner in value] if isinstance(value, list) else value
 
 
 def summary(values: Any) -> str:
@@ -87,7 +97,7 @@ def checked() -> dict[str, list[str]]:
 
 @pytest.mark.parametrize("name", ["arm", "rssr"])
 def test_a_page_is_told_what_it_was(name: str) -> None:
-    told = list(lines(page_data(machines()[name])))
+    told = list(lines(written_out(page_data(machines()[name]))))
     for now, before in zip(told, checked()[name], strict=False):
         assert alike(now, before, 1e-8), f"{name}: '{now}', and before '{before}'"
     assert len(told) == len(checked()[name])
@@ -104,5 +114,5 @@ def test_a_page_is_written_whole_and_not_over_another(tmp_path: Path) -> None:
 
 
 if __name__ == "__main__":
-    each = ["\n".join([name, *lines(page_data(m))]) for name, m in machines().items()]
+    each = ["\n".join([name, *lines(written_out(page_data(m)))]) for name, m in machines().items()]
     CHECKED.write_text("\n\n".join(each) + "\n", encoding="utf-8")

@@ -126,7 +126,8 @@ def _turning(
     turns = np.arange(24) * math.pi / 12
     lines = np.array([math.atan2(e[1], e[0]) + side for e in directions for side in (0.0, math.pi)])
     off = np.abs((turns[:, None] - lines + math.pi) % (2 * math.pi) - math.pi).min(axis=1)
-    free, half = float(turns[int(off.argmax())]), math.copysign(math.radians(28), sense)
+    widest = int(np.argmax(off >= off.max() - 1e-6))  # the first of equal gaps, whatever their rounding
+    free, half = float(turns[widest]), math.copysign(math.radians(28), sense)
     arc = Arc((0.0, 0.0), WINDOW - 2.5, free - half, free + half, "velocity", True, joint)
     canvas.add(arc)
     words = f"ω_{{{shown.link(on)}/{shown.link(i if on == j else j)}}}"

@@ -76,7 +76,7 @@ def _at(camera: Camera, points: Array) -> tuple[Point, ...]:
 
 def _cuts(a: Array, b: Array, uncut: bool = False) -> Array:
     """Points (n + 1, 3) that cut a straight line into short pieces."""
-    count = 1 if uncut else max(1, math.ceil(float(np.linalg.norm(b - a)) / LONGEST))
+    count = 1 if uncut else max(1, math.ceil(float(np.linalg.norm(b - a)) / LONGEST - 1e-6))
     return np.asarray(a + np.linspace(0.0, 1.0, count + 1)[:, None] * (b - a))
 
 
@@ -233,8 +233,10 @@ Rim = tuple[bool, bool, bool]
 def _cells(corners: Corners, rim: Rim) -> Iterator[tuple[Corners, Rim]]:
     """Pieces of a triangle, at most three times as long as usual, and the sides of each that are on the rim."""
     lengths = [float(np.linalg.norm(corners[(k + 1) % 3] - corners[k])) for k in range(3)]
-    k = int(np.argmax(lengths))
-    if lengths[k] <= 3 * LONGEST:
+    k = int(
+        np.argmax(np.array(lengths) >= max(lengths) - 1e-6)
+    )  # the first of equal ones, whatever their rounding
+    if lengths[k] <= 3 * LONGEST + 1e-6:
         yield corners, rim
         return
     a, b, c = corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]
