@@ -1,4 +1,4 @@
-"""What every answer can do: be printed, shown in a notebook, and written in every format that makes sense for it.
+"""Common abilities of every answer: printed, shown in a notebook, written in every format that makes sense for it.
 
 A class gives columns, a record, contents to read and, where it has them, drawings and a worked solution; the methods
 here, given once, make everything else of these.

@@ -1,4 +1,4 @@
-"""What explains the wrong figures of a sheet, said only where chance does not explain them as well.
+"""Explanation of the wrong figures of a sheet, given only where chance does not explain them as well.
 
 A mistake in the problem (a load, a mass, a length) moves many figures at once, and none that is right. A slip in one
 value (sense, axis, unit, another joint) is of one figure. So many mistakes are tried that some come near any number:
@@ -100,7 +100,7 @@ def explain(
 
 
 def density(d: float) -> float:
-    """How likely a wrong number lies a relative distance d from the right one, for a unit of distance: small slips
+    """Probability density of a wrong number at a relative distance d from the right one, per unit of distance: small slips
     are more frequent.
 
     >>> density(0.0) > density(0.3) > density(3.0)

@@ -107,7 +107,7 @@ class SolvedProblem:
         return figure(r, answer, tolerance)
 
     def own_figures(self, figures: Sequence[StudentValue]) -> OwnFigures:
-        """Which wrong figures are right with the student's own others, position by position."""
+        """Wrong figures that are right with the student's other figures, position by position."""
         out = OwnFigures()
         if self.result.schedule.unknown is not None:
             return out

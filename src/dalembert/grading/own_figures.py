@@ -128,7 +128,7 @@ class OwnSheet:
             yield row, row.parts[of[0]], b, wrong
 
     def _others(self, row: SheetRow, target: int, own: dict[int, OwnNumbers]) -> tuple[float, bool] | None:
-        """What the other forces on the sheet leave for the target; None where one of them is not there."""
+        """Remainder of the other forces on the sheet for the target; None where one of them is missing."""
         b, wrong = -row.known, False
         for k, c in row.parts.items():
             if k == target:
@@ -141,7 +141,7 @@ class OwnSheet:
         return b, wrong
 
     def _way(self, n: int, taken: Sequence[int]) -> str:
-        """How a figure follows from some others, at least one of them wrong; empty if it does not."""
+        """Equation by which a figure follows from some others, at least one of them wrong; empty if it does not."""
         of, f = self.q.of(self.figures[n]), self.figures[n]
         if of is None:
             return ""
@@ -239,7 +239,7 @@ class OwnSheet:
 
 
 def own_figures(equations: SheetEquations, figures: Sequence[StudentValue]) -> OwnFigures:
-    """Which wrong figures of a sheet are right with the student's own others; figures of one position."""
+    """Wrong figures of a sheet that are right with the student's other figures; figures of one position."""
     judged = [n for n, f in enumerate(figures) if f.judged]
     wrong = [k for k, n in enumerate(judged) if not figures[n].met]
     if len(judged) < 2 or not wrong:

@@ -35,7 +35,7 @@ class SheetRow(NamedTuple):
 
 
 class OwnNumbers(NamedTuple):
-    """What a sheet says of an unknown: numbers, the projector on what is known, and the figures that it is from."""
+    """Numbers of a sheet about an unknown, the projector on what is known, and the figures they come from."""
 
     value: Array
     through: Array
@@ -118,7 +118,7 @@ class SheetEquations:
         return n, rows, np.atleast_1d(np.asarray(f.given.value, float))
 
     def stated(self, figures: Sequence[StudentValue], which: Sequence[int]) -> dict[int, OwnNumbers]:
-        """What some figures say of the unknowns."""
+        """Statements of some figures about the unknowns."""
         lots: dict[int, list[tuple[int, Array, Array]]] = {}
         for k in which:
             if (found := self.linear(figures[k])) is not None:

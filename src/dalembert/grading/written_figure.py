@@ -43,7 +43,7 @@ _SINGLE = re.compile(rf"(?P<size>{NUMBER})(?P<unit>.*)")
 
 
 class WrittenFigure(NamedTuple):
-    """What a cell says: its readings (none of a blank one), the name that it puts before the value, and notes."""
+    """Content of a cell: its readings (none of a blank one), the name that it puts before the value, and notes."""
 
     readings: tuple[object, ...]
     name: str = ""
@@ -52,7 +52,7 @@ class WrittenFigure(NamedTuple):
 
 
 def decimal_comma(cells: Iterable[object]) -> bool | None:
-    """Whether the cells of a table have a decimal comma, by those that can be read in one way only; None if none tells.
+    """True if the cells of a table have a decimal comma, by those with one reading only; None if no cell decides.
 
     >>> decimal_comma(["41,03", "344,6 @ -164,8"]), decimal_comma(["41.03", "1,234"]), decimal_comma(["12"])
     (True, False, None)

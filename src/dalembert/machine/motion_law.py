@@ -46,7 +46,7 @@ class MotionLaw(Labelled):
 
     @property
     def times(self) -> Array:
-        """Where pieces of the curve join (N + 1,)."""
+        """Joints between pieces of the curve (N + 1,)."""
         return self.curve.times
 
     @property

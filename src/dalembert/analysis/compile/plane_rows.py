@@ -142,7 +142,7 @@ class CapturedRows:
 def _add_all_constraints(
     rows: RowBuilder, index: int, joint: Joint, ends: tuple[int, int], ui: Array, uj: Array
 ) -> None:
-    """What its freedoms leave over, or those of a higher pair."""
+    """Constraints that its freedoms leave over, or those of a higher pair."""
     higher = HIGHER.get(joint.type)
     if higher is not None:
         higher(rows, index, joint, ends, ui, uj)

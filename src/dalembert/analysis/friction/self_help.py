@@ -1,4 +1,4 @@
-"""How far friction helps a contact that causes it: its force over that without friction, and where it grabs.
+"""Factor by which friction helps a contact that causes it: its force over that without friction, and where it grabs.
 
 Mechanics: docs/theory.md 6.4.
 """
@@ -36,7 +36,7 @@ NEVER = 1e-9
 
 @kept
 def _problem(r: Result) -> ContactResponse:
-    """What the contacts read without friction, and its change with it, at the present loads."""
+    """Contact forces without friction, and their change with it, at the present loads."""
     c, s = r.compiled, state(r)
     assert c.contacts is not None
     pose = full_pose(r)

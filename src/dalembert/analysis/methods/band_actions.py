@@ -1,4 +1,4 @@
-"""What a band does to its drum and to the ground: other than to its lever, since an end may be on the ground.
+"""Forces of a band on its drum and on the ground, beside those on its lever, since an end may be on the ground.
 
 Mechanics: docs/theory.md 6.4.
 """

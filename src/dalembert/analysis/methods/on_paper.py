@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 class OnPaper:
-    """What is solved by hand of a result."""
+    """The part of a result that is solved by hand."""
 
     def steps(
         self,

@@ -50,17 +50,17 @@ class PowerFlow(Labelled, Drawn):
 
     @property
     def input(self) -> Array:
-        """What is put in (P,), W."""
+        """Power put in (P,), W."""
         return _sum([np.maximum(p, 0.0) for p in self.sources.values()], self.result)
 
     @property
     def output(self) -> Array:
-        """What is taken out (P,), W."""
+        """Power taken out (P,), W."""
         return _sum([np.maximum(-p, 0.0) for p in self.sources.values()], self.result)
 
     @property
     def lost(self) -> Array:
-        """What the joints lose (P,), W."""
+        """Power lost at the joints (P,), W."""
         return _sum([p[:, 0] - p[:, 1] for p in self.through.values()], self.result)
 
     @property

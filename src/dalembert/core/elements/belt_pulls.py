@@ -25,7 +25,7 @@ from dalembert.core.layout import BeltMesh, Layout, Pose
 
 @dataclass(frozen=True)
 class BeltPulls:
-    """What gives the sum of each belt's tensions (k,), in the order of their rows.
+    """Sources of the sum of each belt's tensions (k,), in the order of their rows.
 
     constant: N at rest and without torque; share: -1, 0 or 1 of |t|; mass: per length, counted in N; carried: per
     length, of the belt itself; gripped, grip: whether friction holds it, and the coefficient of a flat wheel.

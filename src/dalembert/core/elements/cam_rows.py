@@ -172,7 +172,7 @@ def couple_on_i(t: Touch) -> Array:
 
 
 def contact_place(g: Algebra, f: CamRow, pose: Pose) -> Array:
-    """Where a face touches the cam (..., k), from j's point along the normal turned clockwise; 0 of points."""
+    """Point at which a face touches the cam (..., k), from j's point along the normal turned clockwise; 0 of points."""
     out = np.zeros((*pose.point.shape[:-2], len(f.i)), pose.point.dtype)
     for part, which in _each(f):
         if is_flat(part):

@@ -28,7 +28,7 @@ def friction_arrays(
     state: SlipState,
     cz: Array,
 ) -> dict[str, Array]:
-    """What friction of efforts c z (..., E) does, by the names of ``analysis.result.force_arrays.Friction``; numbers
+    """Effects of friction of efforts c z (..., E), by the names of ``analysis.result.force_arrays.Friction``; numbers
     or nodes."""
     dry = np.where(contacts.fixed, 0.0, cz)
     force, moment = dry_wrenches(layout, contacts, pose, along, dry)

@@ -1,4 +1,4 @@
-"""What the columns of a class's table are: the student, the variant, a figure, or nothing that counts.
+"""Meaning of the columns of a class's table: the student, the variant, a figure, or nothing that counts.
 
 Figures are named as on the sheets: `effort.O2`, `F23` (the force of link 2 on link 3), `T12`, `Force at A`.
 """
@@ -159,7 +159,7 @@ class TableColumns:
 
 
 def columns_of(heads: Iterable[str], names: FigureNames, given: Mapping[str, str]) -> TableColumns:
-    """What each column of a table with a row a student is; ``given`` maps headings to names of figures, to `student`,
+    """Meaning of each column of a table with a row a student; ``given`` maps headings to figures, `student`,
     `variant` or `-`. Raises ModelError where a heading says nothing, or no column is a figure."""
     heads = list(heads)
     for head in given:

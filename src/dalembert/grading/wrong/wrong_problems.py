@@ -62,7 +62,7 @@ class WrongProblem(NamedTuple):
 
     @property
     def weight(self) -> str:
-        """How much of the problem the mistake concerns."""
+        """Extent of the mistake in the problem."""
         return "concept" if any(words in self.sentence for words in CONCEPTS) else "datum"
 
 

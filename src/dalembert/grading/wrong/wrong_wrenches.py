@@ -57,7 +57,7 @@ def wrench_changes(r: Result) -> Iterator[WrenchChange]:
 
 
 def _times(some: Sequence[Action], factor: float) -> tuple[Action, ...]:
-    """What a factor adds to some actions."""
+    """Change of some actions by a factor."""
     return tuple(replace(a, force=a.force * (factor - 1), couple=a.couple * (factor - 1)) for a in some)
 
 

@@ -1,4 +1,4 @@
-"""What a cylinder needs along a result: pressures, flows, power, and the safety of its column.
+"""Demands on a cylinder along a result: pressures, flows, power, and the safety of its column.
 
 Mechanics: docs/theory.md 10.11.
 """

@@ -61,7 +61,7 @@ def _softest(need: Array, lift: Array, high: float) -> tuple[float, float]:
 
 
 def _linear(c: CamDesign, least: float) -> tuple[Array, Array, Array]:
-    """What is missing to ``least`` without a spring (P,), what a unit of its force adds (P,), and its travel (P,)."""
+    """Force missing to ``least`` without a spring (P,), share of a unit of its force (P,), and its travel (P,)."""
     from dalembert.analysis.methods.cam_contacts import normal_force
     from dalembert.analysis.solution import dynamics
 

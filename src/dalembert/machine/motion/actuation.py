@@ -133,7 +133,7 @@ class Actuation:
         return rotor
 
     def shaft(self, k: int, u: Array, a: Array) -> float:
-        """What the shaft of a motor gives to its gear, times the ratio: n (T - J n a)."""
+        """Torque of a motor's shaft on its gear, times the ratio: n (T - J n a)."""
         gear, on = self.gears[k], self.on[k]
         return float((self.motors[k].at(u[k]) if on else 0.0) - gear.inertia * gear.ratio**2 * a[k])
 

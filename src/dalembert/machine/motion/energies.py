@@ -80,7 +80,7 @@ def gas_energy(s: Springs, length: Array) -> Array:
 
 
 class MotionChecks:
-    """What a motion is checked by: from ``free_result``, in which the gaps of contacts are freedoms of their own, the
+    """Checks of a motion: from ``free_result``, in which the gaps of contacts are freedoms of their own, the
     ``efforts`` (T, D) in the freedom of each drive and gap, and the works."""
 
     works: Mapping[str, Array]

@@ -270,7 +270,7 @@ def _motion(
 
 
 def _bends(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
-    """How far springs and dampers are from the bends of their tables."""
+    """Distances of springs and dampers from the bends of their tables."""
     springs = traced.forcing.springs
     if not springs.slopes.any():
         return []

@@ -1,4 +1,4 @@
-"""What a motor behind a gear does along a motion under forces.
+"""Torque, speed and loss of a motor behind a gear along a motion under forces.
 
 Mechanics: docs/theory.md 10.6.
 """

@@ -1,4 +1,4 @@
-"""What a plane that turns asks of a description: gravity along its axis, a given effort where its speed is unknown."""
+"""Requirements of a turning plane: gravity along its axis, a given effort where its speed is unknown."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def refuse_unsteady(m: Mechanism) -> None:
 
 
 def turning_problems(m: Mechanism) -> Iterator[ModelError]:
-    """What does not go with a frame that turns."""
+    """Parts of a description that a frame that turns excludes."""
     if m.turning is None:
         return
     if m.dimension == 3:

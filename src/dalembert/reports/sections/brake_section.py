@@ -31,7 +31,7 @@ def brakes(sheet: ReportSheet, c: ReportContext) -> None:
 
 
 def _shown(c: ReportContext, name: str, found: Any) -> tuple[str, list[Working]]:
-    """What is said of a brake, and its equations."""
+    """Sentences on a brake, and its equations."""
     shown, k = c.shown, c.k
     mu, force = c.notation.given(found.coefficient), shown.number("force", float(found.force[k]))
     torque = figure(shown, "moment", float(found.torque[k]) * c.notation.torque)  # its size

@@ -83,7 +83,7 @@ def pin_lines(c: ReportContext, joint: str) -> list[Working]:
 
 
 def _sense(c: ReportContext, joint: str) -> str:
-    """Which way a link turns on the other, and so which way friction turns it."""
+    """Sense in which a link turns on the other, and so in which friction turns it."""
     r, k = c.r, c.k
     i, j = r.mechanism.joints[joint].links
     on, other = (i, j) if j == GROUND else (j, i)

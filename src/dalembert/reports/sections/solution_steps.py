@@ -263,7 +263,7 @@ class StepWriter:
     # terms
 
     def _term(self, t: StepTerm, s: SolvedStep) -> Iterator[_Written]:
-        """What a term brings to an equation: its force with its arm or component, and its couple."""
+        """Contribution of a term to an equation: its force with its arm or component, and its couple."""
         q, d = s.equation, self.e.d
         if t.sought:
             yield self._unknown(t, s)

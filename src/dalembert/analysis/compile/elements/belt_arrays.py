@@ -25,7 +25,7 @@ def belts_of(m: Mechanism) -> dict[str, Belt]:
 
 
 def belt_pulls(m: Mechanism) -> BeltPulls | None:
-    """What gives the sum of each belt's tensions; None without belts."""
+    """Sources of the sum of each belt's tensions; None without belts."""
     entries: list[tuple[Numeric, ...]] = []
     for belt in belts_of(m).values():
         key, value = belt.stated_tension

@@ -41,7 +41,7 @@ class BrakePlace(NamedTuple):
 
 
 class Seat(NamedTuple):
-    """Where a brake is closed: the drum's axis, and points of j, in the axes of the link that both are pinned to."""
+    """Closed position of a brake: the drum's axis, and points of j, in the axes of the link that both are pinned to."""
 
     carrier: str
     axis: Array

@@ -1,4 +1,4 @@
-"""What a result says of a one-way clutch or a ratchet: its couple, and the forces at its rollers or its pawl.
+"""Couple of a one-way clutch or a ratchet, and the forces at its rollers or its pawl.
 
 Mechanics: docs/theory.md 10.13.
 """

@@ -1,4 +1,4 @@
-"""What a result says of its machine elements by name: contacts, belts, ropes, brakes, cylinders, screws."""
+"""Answers about the machine elements of a result by name: contacts, belts, ropes, brakes, cylinders, screws."""
 
 from __future__ import annotations
 

@@ -164,7 +164,7 @@ class _Carrier:
         )
 
     def _known_part(self, q: PaperEquation, columns: list[Array]) -> float:
-        """What the numbers found so far bring to an equation."""
+        """Contribution of the numbers known so far to an equation."""
         return sum(
             float(q.twist @ columns[n] @ f.vector) * f.value
             for n, some in enumerate(self.found)

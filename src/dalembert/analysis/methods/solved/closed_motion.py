@@ -64,7 +64,7 @@ class ClosedMotion(RelativeRates):
     # what is known
 
     def place(self, joint: str, link: str) -> Array:
-        """Where a joint's point of a link is."""
+        """Position of a joint's point of a link."""
         ends, points = self.m.joints[joint].links, self.m.joint_points(joint)
         return np.asarray(link_place(self.r, link, points[ends.index(link)])[self.k])
 

@@ -60,7 +60,7 @@ class PaperSolution(Worked):
             yield Column(f"moment{name}", "moment", np.where(turning, values, np.nan))
 
     def record(self, to: Scale) -> Tree:
-        """Whether each number has an equation of its own, and what equilibrium leaves open."""
+        """True if each number has an equation with no other unknown; and what equilibrium leaves open."""
         return {"single_unknowns": self.forces.single, "open": [u.name for u in self.forces.open]}
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[str]:

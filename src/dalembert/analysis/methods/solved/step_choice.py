@@ -1,4 +1,4 @@
-"""What the reader chooses of the steps: the link to begin with, the point of moments, the axes of the sums."""
+"""Choices of the reader for the steps: the link to begin with, the point of moments, the axes of the sums."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ ROUNDING = 1e-9
 
 @dataclass
 class UnknownForce:
-    """What is sought of a joint, a drive or a load: c numbers, the last of its links being the one they act on.
+    """Unknowns of a joint, a drive or a load: c numbers, the last of its links being the one they act on.
 
     ``columns`` (L, n, c): the wrench of one of each on every link; ``force`` (d, c): on the last link; ``at``: where;
     ``value`` (c,): the answer's. ``turned``: why its line of action is not that of the frictionless joint.
@@ -183,7 +183,7 @@ class ForceEquations:
 
     @property
     def gap(self) -> float:
-        """What the answer leaves of the equations, over its largest force."""
+        """Residual of the equations with the answer's numbers, over its largest force."""
         left = self.wrenches + sum((u.columns @ u.value for u in self.unknowns), np.zeros_like(self.wrenches))
         return float(np.abs(left * self.scale).max(initial=0.0)) / (self.largest_force or 1.0)
 
@@ -202,7 +202,7 @@ class ForceEquations:
             level = {some | {b} for some in level for a in some for b in near[a] - some}
 
     def place_of(self, name: str) -> Array:
-        """Where the force of a joint acts."""
+        """Point at which the force of a joint acts."""
         return next(u.at for u in self.unknowns if u.kind == "joint" and u.name == name)
 
 

@@ -60,7 +60,7 @@ def _finite(value: float) -> str:
 
 
 def _verdicts(b: Brake, to: Printed) -> Iterator[str]:
-    """What a textbook says of it."""
+    """A textbook's figures for it."""
     helped = float(b.self_energising[0])
     if abs(helped - 1) > LEAST:
         yield (

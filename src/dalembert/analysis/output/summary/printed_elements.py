@@ -27,7 +27,7 @@ COLUMN = (
 
 
 def element_parts(result: Result, to: Printed) -> Iterator[Part]:
-    """What the machine elements of a result need, after its reactions."""
+    """Tables of the machine elements of a result, after its reactions."""
     yield from _screw_parts(result, to)
     known = [result.cylinder(name) for name in cylinders(result.mechanism)]
     known = [c for c in known if np.isfinite(c.force).any()]

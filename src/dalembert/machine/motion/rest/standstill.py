@@ -172,7 +172,7 @@ class ContactState:
         return (ends[0] + ends[1]) / 2, abs(ends[1] - ends[0]) / 2 + float(acting.brake[k])
 
     def gear_guards(self, t: float, y: Array) -> list[Guard]:
-        """What motors' shafts give to their gears, on its present side; where that passes 0, their law has a corner."""
+        """Torque of motors' shafts on their gears, on its present side; where that passes 0, their law has a corner."""
 
         def shaft(k: int) -> Value:
             return lambda t, y: self.acting.shaft(k, y[self.d : 2 * self.d], self.at(t, y)[0])

@@ -19,7 +19,7 @@ from dalembert.model import Mechanism
 from dalembert.model.drives.end_stops import Stops
 
 ENDS = {"gap_behind": " at its rear end", "gap_ahead": " at its front end"}
-"""What is said of a guide's ends."""
+"""Words for a guide's ends."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class GapContact:
 
     @property
     def where(self) -> str:
-        """Which end of a guide it is, in a sentence."""
+        """Name of the end of a guide, in a sentence."""
         return ENDS.get(self.freedom, "")
 
     @property
@@ -79,5 +79,5 @@ def contact_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
 
 
 def added_drives(contacts: Sequence[GapContact]) -> int:
-    """How many drives the gaps and slips of contacts are, behind those of the description."""
+    """Number of drives that gaps and slips of contacts are, behind those of the description."""
     return sum(1 + (c.slip >= 0) for c in contacts if c.drive >= 0 and c.freedom != "slide")

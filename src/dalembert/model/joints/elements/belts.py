@@ -81,7 +81,7 @@ class Belt(JointPart):
 
     @property
     def stated_tension(self) -> tuple[str, float]:
-        """Which of the four tensions is given, and its value."""
+        """Name of the one of four tensions that is given, and its value."""
         name = next((t for t in TENSIONS if getattr(self, t) is not None), "slack")
         return name, getattr(self, name) or 0.0
 

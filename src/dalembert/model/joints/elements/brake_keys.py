@@ -101,7 +101,7 @@ class Capacity(ValueField):
 
 
 class Heat(Part):
-    """What a stop warms."""
+    """Mass that a stop warms."""
 
     mass: Annotated[float, Scalar("mass", "positive")] = Field(description="that takes up the heat, a mass")
     capacity: Annotated[float, Capacity()] = Field(description="heat a mass and kelvin, J/(kg*K)")

@@ -321,7 +321,7 @@ class CamProfile(Part):
 
     @property
     def form(self) -> str:
-        """Which of the forms it has."""
+        """The form that it has."""
         return next(name for name in FORMS if getattr(self, name) is not None)
 
     @model_validator(mode="after")
@@ -379,7 +379,7 @@ class FollowerValue(ValueField):
 
 @dataclass(frozen=True)
 class FollowerShape:
-    """What touches the cam: a knife edge, a flat face or a roller, with its radius."""
+    """Follower that touches the cam: a knife edge, a flat face or a roller, with its radius."""
 
     kind: str
     roller: float = 0.0

@@ -111,7 +111,7 @@ class ReleasedOneWay(OneWay):
 
     @property
     def stops(self) -> Stops:
-        """Where it holds in a motion under forces, which moves on with it."""
+        """Place at which it holds in a motion under forces, which moves on with it."""
         return Stops(kind="angle")
 
 
@@ -123,7 +123,7 @@ class ReleasedRatchet(Ratchet):
 
     @property
     def stops(self) -> Stops:
-        """Where it holds in a motion under forces: at its last tooth."""
+        """Place at which it holds in a motion under forces: its last tooth."""
         return Stops(kind="angle")
 
 

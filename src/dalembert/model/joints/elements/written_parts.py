@@ -1,4 +1,4 @@
-"""What a mechanism keeps of its description where parts of it stand for others: ropes for strands and pulleys."""
+"""Parts of its description that a mechanism keeps where parts of it stand for others: ropes for strands and pulleys."""
 
 from __future__ import annotations
 

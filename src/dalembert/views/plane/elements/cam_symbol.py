@@ -53,7 +53,7 @@ def resting_follower(r: Result, name: str, frame: PaperFrame) -> list[Item]:
 
 
 def touching_items(joint: Any, at: Point, normal: Point, frame: PaperFrame, reach: float) -> list[Item]:
-    """What touches a cam at its point on paper, with the normal away from the cam."""
+    """Follower at its point of a cam on paper, with the normal away from the cam."""
     nx, ny = normal
     if joint.follower.kind == "roller":
         return [Circle(at, frame.length(joint.follower.roller), "block"), Circle(at, 0.7, "pin")]

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 BEYOND, HALF, FLAT = 8.0, 5.0, 1.6
-"""How far the line goes beyond what it passes, and half the axes of the ellipse of the arrow, mm."""
+"""Length of the line beyond what it passes, and half the axes of the ellipse of the arrow, mm."""
 
 
 def draw_turning_axis(canvas: Canvas, r: Result, k: int, frame: PaperFrame) -> None:
