@@ -100,8 +100,8 @@ def explain(
 
 
 def density(d: float) -> float:
-    """Probability density of a wrong number at a relative distance d from the right one, per unit of distance: small slips
-    are more frequent.
+    """Probability density of a wrong number at a relative distance d from the right one, per unit of distance: slips
+    that are small are more frequent.
 
     >>> density(0.0) > density(0.3) > density(3.0)
     True
