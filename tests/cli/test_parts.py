@@ -11,7 +11,8 @@ import pytest
 import dalembert as da
 from dalembert.bundled import examples
 from dalembert.cli import method_text
-from dalembert.cli.draw_command import _at_last_position, _enough, _path_to
+from dalembert.cli.documents.draw_command import _enough
+from dalembert.cli.documents.position_argument import _at_last_position, _path_to
 from dalembert.cli.method_text import NOTHING, _rounding, fixed_point_text
 from dalembert.cli.options import integer
 from dalembert.model.library import TEMPLATES

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import dalembert as da
-from dalembert.cli.draw_command import _pose
+from dalembert.cli.documents.position_argument import _pose
 
 ARM = """
 units: {{force: {unit}, angle: rad}}

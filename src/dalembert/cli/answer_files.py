@@ -72,6 +72,11 @@ class Outputs:
         named = {kind: getattr(self, kind, None) for kind in (*self.KINDS, "output")}
         return {kind: path for kind, path in named.items() if path is not None}
 
+    @property
+    def prints_data(self) -> bool:
+        """True if standard output holds JSON or CSV, and nothing else."""
+        return any(str(self.targets.get(kind)) == "-" for kind in PRINTED)
+
     def check(self, file: Path, kinds: tuple[str, ...] = ()) -> None:
         """Raise for what cannot be written, before the work; ``kinds``: what -o can write besides the options."""
         targets = self.targets

@@ -40,7 +40,8 @@ Exit status: 0 all positions solved; 1 some position is not; 2 the file or the c
 GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
     "Solve and show": {
         "solve_command": ("solve",),
-        "draw_command": ("draw", "report"),
+        "documents.draw_command": ("draw",),
+        "documents.report_command": ("report",),
         "page_command": ("page",),
         "wrench_command": ("wrench",),
     },

@@ -192,7 +192,7 @@ def joints(
     force: Force = False,
 ) -> int:
     """Print the joints in space: degrees of freedom, local axes, and reactions along these axes."""
-    from dalembert.cli.draw_command import camera_at
+    from dalembert.cli.documents.draw_command import camera_at
     from dalembert.model.joints.pairs import PAIRS
     from dalembert.views import draw
 

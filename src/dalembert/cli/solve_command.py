@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from dalembert.cli.answer_files import NO_RESULT, ResultOutputs
-from dalembert.cli.options import AS_GIVEN, ModelFile, Of, flag, with_help
+from dalembert.cli.documents.position_argument import position_alone, solve_at
+from dalembert.cli.options import AT_FIRST, ModelFile, OfAt, flag, with_help
 from dalembert.progress import progress
 
 if TYPE_CHECKING:
@@ -16,6 +18,8 @@ EXAMPLES = """Examples:
   dalembert solve four_bar.yaml
   dalembert solve four_bar.yaml --static --units si
   dalembert solve four_bar.yaml --positions 360 --csv turn.csv --xlsx turn.xlsx
+  dalembert solve engine.yaml --at 60deg
+  dalembert solve engine.yaml --at "max effort.O2"
   dalembert solve four_bar.yaml --json - --units file"""
 
 
@@ -37,21 +41,24 @@ def solve(
         ),
     ] = False,
     every: Annotated[bool, flag("Print every position.", "--all")] = False,
-    of: Of = AS_GIVEN,
+    of: OfAt = AT_FIRST,
     out: ResultOutputs = NO_RESULT,
 ) -> int:
     """Solve FILE and print drives, efforts, reactions and motion, in the units of the file."""
-    from dalembert.analysis import solve
-
     out.check(file)
     m = of.load(file)
+    sentence = ""
     with progress(f"Solving {file}"):
-        result = solve(m, static=of.static, positions=of.positions)
+        result, at = solve_at(m, of.at, of.static, of.positions)
+        if of.at is not None:
+            result, sentence = position_alone(result, at)
     shown, more = by_method(method, result, out.printed_units)
     if other_solutions:
         from dalembert.cli.method_text import other_solutions_text
 
         more = "\n\n".join(filter(None, (more, other_solutions_text(result, out.printed_units))))
+    if sentence:
+        print(sentence, end="\n\n", file=sys.stderr if out.prints_data else sys.stdout)
     out.deliver(shown, other_solutions, more=more, axes=out.axes, every=every)
     return 0 if result.ok.all() else 1
 

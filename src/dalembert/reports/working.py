@@ -13,7 +13,7 @@ from dalembert.analysis.methods.members import components_along
 from dalembert.analysis.methods.solved.carried_out import solved_forces
 from dalembert.analysis.methods.solved.step_choice import Choice
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
-from dalembert.analysis.result.position_lookup import PositionChoice, position_at
+from dalembert.analysis.result.position_lookup import PositionChoice, extreme, position_at, position_sentence
 from dalembert.answer.column import UnitChoice
 from dalembert.errors import FORCED, ModelError
 from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, figure, in_ground
@@ -59,7 +59,9 @@ def working(
     k = position_at(r, at)
     c = ReportContext(r, k, Shown(r, notation, k), methods, choice or Choice(), notation)
     m = r.mechanism
-    sheet = ReportSheet(m.title or "Force analysis", m.source_text, _where(c))
+    sought = isinstance(at, str) and extreme(r, at) is not None
+    where = position_sentence(r, k, at) if sought else _where(c)
+    sheet = ReportSheet(m.title or "Force analysis", m.source_text, where)
     knowns(sheet, c)
     if not plane:
         degrees_of_freedom(sheet, c)

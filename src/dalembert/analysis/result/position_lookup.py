@@ -1,8 +1,9 @@
-"""Finds a position of a result: by its number, or by the value of its first drive."""
+"""Finds a position of a result: by its number, the value of its first drive, or an extreme of a quantity."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,11 +17,95 @@ if TYPE_CHECKING:
 
 
 PositionChoice = int | float | str | None
-"""A position by its number from 1, or by a value of the first drive."""
+"""A position by its number from 1, by a value of the first drive, or by an extreme: ``max effort.O2``."""
+
+EXTREMES = {
+    "max": "largest",
+    "greatest": "largest",
+    "min": "smallest",
+    "least": "smallest",
+    "peak": "largest in magnitude",
+}
+"""Word before a quantity -> the extreme it asks for; ``greatest``, ``least`` and ``peak`` as in aims."""
+
+TIE = 1e-9
+"""Part of the largest magnitude within which values are equal: the first such position is meant."""
+
+
+class QuantityExtreme(NamedTuple):
+    """An extreme of a quantity over the positions, SI, and its position from 0."""
+
+    word: str
+    of: str
+    kind: str
+    value: float
+    position: int
+
+
+def extreme(r: Result, text: str) -> QuantityExtreme | None:
+    """The extreme that a text names, ``max effort.O2``, ``min transmission.B``, ``peak reaction.A``; None for another.
+
+    A vector counts by its magnitude, and so does a quantity between bars, ``max |effort.O2|``. Both sides of a reversal
+    count. Raises ModelError for an unknown quantity, and for one without a value at any position.
+
+    >>> import dalembert as da
+    >>> r = da.dynamics(da.four_bar())
+    >>> worst = extreme(r, "max |effort.O2|")
+    >>> worst.position == r.peak("effort.O2").place, extreme(r, "60 deg")
+    (True, None)
+    """
+    matched = re.fullmatch(rf"\s*({'|'.join(EXTREMES)})\b\s*(\S.*?)\s*", text)
+    if matched is None:
+        return None
+    from dalembert.analysis.result.named_quantities import quantity
+
+    word, of = matched[1], _without_brackets(matched[2])
+    bare = of[1:-1].strip() if of[0] == of[-1] == "|" else of
+    kind = "number"
+    sides = []
+    for side in r.sides:
+        kind, values = quantity(side, bare)
+        sizes = values if values.ndim == 1 else np.sqrt((values.reshape(len(values), -1) ** 2).sum(axis=1))
+        sides.append(np.abs(sizes) if bare != of or word == "peak" else sizes)
+    low = EXTREMES[word] == "smallest"
+    values = (np.fmin if low else np.fmax).reduce(sides)
+    if not np.isfinite(values).any():
+        raise ModelError(f"{of} has no value at any position", "see status")
+    best = float(np.nanmin(values) if low else np.nanmax(values))
+    near = np.abs(values - best) <= TIE * float(np.nanmax(np.abs(values)))
+    return QuantityExtreme(word, of, kind, best, int(np.argmax(near)))
+
+
+def _without_brackets(text: str) -> str:
+    """The inside of brackets around all of a text: ``(effort.O2)``."""
+    inner = text[1:-1]
+    return inner.strip() if text[0] + text[-1] == "()" and "(" not in inner and inner.strip() else text
+
+
+def position_sentence(r: Result, k: int, at: PositionChoice = None) -> str:
+    """Sentence on a position and, of an extreme, on its value in the units of the file.
+
+    >>> import dalembert as da
+    >>> r = da.dynamics(da.load("examples/four_bar.yaml"), positions=36)
+    >>> position_sentence(r, position_at(r, "max effort.O2"), "max effort.O2")
+    'Position 3 of 36, O2 = 80 deg: effort.O2 is largest here, 292.341 lbf*in.'
+    """
+    from dalembert.analysis.output.summary.printed_units import print_scale
+
+    to = print_scale(r, "file")
+    kinds = {d: drive_kinds(r, d)["position"] for d in r.drives}
+    places = [f"{d} = {to.quantity(kind, float(r.drive_position(d)[k]))}" for d, kind in kinds.items()]
+    text = ", ".join([f"Position {k + 1} of {len(r.status)}", *places])
+    found = extreme(r, at) if isinstance(at, str) else None
+    if found is None:
+        return f"{text}."
+    value = to.quantity(found.kind, found.value).strip()
+    return f"{text}: {found.of} is {EXTREMES[found.word]} here, {value}."
 
 
 def position_at(r: Result, at: PositionChoice = None) -> int:
-    """Index from 0 of a position given by its number from 1, or nearest to a value of the first drive (`60 deg`).
+    """Index from 0 of a position given by its number from 1, nearest to a value of the first drive (`60 deg`), or at an
+    extreme of a quantity (`max effort.O2`).
 
     Without ``at`` the first that is ok, or else that has a pose. Raises AnalysisError, with its reason, for a position
     that has none.
@@ -41,6 +126,8 @@ def _place(r: Result, at: PositionChoice) -> int:
         if not 1 <= n <= len(r.status):
             raise ModelError(f"position {n} does not exist", f"use a number from 1 to {len(r.status)}")
         return n - 1
+    if isinstance(at, str) and (found := extreme(r, at)) is not None:
+        return found.position
     if not r.drives:
         raise ModelError(
             "the mechanism has no drive to name a position by", "give the number of the position"
