@@ -32,12 +32,13 @@ O4     ground   rocker   -20.2378   77.6581  80.2518    104.606       0
 F_ij is the force by link i on link j, in ground axes; moments about j's point
 of the joint.
 
-link      angle    speed  acceler.  center x  center y  its acc. x  its acc. y
-            deg    rad/s   rad/s^2        in        in      in/s^2      in/s^2
-------------------------------------------------------------------------------
-crank        60       25       -40         0         3         120       -1875
-coupler  20.917  -5.8694     120.9    6.1725    12.547     -2509.2     -2645.4
-rocker   104.41   7.9316    276.29    17.756    4.8427     -1259.7     -648.44
+link      angle  ang. speed  ang. acc.  center x  center y   acc. x   acc. y
+            deg       rad/s    rad/s^2        in        in   in/s^2   in/s^2
+----------------------------------------------------------------------------
+crank        60          25        -40         0         3      120    -1875
+coupler  20.917     -5.8694      120.9    6.1725    12.547  -2509.2  -2645.4
+rocker   104.41      7.9316     276.29    17.756    4.8427  -1259.7  -648.44
+The acceleration is that of the mass center.
 """
 
 

@@ -224,10 +224,10 @@ def _link_table(result: Result, to: Printed) -> TextTable:
 
     columns = [
         (["angle"], "angle", of_all(result.angle)),
-        (["speed"], "angular_speed", of_all(result.speed)),
-        (["acceler."], "angular_acceleration", of_all(result.acceleration)),
+        (["ang. speed"], "angular_speed", of_all(result.speed)),
+        (["ang. acc."], "angular_acceleration", of_all(result.acceleration)),
         (["center x", "center y"], "length", of_all(result.center)),
-        (["its acc. x", "its acc. y"], "acceleration", of_all(result.center_acceleration)),
+        (["acc. x", "acc. y"], "acceleration", of_all(result.center_acceleration)),
     ]
     heads, cells = ["link"], [[link] for link in result.links]
     for names, kind, values in columns:
@@ -235,7 +235,7 @@ def _link_table(result: Result, to: Printed) -> TextTable:
         size = 1.0 if kind == "angle" else _largest(values)
         for row, vector in zip(cells, values, strict=True):
             row += [number(float(v), 5) for v in to(kind, np.array(round_components(vector, size)))]
-    return TextTable(heads, cells, 1)
+    return TextTable(heads, cells, 1, "The acceleration is that of the mass center.")
 
 
 # what did not work, and how far the rest can be trusted

@@ -60,7 +60,7 @@ def _components_and_size(vector: Array) -> list[str]:
 def space_link_tables(result: Result, to: Printed) -> Iterator[TextTable]:
     """Orientation of every link, position of its mass centre, and their rates, at the first position."""
     turned = [f"turned\n{to.text('angle')}", "about x", "y", "z", *_heads("center", to.text("length"))]
-    rates = (("speed", "angular_speed"), ("acceler.", "angular_acceleration"))
+    rates = (("ang. speed", "angular_speed"), ("ang. acc.", "angular_acceleration"))
     turning = [head for name, kind in rates for head in _heads(name, to.text(kind))]
     rows: list[list[list[str]]] = [[], [], []]
     read = (result.center, result.speed, result.acceleration, result.center_acceleration)

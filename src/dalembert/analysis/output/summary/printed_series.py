@@ -94,8 +94,8 @@ def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[Ar
 def _turning(result: Result, link: str) -> list[tuple[str, str, Array]]:
     """Angle, angular speed and acceleration of a link; in space the magnitudes of the last two."""
     rates = [
-        ("speed", "angular_speed", result.speed(link)),
-        ("acceler.", "angular_acceleration", result.acceleration(link)),
+        ("ang. speed", "angular_speed", result.speed(link)),
+        ("ang. acc.", "angular_acceleration", result.acceleration(link)),
     ]
     if in_plane(result):
         return [
