@@ -10,7 +10,8 @@ import pytest
 
 import dalembert as da
 from dalembert.errors import ModelError
-from dalembert.optimization.aims import WEIGHT, Aim, DesignProblem, parse_aim, parse_condition
+from dalembert.optimization.aims import Aim, parse_aim, parse_condition
+from dalembert.optimization.design_problem import WEIGHT, DesignProblem
 
 VARY = ("links.ground.points.O4.0", "links.rocker.points.B.0", "links.rocker.mass")
 LOW, HIGH = np.array([0.28, 0.2, 0.3]), np.array([0.36, 0.29, 0.6])

@@ -10,7 +10,8 @@ import pytest
 
 import dalembert as da
 from dalembert.optimization import optimizers, optimizing, pareto_front, polishing
-from dalembert.optimization.aims import Aim, AimValue, DesignProblem, Margins, parse_aim, parse_condition
+from dalembert.optimization.aims import Aim, parse_aim, parse_condition
+from dalembert.optimization.design_problem import AimValue, DesignProblem, Margins
 from dalembert.optimization.optimizers import METHODS, find_method, polish_by, search_by
 from dalembert.optimization.polishing import _Design, polish
 from dalembert.optimization.side_by_side import minimize

@@ -12,7 +12,8 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases
 from dalembert.optimization import pareto_front
-from dalembert.optimization.aims import DesignProblem, parse_aim, parse_condition
+from dalembert.optimization.aims import parse_aim, parse_condition
+from dalembert.optimization.design_problem import DesignProblem
 from dalembert.optimization.optimizers import METHODS
 from tests.tiers import tiers
 

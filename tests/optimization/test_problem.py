@@ -12,7 +12,8 @@ import pytest
 import dalembert as da
 from dalembert.errors import ModelError
 from dalembert.optimization import pareto_front
-from dalembert.optimization.aims import WEIGHT, DesignProblem, parse_aim, parse_condition
+from dalembert.optimization.aims import parse_aim, parse_condition
+from dalembert.optimization.design_problem import WEIGHT, DesignProblem
 
 BOX = {"links.ground.points.O4.0": (0.28, 0.36), "links.rocker.points.B.0": (0.2, 0.29)}
 LOW, HIGH = np.array(list(BOX.values())).T

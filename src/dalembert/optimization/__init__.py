@@ -3,7 +3,9 @@
 In: a ``Mechanism``, numbers that vary with their bounds, an aim and conditions over outputs. Out: an ``Optimum`` with
 the optimal mechanism. Imports ``analysis`` and ``machine`` and what these import; no pictures, no command (``cli``).
 
-aims              the syntax of aims and conditions; their values and exact gradients for many designs
+aims              the syntax of aims and conditions
+design_problem    an aim and conditions within bounds: values and exact gradients for many designs
+one_by_one        the same of quantities that are not compiled, and of Python functions, by differences
 side_by_side      quasi-Newton steps of all starts at once, one call of the kernel for each
 optimizers        those of scipy, nlopt and pymoo by name
 polishing         the best of them, one at a time: minimizes t with |T_k| <= t at every position

@@ -8,7 +8,7 @@ one side, which descent with a line search and SLSQP accept.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -26,14 +26,21 @@ from dalembert.errors import ModelError
 from dalembert.model.quantities.expression_trees import (
     REDUCTIONS,
     Functions,
+    NameNode,
     Tree,
     evaluate,
     names_in,
     numpy_functions,
 )
+from dalembert.optimization.one_by_one import OneByOne
 
 CALL = re.compile(rf"(?<![\w.])({'|'.join(REDUCTIONS)})\s*\(")
-QUANTITY = re.compile(rf"(?<![\w.])(?:{'|'.join(CATALOGUE)})(?![\w(])")
+ONE_A_CYCLE = ("mass", "life", "fatigue")
+"""Words of quantities that have one value for a cycle."""
+QUANTITY = re.compile(
+    rf"(?<![\w.])(?:{'|'.join(word for word in CATALOGUE if word not in ONE_A_CYCLE)})(?![\w(])"
+)
+SINGLE = re.compile(rf"(?<![\w.])(?:{'|'.join(ONE_A_CYCLE)})(?![\w(])")
 
 
 def has_reductions(text: str) -> bool:
@@ -71,8 +78,12 @@ def has_quantities(text: str) -> bool:
 
 
 def is_single(text: str) -> bool:
-    """True if an expression has reductions inside and one value for a cycle."""
-    return has_reductions(text) and not has_quantities(text)
+    """True if an expression has one value for a cycle: reductions inside, a mass, a life.
+
+    >>> is_single("peak(effort.O) + 1"), is_single("mass"), is_single("effort.O")
+    (True, True, False)
+    """
+    return (has_reductions(text) or bool(SINGLE.search(text))) and not has_quantities(text)
 
 
 class Differentiated:
@@ -189,14 +200,19 @@ class CycleExpressions:
     """
 
     trees: Mapping[str, Tree]
-    kernel: Kernel
+    kernel: Kernel | OneByOne
 
     @classmethod
     def of(
-        cls, texts: Sequence[str], r: Result, compiled: Callable[[Sequence[str]], Kernel]
+        cls,
+        texts: Sequence[str],
+        r: Result,
+        compiled: Callable[[Sequence[str]], Kernel | OneByOne],
+        functions: Collection[str] = (),
     ) -> CycleExpressions:
-        """Expressions of the quantities, parameters and numbers of the file of an analysed mechanism."""
-        trees = {text: cycle_tree(text, r) for text in texts}
+        """Expressions of the quantities, parameters and numbers of the file of an analysed mechanism, or the names of
+        ``functions`` of it."""
+        trees = {text: NameNode(text) if text in functions else cycle_tree(text, r) for text in texts}
         return cls(trees, compiled(sorted({name for tree in trees.values() for name in names_in(tree)})))
 
     def names(self, text: str) -> list[str]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,9 @@ from dalembert.bounds import require
 from dalembert.errors import ModelError, errors_at
 from dalembert.machine.whole_cycle import over_a_turn
 from dalembert.model import AtPositions, Mechanism, ModelOrPath, as_mechanism
-from dalembert.optimization.aims import Constraint, DesignProblem, parse_aim, parse_condition
+from dalembert.optimization.aims import Aim, Constraint, parse_aim, parse_condition
+from dalembert.optimization.design_problem import DesignProblem
+from dalembert.optimization.one_by_one import Function, named
 from dalembert.optimization.optimizers import DEFAULT, METHODS, find_method, search_by
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.polishing import polish
@@ -26,8 +29,8 @@ from dalembert.optimization.side_by_side import minimize
 from dalembert.progress import progress
 from dalembert.wording import quote_value
 
-POLISHED = 10
-"""Number of the best starts that are polished."""
+POLISHED, POLISHED_ANALYSED = 10, 5
+"""Number of the best starts that are polished, and where designs are analysed one by one."""
 MOST_DRAWN = 100
 """Random designs for each start, where few of them can be solved."""
 KEPT = 1e-6
@@ -37,15 +40,19 @@ SAME = 1e-3
 CORNERS = 10
 """Largest number of stepped numbers whose neighbours are all examined together; with more, the nearest steps alone."""
 
+STARTS, STARTS_ANALYSED = 1000, 20
+"""Random designs by default, of compiled analyses and where designs are analysed one by one."""
+
 Bounds = Mapping[str, Sequence[object]]
+Rule = str | Function
 
 
 def optimize(
     mechanism: ModelOrPath,
     vary: Bounds,
-    least: str,
-    where: str | Sequence[str] = (),
-    starts: int = 1000,
+    least: str | Function,
+    where: Rule | Sequence[Rule] = (),
+    starts: int | None = None,
     seed: int = 0,
     positions: AtPositions = None,
     static: bool = False,
@@ -58,8 +65,12 @@ def optimize(
     or ``norm8`` of an output or an expression of outputs (`da.compile`), or an expression of such numbers,
     ``peak(effort.O2) + 0.1 m*range(reaction.A.x)``. where: conditions such as ``transmission.B >= 33 deg``,
     ``peak effort.O2 <= 2 N*m`` or ``range(slide.G) >= 60 mm``. starts: random designs within the bounds, besides the
-    mechanism's, all improved side by side with exact gradients; the best ten are polished one by one. method: another
-    local or global optimizer (``METHODS``), such as ``nlopt.slsqp`` or ``pymoo.de``, if installed.
+    mechanism's (default 1000), all improved side by side with exact gradients; the best ten are polished one by one.
+    method: another local or global optimizer (``METHODS``), such as ``nlopt.slsqp`` or ``pymoo.de``, if installed.
+
+    An aim may be a Python function of a result that returns a number; a condition one whose numbers, one or one a
+    position, must not be negative. With these, and with quantities that are not compiled (``stress.rod``, ``life.A``),
+    designs are analysed one by one with gradients by differences: by default 20 starts, the best five polished.
     Raises ModelError for unknown names, empty bounds, and where no design within the bounds can be solved.
 
     >>> import dalembert as da
@@ -73,27 +84,51 @@ def optimize(
     name = find_method(method, "polish", "search")
     p, steps, varied = problem_of(mechanism, vary, least, where, positions, static)
     p = replace(p, method=name)
-    return _best(p, steps, varied, starts, seed)
+    usual = STARTS_ANALYSED if p.one_by_one else STARTS
+    return _best(p, steps, varied, usual if starts is None else starts, seed)
+
+
+def aim_of(least: str | Function, functions: Mapping[str, Function]) -> Aim:
+    """An aim from its text, or from a function that has a name."""
+    if isinstance(least, str):
+        return parse_aim(least)
+    return Aim("", next(name for name, f in functions.items() if f is least))
 
 
 def problem_of(
-    m: Mechanism, vary: Bounds, least: str, where: str | Sequence[str], positions: AtPositions, static: bool
+    m: Mechanism,
+    vary: Bounds,
+    least: str | Function,
+    where: Rule | Sequence[Rule],
+    positions: AtPositions,
+    static: bool,
 ) -> tuple[DesignProblem, Array, tuple[VariedNumber, ...]]:
     """The problem, the steps of its numbers (NaN for none), and the numbers."""
     varied, low, high, steps = bounds_of(m, vary)
-    texts = [where] if isinstance(where, str) else where
+    rules: list[Any] = [where] if isinstance(where, str) or callable(where) else list(where)
+    functions = named([f for f in dict.fromkeys((least, *rules)) if callable(f)])
     with errors_at("positions"):
         at = over_a_turn(m, positions)
         place = m.schedule(at).position
     with errors_at("least"):
-        aim = parse_aim(least)
+        aim = aim_of(least, functions)
     conditions = list[Constraint]()
-    for k, text in enumerate(texts):
+    for k, rule in enumerate(rules):
         with errors_at("where", k):
-            conditions.append(parse_condition(text))
-    problem = DesignProblem(m, tuple(vary), low, high, aim, tuple(conditions), place, static, requested=at)
+            conditions.append(_condition(rule, functions))
+    problem = DesignProblem(
+        m, tuple(vary), low, high, aim, tuple(conditions), place, static, requested=at, functions=functions
+    )
     problem.check()
     return problem, steps, varied
+
+
+def _condition(rule: Rule, functions: Mapping[str, Function]) -> Constraint:
+    """A condition from its text, or a function that must not be negative."""
+    if isinstance(rule, str):
+        return parse_condition(rule)
+    name = aim_of(rule, functions).of
+    return Constraint(f"{name} >= 0", name)
 
 
 def bounds_of(m: Mechanism, vary: Bounds) -> tuple[tuple[VariedNumber, ...], Array, Array, Array]:
@@ -140,10 +175,12 @@ def _best(
     if METHODS[p.method][0] == "search":
         places = search_by(p.method, lambda u: p(u).value, places, seed)
         values = p(places).value
+    elif p.one_by_one:
+        values = p(places).value
     else:
         with progress("Improving designs") as step:
             places, values = minimize(p, places, progress=lambda done: step(done))
-    order = np.argsort(values)[:POLISHED]
+    order = np.argsort(values)[: POLISHED_ANALYSED if p.one_by_one else POLISHED]
     with progress("Polishing designs", len(order)) as step:
         ends = []
         for k, start in enumerate(places[order]):
@@ -240,4 +277,5 @@ def optimum_of(
         polished=polished,
         started=started,
         kinds=number_kinds(m, varied),
+        functions=p.functions,
     )

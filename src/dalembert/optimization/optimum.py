@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from dalembert.answer.column import Axes, Column, Scale, UnitChoice, parts
 from dalembert.arrays import Array, Tree
 from dalembert.model import Mechanism
 from dalembert.optimization.aims import Aim, Constraint, parse_aim
+from dalembert.optimization.one_by_one import Function, value_of
 from dalembert.printing import TextTable
 
 if TYPE_CHECKING:
@@ -49,6 +50,15 @@ class Optimum(Labelled, Drawn, Worked, Remade):
     polished: int
     started: int
     kinds: tuple[str, ...] = field(repr=False)
+    functions: Mapping[str, Function] = field(default_factory=dict, repr=False)
+
+    def values_of(self, r: Result, text: str) -> Array:
+        """An expression, or a function by its name, of a result (P,)."""
+        return value_of(r, text, self.functions)
+
+    def kind_of(self, text: str) -> str:
+        """Its kind."""
+        return "number" if text in self.functions else quantity(self.after, text).kind
 
     @property
     def value(self) -> float:
@@ -64,23 +74,26 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         """Any aim of the best design, or of another result, SI."""
         from dalembert.analysis.batch.over_positions import reduce_positions
 
-        values = (self.after if r is None else r)[aim.of]
+        values = self.values_of(self.after if r is None else r, aim.of)
         if not (aim.word and len(values)):
             return float(values[0]) if len(values) else np.nan
         return float(reduce_positions(aim.word, values))
 
     def aim_text(self, text: str) -> str:
         """An aim of the best design as text, in the unit of the file."""
-        aim, to = parse_aim(text), Printed(self.mechanism.units)
-        return to.quantity(quantity(self.after, aim.of).kind, self.size_of(aim))
+        aim = Aim("", text) if text in self.functions else parse_aim(text)
+        return Printed(self.mechanism.units).quantity(self.kind_of(aim.of), self.size_of(aim))
 
     def _sizes(self, r: Result) -> list[float]:
-        return [self.size_of(self.aim, r), *(float(r[c.margin].min()) for c in self.conditions)]
+        return [
+            self.size_of(self.aim, r),
+            *(float(self.values_of(r, c.margin).min()) for c in self.conditions),
+        ]
 
     @property
     def _kinds(self) -> list[str]:
         """Kinds of the aim and of the margin of each condition."""
-        return [quantity(self.after, e).kind for e in (self.aim.of, *(c.margin for c in self.conditions))]
+        return [self.kind_of(e) for e in (self.aim.of, *(c.margin for c in self.conditions))]
 
     def number_rows(self, units: UnitChoice = "file") -> list[list[str]]:
         """Name with unit of each number, before, after, and its bounds."""
@@ -121,9 +134,8 @@ class Optimum(Labelled, Drawn, Worked, Remade):
                 (self.aim.of, self.aim.of),
                 *((f"margin of {c.text}", c.margin) for c in self.conditions),
             ):
-                found = quantity(r, of)
-                for part, values in parts(found.values):
-                    yield Column(f"{side}.{name}{part}", found.kind, values)
+                for part, values in parts(self.values_of(r, of)):
+                    yield Column(f"{side}.{name}{part}", self.kind_of(of), values)
 
     def record(self, to: Scale) -> Tree:
         """Numbers before and after with their bounds, the aim, the margins of conditions, and how sure it is."""

@@ -8,23 +8,32 @@ Mechanics: docs/theory.md 11.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dalembert.analysis.output.summary.printed_units import Printed
-from dalembert.analysis.result.named_quantities import quantity
 from dalembert.answer.answer import Drawn, Labelled, Worked
 from dalembert.answer.column import Axes, Column, UnitChoice
 from dalembert.arrays import Array
 from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
-from dalembert.optimization.aims import parse_aim
+from dalembert.optimization.aims import Aim, parse_aim
+from dalembert.optimization.one_by_one import Function, named
 from dalembert.optimization.optimizers import DEFAULT, METHODS, OPEN, evolve, find_method
-from dalembert.optimization.optimizing import Bounds, judge, optimize, optimum_of, problem_of, starts_of
+from dalembert.optimization.optimizing import (
+    Bounds,
+    Rule,
+    aim_of,
+    judge,
+    optimize,
+    optimum_of,
+    problem_of,
+    starts_of,
+)
 from dalembert.optimization.optimum import Optimum
 from dalembert.printing import TextTable
 
@@ -56,7 +65,8 @@ class Front(Labelled, Drawn, Worked):
 
     def _kinds(self) -> list[str]:
         """Kinds of the two aims."""
-        return [quantity(self.designs[0].after, parse_aim(aim).of).kind for aim in self.aims]
+        first = self.designs[0]
+        return [first.kind_of(aim if aim in first.functions else parse_aim(aim).of) for aim in self.aims]
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """A row a design: both aims, and its numbers."""
@@ -89,8 +99,8 @@ class Front(Labelled, Drawn, Worked):
 def pareto(
     mechanism: ModelOrPath,
     vary: Bounds,
-    least: Sequence[str],
-    where: str | Sequence[str] = (),
+    least: Sequence[str | Function],
+    where: Rule | Sequence[Rule] = (),
     points: int = 7,
     method: str = DEFAULT,
     **options: Any,
@@ -114,41 +124,61 @@ def pareto(
         raise ModelError(
             "a front is between two aims, of 2 points or more", 'give ["effort.O2", "reaction.A.magnitude"]'
         )
-    _, second = map(parse_aim, least)
+    rules: list[Any] = [where] if isinstance(where, str) or callable(where) else list(where)
+    functions = named([f for f in least if callable(f)])
+    aims = [aim_of(aim, functions) for aim in least]
     name = find_method("pymoo.nsga2" if method == "pymoo" else method, "polish", "search", "front")
     options["method"] = name
     if METHODS[name][0] == "front":
-        return _front(least, _evolved(mechanism, vary, least, where, points, {**DEFAULTS, **options}))
-    bounded = second.text if second.word == "peak" and second.plain else second.number
-    rules = [where] if isinstance(where, str) else list(where)
+        optima = _evolved(mechanism, vary, least, rules, points, {**DEFAULTS, **options})
+        return _front(aims, optima, functions)
     ends = [optimize(mechanism, vary, aim, rules, **options) for aim in least]
-    high, low = (end.size_of(second) for end in ends)
+    high, low = (_with(end, functions).size_of(aims[1]) for end in ends)
     between = [
-        optimize(mechanism, vary, least[0], [*rules, f"{bounded} <= {float(bound)!r}"], **options)
+        optimize(mechanism, vary, least[0], [*rules, _bounded(least[1], aims[1], float(bound))], **options)
         for bound in np.linspace(high, low, points)[1:-1]
     ]
-    optima = [o for o in (ends[0], *between, ends[1]) if o.feasible]
-    return _front(least, optima)
+    return _front(aims, [o for o in (ends[0], *between, ends[1]) if o.feasible], functions)
 
 
-def _front(least: Sequence[str], optima: Sequence[Optimum]) -> Front:
+def _bounded(least: str | Function, aim: Aim, bound: float) -> Rule:
+    """The condition that an aim is below a bound."""
+    if not isinstance(least, str):
+        return lambda r: bound - np.asarray(least(r), float)
+    text = aim.text if aim.word == "peak" and aim.plain else aim.number
+    return f"{text} <= {bound!r}"
+
+
+def _with(o: Optimum, functions: Mapping[str, Function]) -> Optimum:
+    """An optimum that knows the functions of both aims."""
+    return replace(o, functions={**o.functions, **functions}) if functions else o
+
+
+def _front(aims: Sequence[Aim], optima: Sequence[Optimum], functions: Mapping[str, Function]) -> Front:
     if not optima:
         raise ModelError("no design meets every condition", "widen the bounds, or leave a condition out")
-    values = np.array([[o.size_of(parse_aim(aim)) for aim in least] for o in optima])
+    known = [_with(o, functions) for o in optima]
+    values = np.array([[o.size_of(aim) for aim in aims] for o in known])
     kept = _undominated(values)
-    return Front((least[0], least[1]), tuple(optima[k] for k in kept), values[kept])
+    return Front((aims[0].text, aims[1].text), tuple(known[k] for k in kept), values[kept])
 
 
 def _evolved(
-    m: Mechanism, vary: Bounds, least: Sequence[str], where: str | Sequence[str], points: int, options: Any
+    m: Mechanism,
+    vary: Bounds,
+    least: Sequence[str | Function],
+    rules: Sequence[Rule],
+    points: int,
+    options: Any,
 ) -> list[Optimum]:
     """Designs at even spacing from a computed front, those that meet every condition."""
     method, positions, static = (options[key] for key in ("method", "positions", "static"))
-    p, steps, numbers = problem_of(m, vary, least[0], where, positions, static)
+    p, steps, numbers = problem_of(m, vary, least[0], rules, positions, static)
     if not np.isnan(steps).all():
         raise ModelError(f"{method} takes no steps", "give (low, high)", ("vary",))
-    aims = [parse_aim(text) for text in least]
-    problems = [replace(p, aim=aim) for aim in aims]
+    functions = {**p.functions, **named([f for f in least if callable(f)])}
+    aims = [aim_of(aim, functions) for aim in least]
+    problems = [replace(p, aim=aim, functions=functions) for aim in aims]
 
     def of(u: Array) -> dict[str, Array]:
         values = p.numbers(u)

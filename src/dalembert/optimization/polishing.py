@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dalembert.arrays import Array, Flags
-from dalembert.optimization.aims import DesignProblem, Margins
+from dalembert.optimization.design_problem import DesignProblem, Margins
 from dalembert.optimization.optimizers import OPEN, polish_by
 
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.optimization.aims import AimValue
+from dalembert.optimization.design_problem import AimValue
 
 ENOUGH = 1e-4
 """Fraction of the decrease predicted by the slope that a step must achieve."""

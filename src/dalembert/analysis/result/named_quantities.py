@@ -30,6 +30,7 @@ from dalembert.analysis.result.quantity_expressions import (
 from dalembert.analysis.result.transmission_lines import ground_points, transmission_names
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
+from dalembert.machine.design_numbers import things_of
 from dalembert.model.links.link import CENTER
 from dalembert.model.paths import value_at
 from dalembert.model.quantities.expression_trees import REDUCTIONS, evaluate, names_in, numpy_functions
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
     from dalembert.model import Mechanism
 
+SIZED = ("masses", "sections", "elastic", "fatigued", "rated", "bolted")
+"""Things of machine design."""
 BOUNDS = ("low", "high")
 COMPONENTS = ("x", "y", "z", "magnitude", "direction")
 SECTIONS = ("links", "joints", "drives", "loads")
@@ -84,6 +87,8 @@ def things(r: HasQuantities, of: str) -> list[str]:
         return list(cylinders(m))
     if of == "fixed points":
         return ["", *ground_points(m)]
+    if of in SIZED:
+        return things_of(m, r.links, of)
     return list(getattr(r, of)) if of else [""]
 
 
@@ -157,6 +162,11 @@ def read(r: Any, name: str) -> Quantity | None:
     parts = split_name(r, name)
     if parts is None:
         return None
+    if not (_leading(r) or CATALOGUE[parts.word].compiled):
+        what = f"{name} is not compiled"
+        raise ModelError(
+            what, "use da.dynamics, da.sweep, da.study or da.optimize, which analyse designs one by one"
+        )
     values = np.asarray(parts.reading.read(r, parts.thing))
     return Quantity(parts.kind(r), component(values, parts.component, name, _leading(r)))
 

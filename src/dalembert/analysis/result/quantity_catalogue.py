@@ -163,6 +163,23 @@ def _normal(r: Any, joint: str) -> Array:
     return np.asarray(forces[:, rows].sum(axis=-1))
 
 
+def _mass(r: Any, link: str) -> Numeric:
+    from dalembert.machine.design_numbers import mass
+
+    return mass(r, link)
+
+
+def _sized(word: str) -> Read:
+    """A number of machine design, whose answers print themselves: imported where it is read."""
+
+    def read(r: Any, of: str) -> Numeric:
+        from dalembert.machine.design_numbers import READ
+
+        return READ[word](r, of)
+
+    return read
+
+
 def _shaking(part: str) -> Read:
     return lambda r, about: getattr(r.shaking(about), part)
 
@@ -260,6 +277,19 @@ CATALOGUE: dict[str, QuantityWord] = {
     "shaking_couple": QuantityWord(
         "placed", {"": QuantityReading("moment", _shaking("couple"))}, False, False
     ),
+    "mass": QuantityWord("masses", {"": QuantityReading("mass", _mass)}),
+    **{
+        word: QuantityWord(of, {"": QuantityReading(kind, _sized(word))}, False)
+        for word, of, kind in (
+            ("stress", "sections", "pressure"),
+            ("fatigue", "fatigued", "number"),
+            ("buckling", "elastic", "number"),
+            ("deflection", "elastic", "length"),
+            ("bearing_slope", "elastic", "angle"),
+            ("life", "rated", "time"),
+            ("pin_stress", "bolted", "pressure"),
+        )
+    },
     "residual": QuantityWord("", {"": QuantityReading("number", _value("residual"))}),
     "power_balance": QuantityWord("", {"": QuantityReading("number", _value("power_balance"))}, False),
     "time": QuantityWord("times", {"": QuantityReading("time", _value("time"))}, False),

@@ -68,11 +68,15 @@ class PinStresses(Labelled):
         return self.moment * 32 / (math.pi * self.size.diameter**3)
 
     @property
+    def equivalent(self) -> Array:
+        """The larger of bending and sqrt(3) times the peak shear (P,), Pa: they are not in one fibre."""
+        return np.asarray(np.fmax(self.bending, math.sqrt(3) * self.peak_shear))
+
+    @property
     def safety(self) -> Array:
-        """Yield stress over the larger of bending and sqrt(3) times the peak shear (P,): they are not in one fibre."""
-        limit = self.size.yield_stress or math.nan
+        """Yield stress over ``equivalent`` (P,)."""
         with np.errstate(all="ignore"):
-            return np.asarray(limit / np.fmax(self.bending, math.sqrt(3) * self.peak_shear))
+            return np.asarray((self.size.yield_stress or math.nan) / self.equivalent)
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """Force, stresses, moment."""

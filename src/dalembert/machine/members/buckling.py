@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Ints, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.members.column_loads import critical_load, effective_length, johnson, within
 from dalembert.machine.members.end_conditions import EndConditions, end_words
@@ -63,13 +63,27 @@ class Buckling:
     factors: Array = field(default_factory=lambda: np.zeros((0, 2)), repr=False)
 
 
+def utilisation(forces: MemberForces) -> Array:
+    """Compression over critical load (P,) of the member where it is greatest: 1 where it buckles, 0 in tension."""
+    loaded = np.maximum.reduce([-curve.extremes("axial")[0] for curve in forces.curves]) > 0
+    with np.errstate(all="ignore"):
+        b = buckling(forces, at=np.flatnonzero(loaded)) if loaded.any() else None
+        used = 0.0 * loaded if b is None else np.where(loaded, b.compressions / b.criticals, 0.0)
+    unknown = np.isnan(np.sum([curve.extremes("axial")[0] for curve in forces.curves], axis=0))
+    return np.where(unknown, np.nan, used)
+
+
 def buckling(
-    forces: MemberForces, section: Section | Tree | None = None, ends: Factors | None = None
+    forces: MemberForces,
+    section: Section | Tree | None = None,
+    ends: Factors | None = None,
+    at: Ints | None = None,
 ) -> Buckling:
     """Critical compression N = pi^2 E I / (K L)^2 in the weaker plane, or Johnson's load.
 
     Johnson's holds where Euler's stress is above half the yield stress. K follows from the joints at every position,
-    unless ``ends`` or the link's `effective_length` gives it. Raises ModelError without Young's modulus, for several
+    unless ``ends`` or the link's `effective_length` gives it. ``at``: only at these positions, from 0.
+    Raises ModelError without Young's modulus, for several
     members without a K, and for a link that its joints leave loose.
     """
     s = _elastic(forces, section)
@@ -80,7 +94,9 @@ def buckling(
         what = f"members {names} of {forces.link!r} are one frame, in which each is held by the others"
         remedy = f"give their factors: effective_length: {{{forces.curves[0].name}: 1, ...}}"
         raise ModelError(what, remedy, ("links", forces.link))
-    judged = [_judged(Strut((forces,), (c,)), [s], known.get(c.name, known.get(""))) for c in forces.curves]
+    judged = [
+        _judged(Strut((forces,), (c,)), [s], known.get(c.name, known.get("")), at) for c in forces.curves
+    ]
     return min(judged, key=lambda b: (math.isnan(b.safety), b.safety, b.critical))
 
 
@@ -103,7 +119,9 @@ def _elastic(forces: MemberForces, section: Section | Tree | None) -> Section:
 class _Judgement:
     """Critical loads (P,) and factors (P, 2) of a strut, with the plane that decides, the formula and the ends."""
 
-    def __init__(self, strut: Strut, sections: list[Section], known: tuple[float, float] | None) -> None:
+    def __init__(
+        self, strut: Strut, sections: list[Section], known: tuple[float, float] | None, at: Ints | None
+    ) -> None:
         count = len(strut.forces[0].result.status)
         self.strut, self.sections, self.known = strut, sections, known
         self.criticals, self.factors = np.full(count, np.nan), np.full((count, 2), np.nan)
@@ -113,7 +131,7 @@ class _Judgement:
         self.conditions = EndConditions(strut.forces[0].result)
         self.solved: dict[tuple[object, ...], Array] = {}
         placed = np.logical_and.reduce([np.isfinite(e.start).all(axis=1) for e in strut.members])
-        for k in np.flatnonzero(placed):
+        for k in np.flatnonzero(placed) if at is None else np.intersect1d(np.flatnonzero(placed), at):
             self._at(int(k))
 
     def stiffness(self, plane: int) -> list[float]:
@@ -165,9 +183,11 @@ def _transition(s: Section) -> float:
     return math.pi * math.sqrt(2 * (s.elasticity or 0.0) / s.yield_stress) if s.yield_stress else math.nan
 
 
-def _judged(strut: Strut, sections: list[Section], known: tuple[float, float] | None) -> Buckling:
+def _judged(
+    strut: Strut, sections: list[Section], known: tuple[float, float] | None, at: Ints | None = None
+) -> Buckling:
     """The position of least safety, or without any compression that of the least critical load."""
-    judgement, compression = _Judgement(strut, sections, known), strut.compression()
+    judgement, compression = _Judgement(strut, sections, known, at), strut.compression()
     if (judgement.criticals == 0).any():
         names, k = (
             " and ".join(repr(f.link) for f in strut.forces),

@@ -9,7 +9,7 @@ Mechanics: docs/theory.md 10.4.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.methods.applied_forces import Action
     from dalembert.analysis.result.result import Result
     from dalembert.machine.members.buckling import Buckling, Factors
+    from dalembert.machine.members.deflections import Deflections
     from dalembert.machine.members.stresses import Stresses
     from dalembert.model.links.sections import Section
 
@@ -182,6 +183,15 @@ class MemberForces:
         from dalembert.machine.members.buckling import buckling
 
         return buckling(self, section, length_factor if ends is None else ends)
+
+    def deflection(self, section: Section | Tree | None = None, supports: Sequence[str] = ()) -> Deflections:
+        """Deflection and slope of its members, by Young's modulus of the section, from the line through its supports.
+
+        By default the tangent at a weld or a driven joint, else the chord through the two outermost joints.
+        """
+        from dalembert.machine.members.deflections import deflections
+
+        return deflections(self, section, supports)
 
     def columns(self) -> Iterator[Column]:
         """Least and greatest of each inner force, with places."""

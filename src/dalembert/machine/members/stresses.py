@@ -162,8 +162,10 @@ def _greatest(curve: MemberCurve, f: Callable[[Array], Array]) -> tuple[Array, A
     best = (first, np.full(len(low), np.nan), np.full((len(low), 6), np.nan))
     for j in range(low.shape[1]):
         a, b, inside = low[:, j], high[:, j], high[:, j] > low[:, j]
-        for _ in range(ROUNDS):
-            s = a[:, None] + (b - a)[:, None] * np.linspace(0, 1, SAMPLES)
+        linear = not curve.cubics[:, j, :, 2:].any()  # f is a norm, and convex: largest at an end
+        samples, rounds = (2, 1) if linear else (SAMPLES, ROUNDS)
+        for _ in range(rounds):
+            s = a[:, None] + (b - a)[:, None] * np.linspace(0, 1, samples)
             comps = (curve.cubics[:, j, None] * s[..., None, None] ** np.arange(4)).sum(axis=-1)
             values = f(comps)
             k = np.argmax(values, axis=1)
@@ -171,7 +173,7 @@ def _greatest(curve: MemberCurve, f: Callable[[Array], Array]) -> tuple[Array, A
             place = np.where(np.isnan(values[every, k]), np.nan, s[every, k])
             for into, new in zip(best, (values[every, k], place, comps[every, k]), strict=True):
                 into[better] = new[better]
-            a, b = s[every, np.maximum(k - 1, 0)], s[every, np.minimum(k + 1, SAMPLES - 1)]
+            a, b = s[every, np.maximum(k - 1, 0)], s[every, np.minimum(k + 1, samples - 1)]
     return best
 
 

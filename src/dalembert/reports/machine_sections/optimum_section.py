@@ -6,7 +6,6 @@ from itertools import islice
 
 import numpy as np
 
-from dalembert.analysis.result.named_quantities import quantity
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.pareto_front import Front
 from dalembert.reports.sheet import ReportSheet
@@ -30,17 +29,19 @@ def optimum_sheet(o: Optimum, notation: Notation | None = None) -> ReportSheet:
 
 
 def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
-    """Objective over the cycle, then the designs before and after at its largest magnitude; a design that does not
-    close at that position is left out."""
-    shown, kind = Shown(o.after, notation or Notation()), quantity(o.after, o.aim.of).kind
+    """Objective over the cycle (if it has one value for a cycle, the first condition that changes), then the designs
+    before and after at its largest magnitude; a design that does not close at that position is left out."""
+    names = {o.aim.of: o.aim.of, **{c.margin: f"margin of {c.text}" for c in o.conditions}}
+    of = next((text for text in names if np.ptp(o.values_of(o.after, text)) > 0), o.aim.of)
+    shown, kind = Shown(o.after, notation or Notation()), o.kind_of(of)
     x, label, angle = along(o.after, shown)
     both = {"before": o.before, "after": o.after}
-    curves = {name: r[o.aim.of] * shown.value(kind, 1.0) for name, r in both.items()}
-    title, unit = f"{o.aim.of} over the cycle", shown.unit(kind)
-    size = np.abs(o.after[o.aim.of])
+    curves = {name: o.values_of(r, of) * shown.value(kind, 1.0) for name, r in both.items()}
+    title, unit = f"{names[of]} over the cycle", shown.unit(kind)
+    size = np.abs(o.values_of(o.after, of))
     at = int(np.nanargmax(size)) if np.isfinite(size).any() else 0
-    closed = [r for r in both.values() if np.isfinite(r[o.aim.of][at])]
-    chart = curves_scene(x, curves, label, f"{o.aim.of} in {unit}" if unit else o.aim.of, title, angle)
+    closed = [r for r in both.values() if np.isfinite(o.values_of(r, of)[at])]
+    chart = curves_scene(x, curves, label, f"{names[of]} in {unit}" if unit else names[of], title, angle)
     return [chart, *(draw.mechanism(r, at + 1, notation) for r in closed)]
 
 

@@ -1,0 +1,102 @@
+"""Numbers of machine design by name, in aims, conditions, limits and answers: `mass`, `stress.rod`, `life.A`.
+
+One function for each word, of a result and a name: a value at every position. Mass alone is also compiled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.arrays import Array, Numeric
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+def things_of(m: Any, links: tuple[str, ...], of: str) -> list[str]:
+    """The links or joints that a word can be asked of."""
+    if of == "masses":
+        return [*([] if "mass" in m.parameters else [""]), *links]
+    if of in ("sections", "elastic", "fatigued"):
+        parts = {n: m.links[n].section for n in links if m.links[n].section is not None}
+        if of == "elastic":
+            return [n for n, s in parts.items() if s.elasticity is not None]
+        if of == "fatigued":
+            return [n for n, s in parts.items() if s.endurance is not None and s.ultimate is not None]
+        return [*parts]
+    if of == "rated":
+        bearings = {n: getattr(j, "bearing", None) for n, j in m.joints.items()}
+        return [n for n, b in bearings.items() if b is not None and b.rating is not None]
+    return [n for n, j in m.joints.items() if getattr(j, "pin", None) is not None]
+
+
+def mass(r: Any, link: str) -> Numeric:
+    """Mass of a link, or of all moving links, kg; a node where ``r`` is a compiled analysis."""
+    total = sum((r.mechanism.mass(n) for n in ([link] if link else r.links)), start=0.0)
+    return np.full(len(r.status), total) if hasattr(r, "status") else total
+
+
+def _stress(r: Result, link: str) -> Array:
+    """Greatest von Mises stress of a link, Pa."""
+    from dalembert.machine.members.member_forces import member_forces
+
+    return member_forces(r, link).stress().equivalent
+
+
+def _fatigue(r: Result, link: str) -> Array:
+    """1 / n by Goodman's line of the worst fibre over the cycle."""
+    from dalembert.machine.members.member_forces import member_forces
+
+    safety = member_forces(r, link).stress().fatigue().safety
+    return np.full(len(r.status), np.nan if safety is None else 1 / safety)
+
+
+def _buckling(r: Result, link: str) -> Array:
+    """Compression of a link over its critical load: 1 where it buckles."""
+    from dalembert.machine.members.buckling import utilisation
+    from dalembert.machine.members.member_forces import member_forces
+
+    return utilisation(member_forces(r, link))
+
+
+def _deflection(r: Result, link: str) -> Array:
+    """Greatest deflection along a link, m."""
+    from dalembert.machine.members.member_forces import member_forces
+
+    return member_forces(r, link).deflection().greatest
+
+
+def _slope(r: Result, link: str) -> Array:
+    """Greatest slope of a link in its bearings, rad."""
+    from dalembert.machine.members.member_forces import member_forces
+
+    return np.asarray(np.max([*member_forces(r, link).deflection().slopes().values()], axis=0))
+
+
+def _life(r: Result, joint: str) -> Array:
+    """L10 life of a rolling bearing, s."""
+    from dalembert.machine.bearings.bearing_load import bearing
+
+    return np.full(len(r.status), 3600 * bearing(r, joint).hours)
+
+
+def _pin_stress(r: Result, joint: str) -> Array:
+    """The larger of bending stress and sqrt(3) times the peak shear of a bolt, Pa."""
+    from dalembert.machine.elements.pin_stresses import pin
+
+    return pin(r, joint).equivalent
+
+
+READ: dict[str, Callable[[Result, str], Array]] = {
+    "stress": _stress,
+    "fatigue": _fatigue,
+    "buckling": _buckling,
+    "deflection": _deflection,
+    "bearing_slope": _slope,
+    "life": _life,
+    "pin_stress": _pin_stress,
+}
+"""Word -> its values over the positions (P,)."""

@@ -1,0 +1,143 @@
+"""Aims of designers, mass, stress, buckling, life and functions: against sizes by hand and the tables."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.optimization.one_by_one import value_of
+from tests.tiers import tiers
+
+DOCS = Path(__file__).parents[2] / "docs"
+CANTILEVER = """
+gravity: none
+parameters: {high: 40 mm, broad: 15 mm}
+links:
+  ground: {points: {O: [0, 0]}}
+  beam:
+    points: {O: [0, 0], T: [500 mm, 0]}
+    mass: 7850 kg/m^3 * broad * high * 500 mm
+    section: {rectangle: [broad, high], elasticity: 210 GPa, yield_stress: 355 MPa}
+joints: {O: {type: weld, links: [ground, beam]}}
+loads: {F: {type: force, on: beam, at: T, value: [0, -2 kN]}}
+"""
+
+
+def beam_sizes(stress: float, sag: float) -> tuple[float, float]:
+    """Least h of a cantilever b = 15 mm by its stress M h/2/I, and by its sag F L^3/(3 E I)."""
+    force, length, b, elasticity = 2000.0, 0.5, 0.015, 210e9
+    by_sag = (4 * force * length**3 / (elasticity * b * sag)) ** (1 / 3)
+    return math.sqrt(6 * force * length / (b * stress)), by_sag
+
+
+@pytest.mark.parametrize(("stress", "sag"), tiers([(160e6, 4e-3)], [(300e6, 2e-3)]))
+def test_the_lightest_beam_is_that_of_its_formulas(stress: float, sag: float) -> None:
+    rules = [f"stress.beam <= {stress} Pa", f"peak deflection.beam <= {sag} m"]
+    best = da.optimize(
+        da.loads(CANTILEVER), {"high": ("20 mm", "90 mm")}, "mass", rules, starts=2, static=True
+    )
+    h = max(beam_sizes(stress, sag))
+    assert best.feasible
+    assert best.values[0] == pytest.approx(h, rel=1e-5)
+    assert best.value == pytest.approx(7850 * 0.015 * h * 0.5, rel=1e-5)
+
+
+def test_an_aim_and_a_condition_may_be_functions() -> None:
+    """A made-up cost with its least in the middle, and a condition that moves it."""
+
+    def cost(r: da.Result) -> float:
+        return float((r.mechanism.parameters["high"].value - 0.05) ** 2 + r["mass"][0] * 0)
+
+    def thick(r: da.Result) -> Any:
+        return np.full(len(r.status), r.mechanism.parameters["high"].value - 0.06)
+
+    vary = {"high": ("20 mm", "90 mm")}
+    free = da.optimize(da.loads(CANTILEVER), vary, cost, starts=2, static=True)
+    bound = da.optimize(da.loads(CANTILEVER), vary, cost, [thick], starts=2, static=True)
+    assert (free.values[0], bound.values[0]) == pytest.approx((0.05, 0.06), abs=1e-5)
+    assert "thick >= 0" in bound.text()
+    assert "cost" in bound.text()
+    with pytest.raises(da.ModelError, match="cost gives 2 numbers; return one, or 1, one a position"):
+        value_of(bound.after, "cost", {"cost": lambda r: [1.0, 2.0]})
+
+
+@pytest.mark.long
+def test_a_front_of_mass_and_sag() -> None:
+    vary = {"high": ("30 mm", "90 mm")}
+    front = da.pareto(
+        da.loads(CANTILEVER), vary, ["mass", "peak deflection.beam"], points=3, starts=2, static=True
+    )
+    sag = front.values[:, 1]
+    h = (4 * 2000 * 0.5**3 / (210e9 * 0.015 * sag)) ** (1 / 3)
+    np.testing.assert_allclose(front.values[:, 0], 7850 * 0.015 * 0.5 * h, rtol=1e-4)
+
+
+def test_the_words_are_the_numbers_of_the_tables() -> None:
+    m = da.load(DOCS / "lightest-press.yaml").with_values({"joints.A.bearing": {"rating": "60 kN"}})
+    r = da.dynamics(m)
+    rod = da.member_forces(r, "rod")
+    b = rod.buckling()
+    loaded = b.compressions > 0
+    np.testing.assert_allclose(r["buckling.rod"][loaded], (b.compressions / b.criticals)[loaded], rtol=1e-12)
+    assert (r["buckling.rod"][~loaded] == 0).all()
+    np.testing.assert_array_equal(r["stress.rod"], rod.stress().equivalent)
+    assert r["life.A"][0] == 3600 * da.bearing(r, "A").hours
+    assert r["mass"][0] == pytest.approx(sum(m.mass(n) for n in r.links))
+    assert da.compile(m, ["web"], ["mass"])([[0.05]]).value("mass").max() == pytest.approx(
+        m.with_values({"web": 0.05}).mass("crank") + m.mass("rod") + 30
+    )
+    with pytest.raises(da.ModelError, match=r"stress\.rod is not compiled; use da\.dynamics"):
+        da.compile(m, outputs=["stress.rod"])
+
+
+def test_a_study_has_a_limit_of_stress() -> None:
+    """Of a beam whose load scatters evenly: the yield is the share of loads below the limit."""
+    m = da.loads(CANTILEVER)
+    s = da.study(
+        m, {"loads.F.value.1": "-3 kN..-1 kN in 5"}, ["stress.beam"], designs=5, draw="factorial", static=True
+    )
+    stress = np.sort(s.run().values("stress.beam"))
+    np.testing.assert_allclose(stress, np.linspace(1000, 3000, 5) * 0.5 * 6 / (0.015 * 0.04**2), rtol=1e-9)
+
+
+@pytest.mark.long
+def test_the_lightest_press_is_that_of_equations_by_hand() -> None:
+    """The documented press at rest: every condition gives one number, by slider-crank and column formulas."""
+    m = da.load(DOCS / "lightest-press.yaml").with_values({"gravity": "none"})
+    rules = ["peak stress.rod <= 90 MPa", "peak stress.crank <= 160 MPa", "buckling.rod <= 1/5"]
+    rules += ["range(slide.G) >= 100 mm", "transmission.B >= 75 deg"]
+    vary = {"crank": (0.04, 0.08), "rod": (0.2, 0.5), "diameter": (0.02, 0.06), "web": (0.02, 0.08)}
+    best = da.optimize(m, vary, "mass", rules, starts=2, positions=12, static=True)
+    q = np.radians(np.arange(0, 360, 30))
+    force = 60e3 * (q > np.radians(270))
+    r, rod = 0.05, max(0.2, 0.05 / math.cos(math.radians(75)))
+    tilt = np.arcsin(r * np.sin(q) / rod)
+    push = force / np.cos(tilt)  # along the rod
+    across, along = push * np.sin(q + tilt), push * np.cos(q + tilt)
+    yield_stress, elasticity = 355e6, 210e9
+
+    def critical(d: float) -> float:
+        euler, area = math.pi**3 * elasticity * d**4 / 64 / rod**2, math.pi * d**2 / 4
+        johnson = area * yield_stress * (1 - yield_stress * area / (4 * euler))
+        return johnson if euler / area > yield_stress / 2 else euler
+
+    def root(f: Any, low: float, high: float) -> float:
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if f(middle) < 0 else (low, middle)
+        return high
+
+    d = root(lambda d: critical(d) - 5 * push.max(), 0.02, 0.06)
+    d = max(d, math.sqrt(4 * push.max() / math.pi / 90e6))
+    web = root(
+        lambda h: 160e6 - (np.abs(along) / (0.04 * h) + 6 * np.abs(across) * r / (0.04 * h**2)).max(),
+        0.02,
+        0.08,
+    )
+    np.testing.assert_allclose(best.values, [r, rod, d, web], rtol=2e-4)
+    assert best.feasible
