@@ -78,8 +78,36 @@ def pawl_and_ratchet(m: da.Mechanism) -> Iterator[float]:
     yield from (x.pawl_force[0], math.degrees(x.friction_angle), math.degrees(x.pitch))
 
 
+def motion_curves(m: da.Mechanism) -> Iterator[float]:
+    for by in ("harmonic", "cycloidal", "polynomial345", "polynomial4567", "modified_sine", "modified_trapezoid"):
+        yield from da.law(m, "S", by=by).coefficients.values()
+
+
+def law_of_a_master(m: da.Mechanism) -> Iterator[float]:
+    r = da.dynamics(m)
+    for k in range(4):
+        yield from (1e3 * r.drive_position("S")[k], r.drive_speed("S")[k], r.drive_acceleration("S")[k])
+
+
+def servo_motion(m: da.Mechanism) -> Iterator[float]:
+    law = da.law(m, "S")
+    yield from (law.times[1], law.times[3], law.duration, *law.at(0.25)[:3])
+    shorter = [da.law(da.loads(CASES["LAW-4"]["file"].replace("0.5 m,", f"{h} m,")), "S") for h in (0.12, 0.02)]
+    yield from (shorter[0].duration, shorter[0].peak_speed, shorter[1].duration)
+
+
+def polynomial_to_a_speed(m: da.Mechanism) -> Iterator[float]:
+    law = da.law(m, "S")
+    yield 1e3 * law.at(0.125)[0]
+    yield from (max(law.acceleration), min(law.acceleration), law.at(0.0)[3], 1e3 * law.at(0.35)[0])
+
+
 READ: dict[str, Read] = {
     **governor_reads.READ,
+    "LAW-1": motion_curves,
+    "LAW-3": law_of_a_master,
+    "LAW-4": servo_motion,
+    "LAW-6": polynomial_to_a_speed,
     "CYL-1": cylinder_column,
     "CYL-2": cylinder_boom,
     "MTR-1": geared_motor,

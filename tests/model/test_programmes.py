@@ -136,6 +136,38 @@ def test_a_programme_over_a_drive_is_that_over_time_at_constant_speed() -> None:
     assert values == pytest.approx((3.7158663567967145e-3, 0.1875028727214618, 4.997988637952187))
 
 
+@pytest.mark.parametrize("speed", [10.0, -10.0])
+def test_forces_have_two_numbers_where_the_acceleration_jumps(speed: float) -> None:
+    """Before and after, by the sense in which the other drive turns; beside the joint of pieces there is one."""
+    turn = [
+        {"to": "25 mm", "in": "100 deg", "by": "harmonic"},
+        {"dwell": "40 deg"},
+        {"to": 0, "in": "120 deg", "by": "parabolic"},
+        {"dwell": "rest"},
+    ]
+    at = [0, 50, 100, 100 + 1e-6, 140, 200, 260, 300]
+    m = da.mechanism(ram({"over": "O", "segments": turn}, position=at, speed=f"{speed} rad/s"))
+    r = da.dynamics(m)
+    assert r.status == ("jump", "ok", "jump", "ok", "jump", "jump", "jump", "ok")
+    assert r.after is not None
+    slow, fast = (2 * speed**2 * x for x in (0.0125 * (1.8) ** 2, 0.1 * (1.5 / PI) ** 2))  # m s'' w^2
+    clockwise = [(0, slow), (-slow, 0), (0, -fast), (-fast, fast), (fast, 0)]
+    two = np.array(clockwise)[:, :: int(np.sign(speed))].T
+    jumps = np.flatnonzero(np.array(r.status) == "jump")
+    for side, expected in zip(r.sides, two, strict=True):
+        assert side.effort("S")[jumps] == pytest.approx(expected, abs=1e-12)
+        assert side.drive_acceleration("S")[jumps] == pytest.approx(expected / 2, abs=1e-12)
+        assert side.power_balance.max() < 1e-12
+    assert "The acceleration of drive 'S' jumps at O = 0 deg and S = 0 mm" in str(r.reasons[0])
+    answer = da.compile(m, ["links.ram.mass"], ["effort.S"])([[2.0], [4.0]])
+    assert tuple(answer.status[1]) == r.status
+    for side, both in zip(r.sides, answer.both_sides("effort.S"), strict=True):
+        assert both[1] == pytest.approx(2 * side.effort("S"), abs=1e-12)
+    largest = da.compile(m, ["links.ram.mass"], ["effort.S"], reduce="peak")([[2.0]])
+    assert largest["effort.S"][0] == pytest.approx(max(slow, fast))
+    assert set(da.statics(m).status) == {"ok"}
+
+
 def test_a_polynomial_ends_with_the_rates_it_is_given() -> None:
     """40 mm from rest to 0.3 m/s without acceleration, then even: a = 6 (h/T^2) ... by hand at half time."""
     ends = {"speed": ["0 m/s", "0.3 m/s"], "acceleration": ["0 m/s^2", "0 m/s^2"]}

@@ -22,8 +22,8 @@ from dalembert.analysis.result.force_arrays import SolvedForces, at_places, conc
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.reaction_axes import uniqueness
 from dalembert.analysis.result.result import Result
+from dalembert.analysis.status.acceleration_jumps import both_sides, jump_marks, jumping, just_after
 from dalembert.analysis.status.closure_failure import open_sentence
-from dalembert.analysis.status.lift_jumps import both_sides, jumping, lift_jumps
 from dalembert.analysis.status.overflow import size_sentence
 from dalembert.analysis.status.statuses import KEPT, UNBALANCED, statuses
 from dalembert.arrays import Array, Flags, Index, Ints, at
@@ -73,11 +73,11 @@ def at_poses(c: Compiled, like: Result, which: Index, inertia: bool) -> Result:
 def some_positions(c: Compiled, which: Index) -> Compiled:
     """The mechanism at some positions of its schedule."""
     s = c.schedule
-    time, parts = (None if x is None else x[which] for x in (s.time, s.parts))
+    time, parts, after = (None if x is None else x[which] for x in (s.time, s.parts, s.after))
     rates = {name: getattr(s, name)[which] for name in ("position", "speed", "acceleration")}
     loads, known = slice_forcing(c, which)
     beyond = tuple(replace(b, at=b.at[which]) for b in c.beyond)
-    some = replace(s, time=time, parts=parts, **rates)
+    some = replace(s, time=time, parts=parts, after=after, **rates)
     return replace(c, schedule=some, forcing=loads, known=known, beyond=beyond)
 
 
@@ -97,8 +97,8 @@ def _along(followed: Positions, path: Path, inertia: bool, forces: bool, method:
 def _with_jumps(
     c: Compiled, pose: Pose, inertia: bool, forces: bool, moved: _Moved, solved: SolvedForces
 ) -> tuple[_Moved, SolvedForces, _Moved, Flags]:
-    """Motion and forces with those just before jumps of a lift's acceleration, and just after, where it counts."""
-    marks = lift_jumps(c, pose, np.pad(moved.twist, ((0, 0), (0, 1), (0, 0))))
+    """Motion and forces with those just before jumps of a prescribed acceleration, and just after, where it counts."""
+    marks = jump_marks(c, pose, np.pad(moved.twist, ((0, 0), (0, 1), (0, 0))))
     marks = marks if inertia or not forces else np.zeros_like(marks)
     behind = moved
     for where, *sides in both_sides(c, marks):
@@ -254,9 +254,11 @@ def _result(
 ) -> Result:
     """The answer, with a separate one for either end of an interval and for the other side of reversals and jumps."""
 
-    def result_of(e: SolvedForces, moved: _Moved = moved) -> Result:
+    def result_of(
+        e: SolvedForces, moved: _Moved = moved, c: Compiled = followed.compiled
+    ) -> Result:
         return Result(
-            compiled=with_speed(followed.compiled, e.square),
+            compiled=with_speed(c, e.square),
             inertia=inertia,
             mobility=followed.mobility,
             mode=followed.mode,
@@ -280,7 +282,7 @@ def _result(
         )
 
     ends = [result_of(e) for e in f.ends]
-    after = result_of(f.after, behind) if f.after else None
+    after = result_of(f.after, behind, just_after(followed.compiled)) if f.after else None
     return replace(result_of(f), ends=tuple(zip(ends[::2], ends[1::2], strict=True)), after=after)
 
 

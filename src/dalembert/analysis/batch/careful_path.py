@@ -143,7 +143,8 @@ def _schedule(design: Mechanism, schedule: Schedule) -> Schedule:
         a if len(a) == count else np.repeat(a[:1], count, axis=0)
         for a in (nominal.speed, nominal.acceleration)
     ]
-    return replace(schedule, speed=rates[0], acceleration=rates[1])
+    after = nominal.after if nominal.after is not None and len(nominal.after) == count else None
+    return replace(schedule, speed=rates[0], acceleration=rates[1], after=after)
 
 
 def quantity(result: Result, output: str) -> Array:

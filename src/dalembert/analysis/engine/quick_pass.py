@@ -26,7 +26,8 @@ def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions
     """Answer of a planar mechanism with every position ok; its motion where no forces are requested, or where its
     program gives none; None where some position may not be ok."""
     slip = any(margin < 0 for margin in grip_margins(c.mechanism))
-    special = slip or out_of_stroke(c).any() or released_joints(c.mechanism)
+    jumps = c.schedule.after is not None and (inertia or not forces)
+    special = slip or jumps or out_of_stroke(c).any() or released_joints(c.mechanism)
     program = None if special else ready(c, inertia)
     if program is None:
         return None

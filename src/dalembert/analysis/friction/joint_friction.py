@@ -86,9 +86,11 @@ def joints_at_limit(result: Result, position: int = 0) -> tuple[str, ...]:
 
 
 def reversing_joints(result: Result, position: int) -> tuple[str, ...]:
-    """Joints whose contacts reverse at a position; cams where accelerations jump."""
+    """Joints whose contacts reverse at a position; where accelerations jump the drives whose law does it, or cams."""
     if result.status[position] == "jump":
-        return tuple(n for n, joint in result.mechanism.joints.items() if joint.outlined)
+        led = zip(result.drives, result.schedule.jumps[position], strict=True)
+        drives = tuple(name for name, jumps in led if jumps)
+        return drives or tuple(n for n, joint in result.mechanism.joints.items() if joint.outlined)
     f, contacts = friction_of(result)
     return tuple(dict.fromkeys(result.joints[k] for k in contacts.joint[f.reversing[position]]))
 

@@ -11,11 +11,11 @@ import numpy as np
 
 from dalembert.analysis.elements.turning_speeds import speed_checks
 from dalembert.analysis.friction.friction_status import Check, alone, arc, friction_checks, reversal_checks
+from dalembert.analysis.status.acceleration_jumps import jump_sentence
 from dalembert.analysis.status.brake_verdicts import clamp_checks, helping
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.analysis.status.cylinder_strokes import stroke_checks
 from dalembert.analysis.status.freewheeling import freewheel_checks, grip_checks
-from dalembert.analysis.status.lift_jumps import jump_sentence
 from dalembert.analysis.status.lost_contacts import contact_checks
 from dalembert.analysis.status.outside_tables import outside, outside_sentence
 from dalembert.analysis.status.overflow import FORCES, RATES, fast, not_finite, overflow_sentence, strong
@@ -83,7 +83,7 @@ def statuses(
             *freewheel_checks(c, twist),
         ]
     if jumps is not None:
-        checks += [("jump", jumps, lambda k: jump_sentence(arc(c, k)))]
+        checks += [("jump", jumps, lambda k: jump_sentence(c, k, arc(c, k)))]
     status = np.full(len(rcond), "ok", dtype=object)
     reasons = np.full(len(rcond), None, dtype=object)
     single = alone(f) if jumps is None else alone(f) | jumps

@@ -201,13 +201,15 @@ class Curve:
         return float(self.times[-1])
 
     def at(self, x: Array | float, before: bool = False) -> Array:
-        """s and its derivatives of first to third order (4, ...): behind a joint of pieces, or ``before`` it. Beyond
-        the ends of a curve that is not periodic it rests."""
+        """s and its derivatives of first to third order (4, ...): behind a joint of pieces, or ``before`` it, within
+        rounding. Beyond the ends of a curve that is not periodic it rests."""
         t, flat = np.asarray(x, float), np.ravel(np.asarray(x, float))
         inner = np.mod(flat, self.duration) if self.periodic else np.clip(flat, 0.0, self.duration)
-        if before and self.periodic:
-            inner = np.where(inner == 0, self.duration, inner)
-        which = np.searchsorted(self.times, inner, "left" if before else "right") - 1
+        near = SAME * self.duration
+        if self.periodic:  # a joint that rounding has put on its other side
+            first = inner <= near if before else inner - self.duration < -near
+            inner = inner + self.duration * (first if before else first - 1.0)
+        which = np.searchsorted(self.times, inner + (-near if before else near)) - 1
         which = np.clip(which, 0, len(self.pieces) - 1)
         out = np.zeros((4, flat.size))
         for k in np.unique(which):

@@ -162,20 +162,35 @@ class Programme:
                 "the speed jumps where the law begins again", "let it end as it begins", ("segments",)
             )
 
-    def motion(self, count: int | None = None) -> tuple[Array, Array, Array, Array]:
-        """Time, position, speed and acceleration at `count` equal steps; a periodic law does not repeat its start."""
+    def motion(self, count: int | None = None, before: bool = False) -> tuple[Array, Array, Array, Array]:
+        """Time, position, speed and acceleration at `count` equal steps; a periodic law does not repeat its start.
+        Where the acceleration jumps, just after it, or ``before`` it."""
         import numpy as np
 
         t = np.linspace(0.0, self.curve.duration, count or self.count, endpoint=not self.periodic)
-        s, v, a, _ = self.curve.at(t)
-        if not self.periodic:
-            s[-1:], v[-1:], a[-1:] = self.curve.at(t[-1:], before=True)[:3]
-        return t, s, v, a
+        return (t, *self._beside(t, np.full(t.shape, -1.0 if before else 1.0))[:3])
 
-    def following(self, position: Array, speed: Array, acceleration: Array) -> tuple[Array, Array, Array]:
+    def following(
+        self, position: Array, speed: Array, acceleration: Array, before: bool = False
+    ) -> tuple[Array, Array, Array]:
         """Position, speed s' w and acceleration s'' w^2 + s' alpha where the other drive has these (P,)."""
-        s, first, second, _ = self.curve.at(position)
+        import numpy as np
+
+        sense = np.sign(speed) * (-1 if before else 1)
+        s, first, second, _ = self._beside(position, sense)
+        beside = position + sense * SAME * self.curve.duration
+        rests = (beside < 0) | (beside > self.curve.duration) if not self.periodic else np.False_
+        first, second = (np.where(rests, 0.0, x) for x in (first, second))
         return s, first * speed, second * speed**2 + first * acceleration
+
+    def _beside(self, x: Array, sense: Array) -> Array:
+        """s and its derivatives (4, P); where the second one jumps, on the side of a sense (P,)."""
+        import numpy as np
+
+        behind, ahead = self.curve.at(x, before=True), self.curve.at(x)
+        jumps = np.abs(ahead[2] - behind[2]) > SAME * self.curve.peaks(2)[0]
+        ahead[2:] = np.where(jumps & (sense < 0), behind[2:], ahead[2:])
+        return ahead
 
     def tree(self, kind: str) -> dict[str, object]:
         """Mapping as in a file."""

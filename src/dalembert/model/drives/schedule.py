@@ -23,6 +23,7 @@ class Schedule:
     """Motion of the drives, position by position.
 
     position, speed, acceleration: (positions, drives), SI and radians; an unknown position is NaN
+    after:   (positions, drives) accelerations just after, where that of a law jumps; None where none does
     time:    (positions,) of a law of motion, else None
     parts:   (positions, contacts) of friction's limit at contacts without a rate, where it is known; else NaN, None
     unknown: the drive whose position is unknown, and the `range` in which it is sought
@@ -38,6 +39,7 @@ class Schedule:
     parts: Array | None = None
     began: Array | None = None
     """Positions (drives,) at time 0; None for the first."""
+    after: Array | None = None
 
     @property
     def clock(self) -> Array | None:
@@ -53,6 +55,15 @@ class Schedule:
             return np.zeros(1) if self.count == 1 else None
         first = self.position[0] if self.began is None else self.began
         return np.asarray((self.position[:, k] - first[k]) / self.speed[0, k])
+
+    @property
+    def jumps(self) -> Flags:
+        """True (positions, drives) where the acceleration that a drive's law prescribes jumps."""
+        import numpy as np
+
+        if self.after is None:
+            return np.zeros(self.acceleration.shape, bool)
+        return np.asarray(self.after != self.acceleration)
 
     @property
     def count(self) -> int:
@@ -89,19 +100,43 @@ def schedule(drives: Mapping[str, Drive], positions: AtPositions = None) -> Sche
     elif positions is not None:
         drives = _with_positions(drives, positions)
     size = _count(drives, count)
-    columns = {name: _motion(drive, size) for name, drive in drives.items() if not _master(drive)}
-    columns = _with_followers(drives, columns)
-    shape = (size, len(drives))
-    motion = np.empty((3, *shape))
-    for k, column in enumerate(columns.values()):
-        for row, values in zip(motion, column[1:], strict=True):
-            row[:, k] = values
-    position, speed, acceleration = motion
+    columns = _columns(drives, size, before=True)
+    position, speed, acceleration = _arrays(columns, size)
+    after = acceleration
+    if any(isinstance(drive.law, Programme) for drive in drives.values()):
+        after = _arrays(_columns(drives, size, before=False), size)[2]
     unknown = _unknown(drives)
     span = (drives[unknown].range or (0.0, 2 * math.pi)) if unknown else None
     return Schedule(
-        tuple(drives), position, speed, acceleration, _time(columns), unknown, span, None, position[0]
+        names=tuple(drives),
+        position=position,
+        speed=speed,
+        acceleration=acceleration,
+        time=_time(columns),
+        unknown=unknown,
+        range=span,
+        began=position[0],
+        after=after if (after != acceleration).any() else None,
     )
+
+
+def _columns(drives: Mapping[str, Drive], size: int, before: bool) -> dict[str, Motion]:
+    """The motion of each drive; where its acceleration jumps, just after it or ``before`` it."""
+    alone = {name: _motion(drive, size, before) for name, drive in drives.items() if not _master(drive)}
+    return _with_followers(drives, alone, before)
+
+
+def _arrays(columns: Mapping[str, Motion], size: int) -> Array:
+    """Position, speed and acceleration (3, positions, drives)."""
+    import numpy as np
+
+    motion = np.empty((3, size, len(columns)))
+    for k, column in enumerate(columns.values()):
+        for row, values in zip(motion, column[1:], strict=True):
+            row[:, k] = values
+    return motion
+
+
 
 
 def _whole_number(count: object) -> int:
@@ -191,8 +226,10 @@ def _count(drives: Mapping[str, Drive], positions: int | None) -> int:
     return next(iter(counts), 1)
 
 
-def _motion(drive: Drive, size: int) -> Motion:
+def _motion(drive: Drive, size: int, before: bool) -> Motion:
     """Time, position, speed and acceleration of one drive."""
+    if isinstance(drive.law, Programme):
+        return drive.law.motion(size, before)
     if drive.law is not None:
         return drive.law.motion(size)
     position: object = drive.position
@@ -208,7 +245,9 @@ def _master(drive: Drive) -> str:
     return drive.law.over if isinstance(drive.law, Programme) else ""
 
 
-def _with_followers(drives: Mapping[str, Drive], known: dict[str, Motion]) -> dict[str, Motion]:
+def _with_followers(
+    drives: Mapping[str, Drive], known: dict[str, Motion], before: bool
+) -> dict[str, Motion]:
     """The motions of all drives, those over another one's position among them."""
     import numpy as np
 
@@ -218,7 +257,7 @@ def _with_followers(drives: Mapping[str, Drive], known: dict[str, Motion]) -> di
             law, master = drives[name].law, waiting.pop(name)
             assert isinstance(law, Programme)
             motion = np.broadcast_arrays(*(np.asarray(x, float) for x in known[master][1:]))
-            known[name] = (known[master][0], *law.following(*motion))
+            known[name] = (known[master][0], *law.following(*motion, before))
     for name, master in waiting.items():
         circle = master in drives
         raise ModelError(

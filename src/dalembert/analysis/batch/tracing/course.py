@@ -127,7 +127,7 @@ class PositionPath:
         count = len(positions)
         rates = [np.repeat(a[:1], count, axis=0) for a in (self.schedule.speed, self.schedule.acceleration)]
         schedule = replace(
-            self.schedule, position=positions, speed=rates[0], acceleration=rates[1], time=None
+            self.schedule, position=positions, speed=rates[0], acceleration=rates[1], time=None, after=None
         )
         return PositionPath(self.mechanism, schedule)
 

@@ -146,7 +146,8 @@ def _peak_table(result: Result, to: Printed, axes: Axes) -> Part:
         rows.append([e.name, e.unit, *largest, number(e.smallest), _place_text(result, to, e.least)])
     marked = any("*" in cell for row in rows for cell in row[3::2])
     heads = ["over the positions", "unit", "largest", "at", "smallest", "at"]
-    return TextTable(heads, rows, 2, "* one side of a reversal" if marked else "") if rows else ""
+    what = "reversal" if "reversal" in result.status else "jump"
+    return TextTable(heads, rows, 2, f"* one side of a {what}" if marked else "") if rows else ""
 
 
 def _place_text(result: Result, to: Printed, position: int) -> str:
