@@ -79,7 +79,14 @@ def pawl_and_ratchet(m: da.Mechanism) -> Iterator[float]:
 
 
 def motion_curves(m: da.Mechanism) -> Iterator[float]:
-    for by in ("harmonic", "cycloidal", "polynomial345", "polynomial4567", "modified_sine", "modified_trapezoid"):
+    for by in (
+        "harmonic",
+        "cycloidal",
+        "polynomial345",
+        "polynomial4567",
+        "modified_sine",
+        "modified_trapezoid",
+    ):
         yield from da.law(m, "S", by=by).coefficients.values()
 
 
@@ -92,7 +99,9 @@ def law_of_a_master(m: da.Mechanism) -> Iterator[float]:
 def servo_motion(m: da.Mechanism) -> Iterator[float]:
     law = da.law(m, "S")
     yield from (law.times[1], law.times[3], law.duration, *law.at(0.25)[:3])
-    shorter = [da.law(da.loads(CASES["LAW-4"]["file"].replace("0.5 m,", f"{h} m,")), "S") for h in (0.12, 0.02)]
+    shorter = [
+        da.law(da.loads(CASES["LAW-4"]["file"].replace("0.5 m,", f"{h} m,")), "S") for h in (0.12, 0.02)
+    ]
     yield from (shorter[0].duration, shorter[0].peak_speed, shorter[1].duration)
 
 

@@ -37,7 +37,44 @@ joints:
 drives: {A: {position: 0, speed: 1 rad/s}}
 loads: {T: {type: couple, on: two, value: 120}}
 """
-FILES = {"cylinder": CYLINDER, "screw": SCREW, "clutch": CLUTCH}
+FACES = """units: {length: mm, mass: kg, force: N, moment: N*m}
+links: {ground: {points: {O: [0, 0]}}, disc: {points: {O: [0, 0]}}}
+joints:
+  O: {type: pin, links: [ground, disc]}
+  pads: {type: disc, links: [ground, disc], at: O, radii: [90, 140], faces: 2, friction: {coefficient: 0.4}, force: 900}
+drives: {O: {position: 0, speed: 10 rad/s}}
+"""
+TACKLE = """units: {length: mm, mass: kg, force: N}
+gravity: standard
+links:
+  ground: {points: {T: [0, 0], E: [300, 0], P: [-200, -800]}}
+  block: {points: {B: [0, 0]}, mass: 40}
+  hand: {points: {h: [0, 0]}}
+joints:
+  lift: {type: slider, links: [ground, block], at: [T, B], direction: -90, angle: 90}
+  pull: {type: slider, links: [ground, hand], at: [P, h], direction: -90, angle: 90}
+  rope: {type: rope, through: [hand.h, {round: ground.T, radius: 60}, {round: block.B, radius: 60}, ground.E],
+         parallel: true, efficiency: 0.95}
+drives: {pull: {position: 0, speed: 200 mm/s}}
+assembly: {block: [150, -900, 0]}
+"""
+TANGENT = """units: {length: mm, mass: kg, force: N}
+links: {ground: {points: {O: [0, 0]}}, cam: {points: {O: [0, 0]}}, stem: {points: {F: [0, 0]}, mass: 1}}
+joints:
+  O: {type: pin, links: [ground, cam]}
+  guide: {type: slider, links: [ground, stem], at: [O, F], direction: 90}
+  F: {type: cam, links: [cam, stem], at: [O, F], follower: {roller: 20}, contact: holds,
+      profile: {tangent: {base: 38, lift: 9.5, half_angle: 75 deg}}}
+drives: {O: {position: 50, speed: 20 rad/s}}
+"""
+FILES = {
+    "cylinder": CYLINDER,
+    "screw": SCREW,
+    "clutch": CLUTCH,
+    "faces": FACES,
+    "tackle": TACKLE,
+    "tangent": TANGENT,
+}
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -50,7 +87,13 @@ def test_everything_that_shows_a_mechanism_shows_it(name: str, tmp_path: Path) -
     r.save(tmp_path / "answer.csv")
     assert "<html" in da.page(m)
     assert r.sheet()
+    assert b"=" in da.report(r).to_bytes("txt")
     assert da.virtual_work(r) is not None
+
+
+def test_the_direction_of_parallel_strands_cannot_vary() -> None:
+    with pytest.raises(da.ModelError, match="of a rope follows from 'joints"):
+        da.compile(da.loads(TACKLE), ["joints.lift.direction"])
 
 
 def test_a_cylinder_is_drawn_to_scale() -> None:

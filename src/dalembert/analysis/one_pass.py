@@ -254,9 +254,7 @@ def _result(
 ) -> Result:
     """The answer, with a separate one for either end of an interval and for the other side of reversals and jumps."""
 
-    def result_of(
-        e: SolvedForces, moved: _Moved = moved, c: Compiled = followed.compiled
-    ) -> Result:
+    def result_of(e: SolvedForces, moved: _Moved = moved, c: Compiled = followed.compiled) -> Result:
         return Result(
             compiled=with_speed(c, e.square),
             inertia=inertia,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
-from dalembert.analysis.batch.tracing.symbolic_model import may_vary, number_kinds
+from dalembert.analysis.batch.tracing.symbolic_model import leads_rope, may_vary, number_kinds
 from dalembert.analysis.methods.applied_forces import link_place
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array, Tree
@@ -85,11 +85,11 @@ def _sources(m: Mechanism, values: Iterable[object]) -> list[str]:
 
 
 def _follows(m: Mechanism, path: str) -> bool:
-    """True if another number determines this one: weight beside mass, a point relative to another, a
-    shape's inertia."""
+    """True if another number determines this one, or it cannot vary: weight beside mass, a point relative to another,
+    a shape's inertia, the direction of a guide that a rope takes."""
     keys = path.split(".")
     if keys[0] != "links":
-        return False
+        return leads_rope(m, path)
     link: Any = m.links[keys[1]]
     if keys[2] == "points":
         return not isinstance(link.points[keys[3]], tuple)

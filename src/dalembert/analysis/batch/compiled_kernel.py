@@ -315,8 +315,6 @@ class Kernel:
         code, again = sides.code, 0
         if (other := self.may_change_branch(designs)) is not None:
             code[other] = CODES.index("undecided")
-        if self.trace.inertia and (jumps := course.schedule.jumps.any(axis=1)).any():
-            code[... if self.reduce else (slice(None), jumps)] = CODES.index("undecided")
         if not np.isfinite(designs).all():
             code[~np.isfinite(designs).all(axis=1)] = CODES.index("failed")
         settle_reversals(self, designs, course, sides, threads)

@@ -19,7 +19,7 @@ from dalembert.arrays import Array, Ints
 if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
 
-AT_REST, LOCKED, REVERSAL = (CODES.index(name) for name in ("at_rest", "self_locking", "reversal"))
+AT_REST, LOCKED, REVERSAL, UNDECIDED = map(CODES.index, ("at_rest", "self_locking", "reversal", "undecided"))
 BUILDING = threading.Lock()
 """One thread compiles."""
 
@@ -28,8 +28,10 @@ def settle_reversals(
     k: Kernel, values: Array, course: PositionPath, answer: Sides, threads: int | None
 ) -> None:
     """Replaces the status `at_rest` by both sides of a reversal where the machine moves; without second rates it
-    stays."""
-    moves = course.schedule.moves
+    stays. Positions where the law of a drive jumps are left to the general executor."""
+    moves, jumps = course.schedule.moves, course.schedule.jumps.any(axis=1)
+    if k.trace.inertia and jumps.any():
+        answer.code[... if k.reduce else (slice(None), jumps)] = UNDECIDED
     if k.reduce is None:
         designs, positions = np.nonzero((answer.code == AT_REST) & moves)
         if len(designs):

@@ -1,4 +1,4 @@
-"""Positions at which the acceleration that a cam or a law prescribes jumps: motion and forces just before and just after.
+"""Positions at which a prescribed acceleration jumps, of a cam or a law: motion and forces just before and just after.
 
 Mechanics: docs/theory.md 2.3.
 """
@@ -54,8 +54,8 @@ def _moved(c: Compiled, side: Array) -> Compiled:
 
 def jump_sentence(c: Compiled, run: Ints, where: str) -> str:
     """Sentence of a run of positions at jumps."""
-    jumping = c.schedule.jumps[run].any(axis=0)
-    names = [name for name, jump in zip(c.schedule.names, jumping, strict=True) if jump]
+    columns = np.flatnonzero(c.schedule.jumps[run].any(axis=0))
+    names = [c.schedule.names[k] for k in columns]
     what = f"of drive {', '.join(map(repr, names))}" if names else "that a cam prescribes"
     return f"The acceleration {what} jumps{where}: the numbers are those just before and just after."
 

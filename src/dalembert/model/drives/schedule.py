@@ -137,8 +137,6 @@ def _arrays(columns: Mapping[str, Motion], size: int) -> Array:
     return motion
 
 
-
-
 def _whole_number(count: object) -> int:
     """A number of positions; True and 72.0 are none."""
     from numbers import Integral
@@ -245,9 +243,7 @@ def _master(drive: Drive) -> str:
     return drive.law.over if isinstance(drive.law, Programme) else ""
 
 
-def _with_followers(
-    drives: Mapping[str, Drive], known: dict[str, Motion], before: bool
-) -> dict[str, Motion]:
+def _with_followers(drives: Mapping[str, Drive], known: dict[str, Motion], before: bool) -> dict[str, Motion]:
     """The motions of all drives, those over another one's position among them."""
     import numpy as np
 
@@ -256,8 +252,9 @@ def _with_followers(
         for name in ready:
             law, master = drives[name].law, waiting.pop(name)
             assert isinstance(law, Programme)
-            motion = np.broadcast_arrays(*(np.asarray(x, float) for x in known[master][1:]))
-            known[name] = (known[master][0], *law.following(*motion, before))
+            position, speed, acceleration = (np.asarray(x, float) for x in known[master][1:])
+            motion = np.broadcast_arrays(position, speed, acceleration)
+            known[name] = (known[master][0], *law.following(motion[0], motion[1], motion[2], before))
     for name, master in waiting.items():
         circle = master in drives
         raise ModelError(

@@ -106,8 +106,11 @@ def _refuse_law(m: Mechanism, path: str) -> None:
 
 
 def _refuse_followed(m: Mechanism, path: str) -> None:
-    """Refuse numbers of a cylinder from which others in the description were computed."""
+    """Refuse numbers from which others in the description were computed: of a cylinder, of guides of ropes."""
     keys = path.split(".")
+    if leads_rope(m, path):
+        what = f"the direction of the parallel strands of a rope follows from {path!r}, which cannot vary"
+        raise ModelError(what, "leave it out, or write parallel: 90 deg of the rope", keys)
     c = m.drives[keys[1]].cylinder if keys[2:3] == ["cylinder"] and keys[1] in m.drives else None
     if c is None:
         return
@@ -117,6 +120,16 @@ def _refuse_followed(m: Mechanism, path: str) -> None:
     if c.known_force is not None and keys[3] in ("bore", "rod", "cap_pressure", "rod_pressure"):
         what = f"the known effort of {keys[1]} follows from {path!r}, which cannot vary"
         raise ModelError(what, f"vary drives.{keys[1]}.effort", keys)
+
+
+def leads_rope(m: Mechanism, path: str) -> bool:
+    """True if a path names the direction of a guide that a rope with parallel strands takes as its own."""
+    keys = path.split(".")
+    if keys[0] != "joints" or keys[2:] != ["direction"]:
+        return False
+    link = m.joints[keys[1]].links[1]
+    ropes = (rope for rope in m.ropes.values() if rope.parallel is True)
+    return any(point.round[0] == link for rope in ropes for point in rope.through)
 
 
 def of_motion(path: str) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 
 from dalembert.analysis.compile.elements.profile_tables import CURVES, in_mm, lift_table
 from dalembert.arrays import Array, Numeric
+from dalembert.core.elements.cam_curves import arctan2
 from dalembert.core.elements.cam_family import FLAT, FLAT_SWINGS, SLIDES, SWINGS
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
@@ -82,12 +83,12 @@ def cam_shape(m: Mechanism, name: str) -> CamShape:
     return CamShape(kind, normal, -1.0, 0.0, 1.0 if joint.flat else 0.0, 1.0, -turned, 1.0, table, carrier)
 
 
-def _ahead(carrier: CamCarrier | None) -> float:
+def _ahead(carrier: CamCarrier | None) -> Numeric:
     """Direction of the follower's point from the cam's axis."""
     if carrier is None:
         return 0.0
     along = carrier.at if carrier.swings else carrier.way
-    return float(math.atan2(along[1], along[0]))
+    return arctan2(along[1], along[0])
 
 
 # the follower on the carrier

@@ -64,7 +64,7 @@ class StepOrder:
         self.sought = [np.eye(u.columns.shape[-1]) for u in e.unknowns]
         self.free_bodies = list(e.connected(min(MOST_LINKS, len(e.links))))
         self.columns = {some: on_links(e, some)[0] for some in self.free_bodies}
-        self.largest = max((float(np.abs(u.columns).max()) for u in e.unknowns), default=1.0)
+        self.largest = max((float(np.abs(u.columns).max(initial=0.0)) for u in e.unknowns), default=1.0)
 
     def run(self) -> Iterator[Found | Simultaneous]:
         """All steps; it ends early where what is left is not unique."""
