@@ -9,7 +9,7 @@ import pytest
 
 import dalembert as da
 from tests.browser.opened import FILES
-from tests.browser.test_page import FOUR_BAR, SHAPER
+from tests.browser.test_page import FOUR_BAR, SHAPER, tab
 
 pytestmark = pytest.mark.long
 
@@ -94,6 +94,7 @@ def test_free_bodies_find_room_in_their_panel(opened: Any, name: str) -> None:
     """Every part of every link's, at several places of the cycle."""
     page = opened(name)
     resize(page, 1280, 1400)
+    tab(page, "Forces")
     count = page.page.locator(".body").count()
     ends = [0, 0.2, 0.45, 0.7]
     outside = []
@@ -127,7 +128,7 @@ def test_keys_in_a_field_are_the_fields_own(opened: Any) -> None:
     page = opened(FOUR_BAR)
     page.drag('.handle[data-name="B"]', 15, 0)
     moved = page.value("links.rocker.points.B.0")
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    tab(page, "Change")
     box = page.page.locator('input[data-path="links.rocker.inertia"]')
     box.focus()
     page.page.keyboard.press("Space")

@@ -10,7 +10,7 @@ import pytest
 import dalembert as da
 from dalembert.errors import ModelError
 from tests.browser.opened import FILES
-from tests.browser.test_page import FOUR_BAR, open_all
+from tests.browser.test_page import FOUR_BAR, tab
 from tests.pages.test_page_data import PARAMETRIC
 
 pytestmark = pytest.mark.long
@@ -65,7 +65,7 @@ def python_reads(path: str, text: str) -> float | str:
 
 def test_a_typed_text_means_what_it_means_in_a_file_or_is_refused_in_the_same_words(opened: Any) -> None:
     page = opened(FOUR_BAR)
-    open_all(page)
+    tab(page, "Change")
     wrong = []
     for path, text in TYPED:
         box = page.page.locator(f'input[data-path="{path}"]')
@@ -90,7 +90,7 @@ def test_a_typed_text_means_what_it_means_in_a_file_or_is_refused_in_the_same_wo
 def test_no_text_is_half_read(opened: Any, path: str) -> None:
     """A refused number stays as it was, and its file is read again; a bare one is in the unit that stands beside it."""
     page = opened(FOUR_BAR)
-    open_all(page)
+    tab(page, "Change")
     box, before = page.page.locator(f'input[data-path="{path}"]'), page.value(path)
     for text in ("1,5", "1/3", "13 13", "1 lbf/in/in/in", "--1", "0x1p3", "Infinity", "NaN"):
         box.fill(text)
@@ -107,7 +107,7 @@ def test_no_text_is_half_read(opened: Any, path: str) -> None:
 
 def test_a_parameter_stays_within_its_range_typed_and_dragged(opened: Any) -> None:
     page = opened(html=da.page(da.loads(PARAMETRIC)))
-    open_all(page)
+    tab(page, "Change")
     box = page.page.locator('input[data-path="r"]')
     for text in ("200", "19 mm", "0"):
         box.fill(text)
@@ -127,7 +127,7 @@ def test_a_parameter_stays_within_its_range_typed_and_dragged(opened: Any) -> No
 def test_what_follows_from_a_parameter_is_bounded_too(opened: Any) -> None:
     m = da.loads(PARAMETRIC.replace("mass: m1}", "mass: m1 - 1.5 kg}"))
     page = opened(html=da.page(m))
-    open_all(page)
+    tab(page, "Change")
     box = page.page.locator('input[data-path="m1"]')
     with pytest.raises(ModelError) as refused:
         m.with_values({"m1": 1.25})

@@ -1,16 +1,23 @@
 /** The drawing of a mechanism or of a free body: items, arrows at a stated scale, labels placed without overlaps. */
 
-import type { Data, Drawing, FreeBody, Item, Pair, Rows } from "./data";
+import type { Action, Data, Drawing, FreeBody, Item, Pair, Rate, Rows } from "./data";
 import { action, item, Paper, type Part, type Shown } from "./items";
-import type { Kernel } from "./kernel";
 import { label, type Placed, Placer } from "./labels";
+import type { Source } from "./source";
 import { figures, make, path, type Point, set, short, width } from "./svg";
+import { type Layer, usually, type View } from "./view";
 
-/** ``need``: newtons per mm at which every force fits; ``fit``: new scales, with forces to that scale or another. */
+/** ``need``: newtons per mm at which every force fits; ``fit``: new scales, with forces to that scale or another, and
+ * with ``keep`` only where the drawing has left its paper. ``look``: the window of the view, else the fitted one, with
+ * ``fitted`` metres per mm. ``on``: is a layer shown. */
 export interface Board {
-  svg: SVGSVGElement; paper: Paper; names: boolean;
-  update(cycle: boolean): void; fit(force?: number): void; need(): number; force(): number; resize(w: number, h: number): void;
+  svg: SVGSVGElement; paper: Paper;
+  update(cycle: boolean): void; fit(force?: number, keep?: boolean): void; need(): number; force(): number; resize(w: number, h: number): void;
+  look(): void; fitted(): number; on(layer: Layer): boolean;
 }
+
+/** The layer of an action. */
+const layerOf = (a: Action): Layer => (a.kind === "joint" || a.kind === "friction" ? "reactions" : a.kind === "inertia" ? "inertia" : "loads");
 
 const ROUND = [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10];
 
@@ -36,13 +43,32 @@ export function bounds(points: Point[]): { x: Point; y: Point } | null {
 
 const rowsOf = (i: Item): Rows[] => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" || i.t === "pair" ? [i.p] : []);
 
+interface Wheel { p: Rows; reach(value: (row: number) => number): number }
+
+/** Circles of a drawing that have the machine's size, as pitch circles. */
+function wheelsOf(d: Drawing): Wheel[] {
+  return d.items.flatMap((i): Wheel[] => {
+    if (i.t === "circle") return [{ p: i.p, reach: (value) => Math.abs(value(i.r)) }];
+    const drawn = i.t === "symbol" && i.per_mm ? i.per_mm * Math.max(0, ...[...i.svg.matchAll(/ r="([\d.]+)"/g)].map((m) => +m[1])) : 0;
+    return i.t === "symbol" && drawn ? [{ p: i.p, reach: () => drawn }] : [];
+  });
+}
+
 /** Extent of a drawing's items over the cycle, in projected metres. */
-function cycleBounds(paper: Paper, d: Drawing): ReturnType<typeof bounds> {
-  const k = paper.kernel, step = Math.max(1, Math.floor(k.count / 72)), points: Point[] = [];
-  for (const rows of d.items.flatMap(rowsOf))
-    for (let n = 0; n < k.count; n += step) if (k.good[n]) points.push(paper.seen(rows, (r) => k.value(r, n)));
+function cycleBounds(paper: Paper, d: Drawing, wheels: Wheel[]): ReturnType<typeof bounds> {
+  const k = paper.kernel, step = Math.max(1, Math.floor(k.count / 72)), points: Point[] = [], places = d.items.flatMap(rowsOf);
+  for (let n = 0; n < k.count; n += step) {
+    if (!k.good[n]) continue;
+    const value = (r: number): number => k.value(r, n);
+    for (const rows of places) points.push(paper.seen(rows, value));
+    points.push(...rims(paper, wheels, value));
+  }
   return bounds(points);
 }
+
+/** Opposite corners about each wheel. */
+const rims = (paper: Paper, wheels: Wheel[], value: (row: number) => number): Point[] =>
+  wheels.flatMap(({ p, reach }) => [-1, 1].map((side) => paper.seen(p, value).map((x) => x + side * reach(value)) as Point));
 
 const inSpace = (d: Drawing): boolean => d.items.some((i) => i.t === "pair");
 
@@ -74,36 +100,42 @@ export function canvas(parent: Element, width: number, height: number, name: str
   return make("svg", parent, { viewBox: `${-width / 2} ${-height / 2} ${width} ${height}`, role: "group", "aria-label": name });
 }
 
-/** ``units``: the reader's, for round scales. */
-export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: Pair }, about: FreeBody["about"] | null,
-                      w: number, h: number, units: Data["units"], name: string): Board {
+const MANY = 8;
+/** Longest arrow of a velocity or an acceleration, mm. */
+const RATE = 20;
+
+/** ``units``: the reader's, for round scales; ``rates``: velocities and accelerations that can be shown. */
+export function board(parent: Element, kernel: Source, d: Drawing & { middle?: Pair }, about: FreeBody["about"] | null,
+                      w: number, h: number, units: Data["units"], name: string, view: View, rates: Rate[] = []): Board {
   const size = { length: units.length.size, force: units.force.size };
-  const svg = canvas(parent, w, h, name), paper = new Paper(kernel, d.per_mm, inSpace(d));
-  const cyclic: Part[] = [], live: Part[] = [];
-  let perMm = d.force;
+  const svg = canvas(parent, w, h, name), paper = new Paper(kernel, d.per_mm, units, inSpace(d) ? view.camera : null);
+  const cyclic: Part[] = [], live: Part[] = [], many = d.labels.filter((l) => l.kind === "joint").length > MANY;
+  const on = (layer: Layer): boolean => (about && layer !== "values" ? true : view.shown[layer] ?? usually(layer, many));
+  let perMm = d.force, fitted: NonNullable<View["window"]> = { perMm: d.per_mm, middle: d.middle ?? [0, 0] };
   if (d.middle) paper.middle = d.middle;
-  const drawn = make("g", svg), acting = make("g", svg), lettered = make("g", svg);
-  for (const i of d.items) (i.t === "trace" ? cyclic : live).push(item(drawn, i, paper));
-  const arrows: Shown[] = d.arrows.map((a) => action(acting, a, paper, () => perMm, about ?? undefined));
+  const traced = make("g", svg), drawn = make("g", svg), acting = make("g", svg), lettered = make("g", svg);
+  for (const i of d.items) (i.t === "trace" ? cyclic : live).push(item(i.t === "trace" ? traced : drawn, i, paper));
+  const arrows: { a: Shown; layer: Layer }[] = d.arrows.map((a) => ({ a: action(acting, a, paper, () => perMm, about ?? undefined), layer: layerOf(a) }));
+  const long = new ScaleBar(lettered), strong = new ScaleBar(lettered, true), forces = d.arrows.filter((a) => a.t === "force");
+  const speeds = (rates.length ? (["velocities", "accelerations"] as const) : []).map((layer) => {
+    const kind = layer === "velocities" ? "speed" : "acceleration", role = layer === "velocities" ? "velocity" : "acceleration", sign = role[0];
+    const scale = { layer, unit: units[kind], rows: rates.map((r) => (sign === "v" ? r.v : r.a)), perMm: NaN, bar: new ScaleBar(lettered, true) };
+    rates.forEach((r, k) => {
+      const shown: Action = { t: "force", role, of: r.of[1], kind: role, link: "", name: `${sign}_{${r.of[0] === "center" ? `G ${r.of[1]}` : r.of[1]}}`, p: r.p, f: scale.rows[k] };
+      arrows.push({ a: action(acting, shown, paper, () => scale.perMm, undefined, kind), layer });
+    });
+    return scale;
+  });
   const names: { l: Placed; p: Rows; q?: Rows }[] =
     d.labels.map((l) => ({ l: label(lettered, l.role, l.text, l.kind === "joint" ? 3.8 : 3.3), p: l.p, q: l.q }));
-  const long = new ScaleBar(lettered), strong = new ScaleBar(lettered, true), forces = d.arrows.filter((a) => a.t === "force");
-  const step = Math.max(1, Math.floor(kernel.count / 72));
+  const wheels = wheelsOf(d), step = Math.max(1, Math.floor(kernel.count / 72));
 
-  function centre(b: ReturnType<typeof bounds>): void {
-    if (b) paper.middle = [(b.x[0] + b.x[1]) / 2, (b.y[0] + b.y[1]) / 2];
-  }
+  const centre = (b: NonNullable<ReturnType<typeof bounds>>): Pair => [(b.x[0] + b.x[1]) / 2, (b.y[0] + b.y[1]) / 2];
 
   /** Extent of a free body: its points, points of application of forces, its wheels. */
   const corners = about ? [...about, ...d.arrows.map((a) => a.p), ...d.items.flatMap((i) => (i.t === "symbol" ? [i.p] : []))] : [];
-  const wheels = d.items.flatMap((i): { p: Rows; reach(value: (row: number) => number): number }[] => {
-    if (i.t === "circle") return [{ p: i.p, reach: (value) => Math.abs(value(i.r)) }];
-    const drawn = i.t === "symbol" && i.per_mm ? i.per_mm * Math.max(0, ...[...i.svg.matchAll(/ r="([\d.]+)"/g)].map((m) => +m[1])) : 0;
-    return i.t === "symbol" && drawn ? [{ p: i.p, reach: () => drawn }] : [];
-  });
   function extent(value: (row: number) => number): ReturnType<typeof bounds> {
-    const rims = wheels.flatMap(({ p, reach }) => [-1, 1].map((side) => paper.seen(p, value).map((x) => x + side * reach(value)) as Point));
-    return bounds([...corners.map((p) => paper.seen(p, value)), ...rims]);
+    return bounds([...corners.map((p) => paper.seen(p, value)), ...rims(paper, wheels, value)]);
   }
 
   /** The same at each of some positions. */
@@ -130,49 +162,82 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
   }
 
   /** Fits the full cycle into the drawing. */
-  function fit(force?: number): void {
-    const spans = about ? poses().map(({ b }) => b) : [cycleBounds(paper, d)].filter((b) => b !== null);
+  function fit(force?: number, keep = false): void {
+    const spans = about ? poses().map(({ b }) => b) : [cycleBounds(paper, d, wheels)].filter((b) => b !== null);
     const room = about ? [46, 40] : [w - Math.max(0.22 * w, 34), h - Math.max(0.22 * h, 30)];
     const wide = Math.max(0, ...spans.flatMap((b) => [(b.x[1] - b.x[0]) / room[0], (b.y[1] - b.y[0]) / room[1]]));
-    if (!about && spans.length) centre(spans[0]);
-    if (wide > 0) paper.perMm = roundUp(wide / size.length) * size.length;
+    if (!(keep && spans.length && suits(spans[0], wide))) {
+      if (!about && spans.length) fitted.middle = centre(spans[0]);
+      if (wide > 0) fitted.perMm = roundUp(wide / size.length) * size.length;
+    }
     perMm = force ?? need();
+    for (const s of speeds) {
+      const most = kernel.largest((k) => Math.max(0, ...s.rows.map((f) => Math.hypot(...f.map((r) => kernel.value(r, k))))));
+      s.perMm = most > 0 ? roundUp(most / RATE / s.unit.size) * s.unit.size : NaN;
+    }
+    look();
+  }
+
+  /** True if the drawing still lies on its paper, and is not much smaller than that. */
+  function suits(b: NonNullable<ReturnType<typeof bounds>>, wide: number): boolean {
+    const within = (span: Point, middle: number, room: number): boolean => Math.max(...span.map((x) => Math.abs(x - middle))) < fitted.perMm * room;
+    return wide > 0.5 * fitted.perMm && within(b.x, fitted.middle[0], w / 2 - 8) && within(b.y, fitted.middle[1], h / 2 - 10);
+  }
+
+  function look(): void {
+    const window = about ? fitted : view.window ?? fitted;
+    paper.perMm = window.perMm;
+    if (!about) paper.middle = [...window.middle];
+  }
+
+  /** The bars at the lower edge, in as many lines as they need. */
+  function scales(): void {
+    const bars: [ScaleBar, number, { unit: string; size: number }][] = [
+      [long, paper.perMm, units.length], [strong, forces.length ? perMm : NaN, units.force],
+      ...speeds.map((s): [ScaleBar, number, { unit: string; size: number }] => [s.bar, on(s.layer) && !about ? s.perMm : NaN, s.unit])];
+    let [x, y] = [-w / 2 + 2, h / 2 - 2.6];
+    for (const [bar, per, unit] of bars) {
+      if (x > -w / 2 + 2 && x + 46 > w / 2) [x, y] = [-w / 2 + 2, y - 5];
+      const end = bar.set([x, y], per, unit);
+      if (end > x) x = end + 5;
+    }
   }
 
   function placeLabels(): void {
     const placer = new Placer([-w / 2, -h / 2, w / 2, h / 2 - 6]);
-    for (const part of [...live, ...arrows]) part.mark?.(placer);
+    for (const part of [...live, ...arrows.map((x) => x.a)]) part.mark?.(placer);
     for (const { l, p, q } of names) {
-      const on = out.names || !!q;
-      l.el.setAttribute("visibility", on ? "visible" : "hidden");
-      if (!on) continue;
+      const seen = on("names") || (!!q && view.shown.names === undefined);
+      l.el.setAttribute("visibility", seen ? "visible" : "hidden");
+      if (!seen) continue;
       const a = paper.point(p), b = q ? paper.point(q) : a;
       const anchors = (q ? [0.5, 0.35, 0.65] : [0]).map((t) => [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])] as Point);
       placer.put({ label: l, anchors, away: q ? undefined : a, leave: q ? 0.8 : 1.3 });
     }
-    for (const a of arrows) {
+    for (const { a } of arrows) {
       const at = kernel.solved ? a.anchor() : null;
       if (!at) a.label.el.setAttribute("visibility", "hidden");
       else placer.put({ label: a.label, anchors: at.slice(0, -1), away: at[at.length - 1], leave: 0.9 });
     }
   }
 
-  const out: Board = {
-    svg, paper, fit, need, force: () => perMm, names: d.labels.filter((l) => l.kind === "joint").length <= 8,
+  return {
+    svg, paper, fit, need, look, on, force: () => perMm, fitted: () => fitted.perMm,
     resize(wide, high) {
       [w, h] = [wide, high];
       svg.setAttribute("viewBox", `${-w / 2} ${-h / 2} ${w} ${h}`);
     },
     update(cycle) {
+      paper.values = on("values");
+      traced.setAttribute("display", on("traces") ? "inline" : "none");
       if (cycle) cyclic.forEach((p) => p.update());
       acting.setAttribute("visibility", kernel.solved ? "visible" : "hidden");
-      const y = h / 2 - 2.6, end = long.set([-w / 2 + 2, y], paper.perMm, units.length);
-      strong.set([end + 5, y], forces.length ? perMm : NaN, units.force);
+      scales();
       if (!kernel.finite) return; // the last pose stays, greyed
-      if (about) centre(extent((r) => kernel.here[r]));
-      for (const part of [...live, ...arrows]) part.update();
+      if (about) paper.middle = centre(extent((r) => kernel.here[r]) ?? { x: [0, 0], y: [0, 0] });
+      for (const part of live) part.update();
+      for (const { a, layer } of arrows) on(layer) ? a.update() : a.hide();
       placeLabels();
     },
   };
-  return out;
 }

@@ -25,15 +25,18 @@ export interface Reading {
 export interface Place { was?: string; of?: number[]; now: (string | Pair)[] }
 export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; along?: Rows; p: Rows; link: string }
 
-/** A drawn item: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle. */
-export type Item =
+/** A drawn item: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle; ``of``: what it
+ * is part of, by kind and name. */
+export type Item = { of?: [string, string] } & (
   | { t: "symbol"; svg: string; p: Rows; e?: Rows; per_mm?: number }
   | { t: "pair"; shape: "round" | "block" | "ball"; p: Rows; e: Rows; fixed: boolean }
-  | { t: "span"; svg: string; length: number; p: [Rows, Rows]; load: string }
+  | { t: "span"; svg: string; length: number; p: [Rows, Rows] }
   | { t: "hull"; role: string; p: Rows[]; link: string }
   | { t: "path"; role: string; p: Rows[] }
-  | { t: "trace"; role: string; p: [Rows]; joint: string }
-  | { t: "circle"; role: string; p: Rows; r: number };
+  | { t: "trace"; role: string; p: [Rows] }
+  | { t: "circle"; role: string; p: Rows; r: number });
+/** Velocity and acceleration of a joint's point or a mass centre. */
+export interface Rate { of: [string, string]; p: Rows; v: Rows; a: Rows }
 interface Acting { role: string; of: string; kind: string; link: string; name: string; p: Rows }
 export interface Force extends Acting { t: "force"; f: Rows }
 /** In the plane a curved arrow, in space one with two heads along its axis. */
@@ -87,10 +90,21 @@ export interface Data {
   numbers: NumberField[]; limits: { row: number; path: string; sign: Sign }[]; reading: Reading; template: (string | Place)[]; drives: Drive[]; handles: Handle[]; sketch: SketchData;
   views: {
     mechanism: Drawing & { middle?: Pair }; bodies: FreeBody[];
-    polygons: { links: Polygon[]; chain: number[] }; charts: Chart[]; table: TableRow[];
+    polygons: { links: Polygon[]; chain: number[] }; charts: Chart[]; table: TableRow[]; rates: Rate[];
   };
   sentences: Sentences;
   statuses: { status: string; sentence: string; numbered: boolean }[];
   assumptions: Record<string, string>;
   style: { light: string; dark: string };
+}
+
+/** A mechanism that is not finished: its links and joints can be pulled. See `pages/sketch_page.py`. */
+export interface Offer { kind: string; said: string; text: string; page?: string }
+export interface SketchPageData {
+  format: string; version: string; title: string; units: Data["units"]; style: Data["style"];
+  numbers: { path: string; value: number }[];
+  sketch: Pick<SketchData, "dimension" | "length" | "links" | "order" | "rows" | "entries" | "turns" | "drives" | "closure" | "pose">;
+  shown: Module; poses: Rows[]; gaps: { joint: string; p: Rows; q: Rows }[];
+  views: { mechanism: Drawing & { middle?: Pair } };
+  missing: { sentence: string; offers: Offer[] }; text: string;
 }

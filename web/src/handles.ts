@@ -1,4 +1,4 @@
-/** Draggable handles: joints, points, mass centres, tips of loads, directions, and the driven link. */
+/** Draggable handles: joints, points, mass centres, tips of loads, directions. */
 
 import type { Board } from "./board";
 import type { Data, End, Handle, Rows } from "./data";
@@ -6,12 +6,11 @@ import type { Paper } from "./items";
 import type { Kernel } from "./kernel";
 import { make, type Point, pointer, set, short } from "./svg";
 
-export interface Hold { changed(): void; finished(): void; seek(t: number): void; time(): number }
+export interface Hold { changed(): void; finished(): void }
 
 export function handles(b: Board, data: Data, kernel: Kernel, hold: Hold): () => void {
   const layer = make("g", b.svg, { class: "handles" });
   const updates = data.handles.map((h) => handle(layer, b, h, kernel, hold));
-  drive(b, data, kernel, hold);
   return () => kernel.finite && updates.forEach((f) => f());
 }
 
@@ -61,6 +60,7 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
   const knob = make("circle", layer, {
     class: `handle ${h.kind}`, r: h.kind === "joint" ? 2.6 : 2, tabindex: 0, role: "slider", "aria-label": `move ${said}`,
     "aria-valuetext": said, "aria-valuenow": 0, "data-kind": h.kind, "data-name": h.name,
+    "data-item": h.kind === "center" ? `center:${h.name.split(":")[0]}` : `${h.kind}:${h.name}`,
   });
   make("title", knob).textContent = `drag ${said}`;
   const paper = b.paper, u = kernel.values, here = (rows: Rows): number[] => rows.map((r) => kernel.here[r]);
@@ -114,6 +114,7 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
     moving = false;
   };
   knob.addEventListener("pointerdown", (e) => {
+    if (e.button !== 0) return;
     e.stopPropagation();
     knob.setPointerCapture(e.pointerId);
     begin();
@@ -145,29 +146,3 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
 
 /** The same angle, within half a turn of another. */
 const near = (angle: number, other: number): number => angle - 2 * Math.PI * Math.round((angle - other) / (2 * Math.PI));
-
-/** Dragging the driven link moves the drive. */
-function drive(b: Board, data: Data, kernel: Kernel, hold: Hold): void {
-  const d = data.drives[0];
-  if (!d || kernel.count < 2 || !(d.turns || d.along) || d.p.length > 2) return;
-  let from = 0, base = 0, moving = false;
-  const measure = (e: PointerEvent): number => {
-    const p = pointer(b.svg, e), o = b.paper.point(d.p);
-    return d.along ? dot(b.paper.metres(p), b.paper.here(d.along)) : Math.atan2(o[1] - p[1], p[0] - o[0]);
-  };
-  b.svg.addEventListener("pointerdown", (e) => {
-    if ((e.target as Element).closest<SVGElement>("[data-link]")?.dataset.link !== d.link) return;
-    b.svg.setPointerCapture(e.pointerId);
-    [from, base, moving] = [measure(e), hold.time(), true];
-  });
-  b.svg.addEventListener("pointermove", (e) => {
-    if (!moving) return;
-    const step = (kernel.position(d.name, kernel.count - 1) - kernel.position(d.name, 0)) / (kernel.count - 1);
-    const now = measure(e);
-    let t = base + (d.turns ? near(now - from, 0) : now - from) / step;
-    if (kernel.cyclic) t = ((t % kernel.count) + kernel.count) % kernel.count;
-    [from, base] = [now, t];
-    hold.seek(t);
-  });
-  b.svg.addEventListener("pointerup", () => (moving = false));
-}

@@ -1,9 +1,9 @@
 /** Parts of a mechanism as SVG elements that follow the kernel's rows: symbols placed, hulls, traces, arrows. */
 
-import type { Action, Couple, Item, Rows } from "./data";
-import type { Kernel } from "./kernel";
-import { label, type Placed, type Placer } from "./labels";
-import { Arrow, hull, make, path, plain, type Point, set, short } from "./svg";
+import type { Action, Couple, Data, Item, Rows } from "./data";
+import { label, type Placed, type Placer, say } from "./labels";
+import type { Source } from "./source";
+import { Arrow, figures, hull, make, path, plain, type Point, set, short } from "./svg";
 
 const along = (axis: number[], rows: Rows, value: (row: number) => number): number => rows.reduce((t, r, k) => t + axis[k] * value(r), 0);
 
@@ -12,16 +12,18 @@ export class Paper {
   middle: Point = [0, 0];
   /** Unit vectors to the right, up and to the eye. */
   axes = [[1, 0], [0, 1]];
-  private azimuth = -Math.PI / 3;
-  private elevation = 0.45;
-  constructor(readonly kernel: Kernel, public perMm: number, inSpace: boolean) {
-    if (inSpace) this.turn(0, 0);
+  /** Values beside the names of arrows. */
+  values = false;
+  /** ``camera``: azimuth and elevation of the eye, in space. */
+  constructor(readonly kernel: Source, public perMm: number, readonly units: Data["units"], private readonly camera: [number, number] | null) {
+    if (camera) this.turn(0, 0);
   }
   /** Changes the direction of view. */
   turn(across: number, up: number): void {
-    this.azimuth += across;
-    this.elevation = Math.min(Math.max(this.elevation + up, -1.55), 1.55);
-    const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
+    const c = this.camera!;
+    c[0] += across;
+    c[1] = Math.min(Math.max(c[1] + up, -1.55), 1.55);
+    const ca = Math.cos(c[0]), sa = Math.sin(c[0]), ce = Math.cos(c[1]), se = Math.sin(c[1]);
     this.axes = [[-sa, ca, 0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
   }
   /** Components of any vector to the right and up, in its unit. */
@@ -62,6 +64,12 @@ export class Paper {
 export interface Part { update(): void; mark?(placer: Placer): void }
 
 export function item(parent: Element, i: Item, paper: Paper): Part {
+  const part = drawn(parent, i, paper);
+  if (i.of) (parent.lastElementChild as SVGElement).dataset.item = i.of.join(":");
+  return part;
+}
+
+function drawn(parent: Element, i: Item, paper: Paper): Part {
   const v = paper.kernel.here;
   if (i.t === "symbol") {
     const g = make("g", parent, i.per_mm ? { class: "span" } : {});
@@ -145,7 +153,7 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
 }
 
 /** A curve over the cycle, with gaps where no answer exists; ``closed`` if the cycle continues from its end. */
-export function curve(k: Kernel, at: (n: number) => Point, closed = false): string {
+export function curve(k: Source, at: (n: number) => Point, closed = false): string {
   const last = closed && k.cyclic ? k.count : k.count - 1;
   let d = "", pen = false;
   for (let c = 0; c <= last; c++) {
@@ -163,24 +171,39 @@ export function curve(k: Kernel, at: (n: number) => Point, closed = false): stri
   return d;
 }
 
-/** ``anchor``: possible places of the label, the best first, then its preferred direction. */
-export interface Shown extends Part { label: Placed; anchor(): Point[] | null }
+/** ``anchor``: possible places of the label, the best first, then its preferred direction; ``hide``: not drawn. */
+export interface Shown extends Part { label: Placed; anchor(): Point[] | null; hide(): void }
+
+/** The name of an arrow, on demand with its value. */
+function named(l: Placed, name: string, size: number, kind: string, paper: Paper): void {
+  const { unit, size: one } = paper.units[kind] ?? { unit: "", size: 1 };
+  say(l, paper.values ? `${name} = ${figures(size / one)} ${unit}`.trim() : name);
+}
 
 /** A force as an arrow from its point, or to it where it pushes inwards; a couple as a curved arrow. */
-export function action(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Rows[]): Shown {
-  return a.t === "couple" ? couple(parent, a, paper) : arrow(parent, a, paper, perMm, about);
+export function action(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Rows[], unit = "force"): Shown {
+  return a.t === "couple" ? couple(parent, a, paper) : arrow(parent, a, paper, perMm, about, unit);
 }
+
+/** An arrow as something that can be pointed at; a joint's force is told from the joint. */
+const marked = (g: SVGGElement, a: Action): void => void (g.dataset.item = `${a.kind === "joint" ? "reaction" : a.kind}:${a.of}`);
 
 /** Length in mm of the arrow of a moment in space: its size is printed, its axis drawn. */
 const MOMENT = 13;
 
-function arrow(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Rows[]): Shown {
+function arrow(parent: Element, a: Action, paper: Paper, perMm: () => number, about: Rows[] | undefined, unit: string): Shown {
   const first = new Arrow(parent, a.role, a.name), second = a.t === "force" ? null : new Arrow(parent, a.role);
   const rows = a.t === "force" ? a.f : a.m;
   const l = label(parent, a.role, a.name, 3.4);
   let tail: Point = [0, 0], tip: Point = [0, 0], free: Point = [0, 0], shown = false;
+  for (const one of [first, second]) if (one) marked(one.g, a);
   return {
     label: l,
+    hide() {
+      shown = first.set([0, 0], [0, 0]);
+      second?.set([0, 0], [0, 0]);
+      l.el.setAttribute("visibility", "hidden");
+    },
     update() {
       const p = paper.point(a.p), [fx, fy] = paper.here(rows);
       const whole = second ? Math.hypot(...rows.map((r) => paper.kernel.here[r])) / MOMENT || 1 : perMm();
@@ -196,6 +219,7 @@ function arrow(parent: Element, a: Action, paper: Paper, perMm: () => number, ab
       shown = first.set(tail, tip);
       second?.set(tail, [tail[0] + 0.78 * (tip[0] - tail[0]), tail[1] + 0.78 * (tip[1] - tail[1])]);
       l.el.setAttribute("visibility", shown ? "visible" : "hidden");
+      if (shown) named(l, a.name, Math.hypot(...rows.map((r) => paper.kernel.here[r])), second ? "moment" : unit, paper);
     },
     mark: (placer) => shown && placer.line(tail, tip),
     anchor() {
@@ -214,14 +238,21 @@ function couple(parent: Element, a: Couple, paper: Paper): Shown {
   make("path", g, { class: `l-${a.role}`, style: "fill:none", d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94" });
   make("path", g, { class: `l-${a.role}-h`, d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z" });
   let shown = false;
+  marked(g, a);
   return {
     label: l,
+    hide() {
+      shown = false;
+      g.setAttribute("display", "none");
+      l.el.setAttribute("visibility", "hidden");
+    },
     update() {
       const [x, y] = paper.point(a.p), m = v[a.m[0]];
       shown = Number.isFinite(m) && Math.abs(m) > 1e-9;
       g.setAttribute("display", shown ? "inline" : "none");
       l.el.setAttribute("visibility", shown ? "visible" : "hidden");
       g.setAttribute("transform", `translate(${short(x)} ${short(y)}) scale(${m < 0 ? -1 : 1} 1)`);
+      if (shown) named(l, a.name, Math.abs(m), "moment", paper);
     },
     mark(placer) {
       if (shown) placer.disc(paper.point(a.p), RADIUS);

@@ -4,6 +4,7 @@ import type { Channel, Data, Pair, Table } from "./data";
 import { Motion } from "./motion";
 import { Program, series } from "./program";
 import type { Pose } from "./sketch";
+import type { Source } from "./source";
 
 /** Status code of a position that does not close, or that the motion does not reach. */
 const OPEN = 1;
@@ -34,7 +35,7 @@ class Pieces {
   }
 }
 
-export class Kernel {
+export class Kernel implements Source {
   /** Outputs over the positions: number k of row r is at r * row + k; the status codes are the last row. */
   readonly rows: Float64Array;
   readonly row: number;
@@ -194,6 +195,10 @@ export class Kernel {
 
   posed(k: number): number[][] {
     return this.data.sketch.poses.map((rows) => rows.map((row) => this.value(row, k)));
+  }
+
+  get stepped(): boolean {
+    return this.data.only_at_positions;
   }
 
   drives(t: number): number[] {

@@ -1,6 +1,6 @@
 /** Places of texts: each takes the best of some places around its anchor, away from texts and lines placed before. */
 
-import { type Point, place, text, width } from "./svg";
+import { letters, type Point, place, text, width } from "./svg";
 
 type Box = [number, number, number, number];
 export interface Placed { el: SVGTextElement; text: string; size: number; bold: boolean; choice: number }
@@ -11,6 +11,13 @@ const REACH = [1, 1.9, 3, 4.5];
 
 export function label(parent: Element, role: string, said: string, size: number): Placed {
   return { el: text(parent, role, said, size), text: said, size, bold: role === "title", choice: -1 };
+}
+
+/** Gives a label another text. */
+export function say(l: Placed, text: string): void {
+  if (l.text === text) return;
+  l.text = text;
+  letters(l.el, text, l.size);
 }
 
 /** Places texts one after the other; lines and boxes to avoid are given first. */
@@ -49,7 +56,7 @@ export class Placer {
     for (const o of this.discs) if (overlap(b, o) > 0) cost += 8 + overlap(b, o);
     for (const [p, q] of this.lines) if (crosses(b, p, q)) cost += 6;
     const [l, t, r, d] = this.bounds;
-    if (b[0] < l || b[1] < t || b[2] > r || b[3] > d) cost += 20;
+    if (b[0] < l || b[1] < t || b[2] > r || b[3] > d) cost += 60;
     return cost;
   }
 }

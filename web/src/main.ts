@@ -1,6 +1,7 @@
 /** Entry points that a page and a notebook import. */
 
 import { mount, type Page } from "./page";
+import { firstView } from "./view";
 import { inflate } from "./program";
 import { html } from "./svg";
 
@@ -15,25 +16,29 @@ export async function open(el: HTMLElement, packed: string): Promise<Page> {
   }
 }
 
+export { mount };
+
 interface Model { get(name: string): any; set(name: string, value: unknown): void; save_changes(): void; on(event: string, f: () => void): void; off(event: string, f: () => void): void }
 
 /** Entry point that anywidget calls in a notebook. */
 export default {
   async render({ model, el }: { model: Model; el: HTMLElement }): Promise<() => void> {
     let told = "";
+    const view = firstView(); // as it is looked at, whatever is shown
     const edited = (changes: Record<string, number>) => {
       told = JSON.stringify(changes);
       model.set("changes", changes);
       model.save_changes();
     };
     const start = async () => {
-      const made = await mount(el, model.get("data"), { edited, changes: model.get("changes") });
+      const made = await mount(el, model.get("data"), { edited, changes: model.get("changes"), view });
       // the page that a notebook keeps for when it is opened without Python stands below; while this one lives it hides
       html("style", el, {}, `[data-dalembert="${model.get("frame")}"]{display:none}`);
       return made;
     };
     let page = await start();
     const again = async () => {
+      view.window = null;
       page.remove();
       page = await start();
     };

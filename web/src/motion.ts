@@ -15,6 +15,9 @@ export interface Closing {
   closesAt(t: number): boolean;
   /** The links' poses at a position in the kernel: rows of `sketch.poses`. */
   posed(k: number): number[][];
+  /** The largest place of the cycle, and whether only listed positions are places. */
+  readonly end: number;
+  readonly stepped: boolean;
 }
 
 /** A pose and the numbers to which it belongs. */
@@ -385,6 +388,50 @@ export class Motion {
         : [...pose.point.subarray(3 * k, 3 * k + 3), ...turnOf(pose.rotation.subarray(9 * k, 9 * k + 9))]);
   }
 
+  /** Where the links are now, by name: origin and angle, in space origin and rotation. */
+  placed(): Record<string, number[]> {
+    const { links, dimension: d } = this.data, { pose } = this.held;
+    return Object.fromEntries(links.map((name, k) =>
+      [name, d === 2 ? [pose.point[2 * k], pose.point[2 * k + 1], pose.turn[k]] : [...pose.point.subarray(3 * k, 3 * k + 3), ...pose.rotation.subarray(9 * k, 9 * k + 9)]]));
+  }
+
+  /** Begins from links placed elsewhere: the place of the cycle at which the motion goes on, null if they do not close. */
+  take(placing: Record<string, number[]>): number | null {
+    const { data, sketch, kernel } = this, start = placedPose(data, this.first.pose, placing);
+    this.home();
+    sketch.values = this.values;
+    sketch.count(this.phases, false);
+    const measured = (q: Pose): number[] => data.drives.map((row) => sketch.measure(row, q));
+    let from = measured(start), q = sketch.close(start, from, REACH);
+    const t = q && this.placeOf(from);
+    if (q && t !== null) {
+      const to = kernel.drives(t).map((x, d) => (data.rows[data.drives[d]].angular ? from[d] + wrap(x - from[d]) : x));
+      q = sketch.walk(new Trail(q, from), to);
+      if (q) q = this.wound(q, kernel.drives(t));
+    }
+    if (q && t !== null) {
+      this.held = { values: this.values.slice(), t, pose: q };
+      this.hold(this.phases.map((row) => sketch.measure(row, q!)));
+    }
+    sketch.count(this.phases, true);
+    return q && t !== null ? t : null;
+  }
+
+  /** The place of the cycle nearest to positions of the drives. */
+  private placeOf(drives: number[]): number {
+    const { kernel, data, count } = this, angular = data.drives.map((row) => data.rows[row].angular);
+    const off = (t: number): number => Math.hypot(...kernel.drives(t).map((x, d) => (angular[d] ? wrap(x - drives[d]) : (x - drives[d]) / data.length)));
+    let best = 0, away = Infinity;
+    for (let k = 0; k < count; k++) if (off(k) < away) [best, away] = [k, off(k)];
+    if (drives.length !== 1 || away < 1e-12 || kernel.stepped) return best;
+    for (const [low, high] of [[best - 1, best], [best, best + 1]]) {
+      if (low < 0 || high > kernel.end) continue;
+      const [a, b] = [low, high].map((t) => kernel.drives(t)[0]), x = angular[0] ? a + wrap(drives[0] - a) : drives[0], part = (x - a) / (b - a);
+      if (part >= 0 && part <= 1) return low + part;
+    }
+    return best;
+  }
+
   /** Complete state of the present pose, for storage. */
   state(): number[] {
     this.update();
@@ -436,6 +483,20 @@ function posed(s: SketchData, like: Pose, assembly: number[]): Pose {
     const [x, y, z, a, b, c, angle] = assembly.slice(7 * k, 7 * k + 7), one = Math.hypot(a, b, c) || 1;
     q.point.set([x, y, z], 3 * k);
     q.rotation.set(matrixOf([a / one, b / one, c / one], angle), 9 * k);
+  });
+  return q;
+}
+
+/** Links placed by name; others as they are. */
+export function placedPose(s: Pick<SketchData, "links" | "dimension">, like: Pose, placing: Record<string, number[]>): Pose {
+  const q = copied(like);
+  s.links.forEach((name, k) => {
+    const at = placing[name], d = s.dimension;
+    if (at?.length !== (d === 2 ? 3 : 12) || !at.every(Number.isFinite)) return;
+    q.point.set(at.slice(0, d), d * k);
+    if (d === 3) return q.rotation.set(at.slice(3), 9 * k);
+    q.turn[k] = at[2];
+    q.rotation.set([Math.cos(at[2]), Math.sin(at[2])], 2 * k);
   });
   return q;
 }

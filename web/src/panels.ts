@@ -5,17 +5,10 @@ import type { Gate } from "./gate";
 import type { Kernel } from "./kernel";
 import { figures, html, plain } from "./svg";
 
-export function panel(parent: Element, title: string, open = false): HTMLElement {
-  const d = html("details", parent, { class: "panel" });
-  d.open = open;
-  html("summary", d, {}, title);
-  return html("div", d);
-}
-
 export interface Numbers { update(): void }
 
 /** Parameters with sliders first, then every other number, grouped by its part. */
-export function numbersPanel(parent: Element, data: Data, kernel: Kernel, gate: Gate, changed: (done: boolean) => void): Numbers {
+export function numbersPanel(parent: Element, data: Data, kernel: Kernel, gate: Gate, changed: (done: boolean) => void): Numbers & { focus(path: string): void } {
   const boxes: { box: HTMLInputElement; slide?: HTMLInputElement; n: number; field: NumberField }[] = [];
   const groups = new Map<string, Element>();
   const group = (name: string): Element => {
@@ -74,7 +67,7 @@ export function numbersPanel(parent: Element, data: Data, kernel: Kernel, gate: 
     if (e.slide && document.activeElement !== e.slide) e.slide.value = String(value);
     e.box.classList.toggle("changed", kernel.values[e.n] !== e.field.value);
   };
-  return { update: () => boxes.forEach(write) };
+  return { update: () => boxes.forEach(write), focus: (path) => boxes.find((b) => b.field.path === path)?.box.focus() };
 }
 
 function split(said: string): [string, string] {

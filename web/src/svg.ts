@@ -42,7 +42,7 @@ export function place(el: Element, x: number, y: number): void {
 }
 
 /** Where a pointer is, in the units of a drawing. */
-export function pointer(svg: SVGSVGElement, e: PointerEvent): Point {
+export function pointer(svg: SVGSVGElement, e: { clientX: number; clientY: number }): Point {
   const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM()!.inverse());
   return [p.x, p.y];
 }

@@ -5,6 +5,7 @@ import type { Curve, Data, End, Rows } from "./data";
 import type { Gate } from "./gate";
 import type { Kernel } from "./kernel";
 import { Arrow, figures, make, plain, set } from "./svg";
+import { readView, type View, viewEntries } from "./view";
 
 /** At each joint, point and mass centre the direction in which moving it lowers the peak of a curve. */
 export class Gradients {
@@ -133,20 +134,22 @@ export function changes(data: Data, kernel: Kernel): Record<string, number> {
   return Object.fromEntries([...found, ...pose.map((x, k) => [data.sketch.assembly[k], x])]);
 }
 
-/** The changed numbers and the place of the cycle as text for an address. */
-export function fragment(data: Data, kernel: Kernel, t: number): string {
-  const said = new URLSearchParams({ t: String(+t.toFixed(4)) });
+/** The changed numbers, the place of the cycle and the view as text for an address. */
+export function fragment(data: Data, kernel: Kernel, view: View): string {
+  const said = new URLSearchParams({ t: String(+view.t.toFixed(4)) });
+  for (const [name, text] of viewEntries(view)) said.set(name, text);
   for (const [path, x] of Object.entries(changes(data, kernel))) said.set(path, String(x));
   return said.toString();
 }
 
-/** Read such a text; the place of the cycle. */
-export function restore(kernel: Kernel, gate: Gate, said: string): number {
-  const found = new Map([...new URLSearchParams(said.replace(/^#/, ""))].map(([path, x]) => [path, x.trim() ? Number(x) : NaN]));
-  const t = found.get("t") ?? 0;
-  found.delete("t");
-  gate.change(Object.fromEntries(found));
-  return Number.isFinite(t) ? Math.min(Math.max(t, 0), kernel.end) : 0;
+/** Reads such a text into the page's numbers and its view. */
+export function restore(kernel: Kernel, gate: Gate, view: View, said: string): void {
+  const entries = new Map(new URLSearchParams(said.replace(/^#/, ""))), numbers: Record<string, number> = {};
+  readView(view, entries);
+  for (const [path, x] of entries) if (path !== "t" && !path.startsWith("~")) numbers[path] = x.trim() ? Number(x) : NaN;
+  gate.change(numbers);
+  const t = Number(entries.get("t") ?? 0);
+  view.t = Number.isFinite(t) ? Math.min(Math.max(t, 0), kernel.end) : 0;
 }
 
 /** The model file as its author wrote it, with the numbers as they are and, if any has changed, the assembly as it is. */
@@ -174,7 +177,7 @@ export function csvText(data: Data, kernel: Kernel): string {
 
 export function svgText(svg: SVGSVGElement, style: string): string {
   const copy = svg.cloneNode(true) as SVGSVGElement, { width, height } = svg.viewBox.baseVal;
-  copy.querySelectorAll(".handles").forEach((g) => g.remove());
+  copy.querySelectorAll(".handles, .overlay").forEach((g) => g.remove());
   set(copy, { xmlns: "http://www.w3.org/2000/svg", width: `${width}mm`, height: `${height}mm`, "font-family": "'DejaVu Sans', Arial, sans-serif" });
   const s = make("style", null);
   s.textContent = style;
@@ -182,7 +185,27 @@ export function svgText(svg: SVGSVGElement, style: string): string {
   return new XMLSerializer().serializeToString(copy);
 }
 
-export function save(name: string, text: string, type: string): void {
+/** Pixels per mm of a picture: 300 per inch. */
+const DOTS = 300 / 25.4;
+
+/** The drawing as pixels on white. */
+export async function pngOf(svg: SVGSVGElement, style: string): Promise<Blob> {
+  const { width, height } = svg.viewBox.baseVal, picture = new Image(), address = URL.createObjectURL(new Blob([svgText(svg, style)], { type: "image/svg+xml" }));
+  try {
+    picture.src = address;
+    await picture.decode();
+    const paper = document.createElement("canvas"), g = paper.getContext("2d")!;
+    [paper.width, paper.height] = [Math.round(width * DOTS), Math.round(height * DOTS)];
+    g.fillStyle = "#fff";
+    g.fillRect(0, 0, paper.width, paper.height);
+    g.drawImage(picture, 0, 0, paper.width, paper.height);
+    return await new Promise((done, fail) => paper.toBlob((blob) => (blob ? done(blob) : fail(new Error("the picture is too large"))), "image/png"));
+  } finally {
+    URL.revokeObjectURL(address);
+  }
+}
+
+export function save(name: string, text: string | Blob, type: string): void {
   const a = document.createElement("a");
   a.href = URL.createObjectURL(new Blob([text], { type }));
   a.download = name;

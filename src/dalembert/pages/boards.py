@@ -19,7 +19,8 @@ from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Numeric, Tree
 from dalembert.kernel.graph import CONSTANT, Node
-from dalembert.pages.mechanism_items import Items
+from dalembert.model import GROUND
+from dalembert.pages.mechanism_items import Items, of
 from dalembert.pages.rows import NodeRows
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.frame import FINE, force_scale, round_up
@@ -47,11 +48,12 @@ class Boards:
     def mechanism(self) -> Tree:
         """The complete mechanism: loads, efforts, and the force of each joint on its j."""
         d, m = self.items, self.known.mechanism
-        parts = [*d.traces(), *(x for n in self.known.links for x in d.link(n)), *d.spans()]
-        parts += [x for n in sorted(self.known.joints, key=lambda n: m.joints[n].hinge) for x in d.joint(n)]
+        parts = [*d.traces(), *(x for n in self.known.links for x in of("link", n, d.link(n))), *d.spans()]
+        hinges_last = sorted(self.known.joints, key=lambda n: m.joints[n].hinge)
+        parts += [x for n in hinges_last for x in of("joint", n, d.joint(n))]
         parts += [
             *d.turns(),
-            *(x for n in self.known.links for x in d.center(n)),
+            *(x for n in self.known.links for x in of("center", n, d.center(n))),
             *d.circles(self.known.joints),
         ]
         mine = [k for k, a in enumerate(self.numbered) if self._drawn_once(a)]
@@ -63,6 +65,34 @@ class Boards:
             "arrows": [x for k in mine for x in self.arrows(k, tangent=True)],
             "force": self.scale(22.0, mine),
         }
+
+    def rates(self) -> list[Tree]:
+        """Velocity and acceleration of each joint's point on its moving link, and of each mass centre."""
+        r, m, out = self.rows.r, self.known.mechanism, list[Tree]()
+        if not r.inertia:
+            return out
+        places = [
+            ("joint", name, j.links[1], r.mechanism.joint_points(name)[1]) for name, j in m.joints.items()
+        ]
+        places += [
+            ("center", link, link, r.mechanism.center(link)) for link in self.known.links if m.mass(link)
+        ]
+        for kind, name, link, u in places:
+            if link not in self.known.links or (
+                kind == "joint" and GROUND in m.joints[name].links and m.joints[name].hinge
+            ):
+                continue
+            at = np.asarray(u)
+            out.append(
+                {
+                    "of": [kind, name],
+                    "p": self.rows.place(link, at),
+                    "v": self.rows.vector(r._velocity(link, at)[0]),
+                    "a": self.rows.vector(r._acceleration(link, at)[0]),
+                }
+            )
+        self.items.roles |= {"velocity", "acceleration"}
+        return out
 
     def _drawn_once(self, a: Action) -> bool:
         if a.kind == "joint":
@@ -87,13 +117,13 @@ class Boards:
 
     def _free_body(self, link: str) -> Tree:
         d, m = self.items, self.known.mechanism
-        parts, labels = d.link(link), list[Tree]()
+        parts, labels = of("link", link, d.link(link)), list[Tree]()
         joints = [n for n in self.known.joints if link in m.joints[n].links]
         for name in joints:
-            parts += d.joint(name, link)
+            parts += of("joint", name, d.joint(name, link))
             u = self.rows.r.mechanism.joint_points(name)[m.joints[name].links.index(link)]
             labels.append({"text": name, "p": self.rows.place(link, u), "role": "title", "kind": "joint"})
-        parts += d.center(link) + d.circles(joints)
+        parts += of("center", link, d.center(link)) + d.circles(joints)
         mine = [k for k, a in enumerate(self.actions) if a.link == link]
         return {
             "link": link,

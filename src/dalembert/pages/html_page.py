@@ -33,7 +33,7 @@ def page(
 
     >>> import dalembert as da
     >>> html = da.page(da.four_bar())
-    >>> html[:15], len(html) < 120_000
+    >>> html[:15], len(html) < 160_000
     ('<!doctype html>', True)
     """
     m = as_mechanism(m)

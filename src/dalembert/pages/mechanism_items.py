@@ -35,6 +35,11 @@ SPAN = 20.0
 """Length in mm at which springs and dampers are drawn; the page stretches them."""
 
 
+def of(kind: str, name: str, items: Sequence[Tree]) -> list[Tree]:
+    """Items with what they are part of: a kind ("link", "joint", "load", "center") and a name."""
+    return [{**one, "of": [kind, name]} for one in items]
+
+
 @dataclass
 class Items:
     """Draws parts of a mechanism: ``r`` in nodes, ``known`` the same in the file's numbers, both of one structure."""
@@ -91,17 +96,24 @@ class Items:
         for name, load in self.mechanism.loads_on("span").items():
             ends = [(link, self.rows.place(link, u)) for link, u in self.mechanism.load_points(name)]
             svg = self.markup(plane_symbols.SPANS[load.type]((0.0, 0.0), (SPAN, 0.0)))
-            out.append({"t": "span", "svg": svg, "length": SPAN, "p": [at for _, at in ends], "load": name})
+            mine: list[Tree] = [{"t": "span", "svg": svg, "length": SPAN, "p": [at for _, at in ends]}]
             for link, at in ends:
                 fixed = link == GROUND
-                out.append(self.symbol((plane_symbols.fixed_pin if fixed else plane_symbols.pin)((0, 0)), at))
+                mine.append(
+                    self.symbol((plane_symbols.fixed_pin if fixed else plane_symbols.pin)((0, 0)), at)
+                )
+            out += of("load", name, mine)
         return out
 
     def turns(self) -> list[Tree]:
         """Springs and dampers in the turn of a joint."""
-        loads = self.mechanism.loads_on("turn").values()
+        loads = self.mechanism.loads_on("turn").items()
         return [
-            self.symbol(plane_symbols.TURNS[load.type]((0.0, 0.0)), self.at(load.joint)) for load in loads
+            x
+            for name, load in loads
+            for x in of(
+                "load", name, [self.symbol(plane_symbols.TURNS[load.type]((0.0, 0.0)), self.at(load.joint))]
+            )
         ]
 
     def joint(self, name: str, link: str | None = None) -> list[Tree]:
@@ -128,7 +140,7 @@ class Items:
         out = []
         for name, joint in self.mechanism.joints.items():
             if not (GROUND in joint.links and joint.hinge):
-                out.append(self.path("trace", "trace", [self.at(name)], joint=name))
+                out.append(self.path("trace", "trace", [self.at(name)], of=["trace", name]))
         return out
 
     def circles(self, joints: Sequence[str]) -> list[Tree]:
@@ -139,7 +151,11 @@ class Items:
             if radius is not None:
                 self.roles.add("friction-circle")
                 at = self.rows.vector(joint_place(self.r, name)[0])
-                out.append({"t": "circle", "role": "friction-circle", "p": at, "r": self.rows.of(radius)})
+                out += of(
+                    "joint",
+                    name,
+                    [{"t": "circle", "role": "friction-circle", "p": at, "r": self.rows.of(radius)}],
+                )
         return out
 
     def circle_radius(self, name: str) -> Numeric | None:

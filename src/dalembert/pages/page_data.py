@@ -132,6 +132,7 @@ def _shown(known: Result, rows: NodeRows, k: Kernel) -> tuple[Boards, Tree, list
         "polygons": b.polygons(),
         "charts": b.charts(),
         "table": b.table(),
+        "rates": b.rates(),
     }
     return b, views, handles(b, k), drive_fields(b)
 
@@ -182,6 +183,7 @@ def _noise(b: Boards) -> Tree:
 def _units(b: Boards, views: Tree) -> Tree:
     """Unit of each displayed kind, and its size."""
     kinds = {"length", "force", "moment", *(x["kind"] for x in (*views["charts"], *views["table"]))}
+    kinds |= {"speed", "acceleration"} if views["rates"] else set()
     return {kind: {"unit": b.shown.unit(kind), "size": b.shown.size(kind)} for kind in sorted(kinds)}
 
 
