@@ -57,6 +57,9 @@ def durations(r: Result, at: Ints | None = None) -> Array:
             "the time of each position is not known", "give the first drive a speed that is not 0"
         )
     q, speed = r.drive_position(r.drives[0])[at], np.abs(r.drive_speed(r.drives[0])[at])
+    if not np.ptp(q):
+        what = f"the positions take no time: all have {r.drives[0]} at the same value"
+        raise ModelError(what, "give the drive a range, or one position")
     if not is_period(r.drive_position(r.drives[0])):
         return np.asarray(_trapezoids(q) / speed)
     return np.asarray(abs(q[1] - q[0]) / speed)

@@ -68,6 +68,7 @@ def report(
     about: str | tuple[float, ...] = "",
     begin: str = "",
     along: Any = 0,
+    design: bool = False,
 ) -> Report:
     """The worked solution of one position of a result, of a force system of `da.wrench`, or of any other answer
     that has one (`da.shaking`, `da.flywheel`, `da.optimize`, `da.study`), of which ``notation`` alone is asked.
@@ -76,6 +77,9 @@ def report(
     ``about``: a joint, or a point (m), to take moments about where this is possible; an unknown one is a ModelError.
     ``begin``: the link to begin with; ``along``: angle of the first axis of the sums of forces (`30 deg`). Of a force
     system ``at`` is the point to take moments about (m), and methods do not apply.
+
+    ``design``: the design report of the machine instead, with a verdict and its margin for all that the file has data
+    for; ``at`` is then the position that is drawn (default: that of the largest effort).
     """
     from dalembert.analysis.result.result import Result
     from dalembert.wrench import System
@@ -86,6 +90,10 @@ def report(
         return Report(force_system_sheet(r, r.about if at is None else at, notation))
     if not isinstance(r, Result):
         return Report(r.sheet(notation))
+    if design:
+        from dalembert.reports.design.design_report import design_sheet
+
+        return Report(design_sheet(r, at, notation))
     from dalembert.analysis.methods.solved.step_choice import read_choice
     from dalembert.reports.report_context import METHODS
     from dalembert.reports.working import working

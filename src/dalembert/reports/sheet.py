@@ -42,12 +42,19 @@ class Equations:
 
 @dataclass(frozen=True)
 class SheetTable:
-    """Columns under their heads; cells may hold formulas between dollar signs. ``total`` sets the last row apart."""
+    """Columns under their heads; cells may hold formulas between dollar signs. ``total`` sets the last row apart;
+    ``words``: all columns begin at the left, however many there are."""
 
     heads: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     caption: str = ""
     total: bool = False
+    words: bool = False
+
+
+@dataclass(frozen=True)
+class PageBreak:
+    """What follows begins a page."""
 
 
 @dataclass(frozen=True)
@@ -63,10 +70,11 @@ class Matrix:
 
 @dataclass(frozen=True)
 class Drawings:
-    """Drawings side by side."""
+    """Drawings side by side; with ``columns`` those without scales are made smaller until so many fit beside."""
 
     scenes: tuple[Scene, ...]
     caption: str = ""
+    columns: int = 1
 
 
 @dataclass(frozen=True)
@@ -85,7 +93,7 @@ class Blanks:
 
 
 Text = Paragraph | Equations
-Block = Heading | Paragraph | Equations | SheetTable | Matrix | Drawings | Beside | Blanks
+Block = Heading | Paragraph | Equations | SheetTable | Matrix | Drawings | Beside | Blanks | PageBreak
 
 
 @dataclass
@@ -112,11 +120,18 @@ class ReportSheet:
             self.blocks.append(Equations(tuple(lines)))
 
     def table(
-        self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str = "", total: bool = False
+        self,
+        heads: Sequence[str],
+        rows: Sequence[Sequence[str]],
+        caption: str = "",
+        total: bool = False,
+        words: bool = False,
     ) -> None:
         """A table, if it has rows."""
         if rows:
-            self.blocks.append(SheetTable(tuple(heads), tuple(tuple(row) for row in rows), caption, total))
+            self.blocks.append(
+                SheetTable(tuple(heads), tuple(tuple(row) for row in rows), caption, total, words)
+            )
 
     def figure(self, *scenes: Scene, caption: str = "") -> None:
         """Drawings side by side."""

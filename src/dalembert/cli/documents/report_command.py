@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
 from dalembert.cli.documents.position_argument import announce, solve_at
-from dalembert.cli.options import AS_USUAL, AT_FIRST, Force, ModelFile, OfAt, Style, output, with_help
+from dalembert.cli.options import AS_USUAL, AT_FIRST, Force, ModelFile, OfAt, Style, flag, output, with_help
 from dalembert.progress import progress
 from dalembert.saving import check_new
 
@@ -27,6 +28,13 @@ def report(
             negative=(), help="Methods to show, one or more (default: all); graphical only in the plane."
         ),
     ] = None,
+    design: Annotated[
+        bool,
+        flag(
+            "Write the design report instead: a verdict with its margin for all that the file has data for, "
+            "over the cycle, and the worst position of each thing."
+        ),
+    ] = False,
     style: Style = AS_USUAL,
     about: Annotated[str, with_help("Joint about which moments are taken, for links that have it.")] = "",
     begin: Annotated[str, with_help("Link whose forces are solved first, as far as possible.")] = "",
@@ -34,14 +42,32 @@ def report(
     of: OfAt = AT_FIRST,
     force: Force = False,
 ) -> int:
-    """Write the worked solution of FILE, step by step, with its drawings."""
+    """Write the worked solution of FILE, step by step, with its drawings; or its design report."""
     from dalembert.reports import report as worked_out
 
     with progress(f"Working out {file}"):
         check_new(output, force)
+        if design:
+            return design_report(file, output, of, style, force)
         result, at = solve_at(of.load(file), of.at, of.static, of.positions)
         worked_out(result, at, method, style.notation(), about, begin, along).save(output, force)
         return announce(result, output, at)
+
+
+def design_report(file: Path, output: Path, of: OfAt, style: Style, force: bool) -> int:
+    """Write the design report, over a full turn where the file has one position of a drive that moves."""
+    from dalembert.analysis import solve
+    from dalembert.machine.whole_cycle import over_a_turn
+    from dalembert.reports import report as written
+
+    m = of.load(file)
+    result = solve(m, static=of.static, positions=of.positions)
+    if len(result.status) == 1 and result.schedule.speed.any():
+        turned = solve(m, static=of.static, positions=over_a_turn(m))
+        result = turned if turned.ok.all() else result
+    notation = replace(style.notation(), links="name")
+    written(result, of.at, notation=notation, design=True).save(output, force)
+    return announce(result, output, of.at)
 
 
 COMMANDS: dict[Callable[..., int], str] = {
@@ -49,6 +75,7 @@ COMMANDS: dict[Callable[..., int], str] = {
   dalembert report four_bar.yaml -o four_bar.pdf
   dalembert report four_bar.yaml -o four_bar.html --method virtual-work --names
   dalembert report rssr.yaml -o rssr.pdf --at 30deg
+  dalembert report press.yaml --design -o press.pdf
   dalembert report engine.yaml -o engine.tex --at 60deg --units si --decimals 2""",
 }
 """Function of the command -> the examples under its help."""

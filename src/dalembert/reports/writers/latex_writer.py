@@ -68,6 +68,8 @@ def _block(b: blocks.Block) -> str:
         return _table(b)
     if isinstance(b, blocks.Matrix):
         return _matrix(b)
+    if isinstance(b, blocks.PageBreak):
+        return r"\clearpage"
     if isinstance(b, blocks.Blanks):
         return "\n\n".join(_blank(*row) for row in b.rows)
     if isinstance(b, blocks.Beside):
@@ -97,7 +99,7 @@ def _equation(w: blocks.Working) -> str:
 
 def _table(b: blocks.SheetTable) -> str:
     """Columns, made smaller where they are wider than the page; a long table in parts that fit one."""
-    columns = "l" + ("r" if len(b.heads) > 5 else "l") * (len(b.heads) - 1)
+    columns = "l" + ("r" if len(b.heads) > 5 and not b.words else "l") * (len(b.heads) - 1)
     heads = " & ".join(_rich(h) for h in b.heads) + r" \\"
     rows = [" & ".join(_rich(c) for c in row) + r" \\" for row in b.rows]
     if b.total:
@@ -128,7 +130,7 @@ def _blank(words: str, spaces: tuple[tuple[str, str], ...]) -> str:
 
 def _figure(b: blocks.Drawings) -> str:
     """Drawings in rows as they fit; what is larger than the page is made smaller, and says so."""
-    pictures = "\n\\hspace{3mm}\n".join(_picture(scene) for scene in b.scenes)
+    pictures = "\n\\hspace{3mm}\n".join(_picture(scene, b.columns) for scene in b.scenes)
     parts = [b.caption, *map(_smaller, b.scenes)]
     caption = " ".join(_words(part) for part in parts if part)
     return (
@@ -138,15 +140,16 @@ def _figure(b: blocks.Drawings) -> str:
     )
 
 
-def _part(scene: Scene) -> float:
+def _part(scene: Scene, columns: int = 1) -> float:
     """Factor by which a drawing's size is multiplied to fit the page."""
     left, bottom, right, top = scene.bounds
-    return min(1.0, WIDTH / (right - left + 2 * MARGIN), HEIGHT / (top - bottom + 2 * MARGIN))
+    width = WIDTH if scene.scales else WIDTH / columns - 4 * (columns > 1)
+    return min(1.0, width / (right - left + 2 * MARGIN), HEIGHT / (top - bottom + 2 * MARGIN))
 
 
-def _picture(scene: Scene) -> str:
-    drawn = tikz_picture(scene, _words)
-    return drawn if _part(scene) == 1.0 else rf"\scalebox{{{_part(scene):.3f}}}{{{drawn}}}"
+def _picture(scene: Scene, columns: int = 1) -> str:
+    drawn, part = tikz_picture(scene, _words), _part(scene, columns)
+    return drawn if part == 1.0 else rf"\scalebox{{{part:.3f}}}{{{drawn}}}"
 
 
 def _smaller(scene: Scene) -> str:

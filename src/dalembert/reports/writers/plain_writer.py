@@ -39,6 +39,8 @@ def plain_block(b: blocks.Block) -> str:
         return _table([[_rich(c) for c in row] for row in (b.heads, *b.rows)], b.caption, b.total)
     if isinstance(b, blocks.Matrix):
         return _matrix(b)
+    if isinstance(b, blocks.PageBreak):
+        return ""
     if isinstance(b, blocks.Blanks):
         rooms = [(w, "  ".join(f"{n} {'_' * 14} {u}".strip() for n, u in spaces)) for w, spaces in b.rows]
         return "\n".join(f"{_rich(words)}  {room}" for words, room in rooms)

@@ -17,6 +17,7 @@ from dalembert.reports.sheet import (
     Equations,
     Heading,
     Matrix,
+    PageBreak,
     Paragraph,
     ReportSheet,
     SheetTable,
@@ -66,7 +67,9 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
     if isinstance(b, SheetTable):
         rows = [[_rich(cell) for cell in row] for row in b.rows]
         heads = [_rich(h) for h in b.heads]
-        return {"kind": "table", "heads": heads, "rows": rows, "caption": b.caption, "total": b.total}
+        return {"kind": "table", "heads": heads, "rows": rows, "caption": b.caption, "total": b.total} | {
+            "words": b.words
+        }
     if isinstance(b, Matrix):
         return {
             "kind": "matrix",
@@ -74,6 +77,8 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
             "rows": [[typst(c) for c in row] for row in b.rows],
             **{n: [typst(c) for c in getattr(b, n)] for n in ("unknowns", "right", "values")},
         }
+    if isinstance(b, PageBreak):
+        return {"kind": "break"}
     if isinstance(b, Blanks):
         return {"kind": "blanks", "rows": [[_rich(words), spaces] for words, spaces in b.rows]}
     if isinstance(b, Beside):
@@ -82,7 +87,7 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
         return {"kind": "beside", "file": picture[0], "beside": wide, "blocks": texts}
     assert isinstance(b, Drawings)
     caption = " ".join([*filter(None, [b.caption]), *map(_printed_smaller, b.scenes)]).strip()
-    return {"kind": "figure", "caption": caption, "files": _pictures(b.scenes, pictures)}
+    return {"kind": "figure", "caption": caption, "files": _pictures(b.scenes, pictures, b.columns)}
 
 
 def _rich(text: str) -> list[str]:
@@ -101,11 +106,12 @@ def _printed_smaller(scene: Scene) -> str:
     return f"{scene.title}: printed at {part:.0f} % of its scales." if part < 100 and scene.scales else ""
 
 
-def _pictures(scenes: tuple[Scene, ...], pictures: dict[str, bytes]) -> list[Tree]:
+def _pictures(scenes: tuple[Scene, ...], pictures: dict[str, bytes], columns: int = 1) -> list[Tree]:
     """The files of drawings in their true size, those side by side that fit: each in the first row with room."""
     rows: list[list[tuple[float, Scene]]] = []
     for scene in scenes:
-        width = _width(scene)
+        widest = WIDTH if scene.scales else (WIDTH - GAP * (columns - 1)) / columns - 0.01
+        width = min(_width(scene), widest)
         row = next((row for row in rows if sum(w + GAP for w, _ in row) + width <= WIDTH), None)
         rows += [] if row is not None else [[]]
         (rows[-1] if row is None else row).append((width, scene))

@@ -1,0 +1,107 @@
+"""Motor, flywheel, shaking force and balance of a design report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from dalembert.errors import ModelError
+from dalembert.machine.balance.balancing import balance
+from dalembert.machine.flywheel.flywheels import flywheel
+from dalembert.machine.motors.motor_choice import MotorChoice, motor
+from dalembert.machine.output.sizes_over_cycle import greatest
+from dalembert.machine.shaking import shaking
+from dalembert.model import GROUND
+from dalembert.reports.design.answers_on_sheets import put_answer
+from dalembert.reports.design.verdict import (
+    DesignContext,
+    DesignPart,
+    DesignVerdict,
+    judged,
+    least_place,
+    not_judged,
+)
+
+LIGHT = 1e-6
+"""Part of the machine's mass, times the square of its size, that stands for no flywheel."""
+
+
+def motor_part(c: DesignContext) -> Iterator[DesignPart]:
+    """What each drive needs of a motor, and whether that of the file gives it."""
+    m, part = c.r.mechanism, DesignPart("Motor")
+    asked = [d for d in c.r.drives if m.drives[d].effort is None and m.drives[d].cylinder is None]
+    if not asked:
+        return
+    given = [d for d in asked if m.drives[d].motor is not None]
+    for drive in given or asked[:1]:
+        choice = motor(c.r, drive)
+        part.verdicts += list(_motor(c, choice))
+        put_answer(part.sheet, choice, c)
+    rest = [d for d in asked if d not in given]
+    if rest:
+        part.verdicts.append(not_judged(", ".join(rest), "the file has no motor for it"))
+    yield part
+
+
+def _motor(c: DesignContext, choice: MotorChoice) -> Iterator[DesignVerdict]:
+    curve, need = choice.curve, choice.needs.get("given") or choice.needs["direct"]
+    if curve is None:
+        return
+    speed, torque = need.ratio * np.abs(choice.speed), np.abs(choice.torque(need.ratio))
+    allowed = np.abs(np.asarray(curve.at(speed)))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        margin = np.where(speed <= curve.fastest, allowed / torque, 0.0)
+    k = least_place(margin)
+    value = c.text("moment", float(torque[k]))
+    remark = "" if margin[k] >= 1 else "at the prescribed motion; see the start-up for that of the motor"
+    yield judged(f"motor of {choice.drive}, torque at its speed", float(margin[k]), value, c.at(k), remark)
+    rms = c.text("moment", need.rms)
+    yield not_judged(f"motor of {choice.drive}, rms torque", "the file has no rated torque", rms)
+
+
+def flywheel_part(c: DesignContext) -> Iterator[DesignPart]:
+    """Fluctuation of energy, and of the speed with the links alone."""
+    part, m = DesignPart("Flywheel"), c.r.mechanism
+    mass = sum(m.mass(link) for link in c.r.links) or 1.0
+    f = flywheel(c.r, inertia=LIGHT * mass * c.r.compiled.layout.length**2)
+    value = f"dE = {c.text('energy', f.size.energy)}"
+    reason = "the file has no limit of the speed's fluctuation"
+    part.verdicts.append(not_judged("fluctuation of energy", reason, value))
+    if f.exact is not None:
+        part.verdicts.append(not_judged("Cs with the links alone", reason, f"{f.exact.fluctuation:.4g}"))
+    put_answer(part.sheet, f, c)
+    yield part
+
+
+def shaking_part(c: DesignContext) -> Iterator[DesignPart]:
+    """Force and moment on the foundation."""
+    s, part = shaking(c.r), DesignPart("Shaking force")
+    for item, kind, values in (("force", "force", s.force), (f"moment about {s.about}", "moment", s.moment)):
+        size, k = greatest(values)
+        if size > s.floor(kind):
+            reason = "the file has no limit of the foundation"
+            part.verdicts.append(not_judged(f"{item} on the ground", reason, c.text(kind, size), c.at(k)))
+    if part.verdicts:
+        put_answer(part.sheet, s, c)
+        yield part
+
+
+def balance_part(c: DesignContext) -> Iterator[DesignPart]:
+    """Counterweights on the links that turn about the ground, and what they leave of the force of inertia."""
+    r, m = c.r, c.r.mechanism
+    if not r.inertia or not np.nan_to_num(shaking(r).parts["inertia"][0]).any():
+        return
+    links = {
+        next(n for n in j.links if n != GROUND) for j in m.joints.values() if j.hinge and GROUND in j.links
+    }
+    some = [link for link in r.links if link in links and m.mass(link)]
+    if not some:
+        raise ModelError("no link with a mass turns about the ground, where a counterweight is put", "")
+    b = balance(m, some, positions=len(r.status) if len(r.status) > 1 else None)
+    part = DesignPart("Balance")
+    value = f"{100 * b.value:.3g} % of the rms force"
+    reason = f"a proposal for {', '.join(some)}; the file has no limit"
+    part.verdicts.append(not_judged("inertia force left by counterweights", reason, value))
+    put_answer(part.sheet, b, c)
+    yield part

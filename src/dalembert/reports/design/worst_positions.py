@@ -1,0 +1,58 @@
+"""The worst position of each thing of a result, sought over the positions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from dalembert.analysis.result.named_quantities import names_of, quantity
+from dalembert.analysis.result.position_lookup import QuantityExtreme, extreme
+from dalembert.errors import ModelError
+from dalembert.reports.design.verdict import DesignContext
+
+WORST_HEADS = ("Quantity", "Extreme", "Value", "At")
+LARGEST = ("effort", "power", "load", "reaction", "power_lost", "pressure", "screw_torque")
+"""Words of quantities whose largest magnitude is wanted."""
+SMALLEST = ("normal", "transmission")
+"""Words of quantities whose smallest value is wanted."""
+SINGLE = ("shaking_force",)
+NOTHING = 1e-9
+"""Part of the largest of its kind below which an extreme is rounding."""
+
+
+def sought(c: DesignContext) -> Iterator[QuantityExtreme]:
+    """The extremes of a report, of the quantities that the result has."""
+    r = c.r
+    words = [*LARGEST, *SMALLEST, *SINGLE]
+    joints = r.mechanism.joints
+    for name in names_of(r, words=words):
+        word, *rest = name.split(".")
+        if name.endswith((".low", ".high")) or (word == "transmission" and ".".join(rest) not in joints):
+            continue
+        if word == "power_lost" and r.friction is None:
+            continue
+        try:
+            found = extreme(r, f"{'min' if word in SMALLEST else 'peak'} {name}")
+        except (ModelError, ValueError):
+            continue
+        if found is not None and np.isfinite(found.value):
+            yield found
+
+
+def worst_rows(c: DesignContext) -> list[list[str]]:
+    """A row for each extreme that is more than rounding."""
+    some = list(sought(c))
+    largest: dict[str, float] = {}
+    for e in some:
+        largest[e.kind] = max(largest.get(e.kind, 0.0), abs(e.value))
+    rows = []
+    for e in some:
+        if abs(e.value) > NOTHING * largest[e.kind]:
+            signed = (
+                float(np.ravel(quantity(c.r, e.of).values[e.position])[0]) if e.word == "peak" else e.value
+            )
+            scalar = np.ndim(quantity(c.r, e.of).values) == 1
+            value = c.text(e.kind, signed if scalar and np.isfinite(signed) else e.value)
+            rows.append([e.of, "smallest" if e.word == "min" else "largest", value, c.at(e.position) or "–"])
+    return rows

@@ -1,0 +1,98 @@
+"""The design report: every limit of a file judged with its margin, all else named, for every bundled machine."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.cli import main
+from dalembert.machine.members.member_table import member_table
+from dalembert.reports.design.design_report import PARTS, design_sheet, parts_of
+from dalembert.reports.design.strength_parts import member_part
+from dalembert.reports.design.verdict import DesignContext, DesignVerdict, judged
+from dalembert.reports.sheet import Heading, SheetTable
+from tests.tiers import tiers
+
+BUNDLED = cases() | examples()
+QUICK = ("boom", "two_drives", "truss", "fr-05-clamp-tightened", "brk-1-simple-band-brake")
+SLOW = ("cam_and_follower", "four_cylinder")
+"""Their own commands take seconds."""
+STEEL = {"rectangle": ["20 mm", "40 mm"], "elasticity": "206 GPa"}
+
+
+def verdicts(r: da.Result) -> dict[str, DesignVerdict]:
+    return {v.item: v for part in member_part(DesignContext(r, 0, da.Notation())) for v in part.verdicts}
+
+
+@pytest.mark.parametrize("name", tiers(QUICK, sorted(BUNDLED.keys() - {*QUICK, *SLOW})))
+def test_every_bundled_machine_has_a_report(name: str) -> None:
+    r = da.solve(da.load(BUNDLED[name]))
+    sheet = design_sheet(r)
+    summary = next(b for b in sheet.blocks if isinstance(b, SheetTable))
+    titles = [b.text for b in sheet.blocks if isinstance(b, Heading) and b.level == 1]
+    assert titles[:3] == ["Summary", "Title block", "Given"]
+    assert [row[0] for row in summary.rows] == titles[3:]
+    for b in sheet.blocks:
+        for row in b.rows if isinstance(b, SheetTable) else ():
+            assert not any(cell in ("nan", "inf", "None") or "nan " in cell for cell in row), row
+    named = [v for part in parts_of(r) for v in part.verdicts if v.state == "not judged"]
+    assert all(v.remark for v in named)
+
+
+def loaded(stress: float) -> Any:
+    m = da.load(examples()["four_bar"])
+    sections = {f"links.{link}.section": STEEL | {"yield_stress": stress} for link in ("coupler", "rocker")}
+    return da.dynamics(m.with_values(sections), positions=24)
+
+
+def test_a_stress_is_judged_on_both_sides_of_its_limit() -> None:
+    largest = member_table(loaded(1e9)).stress["coupler"].largest
+    low, high = (verdicts(loaded(largest * share))["coupler, yield"] for share in (0.999, 1.001))
+    assert (low.state, high.state) == ("exceeded", "ok")
+    assert [low.margin, high.margin] == pytest.approx([0.999, 1.001], rel=1e-6)
+    assert low.at == high.at != ""
+
+
+def test_what_has_no_data_is_named_with_the_reason() -> None:
+    found = verdicts(loaded(1e9))
+    assert found["crank"].remark == "the file has no section for them"
+    assert found["coupler, fatigue"].remark == "its section has no endurance and ultimate stress"
+    assert found["crank"].state == "not judged"
+
+
+def test_the_summary_counts_what_is_exceeded() -> None:
+    r = loaded(1e6)
+    every = [v for part in parts_of(r) for v in part.verdicts]
+    count = {state: sum(v.state == state for v in every) for state in ("ok", "exceeded")}
+    text = str(da.report(r, design=True))
+    assert count["exceeded"] >= 2
+    assert f"{count['exceeded']} of {sum(count.values())} limits are exceeded." in text
+    least = min(v.margin for v in every if v.state == "exceeded")
+    assert f"{least:.3g}" in text.partition("2 Title block")[0]
+    k = int(
+        np.argmax(np.hypot(*r["reaction.B"].T))
+    )  # the worst position of a joint is that of its largest force
+    at = f"{math.degrees(r.drive_position('O2')[k]):.0f}° (no. {k + 1})"
+    assert at in next(line for line in text.splitlines() if line.startswith("reaction.B "))
+
+
+def test_a_limit_without_a_number_is_not_judged() -> None:
+    assert judged("x", math.nan).state == "not judged"
+    assert [judged("x", margin).state for margin in (1.0, math.nextafter(1.0, 0.0), math.inf)] == [
+        "ok",
+        "exceeded",
+        "ok",
+    ]
+
+
+def test_the_command_goes_over_the_turn_of_a_drive_that_moves(tmp_path: Any) -> None:
+    out = tmp_path / "four_bar.txt"
+    assert main(["report", str(examples()["four_bar"]), "--design", "-o", str(out)]) == 0
+    text = out.read_text(encoding="utf-8")
+    assert "72, 72 of them solved" in text
+    assert all(title in text for title, _ in PARTS if title not in ("Machine elements", "Pins"))
