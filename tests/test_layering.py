@@ -59,9 +59,10 @@ MAY_IMPORT = {
     "reports": SHOWN | {"views", "reports"},
     "notebook": SHOWN | {"views", "notebook"},
     "pages": SHOWN | {"", "core", "kernel", "views", "pages"},
+    "studio": SHOWN | {"", "core", "kernel", "grading", "views", "reports", "pages", "studio"},
     "exams": SHOWN | {"grading", "views", "reports", "exams"},
     "studies": SHOWN | {"", "kernel", "views", "reports", "studies"},  # designs are drawn in machine code
-    "cli": SHOWN | {"", "grading", "views", "reports", "pages", "exams", "studies", "cli"},
+    "cli": SHOWN | {"", "grading", "views", "reports", "pages", "exams", "studies", "studio", "cli"},
     "__init__": SHOWN | {"grading", "views", "reports", "pages", "exams", "studies"},
     "__main__": {"cli"},
 }

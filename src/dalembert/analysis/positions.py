@@ -64,7 +64,7 @@ def positions(c: Compiled) -> Positions:
     """Follow the mechanism over its schedule."""
     if not isinstance(c.guess, Guess):
         _refuse_far(c)
-    first_pose = _first(c)
+    first_pose = first_position(c)
     if first_pose is None:
         _refuse_overdriven(c)
         return Positions(c, None, None, None)
@@ -89,7 +89,7 @@ def positions(c: Compiled) -> Positions:
     return Positions(c, motion, mobility, "; ".join(sentences) or None)
 
 
-def _first(c: Compiled) -> tuple[int, Modes] | None:
+def first_position(c: Compiled) -> tuple[int, Modes] | None:
     """The first position that closes on the branches that `assembly` gives, else on others, and its modes."""
     other: tuple[int, Modes] | None = None
     for k in _places_to_try(c):

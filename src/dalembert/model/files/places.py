@@ -26,8 +26,12 @@ class TextSpan:
 Places = dict[Path, TextSpan]
 
 
+@lru_cache(maxsize=4)
 def places(text: str, form: str) -> Places:
-    """Path -> place of every value of a text that has been read without an error; keys in the order of the file."""
+    """Path -> place of every value of a text that has been read without an error; keys in the order of the file.
+
+    Kept for the last texts: not to be changed by its users.
+    """
     return {"yaml": _of_yaml, "json": _of_json, "toml": _of_toml}[form](text)
 
 

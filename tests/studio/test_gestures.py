@@ -1,0 +1,239 @@
+"""Gestures change the text: the file stays readable, its author's text stays, and every step can be undone."""
+
+from __future__ import annotations
+
+import difflib
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.errors import ModelError
+from dalembert.model.library.from_files import file_text
+from dalembert.studio.document import EMPTY, STEPS, Document
+from dalembert.studio.editing.entries import add_entries
+from dalembert.studio.editing.gestures import gesture
+from dalembert.studio.editing.references import rename, rename_point
+from tests.studio.gestures_at_random import message
+from tests.tiers import tiers
+
+TEMPLATES = (
+    *("four_bar", "slider_crank", "toggle_press", "watt_1", "whitworth", "scotch_yoke", "five_bar"),
+    *("crank_shaper", "bucket", "planetary_train"),
+)
+
+
+def at(d: Document, link: str, point: str) -> dict[str, Any]:
+    place = next(x for x in d.reading.drawing["links"] if x["name"] == link)["points"][point]
+    return {"at": place, "link": link, "point": point}
+
+
+def drawn_four_bar() -> Document:
+    """A four-bar drawn from nothing, with typed lengths."""
+    d = Document()
+    for x in (0.0, 0.1):
+        d.do(gesture({"op": "ground", "where": {"at": [x, 0.0]}}))
+    d.do(
+        gesture(
+            {"op": "bar", "ends": [at(d, "ground", "A"), {"at": [0.02, 0.03]}], "length": "40", "angle": "60"}
+        )
+    )
+    d.do(gesture({"op": "bar", "ends": [at(d, "link2", "C"), {"at": [0.13, 0.08]}]}))
+    d.do(gesture({"op": "bar", "ends": [at(d, "link3", "D"), at(d, "ground", "B")]}))
+    for link, length in (("link3", "120 mm"), ("link4", "80")):
+        d.do(gesture({"op": "length", "link": link, "value": length}))
+    return d
+
+
+def test_a_four_bar_drawn_from_nothing_has_the_torque_of_the_template() -> None:
+    d = drawn_four_bar()
+    d.do(gesture({"op": "drive", "joint": "A", "position": "60"}))
+    d.do(gesture({"op": "couple", "link": "link4", "value": "12,5 N*m"}))
+    m = da.four_bar(crank="40 mm", coupler="120 mm", rocker="80 mm", ground="100 mm", positions=1)
+    changes: dict[str, object] = {"drives.O2.position": np.pi / 3, "drives.O2.speed": 0.0}
+    loads = m.to_tree() | {
+        "loads": {"T": {"type": "couple", "on": "rocker", "value": 12.5}},
+        "gravity": "none",
+    }
+    like = da.statics(da.Mechanism.model_validate(loads).with_values(changes))
+    assert da.statics(da.loads(d.text)).effort("A") == pytest.approx(like.effort("O2"), rel=1e-9)
+
+
+def test_every_step_is_undone_to_the_same_bytes_and_done_again() -> None:
+    d, texts = Document(), list[str]()
+    for n in range(STEPS + 3):
+        texts.append(d.text)
+        if n % 20:
+            d.edit([(len(d.text), len(d.text), f"# {n}\n")])
+        else:
+            d.do(gesture({"op": "ground", "where": {"at": [0.01 * n, 0.0]}}))
+    last = d.text
+    undone = [d.text for _ in range(STEPS + 3) if d.undo()]
+    assert undone == texts[:2:-1], "a hundred steps"
+    while d.redo():
+        pass
+    assert d.text == last
+    assert texts[0] == EMPTY
+
+
+def drawn(seed: int, count: int) -> tuple[Document, list[str], int]:
+    """A template after gestures at random: all its texts, and how many gestures were refused."""
+    r, d = Random(seed), Document(file_text(TEMPLATES[seed % len(TEMPLATES)]))
+    texts, refused = [d.text], 0
+    for _ in range(count):
+        asked = message(r, d)
+        try:
+            d.do(gesture(asked))
+        except ModelError:
+            refused += 1
+        assert not d.reading.error, (asked, d.reading.error)
+        if d.text != texts[-1]:
+            texts.append(d.text)
+    return d, texts, refused
+
+
+@pytest.mark.parametrize("seed", tiers([0], [1, 2, 3], range(4, 10)))
+def test_after_any_gestures_the_file_can_be_read_and_every_step_undone(seed: int) -> None:
+    count = 12 if seed == 0 else 40 if seed < 4 else 1000
+    d, texts, refused = drawn(seed, count)
+    assert refused < 0.6 * count
+    da.loads(d.text)
+    kept = texts[-STEPS - 1 :]
+    assert [d.text for _ in kept[1:] if d.undo()] == kept[-2::-1]
+
+
+FILES = {**examples(), **cases()}
+
+
+def efforts(text: str) -> list[float]:
+    """Every effort and joint force of a text, bit for bit."""
+    m = da.loads(text)
+    r = da.dynamics(m)
+    parts = [*(r.effort(drive) for drive in m.drives), *(r.reaction(joint) for joint in m.joints)]
+    return [float(x) for array in parts for x in np.ravel(array)]
+
+
+@pytest.mark.parametrize("name", tiers(["four_bar"], ["toggle_press", "engine", "bucket", "pump"]))
+def test_a_new_name_changes_no_force(name: str) -> None:
+    text = FILES[name].read_text(encoding="utf-8")
+    m = da.loads(text)
+    new = text
+    for kind in ("links", "joints", "loads", "drives"):
+        for k, old in enumerate(n for n in getattr(m, kind) if n != "ground"):
+            if (kind != "drives" or old not in m.joints) and old in (da.loads(new).to_tree().get(kind) or ()):
+                new = rename(new, "yaml", kind, old, f"{kind}_{k}")
+    for link in da.loads(new).links:
+        for k, point in enumerate(da.loads(new).links[link].points):
+            new = rename_point(new, "yaml", link, point, f"p_{link}_{k}")
+    assert "links_0" in new
+    assert efforts(new) == efforts(text)
+    changed = [x for x in difflib.ndiff(text.splitlines(), new.splitlines()) if x[:2] == "+ "]
+    assert len(changed) <= len(text.splitlines()), "no line is put in but for `at`"
+
+
+def test_an_entry_stands_as_its_neighbours_do() -> None:
+    text = "links:\r\n  ground:  {}   # fixed\r\n  coupler: {mass: 1}\r\n# end\r\n"
+    assert add_entries(text, "yaml", {("links", "a"): {}, ("loads", "F"): {"x": 1}}) == (
+        "links:\r\n  ground:  {}   # fixed\r\n  coupler: {mass: 1}\r\n  a:       {}\r\n# end\r\n"
+        "\r\nloads:\r\n  F: {x: 1}\r\n"
+    )
+
+
+def test_a_link_goes_with_all_that_needs_it() -> None:
+    d = Document(FILES["four_bar"].read_text(encoding="utf-8"))
+    d.do(gesture({"op": "delete", "kind": "links", "name": "rocker"}))
+    m = da.loads(d.text)
+    assert list(m.joints) == ["O2", "A"]
+    assert list(m.loads) == ["F_P"]
+    assert list(m.assembly) == ["coupler"]
+    assert "the book divides its weights by 386" in d.text
+    d.do(gesture({"op": "delete", "kind": "links", "name": "crank"}))
+    assert "joints:" not in d.text
+    assert "drives:" not in d.text
+
+
+@pytest.mark.parametrize(
+    ("asked", "sentence"),
+    [
+        ({"op": "delete", "kind": "links", "name": "ground"}, "the ground stays"),
+        ({"op": "rename", "kind": "links", "name": "link2", "to": "link3"}, "already used in links"),
+        ({"op": "rename", "kind": "links", "name": "link2", "to": "a b"}, "cannot be read: rename.to"),
+        ({"op": "set", "path": ["links", "link2", "mass"], "value": "-1"}, "mass"),
+        ({"op": "set", "path": ["links", "link2", "mass"], "value": "3 mm"}, "a mass is needed"),
+        ({"op": "set", "path": ["links", "link2", 4, "mass"], "value": "3"}, "unknown key"),
+        ({"op": "length", "link": "link2", "value": "-4"}, "length of -4"),
+        ({"op": "couple", "link": "nothing"}, "acts on a moving link"),
+        ({"op": "drive", "joint": "Z"}, "joints has no 'Z'"),
+        ({"op": "ground", "where": {"at": [float("nan"), 0]}}, "cannot be read"),
+        ({"op": "explode"}, "cannot be read"),
+        ([], "cannot be read"),
+    ],
+)
+def test_a_refused_gesture_says_why_and_changes_nothing(asked: Any, sentence: str) -> None:
+    d = drawn_four_bar()
+    before, steps = d.text, d.can
+    with pytest.raises(ModelError, match=sentence):
+        d.do(gesture(asked))
+    assert (d.text, d.can) == (before, steps)
+    assert not d.reading.error
+
+
+def test_a_wrong_text_names_its_line_and_keeps_the_drawing() -> None:
+    d = drawn_four_bar()
+    links = d.reading.drawing["links"]
+    place = d.text.index("pin")
+    d.edit([(place, place + 3, "pinn")])
+    assert d.reading.line == d.text[:place].count("\n") + 1
+    assert "pinn" in d.reading.error
+    assert d.reading.drawing["links"] == links
+    with pytest.raises(ModelError, match="correct it there"):
+        d.do(gesture({"op": "ground", "where": {"at": [0, 0]}}))
+    with pytest.raises(ModelError, match="outside the text"):
+        d.edit([(0, 10**6, "")])
+    assert d.undo()
+    assert not d.reading.error
+
+
+def test_a_dragged_point_keeps_bars_straight_and_joints_closed() -> None:
+    d = drawn_four_bar()
+    d.do(gesture({"op": "drive", "joint": "A", "position": "60"}))
+    before = d.reading.drawing["links"][2]["points"]["D"]
+    to = [before[0] + 0.01, before[1] - 0.004]
+    d.do(gesture({"op": "move", "link": "link3", "point": "D", "to": to}))
+    after = {link["name"]: link["points"] for link in d.reading.drawing["links"]}
+    assert after["link3"]["D"] == pytest.approx(to, abs=6e-5)
+    assert after["link4"]["D"] == pytest.approx(after["link3"]["D"], abs=1e-9)
+    assert da.loads(d.text).links["link3"].points["D"][1] == 0.0
+    assert "O2" not in d.text
+    assert "position: 60" in d.text
+    d.do(gesture({"op": "move", "link": "link2", "point": "C", "to": [0.0, 0.04]}))
+    assert "position: 90" in d.text, "the drive stands where the crank was moved"
+
+
+def test_a_pull_moves_as_the_joints_let_it() -> None:
+    d = drawn_four_bar()
+    sketch = d.reading.sketch
+    assert sketch is not None
+    assert (sketch.freedoms, sketch.closed) == (1, True)
+    m = da.loads(d.text)
+    pulled = sketch.pulled("link2", m.point("link2", "C"), (0.0, 0.07))
+    x, y, turn = pulled.placed["link2"]
+    assert turn == pytest.approx(np.pi / 2, abs=1e-3), "the nearest place on the crank's circle"
+    assert (x, y) == pytest.approx((0, 0), abs=1e-9)
+    far = pulled.pulled("link3", m.point("link3", "D"), (9.0, 9.0))
+    again = far.pulled("link3", m.point("link3", "D"), (9.0, 9.0))
+    assert all(np.isfinite(v).all() for v in far.placed.values())
+    assert far.placed["link3"] == pytest.approx(again.placed["link3"], abs=0.2)
+
+
+def test_an_open_sketch_is_drawn_with_its_gap() -> None:
+    d = drawn_four_bar()
+    d.do(gesture({"op": "length", "link": "link3", "value": "300"}))
+    sketch = d.reading.sketch
+    assert sketch is not None
+    assert not sketch.closed
+    assert sketch.gap > 0.01
+    assert not d.reading.error
