@@ -157,6 +157,34 @@ def test_what_has_no_number_is_not_judged() -> None:
     assert jammed.mistake.startswith("it cannot be judged: Friction jams the mechanism at guide = 1 m")
 
 
+@pytest.mark.parametrize("name", [FOUR_LINK, "seed-002-4-four-link-two-couples", "st-12-a-frame-18-kn"])
+def test_a_force_on_the_other_link_has_the_wrong_sense(name: str) -> None:
+    """It is that of no other axes and joint, though a rod has the same force at both ends, and none is left out."""
+    r = solved(name).result
+    loaded = [j for j in r.joints if np.hypot(*r.reaction(j)[0]) > 1e-3]
+    assert len(loaded) > 3
+    for joint in loaded:
+        x, y = r.reaction(joint)[0]
+        others = {j: [f"{v:.6g} N" for v in r.reaction(j)[0].tolist()] for j in r.joints if j != joint}
+        found = verdicts(name, {"reactions": {joint: [f"{-x:.5g} N", f"{-y:.5g} N"], **others}})
+        assert [(v.kind, v.mistake.partition(", or ")[0]) for v in found if not v.right] == [
+            ("sign", "the sense is opposite: action mistaken for reaction")
+        ]
+
+
+def test_two_mistakes_with_the_same_figures_are_both_said() -> None:
+    """A load applied at the support, or left out: the other joints do not tell, the support's does."""
+    name = "st-09-beam-on-a-strut"
+    wrong = da.statics(da.load(BUNDLED[name]).with_values({"loads.F.at": "C"}))
+    sheet = {j: [f"{v:.6g}" for v in wrong.reaction(j)[0].tolist()] for j in wrong.joints}
+    whole = {v.mistake for v in verdicts(name, {"reactions": sheet}) if not v.right}
+    assert whole == {
+        "the moment arm of F is wrong: the load is applied at C, or the moment of F about C is left out"
+    }
+    (less,) = {v.mistake for v in verdicts(name, {"reactions": {j: sheet[j] for j in "AB"}}) if not v.right}
+    assert less.startswith("load F is left out, or the moment arm of F is wrong: the load is applied at C")
+
+
 @pytest.mark.parametrize(("value", "component"), [(-155, "magnitude"), ("-155 @ 40", None)])
 def test_a_magnitude_is_never_negative(value: Any, component: str | None) -> None:
     answer = da.Answer(quantity="reaction", of="A", value=value, component=component)

@@ -12,46 +12,49 @@ Mechanics: docs/theory.md 12.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array
 from dalembert.errors import DalembertError
 from dalembert.grading.figure import StudentValue, values_of
 from dalembert.grading.own_figures import OwnFigures
-from dalembert.grading.value_errors import Hypothesis, of_units, of_value
+from dalembert.grading.value_slips import (
+    FINEST,
+    POSSIBLE,
+    SMALL,
+    ValueSlip,
+    alike,
+    coincidence,
+    distance,
+    slip_of,
+)
 from dalembert.grading.wrong.wrong_problems import WrongProblem, WrongProblems
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-SMALL = 0.03
-"""Relative difference up to which a figure is nearly right."""
-
-MUCH = 5
-"""Factor by which a mistake must be nearer than the right value to explain a figure that is nearly right."""
-
 GRAPHICAL = 0.05
 """Relative difference that a drawing may have."""
 
-SURE, POSSIBLE = 0.01, 0.3
-"""Expected coincidences up to which a mistake is named, and up to which it is said to be possible."""
+SURE = 0.01
+"""Expected coincidences up to which a mistake is named (up to ``POSSIBLE`` it is said to be possible)."""
 
 ALONE = 5e-4
 """The same as ``SURE`` for a slip beside figures that nothing explains."""
 
-FINEST = 2e-4
-"""Relative width below which no figure is trusted."""
-
 MOVED = 0.002
 """Relative difference from which a mistake moves a figure."""
 
-SLIPS = 30
-"""Slips of one value that are tried."""
+TOGETHER = 3
+"""Mistakes that are said together where a sheet does not tell them apart."""
+
+ELSEWHERE = 2
+"""Different slips of the kind "this is joint A" that one sheet may have: forces often coincide in a machine."""
 
 NONE = "none of the usual mistakes explains it"
 
@@ -65,23 +68,17 @@ class Explanation(NamedTuple):
     weight: str = ""
 
 
-class _Slip(NamedTuple):
-    """A slip of one value: in words, its kind, and the expected coincidences."""
-
-    sentence: str
-    kind: str
-    chance: float
-
-
 @dataclass
 class _Option:
-    """A mistake with the figures that it explains, and how far off each is; the slips beside it; what stays open."""
+    """A mistake with the figures that it explains, and how far off each is; the slips beside it; what stays open;
+    and other mistakes that lead to the same figures."""
 
     problem: WrongProblem
     offs: dict[int, float]
     values: dict[int, Array]
-    slips: dict[int, _Slip] = field(default_factory=dict)
+    slips: dict[int, ValueSlip] = field(default_factory=dict)
     open: list[int] = field(default_factory=list)
+    also: list[WrongProblem] = field(default_factory=list)
 
     @property
     def cost(self) -> float:
@@ -97,16 +94,6 @@ def explain(
     out = {n: Explanation(figures[n].impossible, "sign") for n in wrong if figures[n].impossible}
     wrong = [n for n in wrong if n not in out]
     return out | _Sheet(figures, wrong, problems, own).explanations() if wrong else out
-
-
-def density(d: float) -> float:
-    """Probability density of a wrong number at a relative distance d from the right one, per unit of distance: slips
-    that are small are more frequent.
-
-    >>> density(0.0) > density(0.3) > density(3.0)
-    True
-    """
-    return 0.93 * math.exp(-((d / 0.3) ** 2) / 2) + 0.075 / (1 + d) ** 2
 
 
 class _Sheet:
@@ -135,7 +122,14 @@ class _Sheet:
         order = sorted(expected, key=lambda k: (found[k].cost, expected[k]))
         if not order or not self._better(found[order[0]], slip_cost):
             return self._by_parts(None)
-        return self._with(found[order[0]], expected[order[0]])
+        best = found[order[0]]
+        best.also = [found[k].problem for k in order[1:] if self._same(best, found[k])]
+        return self._with(best, expected[order[0]])
+
+    def _same(self, best: _Option, other: _Option) -> bool:
+        """True if the sheet does not tell two mistakes apart."""
+        figures = best.offs.keys() == other.offs.keys() and best.open == other.open
+        return figures and all(alike(self.figures[n], best.values[n], other.values[n]) for n in best.offs)
 
     def _expected(self, option: _Option, compatible: list[tuple[int, int]]) -> float:
         """Coincidences expected with mistakes at least as usual that could have moved as many figures."""
@@ -159,15 +153,22 @@ class _Sheet:
             return self._by_parts(None)
         if kind == "may_be" and (self.own.follows or self.own.slip):
             return self._by_parts(best)
-        said = _said(best, kind)
+        said = self._alone(best, kind) or _said(best, kind)
         slips = {n: Explanation(s.sentence, s.kind) for n, s in best.slips.items()}
         rest = {n: Explanation(NONE, "unknown") for n in best.open}
         return dict.fromkeys(best.offs, said) | slips | rest
 
+    def _alone(self, best: _Option, kind: str) -> Explanation | None:
+        """A mistake beside a slip that leads to the same figure, where only one is wrong."""
+        slip = self.slips.get(self.wrong[0])
+        if len(self.wrong) > 1 or slip is None or slip.chance > SURE or kind != "named":
+            return None
+        return Explanation(f"{slip.sentence}, or {_said(best, kind).sentence}", slip.kind)
+
     def _chance(self, option: _Option) -> float:
         """Chance that so many independent wrong numbers lie where a mistake puts them."""
         each = [
-            self._near(n, option.values[n], off)
+            coincidence(self.figures[n], option.values[n], off)
             for n, off in option.offs.items()
             for _ in range(self.figures[n].right[0].size)
         ]
@@ -190,13 +191,12 @@ class _Sheet:
 
     def _one(self, n: int, possible: _Option | None, near: bool) -> Explanation:
         slip, own = self.slips.get(n), self.own
-        unexplained = len(self.wrong) - len(self.slips)
-        if slip and slip.chance <= (SURE if unexplained <= len(self.slips) else ALONE):
-            return Explanation(slip.sentence, slip.kind)
         if n in own.follows:
             return Explanation(f"right with your own figures, by the {own.follows[n]}", "follow_through")
-        if possible is not None:
+        if possible is not None and n in possible.offs:
             return _said(possible, "may_be")
+        if slip and self._is_sure(slip):
+            return Explanation(slip.sentence, slip.kind)
         if slip and len(self.wrong) == 1:
             return Explanation(f"may be: {slip.sentence}", "may_be")
         if near:
@@ -207,6 +207,14 @@ class _Sheet:
         f = self.figures[n]
         drawn = f"; it is {100 * f.off:.2g} % off, which a drawing may be: state a tolerance if it is one"
         return Explanation(NONE + (drawn if f.off <= GRAPHICAL and not f.close.stated else ""), "unknown")
+
+    def _is_sure(self, slip: ValueSlip) -> bool:
+        """True if chance does not explain a slip, nor the structure of the machine."""
+        unexplained = len(self.wrong) - len(self.slips)
+        elsewhere = {s.sentence for s in self.slips.values() if s.kind == "named"}
+        if slip.kind == "named" and len(elsewhere) > ELSEWHERE:
+            return False
+        return slip.chance <= (SURE if unexplained <= len(self.slips) else ALONE)
 
     def _options(self, slip_cost: float) -> tuple[list[_Option], list[tuple[int, int]]]:
         """Mistakes that explain some figure, and the order and number of moved figures of all that could have moved
@@ -225,11 +233,13 @@ class _Sheet:
             if not moved:
                 continue
             compatible.append((problem.order, len(moved)))
-            offs = {n: off for n, some in values.items() if (off := self._away(n, some)) is not None}
+            offs = {
+                n: off for n, some in values.items() if (off := distance(self.figures[n], some)) is not None
+            }
             if offs:
                 found.append(self._option(problem, result, offs, values))
                 if len(offs) == len(self.wrong) and max(offs.values()) <= FINEST:
-                    done = min(done, problem.order)
+                    done = min(done, max(problem.order, 2))
         return found, compatible
 
     def _option(
@@ -243,7 +253,7 @@ class _Sheet:
         rest = [n for n in self.wrong if n not in offs]
         slips = {n: self.slips[n] for n in rest if n in self.slips}
         for n in rest if len(offs) > len(rest) else ():
-            slip = None if n in slips else self._slip(result, n, values[n])
+            slip = None if n in slips else self._slip(n, values[n], result)
             if slip is not None and slip.chance <= SURE:
                 slips[n] = slip
         nearest = {n: min(values[n], key=self.figures[n].close.off) for n in offs}
@@ -268,101 +278,20 @@ class _Sheet:
         except (DalembertError, IndexError):
             return ()
 
-    def _away(self, n: int, values: Sequence[Array]) -> float | None:
-        """Distance of a figure from the nearest of some values that explain it, 0 if it is one of them rounded."""
-        f = self.figures[n]
-        offs = [
-            0.0 if f.close.is_rounded(v) else f.close.off(v)
-            for v in values
-            if np.isfinite(v).all() and self._explains(f, v)
-        ]
-        return min(offs, default=None)
-
-    def _explains(self, f: StudentValue, value: Array) -> bool:
-        """One that is itself nearly right is explained only by a mistake that comes much nearer."""
-        return f.close.off(value) <= f.off / MUCH if f.off <= SMALL else f.close.holds(value)
-
-    def _near(self, n: int, value: Array, off: float) -> float:
-        """Chance that a wrong number lies as near to a value as the figure does."""
-        f = self.figures[n]
-        right = f.right[0]
-        size = float(np.linalg.norm(right)) or 1.0
-        away = (
-            f.close.off(value) or 0.1
-            if f.series.kind == "angle"
-            else float(np.linalg.norm(value - right)) / size
-        )
-        width = max(off, _last_digit(f), FINEST, f.close.near if f.close.stated else 0.0)
-        return min(1.0, 2 * width * density(away))
-
     @cached_property
-    def slips(self) -> dict[int, _Slip]:
+    def slips(self) -> dict[int, ValueSlip]:
         """The slip that explains a figure best, where chance does not."""
-        result = None if self.problems is None else self.problems.result
-        found = {n: self._slip(result, n, self.figures[n].right) for n in self.wrong}
+        found = {n: self._slip(n, self.figures[n].right) for n in self.wrong}
         return {n: slip for n, slip in found.items() if slip is not None}
 
-    def _slip(self, result: Result | None, n: int, values: Sequence[Array]) -> _Slip | None:
-        best: _Slip | None = None
-        for h in self._hypotheses(result, n, values):
-            off = self._away(n, (h.value,))
-            if off is None:
-                continue
-            numbers = 1 if h.single else max(h.value.size, 1)
-            chance = SLIPS * self._near(n, h.value, off) ** numbers
-            if chance <= POSSIBLE and (best is None or chance < best.chance):
-                best = _Slip(h.sentence, h.kind, chance)
-        return best
-
-    def _hypotheses(self, result: Result | None, n: int, values: Sequence[Array]) -> Iterator[Hypothesis]:
-        """Slips of a figure from some values, and values of something else."""
-        f = self.figures[n]
-        for value in values:
-            yield from of_value(f.series, value)
-            yield from of_units(f.series, value)
-        if result is None:
-            return
-        for change, sentence in others(result, f):
-            try:
-                of_other, _ = values_of(result, f.answer.model_copy(update=change), self.places[n])
-            except (DalembertError, IndexError):
-                continue
-            for value in of_other:
-                if value.shape == f.right[0].shape:
-                    yield Hypothesis(sentence, value)
+    def _slip(self, n: int, values: Sequence[Array], result: Result | None = None) -> ValueSlip | None:
+        result = result or (None if self.problems is None else self.problems.result)
+        return slip_of(self.figures[n], values, result, self.places[n])
 
 
 def _said(option: _Option, kind: str) -> Explanation:
-    """A mistake in the problem, named or said to be possible."""
-    sentence = option.problem.sentence
-    return Explanation(sentence if kind == "named" else f"may be: {sentence}", kind, option.problem.weight)
-
-
-def _last_digit(f: StudentValue) -> float:
-    """Half a unit of the last digit of a figure, relative."""
-    size = float(np.linalg.norm(f.given.value)) or 1.0
-    if f.series.kind == "angle" or not f.close.halves:
-        return 0.005
-    if f.given.polar:
-        return max(f.close.halves[0] / size, min(f.close.halves[1], 0.01))
-    return max(f.close.halves) / size
-
-
-def others(result: Result, f: StudentValue) -> Iterator[tuple[Tree, str]]:
-    """The right value of something else: another joint, component, or axes."""
-    answer = f.answer
-    if answer.quantity in ("reaction", "moment"):
-        for joint in result.joints:
-            if joint != answer.of:
-                yield {"of": joint, "on": None, "by": None}, f"this is joint {joint}"
-        for link in result.mechanism.joints[str(answer.of)].links if answer.of in result.joints else ():
-            change = {"axes": "link", "on": link, "by": None}
-            yield change, f"components are along and across link {link}, not ground axes"
-    if answer.component in ("x", "y"):
-        other = "y" if answer.component == "x" else "x"
-        yield {"component": other}, "the angle is counted from the other axis: x for y"
-        yield {"component": "magnitude"}, "this is the magnitude, not the component"
-    if answer.quantity in ("angle", "speed", "acceleration", "center_acceleration", "center"):
-        for link in result.links:
-            if link != answer.of:
-                yield {"of": link}, f"this is link {link}"
+    """A mistake in the problem, named or said to be possible, with those that lead to the same figures."""
+    every = [option.problem, *option.also]
+    sentence = ", or ".join(dict.fromkeys(p.sentence for p in every[:TOGETHER]))
+    weight = min((p.weight for p in every), key=("datum", "concept").index)
+    return Explanation(sentence if kind == "named" else f"may be: {sentence}", kind, weight)

@@ -94,6 +94,7 @@ def _rate_changes(r: Result, k: int, drive: str) -> Iterator[Mistake]:
         for factor, words in (
             (30 / math.pi, "rad/s mistaken for rpm"),
             (math.pi / 30, "rpm mistaken for rad/s"),
+            (0.5 / math.pi, "rpm only divided by 60, revolutions per second mistaken for rad/s"),
         ):
             yield f"the speed of drive {drive}: {words}", scaled("speed", factor)
         yield f"the speed of drive {drive} is left out", scaled("speed", 0.0)
