@@ -229,7 +229,16 @@ def test_the_law_of_a_drive_has_its_coefficients_and_peaks() -> None:
     assert law.times == pytest.approx(np.radians([0, 100, 140, *(140 + 120 * np.array([1, 7, 8]) / 8), 360]))
     text = str(other)
     assert "Law of S over O, 360 deg long." in text
-    assert "First rise: C_v = 1.7596, C_a = 5.52796, C_j = 69.4664." in text
+    assert "modified_sine     0   25  100  1.7596  5.52796  69.4664" in text
+    worked = da.report(
+        da.dynamics(da.mechanism(ram({"over": "O", "segments": TURN}, position=75, speed="10 rad/s")))
+    )
+    peaks = [2 * 25e-3 / (b / 10), 2 * PI * 25e-3 / (b / 10) ** 2, 4 * PI**2 * 25e-3 / (b / 10) ** 3]
+    row = next(line for line in worked.to_bytes("txt").decode().splitlines() if line.startswith("cycloidal "))
+    assert list(map(float, row.split()[1:6])) == pytest.approx(
+        [100, 25, *COEFFICIENTS["cycloidal"]], rel=5e-4
+    )
+    assert list(map(float, row.split()[6:])) == pytest.approx([x * 1e3 for x in peaks], rel=5e-4)
     harmonic = da.law(da.mechanism(ram({"segments": [{**RISE, "by": "harmonic"}, BACK], "count": 9})), "S")
     assert "The acceleration jumps at 0.2 s." in str(harmonic)
     rise = {"type": "polynomial345", "from": 0, "to": 10, "duration": "2 s", "count": 5}

@@ -5,9 +5,10 @@ Source: Norton, Design of Machinery, chapter 8.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from dalembert.answer.column import Axes, Column, Scale, UnitChoice
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
-from dalembert.model.drives.curves import Curve, CurvePiece, unit_rise
+from dalembert.model.drives.curves import Curve, unit_rise
 from dalembert.model.drives.drives import Drive, kind_of
 from dalembert.model.drives.expression_laws import ExpressionLaw
 from dalembert.model.drives.laws import Rise
@@ -25,14 +26,15 @@ from dalembert.printing import Part, TextTable, number
 from dalembert.wording import closest
 
 RATES = ("speed", "acceleration", "jerk")
+COEFFICIENTS = ("C_v", "C_a", "C_j")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class MotionLaw(Labelled):
     """A law of motion over time, or over another drive's position (then its rates are slopes by that).
 
-    times (N + 1,): where its pieces join, s (or rad, m). coefficients: of its first rise h in a length b: C_v = v b/h,
-    C_a = a b^2/h, C_j = j b^3/h, with the largest speed, acceleration and jerk in it.
+    times (N + 1,): where its pieces join, s (or rad, m). rises: its rises and returns, each a way h in a length b with
+    C_v = v b/h, C_a = a b^2/h, C_j = j b^3/h of the largest speed, acceleration and jerk in it.
     """
 
     ROWS: ClassVar[str] = "instants"
@@ -41,8 +43,13 @@ class MotionLaw(Labelled):
     drive: str
     curve: Curve
     over: str
-    coefficients: dict[str, float]
+    rises: tuple[MotionRise, ...]
     count: int = field(default=361)
+
+    @property
+    def coefficients(self) -> dict[str, float]:
+        """C_v, C_a and C_j of its first rise; none without one."""
+        return self.rises[0].coefficients if self.rises else {}
 
     @property
     def times(self) -> Array:
@@ -133,6 +140,13 @@ class MotionLaw(Labelled):
         found = {"duration": float(to(master, self.duration)), "coefficients": self.coefficients}
         return {"law": {"drive": self.drive, "over": self.over or "time", **found, "peaks": peaks}}
 
+    def _row(self, x: MotionRise, to: Scale) -> list[str]:
+        """A rise: its curve, where it begins, its way and length, its coefficients."""
+        places = (number(float(to(self._master(), place))) for place in (x.start, x.length))
+        begins, lasts = places
+        way = number(float(to(self._kinds()[0], x.way)))
+        return [x.by, begins, way, lasts, *map(number, x.coefficients.values())]
+
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterable[Part]:
         """Peaks with their places, and the coefficients of the first rise."""
         to = self.scale(units)
@@ -145,9 +159,9 @@ class MotionLaw(Labelled):
         ]
         yield f"Law of {self.drive} over {of}, {number(tree['duration'])} {master} long."
         yield TextTable(["", "peak", "unit", f"at {of}", "unit"], rows)
-        if self.coefficients:
-            parts = ", ".join(f"{name} = {number(value)}" for name, value in self.coefficients.items())
-            yield f"First rise: {parts}."
+        heads = ["rise by", "from", "way", "in", *COEFFICIENTS]
+        if self.rises:
+            yield TextTable(heads, [self._row(x, to) for x in self.rises])
         jumps = [number(float(to(self._master(), x))) for x in self.curve.jumps(2)]
         if jumps:
             yield f"The acceleration jumps at {', '.join(jumps)} {master}."
@@ -171,18 +185,13 @@ def law(m: ModelOrPath, drive: str, by: str | None = None) -> MotionLaw:
         raise ModelError(f"unknown motion curve {by!r}", closest(by, list(RISES)))
     programme = _programme(m.drives[drive], drive)
     if by is not None:
-        rises = [replace(s, by=by) if s.form == "rise" else s for s in programme.segments]
-        programme = replace(programme, segments=tuple(rises))
-    return MotionLaw(m, drive, programme.curve, programme.over, _coefficients(programme))
+        others = [replace(s, by=by) if s.form == "rise" else s for s in programme.segments]
+        programme = replace(programme, segments=tuple(others))
+    found = tuple(rises(programme))
+    return MotionLaw(m, drive, programme.curve, programme.over, found)
 
 
 def _programme(d: Drive, name: str) -> Programme:
-    from dalembert.model.drives.programmes import Segment
-
-    if isinstance(d.law, Programme):
-        return d.law
-    if isinstance(d.law, Rise):
-        return Programme((Segment("rise", d.law.type, d.law.duration, d.law.stop),), d.law.start, d.law.count)
     if d.law is None:
         raise ModelError(
             f"drive {name!r} has no law of motion", "write law: {segments: [...]}", ("drives", name)
@@ -190,24 +199,47 @@ def _programme(d: Drive, name: str) -> Programme:
     if isinstance(d.law, ExpressionLaw):
         what = f"the law of drive {name!r} is an expression, which has no segments"
         raise ModelError(what, "read its motion from a result", ("drives", name, "law"))
+    programme = programme_of(d)
+    assert programme is not None
+    return programme
+
+
+class MotionRise(NamedTuple):
+    """A rise or return of a programme: its curve, its way and the ``length`` in time or of the other drive, and the
+    coefficients C_v = v b/h, C_a = a b^2/h, C_j = j b^3/h of the largest speed, acceleration and jerk inside it."""
+
+    by: str
+    start: float
+    way: float
+    length: float
+    coefficients: dict[str, float]
+
+
+def rises(p: Programme) -> Iterator[MotionRise]:
+    """The rises and returns of a programme, in their order."""
+    position, at = p.start, 0.0
+    for s in p.segments:
+        pieces = () if math.isnan(s.length) and s.form == "dwell" else s.pieces(position, s.length)
+        length, way = sum(x.length for x in pieces), s.to - position
+        if s.form not in ("dwell", "constant", "spline") and way:
+            curve = Curve(unit_rise(s.by) if s.form == "rise" else pieces)
+            h, b = (1.0, 1.0) if s.form == "rise" else (abs(way), length)
+            values = {n: curve.peaks(k)[0] * b**k / h for k, n in enumerate(COEFFICIENTS, 1)}
+            yield MotionRise(s.by or s.form, at, way, length, values)
+        at += length or p.curve.duration - sum(x.length for x in p.segments if not math.isnan(x.length))
+        position = float(pieces[-1].end()[0]) if pieces else position
+
+
+def programme_of(d: Drive) -> Programme | None:
+    """The programme of a drive's law; None without a law, and of an expression."""
+    from dalembert.model.drives.programmes import Segment
+
+    if isinstance(d.law, Programme):
+        return d.law
+    if isinstance(d.law, Rise):
+        return Programme((Segment("rise", d.law.type, d.law.duration, d.law.stop),), d.law.start, d.law.count)
+    if d.law is None or isinstance(d.law, ExpressionLaw):
+        return None
     points = (d.law.time, d.law.position)
     spline = Segment("spline", "spline", points[0][-1] - points[0][0], points=points)
     return Programme((spline,), points[1][0], d.law.count)
-
-
-def _coefficients(p: Programme) -> dict[str, float]:
-    """Coefficients of the first rise."""
-    position = p.start
-    for s in p.segments:
-        if s.form in ("rise", "trapezoidal", "polynomial"):
-            pieces: tuple[CurvePiece, ...] = (
-                unit_rise(s.by) if s.form == "rise" else s.pieces(position, s.length)
-            )
-            curve = Curve(pieces)
-            rise, length = (1.0, 1.0) if s.form == "rise" else (abs(s.to - position), s.length)
-            names = ("C_v", "C_a", "C_j")
-            return {n: curve.peaks(k)[0] * length**k / rise for k, n in enumerate(names, 1)} if rise else {}
-        if s.form == "constant" or s.form == "spline":
-            return {}
-        position = s.to if s.form != "dwell" else position
-    return {}

@@ -21,6 +21,7 @@ from dalembert.reports.sections import equilibrium_equations, friction, matrix
 from dalembert.reports.sections.belt_lines import belts_and_ropes
 from dalembert.reports.sections.brake_section import brakes
 from dalembert.reports.sections.given import knowns
+from dalembert.reports.sections.law_lines import motion_laws
 from dalembert.reports.sections.methods import checks, cycle, graphical
 from dalembert.reports.sections.motion import inertia, motion
 from dalembert.reports.sections.motion_steps import motion_steps
@@ -75,6 +76,8 @@ def working(
     if r.reasons[c.k]:
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
     cycle_context, c = c, replace(c, r=r.before) if r.reverses[c.k] else c
+    if plane:
+        motion_laws(sheet, c)
     if plane and "steps" in methods and r.drives:
         motion_steps(sheet, c)
     (motion if plane else space_motion)(sheet, c)

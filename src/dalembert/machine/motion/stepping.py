@@ -210,8 +210,8 @@ class StepState(LeadState):
         return value * g.side < 0
 
     def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
-        """True if a corner or a condition is passed within the last step, which ends on the same side as it began."""
-        if g.kind not in ("corner", "condition") or not g.side:
+        """True if a corner, a condition or a tooth is passed within the last step, which ends on the side it began on."""
+        if g.kind not in ("corner", "condition", "clutch") or not g.side:
             return False
         t, y, h = solver.t, solver.y, solver.t - before
         short = 1e-6 * h
