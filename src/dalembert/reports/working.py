@@ -16,12 +16,12 @@ from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.position_lookup import PositionChoice, extreme, position_at, position_sentence
 from dalembert.answer.column import UnitChoice
 from dalembert.errors import FORCED, ModelError
+from dalembert.reports.element_sections.belt_lines import belts_and_ropes
+from dalembert.reports.element_sections.brake_section import brakes
+from dalembert.reports.element_sections.law_lines import motion_laws
 from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, figure, in_ground
 from dalembert.reports.sections import equilibrium_equations, friction, matrix
-from dalembert.reports.sections.belt_lines import belts_and_ropes
-from dalembert.reports.sections.brake_section import brakes
 from dalembert.reports.sections.given import knowns
-from dalembert.reports.sections.law_lines import motion_laws
 from dalembert.reports.sections.methods import checks, cycle, graphical
 from dalembert.reports.sections.motion import inertia, motion
 from dalembert.reports.sections.motion_steps import motion_steps

@@ -210,7 +210,7 @@ class StepState(LeadState):
         return value * g.side < 0
 
     def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
-        """True if a corner, a condition or a tooth is passed within the last step, which ends on the side it began on."""
+        """True if a corner, a condition or a tooth is passed within the last step, which ends where it began."""
         if g.kind not in ("corner", "condition", "clutch") or not g.side:
             return False
         t, y, h = solver.t, solver.y, solver.t - before
