@@ -2,6 +2,7 @@
 # make test       the same environment with what the tests need; ruff, mypy --strict, pytest
 # make gallery    drawings and worked solutions of the bundled problems, in build/gallery
 # make test-browser  the live pages in a real Chromium, which it installs where there is none (Debian, as root)
+# make docs       the site, in build/site: every example and notebook run, every page opened in Chromium where there is one
 # make test-long  the long tests too, 15 minutes on two cores; make test-exhaustive all there are (over an hour)
 # Needs nothing but make and Python 3.11 or newer.
 
@@ -19,7 +20,7 @@ FIND_PYTHON = for p in $(PYTHON) python3 python3.14 python3.13 python3.12 python
   echo "dalembert needs Python 3.11 or newer with its venv module; none was found." \
        "Install it, or name it: make $(MAKECMDGOALS) PYTHON=/path/to/python3" >&2; exit 1
 
-.PHONY: run test test-browser test-long test-exhaustive web check-web style lint gallery clean
+.PHONY: run test test-browser test-long test-exhaustive web check-web docs style lint gallery clean
 
 run: $(VENV)/.run
 	@$(BIN)/dalembert solve examples/four_bar.yaml
@@ -39,6 +40,11 @@ test-exhaustive: style
 
 gallery: $(VENV)/.test
 	@$(BIN)/python docs/gallery.py
+
+docs: $(VENV)/.test
+	@$(PIP) install --editable '.[docs]'
+	@$(BIN)/python docs/site/build.py $(DOCS_ARGS)
+	@! command -v chromium >/dev/null || $(BIN)/python docs/site/check_pages.py
 
 test-browser: $(VENV)/.test
 	@command -v chromium >/dev/null || { apt-get update -qq && apt-get install -y -qq chromium; }

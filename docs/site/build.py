@@ -1,0 +1,162 @@
+"""The site: `make docs` writes it to build/site, from the pages of docs/ and from what the program says of itself.
+
+Pages of docs/ are taken as they are, with links to examples and cases led to the gallery. The pages of the commands, of
+the model file's keys and of the names in Python, the gallery and the validation page are made from the program. Every
+`>>>` block is run, the notebooks are executed, and a warning is an error.
+
+    python docs/site/build.py [--part GALLERY] [--no-notebooks]
+"""
+
+from __future__ import annotations
+
+import argparse
+import doctest
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+SOURCE, SITE = ROOT / "build" / "site-source", ROOT / "build" / "site"
+SECTIONS = {
+    "learn": (
+        "Learn",
+        "The first answer in a minute; then a tutorial for each reader.",
+        "getting-started tutorials/student tutorials/teacher tutorials/designer tutorials/programmer",
+    ),
+    "analyse": (
+        "Analyse",
+        "How to get a particular answer about one mechanism.",
+        "methods friction space joints force-systems live-pages studio machine machine-examples exams notebooks",
+    ),
+    "many-designs": (
+        "Many designs",
+        "From one mechanism to thousands or a billion of them.",
+        "kernel optimization studies formats",
+    ),
+    "reference": (
+        "Reference",
+        "What every key, option, name and status means.",
+        "model-file model-keys command-line commands api quantities statuses conventions json-answer theory "
+        "architecture",
+    ),
+}
+"""Section page -> its title, its sentence and its pages, those that exist."""
+NOTEBOOKS = {"student": "student", "teacher": "teacher", "designer": "designer", "programmer": "tour"}
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--part", help="only the problems of the gallery whose name contains this")
+    parser.add_argument("--no-examples", action="store_true", help="leave the `>>>` blocks of the pages out")
+    parser.add_argument("--no-notebooks", action="store_true", help="show the notebooks without running them")
+    options = parser.parse_args()
+    sys.path.insert(0, str(HERE))
+    import problem_pages
+    import reference_pages
+
+    shutil.rmtree(SOURCE, ignore_errors=True)
+    SOURCE.mkdir(parents=True)
+    failed = 0 if options.no_examples else run_examples()
+    say("pages of the guide")
+    copy_pages()
+    for name, text in reference_pages.pages():
+        say(name)
+        write(f"{name}.md", text)
+    for done, count, name in problem_pages.write_all(SOURCE, options.part or ""):
+        say(f"gallery {done} of {count}: {name}")
+    sections()
+    if failed:
+        return 1
+    say("sphinx")
+    shutil.rmtree(SITE, ignore_errors=True)
+    settings = os.environ | {"SITE_NOTEBOOKS": "off" if options.no_notebooks else "force"}
+    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-n", "-c", str(HERE)]
+    ended = subprocess.run([*command, str(SOURCE), str(SITE)], env=settings, check=False)
+    for unused in SITE.rglob("*.map"):
+        unused.unlink()
+    pages = len(list(SITE.rglob("*.html")))
+    size = sum(p.stat().st_size for p in SITE.rglob("*") if p.is_file()) / 1e6
+    say(f"{pages} pages, {size:.0f} MB: {SITE / 'index.html'}")
+    return ended.returncode
+
+
+def say(what: str) -> None:
+    """A line of progress with the seconds since the start."""
+    print(f"{time.perf_counter() - STARTED:6.1f} s  {what}", flush=True)
+
+
+def run_examples() -> int:
+    """Run every `>>>` block of the pages; the number that failed."""
+    os.chdir(ROOT)
+    failures = tried = 0
+    flags = doctest.NORMALIZE_WHITESPACE
+    for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
+        result = doctest.testfile(str(page), module_relative=False, optionflags=flags)
+        failures, tried = failures + result.failed, tried + result.attempted
+    say(f"{tried} examples of the pages run, {failures} failed")
+    return failures
+
+
+def write(name: str, text: str) -> None:
+    path = SOURCE / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+
+
+def copy_pages() -> None:
+    """The pages of docs/ with their figures, the notebooks as tutorials, and the home page with its live page."""
+    import dalembert as da
+    from dalembert.bundled import examples
+
+    for page in (ROOT / "docs").glob("*.md"):
+        if page.name != "index.md":
+            write(page.name, resolved(page.read_text(encoding="utf-8")))
+    for data in (ROOT / "docs").glob("*.yaml"):
+        shutil.copy(data, SOURCE)
+    shutil.copytree(ROOT / "docs" / "figures", SOURCE / "figures")
+    for title, name in NOTEBOOKS.items():
+        (SOURCE / "tutorials").mkdir(exist_ok=True)
+        shutil.copy(
+            ROOT / "examples" / "notebooks" / f"{name}.ipynb", SOURCE / "tutorials" / f"{title}.ipynb"
+        )
+    shutil.copytree(ROOT / "examples", SOURCE / "examples", ignore=shutil.ignore_patterns("notebooks"))
+    static = SOURCE / "_static"
+    static.mkdir()
+    for name in ("site.css", "filter.js"):
+        shutil.copy(HERE / name, static)
+    da.page(da.load(examples()["four_bar"]), static / "four_bar.html", overwrite=True)
+    r = da.dynamics(da.load(examples()["four_bar"]))
+    da.draw.mechanism(r, forces=True).save(static / "four_bar.svg", overwrite=True)
+    write("index.md", (HERE / "home.md").read_text(encoding="utf-8"))
+
+
+def resolved(text: str) -> str:
+    """A page with its links out of docs/ led to the gallery, to the pages here, or shown as names of files."""
+    to_problem = r"\]\(\.\./(cases|examples)/([\w-]+)\.yaml\)"
+    text = re.sub(to_problem, lambda m: f"](gallery/{problem(*m.groups())}.md)", text)
+    return re.sub(r"\[([^\]]+)\]\(\.\./[^)]+\)", r"\1", text)
+
+
+def problem(folder: str, name: str) -> str:
+    return name if folder == "cases" else f"example-{name}"
+
+
+def sections() -> None:
+    """The pages of the sections, each with its table of contents."""
+    for name, (title, sentence, pages) in SECTIONS.items():
+        here = [
+            p for p in pages.split() if any((SOURCE / f"{p}{end}").is_file() for end in (".md", ".ipynb"))
+        ]
+        contents = "\n".join(["```{toctree}", ":maxdepth: 2", "", *here, "```"])
+        write(f"{name}.md", f"# {title}\n\n{sentence}\n\n{contents}\n")
+
+
+STARTED = time.perf_counter()
+
+if __name__ == "__main__":
+    sys.exit(main())

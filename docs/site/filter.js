@@ -1,0 +1,13 @@
+// The gallery's filter: a text and a kind; without script all problems are shown.
+document.addEventListener("DOMContentLoaded", () => {
+  const text = document.querySelector("#problem-text"), kind = document.querySelector("#problem-kind");
+  if (!text || !kind) return;
+  const show = () => {
+    for (const item of document.querySelectorAll(".problems > a")) {
+      const fits = item.textContent.toLowerCase().includes(text.value.toLowerCase());
+      item.hidden = !fits || (kind.value !== "" && !item.dataset.kind.split(" ").includes(kind.value));
+    }
+  };
+  text.addEventListener("input", show);
+  kind.addEventListener("input", show);
+});
