@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from itertools import groupby
 from typing import NamedTuple
 
 WIDTH = 80
@@ -130,6 +131,22 @@ class TextTable(NamedTuple):
 
     def __str__(self) -> str:
         return tables(self.heads, self.rows, self.left) + (f"\n{self.note}" if self.note else "")
+
+
+def folded(rows: Sequence[Sequence[str]], lead: int = 1) -> list[list[str]]:
+    """Rows of a table over time or positions; of four or more that are alike but for their first cells, the first and
+    the last with dots between.
+
+    >>> folded([["0", "5"], ["1", "7"], ["2", "7"], ["3", "7"], ["4", "7"], ["5", "8"]])
+    [['0', '5'], ['1', '7'], ['...', ''], ['4', '7'], ['5', '8']]
+    """
+    out: list[list[str]] = []
+    for _, run in groupby(rows, lambda row: tuple(row[lead:])):
+        alike = [list(row) for row in run]
+        if len(alike) > 3:
+            alike = [alike[0], ["...", *[""] * (len(alike[0]) - 1)], alike[-1]]
+        out += alike
+    return out
 
 
 Part = str | TextTable

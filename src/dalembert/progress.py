@@ -1,29 +1,36 @@
-"""Progress of long work on a terminal: nothing in a pipe, in a notebook, or in the first half second."""
+"""Progress of long work on standard error: a line that redraws itself on a terminal, single lines in a pipe.
+
+Nothing in the first half second on a terminal, or in the first seconds in a pipe. With a total there are rate and time
+left.
+"""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from time import monotonic
 from typing import Any
 
 DELAY = 0.5
-"""Seconds of silence: shorter work shows nothing."""
+"""Seconds of silence on a terminal: shorter work shows nothing."""
+FIRST, SLOWER, LONGEST = 5.0, 2.0, 60.0
+"""In a pipe: seconds until the first line, the factor from one pause to the next, and the longest pause."""
 
 Step = Callable[..., None]
 
 
 @contextmanager
 def progress(what: str, total: int | None = None) -> Iterator[Step]:
-    """A line on standard error, gone when done: what is done and for how long, with a total a bar.
+    """Progress on standard error: what is done, for how long, with a total how fast and how long it still takes.
 
     What it gives is called with how much is done, and of what: ``step(3)``, ``step(3, "case.yaml")``. An interruption
     passes through.
 
-    >>> with progress("Solving", 2) as step:      # in a pipe nothing is shown
+    >>> with progress("Solving", 2) as step:      # short work shows nothing
     ...     step(1)
     """
-    if sys.stderr is None or not sys.stderr.isatty():
+    if sys.stderr is None:
         yield lambda done, name="": None
         return
     import threading
@@ -34,13 +41,50 @@ def progress(what: str, total: int | None = None) -> Iterator[Step]:
     def step(done: int, name: str = "") -> None:
         state.update(completed=done, description=f"{what} {name}".strip())
 
-    shown = threading.Thread(target=_show, args=(state, total, finished), daemon=True)
+    show = _show if sys.stderr.isatty() else _print_lines
+    shown = threading.Thread(target=show, args=(state, total, finished), daemon=True)
     shown.start()
     try:
         yield step
     finally:
         finished.set()
         shown.join()
+
+
+def line(what: str, done: int, total: int | None, seconds: float) -> str:
+    """One line: done of total, rate and time left; without a total the time so far.
+
+    >>> line("Studying", 300, 1200, 60.0)
+    'Studying: 300 of 1,200, 5.0 per second, 3 min left'
+    >>> line("Solving press.yaml", 0, None, 42.0)
+    'Solving press.yaml: 42 s so far'
+    """
+    if not total or not done:
+        return f"{what}: {duration(seconds)} so far"
+    rate = done / seconds
+    speed = f"{rate:,.{0 if rate >= 100 else 1}f} per second" if rate >= 1 else f"{60 * rate:.1f} per minute"
+    return f"{what}: {done:,} of {total:,}, {speed}, {duration((total - done) / rate)} left"
+
+
+def duration(seconds: float) -> str:
+    """A time as a person says it.
+
+    >>> duration(5.2), duration(200), duration(8000)
+    ('5 s', '3 min', '2 h 13 min')
+    """
+    if seconds < 99.5:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60} min"
+
+
+def _print_lines(state: dict[str, Any], total: int | None, finished: Any) -> None:
+    """A line from time to time until the work is finished."""
+    start, pause = monotonic(), FIRST
+    while not finished.wait(pause):
+        text = line(state["description"], state["completed"], total, monotonic() - start)
+        print(text, file=sys.stderr, flush=True)
+        pause = min(SLOWER * pause, LONGEST)
 
 
 def _show(state: dict[str, Any], total: int | None, finished: Any) -> None:
@@ -51,13 +95,16 @@ def _show(state: dict[str, Any], total: int | None, finished: Any) -> None:
     from rich.markup import escape
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-    columns = [SpinnerColumn(), TextColumn("{task.description}"), *([BarColumn()] if total else [])]
+    start, more = monotonic() - DELAY, [BarColumn(), TextColumn("{task.fields[rate]}")] if total else []
+    columns = [SpinnerColumn(), TextColumn("{task.description}"), *more]
     console = Console(stderr=True)  # standard output is left alone: it may be a file
     with Progress(
         *columns, TimeElapsedColumn(), console=console, transient=True, redirect_stdout=False
-    ) as line:
-        task = line.add_task("", total=total)
+    ) as bar:
+        task = bar.add_task("", total=total, rate="")
         while True:
-            line.update(task, completed=state["completed"], description=escape(state["description"]))
+            done, seconds = state["completed"], monotonic() - start
+            rate = line("", done, total, seconds).partition(", ")[2]
+            bar.update(task, completed=done, description=escape(state["description"]), rate=rate)
             if finished.wait(0.1):
                 return

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+import dalembert.progress
 from dalembert.bundled import examples
 from tests.tiers import tiers
 
@@ -110,7 +111,10 @@ def test_a_signal_from_outside_ends_long_work_quietly(tmp_path: Path) -> None:
     if path.exists():  # it was done before the signal came: then the file is whole
         assert len(path.read_text().splitlines()) > 60_000
     else:
-        assert (process.returncode, err) == (130, b"")
+        assert process.returncode == 130
+        assert all(
+            line.startswith((b"Solving", b"Writing")) for line in err.splitlines()
+        )  # progress of slow work
     assert set(tmp_path.iterdir()) <= {path}
 
 
@@ -190,3 +194,36 @@ def test_what_a_pipe_is_written_in(environment: dict[str, str], title: str, tmp_
     )
     assert done.returncode == 0
     assert done.stdout.decode(environment.get("PYTHONIOENCODING", "utf-8")).startswith(title)
+
+
+class Waits:
+    """Stands for the end of some work, that comes after a number of waits."""
+
+    def __init__(self, count: int) -> None:
+        self.left, self.pauses = count, list[float]()
+
+    def wait(self, seconds: float) -> bool:
+        self.left -= 1
+        self.pauses.append(seconds)
+        return self.left < 0
+
+
+def test_slow_work_says_in_a_pipe_how_fast_it_is_and_what_is_left(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock = iter([0.0, 10.0, 40.0])
+    monkeypatch.setattr(dalembert.progress, "monotonic", lambda: next(clock))
+    work = Waits(2)
+    dalembert.progress._print_lines({"completed": 300, "description": "Studying"}, 1200, work)
+    lines = capsys.readouterr().err.splitlines()
+    assert lines == [
+        "Studying: 300 of 1,200, 30.0 per second, 30 s left",
+        "Studying: 300 of 1,200, 7.5 per second, 2 min left",
+    ]
+    assert work.pauses[0] < work.pauses[1] < work.pauses[2]
+
+
+def test_short_work_in_a_pipe_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    with dalembert.progress.progress("Solving", 2) as step:
+        step(1)
+    assert capsys.readouterr().err == ""

@@ -197,3 +197,13 @@ def test_a_balanced_rotor_and_a_pure_couple_have_true_sentences() -> None:
     )
     assert not level.moment.any()
     assert "The rotor was balanced already: no correction is needed." in " ".join(str(level).split())
+
+
+def test_a_toggle_whose_knee_swings_is_no_engine() -> None:
+    r = da.dynamics(da.toggle_press())
+    with pytest.raises(da.ModelError, match="the crank of ram, swings"):
+        da.engine_series(r)
+    assert "two harmonics" not in str(da.shaking(r))
+    assert "4 cylinders" in str(
+        da.shaking(da.dynamics(da.in_line_engine(cylinders=4, firing_order=(1, 3, 4, 2))))
+    )

@@ -328,7 +328,7 @@ def test_the_command_prints_draws_and_writes(tmp_path: Path, capsys: pytest.Capt
         == 0
     )
     said = capsys.readouterr().out
-    assert "dE = 441636 N*mm, 103.8 % of the work of the cycle" in said
+    assert "dE = 441.636 J, 103.8 % of the work of the cycle" in said
     assert "with this flywheel Cs is 0.019194, 4.03" in said
     read = json.loads(record.read_text())["flywheel"]
     assert read["inertia"] == pytest.approx(0.2237356351)

@@ -143,6 +143,16 @@ def test_a_change_point_ends_the_motion_with_a_sentence() -> None:
     assert s.energy_residual < 1e-5
 
 
+def test_chosen_joint_forces_and_slides_are_drawn() -> None:
+    m = da.slider_crank(crank=0.05, rod=0.2)
+    s = da.simulate(m, "0.05 s", start={"O2": {"position": 0.5, "speed": 20.0}}, count=21)
+    usual = [scene.title for scene in s.drawings()]
+    more = replace(s, curves=("reaction.A", "slide.guide")).drawings()
+    assert [scene.title for scene in more if scene.title not in usual] == ["reaction.A", "slide.guide"]
+    force = next(scene for scene in more if scene.title == "reaction.A").numbers["magnitude"]
+    assert force == pytest.approx(np.hypot(*s["reaction.A"].T))
+
+
 @pytest.mark.long
 def test_the_press_of_the_guide_comes_to_a_steady_state() -> None:
     """From rest: what the motor gives over a turn is what the work and friction take."""

@@ -48,7 +48,7 @@ def test_of_a_law_it_is_its_own_time() -> None:
 
 def test_without_a_speed_no_time_is_known() -> None:
     with pytest.raises(
-        ModelError, match="the time of each position is not known; give the first drive a speed"
+        ModelError, match="the time of each position is not known; give a drive a range and a speed"
     ):
         durations(at((0.1, 0.2), 0.0))
 

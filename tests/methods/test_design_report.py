@@ -52,7 +52,7 @@ def loaded(stress: float) -> Any:
 
 def test_a_stress_is_judged_on_both_sides_of_its_limit() -> None:
     largest = member_table(loaded(1e9)).stress["coupler"].largest
-    low, high = (verdicts(loaded(largest * share))["coupler, yield"] for share in (0.999, 1.001))
+    low, high = (verdicts(loaded(largest * share))["yield of coupler"] for share in (0.999, 1.001))
     assert (low.state, high.state) == ("exceeded", "ok")
     assert [low.margin, high.margin] == pytest.approx([0.999, 1.001], rel=1e-6)
     assert low.at == high.at != ""
@@ -61,7 +61,7 @@ def test_a_stress_is_judged_on_both_sides_of_its_limit() -> None:
 def test_what_has_no_data_is_named_with_the_reason() -> None:
     found = verdicts(loaded(1e9))
     assert found["crank"].remark == "the file has no section for them"
-    assert found["coupler, fatigue"].remark == "its section has no endurance and ultimate stress"
+    assert found["fatigue of coupler"].remark == "no endurance and ultimate stress in the section"
     assert found["crank"].state == "not judged"
 
 

@@ -43,24 +43,23 @@ def refuse_unknown(r: Result, what: str, *needed: Array) -> None:
 
 
 def durations(r: Result, at: Ints | None = None) -> Array:
-    """Time (P,), s, represented by each position, or by some: trapezoids over time, or over the first drive's motion.
+    """Time (P,), s, represented by each position, or by some: trapezoids over time, or over the motion of the first
+    drive that moves at every position.
 
-    Even positions over full turns represent equal parts. Raises ModelError where the drive is at rest.
+    Even positions over full turns represent equal parts. Raises ModelError where all drives are at rest.
     """
     at = np.arange(len(r.status)) if at is None else at
     if len(r.status) == 1:
         return np.ones(1)
     if r.schedule.time is not None:
         return _trapezoids(r.schedule.time[at])
-    if not r.drives or not np.all(r.drive_speed(r.drives[0])):
+    moving = next((d for d in r.drives if np.all(r.drive_speed(d)) and np.ptp(r.drive_position(d))), None)
+    if moving is None:
         raise ModelError(
-            "the time of each position is not known", "give the first drive a speed that is not 0"
+            "the time of each position is not known", "give a drive a range and a speed that is not 0 in it"
         )
-    q, speed = r.drive_position(r.drives[0])[at], np.abs(r.drive_speed(r.drives[0])[at])
-    if not np.ptp(q):
-        what = f"the positions take no time: all have {r.drives[0]} at the same value"
-        raise ModelError(what, "give the drive a range, or one position")
-    if not is_period(r.drive_position(r.drives[0])):
+    q, speed = r.drive_position(moving)[at], np.abs(r.drive_speed(moving)[at])
+    if not is_period(r.drive_position(moving)):
         return np.asarray(_trapezoids(q) / speed)
     return np.asarray(abs(q[1] - q[0]) / speed)
 

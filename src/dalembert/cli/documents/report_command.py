@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -65,8 +64,7 @@ def design_report(file: Path, output: Path, of: OfAt, style: Style, force: bool)
     if len(result.status) == 1 and result.schedule.speed.any():
         turned = solve(m, static=of.static, positions=over_a_turn(m))
         result = turned if turned.ok.all() else result
-    notation = replace(style.notation(), links="name")
-    written(result, of.at, notation=notation, design=True).save(output, force)
+    written(result, of.at, notation=style.notation(), design=True).save(output, force)
     return announce(result, output, of.at)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -23,6 +24,7 @@ from dalembert.cli.options import (
     with_help,
 )
 from dalembert.errors import ModelError
+from dalembert.progress import progress
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
@@ -211,6 +213,10 @@ def simulate(
             help='Condition to record when it is met: "O2.position = 90 deg", "normal.wall = 0".',
         ),
     ] = None,
+    curves: Annotated[
+        list[str] | None,
+        several("Quantities to draw over time besides: reaction.A, slide.guide, normal.wall."),
+    ] = None,
     count: Annotated[
         int, numeric("instants", "Number of equally spaced instants in the answer, besides the events.")
     ] = 201,
@@ -228,17 +234,22 @@ def simulate(
     out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Motion of FILE under forces: motors, loads, springs and friction, with every joint force."""
+    from dalembert.analysis.result.named_quantities import quantity
     from dalembert.machine.motion import simulation
 
     out.check(file)
     m, small = changes.load(file), tolerance or simulation.TOLERANCE
-    made = computed(lambda: simulation.simulate(m, until, None, event or (), count, small, steps), m)
+    with progress(f"Simulating {file}"):
+        made = computed(lambda: simulation.simulate(m, until, None, event or (), count, small, steps), m)
+    made = replace(made, curves=tuple(curves or ()))
+    for name in made.curves:
+        quantity(made.result, name)  # an unknown one is refused before anything is written
     out.deliver(made)
     return {"ended": 0, "interrupted": 130}.get(made.status, 1)
 
 
 SIMULATE = """Examples:
-  dalembert simulate press.yaml --until 2s --drawing speed.svg
+  dalembert simulate press.yaml --until 2s --drawing speed.svg --curves reaction.A slide.guide
   dalembert simulate press.yaml --until 10s "O2.speed = 30 rad/s" --csv motion.csv
   dalembert simulate crane.yaml --until 1s --event "O2.position = 90 deg" --json -"""
 

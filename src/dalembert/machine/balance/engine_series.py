@@ -83,7 +83,8 @@ def cylinders(m: Mechanism) -> tuple[EngineCylinder, ...]:
 def engine_series(r: Result) -> EngineSeries:
     """The two textbook harmonics of every cylinder, with the rotating parts exact, beside the exact inertia force.
 
-    Raises ModelError where the mechanism has no cylinder, or one whose line misses the crank's axis.
+    Raises ModelError where the mechanism has no cylinder, one whose line misses the crank's axis, or one whose crank
+    swings, as the knee of a toggle.
 
     >>> import dalembert as da
     >>> m = da.radial_engine(cylinders=3, crank=0.06, rod=0.24, piston_mass=1.0, rod_mass=0.0, speed=80 * np.pi)
@@ -98,6 +99,10 @@ def engine_series(r: Result) -> EngineSeries:
             "the mechanism has no cylinder: a piston on the ground, a rod and a crank",
             "compute the shaking force: da.shaking",
         )
+    for c in all_cylinders:
+        if np.nanmin(r.speed(c.crank)) < 0 < np.nanmax(r.speed(c.crank)):
+            what = f"{c.crank}, the crank of {c.piston}, swings: this is no engine"
+            raise ModelError(what, "compute the shaking force: da.shaking")
     m, counted = r.mechanism, {link for c in all_cylinders for link in (c.piston, c.rod)}
     parts = [part for c in all_cylinders for part in _parts(r, c)]
     parts += [(n, -m.mass(n) * r.center_acceleration(n)) for n in r.links if n not in counted]

@@ -80,6 +80,8 @@ class Simulation(BrakeHeat, WithMotors, MotionChecks, NamedAnswer, MachineAnswer
     motion: Result | None = field(repr=False, default=None)  # poses and rates where other freedoms have led
     evaluations: int = field(repr=False, default=0)
     opened: OpenedMotion | None = field(repr=False, default=None)
+    curves: tuple[str, ...] = field(repr=False, default=())
+    """Quantities that its drawings show besides: ``dataclasses.replace(s, curves=("reaction.A", "slide.guide"))``."""
 
     @cached_property
     def _loaded(self) -> tuple[Result, dict[str, Array]]:

@@ -12,7 +12,7 @@ from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.machine.motion.occurrences import say
 from dalembert.machine.output.sizes_over_cycle import greatest
-from dalembert.printing import Part, TextTable, number, remainder, round_components
+from dalembert.printing import Part, TextTable, folded, number, remainder, round_components
 
 if TYPE_CHECKING:
     from dalembert.machine.elements.brake_heat import StopHeat
@@ -70,7 +70,7 @@ def _drives(s: Simulation, to: Printed) -> TextTable:
             columns.append(to(kind, s.applied[:, k] if what == "effort" else getattr(s, what)(drive)))
     which = np.unique(np.linspace(0, len(s.time) - 1, ROWS).astype(int))
     rows = [[number(float(np.asarray(c)[n])) for c in columns] for n in which]
-    return TextTable(heads, rows, 0)
+    return TextTable(heads, folded(rows), 0)
 
 
 def _events(s: Simulation, to: Printed) -> list[str]:

@@ -10,6 +10,7 @@ import numpy as np
 from dalembert.analysis.result.position_lookup import PositionChoice, position_at
 from dalembert.reports.design.element_parts import element_parts
 from dalembert.reports.design.force_part import force_part
+from dalembert.reports.design.given_parts import given_parts
 from dalembert.reports.design.motion_part import motion_part
 from dalembert.reports.design.power_parts import balance_part, flywheel_part, motor_part, shaking_part
 from dalembert.reports.design.start_up import start_up_part
@@ -44,7 +45,7 @@ def design_sheet(
     r: Result, at: PositionChoice = None, notation: Notation | None = None, notes: Iterable[str] = ()
 ) -> ReportSheet:
     """The design report of a result; ``at``: the position that is drawn, by default the one of the largest effort."""
-    notation = notation or Notation(links="name")
+    notation = notation or Notation()
     k = position_at(r, at if at is not None else worst_position(r))
     c = DesignContext(r, k, notation)
     parts = [part for title, find in PARTS for part in attempted(c, title, find)]
@@ -54,6 +55,7 @@ def design_sheet(
     sheet.blocks.append(PageBreak())
     title_block(sheet, c, notes)
     knowns(sheet, ReportContext(r, k, Shown(r, notation, k), notation=notation))
+    given_parts(sheet, c)
     for part in parts:
         part.put_on(sheet)
     return sheet
@@ -71,5 +73,5 @@ def worst_position(r: Result) -> PositionChoice:
 
 def parts_of(r: Result, notation: Notation | None = None) -> list[DesignPart]:
     """The sections of a result's design report with their verdicts, without the report."""
-    c = DesignContext(r, position_at(r), notation or Notation(links="name"))
+    c = DesignContext(r, position_at(r), notation or Notation())
     return [part for title, find in PARTS for part in attempted(c, title, find)]

@@ -52,10 +52,12 @@ def _cylinders(c: DesignContext) -> Iterator[DesignPart]:
             k = a.worst
             pushes = bool((a.force > 0).any())
             value = c.text("force", float(a.force[k])) if pushes else "only pulls"
-            part.verdicts.append(judged(f"column of {name}, buckling", float(a.safety[k]), value, c.at(k)))
+            part.verdicts.append(
+                judged(f"buckling of the column of {name}", float(a.safety[k]), value, c.at(k))
+            )
         else:
             reason = "barrel, closed and stroke are not all given"
-            part.verdicts.append(not_judged(f"column of {name}, buckling", reason))
+            part.verdicts.append(not_judged(f"buckling of the column of {name}", reason))
         if a.vacuum.any():
             at = c.at(int(np.argmax(a.vacuum)))
             part.verdicts.append(DesignVerdict(f"vacuum in {name}", "exceeded", at=at))

@@ -20,6 +20,8 @@ from dalembert.reports.design.verdict import (
 from dalembert.views import charts
 from dalembert.views.paper.scene import Scene
 
+NOTHING = 1e-9
+"""Part of the largest joint force below which another is rounding."""
 MOST = 24
 """Joints with a polar diagram."""
 
@@ -62,7 +64,7 @@ def _caption(c: DesignContext) -> str:
 
 def _joint_rows(c: DesignContext) -> list[list[str]]:
     rows, r, plane = [], c.r, c.r.mechanism.dimension == 2
-    floor = 1e-9 * float(np.nanmax(np.abs(r.force_array), initial=0.0))
+    floor = NOTHING * float(np.nanmax(np.abs(r.force_array), initial=0.0))
     for joint in r.joints:
         sides = [magnitude(side.reaction(joint)) for side in r.sides]
         force = np.fmax.reduce(sides)
@@ -70,18 +72,26 @@ def _joint_rows(c: DesignContext) -> list[list[str]]:
             continue
         k = most_place(force)
         side = r.sides[int(np.nanargmax([s[k] for s in sides]))]
-        cells = [joint, " – ".join(r.mechanism.joints[joint].links), c.number("force", float(force[k]))]
+        cells = [
+            joint,
+            " – ".join(r.mechanism.joints[joint].links),
+            c.number("force", _above(float(force[k]), floor)),
+        ]
         cells.append(c.at(k) or "–")
         if plane:
             x, y = side.reaction(joint)[k]
             cells.append(f"{c.notation.direction(float(x), float(y))}°" if force[k] > floor else "–")
-        cells.append(c.number("force", float(np.nanmin(force))))
+        cells.append(c.number("force", _above(float(np.nanmin(force)), floor)))
         moments = np.fmax.reduce([_size(s.reaction_moment(joint)) for s in r.sides])
         n = most_place(moments)
         some = bool(moments[n] > floor * r.compiled.layout.length)
         cells += [c.number("moment", float(moments[n])), c.at(n) or "–"] if some else ["–", "–"]
         rows.append(cells)
     return rows
+
+
+def _above(value: float, floor: float) -> float:
+    return value if value > floor else 0.0
 
 
 def _size(moments: Array) -> Array:
@@ -110,7 +120,8 @@ def _extreme(c: DesignContext, kind: str, value: float, k: int) -> list[str]:
 def _pictures(c: DesignContext) -> list[Scene]:
     """Efforts over the cycle, then a polar diagram of each joint; in space the sizes over the cycle."""
     r, out = c.r, list[Scene]()
-    known = [j for j in r.joints if np.nanmax(magnitude(r.reaction(j)), initial=0.0) > 0]
+    sizes = {j: float(np.nanmax(magnitude(r.reaction(j)), initial=0.0)) for j in r.joints}
+    known = [j for j, size in sizes.items() if size > NOTHING * max(sizes.values())]
     if len(r.status) < 3 or not r.drives:
         return out
     out += charts.effort_chart(r, c.notation)

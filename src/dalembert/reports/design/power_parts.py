@@ -55,9 +55,11 @@ def _motor(c: DesignContext, choice: MotorChoice) -> Iterator[DesignVerdict]:
     k = least_place(margin)
     value = c.text("moment", float(torque[k]))
     remark = "" if margin[k] >= 1 else "at the prescribed motion; see the start-up for that of the motor"
-    yield judged(f"motor of {choice.drive}, torque at its speed", float(margin[k]), value, c.at(k), remark)
+    yield judged(
+        f"torque of the motor of {choice.drive} at its speed", float(margin[k]), value, c.at(k), remark
+    )
     rms = c.text("moment", need.rms)
-    yield not_judged(f"motor of {choice.drive}, rms torque", "the file has no rated torque", rms)
+    yield not_judged(f"rms torque of the motor of {choice.drive}", "the file has no rated torque", rms)
 
 
 def flywheel_part(c: DesignContext) -> Iterator[DesignPart]:

@@ -7,10 +7,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
 from dalembert.machine.bearings.bearing_load import turning_joints
 from dalembert.machine.bearings.bearing_table import BearingTable, bearings
 from dalembert.machine.elements.pin_stresses import PinStresses, pin
 from dalembert.machine.members.member_table import MemberTable, member_table
+from dalembert.model.drives.cylinders import PARTS
 from dalembert.reports.design.answers_on_sheets import put_answer
 from dalembert.reports.design.verdict import (
     DesignContext,
@@ -47,7 +49,7 @@ def _bolt(c: DesignContext, p: PinStresses) -> DesignVerdict:
     if not np.isfinite(p.safety).any():
         return not_judged(f"bolt of {p.joint}", "its pin has no yield_stress", value, c.at(k))
     k = least_place(p.safety)
-    return judged(f"bolt of {p.joint}, yield", float(p.safety[k]), value, c.at(k))
+    return judged(f"yield of the bolt of {p.joint}", float(p.safety[k]), value, c.at(k))
 
 
 def bearing_part(c: DesignContext) -> Iterator[DesignPart]:
@@ -86,20 +88,21 @@ def member_part(c: DesignContext) -> Iterator[DesignPart]:
     """Links with a section: yield, fatigue, buckling; the others by name."""
     part = DesignPart("Members")
     table = member_table(c.r)
-    bare = [link for link in table.links if link not in table.stress]
+    columns = {f"{name}_{half}" for name in cylinders(c.r.mechanism) for half in PARTS}  # judged as columns
+    bare = [link for link in table.links if link not in table.stress and link not in columns]
     for link in table.stress:
         part.verdicts += list(_stress(c, table, link))
     for link, b in table.buckling.items():
         if b.links[0] != link:
             continue
-        name = f"{', '.join(b.links)}, buckling"
+        name = f"buckling of {' and '.join(b.links)}"
         value = "no compression" if math.isinf(b.safety) else c.text("force", b.compression)
         remark = "" if b.two_force else "bent as well: for comparison"
         part.verdicts.append(judged(name, b.safety, value, c.at(b.position), remark))
     if bare:
         part.verdicts.append(not_judged(together(bare), "the file has no section for them"))
-    part.verdicts += [not_judged(link, why) for link, why in table.left_out.items()]
-    part.verdicts += [not_judged(f"{link}, buckling", why) for link, why in table.not_judged.items()]
+    part.verdicts += [not_judged(link, why) for link, why in table.left_out.items() if link not in columns]
+    part.verdicts += [not_judged(f"buckling of {link}", why) for link, why in table.not_judged.items()]
     put_answer(part.sheet, table, c, drawn=bool(table.stress))
     yield part
 
@@ -107,17 +110,17 @@ def member_part(c: DesignContext) -> Iterator[DesignPart]:
 def _stress(c: DesignContext, t: MemberTable, link: str) -> Iterator[DesignVerdict]:
     s = t.stress[link]
     if math.isnan(s.largest):
-        yield not_judged(f"{link}, stress", "its inner forces are not known")
+        yield not_judged(f"stress of {link}", "its inner forces are not known")
         return
     value, at = c.text("pressure", s.largest), c.at(s.position)
     if s.safety is None:
-        yield not_judged(f"{link}, yield", "its section has no yield_stress", value, at)
+        yield not_judged(f"yield of {link}", "no yield_stress in the section", value, at)
     else:
-        yield judged(f"{link}, yield", s.safety, value, at)
+        yield judged(f"yield of {link}", s.safety, value, at)
     if len(c.r.status) > 1:
         f = s.fatigue()
         value = f"{c.text('pressure', f.mean)} ± {c.text('pressure', f.amplitude)}"
         if f.safety is None:
-            yield not_judged(f"{link}, fatigue", "its section has no endurance and ultimate stress", value)
+            yield not_judged(f"fatigue of {link}", "no endurance and ultimate stress in the section", value)
         else:
-            yield judged(f"{link}, fatigue (Goodman, no notches)", f.safety, value)
+            yield judged(f"fatigue of {link} (Goodman, no notches)", f.safety, value)

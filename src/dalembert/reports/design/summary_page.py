@@ -14,7 +14,7 @@ from dalembert.reports.design.worst_positions import WORST_HEADS, worst_rows
 from dalembert.reports.sheet import Blanks, ReportSheet
 from dalembert.views.notation import pretty
 
-MOST = 16
+MOST = 24
 """Rows of worst positions on the first page."""
 KINDS = ("length", "mass", "force", "moment", "angle", "angular_speed", "pressure", "power", "energy")
 
@@ -24,12 +24,12 @@ def summary(sheet: ReportSheet, c: DesignContext, parts: Sequence[DesignPart]) -
     sheet.heading("Summary")
     sheet.text(_in_one_sentence(parts))
     rows = [_row(title, [v for part in some for v in part.verdicts]) for title, some in _sections(parts)]
-    sheet.table(["Section", "DesignVerdict", "Least limit / value", "Item", "At", "Judged"], rows, words=True)
+    sheet.table(["Section", "Verdict", "Least limit / value", "Item", "At", "Judged"], rows, words=True)
     for title, some in _sections(parts):
         for state in ("exceeded", "not judged"):
             sheet.text(_named(title, state, [v for part in some for v in part.verdicts if v.state == state]))
     found = worst_rows(c)
-    sheet.table(WORST_HEADS, found[:MOST], "Worst positions" + (", the first of them" * (len(found) > MOST)))
+    sheet.table(WORST_HEADS, found[:MOST], "Worst positions: of each kind the most extreme")
     sheet.blocks.append(Blanks((("Checked by", (("name", ""), ("date", ""), ("signature", ""))),)))
 
 
@@ -68,8 +68,8 @@ def _named(title: str, state: State, verdicts: Sequence[DesignVerdict]) -> str:
     some = []
     for remark, those in by.items():
         names = together(v.item for v in those)
-        because = f": {remark}" if remark else ""
-        some.append(f"{names}{because}" if names != title else remark)
+        because = f": {remark.partition(';')[0]}" if remark else ""
+        some.append(f"{names}{because}" if names != title else because[2:])
     return f"{title}, {state}: {'; '.join(some)}." if some else ""
 
 

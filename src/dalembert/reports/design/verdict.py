@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 State = Literal["ok", "exceeded", "not judged"]
-HEADS = ("Item", "DesignVerdict", "Value", "Limit / value", "At", "Remark")
+HEADS = ("Item", "Verdict", "Value", "Limit / value", "At", "Remark")
 LEAST = 1.0
 """Limit over value from which on something is ok."""
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import groupby
 
 import numpy as np
 
+from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
 from dalembert.analysis.result.named_quantities import names_of, quantity
 from dalembert.analysis.result.position_lookup import QuantityExtreme, extreme
 from dalembert.errors import ModelError
@@ -25,10 +27,13 @@ def sought(c: DesignContext) -> Iterator[QuantityExtreme]:
     """The extremes of a report, of the quantities that the result has."""
     r = c.r
     words = [*LARGEST, *SMALLEST, *SINGLE]
-    joints = r.mechanism.joints
+    joints, names = r.mechanism.joints, cylinders(r.mechanism)
+    ends = {joint for name in names for joint in joints if joint.startswith(f"{name}_")}
     for name in names_of(r, words=words):
         word, *rest = name.split(".")
         if name.endswith((".low", ".high")) or (word == "transmission" and ".".join(rest) not in joints):
+            continue
+        if rest and rest[0] in ends:  # of a cylinder: its force is that of its drive
             continue
         if word == "power_lost" and r.friction is None:
             continue
@@ -40,9 +45,24 @@ def sought(c: DesignContext) -> Iterator[QuantityExtreme]:
             yield found
 
 
+MOST = 4
+"""Rows of one word: those of the most extreme quantities."""
+
+
+def _few(some: list[QuantityExtreme]) -> list[QuantityExtreme]:
+    """The most extreme quantities of each word, in the order of the words."""
+    out: list[QuantityExtreme] = []
+    for _, those in groupby(some, lambda e: e.of.partition(".")[0]):
+        listed = list(those)
+        sign = 1.0 if listed[0].word == "min" else -1.0
+        keep = sorted(listed, key=lambda e: sign * abs(e.value))[:MOST]
+        out += [e for e in listed if e in keep]
+    return out
+
+
 def worst_rows(c: DesignContext) -> list[list[str]]:
-    """A row for each extreme that is more than rounding."""
-    some = list(sought(c))
+    """A row for each extreme that is more than rounding, few of each word."""
+    some = _few(list(sought(c)))
     largest: dict[str, float] = {}
     for e in some:
         largest[e.kind] = max(largest.get(e.kind, 0.0), abs(e.value))

@@ -7,17 +7,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from dalembert.analysis.result.position_lookup import position_at
 from dalembert.answer.answer import Drawn, Worked
 from dalembert.machine.output.machine_answer import MachineAnswer
 from dalembert.printing import Part
+from dalembert.reports.report_context import ReportContext
+from dalembert.reports.sections.given import knowns
 from dalembert.reports.sheet import ReportSheet
 from dalembert.views.notation import Notation, Shown, pretty
 
 
 def machine_sheet(answer: MachineAnswer, notation: Notation | None = None) -> ReportSheet:
-    """The worked solution of an answer: its equations in letters and numbers, the results, its drawings."""
-    shown = Shown(answer.result, notation or Notation())
-    sheet = ReportSheet(answer.result.mechanism.title or "Machine", answer.result.mechanism.source_text)
+    """The worked solution of an answer: the given data with the drawing of the machine, its equations in letters and
+    numbers, the results, its drawings."""
+    r = answer.result
+    shown = Shown(r, notation or Notation())
+    sheet = ReportSheet(r.mechanism.title or "Machine", r.mechanism.source_text)
+    if any(status != "not_assembled" for status in r.status):
+        k = position_at(r)
+        knowns(sheet, ReportContext(r, k, Shown(r, shown.notation, k), notation=shown.notation))
     answer.section(sheet, shown)
     put_parts(sheet, answer.contents(shown.notation.units))
     sheet.figure(*answer.drawings(shown.notation))

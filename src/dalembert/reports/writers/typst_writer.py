@@ -31,6 +31,9 @@ WIDTH = 176.0
 BESIDE = 96.0
 """Width of a drawing up to which text fits beside it, mm."""
 
+DOUBT = b"/Suspects false"
+"""Entry of a tagged PDF that says its default, and which some readers report as an error."""
+
 GAP = 3.0
 """Between drawings side by side, mm."""
 
@@ -53,7 +56,7 @@ def typst_bytes(sheet: ReportSheet, kind: str) -> bytes:
         sys_inputs={"target": "html" if kind == "html" else "paged"},
     )
     assert isinstance(out, bytes)
-    return out
+    return out.replace(DOUBT, b" " * len(DOUBT)) if kind == "pdf" else out
 
 
 def _block(b: Block, pictures: dict[str, bytes]) -> Tree:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
@@ -155,7 +156,7 @@ def motor_scenes(c: MotorChoice, notation: Notation) -> list[Scene]:
 
 
 def simulation_scenes(s: Simulation, notation: Notation) -> list[Scene]:
-    """Speed and effort of each drive, and the energies, over time."""
+    """Speed and effort of each drive, the curves asked for, and the energies, over time."""
     shown, out = Shown(s.result, notation), []
     axis = ChartAxis(shown, s.time / shown.size("time"), f"Time in {shown.unit('time')}")
     for k, drive in enumerate(s.drives):
@@ -165,4 +166,14 @@ def simulation_scenes(s: Simulation, notation: Notation) -> list[Scene]:
     energies = {"kinetic": s.kinetic, "potential": s.potential - s.potential[0]}
     energies |= {f"work of {name}": w for name, w in s.works.items()}
     series = {name: e for name, e in energies.items() if np.abs(e).max() > 0}
+    out += [_named_chart(s, name, axis) for name in s.curves]
     return [*out, *([axis.chart("energy", series, "Energies and works")] if series else [])]
+
+
+def _named_chart(s: Simulation, name: str, axis: ChartAxis) -> Scene:
+    """A quantity over time, of a vector the components and the magnitude."""
+    kind, values = quantity(s.result, name)
+    series = {name: values}
+    if values.ndim > 1:
+        series = dict(zip("xyz", values.T, strict=False)) | {"magnitude": np.asarray(magnitude(values))}
+    return axis.chart(kind, series, name, kind.replace("_", " "))

@@ -19,7 +19,7 @@ from dalembert.analysis.output.summary.printed_units import (
 from dalembert.analysis.result.number_kinds import drive_kinds, in_plane, load_kind
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
-from dalembert.printing import Part, TextTable, number
+from dalembert.printing import Part, TextTable, folded, number, wrap
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -55,7 +55,7 @@ def position_tables(result: Result, to: Printed, axes: Axes, every: bool, more: 
             rows.append(["", "after", *stability, *[""] * len(result.drives), *behind])
     first = ["no.", *(["status"] if marked else []), *(["stability"] if result.stability else [])]
     drives = len(result.drives)
-    yield TextTable([*first, *heads], rows, len(first) + drives)
+    yield TextTable([*first, *heads], folded(rows), len(first) + drives)
     if len(shown) < count:
         yield f"{len(shown)} of {count} positions are shown; {more}."
     if any(r.least_norm is not None and np.isfinite(r.least_norm).any() for r in reactions(result, axes)):
@@ -140,14 +140,19 @@ def extremes(result: Result, to: Printed, axes: Axes = "ground") -> Iterator[Ext
 
 def _peak_table(result: Result, to: Printed, axes: Axes) -> Part:
     """Largest and smallest value of each effort, unknown load and reaction, and where."""
-    rows = []
+    rows, zero = [], []
     for e in extremes(result, to, axes):
+        if e.largest == e.smallest == 0:
+            zero.append(e.name)
+            continue
         largest = [number(e.largest), _place_text(result, to, e.most)]
         rows.append([e.name, e.unit, *largest, number(e.smallest), _place_text(result, to, e.least)])
     marked = any("*" in cell for row in rows for cell in row[3::2])
     heads = ["over the positions", "unit", "largest", "at", "smallest", "at"]
     what = "reversal" if "reversal" in result.status else "jump"
-    return TextTable(heads, rows, 2, f"* one side of a {what}" if marked else "") if rows else ""
+    notes = [f"* one side of a {what}"] if marked else []
+    notes += [wrap(f"0 at every position: {', '.join(zero)}.")] if zero else []
+    return TextTable(heads, rows, 2, "\n".join(notes)) if rows else "\n".join(notes)
 
 
 def _place_text(result: Result, to: Printed, position: int) -> str:

@@ -14,31 +14,41 @@ from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.answer.column import Scale, UnitChoice
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.printing import number
+from dalembert.units import KINDS
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
 class Printed(Scale):
-    """The units of the file; angular rates for which it gives no unit, in radians.
+    """The units of the file; angular rates for which it gives no unit, in radians; powers and energies in W and J where
+    its forces and lengths are metric and it gives no unit of them.
 
     ``powers``: kind -> power of ten that its unit has with it, as kN or 10^3 lbf.
 
     >>> to = Printed(None, {"force": 6})
     >>> to.text("force"), to("force", -7304020.0)
     ('MN', -7.30402)
+    >>> Printed({"length": "mm"}).quantity("power", 250.0), Printed({"length": "in", "force": "lbf"}).text("energy")
+    ('250 W', 'lbf*in')
     """
 
     def __init__(self, units: object, powers: Mapping[str, int] | None = None) -> None:
         super().__init__(units)
         self.powers = powers or {}
+        u = self._units
+        metric = u is not None and u.force in METRIC_FORCES and u.length in METRIC_LENGTHS
+        self.in_si = frozenset(kind for kind in ("power", "energy") if u and metric and not u.own(kind))
 
     def text(self, kind: str) -> str:
+        if kind in self.in_si:
+            return unit_with_power(KINDS[kind].si, self.powers.get(kind, 0))
         unit = super().text(kind) if self.bare(kind) else RADIANS[kind]
         return unit_with_power(unit, self.powers.get(kind, 0))
 
     def __call__(self, kind: str, values: Numeric) -> Numeric:
-        converted = super().__call__(kind, values) if self.bare(kind) else values
+        plain = kind in self.in_si or not self.bare(kind)
+        converted = values if plain else super().__call__(kind, values)
         return converted / 10.0 ** self.powers[kind] if kind in self.powers else converted
 
     def number(self, kind: str, value: float) -> str:
@@ -77,6 +87,7 @@ def unit_with_power(unit: str, power: int) -> str:
     )
 
 
+METRIC_FORCES, METRIC_LENGTHS = ("N", "daN", "kN", "MN"), ("mm", "cm", "dm", "m")
 RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 
 
@@ -92,8 +103,11 @@ def scale_for(units: object, most: Mapping[str, float], least: float = math.inf)
     times mm is N*m. ``least``: the smallest force (N), for which a lower power is taken where the largest allows it.
     Stresses and pressures in N/m^2 are in MPa."""
     plain = Printed(units)
+    watts = plain.text("power") == "W"
     sizes = {"force": 0.0, "moment": 0.0} | {k: float(abs(plain(k, size))) for k, size in most.items()}
-    powers = {k: p for k, size in sizes.items() if (p := _power(size))}
+    powers = {
+        k: p for k, size in sizes.items() if (p := _power(size, 1e4 if k == "power" and watts else 1e6))
+    }
     common = max(powers.get("force", 0), 3 if "moment" in powers else 0, _power(sizes["moment"] / 1e3))
     small, large = float(abs(plain("force", least))), max(sizes["force"], sizes["moment"])
     while common > 3 and small < 1e-4 * 10.0**common and large < 1e6 * 10.0 ** (common - 3):
@@ -105,9 +119,9 @@ def scale_for(units: object, most: Mapping[str, float], least: float = math.inf)
     return Printed(units, powers)
 
 
-def _power(most: float) -> int:
+def _power(most: float, large_from: float = 1e6) -> int:
     """The power of ten, a multiple of three, of a number that would be printed with an exponent; else 0."""
-    large = math.isfinite(most) and most >= 999_999.5
+    large = math.isfinite(most) and most >= large_from * (1 - 5e-7)
     return 3 * math.floor(math.log10(most * (1 + 1e-6)) / 3) if large else 0
 
 
