@@ -103,7 +103,7 @@ def trace_friction(
     ``reversals`` has the sense of contacts that reverse, else 0. ``side``: -1 just before reversals, 1 just after.
     ``friction``: c z of each contact, whatever its law; then no verdicts are computed either.
     """
-    contacts = _trace_contacts(graph, contacts)
+    contacts = trace_contacts(graph, contacts)
     twist = trace_array(graph, moving.twist)  # without motion they are numbers
     along, arrays = response(layout, contacts, pose, s.forces, s.w, twist)
     r = ContactResponse(*(trace_array(graph, a) for a in arrays))
@@ -165,7 +165,7 @@ def _at_side(
     return now._replace(sense=where(unknown, now.sense, sense), open=now.open & unknown)
 
 
-def _trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
+def trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
     names = ("read", "lever", "coefficient", "resting", "reach", "viscous", "reckoned", "wrap", "given")
     numbers: Tree = {name: trace_array(graph, getattr(contacts, name)) for name in names}
     return replace(contacts, **numbers)
@@ -187,10 +187,15 @@ def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[
 
 
 def trace_slip(
-    graph: Graph, contacts: Contacts, r: ContactResponse, sense: Array, slips: Array | None = None
+    graph: Graph,
+    contacts: Contacts,
+    r: ContactResponse,
+    sense: Array,
+    slips: Array | None = None,
+    fixed: bool = False,
 ) -> tuple[Array, Array, KernelFlags]:
     """z and S of each contact (E,) for known senses, from the response with H after z, and flags for doubt and jams;
-    ``slips`` are z where it is known."""
+    ``slips`` are z where it is known; ``fixed``: with as many steps of Newton as there are, and no proof of jams."""
     count, largest = contacts.count, trace_array(graph, top(np.abs(r.y), 2))
     z, bears = trace_array(graph, np.zeros(count)), trace_array(graph, np.zeros(count))
     acts = [b for b in range(count) if not is_zero(sense[b])]
@@ -216,13 +221,13 @@ def trace_slip(
         inner = r._replace(y=y, h=r.h[:, k][:, :, k])
         rough, sure = _contraction(graph, lever(inner.h, part.ball), sense[k])
         start = None if slips is None else slips[k]
-        z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure, start)
+        z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, None if fixed else sure, start)
         doubt.append(last)
         if slips is not None:
             continue
         unsure.append(rough)
         single.append(sure)
-        stuck.append(jams(graph, part, inner, sense[k]) * known)
+        stuck.append(graph.zero if fixed else jams(graph, part, inner, sense[k]) * known)
         right |= dict.fromkeys(block, known * last.positive() * rough.positive().larger(sure.positive()))
     flags = KernelFlags(
         slips=_varying(doubt), unsure=_varying(unsure), sure=_varying(single), jam=_varying(stuck)
@@ -257,7 +262,7 @@ def _newton(
     r: ContactResponse,
     sense: Array,
     largest: Array,
-    sure: Node,
+    sure: Node | None,
     known: Array | None,
 ) -> tuple[Array, Array, Node]:
     """z and S of one block, and nodes that are negative where the last step is not small. The steps start from no
@@ -283,7 +288,7 @@ def _newton(
         change = trace_array(graph, top(np.abs(felt), felt.ndim))
         if k == MOST or enough:
             break
-        enough = k + 1 >= FEWEST and _small(graph, change, scale, sure)
+        enough = sure is not None and k + 1 >= FEWEST and _small(graph, change, scale, sure)
         z = detached(z + step)
     return z + step, bears, trace_array(graph, LAST * scale - change).item()
 

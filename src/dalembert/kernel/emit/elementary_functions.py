@@ -1,4 +1,5 @@
-"""Sine, cosine, the angle of a vector, 1/x and 1/sqrt(x) for several lanes at once, as LLVM text, to an ulp or two.
+"""Sine, cosine, the angle of a vector, exp, 1/x and 1/sqrt(x) for several lanes at once, as LLVM text, to an ulp or
+two.
 
 Arguments are reduced by pi/2 in three parts (Cody and Waite), the polynomials are those of fdlibm and cephes. They
 carry no fast-math flags: the reduction depends on the order of its subtractions. With AVX-512 the two inverses start
@@ -42,14 +43,20 @@ ATAN_Q = (
     4.853903996359136964868e2,
     1.945506571482613964425e2,
 )
+EXP_P = (1.26177193074810590878e-4, 3.02994407707441961300e-2, 9.99999999999999999910e-1)
+EXP_Q = (3.00198505138664455042e-6, 2.52448340349684104192e-3, 2.27265548208155028766e-1, 2.0)
+LN2_HIGH, LN2_LOW = 6.93145751953125e-1, 1.42860682030941723212e-6
+FARTHEST = 745.2
+"""Argument from which on e^x is infinite, and e^-x zero."""
 
 
 def elementary(lanes: int, used: set[str]) -> list[str]:
     """Definitions of the functions in use."""
     lines: list[str] = []
     for op, name, odd in (("sin", "sine", 0), ("cos", "cosine", 1)):
-        if op in used:
+        if used & {op, "tan"}:
             lines += _circular(lanes, name, odd)
+    lines += _exponential(lanes) if "exp" in used else []
     lines += _angle(lanes) if "atan2" in used else []
     inverses = [name for op, name in (("inv", "reciprocal"), ("rsqrt", "inverse_root")) if op in used]
     for name in inverses:
@@ -147,3 +154,27 @@ def _angle(lanes: int) -> list[str]:
     a = t.select(left, t.exact("fsub", t.splat(3.141592653589793), a), a)
     signed = t.intrinsic("copysign", a, "%y")
     return [*t.lines, f"  ret {t.kind} {signed}", "}"]
+
+
+def _exponential(lanes: int) -> list[str]:
+    """2^n e^r with |r| <= log(2)/2 and e^r as a quotient of polynomials; 2^n as two factors, as one may overflow."""
+    t = ModuleText(lanes)
+    t.lines.append(f"define internal {t.kind} @exponential({t.kind} %x) alwaysinline {{")
+    inside = t.compare("olt", t.intrinsic("fabs", "%x"), t.splat(FARTHEST))
+    x = t.select(inside, "%x", t.splat(0.0))
+    n = t.intrinsic("rint", t.exact("fmul", x, t.splat(1.4426950408889634)))
+    minus = t.let(f"fneg {t.kind} {n}")
+    r = t.fma(minus, t.splat(LN2_LOW), t.fma(minus, t.splat(LN2_HIGH), x))
+    z = t.exact("fmul", r, r)
+    p = t.exact("fmul", t.horner(EXP_P, z), r)
+    ratio = t.exact("fdiv", p, t.exact("fsub", t.horner(EXP_Q, z), p))
+    value = t.fma(ratio, t.splat(2.0), t.splat(1.0))
+    half = t.intrinsic("rint", t.exact("fmul", n, t.splat(0.5)))
+    for power in (half, t.exact("fsub", n, half)):
+        whole = t.integer("shl", t.integer("add", t.let(f"fptosi {t.kind} {power} to {t.whole}"), 1023), 52)
+        value = t.exact("fmul", value, t.let(f"bitcast {t.whole} {whole} to {t.kind}"))
+    beyond = t.select(
+        t.compare("olt", "%x", t.splat(0.0)), t.splat(0.0), t.exact("fmul", "%x", t.splat(float("inf")))
+    )
+    value = t.select(inside, value, beyond)
+    return [*t.lines, f"  ret {t.kind} {value}", "}"]

@@ -23,23 +23,25 @@ SAFETY, LEAST, MOST, STILL = 0.9, 0.2, 10.0, 2e-15
 """
 
 
-def state_size(n: int) -> int:
+def state_size(n: int, watched: int = 0) -> int:
     """Size of a motion: state, its rates, smallest relevant errors, time, next step, end, relative tolerance, largest
-    growth of steps, attempts made."""
-    return 3 * n + 6
+    growth of steps, attempts made, quantities that are watched."""
+    return 3 * n + 6 + watched
 
 
-def record_size(n: int) -> int:
-    """Size of an attempt: time, step (0 if rejected), states before and after, their rates, four to interpolate."""
-    return 2 + 8 * n
+def record_size(n: int, watched: int = 0) -> int:
+    """Size of an attempt: time, step (0 if rejected), states before and after, their rates, four to interpolate, and
+    what is watched after it."""
+    return 2 + 8 * n + watched
 
 
 class _Integrator(ModuleText):
-    """LLVM text of the steps for a state of n numbers; offsets into memory count vectors."""
+    """LLVM text of the steps for a state of n numbers, whose rates have ``watched`` quantities behind them; offsets
+    into memory count vectors."""
 
-    def __init__(self, lanes: int, n: int) -> None:
+    def __init__(self, lanes: int, n: int, watched: int) -> None:
         super().__init__(lanes)
-        self.n = n
+        self.n, self.watched, self.row = n, watched, n + watched
 
     def at(self, base: str, offset: str | int) -> str:
         """Address of one vector."""
@@ -121,8 +123,9 @@ class _Integrator(ModuleText):
 def integrator(rate: Program, n: int, lanes: int) -> str:
     """Function of values (block, numbers, lane), motions (block, ``state_size``, lane), records (block, most,
     ``record_size``, lane), the table of weights; then the count of numbers, the largest count of attempts, a flag for
-    interpolation, the count of blocks. With no attempts it gives the rates at the states."""
-    t = _Integrator(lanes, n)
+    interpolation, the count of blocks. With no attempts it gives the rates at the states. Outputs of the program behind
+    the n rates are watched: recorded, not integrated."""
+    t = _Integrator(lanes, n, len(rate.outputs) - n)
     names = head(t, rate)
     t.lines.append(
         f"define internal void @stage(ptr noalias %y, ptr noalias %given, ptr noalias %k) {WIDE} {{"
@@ -139,7 +142,7 @@ def integrator(rate: Program, n: int, lanes: int) -> str:
         "define void @run(ptr noalias readonly %values, ptr noalias %state, ptr noalias %out, "
         f"ptr noalias readonly %table, i64 %numbers, i64 %most, i64 %between, i64 %blocks) {SELDOM} {WIDE} {{"
     )
-    for name, size in (("k", (STAGES + EXTRA + 1) * n), ("z", n + 1), ("w", n), ("live", 1)):
+    for name, size in (("k", (STAGES + EXTRA + 1) * t.row), ("z", n + 1), ("w", n), ("live", 1)):
         t.put(f"%{name} = alloca {t.kind}, i64 {size}, align 64")
     t.loop("%blocks", lambda b: _motion(t, b))
     t.lines += ["  ret void", "}"]
@@ -153,7 +156,7 @@ def _combined(t: _Integrator) -> None:
     t.lines.append(f"define internal {t.kind} @combined({arguments}) {WIDE} {{")
 
     def one(j: str, sum_: str) -> list[str]:
-        k = t.get("%k", t.sum(t.product(j, t.n), "%i"))
+        k = t.get("%k", t.sum(t.product(j, t.row), "%i"))
         return [t.intrinsic("fmuladd", t.broadcast(t.load("%weights", j, vector=False)), k, sum_)]
 
     total = t.loop("%rows", one, (t.splat(0.0),))
@@ -173,7 +176,7 @@ def _next(t: _Integrator) -> None:
     place = t.sum(t.product("%s", WIDTH), WIDTH - 1)
     weight = t.broadcast(t.load("%table", place, vector=False))
     t.set(t.intrinsic("fmuladd", "%h", weight, "%t"), "%z", t.n)
-    t.put(f"call void @stage(ptr %z, ptr %given, ptr {t.at('%k', t.product('%s', t.n))})")
+    t.put(f"call void @stage(ptr %z, ptr %given, ptr {t.at('%k', t.product('%s', t.row))})")
     t.lines += ["  ret void", "}"]
 
 
@@ -181,11 +184,14 @@ def _motion(t: _Integrator, b: str) -> list[str]:
     """Integration of a block of motions: rates at the start, then attempted steps until all have ended."""
     n = t.n
     t.put(f"%given = getelementptr inbounds {t.kind}, ptr %values, i64 {t.product(b, '%numbers')}")
-    t.put(f"%y = getelementptr inbounds {t.kind}, ptr %state, i64 {t.product(b, state_size(n))}")
+    t.put(f"%y = getelementptr inbounds {t.kind}, ptr %state, i64 {t.product(b, state_size(n, t.watched))}")
     t.put(f"%f = getelementptr inbounds {t.kind}, ptr %y, i64 {n}")
     _copy(t, ("%y", 0, "%z"))
     t.set(t.get("%y", 3 * n), "%z", n)
-    t.put("call void @stage(ptr %z, ptr %given, ptr %f)")
+    t.put("call void @stage(ptr %z, ptr %given, ptr %k)")
+    _copy(t, ("%k", 0, "%f"))
+    if t.watched:
+        t.loop(t.watched, lambda i: _keep(t, t.get("%k", t.sum(i, n)), ("%y", t.sum(i, state_size(n)))))
     t.set(t.splat(0.0), "%y", 3 * n + 5)
     t.put(f"%pages = mul i64 {b}, %most")
     t.put("%some = icmp ugt i64 %most, 0")
@@ -194,6 +200,12 @@ def _motion(t: _Integrator, b: str) -> list[str]:
     t.loop("%most", lambda j: _attempt(t, j), go="%live")
     t.put("br label %done")
     t.lines.append("done:")
+    return []
+
+
+def _keep(t: _Integrator, value: str, place: tuple[str, str]) -> list[str]:
+    """Store a value, as the turn of a loop."""
+    t.set(value, *place)
     return []
 
 
@@ -232,29 +244,16 @@ def _attempt(t: _Integrator, j: str) -> list[str]:
     tiny = t.compare("olt", step, t.let(f"fmul {t.kind} {t.splat(STILL)}, {t.intrinsic('fabs', time)}"))
     step = t.select(small, step, t.select(tiny, zero, step))
     t.put(f"%page = add i64 %pages, {j}")
-    t.put(f"%record = getelementptr inbounds {t.kind}, ptr %out, i64 {t.product('%page', record_size(n))}")
+    t.put(
+        f"%record = getelementptr inbounds {t.kind}, ptr %out, i64 {t.product('%page', record_size(n, t.watched))}"
+    )
     t.put("%wanted = icmp ugt i64 %between, 0")
     t.put("br i1 %wanted, label %more, label %kept")
     t.lines.append("more:")
     _between(t, time, h)
     t.put("br label %kept")
     t.lines.append("kept:")
-    t.set(time, "%record", 0)
-    t.set(t.select(taken, h, zero), "%record", 1)
-
-    def advance(i: str) -> list[str]:
-        newest = t.sum(i, STAGES * n)
-        for place, base, old, new in (
-            (2, "%y", i, t.get("%w", i)),
-            (2 + 2 * n, "%f", i, t.get("%k", newest)),
-        ):
-            before = t.get(base, old)
-            t.set(before, "%record", t.sum(i, place))
-            t.set(new, "%record", t.sum(i, place + n))
-            t.set(t.select(taken, new, before), base, i)
-        return []
-
-    t.loop(n, advance)
+    _record(t, time, h, taken)
     new = t.select(taken, t.select(last, end, t.let(f"fadd {t.kind} {time}, {h}")), time)
     wish = t.select(moves, step, wish)
     refused = t.both(moves, t.compare("uge", error, t.splat(1.0)))
@@ -267,6 +266,32 @@ def _attempt(t: _Integrator, j: str) -> list[str]:
         live = t.let(f"call i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit} {live})")
     t.put(f"store i1 {live}, ptr %live")
     return []
+
+
+def _record(t: _Integrator, time: str, h: str, taken: str) -> None:
+    """Record an attempt, and take its state where it is taken."""
+    n = t.n
+    t.set(time, "%record", 0)
+    t.set(t.select(taken, h, t.splat(0.0)), "%record", 1)
+
+    def advance(i: str) -> list[str]:
+        newest = t.sum(i, STAGES * t.row)
+        for place, base, old, new in (
+            (2, "%y", i, t.get("%w", i)),
+            (2 + 2 * n, "%f", i, t.get("%k", newest)),
+        ):
+            before = t.get(base, old)
+            t.set(before, "%record", t.sum(i, place))
+            t.set(new, "%record", t.sum(i, place + n))
+            t.set(t.select(taken, new, before), base, i)
+        return []
+
+    t.loop(n, advance)
+    if t.watched:
+        place = STAGES * t.row + n
+        t.loop(
+            t.watched, lambda i: _keep(t, t.get("%k", t.sum(i, place)), ("%record", t.sum(i, record_size(n))))
+        )
 
 
 def _between(t: _Integrator, time: str, h: str) -> None:

@@ -127,6 +127,8 @@ _OPERATIONS: dict[str, Callable[[ModuleText, str, str], str]] = {
     "positive": lambda t, a, b: t.select(t.compare("ogt", a, t.splat(0.0)), t.splat(1.0), t.splat(0.0)),
     "sin": lambda t, a, b: t.call("sine", a),
     "cos": lambda t, a, b: t.call("cosine", a),
+    "tan": lambda t, a, b: t.exact("fdiv", t.call("sine", a), t.call("cosine", a)),
+    "exp": lambda t, a, b: t.call("exponential", a),
     "atan2": lambda t, a, b: t.call("angle", a, b),
     "max": lambda t, a, b: t.select(t.compare("ogt", a, b), a, b),
     "detach": lambda t, a, b: a,

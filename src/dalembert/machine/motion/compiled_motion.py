@@ -24,7 +24,8 @@ from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
 from dalembert.kernel.memory import available
 from dalembert.machine.motion.actuation import Actuation, actuation, drive_lengths, joint_stops
-from dalembert.machine.motion.equation import Corners, Equation, StoppedError
+from dalembert.machine.motion.coded.rate_program import Corners
+from dalembert.machine.motion.equation import Equation, StoppedError
 from dalembert.machine.motion.equation_trace import trace_equation
 from dalembert.machine.motion.motion_block import MotionBlock, Motions
 from dalembert.machine.motion.occurrences import read_end
@@ -142,7 +143,7 @@ def _compile(
     _refuse_counts(equation)
     symbols = _symbols(m, equation, traced)
     corners = _corners(symbols)
-    code = equation.steps(moves.free, lanes, works=False, corners=corners)
+    code = None if equation.dry else equation.steps(moves.free, lanes, works=False, corners=corners)
     if code is None:
         raise ModelError(f"{why}, so that it is not smooth", REMEDY)
     lines = _lines(m, moves).astype(float)

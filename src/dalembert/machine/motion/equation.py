@@ -20,16 +20,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags, Numeric
+from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.rotation_rows import recount_turns
 from dalembert.errors import AnalysisError
 from dalembert.kernel.emit import llvm_text
-from dalembert.kernel.graph import CONSTANT, Node, trace_array
+from dalembert.kernel.graph import Node
 from dalembert.kernel.memory import address
 from dalembert.kernel.program import Program
+from dalembert.machine.motion.coded.rate_program import Corners, MasslessError, rate_steps
+from dalembert.machine.motion.coded.steps import Integrator
 from dalembert.machine.motion.corners.one_sided import Sided
 from dalembert.machine.motion.rest.dry_friction import Contacted, DryFriction, Linear
-from dalembert.machine.motion.steps import Integrator
 from dalembert.model.quantities.coordinates import TIME
 from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.tables import Table
@@ -49,8 +51,6 @@ DEAD_CENTRE = (
 OPEN = "the mechanism does not close, or its drives do not place its links"
 
 
-Corners = Sequence[tuple[Any, Any]]
-"""Corners of a drive's effort over its speed: speeds at which its slope changes, and by how much; numbers or nodes."""
 NO_CORNERS: dict[int, Corners] = {}
 
 LOCK = RLock()
@@ -138,7 +138,7 @@ class Equation:
     all numbers, those of nodes where ``places`` says; ``channels``: index of an input in positions, senses and time, or
     its function of time and positions; ``sides``: places of the values for sides of loads computed in machine code.
     ``known``: the pose, where states are followed one by one; ``dry``: the contacts, where there is friction, with the
-    names of the joints of its ``own`` ones (those that slip independently).
+    names of the joints of its ``own`` ones (those that slip independently); ``contacts``: the same as nodes.
     """
 
     def __init__(
@@ -163,6 +163,7 @@ class Equation:
         self.kernel: Any = None
         self.asked, self.asked_channels = program, channels
         self.sides: list[int] = []
+        self.contacts: Contacts | None = None
 
     @property
     def bends(self) -> int:
@@ -203,15 +204,18 @@ class Equation:
             out = self.run(along)
             if not self.known or self.known.follow(out[self.ends[-1] :]) <= NEAR or not self.by_newton:
                 break
-        effort, mass, power, rates, closure, freedoms, corners, *more = np.split(
-            out[: self.ends[-1]], self.ends[:-1]
-        )
-        if self.known and not np.isfinite(effort).all():
+        terms = self.terms(out[: self.ends[-1]])
+        if self.known and not np.isfinite(terms.effort).all():
             self.known.pose = pose  # no state goes on from where the loops do not close
             if self.known.anchor is not None and self.known.anchor[0] is not pose:
                 self.known.pose, self.known.at = self.known.anchor
                 return self(t, q, u)
-        linear = None
+        return terms
+
+    def terms(self, out: Array) -> Terms:
+        """The terms of all outputs, numbers or nodes."""
+        d, linear = len(self.names), None
+        effort, mass, power, rates, closure, freedoms, corners, *more = np.split(out, self.ends[:-1])
         if self.dry:
             e = self.dry.contacts.count
             shapes = (d, e), (3, e), (3, e, d), (3, e, e), (e,)
@@ -232,48 +236,22 @@ class Equation:
         in the drive's speed; None where it is not smooth, or needs more than the drives' positions and the time.
 
         The state: positions, speeds; ``works`` of drives, of brakes, loads, dampers and friction. After ``values``
-        follow, each (D,): effort at speed 0, its slope, that of the brake, acceleration of the prescribed drives.
-        ``corners`` of drives: changes of slope of these lines.
+        follow, each (D,): effort at speed 0, its slope, that of the brake, acceleration of the prescribed drives; then
+        of the O own contacts the senses, and 1 where they stick. ``corners`` of drives: changes of slope of these
+        lines. Watched, each (O,): rates of these contacts; where several drives move freely, so that contacts may
+        stick, their room and part of the limit.
         """
-        uneven = self.dry or self.known or any(callable(f) for f in self.channels)
-        if uneven or find_spec("llvmlite") is None:
+        if self.known or any(callable(f) for f in self.channels) or find_spec("llvmlite") is None:
             return None
         key = (lanes, works, *free.tolist(), *corners)
         with LOCK:
             if key not in self.kept:
-                self.kept[key] = self._steps(free, lanes, works, corners)
+                try:
+                    self.kept[key] = rate_steps(self, free, lanes, works, corners)
+                except MasslessError as massless:
+                    name = [n for n, moves in zip(self.names, free, strict=True) if moves][massless.drive]
+                    raise StoppedError(no_inertia(name)) from None
         return self.kept[key]  # type: ignore[no-any-return]
-
-    def _steps(self, free: Flags, lanes: int, works: bool, corners: Mapping[int, Corners]) -> Integrator:
-        d, graph, outputs = len(self.names), self.graph, self.program.outputs
-        n = 3 * d + 4 if works else 2 * d
-        slots = [graph.input("channel", f"state {k}", 1.0) for k in range(n + 1)]
-        inputs = np.array([graph.input("number", f"given {k}", 0.0) for k in range(4 * d)]).reshape(4, d)
-        q, u, t = slots[:d], np.array(slots[d : 2 * d]), slots[n]
-
-        def solve_at(count: int, a: Array) -> Array:
-            inputs = (*self.program.inputs_in_use("channel"), *self.numbers)
-            values = (*((*q, t)[f] for f in self.channels), *u, *a)
-            places = {n.index: x for n, x in zip(inputs, trace_array(graph, values), strict=True)}
-            return np.array(graph.substitute(outputs[:count], places), object)
-
-        a, applied = np.where(free, 0.0, inputs[3]), inputs[0] + inputs[1] * u
-        for k, bends in corners.items():
-            applied[k] = sum(((u[k] - speed).larger(0.0) * bend for speed, bend in bends), applied[k])
-        effort, mass = np.split(solve_at(self.ends[1], a), [d])
-        movable = [name for name, moves in zip(self.names, free, strict=True) if moves]
-        m = mass.reshape(d, d)[np.ix_(free, free)]
-        a[free] = solve_nodes(m, (applied + inputs[2] - effort)[free], movable)
-        rate = [*u, *a]
-        if works:
-            required, _, power = np.split(solve_at(self.ends[2], a), self.ends[:2])
-            rate += [*np.where(free, applied, required) * u, (inputs[2] * u).sum(), *power, graph.zero]
-        program = Program(graph, tuple(trace_array(graph, rate)))
-        first = len(self.values)
-        numbers = {x.index: first + k for k, x in enumerate(inputs.ravel())}
-        # all stand where the state and the values have them, used or not
-        program.__dict__["places"] = self.places | {x.index: k for k, x in enumerate(slots)} | numbers
-        return Integrator(program, n, first + 4 * d, lanes)
 
     def accelerations(
         self,
@@ -309,18 +287,6 @@ class Equation:
         if contacts is None:
             raise StoppedError("the machine jams: no acceleration satisfies the law of friction")
         return contacts, e
-
-
-def solve_nodes(mass: Array, right: Array, names: Sequence[str]) -> Array:
-    """Solution of a positive system of nodes, which needs no pivoting; StoppedError where a drive moves no mass."""
-    mass, right = mass.copy(), right.copy()
-    for k, name in enumerate(names):
-        if mass[k, k].level == CONSTANT and not mass[k, k].value:
-            raise StoppedError(no_inertia(name))
-        row, value = mass[k] / mass[k, k], right[k] / mass[k, k]
-        mass, right = mass - np.outer(mass[:, k], row), right - mass[:, k] * value
-        mass[k], right[k] = row, value  # not by a difference, in which what is heavy would lose its digits
-    return right
 
 
 def no_inertia(name: str) -> str:

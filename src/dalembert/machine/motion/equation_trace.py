@@ -28,6 +28,7 @@ from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
+from dalembert.kernel.friction_trace import trace_contacts
 from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
 from dalembert.kernel.program import Program
 from dalembert.kernel.trace import Traced
@@ -39,7 +40,7 @@ from dalembert.model import Mechanism, Schedule
 from dalembert.model.quantities.expression_trees import Functions
 from dalembert.model.quantities.expressions import Expression
 
-OUTSIDE = frozenset({"min", "exp", "log", "asin", "acos", "tan"})
+OUTSIDE = frozenset({"min", "log", "asin", "acos"})
 """Operations of expressions without machine code."""
 
 WHOLE_TURN = re.compile(r"known turn \d+")
@@ -126,13 +127,21 @@ def trace_equation(
         )
         out.asked.__dict__["places"] = out.asked.places | places
         out.asked_channels = [_channel(trace, names, n) for n in out.asked.inputs_in_use("channel")]
-    followed, contacts = trace.course.followed, trace.course.followed.compiled.contacts
-    if contacts is not None and slip is not None:
-        out.dry = DryFriction(contacts, _independent(contacts, trace_array(graph, slip.state.sense)))
-        out.joints = [followed.compiled.joints[contacts.joint[e]] for e in out.dry.own]
+    followed = trace.course.followed
+    _set_contacts(out, trace)
     out.known = LastPose(trace.course.pose, followed, followed.compiled.layout) if known else None
     out.by_newton = any(not name.startswith("known turn") for name in known)
     return out
+
+
+def _set_contacts(out: Equation, trace: Trace) -> None:
+    """Give an equation the contacts of a machine whose joints rub."""
+    of_trace, slip = trace.catalogue.compiled.contacts, trace.catalogue.traced.friction.slip
+    followed, contacts = trace.course.followed, trace.course.followed.compiled.contacts
+    if contacts is not None and slip is not None:
+        out.dry = DryFriction(contacts, _independent(contacts, trace_array(out.graph, slip.state.sense)))
+        out.contacts = of_trace and trace_contacts(out.graph, of_trace)
+        out.joints = [followed.compiled.joints[contacts.joint[e]] for e in out.dry.own]
 
 
 def _sided_functions(switches: dict[Node, Node], graph: Graph) -> Tree:

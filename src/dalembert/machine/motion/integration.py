@@ -11,15 +11,17 @@ from typing import Any
 import numpy as np
 
 from dalembert.arrays import Array
+from dalembert.machine.motion.coded.steps import (
+    UNWATCHED,
+    MachineSteps,
+    Steps,
+)
+from dalembert.machine.motion.coded.steps import WATCHED as WATCHED_STEPS
 from dalembert.machine.motion.coordinates.dead_centres import WATCHED
 from dalembert.machine.motion.equation import DEAD_CENTRE, StoppedError
 from dalembert.machine.motion.occurrences import Guard, Words
 from dalembert.machine.motion.rest.standstill import STILL
 from dalembert.machine.motion.stepping import StepState
-from dalembert.machine.motion.steps import (
-    MachineSteps,
-    Steps,
-)
 
 SHORT, TRIES = 1e-6, 100
 """A step below this part of the longest has met a singular position; after this many of them the motion is stopped."""
@@ -114,14 +116,20 @@ class Integration(StepState):
 
     def _segment(self, t: float, y: Array) -> tuple[float, Array]:
         """To the first event, or the end."""
+        self.coded = None
         self.acting.follow_laws(t, self.next_bend(t), y)
         guards, self.watch = self._guards(t, y), WATCHED
         self.is_heavy(t, y)
         limit = self.end if np.isfinite(self.end) else self.limits.time
-        solver, tiny, longest, steps = self._solver(t, y, min(limit, self.next_bend(t))), 0, 0.0, 0
-        if isinstance(solver, MachineSteps) and not guards and self.waiting is not None:
-            longest = self._unwatched(solver, t)
+        solver, tiny, steps = self._solver(t, y, min(limit, self.next_bend(t))), 0, 0
+        longest, self.longest = self.longest, 0.0
+        coded = isinstance(solver, MachineSteps)
+        self.coded = (solver.code, solver.values) if isinstance(solver, MachineSteps) else None
         while solver.status == "running":
+            if isinstance(solver, MachineSteps) and self.waiting is not None:
+                longest = self._take_quiet(solver, guards, t, longest)
+                if solver.status != "running":
+                    break
             before, from_ = self.reached = solver.t, solver.y
             steps, self.taken = steps + 1, self.taken + 1
             self.equation.set_anchor()
@@ -133,6 +141,13 @@ class Integration(StepState):
             if steps > MANY_STEPS and before - t < steps * NEVER * (self.end - t) < np.inf:
                 raise StoppedError("the integration steps become too small, as where friction nearly jams")
             if solver.step():
+                self.longest = longest
+                if coded and self.equation.dry:
+                    self.keep_samples()
+                    self.careful = (
+                        True  # friction is not proved to have one solution: to the next event in numpy
+                    )
+                    return before, from_
                 if self.equation.dry and self.tolerance < COARSEST and not self._near_singular(before, from_):
                     self.tolerance *= 10  # forces with friction are found to fewer digits than that
                     return before, from_
@@ -221,24 +236,29 @@ class Integration(StepState):
             self.keep(*self.reached)
         return self.reached
 
-    def _unwatched(self, solver: MachineSteps, t: float) -> float:
-        """Take many steps at a time where nothing may happen, until one is short; the longest."""
-        longest, d, n = 0.0, self.d, solver.n
+    def _take_quiet(self, solver: MachineSteps, guards: list[Guard], t: float, longest: float) -> float:
+        """Take many steps at a time up to one in which something may happen, or that is short; the longest so far."""
+        d, n = self.d, solver.n
         while solver.status == "running" and not (self.locked & self.acting.free).any():
-            records = solver.ahead()
+            records, watched = solver.ahead(WATCHED_STEPS if guards else UNWATCHED)
             lengths = records[:, 1]
             most = float(lengths.max(initial=longest))
             if not lengths.size or lengths.min() <= max(SHORT * most, NEVER * (self.end - t)):
                 break
-            longest = most
-            speeds = np.abs(records[:, 2 + n + d : 2 + n + 2 * d])
-            self.fastest = np.maximum(self.fastest, speeds.max(axis=0))
+            count = self.quiet(records, watched, guards)
+            speeds = np.abs(records[:count, 2 + n + d : 2 + n + 2 * d])
             slow = (speeds[:, self.acting.free] < WATCHED * self.fastest[self.acting.free]).any(axis=1)
-            watched = records[slow | (lengths < WATCHED * most)] if self.may_turn_over else records[:0]
-            if any(self.is_heavy(r[0], r[2 : 2 + n]) for r in watched):
+            seen = (
+                records[:count][slow | (lengths[:count] < WATCHED * most)]
+                if self.may_turn_over
+                else records[:0]
+            )
+            if not count or any(self.is_heavy(r[0], r[2 : 2 + n]) for r in seen):
                 break
-            solver.take_all()
-            self._keep_within(records, solver)
+            longest = most
+            self.fastest = np.maximum(self.fastest, speeds.max(axis=0))
+            solver.take(count)
+            self._keep_within(records[:count], solver)
         return longest
 
     def _near_singular(self, t: float, y: Array) -> bool:
@@ -273,6 +293,7 @@ class Integration(StepState):
     def _happen(self, t: float, y: Array, crossed: list[Guard]) -> None:
         """Applies the events of one instant; the state may be changed."""
         self.keep_samples()
+        self.coded, self.careful = None, False
         d = self.d
         rests = [g.which for g in crossed if g.kind == "rest"]
         hit = [(g.which, -g.side) for g in crossed if g.kind == "stop"]
@@ -312,6 +333,7 @@ class Integration(StepState):
     def _resume(self, t: float, y: Array) -> None:
         """Let go what is no longer held."""
         self.keep_samples()
+        self.coded, self.careful = None, False
         self.open_pulling(t, y)
         self.settle(self._loose(t, y), t, y, self.leaving(t, y))
         self.keep(t, y)

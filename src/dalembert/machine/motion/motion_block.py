@@ -13,9 +13,9 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.kernel.memory import address
+from dalembert.machine.motion.coded.steps import Integrator, between, first_step, state_sizes
 from dalembert.machine.motion.equation import Equation
 from dalembert.machine.motion.occurrences import EventCondition
-from dalembert.machine.motion.steps import Integrator, between, first_step, state_sizes
 
 ATTEMPTS, MOST, SMALL, ROOTS = 24, 100_000, 0.01, 60
 """Attempts of steps at once, and those after which a motion is given up; part of the mean step below which the state is

@@ -66,9 +66,13 @@ class EventCondition:
     stops: bool
     name: str = ""
 
+    def place(self, d: int) -> int:
+        """Its place in a state of d drives."""
+        return self.drive + d * (self.what == "speed")
+
     def value_at(self, d: int) -> Value:
         """Quantity that passes zero, of a state of d drives."""
-        place = self.drive + d * (self.what == "speed")
+        place = self.place(d)
         return lambda t, y: float(y[place] - self.value)
 
 
@@ -82,7 +86,8 @@ class Guard:
     """A ``value`` of the state, by its kind and which one, whose change of sign from ``side`` is an event.
 
     A side of 0 is not known yet. ``trend``: how it went on, times its side, at the end of the last step; ``turned``: an
-    instant within a step at which it is beyond zero, to come back before the step ends.
+    instant within a step at which it is beyond zero, to come back before the step ends. ``column``: where machine code
+    has the value, less ``level``: a number of the state, or behind these one that is watched; -1 where it has not.
     """
 
     kind: str
@@ -91,6 +96,8 @@ class Guard:
     side: float = 0.0
     trend: float = 0.0
     turned: float = inf
+    column: int = -1
+    level: float = 0.0
 
     @property
     def known(self) -> bool:
@@ -102,6 +109,8 @@ class Guard:
         return abs(self.value(t, y)) <= 1e-12 * max(float(abs(y[: 2 * d]).max()), 1.0)
 
 
+TURNING = ("corner", "condition", "clutch")
+"""Guards that may pass zero and come back within a step."""
 CONDITION = re.compile(r"\s*(?P<drive>\S+)\.(?P<what>position|speed)\s*=\s*(?P<value>.+?)\s*")
 NAMED = re.compile(r"\s*(?P<name>[^=<>]+?)\s*=\s*(?P<value>[^=<>]+?)\s*")
 KindOf = Callable[[str], str]

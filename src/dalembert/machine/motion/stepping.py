@@ -15,10 +15,8 @@ from scipy.optimize import brentq, minimize_scalar
 
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation, drive_lengths
-from dalembert.machine.motion.coordinates.dead_centres import LeadState
-from dalembert.machine.motion.equation import StoppedError
-from dalembert.machine.motion.occurrences import EventCondition, Guard, Value, Words, less
-from dalembert.machine.motion.steps import (
+from dalembert.machine.motion.coded.coded_motion import CodedState
+from dalembert.machine.motion.coded.steps import (
     Between,
     Integrator,
     MachineSteps,
@@ -26,6 +24,8 @@ from dalembert.machine.motion.steps import (
     between,
     state_sizes,
 )
+from dalembert.machine.motion.equation import StoppedError
+from dalembert.machine.motion.occurrences import TURNING, EventCondition, Guard, Value, Words, less
 from dalembert.machine.motion.stops.watched_quantities import watched
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
@@ -42,7 +42,7 @@ class Limits:
 NO_TIME = Limits()
 
 
-class StepState(LeadState):
+class StepState(CodedState):
     """A motion's steps: their solvers, the instants that are kept, and what may end a segment."""
 
     def __init__(
@@ -67,9 +67,13 @@ class StepState(LeadState):
 
     def keep(self, t: float, y: Array) -> None:
         """Keep an instant; in machine code together with those of its segment."""
-        if self.samples or self._machine(t, y) is not None:
+        if self.samples or self.machine(t, y) is not None:
             self.samples.append((t, Between.standing(t, y).record))
-            return
+        else:
+            self._keep_solved(t, y)
+
+    def _keep_solved(self, t: float, y: Array) -> None:
+        """Keep an instant by the solution in numpy."""
         d = self.d
         contacts, effort, _ = self.solved(t, y)
         self.parts.append(np.where(self._determined, contacts.part, np.nan))
@@ -90,15 +94,36 @@ class StepState(LeadState):
         if self.samples:
             t, records = (np.array(x) for x in zip(*self.samples, strict=True))
             self.samples, y = [], between(records, t)
-            code = self._machine(t[0], y[0])
+            code = self.machine(t[0], y[0])
             assert code is not None
-            self._keep_rates(*code, t, y)
+            sure = np.asarray(np.isfinite(code[0].rates(code[1], t, y)).all(axis=1))
+            if sure.all():
+                self._keep_rates(*code, t, y)
+                return
+            for k in range(len(t)):
+                if sure[k]:
+                    self._keep_rates(*code, t[k : k + 1], y[k : k + 1])
+                else:
+                    self._keep_solved(float(t[k]), y[k])
 
     def _keep_rates(self, code: Integrator, values: Array, t: Array, y: Array) -> None:
         """Keeps instants (M,) with the accelerations of the machine code; unknown efforts come later: NaN."""
-        d = self.d
-        a, (first, slope, brake, _) = code.rates(values, t, y)[:, d : 2 * d], values[-4 * d :].reshape(4, d)
-        applied = np.where(self.acting.free & ~self.locked, first + slope * y[:, d : 2 * d] + brake, np.nan)
+        d, own = self.d, len(self.sense)
+        rates, watched = code.rates_watched(values, t, y)
+        a, (first, slope, brake, _) = (
+            rates[:, d : 2 * d],
+            values[len(self.equation.values) :][: 4 * d].reshape(4, d),
+        )
+        known = self.acting.free & ~self.locked
+        if self.equation.dry:
+            known = self.acting.free
+            parts = np.full((len(t), len(self.stuck)), np.nan)
+            if not self.locked.any():
+                parts[:, self.equation.dry.own] = (
+                    watched[:, 2 * own : 3 * own] if code.watched > own else self.sense
+                )
+            self.parts += list(parts)
+        applied = np.where(known, first + slope * y[:, d : 2 * d] + brake, np.nan)
         on_stop = np.where(self.on_stop != 0, first + slope * y[:, d : 2 * d], np.nan)
         works = y[:, 2 * d :].copy()
         stops = np.repeat(self.joint_forces(t[0], y[0])[None], len(t), axis=0)
@@ -117,33 +142,22 @@ class StepState(LeadState):
             self.keep(solver.t, solver.y)
 
     def _solver(self, t: float, y: Array, end: float) -> Steps | MachineSteps:
-        code, natural = self._machine(t, y), self._natural(t, y)
+        code, natural = self.machine(t, y), self._natural(t, y)
         if code is not None:
             more = bool(self.waiting and len(self.waiting) > 1)
             return MachineSteps(*code, t, y, end, self.tolerance, natural, more)
         return Steps(self.rate, t, y, end, self.tolerance, natural)
 
     def _natural(self, t: float, y: Array) -> tuple[Array, Array]:
-        """Natural sizes (1, n) of the state's numbers, and pace (1,)."""
+        """Natural sizes (1, n) of the state's numbers, and pace (1,); within a segment in machine code those at its
+        start."""
+        if self.coded is not None:
+            return self.natural
         with suppress(StoppedError):  # else those of before
             a, _, terms = self.at(t, y)
             u = np.maximum(np.abs(y[self.d : 2 * self.d]), self.fastest)
             self.natural = state_sizes(u[None], a[None], self.lengths, terms.mass.diagonal()[None])
         return self.natural
-
-    def _machine(self, t: float, y: Array) -> tuple[Integrator, Array] | None:
-        """Machine code and its values, where the efforts are straight lines of the speeds until the next event."""
-        free = self.acting.free & ~self.locked
-        if self.pressed or self.acting.laws:
-            return None
-        ahead = self.at(t, y)[0] if self.acting.motors else np.zeros(self.d)
-        lines = self.acting.lines(y[self.d : 2 * self.d], ahead)
-        code = None if lines is None else self.equation.steps(free)
-        if code is None or lines is None:
-            return None
-        brake = -self.acting.brake * self.toward * free
-        prescribed = np.where(self.acting.free, 0.0, self.acting.acceleration)
-        return code, np.concatenate([self.equation.values, *lines, brake, prescribed])
 
     def pace(self, t: float, y: Array) -> float:
         """Natural pace at a state, 1/s."""
@@ -154,6 +168,9 @@ class StepState(LeadState):
         solver = self._solver(t, y, when)
         while solver.status == "running":
             solver.step()
+        if solver.status == "failed" and self.coded is not None:
+            self.coded, self.careful = None, True
+            return self._exactly(t, y, when)
         return np.asarray(solver.y).copy()
 
     def _keep_until(self, dense: Callable[[float], Array], before: float, end: float) -> None:
@@ -177,7 +194,7 @@ class StepState(LeadState):
             return lambda t, y: float(self.rubbing_rates(t, y)[c])
 
         def room(c: int) -> Value:
-            return lambda t, y: float(self.own(self.solved(t, y)[0].room)[c])
+            return lambda t, y: float(self.room(t, y)[c])
 
         def switch(k: int, of: Switch) -> Value:
             return lambda t, y: acting.switched(of, k, t, y[:d], y[d:])
@@ -186,18 +203,24 @@ class StepState(LeadState):
             return lambda t, y: float(self.equation(t, y[:d], y[d : 2 * d]).corners[j])
 
         rubbing = np.flatnonzero(self.rubs & ~self.locked & ~self.bound).tolist()
-        out = [Guard("rest", k, speed(k), float(self.toward[k])) for k in rubbing]
-        out += [Guard("contact", c, rate(c), float(s)) for c, s in enumerate(self.sense) if not self.tied[c]]
-        out += [Guard("slip", c, room(c), 1.0) for c in np.flatnonzero(self.own(self.stuck)).tolist()]
+        n, own = 3 * d + 4, len(self.sense)
+        out = [Guard("rest", k, speed(k), float(self.toward[k]), column=d + k) for k in rubbing]
+        slipping = [(c, float(s)) for c, s in enumerate(self.sense) if not self.tied[c]]
+        out += [Guard("contact", c, rate(c), s, column=n + c) for c, s in slipping]
+        sticking = np.flatnonzero(self.own(self.stuck)).tolist()
+        out += [Guard("slip", c, room(c), 1.0, column=n + own + c) for c in sticking]
         for k, motor in acting.motors.items():
             out += [Guard(key, k, switch(k, of)) for key, of in self._switches(k)]
-            out += [Guard("kink", k, speed(k, w)) for w in motor.kinks]
+            out += [Guard("kink", k, speed(k, w), column=d + k, level=w) for w in motor.kinks]
         out += [Guard("kink", j, bend(j)) for j in range(-self.equation.bends, 0)]
         out += self.gear_guards(t, y)
         out += self.corner_guards()
         out += self.stop_guards()
         values = [less(watched(self, c.name), c.value) if c.name else c.value_at(d) for c in self.conditions]
-        out += [Guard("condition", n, value) for n, value in enumerate(values)]
+        places = [-1 if c.name else c.place(d) for c in self.conditions]
+        levels = [c.value for c in self.conditions]
+        met = enumerate(zip(values, places, levels, strict=True))
+        out += [Guard("condition", n, value, column=k, level=level) for n, (value, k, level) in met]
         for g in out:
             g.side = g.side or (0.0 if g.at_zero(t, y, d) else float(np.sign(g.value(t, y))))
         return out
@@ -210,8 +233,8 @@ class StepState(LeadState):
         return value * g.side < 0
 
     def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
-        """True if a corner, a condition or a tooth is passed within the last step, which ends where it began."""
-        if g.kind not in ("corner", "condition", "clutch") or not g.side:
+        """True if a corner, a condition or a tooth is passed within the last step, which ends on its first side."""
+        if g.kind not in TURNING or not g.side:
             return False
         t, y, h = solver.t, solver.y, solver.t - before
         short = 1e-6 * h

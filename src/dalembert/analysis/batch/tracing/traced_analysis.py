@@ -148,7 +148,9 @@ def trace_analysis(
     )
     motion = drives.position, drives.speed, drives.acceleration
     traced = _run(problem, c)
-    catalogue = Catalogue(graph, replace(c, forcing=traced.forcing), traced, motion, inputs)
+    catalogue = Catalogue(
+        graph, replace(c, forcing=traced.forcing, contacts=problem.contacts), traced, motion, inputs
+    )
     return Trace(course, inputs, where, catalogue, inertia, repeated)
 
 

@@ -8,7 +8,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from dalembert.kernel.emit.elementary_functions import ATAN_P, ATAN_Q, COSINE, HALF_PI, SINE
+from dalembert.kernel.emit.elementary_functions import (
+    ATAN_P,
+    ATAN_Q,
+    COSINE,
+    EXP_P,
+    EXP_Q,
+    HALF_PI,
+    LN2_HIGH,
+    LN2_LOW,
+    SINE,
+)
 from dalembert.kernel.emit.wasm.instructions import (
     ABS,
     ADD,
@@ -34,9 +44,6 @@ from dalembert.kernel.emit.wasm.instructions import (
 
 WHOLE = 2.0**52
 """Constant that, added to a smaller number, gives a sum with the number as an integer in its low bits."""
-EXP_P = (1.26177193074810590878e-4, 3.02994407707441961300e-2, 9.99999999999999999910e-1)
-EXP_Q = (3.00198505138664455042e-6, 2.52448340349684104192e-3, 2.27265548208155028766e-1, 2.0)
-LN2_HIGH, LN2_LOW = 6.93145751953125e-1, 1.42860682030941723212e-6
 LOG_P = (
     1.01875663804580931796e-4,
     4.97494994976747001425e-1,

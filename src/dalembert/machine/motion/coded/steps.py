@@ -19,8 +19,9 @@ from dalembert.kernel.program import Program
 
 LEAST = 1e-4
 """Part of the natural size of a state's number below which its errors do not count relative to itself."""
-AT_ONCE, UNWATCHED = 16, 256
-"""Attempts of steps of one motion at once: an event among them makes the others useless; and where none may happen."""
+AT_ONCE, WATCHED, UNWATCHED = 16, 48, 256
+"""Attempts of steps of one motion at once: an event among them makes the others useless; where all that may happen is
+watched in machine code; and where nothing may."""
 
 
 PARTS = ("state", "rates", "least", "time", "step", "end", "tolerance", "growth", "attempts")
@@ -40,19 +41,19 @@ TABLE = _table()
 
 class Integrator:
     """Machine code for steps of motions side by side, whose rate is a program of channels (state (n,), time) and of
-    numbers; its places are the index of each."""
+    numbers; its places are the index of each. Outputs of it behind the n rates are ``watched``."""
 
     def __init__(self, rate: Program, n: int, numbers: int, lanes: int = 1) -> None:
         from dalembert.kernel.emit.machine_code import compile_module
 
-        self.n, self.numbers, self.lanes = n, numbers, lanes
+        self.n, self.numbers, self.lanes, self.watched = n, numbers, lanes, len(rate.outputs) - n
         self.machine = compile_module(integrator(rate, n, lanes), lanes)
 
     def advance(self, values: Array, motions: Array, most: int, between: bool = False) -> Array:
         """Advances motions (block, ``state_size``, lane) by at most ``most`` attempts of steps; their records (block,
         most, ``record_size``, lane), of which only the attempted ones have numbers. No attempts: only the rates."""
         blocks = len(motions)
-        records = np.empty((blocks, max(most, 1), record_size(self.n), self.lanes))
+        records = np.empty((blocks, max(most, 1), record_size(self.n, self.watched), self.lanes))
         where = (address(values), address(motions), address(records), address(TABLE))
         self.machine.function(*where, self.numbers, most, int(between), blocks)
         return records
@@ -65,7 +66,7 @@ class Integrator:
 
     def motions(self, y: Array, t: Array | float, end: float, tolerance: float, size: Array | float) -> Array:
         """Motions at states (M, n) of natural ``size`` (M, n) and times, before their first step."""
-        n, out = self.n, np.zeros((len(y), state_size(self.n)))
+        n, out = self.n, np.zeros((len(y), state_size(self.n, self.watched)))
         out[:, :n], out[:, 2 * n : 3 * n], out[:, 3 * n] = y, LEAST * tolerance * size, t
         out[:, 3 * n + 2 : 3 * n + 5] = end, tolerance, 10.0
         return self.blocks(out)
@@ -84,10 +85,14 @@ class Integrator:
 
     def rates(self, values: Array, t: Array | float, y: Array) -> Array:
         """Rates (M, n) at states (M, n) of motions with the same values, one lane wide."""
-        motions = np.zeros((len(y), state_size(self.n), 1))
+        return self.rates_watched(values, t, y)[0]
+
+    def rates_watched(self, values: Array, t: Array | float, y: Array) -> tuple[Array, Array]:
+        """Those rates, and what is watched (M, W)."""
+        motions = np.zeros((len(y), state_size(self.n, self.watched), 1))
         motions[:, : self.n, 0], motions[:, 3 * self.n, 0] = y, t
         self.advance(values if len(y) == 1 else np.tile(values, (len(y), 1)), motions, 0)
-        return motions[:, self.n : 2 * self.n, 0]
+        return motions[:, self.n : 2 * self.n, 0], motions[:, state_size(self.n) :, 0]
 
 
 def state_sizes(u: Array, a: Array, length: Array, mass: Array | None = None) -> tuple[Array, Array]:
@@ -182,7 +187,7 @@ class MachineSteps:
 
         self.h_abs = float(first_step(y[None], f, ahead, end - t, rtol, natural)[0])
         self.motion[0, 3 * n + 1] = self.h_abs
-        self.records, self.next = np.zeros((0, record_size(n))), 0
+        self.records, self.watched, self.next = np.zeros((0, record_size(n))), np.zeros((0, code.watched)), 0
 
     def step(self) -> str | None:
         """Take the next step; a message where there is none."""
@@ -203,27 +208,36 @@ class MachineSteps:
             self.status = "finished"
         return None
 
-    def ahead(self) -> Array:
-        """Records of many steps that come next, none where steps that are known have not all been taken."""
-        if self.next == len(self.records) and self._more(UNWATCHED):
-            return self.records[self.records[:, 1] > 0]
-        return self.records[:0]
+    def ahead(self, most: int = UNWATCHED) -> tuple[Array, Array]:
+        """Records of the steps that come next, at most so many where none are known yet, and what is watched behind
+        each."""
+        if self.next == len(self.records):
+            self._more(most)
+        place = self._coming
+        return self.records[place], self.watched[place]
 
-    def take_all(self) -> None:
-        """Take all steps that are known."""
-        self.next = int(np.flatnonzero(self.records[:, 1])[-1])
+    @property
+    def _coming(self) -> Array:
+        """Indices of the known steps that are not taken yet."""
+        return self.next + np.flatnonzero(self.records[self.next :, 1] > 0)
+
+    def take(self, count: int) -> None:
+        """Take so many of the steps that are known."""
+        coming = self._coming
+        self.next = int(coming[count - 1])
         self.step()
-        self.next = len(self.records)
+        if count == len(coming):
+            self.next = len(self.records)
 
     def _more(self, most: int = AT_ONCE) -> bool:
         """Further attempts in machine code; whether there are any."""
         record = self.motion[0, :, 0]
         if not record[3 * self.n + 1] > 0:
             return False
-        self.records = self.code.advance(self.values, self.motion, most, self.between)[
-            0, : int(record[-1]), :, 0
-        ]
-        self.next = 0
+        made = self.code.advance(self.values, self.motion, most, self.between)[0, :, :, 0]
+        size = record_size(self.n)
+        made = made[: int(record[3 * self.n + 5])]
+        self.records, self.watched, self.next = made[:, :size], made[:, size:], 0
         return True
 
     @property
@@ -242,7 +256,7 @@ class MachineSteps:
                 self.h_previous,
             )
             record[3 * n + 2], record[2 * n : 3 * n], record[3 * n + 3] = np.inf, 1e300, 1e300
-            self.record = self.code.advance(self.values, motion, 1, True)[0, 0, :, 0]
+            self.record = self.code.advance(self.values, motion, 1, True)[0, 0, : record_size(n), 0]
         return Between(self.record)
 
 

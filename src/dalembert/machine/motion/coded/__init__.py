@@ -1,0 +1,10 @@
+"""Motions in machine code.
+
+In: the nodes of an ``Equation``. Out: steps of motions side by side, and which of them an event may end. Imports
+``kernel``, ``core`` and what they import.
+
+rate_program     rates of a state as a program: accelerations, with friction where joints rub, and works
+traced_friction  accelerations and friction together, as nodes
+steps            steps of Dormand and Prince's method
+coded_motion     where a motion runs in machine code, and the steps at which a guard has to look
+"""
