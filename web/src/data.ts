@@ -98,13 +98,12 @@ export interface Data {
   style: { light: string; dark: string };
 }
 
-/** A mechanism that is not finished: its links and joints can be pulled. See `pages/sketch_page.py`. */
+/** A mechanism that is not finished: its links and joints can be pulled. See `pages/unfinished/sketch_page.py`. */
 export interface Offer { kind: string; said: string; text: string; page?: string }
 export interface SketchPageData {
   format: string; version: string; title: string; units: Data["units"]; style: Data["style"];
-  numbers: { path: string; value: number }[];
   sketch: Pick<SketchData, "dimension" | "length" | "links" | "order" | "rows" | "entries" | "turns" | "drives" | "closure" | "pose">;
-  shown: Module; poses: Rows[]; gaps: { joint: string; p: Rows; q: Rows }[];
+  shown: Module; poses: Rows[]; points: { link: string; point: string; p: Rows }[]; gaps: { joint: string; p: Rows; q: Rows }[];
   views: { mechanism: Drawing & { middle?: Pair } };
   missing: { sentence: string; offers: Offer[] }; text: string;
 }

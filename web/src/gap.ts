@@ -2,10 +2,12 @@
 
 import type { Board } from "./board";
 import type { Data } from "./data";
-import type { Kernel } from "./kernel";
 import { figures, make, path, set, short, text } from "./svg";
 
-export function gapMarks(b: Board, data: Data, kernel: Kernel): () => void {
+/** ``open``: the joints of the present pose that miss, with both places. */
+export interface Gaps { readonly open: { joint: string; p: number[]; q: number[] }[] }
+
+export function gapMarks(b: Board, data: Pick<Data, "units">, kernel: Gaps): () => void {
   const layer = make("g", b.svg, { class: "gaps", "pointer-events": "none" }), { unit, size } = data.units.length;
   let drawn = "";
   return () => {

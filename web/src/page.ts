@@ -3,6 +3,7 @@
 import type { Data, SketchPageData } from "./data";
 import type { Kernel } from "./kernel";
 import style from "./page.css?inline";
+import type { Pulled } from "./pulling";
 import { sketched } from "./sketched";
 import { solved } from "./solved";
 import type { Listener, Stage } from "./stage";
@@ -21,7 +22,7 @@ export interface Options { changes?: Changes; edited?: (changes: Changes) => voi
 
 /** One page inside its element. */
 export interface Inner {
-  kernel?: Kernel; data: AnyData; times: number[]; stage: Stage; observed: Element[];
+  kernel?: Kernel; sketch?: Pulled; data: AnyData; times: number[]; stage: Stage; observed: Element[];
   opened(): void; resize(): void; set(changes: Changes): void; show(t: number): void; text(): string; pose(): Placing; redraw(): void; remove(): void;
 }
 /** ``replace``: other data, seen and posed as the page is. ``hit``: parts at a place of the window, the nearest first.
@@ -29,7 +30,8 @@ export interface Inner {
  * place of the machine onto the paper. */
 export interface Page {
   readonly kernel: Kernel; readonly data: Data; readonly times: number[]; readonly view: View; readonly svg: SVGSVGElement; readonly overlay: SVGGElement;
-  readonly sketch: boolean;
+  /** The solver of a sketch; undefined of a solved mechanism. */
+  readonly sketch: Pulled | undefined;
   set(changes: Changes): void; show(t: number): void; text(): string; remove(): void; replace(data: AnyData, pose?: Placing): Promise<void>;
   hit(x: number, y: number): Identity[]; metres(x: number, y: number): Point; paper(place: number[]): Point; choose(chosen: Identity | null): void; pose(): Placing; redraw(): void;
 }
@@ -37,6 +39,7 @@ export interface Page {
 export async function mount(el: HTMLElement, data: AnyData, options: Options = {}): Promise<Page> {
   const view = options.view ?? firstView();
   const sized = new ResizeObserver(() => inner.resize());
+  const before: AnyData[] = [];
   let inner = await put(data, options);
 
   /** Other data take the place of the page only once they are ready. */
@@ -46,8 +49,9 @@ export async function mount(el: HTMLElement, data: AnyData, options: Options = {
     root.tabIndex = -1;
     const dark = `@media (prefers-color-scheme:dark){${next.style.dark}}@media print{${next.style.light}}`;
     html("style", root).textContent = style + next.style.light + dark;
-    const one = next.format === "dalembert-sketch/1" ? await sketched(root, next as SketchPageData, view, { ...how, taken: replace })
-      : next.format === "dalembert-page/1" ? await solved(root, next as Data, view, how) : null;
+    const back = before.length ? () => void undone() : undefined;
+    const one = next.format === "dalembert-sketch/1" ? await sketched(root, next as SketchPageData, view, { ...how, taken, back })
+      : next.format === "dalembert-page/1" ? await solved(root, next as Data, view, { ...how, back }) : null;
     if (!one) throw new Error(`this page cannot show data of format ${next.format}`);
     const focused = focus();
     sized.disconnect();
@@ -57,6 +61,15 @@ export async function mount(el: HTMLElement, data: AnyData, options: Options = {
     if (focused) root.querySelector<HTMLElement>(focused)?.focus({ preventScroll: true });
     return one;
   }
+  /** An offer of a sketch is taken, and taken back. */
+  async function taken(next: AnyData, pose: Placing): Promise<void> {
+    before.push(inner.data);
+    await swap(next, pose);
+  }
+  async function undone(): Promise<void> {
+    const last = before.pop();
+    if (last) await swap(last);
+  }
   /** How the focused element is found again. */
   function focus(): string {
     const on = el.contains(document.activeElement) ? (document.activeElement as HTMLElement) : null;
@@ -64,11 +77,14 @@ export async function mount(el: HTMLElement, data: AnyData, options: Options = {
     const known = ["data-path", "data-item", "aria-label"].find((name) => on.hasAttribute(name));
     return known ? `${on.tagName.toLowerCase()}[${known}="${CSS.escape(on.getAttribute(known)!)}"]` : "";
   }
-  async function replace(next: AnyData, pose: Placing = inner.pose()): Promise<void> {
-    const before = inner;
-    const after = await put(next, { ...options, changes: undefined, address: false, pose });
-    before.remove();
-    inner = after;
+  async function replace(next: AnyData, pose?: Placing): Promise<void> {
+    before.length = 0;
+    await swap(next, pose);
+  }
+  async function swap(next: AnyData, pose: Placing = inner.pose()): Promise<void> {
+    const old = inner;
+    inner = await put(next, { ...options, changes: undefined, address: false, pose });
+    old.remove();
   }
   return {
     get kernel() { return inner.kernel!; },
@@ -76,7 +92,7 @@ export async function mount(el: HTMLElement, data: AnyData, options: Options = {
     get times() { return inner.times; },
     get svg() { return inner.stage.m.svg; },
     get overlay() { return inner.stage.overlay; },
-    get sketch() { return !inner.kernel; },
+    get sketch() { return inner.sketch; },
     view, replace,
     set: (to) => inner.set(to), show: (t) => inner.show(t), text: () => inner.text(), pose: () => inner.pose(), redraw: () => inner.redraw(),
     hit: (x, y) => inner.stage.hit(x, y), metres: (x, y) => inner.stage.metres(x, y), choose: (chosen) => inner.stage.choose(chosen),

@@ -2,7 +2,7 @@
 
 import type { Board } from "./board";
 import type { Data } from "./data";
-import { identity } from "./hits";
+import { FINGER, hits, identity, NEAR } from "./hits";
 import type { Kernel } from "./kernel";
 import type { Material } from "./material";
 import { type Point, pointer } from "./svg";
@@ -13,7 +13,7 @@ export interface Seek { seek(t: number): void; time(): number }
 const REACH = 1 / 10;
 
 /** The moving link of a part, by number; -1 of the ground, and of what no link carries. */
-export function linkOf(data: Data, item: string | undefined): number {
+export function linkOf(data: { sketch: Pick<Data["sketch"], "links" | "rows"> }, item: string | undefined): number {
   if (!item) return -1;
   const { kind, name } = identity(item), { links, rows } = data.sketch;
   if (kind === "link" || kind === "center") return links.indexOf(name);
@@ -21,12 +21,20 @@ export function linkOf(data: Data, item: string | undefined): number {
   return ends?.find((k) => k < links.length) ?? -1;
 }
 
+/** The first part under a pointer that a moving link carries, as its number; -1 without one. */
+export function heldLink(svg: SVGSVGElement, e: PointerEvent, of: (item: string) => number): number {
+  for (const { kind, name } of hits(svg, e.clientX, e.clientY, e.pointerType === "touch" ? FINGER : NEAR)) {
+    const link = of(`${kind}:${name}`);
+    if (link >= 0) return link;
+  }
+  return -1;
+}
+
 export function pull(b: Board, data: Data, kernel: Kernel, material: Material, seek: Seek): void {
   if (kernel.count < 2) return;
   let link = -1, u: number[] = [];
   b.svg.addEventListener("pointerdown", (e) => {
-    const item = (e.target as Element).closest<SVGElement>("[data-item]")?.dataset.item;
-    link = e.button === 0 ? linkOf(data, item) : -1;
+    link = e.button === 0 ? heldLink(b.svg, e, (item) => linkOf(data, item)) : -1;
     if (link < 0) return;
     b.svg.setPointerCapture(e.pointerId);
     u = material.local(b.paper, link, pointer(b.svg, e));

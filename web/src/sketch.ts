@@ -8,15 +8,20 @@ export interface Pose { point: Float64Array; rotation: Float64Array; turn: Float
 export interface Step { pose: Pose; first: number; rest: number }
 
 /** Residual of a row, over `length`, at which a pose closes; and the rounding level. */
-const OPEN = 1e-9, CLOSED = 1e-12;
+export const OPEN = 1e-9;
+const CLOSED = 1e-12;
 /** Longest displacement of one step; damping, which gives the least displacement with redundant rows. */
-const LONGEST = 0.25, DAMPING = 1e-13, LEAST = 1e-9;
+export const LONGEST = 0.25;
+const DAMPING = 1e-13, LEAST = 1e-9;
 /** Stiffness of the other joints relative to the opened one. */
 const STIFF = 1e5;
 /** Search for gaps: stiffness of drives relative to joints, and initial rotation of the links, radians. */
 const HELD = 1e3, ASIDE = 0.05;
 /** Relative size of pivots that count as zero: a pose closed to 1e-12 has the root of this error at a change point. */
 const FLAT = 1e-5;
+
+/** What the solver needs of the data. */
+export type Rigid = Pick<SketchData, "dimension" | "length" | "links" | "order" | "rows" | "entries" | "turns" | "drives">;
 
 type Entry = [column: number, output: number, scale: number];
 
@@ -25,20 +30,20 @@ export const copied = (q: Pose): Pose => ({ point: q.point.slice(), rotation: q.
 export class Sketch {
   /** Targets of the rows, and the rows in use. */
   readonly hold: Float64Array;
-  private readonly active: Uint8Array;
-  private readonly weight: Float64Array;
-  private readonly missing: Float64Array;
+  protected readonly active: Uint8Array;
+  protected readonly weight: Float64Array;
+  protected readonly missing: Float64Array;
   private readonly byRow: Entry[][];
-  private readonly place: number[];
-  private readonly first: Int32Array;
-  private readonly start: Int32Array;
-  private readonly matrix: Float64Array;
-  private readonly right: Float64Array;
+  protected readonly place: number[];
+  protected readonly first: Int32Array;
+  protected readonly start: Int32Array;
+  protected readonly matrix: Float64Array;
+  protected readonly right: Float64Array;
   private readonly inputs: [keyof Pose, number][];
-  private readonly n: number;
-  private readonly size: number;
+  protected readonly n: number;
+  protected readonly size: number;
 
-  constructor(readonly data: SketchData, private readonly program: Program) {
+  constructor(readonly data: Rigid, private readonly program: Program) {
     const n = (this.n = data.dimension === 2 ? 3 : 6), rows = data.rows;
     this.size = n * data.links.length;
     this.place = data.links.map((_, k) => data.order.indexOf(k));
@@ -122,6 +127,12 @@ export class Sketch {
 
   /** (J^T W J + damping I) dq = J^T W missing at the pose last evaluated; the size of dq. */
   private solve(damping: number): number {
+    this.fill(damping);
+    return this.answer();
+  }
+
+  /** The system of the rows in use. */
+  protected fill(damping: number): void {
     const { matrix, right, first, start, size, program } = this;
     matrix.fill(0);
     right.fill(0);
@@ -135,9 +146,13 @@ export class Sketch {
         for (let b = 0; b <= a; b++) matrix[start[ca] + r[b][0] - first[ca]] += ja * r[b][2] * program.at(r[b][1]);
       }
     });
+  }
+
+  /** Solves it; the largest component of the step, which stands in `right`. */
+  protected answer(): number {
     this.cholesky();
     let most = 0;
-    for (const x of right) most = Math.max(most, Math.abs(x));
+    for (const x of this.right) most = Math.max(most, Math.abs(x));
     return Number.isFinite(most) ? most : Infinity;
   }
 
@@ -163,7 +178,7 @@ export class Sketch {
   }
 
   /** The pose after a part of the step. */
-  private moved(q: Pose, part: number): Pose {
+  protected moved(q: Pose, part: number): Pose {
     const { n, data, right } = this, d = data.dimension, out = copied(q);
     data.links.forEach((_, k) => {
       const at = n * this.place[k];

@@ -29,7 +29,7 @@ const CYCLE = 6, STRIDE = 10;
 /** Joints of which all names would hide the drawing. */
 const MANY = 8;
 
-export async function solved(root: HTMLElement, data: Data, view: View, options: Options): Promise<Inner> {
+export async function solved(root: HTMLElement, data: Data, view: View, options: Options & { back?: () => void }): Promise<Inner> {
   const kernel = await Kernel.create(data), times: number[] = [], gate = new Gate(data, kernel);
   if (options.changes) gate.change(options.changes);
   if (options.address) restore(kernel, gate, view, location.hash);
@@ -42,7 +42,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
   const curves = data.views.charts.flatMap((c) => c.curves.map((curve) => ({ curve, unit: data.units[c.kind] })));
   let picked = curves.find((c) => c.curve.of === view.curve) ?? curves.find((c) => data.gradient?.curves.includes(c.curve.row)) ?? curves[0];
 
-  const reasons = new Reasons(data, kernel), bar = toolbar(root, data, kernel, reasons, view, { play, show, go, reset });
+  const reasons = new Reasons(data, kernel), bar = toolbar(root, data, kernel, reasons, view, { play, show, go, reset, back: options.back });
   const main = html("main", root), area = html("section", main, { class: "stage", "aria-label": "mechanism" });
   const material = new Material(data.sketch.links, data.sketch.poses, kernel);
   const s = stage(area, kernel, data.views.mechanism, data.units, view, {
@@ -81,6 +81,11 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
   function owner({ kind, name }: Identity): string | undefined {
     return data.sketch.links[linkOf(data, `${kind}:${name}`)] ?? data.views.mechanism.arrows.find((a) => a.of === name && a.kind === kind)?.link;
   }
+  /** Where a joint, a mass centre or a named point is on paper. */
+  function exact({ kind, name }: Identity): Point | null {
+    const of = data.handles.find((h) => h.kind === kind && (h.name === name || h.name.startsWith(`${name}:`)));
+    return of ? m.paper.point(of.p) : null;
+  }
   /** What can be done with the parts of a place. */
   function entries(items: Identity[], point: Point): Entry[] {
     const out: Entry[] = [], links = new Set<string>();
@@ -95,7 +100,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
       links.add(owner);
       out.push({ said: `Free body of ${owner}`, act: () => (shown.choose(owner), tab.show("Forces")) });
       if (kernel.count > 1) out.push({ said: `Path of this point of ${owner}`, act: () => {
-        view.tracers.push({ link: owner, u: material.local(m.paper, link, m.paper.of(...point)) });
+        view.tracers.push({ link: owner, u: material.local(m.paper, link, exact(item) ?? m.paper.of(...point)) });
         told();
         request(true);
       } });
@@ -247,7 +252,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
     else if (e.key === " " && !on.closest?.(PRESSED)) {
       e.preventDefault();
       play();
-    } else if ([".", ",", ">", "<", ":", ";"].includes(e.key)) step((".>:".includes(e.key) ? 1 : -1) * (e.shiftKey ? STRIDE : 1));
+    } else if (".,><:;".includes(e.key)) step((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : STRIDE)); // with Shift, by keyboard
   }
   kernel.at(view.t);
   fit();

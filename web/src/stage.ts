@@ -46,19 +46,16 @@ export function stage(parent: Element, source: Source, d: Drawing & { middle?: P
     const item = (e.target as Element).closest<SVGElement>("[data-item]")?.dataset.item;
     return item ? identity(item) : null;
   };
-  const free = (e: Event): boolean => {
-    const item = itemOf(e);
-    return !item || !s.held(item);
-  };
+  const free = (e: PointerEvent): boolean => !hit(e.clientX, e.clientY, e.pointerType === "touch" ? FINGER : NEAR).some(s.held);
   const seen = (): void => {
     s.on?.({ type: "view", view });
     s.again(true);
   };
   const turn = space ? (by: Point): void => (m.paper.turn(-0.045 * by[0], 0.045 * by[1]), seen()) : null;
+  const hit = (x: number, y: number, reach = NEAR): Identity[] => hits(svg, x, y, reach);
   const v = viewport(m, view, !!s.full, free, turn, seen);
   if (space) svg.style.cursor = "move";
   const metres = (x: number, y: number): Point => m.paper.metres(pointer(svg, { clientX: x, clientY: y }));
-  const hit = (x: number, y: number, reach = NEAR): Identity[] => hits(svg, x, y, reach);
   const choose = (chosen: Identity | null): void => {
     view.chosen = chosen;
     mark(svg, chosen);

@@ -7,7 +7,7 @@ import { html } from "./svg";
 import { standing } from "./tools";
 import { SPEEDS, type View } from "./view";
 
-export interface Acts { play(): void; show(t: number): void; go(back: boolean): void; reset(): void }
+export interface Acts { play(): void; show(t: number): void; go(back: boolean): void; reset(): void; back?: () => void }
 export interface Toolbar { update(t: number, can: [boolean, boolean], refused: string): void; playing(on: boolean): void }
 
 export function toolbar(parent: Element, data: Data, kernel: Kernel, reasons: Reasons, view: View, acts: Acts): Toolbar {
@@ -27,6 +27,7 @@ export function toolbar(parent: Element, data: Data, kernel: Kernel, reasons: Re
   speed.value = String(view.speed);
   speed.addEventListener("change", () => (view.speed = +speed.value));
   const undo = button("↶", "undo (Ctrl+Z)", () => acts.go(true)), redo = button("↷", "redo (Ctrl+Y)", () => acts.go(false));
+  if (acts.back) button("Back", "to the sketch, without the last thing added", acts.back);
   button("Reset", "all numbers as in the file", acts.reset);
   const mark = html("p", header, { class: "mark", role: "status" });
   slider.addEventListener("input", () => acts.show(+slider.value));

@@ -32,6 +32,33 @@ CURVES = 6
 """Roles of curves."""
 
 
+def whole(d: Items) -> list[Tree]:
+    """The items of the complete mechanism, what lies in front last."""
+    links, joints = d.known.links, d.known.mechanism.joints
+    return [
+        *d.traces(),
+        *(x for link in links for x in of("link", link, d.link(link))),
+        *d.spans(),
+        *(x for n in sorted(joints, key=lambda n: joints[n].hinge) for x in of("joint", n, d.joint(n))),
+        *d.turns(),
+        *(x for link in links for x in of("center", link, d.center(link))),
+        *d.circles(d.known.joints),
+    ]
+
+
+def names(d: Items, shown: Shown) -> list[Tree]:
+    """Names of the joints, and of the links along their first edge."""
+    out: list[Tree] = [
+        {"text": name, "p": d.at(name), "role": "title", "kind": "joint"} for name in d.known.joints
+    ]
+    for link in d.known.links:
+        corners = d.corners(link)
+        if corners:
+            text = {"text": shown.link(link), "role": "note", "kind": "link", "link": link}
+            out.append(text | {"p": corners[0], "q": corners[min(1, len(corners) - 1)]})
+    return out
+
+
 class Boards:
     """Complete contents for one mechanism; ``actions`` in nodes."""
 
@@ -47,21 +74,12 @@ class Boards:
 
     def mechanism(self) -> Tree:
         """The complete mechanism: loads, efforts, and the force of each joint on its j."""
-        d, m = self.items, self.known.mechanism
-        parts = [*d.traces(), *(x for n in self.known.links for x in of("link", n, d.link(n))), *d.spans()]
-        hinges_last = sorted(self.known.joints, key=lambda n: m.joints[n].hinge)
-        parts += [x for n in hinges_last for x in of("joint", n, d.joint(n))]
-        parts += [
-            *d.turns(),
-            *(x for n in self.known.links for x in of("center", n, d.center(n))),
-            *d.circles(self.known.joints),
-        ]
         mine = [k for k, a in enumerate(self.numbered) if self._drawn_once(a)]
         return {
             "per_mm": self.frame.per_mm,
             "middle": list(self.frame.middle),
-            "items": parts,
-            "labels": self._names(),
+            "items": whole(self.items),
+            "labels": names(self.items, self.shown),
             "arrows": [x for k in mine for x in self.arrows(k, tangent=True)],
             "force": self.scale(22.0, mine),
         }
@@ -98,18 +116,6 @@ class Boards:
         if a.kind == "joint":
             return a.link == self.known.mechanism.joints[a.of].links[1]
         return is_drawn(self.known, a)
-
-    def _names(self) -> list[Tree]:
-        d = self.items
-        out: list[Tree] = [
-            {"text": name, "p": d.at(name), "role": "title", "kind": "joint"} for name in self.known.joints
-        ]
-        for link in self.known.links:
-            corners = d.corners(link)
-            if corners:
-                text = {"text": self.shown.link(link), "role": "note", "kind": "link", "link": link}
-                out.append(text | {"p": corners[0], "q": corners[min(1, len(corners) - 1)]})
-        return out
 
     def free_bodies(self) -> list[Tree]:
         """Every link separately, with all actions on it and its three equations."""

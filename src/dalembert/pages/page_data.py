@@ -105,7 +105,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
         "statuses": _statuses(),
         "sentences": sentences,
         "assumptions": known.assumptions,
-        "style": {theme: _style(b, theme) for theme in ("light", "dark")},
+        "style": style(b.items.roles),
     }
     gradient = _gradient(k, b, dragged, views["charts"])
     if gradient is not None:
@@ -199,7 +199,10 @@ def _statuses() -> list[Tree]:
     return out
 
 
-def _style(b: Boards, theme: str) -> str:
-    """CSS of the roles in use."""
-    roles = sorted((b.items.roles | set(ALWAYS)) & set(THEMES[theme]))
-    return "".join(rule("l", role, THEMES[theme][role]) for role in roles)
+def style(used: set[str]) -> Tree:
+    """CSS of the roles in use, by theme."""
+    themes = {theme: THEMES[theme] for theme in ("light", "dark")}
+    return {
+        theme: "".join(rule("l", role, looks[role]) for role in sorted((used | set(ALWAYS)) & set(looks)))
+        for theme, looks in themes.items()
+    }

@@ -16,6 +16,7 @@ from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.tracing.course import PositionPath
 from dalembert.analysis.batch.tracing.traced_analysis import with_meshes
+from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.positions import places_to_sample
 from dalembert.arrays import Array, Tree
 from dalembert.core.layout import Layout, Mesh
@@ -154,8 +155,14 @@ def _ends(shown: NodeRows) -> dict[str, list[Node]]:
 
 def _structure(k: Kernel, layout: Layout, s: Sketch) -> Tree:
     """Rows and entries by the indices of their outputs; the freedom of each drive."""
-    c = k.trace.catalogue.compiled
     freedoms = {row.freedom: n for n, row in enumerate(s.rows) if row.freedom is not None}
+    return solver_data(k.trace.catalogue.compiled, layout, s) | {
+        "drives": [freedoms[int(f)] for f in layout.driven]
+    }
+
+
+def solver_data(c: Compiled, layout: Layout, s: Sketch) -> Tree:
+    """What the page's solver needs beside the program of a sketch."""
     rows = [
         {"kind": row.kind, "joint": c.joints[row.joint] if row.joint >= 0 else "", "angular": row.angular}
         | {"value": row.value, "ends": list(row.ends)}
@@ -170,7 +177,6 @@ def _structure(k: Kernel, layout: Layout, s: Sketch) -> Tree:
         "rows": rows,
         "entries": [x for entry in s.entries for x in entry],
         "turns": s.turns,
-        "drives": [freedoms[int(f)] for f in layout.driven],
     }
 
 

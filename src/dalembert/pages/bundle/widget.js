@@ -1,86 +1,82 @@
-// src/sketched.ts
-async function e(e, t, n, r) {
-	throw Error("not yet");
-}
-function t(e, t) {
+function e(e, t) {
 	for (let [n, r] of Object.entries(t)) e.setAttribute(n, String(r));
 	return e;
 }
-function n(e, n, r = {}) {
-	let i = t(document.createElementNS("http://www.w3.org/2000/svg", e), r);
+function t(t, n, r = {}) {
+	let i = e(document.createElementNS("http://www.w3.org/2000/svg", t), r);
 	return n?.append(i), i;
 }
-function r(e, n, r = {}, i = "") {
-	let a = t(document.createElement(e), r);
+function n(t, n, r = {}, i = "") {
+	let a = e(document.createElement(t), r);
 	return i && (a.textContent = i), n?.append(a), a;
 }
-function i(e) {
+function r(e) {
 	let t = Math.round(100 * Math.abs(e)), n = Math.floor(t / 100), r = t % 100;
 	return (e < 0 && t ? "-" : "") + n + (r ? (r < 10 ? ".0" : ".") + r : "");
 }
-var a = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
-function o(e, t = !1) {
-	return e.length ? "M" + e.map(([e, t]) => i(e) + " " + i(t)).join("L") + (t ? "Z" : "") : "";
+var i = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
+function a(e, t = !1) {
+	return e.length ? "M" + e.map(([e, t]) => r(e) + " " + r(t)).join("L") + (t ? "Z" : "") : "";
 }
-function s(e, t, n) {
-	e.setAttribute("transform", `translate(${i(t)} ${i(n)})`);
+function o(e, t, n) {
+	e.setAttribute("transform", `translate(${r(t)} ${r(n)})`);
 }
-function c(e, t) {
+function s(e, t) {
 	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.getScreenCTM().inverse());
 	return [n.x, n.y];
 }
-function l(e, t, r) {
+function c(e, n, r) {
 	e.replaceChildren();
 	let i = !1;
-	for (let a of t.split(/(_\{[^}]*\})/)) {
+	for (let a of n.split(/(_\{[^}]*\})/)) {
 		if (!a) continue;
-		let t = a.startsWith("_{"), o = n("tspan", e, t ? { "font-size": .7 * r } : {});
-		o.textContent = t ? a.slice(2, -1) : a, t !== i && o.setAttribute("dy", String((t ? .25 : -.25) * r)), i = t;
+		let n = a.startsWith("_{"), o = t("tspan", e, n ? { "font-size": .7 * r } : {});
+		o.textContent = n ? a.slice(2, -1) : a, n !== i && o.setAttribute("dy", String((n ? .25 : -.25) * r)), i = n;
 	}
 }
-var u = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), d = null, f = /* @__PURE__ */ new Map();
-function p(e, t, n = !1) {
-	let r = `${n}${e}`, i = f.get(r);
+var l = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), u = null, d = /* @__PURE__ */ new Map();
+function f(e, t, n = !1) {
+	let r = `${n}${e}`, i = d.get(r);
 	if (i === void 0) {
-		d ??= document.createElement("canvas").getContext("2d"), d.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
+		u ??= document.createElement("canvas").getContext("2d"), u.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
 		for (let t of e.split(/(_\{[^}]*\})/)) {
 			let e = t.startsWith("_{");
-			i += d.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
+			i += u.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
 		}
-		f.set(r, i);
+		d.set(r, i);
 	}
 	return i * t;
 }
-function m(e, t, r, i, a = "middle") {
-	let o = n("text", e, {
-		class: `l-${t}-t`,
+function p(e, n, r, i, a = "middle") {
+	let o = t("text", e, {
+		class: `l-${n}-t`,
 		"font-size": i,
 		"text-anchor": a
 	});
-	return l(o, r, i), o;
+	return c(o, r, i), o;
 }
-var h = class {
+var m = class {
 	g;
 	shaft;
 	head;
-	constructor(e, t, r = "") {
-		this.g = n("g", e), r && (n("title", this.g).textContent = u(r)), this.shaft = n("path", this.g, {
-			class: `l-${t}`,
+	constructor(e, n, r = "") {
+		this.g = t("g", e), r && (t("title", this.g).textContent = l(r)), this.shaft = t("path", this.g, {
+			class: `l-${n}`,
 			style: "fill:none"
-		}), this.head = n("path", this.g, { class: `l-${t}-h` });
+		}), this.head = t("path", this.g, { class: `l-${n}-h` });
 	}
 	set(e, t, n = .3) {
-		let r = t[0] - e[0], i = t[1] - e[1], a = Math.hypot(r, i), s = a > n && Number.isFinite(a);
+		let r = t[0] - e[0], i = t[1] - e[1], o = Math.hypot(r, i), s = o > n && Number.isFinite(o);
 		if (this.g.setAttribute("display", s ? "inline" : "none"), !s) return !1;
-		let c = r / a, l = i / a, u = Math.min(3, .75 * a), d = .3 * u, f = [t[0] - u * c, t[1] - u * l];
-		return this.shaft.setAttribute("d", o([e, [t[0] - .8 * u * c, t[1] - .8 * u * l]])), this.head.setAttribute("d", o([
+		let c = r / o, l = i / o, u = Math.min(3, .75 * o), d = .3 * u, f = [t[0] - u * c, t[1] - u * l];
+		return this.shaft.setAttribute("d", a([e, [t[0] - .8 * u * c, t[1] - .8 * u * l]])), this.head.setAttribute("d", a([
 			t,
 			[f[0] - d * l, f[1] + d * c],
 			[f[0] + d * l, f[1] - d * c]
 		], !0)), !0;
 	}
 };
-function g(e) {
+function h(e) {
 	let t = [...e].sort((e, t) => e[0] - t[0] || e[1] - t[1]), n = (e, t, n) => (t[0] - e[0]) * (n[1] - e[1]) - (t[1] - e[1]) * (n[0] - e[0]), r = (e) => {
 		let t = [];
 		for (let r of e) {
@@ -92,362 +88,68 @@ function g(e) {
 	return [...r(t).slice(0, -1), ...r(t.reverse()).slice(0, -1)];
 }
 // src/gap.ts
-function _(e, r, s) {
-	let c = n("g", e.svg, {
+function g(n, o, s) {
+	let c = t("g", n.svg, {
 		class: "gaps",
 		"pointer-events": "none"
-	}), { unit: l, size: u } = r.units.length, d = "";
+	}), { unit: l, size: u } = o.units.length, d = "";
 	return () => {
-		let r = s.open.map((t) => {
-			let [n, r] = [t.p, t.q].map((t) => e.paper.of(...e.paper.project(t)));
+		let o = s.open.map((e) => {
+			let [t, r] = [e.p, e.q].map((e) => n.paper.of(...n.paper.project(e)));
 			return {
-				p: n,
+				p: t,
 				q: r,
-				said: `${t.joint} misses by ${a(Math.hypot(...t.p.map((e, n) => e - t.q[n])) / u, 3)} ${l}`
+				said: `${e.joint} misses by ${i(Math.hypot(...e.p.map((t, n) => t - e.q[n])) / u, 3)} ${l}`
 			};
-		}), f = JSON.stringify(r);
+		}), f = JSON.stringify(o);
 		if (f !== d) {
 			d = f, c.replaceChildren();
-			for (let { p: e, q: a, said: s } of r) {
-				n("path", c, {
+			for (let { p: n, q: i, said: s } of o) {
+				t("path", c, {
 					class: "l-gap",
-					d: o([e, a]),
+					d: a([n, i]),
 					style: "fill:none"
 				});
-				let [r, l] = [a[0] - e[0], a[1] - e[1]], u = Math.hypot(r, l) || 1, d = l < 0 ? -1 : 1;
-				t(m(c, "gap", s, 3.3, "start"), {
-					x: i((e[0] + a[0]) / 2 + d * 4 * l / u + 2),
-					y: i((e[1] + a[1]) / 2 - d * 4 * r / u + 1)
+				let [o, l] = [i[0] - n[0], i[1] - n[1]], u = Math.hypot(o, l) || 1, d = l < 0 ? -1 : 1;
+				e(p(c, "gap", s, 3.3, "start"), {
+					x: r((n[0] + i[0]) / 2 + d * 4 * l / u + 2),
+					y: r((n[1] + i[1]) / 2 - d * 4 * o / u + 1)
 				});
 			}
 		}
 	};
 }
-// src/reading.ts
-var v = class extends Error {}, y = (e, t) => e.replace(/\{(\w+)\}/g, (e, n) => t[n] ?? e);
-function b(e) {
-	if (/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(e)) return e;
-	let t = e.includes("'") && !e.includes("\"") ? "\"" : "'", n = t + e.replace(/\\/g, "\\\\") + t;
-	return n.length <= 60 ? n : n.slice(0, 57) + "...";
-}
-var x = {
-	"²": "^2",
-	"³": "^3",
-	"·": "*",
-	"⋅": "*",
-	"×": "*",
-	"−": "-"
-}, S = class {
-	text;
-	reading;
-	units;
-	tokens;
+// src/material.ts
+var _ = class {
+	links;
+	poses;
+	source;
 	constructor(e, t, n) {
-		this.text = e, this.reading = t, this.units = n;
-		let r = e.replace(/[²³·⋅×−]/g, (e) => x[e]).replaceAll("**", "^");
-		r = r.replace(/\b(ft|in)-lb\b/g, "$1*lbf").replace(/\blb-(ft|in)\b/g, "lbf*$1").replace(/(?<=[a-zµμ])[-.](?=[a-zµμ])/gi, "*"), this.tokens = r.match(/\d+|[a-zµμ_]+|[°%]|[-*/^()]|\S/gi) ?? [];
+		this.links = e, this.poses = t, this.source = n;
 	}
-	read() {
-		let e = this.product(1);
-		return this.tokens.length && this.refuse(`unexpected ${b(this.tokens[0])}`), e;
-	}
-	refuse(e) {
-		throw new v(y(this.reading.sentences.form, {
-			unit: b(this.text),
-			why: e
-		}));
-	}
-	product(e) {
-		let t = {
-			up: 1,
-			down: 1,
-			dimension: [
-				0,
-				0,
-				0,
-				0
-			]
-		};
-		for (this.tokens[0] === "1" && this.tokens[1] === "/" ? this.tokens.shift() : t = this.factor(1, t, e); this.tokens.length && this.tokens[0] !== ")";) {
-			let n = this.tokens[0] === "/" ? -1 : 1;
-			/[*/]/.test(this.tokens[0]) && this.tokens.shift(), t = this.factor(n, t, e);
-		}
-		return t;
-	}
-	factor(e, t, n) {
-		let r = this.tokens.shift(), i;
-		if (r === "(" && n < 5) i = this.product(n + 1), this.tokens.shift() !== ")" && this.refuse("a bracket is not closed");
-		else if (r !== void 0 && /^[a-zµμ_°%]/i.test(r)) i = this.named(r);
-		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${b(r)}`);
-		let a = 1;
-		if (this.tokens[0] === "^") {
-			this.tokens.shift();
-			let e = this.tokens[0] === "-" && this.tokens.shift() !== void 0, t = this.tokens.shift() ?? "";
-			if (!/^[1-6]$/.test(t)) throw new v(y(this.reading.sentences.power, { unit: b(this.text) }));
-			a = e ? -t : +t;
-		}
-		let [o, s] = e * a < 0 ? [i.down, i.up] : [i.up, i.down];
+	axes(e, t) {
+		let n = this.poses[e].map(t), r = n.length === 12 ? 3 : 2;
 		return {
-			up: t.up * o ** Math.abs(a),
-			down: t.down * s ** Math.abs(a),
-			dimension: t.dimension.map((t, n) => t + e * a * i.dimension[n])
+			at: n.slice(0, r),
+			axes: Array.from({ length: r }, (e, t) => n.slice(r + r * t, r + r * t + r))
 		};
 	}
-	named(e) {
-		let t = Object.hasOwn(this.reading.units, e) ? this.reading.units[e] : null;
-		if (!t) throw new v(y(this.reading.sentences.no_unit, {
-			unit: b(e),
-			units: this.units
-		}));
-		let [n, r, ...i] = t;
-		return {
-			up: n,
-			down: r,
-			dimension: i
-		};
+	place(e, t, n = (e) => this.source.here[e]) {
+		let { at: r, axes: i } = this.axes(e, n);
+		return r.map((e, n) => i.reduce((e, r, i) => e + (t[i] ?? 0) * r[n], e));
 	}
-};
-function C(e, t, n) {
-	let { kinds: r, sentences: i } = n, a = r[t.kind] ?? r.number, o = e.trim(), s = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/is.exec(o.replaceAll("−", "-")), c = {
-		text: b(o),
-		phrase: a.phrase,
-		remedy: a.remedy
-	}, l = (e, t = {}) => {
-		throw new v(y(e, {
-			...c,
-			...t
-		}));
-	};
-	if (!s) return l(i.number);
-	let [, u, d] = s;
-	if (/^,\s*\d/.test(d)) return l(i[/^,\d{3}(?!\d)/.test(d) ? "thousands" : "comma"], {
-		point: o.replace(",", "."),
-		plain: o.replaceAll(",", "")
-	});
-	if (/^[\d/]/.test(d) && !/^1\/[^\W\d]/.test(d)) return l(i.several);
-	let f = (e) => Number.isFinite(e) ? e : l(i.finite);
-	if (!d || d === t.unit) return f(+u * t.size);
-	let p = new S(d, n, a.units).read(), m = [...p.dimension];
-	if (a.per_radian && m[3] === 0 && (m[3] = a.dimension[3]), m.some((e, t) => e !== a.dimension[t])) {
-		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? w(p.dimension);
-		if (/\blb\b/.test(d) && a.force) return l(i.dimension, {
-			given: e,
-			remedy: y(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
-		});
-		let n = t.kind === "angular_speed" && String(p.dimension) === "0,0,-1,0";
-		return l(i.dimension, {
-			given: e,
-			...n ? { remedy: i.hertz.split("; ").slice(1).join("; ") } : {}
-		});
+	on(e, t, n, r) {
+		return e.of(...e.project(this.place(t, n, (e) => this.source.value(e, r))));
 	}
-	return f(+u * p.up / p.down);
-}
-function w(e) {
-	return `in ${[
-		"m",
-		"kg",
-		"s",
-		"rad"
-	].flatMap((t, n) => e[n] ? [t + (e[n] === 1 ? "" : `^${e[n]}`)] : []).join("*")}`;
-}
-// src/gate.ts
-var T = class {
-	data;
-	kernel;
-	sentence = "";
-	accepted;
-	out;
-	constructor(e, t) {
-		this.data = e, this.kernel = t, this.accepted = t.values.slice(), this.out = new Float64Array(t.here.length), e.limits.length && t.at(0);
+	local(e, t, [n, r]) {
+		let { at: i, axes: a } = this.axes(t, (e) => this.source.here[e]), [o, s] = e.of(...e.project(i)), c = e.vector([n - o, r - s]);
+		return a.map((e) => e.reduce((e, t, n) => e + t * c[n], 0));
 	}
-	type(e, t) {
-		let n = this.data.numbers[e];
-		try {
-			let r = C(t, n, this.data.reading);
-			this.check(n, r, b(t.trim())), this.kernel.values[e] = r;
-		} catch (e) {
-			if (!(e instanceof v)) throw e;
-			return e.message;
-		}
-		let r = this.pass() ? "" : this.sentence;
-		return this.sentence = "", r;
-	}
-	pass() {
-		let { numbers: e } = this.data, t = this.kernel.values;
-		return this.sentence = "", e.forEach((e, n) => {
-			if (t[n] !== this.accepted[n]) {
-				e.range && Number.isFinite(t[n]) && (t[n] = Math.min(Math.max(t[n], Math.min(e.range[0], e.value)), Math.max(e.range[1], e.value)));
-				try {
-					this.check(e, t[n], this.words(e, t[n]));
-				} catch (t) {
-					this.sentence ||= `${e.label}: ${t.message}`;
-				}
-			}
-		}), this.sentence ||= this.following(), this.sentence ? t.set(this.accepted) : this.accepted.set(t), !this.sentence;
-	}
-	change(e) {
-		let t = this.kernel.values, { numbers: n } = this.data, r = "";
-		this.accept(Float64Array.from(n, (e) => e.value)), n.forEach((n, i) => {
-			e[n.path] === void 0 || Number.isNaN(e[n.path]) || (t[i] = e[n.path], this.pass() || (r ||= this.sentence));
-		});
-		let i = this.data.sketch.assembly.map((t) => e[t]);
-		this.kernel.motion.assume(i.length && i.every(Number.isFinite) ? i : null), this.sentence = r;
-	}
-	accept(e) {
-		this.kernel.values.set(e), this.accepted.set(e), this.sentence = "";
-	}
-	check(e, t, n) {
-		let { sentences: r, signs: i } = this.data.reading, a = e.range;
-		if (!Number.isFinite(t)) throw new v(y(r.finite, { text: n }));
-		if (e.sign && (t < 0 || e.sign === "positive" && t === 0)) throw new v(y(i[e.sign], { text: n }));
-		if (a && t !== e.value && (t < a[0] || t > a[1])) throw new v(y(r.range, {
-			text: n,
-			low: this.words(e, a[0]),
-			high: this.words(e, a[1])
-		}));
-	}
-	following() {
-		let { limits: e, reading: t } = this.data, n = this.kernel.values;
-		if (!e.length || n.every((e, t) => e === this.accepted[t])) return "";
-		this.kernel.other(n, this.out);
-		for (let { row: n, path: r, sign: i } of e) {
-			let e = this.out[n], a = r.lastIndexOf(".");
-			if (e < 0 || i === "positive" && e === 0) {
-				let n = Number.isInteger(e) ? e.toFixed(1) : String(e);
-				return `${r.slice(0, a)}: ${r.slice(a + 1)}: ${y(t.signs[i], { text: n })}`;
-			}
-		}
-		return "";
-	}
-	words(e, t) {
-		return `${a(t / e.size, 6).replace("–", String(t))}${e.unit === "°" ? "" : " "}${e.unit}`.trim();
-	}
-};
-// src/handles.ts
-function E(e, t, r, i) {
-	let a = n("g", e.svg, { class: "handles" }), o = t.handles.map((t) => k(a, e, t, r, i));
-	return () => r.finite && o.forEach((e) => e());
-}
-var D = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function O(e, t, n, r, [i, a]) {
-	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
-		e.other(c, s);
-		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
-		return Number.isFinite(o[0] + o[1]) ? o : null;
-	};
-	for (let e = 0; e < 4; e++) {
-		c.set(o);
-		let e = l();
-		if (!e) return;
-		let t = r.map((t) => {
-			let n = 1e-6 * (Math.abs(o[t]) || 1);
-			c[t] = o[t] + n;
-			let r = l();
-			return c[t] = o[t], r ? [(e[0] - r[0]) / n, (e[1] - r[1]) / n] : [0, 0];
-		}), n = r.map((e) => Math.abs(o[e]) || 1), i = 0, a = 0, s = 0;
-		t.forEach(([e, t], r) => (i += (e * n[r]) ** 2, a += e * t * n[r] ** 2, s += (t * n[r]) ** 2));
-		let u = 1e-9 * (i + s) + 1e-300, d = (i + u) * (s + u) - a * a, f = [((s + u) * e[0] - a * e[1]) / d, ((i + u) * e[1] - a * e[0]) / d];
-		for (let i = 1; i > .05; i /= 2) {
-			r.forEach((e, r) => c[e] = o[e] + i * n[r] ** 2 * (t[r][0] * f[0] + t[r][1] * f[1]));
-			let a = l();
-			if (a && Math.hypot(...a) < Math.hypot(...e)) {
-				r.forEach((e) => o[e] = c[e]);
-				break;
-			}
-		}
-	}
-}
-function k(e, r, a, o, s) {
-	let l = `${{
-		joint: "joint",
-		point: "point",
-		center: "",
-		load: "force",
-		direction: "direction of"
-	}[a.kind]} ${a.name}`.trim(), u = n("circle", e, {
-		class: `handle ${a.kind}`,
-		r: a.kind === "joint" ? 2.6 : 2,
-		tabindex: 0,
-		role: "slider",
-		"aria-label": `move ${l}`,
-		"aria-valuetext": l,
-		"aria-valuenow": 0,
-		"data-kind": a.kind,
-		"data-name": a.name,
-		"data-item": a.kind === "center" ? `center:${a.name.split(":")[0]}` : `${a.kind}:${a.name}`
-	});
-	n("title", u).textContent = `drag ${l}`;
-	let d = r.paper, f = o.values, p = (e) => e.map((e) => o.here[e]), m = [], h = [], g = [0, 0], _ = [], v = [], y = [0, 0], b = !1, x = () => {
-		let e = d.point(a.p), t = "f" in a ? d.here(a.f) : "along" in a ? d.here(a.along) : [0, 0], n = a.kind === "direction" ? 16 : 1 / r.force();
-		return [e[0] + n * t[0], e[1] - n * t[1]];
-	}, S = () => {
-		let e = (e, t) => ({
-			axes: e.map(p),
-			at: p(t)
-		});
-		m = "ends" in a ? a.ends.map((t) => e(t.axes, t.at)) : [e(a.axes, a.p)], [h, g, _, b] = [
-			p(a.p),
-			x(),
-			"f" in a ? p(a.f) : [],
-			!0
-		], v = "about" in a && a.about ? p(a.about) : [];
-	}, C = (e) => d.vector([e[0] - g[0], e[1] - g[1]]), w = (e) => {
-		if ("by" in a && a.by) O(o, d, a.p, a.by, d.metres(e));
-		else if ("ends" in a) E(a.ends, T(C(e)));
-		else if (a.kind === "direction") {
-			let t = d.point(a.p), n = [e[0] - t[0], t[1] - e[1]], [r, i] = m[0].axes.map((e) => D(e, n));
-			f[a.direction] = A(Math.atan2(i, r), f[a.direction]);
-		} else k(a, C(e).map((e, t) => _[t] + e / d.perMm * r.force()));
-		s.changed();
-	}, T = (e) => {
-		if (!("about" in a) || !a.about) return e;
-		let t = v, n = h.map((e, n) => e - t[n]), r = n.map((t, n) => t + e[n]), i = Math.hypot(...n) / (Math.hypot(...r) || 1);
-		return r.map((e, n) => t[n] + i * e - h[n]);
-	}, E = (e, t) => e.forEach((e, n) => {
-		let r = h.map((e, r) => e + t[r] - m[n].at[r]);
-		e.n.forEach((e, t) => f[e] = D(m[n].axes[t], r));
-	}), k = (e, t) => {
-		let n = m[0].axes.map((e) => D(e, t));
-		if (e.components) return e.components.forEach((e, t) => f[e] = n[t]);
-		let r = Math.sign(f[e.size]) || 1;
-		e.direction === void 0 ? f[e.size] = r * D(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = A(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
-	}, j = () => {
-		b && s.finished(), b = !1;
-	};
-	return u.addEventListener("pointerdown", (e) => {
-		if (e.button !== 0) return;
-		e.stopPropagation(), u.setPointerCapture(e.pointerId), S();
-		let t = c(r.svg, e);
-		y = [g[0] - t[0], g[1] - t[1]];
-	}), u.addEventListener("pointermove", (e) => {
-		let t = c(r.svg, e);
-		b && w([t[0] + y[0], t[1] + y[1]]);
-	}), u.addEventListener("pointerup", j), u.addEventListener("pointercancel", j), u.addEventListener("keydown", (e) => {
-		let t = {
-			ArrowLeft: [-1, 0],
-			ArrowRight: [1, 0],
-			ArrowUp: [0, -1],
-			ArrowDown: [0, 1]
-		};
-		if (!t[e.key]) return;
-		e.preventDefault(), e.stopPropagation(), S();
-		let n = e.shiftKey ? 5 : 1;
-		w([g[0] + n * t[e.key][0], g[1] + n * t[e.key][1]]), j();
-	}), () => {
-		if (a.kind === "direction" && b) return;
-		let [e, n] = x();
-		t(u, {
-			visibility: Number.isFinite(e + n) ? "visible" : "hidden",
-			cx: i(e),
-			cy: i(n)
-		});
-	};
-}
-var A = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), j = 1e-9, M = 1e-12, N = .25, P = 1e-13, F = 1e-9, I = 1e5, L = 1e3, ee = .05, R = 1e-5, z = (e) => ({
+}, v = 1e-9, y = 1e-12, b = .25, x = 1e-13, S = 1e-9, C = 1e5, w = 1e3, T = .05, E = 1e-5, D = (e) => ({
 	point: e.point.slice(),
 	rotation: e.rotation.slice(),
 	turn: e.turn.slice()
-}), B = class {
+}), O = class {
 	data;
 	program;
 	hold;
@@ -517,6 +219,9 @@ var A = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), j = 1e-
 		}), t;
 	}
 	solve(e) {
+		return this.fill(e), this.answer();
+	}
+	fill(e) {
 		let { matrix: t, right: n, first: r, start: i, size: a, program: o } = this;
 		t.fill(0), n.fill(0);
 		for (let n = 0; n < a; n++) t[i[n] + n - r[n]] = e;
@@ -528,10 +233,13 @@ var A = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), j = 1e-
 				n[l] += f * this.missing[a];
 				for (let n = 0; n <= c; n++) t[i[l] + e[n][0] - r[l]] += f * e[n][2] * o.at(e[n][1]);
 			}
-		}), this.cholesky();
-		let s = 0;
-		for (let e of n) s = Math.max(s, Math.abs(e));
-		return Number.isFinite(s) ? s : Infinity;
+		});
+	}
+	answer() {
+		this.cholesky();
+		let e = 0;
+		for (let t of this.right) e = Math.max(e, Math.abs(t));
+		return Number.isFinite(e) ? e : Infinity;
 	}
 	cholesky() {
 		let { matrix: e, right: t, first: n, start: r, size: i } = this;
@@ -552,17 +260,17 @@ var A = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), j = 1e-
 		}
 	}
 	moved(e, t) {
-		let { n, data: r, right: i } = this, a = r.dimension, o = z(e);
+		let { n, data: r, right: i } = this, a = r.dimension, o = D(e);
 		return r.links.forEach((e, s) => {
 			let c = n * this.place[s];
 			for (let e = 0; e < a; e++) o.point[a * s + e] += t * r.length * i[c + e];
-			a === 2 ? (o.turn[s] += t * i[c + 2], o.rotation[2 * s] = Math.cos(o.turn[s]), o.rotation[2 * s + 1] = Math.sin(o.turn[s])) : ne(o.rotation, 9 * s, t * i[c + 3], t * i[c + 4], t * i[c + 5]);
+			a === 2 ? (o.turn[s] += t * i[c + 2], o.rotation[2 * s] = Math.cos(o.turn[s]), o.rotation[2 * s + 1] = Math.sin(o.turn[s])) : j(o.rotation, 9 * s, t * i[c + 3], t * i[c + 4], t * i[c + 5]);
 		}), r.turns.length && (this.evaluate(o), r.turns.forEach((e, t) => o.turn[t] = this.program.at(e))), o;
 	}
-	correct(e, t = Infinity, n = 12, r = F) {
+	correct(e, t = Infinity, n = 12, r = S) {
 		let i = this.gap(e), a = 0, o = 0;
 		for (let s = 0; s < n; s++) {
-			if (i <= M) return {
+			if (i <= y) return {
 				pose: e,
 				first: a,
 				rest: o
@@ -570,15 +278,15 @@ var A = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), j = 1e-
 			if (!Number.isFinite(i)) return null;
 			let n = this.solve(r);
 			if (s ? o += n : a = n, !(a + o <= t)) return null;
-			let c = this.moved(e, Math.min(1, N / n)), l = this.gap(c);
-			if (l <= j && l > .5 * i) return {
+			let c = this.moved(e, Math.min(1, b / n)), l = this.gap(c);
+			if (l <= 1e-9 && l > .5 * i) return {
 				pose: l < i ? c : e,
 				first: a,
 				rest: o
 			};
 			[e, i] = [c, l];
 		}
-		return i <= j ? {
+		return i <= 1e-9 ? {
 			pose: e,
 			first: a,
 			rest: o
@@ -611,21 +319,21 @@ var A = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), j = 1e-
 		this.drive(t);
 		let r = this.data.dimension === 2 ? e.ahead(n) : null;
 		if (r) {
-			let t = this.correct(r, .5, 12, P), n = this.apart(r, e.pose);
+			let t = this.correct(r, .5, 12, x), n = this.apart(r, e.pose);
 			if (t && t.first + t.rest <= .1 * n + 1e-7) return t.pose;
 		}
-		let i = this.correct(e.pose, .6, 10, e.stations > 1 ? P : F);
+		let i = this.correct(e.pose, .6, 10, e.stations > 1 ? x : S);
 		return i && i.first <= .5 && i.rest <= .15 * i.first + 1e-9 && !(r && i.first > 3 * this.apart(r, e.pose) + 1e-6) ? i.pose : null;
 	}
 	loosen(e, t, n) {
-		return this.least(e, t, (e) => e.joint === n && e.kind === "constraint" ? 1 : I, 60);
+		return this.least(e, t, (e) => e.joint === n && e.kind === "constraint" ? 1 : C, 60);
 	}
 	open(e, t) {
 		let { n, right: r, data: i } = this, a = i.dimension, o = /* @__PURE__ */ new Map();
 		r.fill(0), i.links.forEach((e, t) => {
-			for (let e = a; e < n; e++) r[n * this.place[t] + e] = ee * Math.cos(t * (n - a) + e - a);
+			for (let e = a; e < n; e++) r[n * this.place[t] + e] = T * Math.cos(t * (n - a) + e - a);
 		});
-		let s = this.least(this.moved(e, 1), t, (e) => e.kind === "freedom" ? L * L : 1, 300, Infinity, 1);
+		let s = this.least(this.moved(e, 1), t, (e) => e.kind === "freedom" ? w * w : 1, 300, Infinity, 1);
 		return this.gap(s), i.rows.forEach((e, t) => {
 			if (e.kind === "freedom" || !e.joint) return;
 			let [n, r] = o.get(e.joint) ?? [0, 0], a = this.missing[t];
@@ -650,14 +358,14 @@ var A = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), j = 1e-
 			r: e,
 			k: t,
 			j: i(t)
-		})), o = a.filter(({ r: e }) => e.kind !== "freedom"), s = a.filter(({ k: e }) => t.drives.includes(e)), c = te([...o, ...s].map(({ j: e }) => [...e]), n), l = (e) => c.some((t) => Math.abs(t.reduce((t, n, r) => t + n * e[r], 0)) > 1e-6);
+		})), o = a.filter(({ r: e }) => e.kind !== "freedom"), s = a.filter(({ k: e }) => t.drives.includes(e)), c = k([...o, ...s].map(({ j: e }) => [...e]), n), l = (e) => c.some((t) => Math.abs(t.reduce((t, n, r) => t + n * e[r], 0)) > 1e-6);
 		return {
-			freedoms: te(o.map(({ j: e }) => [...e]), n).length,
+			freedoms: k(o.map(({ j: e }) => [...e]), n).length,
 			links: t.links.filter((e, t) => c.some((e) => e.slice(r * this.place[t], r * this.place[t] + r).some((e) => Math.abs(e) > 1e-6))),
 			joints: a.flatMap(({ r: e, j: t }) => e.kind === "freedom" && l(t) ? [e] : [])
 		};
 	}
-	least(e, t, n, r, i = N, a = .001) {
+	least(e, t, n, r, i = b, a = .001) {
 		this.drive(t), this.data.rows.forEach((e, t) => this.weight[t] = n(e));
 		let o = () => this.missing.reduce((e, t, n) => e + (this.active[n] ? this.weight[n] * t * t : 0), 0), s = (this.gap(e), o());
 		for (let t = 0; t < r && a < 1e8; t++) {
@@ -674,7 +382,7 @@ var A = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), j = 1e-
 		return this.weight.fill(1), e;
 	}
 };
-function te(e, t) {
+function k(e, t) {
 	let n = Array.from({ length: t }, (e, t) => t), r = [], i = Math.max(0, ...e.flat().map(Math.abs));
 	for (let a = 0; a < Math.min(e.length, t); a++) {
 		let o = 0, s = a, c = a;
@@ -683,7 +391,7 @@ function te(e, t) {
 			r,
 			i
 		]);
-		if (!(o > R * i)) break;
+		if (!(o > E * i)) break;
 		[e[a], e[s]] = [e[s], e[a]], [n[a], n[c]] = [n[c], n[a]];
 		let l = n[a], u = e[a][l];
 		e[a] = e[a].map((e) => e / u);
@@ -700,7 +408,7 @@ function te(e, t) {
 		return i.map((e) => e / a);
 	});
 }
-var V = class {
+var A = class {
 	pose;
 	drives;
 	past = [];
@@ -736,7 +444,7 @@ var V = class {
 		return d.turn.forEach((e, t) => [d.rotation[2 * t], d.rotation[2 * t + 1]] = [Math.cos(e), Math.sin(e)]), d;
 	}
 };
-function ne(e, t, n, r, i) {
+function j(e, t, n, r, i) {
 	let a = Math.hypot(n, r, i);
 	if (a < 1e-300) return;
 	let o = Math.sin(a) / a, s = (1 - Math.cos(a)) / (a * a), c = e.slice(t, t + 9), l = [
@@ -753,7 +461,7 @@ function ne(e, t, n, r, i) {
 	for (let n = 0; n < 3; n++) for (let r = 0; r < 3; r++) e[t + 3 * n + r] = l[3 * n] * c[r] + l[3 * n + 1] * c[3 + r] + l[3 * n + 2] * c[6 + r];
 }
 // src/motion.ts
-var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
+var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	kernel;
 	shown;
 	values;
@@ -776,7 +484,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 	constructor(e, t, n, r, i, a) {
 		this.kernel = t, this.shown = r, this.values = i, this.inputs = a;
 		let o = this.data = e.sketch;
-		this.sketch = new B(o, n), this.count = e.kernel.count, this.poses = Array(this.count).fill(null), this.branches = o.branches.map(() => new Float64Array(this.count).fill(1)), this.model = new Float64Array(o.branches.length).fill(1), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
+		this.sketch = new O(o, n), this.count = e.kernel.count, this.poses = Array(this.count).fill(null), this.branches = o.branches.map(() => new Float64Array(this.count).fill(1)), this.model = new Float64Array(o.branches.length).fill(1), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
 		let [s, c, l] = [
 			o.pose.point,
 			o.pose.rotation,
@@ -793,7 +501,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		}, this.sketch.values = this.first.values, this.phasesAtFirst = this.phases.map((e) => this.sketch.measure(e, this.first.pose)), this.held = this.first, this.base = {
 			place: o.place,
 			pose: this.first.pose
-		}, this.weakest = oe(o);
+		}, this.weakest = z(o);
 		let u = e.drives.map((e) => e.name);
 		this.channels = r.module.channels.map((e) => {
 			let [t, n, r] = e.split(" "), i = o.branches.indexOf(e);
@@ -826,7 +534,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 	}
 	assume(e) {
 		if (this.home(), !e) return;
-		let t = K(this.data, this.held.pose, e), { sketch: n } = this;
+		let t = B(this.data, this.held.pose, e), { sketch: n } = this;
 		n.values = this.values, n.count(this.phases, !1);
 		for (let e of [...this.data.places, ...Array(this.count).keys()]) {
 			let r = this.wound(t, this.kernel.drives(e)), i = n.close(r, this.kernel.drives(e));
@@ -855,7 +563,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		let e = this.values, t = this.kernel.drives(this.held.t), { sketch: n } = this;
 		if (this.loose) {
 			n.values = e;
-			let t = n.close(this.loose.pose, this.kernel.drives(this.loose.t), U);
+			let t = n.close(this.loose.pose, this.kernel.drives(this.loose.t), P);
 			if (t && (this.held = {
 				values: e.slice(),
 				t: this.loose.t,
@@ -866,20 +574,20 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		for (; a < 1;) {
 			let o = Math.min(1, a + i), s = e.map((e, t) => o === 1 ? e : r[t] + o * (e - r[t]));
 			n.values = s;
-			let c = n.close(this.held.pose, t, U);
+			let c = n.close(this.held.pose, t, P);
 			if (c) this.held = {
 				values: s,
 				t: this.held.t,
 				pose: c
 			}, [a, i] = [o, Math.min(1, 2 * i)];
-			else if ((i /= 2) < ie) return !1;
+			else if ((i /= 2) < F) return !1;
 		}
 		return !0;
 	}
 	follow(e, t) {
 		let { course: n, cycle: r } = this.data, i = this.count;
 		this.sketch.values = this.values;
-		let a = this.along(e), o = this.kernel.drives(e), [s, c] = [Math.ceil(a), Math.floor(a)].map((e, n) => this.march(new V(t, o), e, n ? -1 : 1, null));
+		let a = this.along(e), o = this.kernel.drives(e), [s, c] = [Math.ceil(a), Math.floor(a)].map((e, n) => this.march(new A(t, o), e, n ? -1 : 1, null));
 		r && !this.phases.length && (s && this.poses[n[i - 1]] && this.march(s, 0, 1, r), c && this.poses[n[0]] && this.march(c, i - 1, -1, r));
 	}
 	along(e) {
@@ -889,7 +597,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		return (n ? Math.ceil(e) : t.findIndex((e) => this.kernel.drives(e)[0] > r)) - .5;
 	}
 	march(e, t, n, r) {
-		let { course: i } = this.data, a = this.count, o = this.data.dimension === 2 ? Math.ceil(a / re) : 1, s = (r ?? []).map((e) => n * (r.length > 1 ? e : Math.abs(e))), c = this.counts((e) => s[this.data.drives.indexOf(e)] ?? 0), l = (e) => this.kernel.drives(i[e]).map((e, t) => e + (s[t] ?? 0)), u = (e, t) => {
+		let { course: i } = this.data, a = this.count, o = this.data.dimension === 2 ? Math.ceil(a / N) : 1, s = (r ?? []).map((e) => n * (r.length > 1 ? e : Math.abs(e))), c = this.counts((e) => s[this.data.drives.indexOf(e)] ?? 0), l = (e) => this.kernel.drives(i[e]).map((e, t) => e + (s[t] ?? 0)), u = (e, t) => {
 			r ? this.poses[i[e]] = {
 				...t,
 				turn: t.turn.map((e, t) => e - c[t])
@@ -898,8 +606,8 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		for (let s = t; s >= 0 && s < a;) {
 			if (r && this.poses[i[s]]) return null;
 			let t = e.pose, c = e.drives, d = Math.min(Math.max(s + n * (o - 1), 0), a - 1);
-			if (d !== s && !this.sketch.walk(e, l(d)) && (e = new V(t, c), d = s), d === s && !this.sketch.walk(e, l(s))) return null;
-			for (let r = s; r !== d; r += n) u(r, G(t, e.pose, c, e.drives, l(r)));
+			if (d !== s && !this.sketch.walk(e, l(d)) && (e = new A(t, c), d = s), d === s && !this.sketch.walk(e, l(s))) return null;
+			for (let r = s; r !== d; r += n) u(r, R(t, e.pose, c, e.drives, l(r)));
 			u(d, e.pose), s = d + n;
 		}
 		return e;
@@ -939,12 +647,12 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		return this.data.places.find(t) ?? e.findIndex((e, n) => t(n));
 	}
 	enter(e, t) {
-		let n = this.data.dimension, r = z(t), i = .1;
+		let n = this.data.dimension, r = D(t), i = .1;
 		return this.kernel.posed(e).forEach((e, t) => {
 			if (!e.every(Number.isFinite)) i = Infinity;
 			else {
 				for (let i = 0; i < n; i++) r.point[n * t + i] = e[i];
-				if (n === 2) r.turn[t] += W(Math.atan2(e[3], e[2]) - r.turn[t]), [r.rotation[2 * t], r.rotation[2 * t + 1]] = [e[2], e[3]];
+				if (n === 2) r.turn[t] += L(Math.atan2(e[3], e[2]) - r.turn[t]), [r.rotation[2 * t], r.rotation[2 * t + 1]] = [e[2], e[3]];
 				else for (let n = 0; n < 3; n++) for (let i = 0; i < 3; i++) r.rotation[9 * t + 3 * n + i] = e[3 + 3 * i + n];
 			}
 		}), [
@@ -976,7 +684,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 	}
 	gapBetween(e) {
 		let [t, n] = [this.data.course[e], this.data.course[e + 1]];
-		for (let e = 1; e < H; e++) if (!this.kernel.closesAt(t + e / H * (n - t))) return !0;
+		for (let e = 1; e < M; e++) if (!this.kernel.closesAt(t + e / M * (n - t))) return !0;
 		return !1;
 	}
 	read(e, t) {
@@ -1006,13 +714,13 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 	}
 	at(e) {
 		this.update();
-		let t = Math.floor(e) % this.count, n = e - Math.floor(e) === 0 && this.count <= re ? this.poses[t] : null;
+		let t = Math.floor(e) % this.count, n = e - Math.floor(e) === 0 && this.count <= N ? this.poses[t] : null;
 		this.sketch.values = this.values;
 		for (let r of [t, (t + 1) % this.count]) {
 			let t = this.poses[r];
 			if (n || !t) continue;
 			let i = this.sketch.close(t, this.kernel.drives(r), .05), a = this.nearDrives(r, e);
-			n = i && this.sketch.walk(new V(i, this.kernel.drives(r)), a);
+			n = i && this.sketch.walk(new A(i, this.kernel.drives(r)), a);
 		}
 		return n && ([this.held, this.loose] = [{
 			values: this.values.slice(),
@@ -1022,7 +730,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 	}
 	nearDrives(e, t) {
 		let n = this.kernel.drives(t), r = this.kernel.drives(e);
-		return n.map((e, t) => this.data.cycle?.[t] ? r[t] + W(e - r[t]) : e);
+		return n.map((e, t) => this.data.cycle?.[t] ? r[t] + L(e - r[t]) : e);
 	}
 	stretched(e) {
 		this.sketch.values = this.values;
@@ -1044,7 +752,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 	assembly() {
 		this.update();
 		let { links: e, dimension: t, counted: n } = this.data, { pose: r } = this.base;
-		return e.flatMap((e, i) => t === 2 ? [r.turn[i] + (n[e] ?? 0)] : [...r.point.subarray(3 * i, 3 * i + 3), ...le(r.rotation.subarray(9 * i, 9 * i + 9))]);
+		return e.flatMap((e, i) => t === 2 ? [r.turn[i] + (n[e] ?? 0)] : [...r.point.subarray(3 * i, 3 * i + 3), ...ne(r.rotation.subarray(9 * i, 9 * i + 9))]);
 	}
 	placed() {
 		let { links: e, dimension: t } = this.data, { pose: n } = this.held;
@@ -1055,12 +763,12 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		] : [...n.point.subarray(3 * r, 3 * r + 3), ...n.rotation.subarray(9 * r, 9 * r + 9)]]));
 	}
 	take(e) {
-		let { data: t, sketch: n, kernel: r } = this, i = se(t, this.first.pose, e);
+		let { data: t, sketch: n, kernel: r } = this, i = ee(t, this.first.pose, e);
 		this.home(), n.values = this.values, n.count(this.phases, !1);
-		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, U), s = o && this.placeOf(a);
+		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, P), s = o && this.placeOf(a);
 		if (o && s !== null) {
-			let e = r.drives(s).map((e, n) => t.rows[t.drives[n]].angular ? a[n] + W(e - a[n]) : e);
-			o = n.walk(new V(o, a), e), o &&= this.wound(o, r.drives(s));
+			let e = r.drives(s).map((e, n) => t.rows[t.drives[n]].angular ? a[n] + L(e - a[n]) : e);
+			o = n.walk(new A(o, a), e), o &&= this.wound(o, r.drives(s));
 		}
 		return o && s !== null && (this.held = {
 			values: this.values.slice(),
@@ -1069,12 +777,12 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		}, this.hold(this.phases.map((e) => n.measure(e, o)))), n.count(this.phases, !0), o && s !== null ? s : null;
 	}
 	placeOf(e) {
-		let { kernel: t, data: n, count: r } = this, i = n.drives.map((e) => n.rows[e].angular), a = (r) => Math.hypot(...t.drives(r).map((t, r) => i[r] ? W(t - e[r]) : (t - e[r]) / n.length)), o = 0, s = Infinity;
+		let { kernel: t, data: n, count: r } = this, i = n.drives.map((e) => n.rows[e].angular), a = (r) => Math.hypot(...t.drives(r).map((t, r) => i[r] ? L(t - e[r]) : (t - e[r]) / n.length)), o = 0, s = Infinity;
 		for (let e = 0; e < r; e++) a(e) < s && ([o, s] = [e, a(e)]);
 		if (e.length !== 1 || s < 1e-12 || t.stepped) return o;
 		for (let [n, r] of [[o - 1, o], [o, o + 1]]) {
 			if (n < 0 || r > t.end) continue;
-			let [a, o] = [n, r].map((e) => t.drives(e)[0]), s = ((i[0] ? a + W(e[0] - a) : e[0]) - a) / (o - a);
+			let [a, o] = [n, r].map((e) => t.drives(e)[0]), s = ((i[0] ? a + L(e[0] - a) : e[0]) - a) / (o - a);
 			if (s >= 0 && s <= 1) return n + s;
 		}
 		return o;
@@ -1091,7 +799,7 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 		];
 	}
 	restore(e) {
-		let [t, ...n] = e, r = z(this.held.pose);
+		let [t, ...n] = e, r = D(this.held.pose);
 		for (let e of [
 			"point",
 			"rotation",
@@ -1103,8 +811,8 @@ var H = 8, re = 120, U = .3, ie = 2 ** -7, ae = class {
 			pose: r
 		}, [this.seen, this.loose] = [null, null];
 	}
-}, W = (e) => e - 2 * Math.PI * Math.round(e / (2 * Math.PI));
-function G(e, t, n, r, i) {
+}, L = (e) => e - 2 * Math.PI * Math.round(e / (2 * Math.PI));
+function R(e, t, n, r, i) {
 	let a = r.findIndex((e, t) => e !== n[t]), o = a < 0 ? 1 : (i[a] - n[a]) / (r[a] - n[a]), s = (e, t) => e.map((e, n) => e + o * (t[n] - e)), c = s(e.turn, t.turn), l = e.rotation.slice();
 	return c.forEach((e, t) => [l[2 * t], l[2 * t + 1]] = [Math.cos(e), Math.sin(e)]), {
 		point: s(e.point, t.point),
@@ -1112,15 +820,15 @@ function G(e, t, n, r, i) {
 		rotation: l
 	};
 }
-function oe(e) {
+function z(e) {
 	let t = (t) => t.ends.filter((t) => t < e.links.length), n = new Set(e.drives.flatMap((n) => t(e.rows[n]))), r = (r) => {
 		let i = t(e.rows.find((e) => e.kind === "constraint" && e.joint === r) ?? { ends: [] });
 		return i.length - (i.some((e) => n.has(e)) ? .5 : 0);
 	};
 	return e.gaps.map((e) => e.joint).reduce((e, t) => e && r(e) >= r(t) ? e : t, "");
 }
-function K(e, t, n) {
-	let r = z(t);
+function B(e, t, n) {
+	let r = D(t);
 	return e.links.forEach((t, i) => {
 		if (e.dimension === 2) {
 			let a = r.turn[i] = n[i] - (e.counted[t] ?? 0);
@@ -1132,15 +840,15 @@ function K(e, t, n) {
 			a,
 			o,
 			s
-		], 3 * i), r.rotation.set(ce([
+		], 3 * i), r.rotation.set(te([
 			c / f,
 			l / f,
 			u / f
 		], d), 9 * i);
 	}), r;
 }
-function se(e, t, n) {
-	let r = z(t);
+function ee(e, t, n) {
+	let r = D(t);
 	return e.links.forEach((t, i) => {
 		let a = n[t], o = e.dimension;
 		if (a?.length === (o === 2 ? 3 : 12) && a.every(Number.isFinite)) {
@@ -1149,7 +857,7 @@ function se(e, t, n) {
 		}
 	}), r;
 }
-function ce([e, t, n], r) {
+function te([e, t, n], r) {
 	let i = Math.cos(r), a = Math.sin(r), o = 1 - i;
 	return [
 		i + o * e * e,
@@ -1163,7 +871,7 @@ function ce([e, t, n], r) {
 		i + o * n * n
 	];
 }
-function le(e) {
+function ne(e) {
 	let t = [
 		e[7] - e[5],
 		e[2] - e[6],
@@ -1188,19 +896,19 @@ function le(e) {
 	return [...a.map((e) => e / o), Math.PI];
 }
 // src/program.ts
-function q(e) {
+function V(e) {
 	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
 }
-function J(e) {
-	if (typeof e == "string") return new Float64Array(q(e).buffer);
+function H(e) {
+	if (typeof e == "string") return new Float64Array(V(e).buffer);
 	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
 	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
 }
-async function ue(e) {
-	let t = new Blob([q(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
+async function re(e) {
+	let t = new Blob([V(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
 	return new Response(t).arrayBuffer();
 }
-var Y = class e {
+var U = class e {
 	run;
 	module;
 	values;
@@ -1219,7 +927,7 @@ var Y = class e {
 		a > t.buffer.byteLength && t.grow(Math.ceil((a - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = i.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
 	}
 	static async create(t, n) {
-		let { instance: r } = await WebAssembly.instantiate(await ue(t.wasm)), { memory: i, run: a } = r.exports;
+		let { instance: r } = await WebAssembly.instantiate(await re(t.wasm)), { memory: i, run: a } = r.exports;
 		return new e(a, i, t, n);
 	}
 	call(e) {
@@ -1231,12 +939,1777 @@ var Y = class e {
 	at(e, t = 0) {
 		return this.out[e * this.row + t];
 	}
-}, X = 1, de = 1e60, fe = class {
+}, ie = {
+	joint: 0,
+	point: 0,
+	tracer: 0,
+	center: 1,
+	load: 1,
+	direction: 1,
+	link: 4,
+	trace: 5
+}, W = (e) => {
+	let t = e.indexOf(":");
+	return {
+		kind: e.slice(0, t),
+		name: e.slice(t + 1)
+	};
+}, ae = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
+function G(e, t, n, r = 6) {
+	let i = e.getRootNode(), a = /* @__PURE__ */ new Map();
+	return [
+		0,
+		.5,
+		1
+	].forEach((o, s) => {
+		for (let c = 0; c < (s ? 8 : 1); c++) {
+			let l = c * Math.PI / 4;
+			for (let c of i.elementsFromPoint(t + o * r * Math.cos(l), n + o * r * Math.sin(l))) {
+				let t = e.contains(c) && c.closest("[data-item]")?.dataset.item;
+				t && !a.has(t) && a.set(t, 2 * s + (ie[W(t).kind] ?? 2));
+			}
+		}
+	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => W(e));
+}
+function oe(e, t) {
+	e.querySelectorAll(".chosen").forEach((e) => e.classList.remove("chosen")), t && e.querySelectorAll(`[data-item="${CSS.escape(`${t.kind}:${t.name}`)}"]`).forEach((e) => e.classList.add("chosen"));
+}
+// src/pull.ts
+var K = 1 / 10;
+function se(e, t) {
+	if (!t) return -1;
+	let { kind: n, name: r } = W(t), { links: i, rows: a } = e.sketch;
+	return n === "link" || n === "center" ? i.indexOf(r) : (n === "joint" ? a.find((e) => e.joint === r)?.ends : void 0)?.find((e) => e < i.length) ?? -1;
+}
+function ce(e, t, n) {
+	for (let { kind: r, name: i } of G(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
+		let e = n(`${r}:${i}`);
+		if (e >= 0) return e;
+	}
+	return -1;
+}
+function le(e, t, n, r, i) {
+	if (n.count < 2) return;
+	let a = -1, o = [];
+	e.svg.addEventListener("pointerdown", (n) => {
+		a = n.button === 0 ? ce(e.svg, n, (e) => se(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, s(e.svg, n)));
+	}), e.svg.addEventListener("pointermove", (t) => {
+		a >= 0 && e.svg.hasPointerCapture(t.pointerId) && i.seek(l(s(e.svg, t)));
+	});
+	let c = () => void (a = -1);
+	e.svg.addEventListener("pointerup", c), e.svg.addEventListener("pointercancel", c);
+	function l(t) {
+		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * K)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
+		for (let e = Math.floor(l) - u; e <= Math.floor(l) + u; e++) {
+			if (!c && (e < 0 || e + 1 >= s)) continue;
+			let [n, r] = [e, e + 1].map((e) => (e % s + s) % s), [i, a] = [m(n), m(r)];
+			if (!i || !a) continue;
+			let o = [a[0] - i[0], a[1] - i[1]], u = o[0] ** 2 + o[1] ** 2 || 1, p = Math.min(Math.max(((t[0] - i[0]) * o[0] + (t[1] - i[1]) * o[1]) / u, 0), 1), h = Math.hypot(t[0] - i[0] - p * o[0], t[1] - i[1] - p * o[1]) + .001 * Math.abs(e + p - l);
+			h < f && ([d, f] = [e + p, h]);
+		}
+		return c ? (d % s + s) % s : d;
+	}
+}
+// src/pulling.ts
+var q = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, he = .2, ge = class extends O {
+	pose;
+	closed = !1;
+	away = 0;
+	damping = J;
+	constructor(e, t, n) {
+		super(e, t), this.pose = n, this.placed(n);
+	}
+	placed(e) {
+		this.data.rows.forEach((t, n) => t.kind === "phase" && (this.hold[n] = this.measure(n, e))), this.pose = e, this.damping = J, this.closed = this.gap(e) <= v;
+	}
+	lock(e, t) {
+		this.active[e] = +t, this.hold[e] = this.measure(e, this.pose);
+	}
+	locked(e) {
+		return this.data.rows[e].kind === "freedom" && this.active[e] > 0;
+	}
+	at({ link: e, u: t }, n = this.pose) {
+		let r = this.data.dimension, i = n.point.subarray(r * e, r * e + r);
+		if (r === 2) {
+			let [r, a] = n.rotation.subarray(2 * e, 2 * e + 2);
+			return [i[0] + r * t[0] - a * t[1], i[1] + a * t[0] + r * t[1]];
+		}
+		let a = n.rotation.subarray(9 * e, 9 * e + 9);
+		return [
+			0,
+			1,
+			2
+		].map((e) => i[e] + a[3 * e] * t[0] + a[3 * e + 1] * t[1] + a[3 * e + 2] * t[2]);
+	}
+	far(e, t, n) {
+		return Math.hypot(...this.at(e, n).map((e, n) => t[n] - e)) / this.data.length;
+	}
+	pull(e, t, n) {
+		let { n: r, data: i, matrix: a, right: o, first: s, start: c } = this, l = i.dimension, u = r * this.place[e.link], d = this.at(e, t).map((n, r) => (n - t.point[l * e.link + r]) / i.length);
+		for (let e = 0; e < l; e++) {
+			let t = Array(r).fill(0), [i, f] = [(e + 1) % 3, (e + 2) % 3];
+			t[e] = 1, l === 2 ? t[2] = e ? d[0] : -d[1] : [t[3 + i], t[3 + f]] = [d[f], -d[i]];
+			for (let i = 0; i < r; i++) if (t[i]) {
+				o[u + i] += t[i] * n[e];
+				for (let e = 0; e <= i; e++) a[c[u + i] + u + e - s[u + i]] += t[i] * t[e];
+			}
+		}
+	}
+	frame(e, t, n) {
+		if (!this.closed) return this.gather(e, t);
+		if (!e) return "there";
+		this.away = this.far(e, t, this.pose);
+		for (let r = 0; r < q; r++) {
+			if (this.away < n) return this.ended("there");
+			let r = this.step(e, t, n);
+			if (!r) return this.ended("nearest");
+			let i = this.away - this.far(e, t, r);
+			if (this.pose = r, this.away -= i, i < n / 20) return this.ended(this.away < n ? "there" : "nearest");
+		}
+		return "on the way";
+	}
+	ended(e) {
+		return this.damping = J, e;
+	}
+	step(e, t, n) {
+		let { pose: r, data: i } = this, a = Math.min(1, fe / this.away), o = this.at(e).map((e, n) => a * (t[n] - e) / i.length);
+		for (let i = 0; i < pe; i++) {
+			this.gap(r), this.weight.fill(ue), this.fill(this.damping), this.weight.fill(1), this.pull(e, r, o);
+			let i = this.answer();
+			if (!(i >= n / 10)) return null;
+			let a = this.correct(this.moved(r, Math.min(1, b / i)), .5 * Math.min(i, b) + 1e-9, 8)?.pose;
+			if (a && this.far(e, t, a) < this.away) return this.damping = Math.max(this.damping / 4, de), a;
+			this.damping = Math.min(this.damping * 8, Y);
+		}
+		return null;
+	}
+	gather(e, t) {
+		let n = (n) => {
+			let r = this.gap(n), i = this.missing.reduce((e, t, n) => e + (this.active[n] ? me * t * t : 0), 0);
+			return Number.isFinite(r) ? i + (e ? this.far(e, t, n) ** 2 : 0) : Infinity;
+		}, r = Math.max(this.damping, .01), i = n(this.pose);
+		for (let a = 0; a < q && r < 1e8; a++) {
+			this.gap(this.pose), this.weight.fill(me), this.fill(r), this.weight.fill(1), e && this.pull(e, this.pose, this.at(e).map((e, n) => (t[n] - e) / this.data.length));
+			let a = this.answer(), o = this.moved(this.pose, Math.min(1, b / a)), s = n(o);
+			if (!(s < i)) {
+				r *= 4;
+				continue;
+			}
+			let c = i - s < 1e-12 * i;
+			if ([this.pose, i, r] = [
+				o,
+				s,
+				Math.max(r / 3, 1e-9)
+			], c) break;
+		}
+		this.damping = r;
+		let a = this.correct(D(this.pose), he)?.pose;
+		return a ? (this.placed(a), "on the way") : "apart";
+	}
+}, _e = [
+	[1, -1],
+	[-1, -1],
+	[1, 1],
+	[-1, 1],
+	[0, -1],
+	[1, 0],
+	[-1, 0],
+	[0, 1]
+], ve = [
+	1,
+	1.9,
+	3,
+	4.5
+];
+function ye(e, t, n, r) {
+	return {
+		el: p(e, t, n, r),
+		text: n,
+		size: r,
+		bold: t === "title",
+		choice: -1
+	};
+}
+function be(e, t) {
+	e.text !== t && (e.text = t, c(e.el, t, e.size));
+}
+var xe = class {
+	bounds;
+	texts = [];
+	discs = [];
+	lines = [];
+	constructor(e) {
+		this.bounds = e;
+	}
+	line(e, t) {
+		this.lines.push([e, t]);
+	}
+	disc(e, t) {
+		this.discs.push([
+			e[0] - t,
+			e[1] - t,
+			e[0] + t,
+			e[1] + t
+		]);
+	}
+	put(e) {
+		let t = e.label, n = f(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), i = e.leave ?? 1.2, a = e.away && Math.hypot(...e.away) || 1, s = Infinity, c = 0, l = [
+			0,
+			0,
+			0,
+			0
+		], u = 0;
+		for (let [o, d] of e.anchors) for (let f of ve) for (let [p, m] of _e) {
+			let h = i * f, g = o + p * (h + n / 2), _ = d + m * (h + r / 2), v = [
+				g - n / 2,
+				_ - r / 2,
+				g + n / 2,
+				_ + r / 2
+			], y = u % 32 * .12 + .2 * Math.floor(u / 32) - (u === t.choice ? .4 : 0);
+			e.away && (y += 1.2 * (1 - (p * e.away[0] + m * e.away[1]) / (Math.hypot(p, m) * a))), y < s && (y += this.cost(v)) < s && (s = y, c = u, l = v), u++;
+		}
+		t.choice = c, this.texts.push(l), o(t.el, (l[0] + l[2]) / 2, l[1] + .91 * t.size);
+	}
+	cost(e) {
+		let t = 0;
+		for (let n of this.texts) Se(e, n) > 0 && (t += 60 + 5 * Se(e, n));
+		for (let n of this.discs) Se(e, n) > 0 && (t += 8 + Se(e, n));
+		for (let [n, r] of this.lines) Ce(e, n, r) && (t += 6);
+		let [n, r, i, a] = this.bounds;
+		return (e[0] < n || e[1] < r || e[2] > i || e[3] > a) && (t += 60), t;
+	}
+};
+function Se(e, t) {
+	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
+	return n > 0 && r > 0 ? n * r : 0;
+}
+function Ce(e, t, n) {
+	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
+	for (let n = 0; n < 2; n++) {
+		if (Math.abs(a[n]) < 1e-9) {
+			if (t[n] < e[n] || t[n] > e[n + 2]) return !1;
+			continue;
+		}
+		let o = (e[n] - t[n]) / a[n], s = (e[n + 2] - t[n]) / a[n];
+		r = Math.max(r, Math.min(o, s)), i = Math.min(i, Math.max(o, s));
+	}
+	return r < i;
+}
+// src/items.ts
+var we = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), Te = class {
+	kernel;
+	perMm;
+	units;
+	camera;
+	middle = [0, 0];
+	axes = [[1, 0], [0, 1]];
+	values = !1;
+	constructor(e, t, n, r) {
+		this.kernel = e, this.perMm = t, this.units = n, this.camera = r, r && this.turn(0, 0);
+	}
+	turn(e, t) {
+		let n = this.camera;
+		n[0] += e, n[1] = Math.min(Math.max(n[1] + t, -1.55), 1.55);
+		let r = Math.cos(n[0]), i = Math.sin(n[0]), a = Math.cos(n[1]), o = Math.sin(n[1]);
+		this.axes = [
+			[
+				-i,
+				r,
+				0
+			],
+			[
+				-o * r,
+				-o * i,
+				a
+			],
+			[
+				a * r,
+				a * i,
+				o
+			]
+		];
+	}
+	seen(e, t) {
+		return e.length < 3 ? [t(e[0]), t(e[1])] : [we(this.axes[0], e, t), we(this.axes[1], e, t)];
+	}
+	depth(e) {
+		return we(this.axes[2], e, (e) => this.kernel.here[e]);
+	}
+	here(e) {
+		return this.seen(e, (e) => this.kernel.here[e]);
+	}
+	point(e) {
+		return this.of(...this.here(e));
+	}
+	pointAt(e, t) {
+		return this.of(...this.seen(e, (e) => this.kernel.value(e, t)));
+	}
+	of(e, t) {
+		return [(e - this.middle[0]) / this.perMm, (this.middle[1] - t) / this.perMm];
+	}
+	project(e) {
+		return this.seen(e.map((e, t) => t), (t) => e[t]);
+	}
+	vector(e) {
+		return this.axes[0].map((t, n) => (e[0] * t - e[1] * this.axes[1][n]) * this.perMm);
+	}
+	metres(e) {
+		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
+	}
+};
+function Ee(e, t, n) {
+	let r = De(e, t, n);
+	return t.of && (e.lastElementChild.dataset.item = t.of.join(":")), r;
+}
+function De(n, i, o) {
+	let s = o.kernel.here;
+	if (i.t === "symbol") {
+		let e = t("g", n, i.per_mm ? { class: "span" } : {});
+		return e.innerHTML = i.svg, {
+			update() {
+				let [t, n] = o.point(i.p), a = i.per_mm ? ` scale(${(i.per_mm / o.perMm).toFixed(4)})` : "", c = i.e ? ` rotate(${r(-Math.atan2(s[i.e[1]], s[i.e[0]]) * 180 / Math.PI)})` : "";
+				e.setAttribute("transform", `translate(${r(t)} ${r(n)})${c}${a}`);
+			},
+			mark: (e) => e.disc(o.point(i.p), 1.6)
+		};
+	}
+	if (i.t === "span") {
+		let e = t("g", n, { class: "span" });
+		return e.innerHTML = i.svg, {
+			update() {
+				let [[t, n], [a, s]] = i.p.map((e) => o.point(e)), c = Math.hypot(a - t, s - n), l = Math.atan2(s - n, a - t) * 180 / Math.PI;
+				e.setAttribute("transform", `translate(${r(t)} ${r(n)}) rotate(${r(l)}) scale(${(c / i.length).toFixed(4)} 1)`);
+			},
+			mark: (e) => e.line(o.point(i.p[0]), o.point(i.p[1]))
+		};
+	}
+	if (i.t === "circle") {
+		let a = t("circle", n, { class: `l-${i.role}` });
+		return { update() {
+			let [t, n] = o.point(i.p);
+			e(a, {
+				cx: r(t),
+				cy: r(n),
+				r: r(Math.abs(s[i.r]) / o.perMm)
+			});
+		} };
+	}
+	if (i.t === "pair") return Oe(n, i, o);
+	let c = t("path", n, {
+		class: `l-${i.role}`,
+		style: "fill:none"
+	});
+	if (i.t === "trace") return { update: () => c.setAttribute("d", ke(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
+	i.t === "hull" && (c.dataset.link = i.link);
+	let l = [], u = !1;
+	return {
+		update() {
+			let e = i.p.map((e) => o.point(e)), t = i.t === "hull" ? h(e) : e;
+			u = i.t === "hull" && t.length > 2, l = u ? t : e, i.t === "hull" && c.setAttribute("class", u ? "l-link-area" : "l-link"), c.style.fill = u ? "" : "none", c.setAttribute("d", a(l, u));
+		},
+		mark(e) {
+			l.forEach((t, n) => (n || u) && e.line(l.at(n - 1), t));
+		}
+	};
+}
+function Oe(e, n, i) {
+	let a = t("g", e), o = n.fixed ? "support" : "block", s = t("path", a, { class: `l-${o}` }), c = t("path", a, { class: `l-${n.shape === "ball" ? o : "pin"}` }), l = n.shape === "block" ? 4.2 : 3.4, u = n.shape === "block" ? 2.2 : 1.7;
+	return {
+		update() {
+			let [e, t] = i.point(n.p), [o, d] = i.here(n.e), f = i.depth(n.e);
+			if (a.setAttribute("transform", `translate(${r(e)} ${r(t)}) rotate(${r(-Math.atan2(d, o) * 180 / Math.PI)})`), n.shape === "ball") return s.setAttribute("d", `M${u} 0A${u} ${u} 0 1 0 ${-u} 0A${u} ${u} 0 1 0 ${u} 0Z`);
+			let p = l * Math.hypot(o, d), m = u * Math.abs(f), h = f >= 0 ? p : -p;
+			n.shape === "round" ? (s.setAttribute("d", `M${r(-p)} ${-u}L${r(p)} ${-u}A${r(m)} ${u} 0 0 1 ${r(p)} ${u}L${r(-p)} ${u}A${r(m)} ${u} 0 0 1 ${r(-p)} ${-u}Z`), c.setAttribute("d", `M${r(h + m)} 0A${r(m)} ${u} 0 1 0 ${r(h - m)} 0A${r(m)} ${u} 0 1 0 ${r(h + m)} 0Z`)) : (s.setAttribute("d", `M${r(-p - m)} ${-u}H${r(p + m)}V${u}H${r(-p - m)}Z`), c.setAttribute("d", `M${r(h - m)} ${-u}H${r(h + m)}V${u}H${r(h - m)}Z`));
+		},
+		mark(e) {
+			let [t, r] = i.point(n.p), [a, o] = i.here(n.e), s = n.shape === "ball" ? 0 : l;
+			e.disc([t, r], 2.4), e.line([t - s * a, r + s * o], [t + s * a, r - s * o]);
+		}
+	};
+}
+function ke(e, t, n = !1) {
+	let i = n && e.cyclic ? e.count : e.count - 1, a = "", o = !1;
+	for (let n = 0; n <= i; n++) {
+		let i = n % e.count, s = !!e.good[i];
+		if (s) {
+			let [n, s] = t(i);
+			if (a += (o ? "L" : "M") + r(n) + " " + r(s), e.reverses(i)) {
+				let [n, o] = e.onceAfter(() => t(i));
+				a += "L" + r(n) + " " + r(o);
+			}
+		}
+		o = s;
+	}
+	return a;
+}
+function Ae(e, t, n, r, a) {
+	let { unit: o, size: s } = a.units[r] ?? {
+		unit: "",
+		size: 1
+	};
+	be(e, a.values ? `${t} = ${i(n / s)} ${o}`.trim() : t);
+}
+function je(e, t, n, r, i, a = "force") {
+	return t.t === "couple" ? Ie(e, t, n) : Pe(e, t, n, r, i, a);
+}
+var Me = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Ne = 13;
+function Pe(e, t, n, r, i, a) {
+	let o = new m(e, t.role, t.name), s = t.t === "force" ? null : new m(e, t.role), c = t.t === "force" ? t.f : t.m, l = ye(e, t.role, t.name, 3.4), u = [0, 0], d = [0, 0], f = [0, 0], p = !1;
+	for (let e of [o, s]) e && Me(e.g, t);
+	return {
+		label: l,
+		hide() {
+			p = o.set([0, 0], [0, 0]), s?.set([0, 0], [0, 0]), l.el.setAttribute("visibility", "hidden");
+		},
+		update() {
+			let e = n.point(t.p), [m, h] = n.here(c), g = s ? Math.hypot(...c.map((e) => n.kernel.here[e])) / Ne || 1 : r(), _ = [m / g, -h / g], v = !1;
+			if (i && i.length > 1 && !s) {
+				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
+				v = _[0] * (r[0] - e[0]) + _[1] * (r[1] - e[1]) > 1e-9;
+			}
+			[u, d] = v ? [[e[0] - _[0], e[1] - _[1]], e] : [e, [e[0] + _[0], e[1] + _[1]]], f = v ? u : d, p = o.set(u, d), s?.set(u, [u[0] + .78 * (d[0] - u[0]), u[1] + .78 * (d[1] - u[1])]), l.el.setAttribute("visibility", p ? "visible" : "hidden"), p && Ae(l, t.name, Math.hypot(...c.map((e) => n.kernel.here[e])), s ? "moment" : a, n);
+		},
+		mark: (e) => p && e.line(u, d),
+		anchor() {
+			if (!p) return null;
+			let e = f === u ? d : u, t = [f[0] - e[0], f[1] - e[1]];
+			return [
+				f,
+				[f[0] - .35 * t[0], f[1] - .35 * t[1]],
+				t
+			];
+		}
+	};
+}
+var Fe = 4.6;
+function Ie(e, n, i) {
+	let a = i.kernel.here, o = t("g", e), s = ye(e, n.role, n.name, 3.4);
+	t("title", o).textContent = l(n.name), t("path", o, {
+		class: `l-${n.role}`,
+		style: "fill:none",
+		d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94"
+	}), t("path", o, {
+		class: `l-${n.role}-h`,
+		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
+	});
+	let c = !1;
+	return Me(o, n), {
+		label: s,
+		hide() {
+			c = !1, o.setAttribute("display", "none"), s.el.setAttribute("visibility", "hidden");
+		},
+		update() {
+			let [e, t] = i.point(n.p), l = a[n.m[0]];
+			c = Number.isFinite(l) && Math.abs(l) > 1e-9, o.setAttribute("display", c ? "inline" : "none"), s.el.setAttribute("visibility", c ? "visible" : "hidden"), o.setAttribute("transform", `translate(${r(e)} ${r(t)}) scale(${l < 0 ? -1 : 1} 1)`), c && Ae(s, n.name, Math.abs(l), "moment", i);
+		},
+		mark(e) {
+			c && e.disc(i.point(n.p), Fe);
+		},
+		anchor() {
+			let [e, t] = i.point(n.p);
+			return c ? [
+				[e, t - Fe],
+				[e - Fe, t],
+				[e + Fe, t],
+				[e, t + Fe],
+				[0, -1]
+			] : null;
+		}
+	};
+}
+// src/view.ts
+var Le = [
+	"loads",
+	"reactions",
+	"inertia",
+	"velocities",
+	"accelerations",
+	"names",
+	"traces",
+	"values",
+	"digits"
+], Re = [
+	.1,
+	.25,
+	.5,
+	1,
+	2,
+	4
+], ze = () => ({
+	t: 0,
+	shown: {},
+	window: null,
+	camera: [-Math.PI / 3, .45],
+	chosen: null,
+	curve: "",
+	body: "",
+	tab: "",
+	speed: 1,
+	drag: "shape",
+	tracers: []
+});
+function Be(e) {
+	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => Le.filter((n) => e.shown[n] === t).join(" ");
+	return n("show", r(!0)), n("hide", r(!1)), e.window && n("window", [e.window.perMm, ...e.window.middle].map((e) => +e.toPrecision(6)).join(" ")), n("tab", e.tab), n("speed", String(e.speed), "1"), n("drag", e.drag, "shape"), n("trace", e.tracers.map((e) => [e.link, ...e.u.map((e) => +e.toPrecision(6))].join(" ")).join("; ")), t;
+}
+function Ve(e, t) {
+	let n = (e) => t.get(`~${e}`) ?? "", r = (e) => e.split(" ").map(Number);
+	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of Le) n(t).split(" ").includes(i) && (e.shown[i] = r);
+	let [i, a, o] = r(n("window"));
+	i > 0 && Number.isFinite(i + a + o) && (e.window = {
+		perMm: i,
+		middle: [a, o]
+	}), e.tab = n("tab"), Re.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
+		let [t, ...n] = e.split(" "), r = n.map(Number);
+		return r.length > 1 && r.every(Number.isFinite) ? [{
+			link: t,
+			u: r
+		}] : [];
+	});
+}
+function He(e, t) {
+	return {
+		loads: !0,
+		reactions: !0,
+		inertia: !0,
+		velocities: !1,
+		accelerations: !1,
+		names: !t,
+		traces: !0,
+		values: !1,
+		digits: !1
+	}[e];
+}
+// src/board.ts
+var Ue = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", We = [
+	1,
+	1.25,
+	1.5,
+	2,
+	2.5,
+	3,
+	4,
+	5,
+	6,
+	8,
+	10
+];
+function Ge(e) {
+	if (!(e > 0) || !Number.isFinite(e)) return 1;
+	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
+	return t * (We.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+}
+function Ke(e) {
+	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
+	return t * ([5, 2].find((n) => n * t <= e * (1 + 1e-12)) ?? 1);
+}
+function qe(e) {
+	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
+	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
+		x: n,
+		y: r
+	} : null;
+}
+var Je = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function Ye(e) {
+	return e.items.flatMap((e) => {
+		if (e.t === "circle") return [{
+			p: e.p,
+			reach: (t) => Math.abs(t(e.r))
+		}];
+		let t = e.t === "symbol" && e.per_mm ? e.per_mm * Math.max(0, ...[...e.svg.matchAll(/ r="([\d.]+)"/g)].map((e) => +e[1])) : 0;
+		return e.t === "symbol" && t ? [{
+			p: e.p,
+			reach: () => t
+		}] : [];
+	});
+}
+function Xe(e, t, n) {
+	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(Je);
+	for (let t = 0; t < r.count; t += i) {
+		if (!r.good[t]) continue;
+		let i = (e) => r.value(e, t);
+		for (let t of o) a.push(e.seen(t, i));
+		a.push(...Ze(e, n, i));
+	}
+	return qe(a);
+}
+var Ze = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), Qe = (e) => e.items.some((e) => e.t === "pair"), $e = class {
+	arrow;
+	line;
+	text;
+	constructor(e, n = !1) {
+		this.arrow = n;
+		let r = t("g", e, { class: "scale" });
+		this.line = t("path", r, {
+			class: "l-axis",
+			style: "fill:none"
+		}), this.text = t("text", r, {
+			class: "l-note-t",
+			"font-size": 2.8
+		});
+	}
+	set([t, n], o, s) {
+		let c = o / s.size, l = c > 0 && Number.isFinite(c);
+		if (this.line.setAttribute("visibility", l ? "visible" : "hidden"), this.text.textContent = "", !l) return t;
+		let u = Ke(26 * c), d = t + u / c, p = `${i(u)} ${s.unit}`, m = `M${r(t)} ${r(n - 1)}v2`, h = this.arrow ? `M${r(d - 2.4)} ${r(n - .8)}L${r(d)} ${r(n)}L${r(d - 2.4)} ${r(n + .8)}` : `M${r(d)} ${r(n - 1)}v2`;
+		return this.line.setAttribute("d", m + a([[t, n], [d, n]]) + h), e(this.text, {
+			x: r(d + 1.4),
+			y: r(n + 1)
+		}).textContent = p, d + 1.4 + f(p, 2.8);
+	}
+};
+function et(e, n, r, i) {
+	return t("svg", e, {
+		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
+		role: "group",
+		"aria-label": i
+	});
+}
+var tt = 8, nt = 20;
+function rt(e, n, r, i, a, o, s, c, l, u = []) {
+	let d = {
+		length: s.length.size,
+		force: s.force.size
+	}, f = et(e, a, o, c), p = new Te(n, r.per_mm, s, Qe(r) ? l.camera : null), m = [], h = [], g = r.labels.filter((e) => e.kind === "joint").length > tt, _ = (e) => i && e !== "values" ? !0 : l.shown[e] ?? He(e, g), v = r.force, y = {
+		perMm: r.per_mm,
+		middle: r.middle ?? [0, 0]
+	};
+	r.middle && (p.middle = r.middle);
+	let b = t("g", f), x = t("g", f), S = t("g", f), C = t("g", f);
+	for (let e of r.items) (e.t === "trace" ? m : h).push(Ee(e.t === "trace" ? b : x, e, p));
+	let w = r.arrows.map((e) => ({
+		a: je(S, e, p, () => v, i ?? void 0),
+		layer: Ue(e)
+	})), T = new $e(C), E = new $e(C, !0), D = r.arrows.filter((e) => e.t === "force"), O = (u.length ? ["velocities", "accelerations"] : []).map((e) => {
+		let t = e === "velocities" ? "speed" : "acceleration", n = e === "velocities" ? "velocity" : "acceleration", r = n[0], i = {
+			layer: e,
+			unit: s[t],
+			rows: u.map((e) => r === "v" ? e.v : e.a),
+			perMm: NaN,
+			bar: new $e(C, !0)
+		};
+		return u.forEach((a, o) => {
+			let s = {
+				t: "force",
+				role: n,
+				of: a.of[1],
+				kind: n,
+				link: "",
+				name: `${r}_{${a.of[0] === "center" ? `G ${a.of[1]}` : a.of[1]}}`,
+				p: a.p,
+				f: i.rows[o]
+			};
+			w.push({
+				a: je(S, s, p, () => i.perMm, void 0, t),
+				layer: e
+			});
+		}), i;
+	}), k = r.labels.map((e) => ({
+		l: ye(C, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
+		p: e.p,
+		q: e.q
+	})), A = Ye(r), j = Math.max(1, Math.floor(n.count / 72)), M = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], N = i ? [
+		...i,
+		...r.arrows.map((e) => e.p),
+		...r.items.flatMap((e) => e.t === "symbol" ? [e.p] : [])
+	] : [];
+	function P(e) {
+		return qe([...N.map((t) => p.seen(t, e)), ...Ze(p, A, e)]);
+	}
+	function F() {
+		return Array.from({ length: Math.ceil(n.count / j) }, (e, t) => t * j).flatMap((e) => {
+			let t = n.good[e] ? P((t) => n.value(t, e)) : null;
+			return t ? [{
+				k: e,
+				b: t
+			}] : [];
+		});
+	}
+	function I() {
+		let e = n.largest((e) => Math.max(0, ...D.map((t) => Math.hypot(...t.f.map((t) => n.value(t, e)))))) / (i ? 26 : Math.min(Math.max(.18 * Math.min(a, 1.3 * o), 16), 40));
+		for (let { k: t, b: r } of i ? F() : []) for (let i of D) {
+			let s = (e) => n.value(e, t), c = p.seen(i.p, s), l = p.seen(i.f, s);
+			[a / 2 - 9, o / 2 - 12].forEach((t, n) => {
+				let i = n ? (r.y[0] + r.y[1]) / 2 : (r.x[0] + r.x[1]) / 2, a = t - Math.abs(c[n] - i) / p.perMm;
+				e = Math.max(e, Math.abs(l[n]) / Math.max(a, 4));
+			});
+		}
+		return e > 0 ? Ge(e / d.force) * d.force : v;
+	}
+	function L(e, t = !1) {
+		let s = i ? F().map(({ b: e }) => e) : [Xe(p, r, A)].filter((e) => e !== null), c = i ? [46, 40] : [a - Math.max(.22 * a, 34), o - Math.max(.22 * o, 30)], l = Math.max(0, ...s.flatMap((e) => [(e.x[1] - e.x[0]) / c[0], (e.y[1] - e.y[0]) / c[1]]));
+		t && s.length && R(s[0], l) || (!i && s.length && (y.middle = M(s[0])), l > 0 && (y.perMm = Ge(l / d.length) * d.length)), v = e ?? I();
+		for (let e of O) {
+			let t = n.largest((t) => Math.max(0, ...e.rows.map((e) => Math.hypot(...e.map((e) => n.value(e, t))))));
+			e.perMm = t > 0 ? Ge(t / nt / e.unit.size) * e.unit.size : NaN;
+		}
+		z();
+	}
+	function R(e, t) {
+		let n = (e, t, n) => Math.max(...e.map((e) => Math.abs(e - t))) < y.perMm * n;
+		return t > .5 * y.perMm && n(e.x, y.middle[0], a / 2 - 8) && n(e.y, y.middle[1], o / 2 - 10);
+	}
+	function z() {
+		let e = i ? y : l.window ?? y;
+		p.perMm = e.perMm, i || (p.middle = [...e.middle]);
+	}
+	function B() {
+		let e = [
+			[
+				T,
+				p.perMm,
+				s.length
+			],
+			[
+				E,
+				D.length ? v : NaN,
+				s.force
+			],
+			...O.map((e) => [
+				e.bar,
+				_(e.layer) && !i ? e.perMm : NaN,
+				e.unit
+			])
+		], [t, n] = [-a / 2 + 2, o / 2 - 2.6];
+		for (let [r, i, o] of e) {
+			t > -a / 2 + 2 && t + 46 > a / 2 && ([t, n] = [-a / 2 + 2, n - 5]);
+			let e = r.set([t, n], i, o);
+			e > t && (t = e + 5);
+		}
+	}
+	function ee() {
+		let e = new xe([
+			-a / 2,
+			-o / 2,
+			a / 2,
+			o / 2 - 6
+		]);
+		for (let t of [...h, ...w.map((e) => e.a)]) t.mark?.(e);
+		for (let { l: t, p: n, q: r } of k) {
+			let i = _("names") || !!r && l.shown.names === void 0;
+			if (t.el.setAttribute("visibility", i ? "visible" : "hidden"), !i) continue;
+			let a = p.point(n), o = r ? p.point(r) : a, s = (r ? [
+				.5,
+				.35,
+				.65
+			] : [0]).map((e) => [a[0] + e * (o[0] - a[0]), a[1] + e * (o[1] - a[1])]);
+			e.put({
+				label: t,
+				anchors: s,
+				away: r ? void 0 : a,
+				leave: r ? .8 : 1.3
+			});
+		}
+		for (let { a: t } of w) {
+			let r = n.solved ? t.anchor() : null;
+			r ? e.put({
+				label: t.label,
+				anchors: r.slice(0, -1),
+				away: r[r.length - 1],
+				leave: .9
+			}) : t.label.el.setAttribute("visibility", "hidden");
+		}
+	}
+	return {
+		svg: f,
+		paper: p,
+		fit: L,
+		need: I,
+		look: z,
+		on: _,
+		force: () => v,
+		fitted: () => y.perMm,
+		resize(e, t) {
+			[a, o] = [e, t], f.setAttribute("viewBox", `${-a / 2} ${-o / 2} ${a} ${o}`);
+		},
+		update(e) {
+			if (p.values = _("values"), b.setAttribute("display", _("traces") ? "inline" : "none"), e && m.forEach((e) => e.update()), S.setAttribute("visibility", n.solved ? "visible" : "hidden"), B(), n.finite) {
+				i && (p.middle = M(P((e) => n.here[e]) ?? {
+					x: [0, 0],
+					y: [0, 0]
+				}));
+				for (let e of h) e.update();
+				for (let { a: e, layer: t } of w) _(t) ? e.update() : e.hide();
+				ee();
+			}
+		}
+	};
+}
+// src/menu.ts
+function it(e, [t, r], i) {
+	if (e.querySelector(".menu")?.remove(), !i.length) return;
+	let a = document.activeElement, o = n("div", e, {
+		class: "menu",
+		role: "menu",
+		"aria-label": "of this place"
+	}), s = () => {
+		o.isConnected && (o.remove(), document.removeEventListener("pointerdown", c, !0), a?.focus?.());
+	}, c = (e) => {
+		e.composedPath().includes(o) || s();
+	}, l = i.map(({ said: e, act: t }) => {
+		let r = n("button", o, {
+			type: "button",
+			role: "menuitem"
+		}, e);
+		return r.addEventListener("click", () => (s(), t())), r;
+	});
+	o.addEventListener("keydown", (e) => {
+		let t = l.indexOf(document.activeElement), n = l.length, r = {
+			ArrowDown: (t + 1) % n,
+			ArrowUp: (t + n - 1) % n,
+			Home: 0,
+			End: n - 1
+		}[e.key];
+		if (r !== void 0) l[r].focus();
+		else if (e.key === "Escape" || e.key === "Tab") s();
+		else return;
+		e.preventDefault(), e.stopPropagation();
+	});
+	let { width: u, height: d } = o.getBoundingClientRect();
+	o.style.left = `${Math.max(4, Math.min(t, window.innerWidth - u - 4))}px`, o.style.top = `${Math.max(4, Math.min(r, window.innerHeight - d - 4))}px`, document.addEventListener("pointerdown", c, !0), l[0].focus({ preventScroll: !0 });
+}
+// src/viewport.ts
+var at = 1e4, ot = 12, st = 1.25;
+function ct(e, t, n, r, i, a) {
+	let { svg: o, paper: c } = e, l = /* @__PURE__ */ new Map(), u = !1, d = (n, r) => {
+		let i = e.fitted();
+		n > i / at && n < i * at && r.every(Number.isFinite) && (t.window = {
+			perMm: n,
+			middle: r
+		}, e.look(), a());
+	}, f = ([e, t]) => d(c.perMm, [c.middle[0] - e * c.perMm, c.middle[1] + t * c.perMm]), p = (e, t = [0, 0]) => {
+		let [n, r] = c.metres(t), i = c.perMm / e;
+		d(i, [n - t[0] * i, r + t[1] * i]);
+	}, m = () => {
+		t.window = null, e.look(), a();
+	};
+	o.addEventListener("wheel", (e) => {
+		if (!n && !e.ctrlKey && !e.metaKey) return;
+		e.preventDefault();
+		let t = e.deltaMode === 1 ? 16 : 1;
+		p(Math.exp(-e.deltaY * t * (e.ctrlKey ? .01 : .0015)), s(o, e));
+	}, { passive: !1 }), o.addEventListener("pointerdown", (e) => {
+		e.pointerType === "mouse" && e.button > 1 || (l.size || e.button === 1 || r(e)) && (e.button === 1 && e.preventDefault(), o.setPointerCapture(e.pointerId), l.set(e.pointerId, s(o, e)), u = !1);
+	}), o.addEventListener("pointermove", (e) => {
+		let t = l.get(e.pointerId);
+		if (!t) return;
+		let n = s(o, e), r = [n[0] - t[0], n[1] - t[1]];
+		u = !0;
+		let a = [...l].find(([t]) => t !== e.pointerId)?.[1];
+		if (l.set(e.pointerId, n), a) {
+			let e = (e) => Math.hypot(e[0] - a[0], e[1] - a[1]) || 1;
+			p(e(n) / e(t), a);
+		} else i && !e.shiftKey && e.buttons !== 4 ? i(r) : f(r);
+	});
+	let h = (e) => void l.delete(e.pointerId);
+	return o.addEventListener("pointerup", h), o.addEventListener("pointercancel", h), o.addEventListener("lostpointercapture", h), o.addEventListener("dblclick", (e) => {
+		r(e) && m();
+	}), o.addEventListener("click", (e) => u && e.stopImmediatePropagation(), { capture: !0 }), o.tabIndex = 0, o.addEventListener("keydown", (e) => {
+		if (e.target !== o || e.ctrlKey || e.metaKey || e.altKey) return;
+		let t = {
+			ArrowLeft: [ot, 0],
+			ArrowRight: [-12, 0],
+			ArrowUp: [0, ot],
+			ArrowDown: [0, -12]
+		};
+		if (t[e.key]) f(t[e.key]);
+		else if (e.key === "+" || e.key === "=") p(st);
+		else if (e.key === "-") p(1 / st);
+		else if (e.key === "0") m();
+		else return;
+		e.preventDefault(), e.stopPropagation();
+	}), {
+		zoom: p,
+		fit: m,
+		pan: f
+	};
+}
+// src/stage.ts
+var lt = 3.6, ut = 5.2, dt = 550, ft = 8;
+function pt(e, r, i, a, o, c) {
+	let l = n("div", e, { class: "paper" }), u = rt(l, r, i, null, 170, 119, a, "the mechanism", o, c.rates ?? []), { svg: d } = u, f = t("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
+		let t = e.target.closest("[data-item]")?.dataset.item;
+		return t ? W(t) : null;
+	}, h = (e) => !v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6).some(c.held), g = () => {
+		c.on?.({
+			type: "view",
+			view: o
+		}), c.again(!0);
+	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => G(d, e, t, n), y = ct(u, o, !!c.full, h, _, g);
+	p && (d.style.cursor = "move");
+	let b = (e, t) => u.paper.metres(s(d, {
+		clientX: e,
+		clientY: t
+	})), x = (e) => {
+		o.chosen = e, oe(d, e), c.chosen(e);
+	}, S = (e) => [e.clientX, e.clientY];
+	d.addEventListener("click", (e) => {
+		let t = v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6), n = t.length ? t : m(e) ? [m(e)] : [];
+		c.on?.({
+			type: "select",
+			items: n,
+			at: S(e),
+			point: b(e.clientX, e.clientY)
+		}) || x(n[0] && !ae(n[0], o.chosen) ? n[0] : null);
+	});
+	let C = (t, n) => {
+		let r = b(...n);
+		t[0] && x(t[0]), c.on?.({
+			type: "menu",
+			items: t,
+			at: n,
+			point: r
+		}) || it(e.closest(".dalembert") ?? document.body, n, c.entries(t, r));
+	};
+	d.addEventListener("contextmenu", (e) => {
+		e.preventDefault();
+		let t = e.button < 0 || e.clientX === 0 && e.clientY === 0 ? m(e) : null;
+		if (!t) return C(v(e.clientX, e.clientY), S(e));
+		let n = e.target.getBoundingClientRect();
+		C([t], [n.left + n.width / 2, n.top + n.height / 2]);
+	}), d.addEventListener("keydown", (e) => {
+		if (e.key !== "ContextMenu" && !(e.key === "F10" && e.shiftKey)) return;
+		e.preventDefault();
+		let t = e.target.getBoundingClientRect(), n = m(e);
+		C(n ? [n] : [], [t.left + t.width / 2, t.top + t.height / 2]);
+	});
+	let w = 0, T = [0, 0];
+	d.addEventListener("pointerdown", (e) => {
+		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), dt));
+	}, { capture: !0 });
+	let E = () => clearTimeout(w);
+	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > ft && E(), { capture: !0 });
+	for (let e of ["pointerup", "pointercancel"]) d.addEventListener(e, E, { capture: !0 });
+	return {
+		m: u,
+		paper: l,
+		view: y,
+		overlay: f,
+		hit: v,
+		metres: b,
+		choose: x,
+		resize() {
+			let { width: e, height: t } = l.getBoundingClientRect();
+			if (!(e > 0 && t > 0)) return;
+			let n = Math.min(Math.max(Math.min(e / 170, t / 105), lt), ut);
+			u.resize(e / n, t / n);
+		}
+	};
+}
+// src/switches.ts
+var mt = {
+	loads: ["loads", "loads, efforts of drives, weights, springs"],
+	reactions: ["reactions", "forces in the joints"],
+	inertia: ["inertia", "D'Alembert's inertia forces and couples"],
+	velocities: ["velocities", "velocities of joints and mass centres"],
+	accelerations: ["accelerations", "accelerations of joints and mass centres"],
+	names: ["names", "names of joints and links"],
+	traces: ["paths", "paths of the joints"],
+	values: ["values", "the value beside each arrow"],
+	digits: ["large digits", "the chosen curve's value, to be read from the last row"]
+};
+function ht(e, t) {
+	let r = n("label", e, { title: t.title }), i = n("input", r, { type: "checkbox" });
+	i.checked = t.on, r.append(t.said), i.addEventListener("change", () => t.act(i.checked));
+}
+function gt(e, t, n, r, i) {
+	for (let a of n) {
+		let [n, o] = mt[a];
+		ht(e, {
+			said: n,
+			title: o,
+			on: t.shown[a] ?? He(a, r),
+			act: (e) => (t.shown[a] = e, i())
+		});
+	}
+}
+function _t(e, t, r, i, a) {
+	let o = n("span", e, {
+		class: "group",
+		role: "group",
+		"aria-label": "view"
+	}), s = (e, t, r) => {
+		let i = n("button", o, {
+			type: "button",
+			title: t,
+			.../^\w/.test(e) ? {} : { "aria-label": t }
+		}, e);
+		return i.addEventListener("click", r), i;
+	};
+	if (s("−", "zoom out (-)", () => t.zoom(.8)), s("+", "zoom in (+)", () => t.zoom(1.25)), s("fit", "the whole mechanism (0)", () => t.fit()), !i) return;
+	let c = n("span", e, {
+		class: "group",
+		role: "group",
+		"aria-label": "dragging"
+	}), l = ["shape", "turn"].map((e) => {
+		let t = n("button", c, {
+			type: "button",
+			title: e === "shape" ? "dragging a joint changes the mechanism" : "dragging a joint or a link turns the mechanism"
+		}, e === "shape" ? "reshape" : "turn");
+		return t.addEventListener("click", () => {
+			r.drag = e, u(), a();
+		}), {
+			way: e,
+			b: t
+		};
+	}), u = () => l.forEach(({ way: e, b: t }) => t.setAttribute("aria-pressed", String(r.drag === e)));
+	u();
+}
+// src/tools.ts
+var vt = class {
+	b;
+	data;
+	kernel;
+	on = !1;
+	arrows;
+	constructor(e, n, r) {
+		this.b = e, this.data = n, this.kernel = r;
+		let i = t("g", e.svg, { class: "gradient" }), a = n.gradient ? n.handles.flatMap((e) => "ends" in e && e.ends.length ? [e] : []) : [];
+		this.arrows = a.map((e) => ({
+			p: e.p,
+			ends: e.ends,
+			arrow: new m(i, "acceleration", `lower the peak by ${e.name}`)
+		}));
+	}
+	peak(e) {
+		let t = this.kernel, n = (n) => Math.abs(t.value(e.row, n)), r = t.largest(n), i = Math.max(0, t.good.findIndex((e, t) => e > 0 && n(t) === r));
+		return {
+			k: i,
+			size: r,
+			where: t.count > 1 ? ` at ${yt(this.data, t, i)}` : ""
+		};
+	}
+	update(e) {
+		let t = this.data.gradient, n = this.kernel, r = e && t ? t.curves.indexOf(e.row) : -1;
+		if (!this.on || r < 0 || !t || !e || !n.solved) return this.arrows.forEach((e) => e.arrow.set([0, 0], [0, 0]));
+		let i = this.peak(e).k, a = n.gradient(r, i), o = -Math.sign(n.value(e.row, i)) || 1, s = new Map(t.numbers.map((e, t) => [e, a[t]])), c = this.arrows.map(({ ends: e }) => {
+			let t = this.b.paper.axes[0].map(() => 0);
+			for (let r of e) r.axes.forEach((e, i) => e.forEach((e, a) => t[a] += o * n.here[e] * (s.get(r.n[i]) ?? 0)));
+			return this.b.paper.project(t);
+		}), l = Math.max(...c.map((e) => Math.hypot(...e)), 1e-300);
+		this.arrows.forEach(({ p: e, arrow: t }, n) => {
+			let [r, i] = this.b.paper.point(e), [a, o] = c[n];
+			t.set([r, i], [r + 14 * a / l, i - 14 * o / l], .5);
+		});
+	}
+}, yt = (e, t, n) => e.drives.map((e) => `${e.name} = ${i(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), bt = class {
+	b;
+	kernel;
+	places;
+	on = !1;
+	part = .005;
+	draws;
+	out;
+	numbers;
+	canvas;
+	constructor(e, t, n, r, i) {
+		this.b = t, this.kernel = r, this.places = i, this.numbers = n.numbers.flatMap((e, t) => /\.points\./.test(e.path) || e.path.endsWith(".center.0") || e.path.endsWith(".center.1") ? [t] : []), this.canvas = document.createElement("canvas"), this.canvas.className = "cloud", this.canvas.setAttribute("aria-hidden", "true"), e.append(this.canvas), this.out = new Float64Array(r.here.length);
+		let a = 12345, o = () => ((a = Math.imul(a, 1664525) + 1013904223 >>> 0) + .5) / 4294967296, s = () => Math.sqrt(-2 * Math.log(o())) * Math.cos(2 * Math.PI * o());
+		this.draws = Array.from({ length: 1e3 }, () => Float64Array.from({ length: this.numbers.length }, s));
+	}
+	update(e) {
+		let t = this.canvas;
+		if (t.hidden = !this.on, !this.on) return null;
+		let n = this.b.svg.getBoundingClientRect(), r = window.devicePixelRatio || 1, [i, a] = [Math.round(n.width * r), Math.round(n.height * r)];
+		(t.width !== i || t.height !== a) && (t.width = i, t.height = a);
+		let o = t.getContext("2d"), s = this.b.svg.viewBox.baseVal, c = Math.min(i / s.width, a / s.height);
+		o.clearRect(0, 0, i, a), o.fillStyle = "rgba(122,47,160,.25)";
+		let l = this.kernel, u = l.values.slice(), d = this.part * this.reach() / 3, f = u.slice(), p = 0, m = 0, h = 0;
+		for (let t of this.draws) if (this.numbers.forEach((e, n) => f[e] = u[e] + d * t[n]), l.other(f, this.out), l.numbered(this.out[this.out.length - 1])) {
+			for (let e of this.places) {
+				let [t, n] = this.b.paper.of(...this.b.paper.seen(e, (e) => this.out[e]));
+				o.fillRect((t - s.x) * c + (i - s.width * c) / 2, (n - s.y) * c + (a - s.height * c) / 2, r, r);
+			}
+			e !== void 0 && (p += this.out[e], m += this.out[e] ** 2, h++);
+		}
+		l.other(u, this.out);
+		let g = p / (h || 1);
+		return h ? {
+			mean: g,
+			sigma: Math.sqrt(Math.max(m / h - g * g, 0))
+		} : null;
+	}
+	reach() {
+		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
+	}
+}, xt = class {
+	kernel;
+	gate;
+	past = [];
+	future = [];
+	now;
+	constructor(e, t) {
+		this.kernel = e, this.gate = t, this.now = e.state();
+	}
+	note() {
+		this.kernel.values.every((e, t) => e === this.now[t]) || (this.past.push(this.now), this.past.length > 500 && this.past.shift(), this.future = [], this.now = this.kernel.state());
+	}
+	go(e) {
+		let t = e ? this.past : this.future, n = e ? this.future : this.past, r = t.pop();
+		return r ? (n.push(this.now), this.now = r, this.kernel.restore(r), this.gate.accept(this.kernel.values), !0) : !1;
+	}
+	get can() {
+		return [this.past.length > 0, this.future.length > 0];
+	}
+};
+function St(e, t) {
+	let n = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]), r = n.length ? t.motion.assembly() : [];
+	return Object.fromEntries([...n, ...r.map((t, n) => [e.sketch.assembly[n], t])]);
+}
+function Ct(e, t, n) {
+	let r = new URLSearchParams({ t: String(+n.t.toFixed(4)) });
+	for (let [e, t] of Be(n)) r.set(e, t);
+	for (let [n, i] of Object.entries(St(e, t))) r.set(n, String(i));
+	return r.toString();
+}
+function wt(e, t, n, r) {
+	let i = new Map(new URLSearchParams(r.replace(/^#/, ""))), a = {};
+	Ve(n, i);
+	for (let [e, t] of i) e !== "t" && !e.startsWith("~") && (a[e] = t.trim() ? Number(t) : NaN);
+	t.change(a);
+	let o = Number(i.get("t") ?? 0);
+	n.t = Number.isFinite(o) ? Math.min(Math.max(o, 0), e.end) : 0;
+}
+function Tt(e, t) {
+	let n = [...t.values, ...t.motion.assembly()], r = e.numbers.map((e, n) => e.value !== t.values[n]), i = r.includes(!0);
+	return e.template.map((e) => typeof e == "string" ? e : e.was !== void 0 && !e.of?.some((e) => r[e] ?? i) ? e.was : e.now.map((e) => typeof e == "string" ? e : String(n[e[0]] / e[1])).join("")).join("");
+}
+function Et(e, t) {
+	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
+		x: n,
+		unit: e.units[t.kind]
+	}))), i = [[
+		...e.drives.map((e) => `${e.name} [${e.unit}]`),
+		"status",
+		...r.map(({ x: e, unit: t }) => `${e.of} [${t.unit}]`)
+	].map(n).join(",")];
+	for (let n = 0; n < t.count; n++) {
+		let a = e.drives.map((e) => t.positions.get(e.name)[n] / e.size);
+		i.push([
+			...a,
+			e.statuses[t.markAt(n)].status,
+			...r.map(({ x: e, unit: r }) => t.good[n] ? t.value(e.row, n) / r.size : "")
+		].join(","));
+	}
+	return i.join("\n") + "\n";
+}
+function Dt(n, r) {
+	let i = n.cloneNode(!0), { width: a, height: o } = n.viewBox.baseVal;
+	i.querySelectorAll(".handles, .overlay").forEach((e) => e.remove()), e(i, {
+		xmlns: "http://www.w3.org/2000/svg",
+		width: `${a}mm`,
+		height: `${o}mm`,
+		"font-family": "'DejaVu Sans', Arial, sans-serif"
+	});
+	let s = t("style", null);
+	return s.textContent = r, i.prepend(s), new XMLSerializer().serializeToString(i);
+}
+var Ot = 300 / 25.4;
+async function kt(e, t) {
+	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Dt(e, t)], { type: "image/svg+xml" }));
+	try {
+		i.src = a, await i.decode();
+		let e = document.createElement("canvas"), t = e.getContext("2d");
+		return [e.width, e.height] = [Math.round(n * Ot), Math.round(r * Ot)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
+	} finally {
+		URL.revokeObjectURL(a);
+	}
+}
+function X(e, t, n) {
+	let r = document.createElement("a");
+	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
+}
+var At = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", jt = class {
+	data;
+	program;
+	here;
+	count = 1;
+	good = new Uint8Array([1]);
+	cyclic = !1;
+	finite = !0;
+	open = [];
+	inputs;
+	constructor(e, t) {
+		this.data = e, this.program = t, this.here = new Float64Array(e.shown.outputs), this.inputs = t.module.channels.map((e) => {
+			let [, t, n] = e.split(" ");
+			return [t, +n];
+		});
+	}
+	get solved() {
+		return this.finite;
+	}
+	show(e) {
+		this.inputs.forEach(([t, n], r) => this.program.put(r, e[t][n])), this.program.call(1);
+		for (let e = 0; e < this.here.length; e++) this.here[e] = this.program.at(e);
+		this.finite = this.here.every(Number.isFinite);
+		let t = (e) => e.map((e) => this.here[e]), n = this.data.gaps.map((e) => ({
+			joint: e.joint,
+			p: t(e.p),
+			q: t(e.q)
+		}));
+		this.open = n.filter((e) => Math.hypot(...e.p.map((t, n) => t - e.q[n])) > 1e-6 * this.data.sketch.length);
+	}
+	value(e) {
+		return this.here[e];
+	}
+	reverses() {
+		return !1;
+	}
+	onceAfter(e) {
+		return e();
+	}
+	largest(e) {
+		return e(0);
+	}
+}, Mt = .02, Nt = 2, Pt = 500;
+async function Ft(o, c, l, u) {
+	let [d, f] = await Promise.all([U.create(c.sketch.closure, 1), U.create(c.shown, 1)]), m = c.sketch, h = {
+		point: Float64Array.from(m.pose.point),
+		rotation: Float64Array.from(m.pose.rotation),
+		turn: Float64Array.from(m.pose.turn)
+	}, v = new jt(c, f), y = new ge(m, d, ee(m, h, u.pose ?? {})), b = [], x = new _(m.links, c.poses, v), S = [], C = [], w = null, T = [], E = "there", O = 0, k = y.pose;
+	v.show(y.pose);
+	let A = n("header", o);
+	n("h1", A, {}, c.title);
+	let j = n("div", A, {
+		class: "bar",
+		role: "toolbar",
+		"aria-label": "sketch"
+	}), M = (e, t, r, i) => {
+		let a = n("button", e, {
+			type: "button",
+			title: r,
+			.../^\w/.test(t) ? {} : { "aria-label": r }
+		}, t);
+		return a.addEventListener("click", i), a;
+	};
+	n("output", j, { class: "readout" }, "Sketch: drag the links.").style.flex = "1", u.back && M(j, "Back", "without the last thing added", u.back);
+	let N = M(j, "↶", "undo (Ctrl+Z)", () => J(S, C)), P = M(j, "↷", "redo (Ctrl+Y)", () => J(C, S));
+	M(j, "Reset", "as in the file", () => q(() => y.placed(D(h))));
+	let F = n("section", n("main", o, { class: "one" }), {
+		class: "stage",
+		"aria-label": "sketch"
+	}), I = pt(F, v, c.views.mechanism, c.units, l, {
+		full: u.full,
+		on: u.on,
+		entries: ae,
+		chosen: () => Y(),
+		again: () => Y(),
+		held: (e) => H(`${e.kind}:${e.name}`) >= 0
+	}), { m: L, paper: R } = I, z = g(L, c, v), B = t("g", L.svg, { class: "handles" }), te = t("g", L.svg, {
+		class: "gaps",
+		"pointer-events": "none"
+	}), ne = ie().map(({ link: e, point: n, p: r }) => {
+		let i = t("circle", B, {
+			class: "handle joint",
+			r: 2.2,
+			tabindex: 0,
+			role: "slider",
+			"aria-label": `pull ${n} of ${e}`,
+			"aria-valuetext": `${n} of ${e}`,
+			"aria-valuenow": 0,
+			"data-item": `point:${e}.${n}`
+		});
+		return t("title", i).textContent = `drag ${n} of ${e}`, i.addEventListener("keydown", (t) => {
+			let n = {
+				ArrowLeft: [-1, 0],
+				ArrowRight: [1, 0],
+				ArrowUp: [0, -1],
+				ArrowDown: [0, 1]
+			}[t.key];
+			if (!n) return;
+			t.preventDefault(), t.stopPropagation();
+			let i = Nt * (t.shiftKey ? 5 : 1), a = L.paper.point(r);
+			q(() => {
+				let t = {
+					link: m.links.indexOf(e),
+					u: x.local(L.paper, m.links.indexOf(e), a)
+				};
+				y.frame(t, L.paper.metres([a[0] + i * n[0], a[1] + i * n[1]]), le());
+			});
+		}), {
+			knob: i,
+			p: r
+		};
+	}), V = n("div", null, {
+		class: "missing",
+		role: "status"
+	});
+	R.before(V), n("p", V, {}, c.missing.sentence[0].toUpperCase() + c.missing.sentence.slice(1) + ".");
+	for (let e of c.missing.offers) M(V, `+ ${e.said}`, e.page ? e.said : "saves the file with it", () => void G(e));
+	W();
+	function H(e) {
+		return e.startsWith("point:") ? m.links.indexOf(e.slice(6, e.lastIndexOf("."))) : se(c, e);
+	}
+	function ie() {
+		let e = /* @__PURE__ */ new Set();
+		return c.points.filter(({ p: t }) => {
+			let n = t.map((e) => v.here[e].toFixed(9)).join();
+			return !e.has(n) && e.add(n);
+		});
+	}
+	function W() {
+		let e = n("div", F, { class: "switches" }), t = At(c.title);
+		_t(e, I.view, l, !1, () => Y()), gt(e, l, ["names"], !1, () => Y());
+		let r = n("span", e, {
+			class: "group",
+			role: "group",
+			"aria-label": "save"
+		});
+		M(r, "Model file", "the file with the pose that is drawn", () => X(`${t}.yaml`, oe(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${t}.svg`, Dt(L.svg, c.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void kt(L.svg, c.style.light).then((e) => X(`${t}.png`, e, "image/png")));
+	}
+	function ae(e) {
+		return e.flatMap(({ kind: e, name: t }) => m.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
+			said: `${y.locked(r) ? "Let go" : "Hold"} the ${n.angular ? "turn" : "slide"} of ${t}`,
+			act: () => y.lock(r, !y.locked(r))
+		}] : []));
+	}
+	async function G(e) {
+		if (!u.on?.({
+			type: "offer",
+			offer: e
+		})) {
+			if (!e.page) return X(`${At(c.title)}.yaml`, e.text, "text/yaml");
+			await u.taken(JSON.parse(new TextDecoder().decode(await re(e.page))), K());
+		}
+	}
+	function oe() {
+		let e = m.links.flatMap((e, t) => [
+			y.pose.point[2 * t],
+			y.pose.point[2 * t + 1],
+			y.pose.turn[t]
+		]);
+		return c.text.replace(/@@(\d+)@@/g, (t, n) => String(e[+n]));
+	}
+	function K() {
+		return Object.fromEntries(m.links.map((e, t) => [e, [
+			y.pose.point[2 * t],
+			y.pose.point[2 * t + 1],
+			y.pose.turn[t]
+		]]));
+	}
+	let le = () => Mt * L.paper.perMm / m.length;
+	function q(e) {
+		k = y.pose, e(), ue();
+	}
+	function ue() {
+		k !== y.pose && (S.push(k), S.length > Pt && S.shift(), C.length = 0), u.on?.({
+			type: "pose",
+			pose: K(),
+			closed: y.closed
+		}), Y();
+	}
+	function J(e, t) {
+		let n = e.pop();
+		n && (t.push(y.pose), y.placed(n), Y());
+	}
+	L.svg.addEventListener("pointerdown", (e) => {
+		let t = e.button === 0 ? ce(L.svg, e, H) : -1;
+		if (t < 0) return;
+		L.svg.setPointerCapture(e.pointerId);
+		let n = s(L.svg, e);
+		[w, T, k] = [
+			{
+				link: t,
+				u: x.local(L.paper, t, n)
+			},
+			L.paper.metres(n),
+			y.pose
+		];
+	}), L.svg.addEventListener("pointermove", (e) => {
+		w && L.svg.hasPointerCapture(e.pointerId) && (T = L.paper.metres(s(L.svg, e)), E = "on the way", Y());
+	});
+	let de = () => {
+		w && (w = null, E = "there", ue());
+	};
+	L.svg.addEventListener("pointerup", de), L.svg.addEventListener("pointercancel", de);
+	function Y() {
+		O ||= requestAnimationFrame(() => {
+			O = 0;
+			let e = performance.now();
+			fe(), b.push(performance.now() - e), b.length > 2e3 && b.shift();
+		});
+	}
+	function fe() {
+		if (w || !y.closed) {
+			let e = y.pose;
+			E !== "on the way" && y.closed || (E = y.frame(w, T, le())), (E === "on the way" || E === "apart" && e !== y.pose) && Y();
+		}
+		v.show(y.pose), L.update(!0);
+		for (let { knob: t, p: n } of ne) {
+			let [i, a] = L.paper.point(n);
+			e(t, {
+				cx: r(i),
+				cy: r(a)
+			});
+		}
+		z(), pe(), [N.disabled, P.disabled] = [!S.length, !C.length];
+	}
+	function pe() {
+		if (te.replaceChildren(), !w || E !== "nearest" || y.away < 3 * le()) return;
+		let [n, o] = [y.at(w), T].map((e) => L.paper.of(...L.paper.project(e))), { unit: s, size: l } = c.units.length;
+		t("path", te, {
+			class: "l-gap",
+			d: a([n, o]),
+			style: "fill:none"
+		}), e(p(te, "gap", `${i(y.away * m.length / l, 3)} ${s} too far`, 3.3, o[0] < n[0] == o[1] < n[1] ? "start" : "end"), {
+			x: r((n[0] + o[0]) / 2 + (o[0] < n[0] == o[1] < n[1] ? 2.5 : -2.5)),
+			y: r((n[1] + o[1]) / 2 - 1.5)
+		});
+	}
+	let me = u.full ? document : o, he = (e) => {
+		let t = e;
+		(t.ctrlKey || t.metaKey) && !t.altKey && /^[zy]$/i.test(t.key) && (t.preventDefault(), t.key.toLowerCase() === "z" && !t.shiftKey ? J(S, C) : J(C, S));
+	};
+	me.addEventListener("keydown", he);
+	let _e = () => {
+		I.resize(), L.fit(), Y();
+	};
+	return {
+		data: c,
+		times: b,
+		stage: I,
+		observed: [R],
+		resize: _e,
+		redraw: Y,
+		opened() {
+			_e(), fe(), I.choose(l.chosen);
+		},
+		set: () => void 0,
+		show: () => void 0,
+		text: oe,
+		pose: K,
+		sketch: y,
+		remove: () => me.removeEventListener("keydown", he)
+	};
+}
+// src/reading.ts
+var Z = class extends Error {}, Q = (e, t) => e.replace(/\{(\w+)\}/g, (e, n) => t[n] ?? e);
+function $(e) {
+	if (/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(e)) return e;
+	let t = e.includes("'") && !e.includes("\"") ? "\"" : "'", n = t + e.replace(/\\/g, "\\\\") + t;
+	return n.length <= 60 ? n : n.slice(0, 57) + "...";
+}
+var It = {
+	"²": "^2",
+	"³": "^3",
+	"·": "*",
+	"⋅": "*",
+	"×": "*",
+	"−": "-"
+}, Lt = class {
+	text;
+	reading;
+	units;
+	tokens;
+	constructor(e, t, n) {
+		this.text = e, this.reading = t, this.units = n;
+		let r = e.replace(/[²³·⋅×−]/g, (e) => It[e]).replaceAll("**", "^");
+		r = r.replace(/\b(ft|in)-lb\b/g, "$1*lbf").replace(/\blb-(ft|in)\b/g, "lbf*$1").replace(/(?<=[a-zµμ])[-.](?=[a-zµμ])/gi, "*"), this.tokens = r.match(/\d+|[a-zµμ_]+|[°%]|[-*/^()]|\S/gi) ?? [];
+	}
+	read() {
+		let e = this.product(1);
+		return this.tokens.length && this.refuse(`unexpected ${$(this.tokens[0])}`), e;
+	}
+	refuse(e) {
+		throw new Z(Q(this.reading.sentences.form, {
+			unit: $(this.text),
+			why: e
+		}));
+	}
+	product(e) {
+		let t = {
+			up: 1,
+			down: 1,
+			dimension: [
+				0,
+				0,
+				0,
+				0
+			]
+		};
+		for (this.tokens[0] === "1" && this.tokens[1] === "/" ? this.tokens.shift() : t = this.factor(1, t, e); this.tokens.length && this.tokens[0] !== ")";) {
+			let n = this.tokens[0] === "/" ? -1 : 1;
+			/[*/]/.test(this.tokens[0]) && this.tokens.shift(), t = this.factor(n, t, e);
+		}
+		return t;
+	}
+	factor(e, t, n) {
+		let r = this.tokens.shift(), i;
+		if (r === "(" && n < 5) i = this.product(n + 1), this.tokens.shift() !== ")" && this.refuse("a bracket is not closed");
+		else if (r !== void 0 && /^[a-zµμ_°%]/i.test(r)) i = this.named(r);
+		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${$(r)}`);
+		let a = 1;
+		if (this.tokens[0] === "^") {
+			this.tokens.shift();
+			let e = this.tokens[0] === "-" && this.tokens.shift() !== void 0, t = this.tokens.shift() ?? "";
+			if (!/^[1-6]$/.test(t)) throw new Z(Q(this.reading.sentences.power, { unit: $(this.text) }));
+			a = e ? -t : +t;
+		}
+		let [o, s] = e * a < 0 ? [i.down, i.up] : [i.up, i.down];
+		return {
+			up: t.up * o ** Math.abs(a),
+			down: t.down * s ** Math.abs(a),
+			dimension: t.dimension.map((t, n) => t + e * a * i.dimension[n])
+		};
+	}
+	named(e) {
+		let t = Object.hasOwn(this.reading.units, e) ? this.reading.units[e] : null;
+		if (!t) throw new Z(Q(this.reading.sentences.no_unit, {
+			unit: $(e),
+			units: this.units
+		}));
+		let [n, r, ...i] = t;
+		return {
+			up: n,
+			down: r,
+			dimension: i
+		};
+	}
+};
+function Rt(e, t, n) {
+	let { kinds: r, sentences: i } = n, a = r[t.kind] ?? r.number, o = e.trim(), s = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/is.exec(o.replaceAll("−", "-")), c = {
+		text: $(o),
+		phrase: a.phrase,
+		remedy: a.remedy
+	}, l = (e, t = {}) => {
+		throw new Z(Q(e, {
+			...c,
+			...t
+		}));
+	};
+	if (!s) return l(i.number);
+	let [, u, d] = s;
+	if (/^,\s*\d/.test(d)) return l(i[/^,\d{3}(?!\d)/.test(d) ? "thousands" : "comma"], {
+		point: o.replace(",", "."),
+		plain: o.replaceAll(",", "")
+	});
+	if (/^[\d/]/.test(d) && !/^1\/[^\W\d]/.test(d)) return l(i.several);
+	let f = (e) => Number.isFinite(e) ? e : l(i.finite);
+	if (!d || d === t.unit) return f(+u * t.size);
+	let p = new Lt(d, n, a.units).read(), m = [...p.dimension];
+	if (a.per_radian && m[3] === 0 && (m[3] = a.dimension[3]), m.some((e, t) => e !== a.dimension[t])) {
+		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? zt(p.dimension);
+		if (/\blb\b/.test(d) && a.force) return l(i.dimension, {
+			given: e,
+			remedy: Q(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
+		});
+		let n = t.kind === "angular_speed" && String(p.dimension) === "0,0,-1,0";
+		return l(i.dimension, {
+			given: e,
+			...n ? { remedy: i.hertz.split("; ").slice(1).join("; ") } : {}
+		});
+	}
+	return f(+u * p.up / p.down);
+}
+function zt(e) {
+	return `in ${[
+		"m",
+		"kg",
+		"s",
+		"rad"
+	].flatMap((t, n) => e[n] ? [t + (e[n] === 1 ? "" : `^${e[n]}`)] : []).join("*")}`;
+}
+// src/gate.ts
+var Bt = class {
+	data;
+	kernel;
+	sentence = "";
+	accepted;
+	out;
+	constructor(e, t) {
+		this.data = e, this.kernel = t, this.accepted = t.values.slice(), this.out = new Float64Array(t.here.length), e.limits.length && t.at(0);
+	}
+	type(e, t) {
+		let n = this.data.numbers[e];
+		try {
+			let r = Rt(t, n, this.data.reading);
+			this.check(n, r, $(t.trim())), this.kernel.values[e] = r;
+		} catch (e) {
+			if (!(e instanceof Z)) throw e;
+			return e.message;
+		}
+		let r = this.pass() ? "" : this.sentence;
+		return this.sentence = "", r;
+	}
+	pass() {
+		let { numbers: e } = this.data, t = this.kernel.values;
+		return this.sentence = "", e.forEach((e, n) => {
+			if (t[n] !== this.accepted[n]) {
+				e.range && Number.isFinite(t[n]) && (t[n] = Math.min(Math.max(t[n], Math.min(e.range[0], e.value)), Math.max(e.range[1], e.value)));
+				try {
+					this.check(e, t[n], this.words(e, t[n]));
+				} catch (t) {
+					this.sentence ||= `${e.label}: ${t.message}`;
+				}
+			}
+		}), this.sentence ||= this.following(), this.sentence ? t.set(this.accepted) : this.accepted.set(t), !this.sentence;
+	}
+	change(e) {
+		let t = this.kernel.values, { numbers: n } = this.data, r = "";
+		this.accept(Float64Array.from(n, (e) => e.value)), n.forEach((n, i) => {
+			e[n.path] === void 0 || Number.isNaN(e[n.path]) || (t[i] = e[n.path], this.pass() || (r ||= this.sentence));
+		});
+		let i = this.data.sketch.assembly.map((t) => e[t]);
+		this.kernel.motion.assume(i.length && i.every(Number.isFinite) ? i : null), this.sentence = r;
+	}
+	accept(e) {
+		this.kernel.values.set(e), this.accepted.set(e), this.sentence = "";
+	}
+	check(e, t, n) {
+		let { sentences: r, signs: i } = this.data.reading, a = e.range;
+		if (!Number.isFinite(t)) throw new Z(Q(r.finite, { text: n }));
+		if (e.sign && (t < 0 || e.sign === "positive" && t === 0)) throw new Z(Q(i[e.sign], { text: n }));
+		if (a && t !== e.value && (t < a[0] || t > a[1])) throw new Z(Q(r.range, {
+			text: n,
+			low: this.words(e, a[0]),
+			high: this.words(e, a[1])
+		}));
+	}
+	following() {
+		let { limits: e, reading: t } = this.data, n = this.kernel.values;
+		if (!e.length || n.every((e, t) => e === this.accepted[t])) return "";
+		this.kernel.other(n, this.out);
+		for (let { row: n, path: r, sign: i } of e) {
+			let e = this.out[n], a = r.lastIndexOf(".");
+			if (e < 0 || i === "positive" && e === 0) {
+				let n = Number.isInteger(e) ? e.toFixed(1) : String(e);
+				return `${r.slice(0, a)}: ${r.slice(a + 1)}: ${Q(t.signs[i], { text: n })}`;
+			}
+		}
+		return "";
+	}
+	words(e, t) {
+		return `${i(t / e.size, 6).replace("–", String(t))}${e.unit === "°" ? "" : " "}${e.unit}`.trim();
+	}
+};
+// src/handles.ts
+function Vt(e, n, r, i) {
+	let a = t("g", e.svg, { class: "handles" }), o = n.handles.map((t) => Wt(a, e, t, r, i));
+	return () => r.finite && o.forEach((e) => e());
+}
+var Ht = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function Ut(e, t, n, r, [i, a]) {
+	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
+		e.other(c, s);
+		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
+		return Number.isFinite(o[0] + o[1]) ? o : null;
+	};
+	for (let e = 0; e < 4; e++) {
+		c.set(o);
+		let e = l();
+		if (!e) return;
+		let t = r.map((t) => {
+			let n = 1e-6 * (Math.abs(o[t]) || 1);
+			c[t] = o[t] + n;
+			let r = l();
+			return c[t] = o[t], r ? [(e[0] - r[0]) / n, (e[1] - r[1]) / n] : [0, 0];
+		}), n = r.map((e) => Math.abs(o[e]) || 1), i = 0, a = 0, s = 0;
+		t.forEach(([e, t], r) => (i += (e * n[r]) ** 2, a += e * t * n[r] ** 2, s += (t * n[r]) ** 2));
+		let u = 1e-9 * (i + s) + 1e-300, d = (i + u) * (s + u) - a * a, f = [((s + u) * e[0] - a * e[1]) / d, ((i + u) * e[1] - a * e[0]) / d];
+		for (let i = 1; i > .05; i /= 2) {
+			r.forEach((e, r) => c[e] = o[e] + i * n[r] ** 2 * (t[r][0] * f[0] + t[r][1] * f[1]));
+			let a = l();
+			if (a && Math.hypot(...a) < Math.hypot(...e)) {
+				r.forEach((e) => o[e] = c[e]);
+				break;
+			}
+		}
+	}
+}
+function Wt(n, i, a, o, c) {
+	let l = `${{
+		joint: "joint",
+		point: "point",
+		center: "",
+		load: "force",
+		direction: "direction of"
+	}[a.kind]} ${a.name}`.trim(), u = t("circle", n, {
+		class: `handle ${a.kind}`,
+		r: a.kind === "joint" ? 2.6 : 2,
+		tabindex: 0,
+		role: "slider",
+		"aria-label": `move ${l}`,
+		"aria-valuetext": l,
+		"aria-valuenow": 0,
+		"data-kind": a.kind,
+		"data-name": a.name,
+		"data-item": a.kind === "center" ? `center:${a.name.split(":")[0]}` : `${a.kind}:${a.name}`
+	});
+	t("title", u).textContent = `drag ${l}`;
+	let d = i.paper, f = o.values, p = (e) => e.map((e) => o.here[e]), m = [], h = [], g = [0, 0], _ = [], v = [], y = [0, 0], b = !1, x = () => {
+		let e = d.point(a.p), t = "f" in a ? d.here(a.f) : "along" in a ? d.here(a.along) : [0, 0], n = a.kind === "direction" ? 16 : 1 / i.force();
+		return [e[0] + n * t[0], e[1] - n * t[1]];
+	}, S = () => {
+		let e = (e, t) => ({
+			axes: e.map(p),
+			at: p(t)
+		});
+		m = "ends" in a ? a.ends.map((t) => e(t.axes, t.at)) : [e(a.axes, a.p)], [h, g, _, b] = [
+			p(a.p),
+			x(),
+			"f" in a ? p(a.f) : [],
+			!0
+		], v = "about" in a && a.about ? p(a.about) : [];
+	}, C = (e) => d.vector([e[0] - g[0], e[1] - g[1]]), w = (e) => {
+		if ("by" in a && a.by) Ut(o, d, a.p, a.by, d.metres(e));
+		else if ("ends" in a) E(a.ends, T(C(e)));
+		else if (a.kind === "direction") {
+			let t = d.point(a.p), n = [e[0] - t[0], t[1] - e[1]], [r, i] = m[0].axes.map((e) => Ht(e, n));
+			f[a.direction] = Gt(Math.atan2(i, r), f[a.direction]);
+		} else D(a, C(e).map((e, t) => _[t] + e / d.perMm * i.force()));
+		c.changed();
+	}, T = (e) => {
+		if (!("about" in a) || !a.about) return e;
+		let t = v, n = h.map((e, n) => e - t[n]), r = n.map((t, n) => t + e[n]), i = Math.hypot(...n) / (Math.hypot(...r) || 1);
+		return r.map((e, n) => t[n] + i * e - h[n]);
+	}, E = (e, t) => e.forEach((e, n) => {
+		let r = h.map((e, r) => e + t[r] - m[n].at[r]);
+		e.n.forEach((e, t) => f[e] = Ht(m[n].axes[t], r));
+	}), D = (e, t) => {
+		let n = m[0].axes.map((e) => Ht(e, t));
+		if (e.components) return e.components.forEach((e, t) => f[e] = n[t]);
+		let r = Math.sign(f[e.size]) || 1;
+		e.direction === void 0 ? f[e.size] = r * Ht(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = Gt(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
+	}, O = () => {
+		b && c.finished(), b = !1;
+	};
+	return u.addEventListener("pointerdown", (e) => {
+		if (e.button !== 0) return;
+		e.stopPropagation(), u.setPointerCapture(e.pointerId), S();
+		let t = s(i.svg, e);
+		y = [g[0] - t[0], g[1] - t[1]];
+	}), u.addEventListener("pointermove", (e) => {
+		let t = s(i.svg, e);
+		b && w([t[0] + y[0], t[1] + y[1]]);
+	}), u.addEventListener("pointerup", O), u.addEventListener("pointercancel", O), u.addEventListener("keydown", (e) => {
+		let t = {
+			ArrowLeft: [-1, 0],
+			ArrowRight: [1, 0],
+			ArrowUp: [0, -1],
+			ArrowDown: [0, 1]
+		};
+		if (!t[e.key]) return;
+		e.preventDefault(), e.stopPropagation(), S();
+		let n = e.shiftKey ? 5 : 1;
+		w([g[0] + n * t[e.key][0], g[1] + n * t[e.key][1]]), O();
+	}), () => {
+		if (a.kind === "direction" && b) return;
+		let [t, n] = x();
+		e(u, {
+			visibility: Number.isFinite(t + n) ? "visible" : "hidden",
+			cx: r(t),
+			cy: r(n)
+		});
+	};
+}
+var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1, qt = 1e60, Jt = class {
 	table;
 	breaks;
 	pieces;
 	constructor(e) {
-		this.table = e, this.breaks = J(e.breaks), this.pieces = J(e.pieces);
+		this.table = e, this.breaks = H(e.breaks), this.pieces = H(e.pieces);
 	}
 	at(e) {
 		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
@@ -1248,7 +2721,7 @@ var Y = class e {
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, pe = class e {
+}, Yt = class e {
 	data;
 	whole;
 	one;
@@ -1274,9 +2747,9 @@ var Y = class e {
 	followed;
 	known;
 	constructor(e, t, n, r, i, a) {
-		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, J(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
-			values: J(e.values),
-			pieces: e.table && new fe(e.table),
+		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, H(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: H(e.values),
+			pieces: e.table && new Jt(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}]));
 		let o = /* @__PURE__ */ new Set([...e.sketch.branches, ...e.sketch.known]);
@@ -1288,15 +2761,15 @@ var Y = class e {
 			for (let e = 0; e < this.row; e++) t.path[n * this.row + e] = r[Math.min(e, this.count - 1)];
 		}), this.side >= 0 && t.path.fill(-1, this.side * this.row, (this.side + 1) * this.row);
 		let s = (e) => this.channels.get(e)?.values ?? new Float64Array(this.count);
-		this.motion = new ae(e, this, r, i, this.values, s), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.isWholeTurn(e.name));
+		this.motion = new I(e, this, r, i, this.values, s), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.isWholeTurn(e.name));
 	}
 	static async create(t) {
 		let n = t.numbers.length, [r, i, a, o, s] = await Promise.all([
-			Y.create(t.kernel, n),
-			Y.create(t.kernel, n),
-			Y.create(t.sketch.closure, n),
-			Y.create(t.sketch.shown, n),
-			t.gradient ? Y.create(t.gradient, n) : void 0
+			U.create(t.kernel, n),
+			U.create(t.kernel, n),
+			U.create(t.sketch.closure, n),
+			U.create(t.sketch.shown, n),
+			t.gradient ? U.create(t.gradient, n) : void 0
 		]);
 		return new e(t, r, i, a, o, s);
 	}
@@ -1329,11 +2802,11 @@ var Y = class e {
 	cycle() {
 		this.motion.update(), this.closes(), this.side >= 0 && this.bothSides();
 		let e = this.rows.length - this.row;
-		for (let t = 0; t < this.count; t++) this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], (e) => this.rows[e * this.row + t]) : X, this.good[t] = +this.numbered(this.markAt(t));
+		for (let t = 0; t < this.count; t++) this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], (e) => this.rows[e * this.row + t]) : Kt, this.good[t] = +this.numbered(this.markAt(t));
 	}
 	closes() {
 		for (let { name: e, channel: t } of this.followed) this.whole.path.set(this.channels.get(e).values, t * this.row);
-		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== X));
+		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== Kt));
 	}
 	bothSides() {
 		let { path: e, out: t } = this.whole, n = this.side * this.row, r = t.slice();
@@ -1345,8 +2818,8 @@ var Y = class e {
 		return e === t ? this.numbered(e) && !this.here.every((e, t) => t === this.here.length - 1 || n(t)) && e === 0 ? this.marked("reversal") : e : this.numbered(e) ? t : e;
 	}
 	judged(e, t) {
-		if (e === X || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
-		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > de);
+		if (e === Kt || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
+		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > qt);
 		for (let e = 0; n && e < this.here.length - 1; e++) if (!Number.isFinite(t(e))) return this.marked("overflow");
 		return e;
 	}
@@ -1354,7 +2827,7 @@ var Y = class e {
 		return this.data.statuses.findIndex((t) => t.status === e);
 	}
 	closesAt(e) {
-		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== X;
+		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== Kt;
 	}
 	posed(e) {
 		return this.data.sketch.poses.map((t) => t.map((t) => this.value(t, e)));
@@ -1370,7 +2843,7 @@ var Y = class e {
 		this.run(e, t, t ? this.motion.read(t, e) : this.motion.otherwise);
 		for (let e = 0; e < n.length; e++) [n[e], this.hereAfter[e]] = [this.one.at(e), this.one.at(e, 1)];
 		let r = n.length - 1, i = this.side >= 0 ? this.between(n[r], this.hereAfter[r], (e) => n[e] === this.hereAfter[e]) : n[r];
-		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = X), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
+		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = Kt), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
 	}
 	stretch(e, t) {
 		let { sketch: n } = this.data, r = this.motion.look(e, t, this.motion.otherwise), i = n.branches.length + n.known.length;
@@ -1441,49 +2914,24 @@ var Y = class e {
 		for (let n = 0; n < this.count; n++) this.good[n] && (t = Math.max(t, e(n), this.reverses(n) ? this.onceAfter(() => e(n)) : 0));
 		return t;
 	}
-}, me = class {
-	links;
-	poses;
-	source;
-	constructor(e, t, n) {
-		this.links = e, this.poses = t, this.source = n;
-	}
-	axes(e, t) {
-		let n = this.poses[e].map(t), r = n.length === 12 ? 3 : 2;
-		return {
-			at: n.slice(0, r),
-			axes: Array.from({ length: r }, (e, t) => n.slice(r + r * t, r + r * t + r))
-		};
-	}
-	place(e, t, n = (e) => this.source.here[e]) {
-		let { at: r, axes: i } = this.axes(e, n);
-		return r.map((e, n) => i.reduce((e, r, i) => e + (t[i] ?? 0) * r[n], e));
-	}
-	on(e, t, n, r) {
-		return e.of(...e.project(this.place(t, n, (e) => this.source.value(e, r))));
-	}
-	local(e, t, [n, r]) {
-		let { at: i, axes: a } = this.axes(t, (e) => this.source.here[e]), [o, s] = e.of(...e.project(i)), c = e.vector([n - o, r - s]);
-		return a.map((e) => e.reduce((e, t, n) => e + t * c[n], 0));
-	}
 };
 // src/panels.ts
-function he(e, t, n, i, a) {
+function Xt(e, t, r, i, a) {
 	let o = [], s = /* @__PURE__ */ new Map(), c = (t) => {
-		let n = s.get(t);
-		if (!n) {
-			let i = r("fieldset", e);
-			r("legend", i, {}, t), s.set(t, n = i);
+		let r = s.get(t);
+		if (!r) {
+			let i = n("fieldset", e);
+			n("legend", i, {}, t), s.set(t, r = i);
 		}
-		return n;
+		return r;
 	}, l = t.numbers.map((e, t) => ({
 		field: e,
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n: t } of l) {
-		let [s, l] = e.parameter ? ["Parameters", e.label] : ge(e.label), f = r("label", c(s), { title: e.about ?? e.path });
-		r("span", f, {}, l);
-		let p = r("input", f, {
+		let [s, l] = e.parameter ? ["Parameters", e.label] : Zt(e.label), f = n("label", c(s), { title: e.about ?? e.path });
+		n("span", f, {}, l);
+		let p = n("input", f, {
 			type: "text",
 			inputmode: "decimal",
 			autocomplete: "off",
@@ -1491,8 +2939,8 @@ function he(e, t, n, i, a) {
 			"aria-label": e.label,
 			"data-path": e.path
 		});
-		r("span", f, { class: "unit" }, e.unit);
-		let m = r("span", f, {
+		n("span", f, { class: "unit" }, e.unit);
+		let m = n("span", f, {
 			class: "wrong",
 			role: "alert"
 		}), h = {
@@ -1509,7 +2957,7 @@ function he(e, t, n, i, a) {
 		}), p.addEventListener("keydown", (e) => {
 			e.key === "Escape" && (g(""), p.value = u(h), p.blur());
 		}), e.parameter) {
-			let [i, o] = e.range ?? _e(e.value), s = r("input", f, {
+			let [i, o] = e.range ?? Qt(e.value), s = n("input", f, {
 				type: "range",
 				min: i / e.size,
 				max: o / e.size,
@@ -1517,55 +2965,55 @@ function he(e, t, n, i, a) {
 				"aria-label": `${e.label}, slider`
 			});
 			h.slide = s;
-			let c = (r) => () => {
-				n.values[t] = +s.value * e.size, a(r);
+			let c = (n) => () => {
+				r.values[t] = +s.value * e.size, a(n);
 			};
 			s.addEventListener("input", c(!1)), s.addEventListener("change", c(!0));
 		}
 		o.push(h);
 	}
-	let u = (e) => String(+(n.values[e.n] / e.field.size).toPrecision(6)), d = (e) => {
-		let t = n.values[e.n] / e.field.size;
-		document.activeElement !== e.box && !e.box.hasAttribute("aria-invalid") && (e.box.value = u(e)), e.slide && document.activeElement !== e.slide && (e.slide.value = String(t)), e.box.classList.toggle("changed", n.values[e.n] !== e.field.value);
+	let u = (e) => String(+(r.values[e.n] / e.field.size).toPrecision(6)), d = (e) => {
+		let t = r.values[e.n] / e.field.size;
+		document.activeElement !== e.box && !e.box.hasAttribute("aria-invalid") && (e.box.value = u(e)), e.slide && document.activeElement !== e.slide && (e.slide.value = String(t)), e.box.classList.toggle("changed", r.values[e.n] !== e.field.value);
 	};
 	return {
 		update: () => o.forEach(d),
 		focus: (e) => o.find((t) => t.field.path === e)?.box.focus()
 	};
 }
-function ge(e) {
+function Zt(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function _e(e) {
+function Qt(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function ve(e, t, n) {
-	let i = r("tbody", r("table", e, { class: "answers" })), o = t.views.table.map((e) => {
-		let n = r("tr", i), a = t.units[e.kind];
-		return r("th", n, { scope: "row" }, u(e.name)), {
+function $t(e, t, r) {
+	let a = n("tbody", n("table", e, { class: "answers" })), o = t.views.table.map((e) => {
+		let r = n("tr", a), i = t.units[e.kind];
+		return n("th", r, { scope: "row" }, l(e.name)), {
 			r: e,
-			unit: a,
-			cell: r("td", n)
+			unit: i,
+			cell: n("td", r)
 		};
 	});
 	return { update() {
-		for (let { r: e, unit: t, cell: r } of o) {
-			let i = e.rows.map((e) => n.here[e] / t.size), o = (e) => t.unit === "°" ? `${a(e, 5)}°` : `${a(e)} ${t.unit}`;
-			r.textContent = n.solved ? i.length === 1 ? o(i[0]) : `${o(Math.hypot(...i))}${i.length === 2 ? ` at ${a(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°` : ""}  (${i.map((e) => a(e)).join(", ")})` : "–";
+		for (let { r: e, unit: t, cell: n } of o) {
+			let a = e.rows.map((e) => r.here[e] / t.size), o = (e) => t.unit === "°" ? `${i(e, 5)}°` : `${i(e)} ${t.unit}`;
+			n.textContent = r.solved ? a.length === 1 ? o(a[0]) : `${o(Math.hypot(...a))}${a.length === 2 ? ` at ${i(Math.atan2(a[1], a[0]) * 180 / Math.PI)}°` : ""}  (${a.map((e) => i(e)).join(", ")})` : "–";
 		}
 	} };
 }
-function ye(e, t, n, i) {
-	let { terms: o, about: s } = i.equations, { force: c, moment: l } = t.units, d = o[0]?.f.length ?? 2, f = [
+function en(e, t, r, a) {
+	let { terms: o, about: s } = a.equations, { force: c, moment: u } = t.units, d = o[0]?.f.length ?? 2, f = [
 		"x",
 		"y",
 		"z"
 	].slice(0, d).map((e, t) => ({
 		head: `ΣF${e}`,
 		unit: c,
-		sign: (t) => u(t.name) + e,
+		sign: (t) => l(t.name) + e,
 		row: (e) => e.f[t]
 	}));
 	(d === 2 ? [""] : [
@@ -1574,735 +3022,38 @@ function ye(e, t, n, i) {
 		"z"
 	]).forEach((e, t) => f.push({
 		head: `ΣM${e} about ${s}`,
-		unit: l,
-		sign: (t) => `M${e}(${u(t.name)})`,
+		unit: u,
+		sign: (t) => `M${e}(${l(t.name)})`,
 		row: (e) => e.m[t]
 	}));
 	let p = f.map((t) => ({
 		sum: t,
-		el: r("p", e, { class: "equation" })
+		el: n("p", e, { class: "equation" })
 	}));
 	return { update() {
 		for (let { sum: e, el: t } of p) {
-			let r = o.map((t) => n.here[e.row(t)] / e.unit.size), i = Math.max(...r.map(Math.abs), 0), s = r.map((e, t) => ({
+			let n = o.map((t) => r.here[e.row(t)] / e.unit.size), a = Math.max(...n.map(Math.abs), 0), s = n.map((e, t) => ({
 				v: e,
 				k: t
-			})).filter((e) => Math.abs(e.v) > 1e-9 * i);
-			if (!n.solved || !s.length) {
-				t.textContent = `${e.head}: ${n.solved ? "nothing acts" : "no answer here"}`;
+			})).filter((e) => Math.abs(e.v) > 1e-9 * a);
+			if (!r.solved || !s.length) {
+				t.textContent = `${e.head}: ${r.solved ? "nothing acts" : "no answer here"}`;
 				continue;
 			}
-			let c = s.map((t) => e.sign(o[t.k])).join(" + "), l = s.reduce((e, t) => e + t.v, 0), u = s.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + a(Math.abs(e.v))).join("");
-			t.textContent = `${e.head}: ${c} = ${u} = ${a(Math.abs(l) < 1e-9 * i ? 0 : l)} ${e.unit.unit}`;
+			let c = s.map((t) => e.sign(o[t.k])).join(" + "), l = s.reduce((e, t) => e + t.v, 0), u = s.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + i(Math.abs(e.v))).join("");
+			t.textContent = `${e.head}: ${c} = ${u} = ${i(Math.abs(l) < 1e-9 * a ? 0 : l)} ${e.unit.unit}`;
 		}
 	} };
 }
-function be(e, t) {
-	r("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
-	let n = r("dl", e);
-	for (let [e, i] of Object.entries(t.assumptions)) r("dt", n, {}, e), r("dd", n, {}, i);
-	t.source && r("p", e, {}, `Source: ${t.source}`), r("p", e, {}, `Made with dalembert ${t.version}.`);
-}
-// src/hits.ts
-var xe = {
-	joint: 0,
-	point: 0,
-	tracer: 0,
-	center: 1,
-	load: 1,
-	direction: 1,
-	link: 4,
-	trace: 5
-}, Se = (e) => {
-	let t = e.indexOf(":");
-	return {
-		kind: e.slice(0, t),
-		name: e.slice(t + 1)
-	};
-}, Ce = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
-function we(e, t, n, r = 6) {
-	let i = e.getRootNode(), a = /* @__PURE__ */ new Map();
-	return [
-		0,
-		.5,
-		1
-	].forEach((o, s) => {
-		for (let c = 0; c < (s ? 8 : 1); c++) {
-			let l = c * Math.PI / 4;
-			for (let c of i.elementsFromPoint(t + o * r * Math.cos(l), n + o * r * Math.sin(l))) {
-				let t = e.contains(c) && c.closest("[data-item]")?.dataset.item;
-				t && !a.has(t) && a.set(t, 2 * s + (xe[Se(t).kind] ?? 2));
-			}
-		}
-	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => Se(e));
-}
-function Te(e, t) {
-	e.querySelectorAll(".chosen").forEach((e) => e.classList.remove("chosen")), t && e.querySelectorAll(`[data-item="${CSS.escape(`${t.kind}:${t.name}`)}"]`).forEach((e) => e.classList.add("chosen"));
-}
-// src/pull.ts
-var Ee = 1 / 10;
-function De(e, t) {
-	if (!t) return -1;
-	let { kind: n, name: r } = Se(t), { links: i, rows: a } = e.sketch;
-	return n === "link" || n === "center" ? i.indexOf(r) : (n === "joint" ? a.find((e) => e.joint === r)?.ends : void 0)?.find((e) => e < i.length) ?? -1;
-}
-function Oe(e, t, n, r, i) {
-	if (n.count < 2) return;
-	let a = -1, o = [];
-	e.svg.addEventListener("pointerdown", (n) => {
-		let i = n.target.closest("[data-item]")?.dataset.item;
-		a = n.button === 0 ? De(t, i) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, c(e.svg, n)));
-	}), e.svg.addEventListener("pointermove", (t) => {
-		a >= 0 && e.svg.hasPointerCapture(t.pointerId) && i.seek(l(c(e.svg, t)));
-	});
-	let s = () => void (a = -1);
-	e.svg.addEventListener("pointerup", s), e.svg.addEventListener("pointercancel", s);
-	function l(t) {
-		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * Ee)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
-		for (let e = Math.floor(l) - u; e <= Math.floor(l) + u; e++) {
-			if (!c && (e < 0 || e + 1 >= s)) continue;
-			let [n, r] = [e, e + 1].map((e) => (e % s + s) % s), [i, a] = [m(n), m(r)];
-			if (!i || !a) continue;
-			let o = [a[0] - i[0], a[1] - i[1]], u = o[0] ** 2 + o[1] ** 2 || 1, p = Math.min(Math.max(((t[0] - i[0]) * o[0] + (t[1] - i[1]) * o[1]) / u, 0), 1), h = Math.hypot(t[0] - i[0] - p * o[0], t[1] - i[1] - p * o[1]) + .001 * Math.abs(e + p - l);
-			h < f && ([d, f] = [e + p, h]);
-		}
-		return c ? (d % s + s) % s : d;
-	}
-}
-// src/labels.ts
-var ke = [
-	[1, -1],
-	[-1, -1],
-	[1, 1],
-	[-1, 1],
-	[0, -1],
-	[1, 0],
-	[-1, 0],
-	[0, 1]
-], Ae = [
-	1,
-	1.9,
-	3,
-	4.5
-];
-function je(e, t, n, r) {
-	return {
-		el: m(e, t, n, r),
-		text: n,
-		size: r,
-		bold: t === "title",
-		choice: -1
-	};
-}
-function Me(e, t) {
-	e.text !== t && (e.text = t, l(e.el, t, e.size));
-}
-var Ne = class {
-	bounds;
-	texts = [];
-	discs = [];
-	lines = [];
-	constructor(e) {
-		this.bounds = e;
-	}
-	line(e, t) {
-		this.lines.push([e, t]);
-	}
-	disc(e, t) {
-		this.discs.push([
-			e[0] - t,
-			e[1] - t,
-			e[0] + t,
-			e[1] + t
-		]);
-	}
-	put(e) {
-		let t = e.label, n = p(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), i = e.leave ?? 1.2, a = e.away && Math.hypot(...e.away) || 1, o = Infinity, c = 0, l = [
-			0,
-			0,
-			0,
-			0
-		], u = 0;
-		for (let [s, d] of e.anchors) for (let f of Ae) for (let [p, m] of ke) {
-			let h = i * f, g = s + p * (h + n / 2), _ = d + m * (h + r / 2), v = [
-				g - n / 2,
-				_ - r / 2,
-				g + n / 2,
-				_ + r / 2
-			], y = u % 32 * .12 + .2 * Math.floor(u / 32) - (u === t.choice ? .4 : 0);
-			e.away && (y += 1.2 * (1 - (p * e.away[0] + m * e.away[1]) / (Math.hypot(p, m) * a))), y < o && (y += this.cost(v)) < o && (o = y, c = u, l = v), u++;
-		}
-		t.choice = c, this.texts.push(l), s(t.el, (l[0] + l[2]) / 2, l[1] + .91 * t.size);
-	}
-	cost(e) {
-		let t = 0;
-		for (let n of this.texts) Pe(e, n) > 0 && (t += 60 + 5 * Pe(e, n));
-		for (let n of this.discs) Pe(e, n) > 0 && (t += 8 + Pe(e, n));
-		for (let [n, r] of this.lines) Fe(e, n, r) && (t += 6);
-		let [n, r, i, a] = this.bounds;
-		return (e[0] < n || e[1] < r || e[2] > i || e[3] > a) && (t += 60), t;
-	}
-};
-function Pe(e, t) {
-	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
-	return n > 0 && r > 0 ? n * r : 0;
-}
-function Fe(e, t, n) {
-	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
-	for (let n = 0; n < 2; n++) {
-		if (Math.abs(a[n]) < 1e-9) {
-			if (t[n] < e[n] || t[n] > e[n + 2]) return !1;
-			continue;
-		}
-		let o = (e[n] - t[n]) / a[n], s = (e[n + 2] - t[n]) / a[n];
-		r = Math.max(r, Math.min(o, s)), i = Math.min(i, Math.max(o, s));
-	}
-	return r < i;
-}
-// src/items.ts
-var Ie = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), Le = class {
-	kernel;
-	perMm;
-	units;
-	camera;
-	middle = [0, 0];
-	axes = [[1, 0], [0, 1]];
-	values = !1;
-	constructor(e, t, n, r) {
-		this.kernel = e, this.perMm = t, this.units = n, this.camera = r, r && this.turn(0, 0);
-	}
-	turn(e, t) {
-		let n = this.camera;
-		n[0] += e, n[1] = Math.min(Math.max(n[1] + t, -1.55), 1.55);
-		let r = Math.cos(n[0]), i = Math.sin(n[0]), a = Math.cos(n[1]), o = Math.sin(n[1]);
-		this.axes = [
-			[
-				-i,
-				r,
-				0
-			],
-			[
-				-o * r,
-				-o * i,
-				a
-			],
-			[
-				a * r,
-				a * i,
-				o
-			]
-		];
-	}
-	seen(e, t) {
-		return e.length < 3 ? [t(e[0]), t(e[1])] : [Ie(this.axes[0], e, t), Ie(this.axes[1], e, t)];
-	}
-	depth(e) {
-		return Ie(this.axes[2], e, (e) => this.kernel.here[e]);
-	}
-	here(e) {
-		return this.seen(e, (e) => this.kernel.here[e]);
-	}
-	point(e) {
-		return this.of(...this.here(e));
-	}
-	pointAt(e, t) {
-		return this.of(...this.seen(e, (e) => this.kernel.value(e, t)));
-	}
-	of(e, t) {
-		return [(e - this.middle[0]) / this.perMm, (this.middle[1] - t) / this.perMm];
-	}
-	project(e) {
-		return this.seen(e.map((e, t) => t), (t) => e[t]);
-	}
-	vector(e) {
-		return this.axes[0].map((t, n) => (e[0] * t - e[1] * this.axes[1][n]) * this.perMm);
-	}
-	metres(e) {
-		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
-	}
-};
-function Re(e, t, n) {
-	let r = ze(e, t, n);
-	return t.of && (e.lastElementChild.dataset.item = t.of.join(":")), r;
-}
-function ze(e, r, a) {
-	let s = a.kernel.here;
-	if (r.t === "symbol") {
-		let t = n("g", e, r.per_mm ? { class: "span" } : {});
-		return t.innerHTML = r.svg, {
-			update() {
-				let [e, n] = a.point(r.p), o = r.per_mm ? ` scale(${(r.per_mm / a.perMm).toFixed(4)})` : "", c = r.e ? ` rotate(${i(-Math.atan2(s[r.e[1]], s[r.e[0]]) * 180 / Math.PI)})` : "";
-				t.setAttribute("transform", `translate(${i(e)} ${i(n)})${c}${o}`);
-			},
-			mark: (e) => e.disc(a.point(r.p), 1.6)
-		};
-	}
-	if (r.t === "span") {
-		let t = n("g", e, { class: "span" });
-		return t.innerHTML = r.svg, {
-			update() {
-				let [[e, n], [o, s]] = r.p.map((e) => a.point(e)), c = Math.hypot(o - e, s - n), l = Math.atan2(s - n, o - e) * 180 / Math.PI;
-				t.setAttribute("transform", `translate(${i(e)} ${i(n)}) rotate(${i(l)}) scale(${(c / r.length).toFixed(4)} 1)`);
-			},
-			mark: (e) => e.line(a.point(r.p[0]), a.point(r.p[1]))
-		};
-	}
-	if (r.t === "circle") {
-		let o = n("circle", e, { class: `l-${r.role}` });
-		return { update() {
-			let [e, n] = a.point(r.p);
-			t(o, {
-				cx: i(e),
-				cy: i(n),
-				r: i(Math.abs(s[r.r]) / a.perMm)
-			});
-		} };
-	}
-	if (r.t === "pair") return Be(e, r, a);
-	let c = n("path", e, {
-		class: `l-${r.role}`,
-		style: "fill:none"
-	});
-	if (r.t === "trace") return { update: () => c.setAttribute("d", Ve(a.kernel, (e) => a.pointAt(r.p[0], e), !0)) };
-	r.t === "hull" && (c.dataset.link = r.link);
-	let l = [], u = !1;
-	return {
-		update() {
-			let e = r.p.map((e) => a.point(e)), t = r.t === "hull" ? g(e) : e;
-			u = r.t === "hull" && t.length > 2, l = u ? t : e, r.t === "hull" && c.setAttribute("class", u ? "l-link-area" : "l-link"), c.style.fill = u ? "" : "none", c.setAttribute("d", o(l, u));
-		},
-		mark(e) {
-			l.forEach((t, n) => (n || u) && e.line(l.at(n - 1), t));
-		}
-	};
-}
-function Be(e, t, r) {
-	let a = n("g", e), o = t.fixed ? "support" : "block", s = n("path", a, { class: `l-${o}` }), c = n("path", a, { class: `l-${t.shape === "ball" ? o : "pin"}` }), l = t.shape === "block" ? 4.2 : 3.4, u = t.shape === "block" ? 2.2 : 1.7;
-	return {
-		update() {
-			let [e, n] = r.point(t.p), [o, d] = r.here(t.e), f = r.depth(t.e);
-			if (a.setAttribute("transform", `translate(${i(e)} ${i(n)}) rotate(${i(-Math.atan2(d, o) * 180 / Math.PI)})`), t.shape === "ball") return s.setAttribute("d", `M${u} 0A${u} ${u} 0 1 0 ${-u} 0A${u} ${u} 0 1 0 ${u} 0Z`);
-			let p = l * Math.hypot(o, d), m = u * Math.abs(f), h = f >= 0 ? p : -p;
-			t.shape === "round" ? (s.setAttribute("d", `M${i(-p)} ${-u}L${i(p)} ${-u}A${i(m)} ${u} 0 0 1 ${i(p)} ${u}L${i(-p)} ${u}A${i(m)} ${u} 0 0 1 ${i(-p)} ${-u}Z`), c.setAttribute("d", `M${i(h + m)} 0A${i(m)} ${u} 0 1 0 ${i(h - m)} 0A${i(m)} ${u} 0 1 0 ${i(h + m)} 0Z`)) : (s.setAttribute("d", `M${i(-p - m)} ${-u}H${i(p + m)}V${u}H${i(-p - m)}Z`), c.setAttribute("d", `M${i(h - m)} ${-u}H${i(h + m)}V${u}H${i(h - m)}Z`));
-		},
-		mark(e) {
-			let [n, i] = r.point(t.p), [a, o] = r.here(t.e), s = t.shape === "ball" ? 0 : l;
-			e.disc([n, i], 2.4), e.line([n - s * a, i + s * o], [n + s * a, i - s * o]);
-		}
-	};
-}
-function Ve(e, t, n = !1) {
-	let r = n && e.cyclic ? e.count : e.count - 1, a = "", o = !1;
-	for (let n = 0; n <= r; n++) {
-		let r = n % e.count, s = !!e.good[r];
-		if (s) {
-			let [n, s] = t(r);
-			if (a += (o ? "L" : "M") + i(n) + " " + i(s), e.reverses(r)) {
-				let [n, o] = e.onceAfter(() => t(r));
-				a += "L" + i(n) + " " + i(o);
-			}
-		}
-		o = s;
-	}
-	return a;
-}
-function He(e, t, n, r, i) {
-	let { unit: o, size: s } = i.units[r] ?? {
-		unit: "",
-		size: 1
-	};
-	Me(e, i.values ? `${t} = ${a(n / s)} ${o}`.trim() : t);
-}
-function Ue(e, t, n, r, i, a = "force") {
-	return t.t === "couple" ? qe(e, t, n) : Ke(e, t, n, r, i, a);
-}
-var We = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Ge = 13;
-function Ke(e, t, n, r, i, a) {
-	let o = new h(e, t.role, t.name), s = t.t === "force" ? null : new h(e, t.role), c = t.t === "force" ? t.f : t.m, l = je(e, t.role, t.name, 3.4), u = [0, 0], d = [0, 0], f = [0, 0], p = !1;
-	for (let e of [o, s]) e && We(e.g, t);
-	return {
-		label: l,
-		hide() {
-			p = o.set([0, 0], [0, 0]), s?.set([0, 0], [0, 0]), l.el.setAttribute("visibility", "hidden");
-		},
-		update() {
-			let e = n.point(t.p), [m, h] = n.here(c), g = s ? Math.hypot(...c.map((e) => n.kernel.here[e])) / Ge || 1 : r(), _ = [m / g, -h / g], v = !1;
-			if (i && i.length > 1 && !s) {
-				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
-				v = _[0] * (r[0] - e[0]) + _[1] * (r[1] - e[1]) > 1e-9;
-			}
-			[u, d] = v ? [[e[0] - _[0], e[1] - _[1]], e] : [e, [e[0] + _[0], e[1] + _[1]]], f = v ? u : d, p = o.set(u, d), s?.set(u, [u[0] + .78 * (d[0] - u[0]), u[1] + .78 * (d[1] - u[1])]), l.el.setAttribute("visibility", p ? "visible" : "hidden"), p && He(l, t.name, Math.hypot(...c.map((e) => n.kernel.here[e])), s ? "moment" : a, n);
-		},
-		mark: (e) => p && e.line(u, d),
-		anchor() {
-			if (!p) return null;
-			let e = f === u ? d : u, t = [f[0] - e[0], f[1] - e[1]];
-			return [
-				f,
-				[f[0] - .35 * t[0], f[1] - .35 * t[1]],
-				t
-			];
-		}
-	};
-}
-var Z = 4.6;
-function qe(e, t, r) {
-	let a = r.kernel.here, o = n("g", e), s = je(e, t.role, t.name, 3.4);
-	n("title", o).textContent = u(t.name), n("path", o, {
-		class: `l-${t.role}`,
-		style: "fill:none",
-		d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94"
-	}), n("path", o, {
-		class: `l-${t.role}-h`,
-		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
-	});
-	let c = !1;
-	return We(o, t), {
-		label: s,
-		hide() {
-			c = !1, o.setAttribute("display", "none"), s.el.setAttribute("visibility", "hidden");
-		},
-		update() {
-			let [e, n] = r.point(t.p), l = a[t.m[0]];
-			c = Number.isFinite(l) && Math.abs(l) > 1e-9, o.setAttribute("display", c ? "inline" : "none"), s.el.setAttribute("visibility", c ? "visible" : "hidden"), o.setAttribute("transform", `translate(${i(e)} ${i(n)}) scale(${l < 0 ? -1 : 1} 1)`), c && He(s, t.name, Math.abs(l), "moment", r);
-		},
-		mark(e) {
-			c && e.disc(r.point(t.p), Z);
-		},
-		anchor() {
-			let [e, n] = r.point(t.p);
-			return c ? [
-				[e, n - Z],
-				[e - Z, n],
-				[e + Z, n],
-				[e, n + Z],
-				[0, -1]
-			] : null;
-		}
-	};
-}
-// src/view.ts
-var Je = [
-	"loads",
-	"reactions",
-	"inertia",
-	"velocities",
-	"accelerations",
-	"names",
-	"traces",
-	"values",
-	"digits"
-], Ye = [
-	.1,
-	.25,
-	.5,
-	1,
-	2,
-	4
-], Xe = () => ({
-	t: 0,
-	shown: {},
-	window: null,
-	camera: [-Math.PI / 3, .45],
-	chosen: null,
-	curve: "",
-	body: "",
-	tab: "",
-	speed: 1,
-	drag: "shape",
-	tracers: []
-});
-function Ze(e) {
-	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => Je.filter((n) => e.shown[n] === t).join(" ");
-	return n("show", r(!0)), n("hide", r(!1)), e.window && n("window", [e.window.perMm, ...e.window.middle].map((e) => +e.toPrecision(6)).join(" ")), n("tab", e.tab), n("speed", String(e.speed), "1"), n("drag", e.drag, "shape"), n("trace", e.tracers.map((e) => [e.link, ...e.u.map((e) => +e.toPrecision(6))].join(" ")).join("; ")), t;
-}
-function Qe(e, t) {
-	let n = (e) => t.get(`~${e}`) ?? "", r = (e) => e.split(" ").map(Number);
-	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of Je) n(t).split(" ").includes(i) && (e.shown[i] = r);
-	let [i, a, o] = r(n("window"));
-	i > 0 && Number.isFinite(i + a + o) && (e.window = {
-		perMm: i,
-		middle: [a, o]
-	}), e.tab = n("tab"), Ye.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
-		let [t, ...n] = e.split(" "), r = n.map(Number);
-		return r.length > 1 && r.every(Number.isFinite) ? [{
-			link: t,
-			u: r
-		}] : [];
-	});
-}
-function $e(e, t) {
-	return {
-		loads: !0,
-		reactions: !0,
-		inertia: !0,
-		velocities: !1,
-		accelerations: !1,
-		names: !t,
-		traces: !0,
-		values: !1,
-		digits: !1
-	}[e];
-}
-// src/board.ts
-var et = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", tt = [
-	1,
-	1.25,
-	1.5,
-	2,
-	2.5,
-	3,
-	4,
-	5,
-	6,
-	8,
-	10
-];
-function Q(e) {
-	if (!(e > 0) || !Number.isFinite(e)) return 1;
-	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (tt.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
-}
-function nt(e) {
-	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * ([5, 2].find((n) => n * t <= e * (1 + 1e-12)) ?? 1);
-}
-function rt(e) {
-	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
-	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
-		x: n,
-		y: r
-	} : null;
-}
-var it = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function at(e) {
-	return e.items.flatMap((e) => {
-		if (e.t === "circle") return [{
-			p: e.p,
-			reach: (t) => Math.abs(t(e.r))
-		}];
-		let t = e.t === "symbol" && e.per_mm ? e.per_mm * Math.max(0, ...[...e.svg.matchAll(/ r="([\d.]+)"/g)].map((e) => +e[1])) : 0;
-		return e.t === "symbol" && t ? [{
-			p: e.p,
-			reach: () => t
-		}] : [];
-	});
-}
-function ot(e, t, n) {
-	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(it);
-	for (let t = 0; t < r.count; t += i) {
-		if (!r.good[t]) continue;
-		let i = (e) => r.value(e, t);
-		for (let t of o) a.push(e.seen(t, i));
-		a.push(...st(e, n, i));
-	}
-	return rt(a);
-}
-var st = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), ct = (e) => e.items.some((e) => e.t === "pair"), lt = class {
-	arrow;
-	line;
-	text;
-	constructor(e, t = !1) {
-		this.arrow = t;
-		let r = n("g", e, { class: "scale" });
-		this.line = n("path", r, {
-			class: "l-axis",
-			style: "fill:none"
-		}), this.text = n("text", r, {
-			class: "l-note-t",
-			"font-size": 2.8
-		});
-	}
-	set([e, n], r, s) {
-		let c = r / s.size, l = c > 0 && Number.isFinite(c);
-		if (this.line.setAttribute("visibility", l ? "visible" : "hidden"), this.text.textContent = "", !l) return e;
-		let u = nt(26 * c), d = e + u / c, f = `${a(u)} ${s.unit}`, m = `M${i(e)} ${i(n - 1)}v2`, h = this.arrow ? `M${i(d - 2.4)} ${i(n - .8)}L${i(d)} ${i(n)}L${i(d - 2.4)} ${i(n + .8)}` : `M${i(d)} ${i(n - 1)}v2`;
-		return this.line.setAttribute("d", m + o([[e, n], [d, n]]) + h), t(this.text, {
-			x: i(d + 1.4),
-			y: i(n + 1)
-		}).textContent = f, d + 1.4 + p(f, 2.8);
-	}
-};
-function ut(e, t, r, i) {
-	return n("svg", e, {
-		viewBox: `${-t / 2} ${-r / 2} ${t} ${r}`,
-		role: "group",
-		"aria-label": i
-	});
-}
-var dt = 8, ft = 20;
-function pt(e, t, r, i, a, o, s, c, l, u = []) {
-	let d = {
-		length: s.length.size,
-		force: s.force.size
-	}, f = ut(e, a, o, c), p = new Le(t, r.per_mm, s, ct(r) ? l.camera : null), m = [], h = [], g = r.labels.filter((e) => e.kind === "joint").length > dt, _ = (e) => i && e !== "values" ? !0 : l.shown[e] ?? $e(e, g), v = r.force, y = {
-		perMm: r.per_mm,
-		middle: r.middle ?? [0, 0]
-	};
-	r.middle && (p.middle = r.middle);
-	let b = n("g", f), x = n("g", f), S = n("g", f), C = n("g", f);
-	for (let e of r.items) (e.t === "trace" ? m : h).push(Re(e.t === "trace" ? b : x, e, p));
-	let w = r.arrows.map((e) => ({
-		a: Ue(S, e, p, () => v, i ?? void 0),
-		layer: et(e)
-	})), T = new lt(C), E = new lt(C, !0), D = r.arrows.filter((e) => e.t === "force"), O = (u.length ? ["velocities", "accelerations"] : []).map((e) => {
-		let t = e === "velocities" ? "speed" : "acceleration", n = e === "velocities" ? "velocity" : "acceleration", r = n[0], i = {
-			layer: e,
-			unit: s[t],
-			rows: u.map((e) => r === "v" ? e.v : e.a),
-			perMm: NaN,
-			bar: new lt(C, !0)
-		};
-		return u.forEach((a, o) => {
-			let s = {
-				t: "force",
-				role: n,
-				of: a.of[1],
-				kind: n,
-				link: "",
-				name: `${r}_{${a.of[0] === "center" ? `G ${a.of[1]}` : a.of[1]}}`,
-				p: a.p,
-				f: i.rows[o]
-			};
-			w.push({
-				a: Ue(S, s, p, () => i.perMm, void 0, t),
-				layer: e
-			});
-		}), i;
-	}), k = r.labels.map((e) => ({
-		l: je(C, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
-		p: e.p,
-		q: e.q
-	})), A = at(r), j = Math.max(1, Math.floor(t.count / 72)), M = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], N = i ? [
-		...i,
-		...r.arrows.map((e) => e.p),
-		...r.items.flatMap((e) => e.t === "symbol" ? [e.p] : [])
-	] : [];
-	function P(e) {
-		return rt([...N.map((t) => p.seen(t, e)), ...st(p, A, e)]);
-	}
-	function F() {
-		return Array.from({ length: Math.ceil(t.count / j) }, (e, t) => t * j).flatMap((e) => {
-			let n = t.good[e] ? P((n) => t.value(n, e)) : null;
-			return n ? [{
-				k: e,
-				b: n
-			}] : [];
-		});
-	}
-	function I() {
-		let e = t.largest((e) => Math.max(0, ...D.map((n) => Math.hypot(...n.f.map((n) => t.value(n, e)))))) / (i ? 26 : Math.min(Math.max(.18 * Math.min(a, 1.3 * o), 16), 40));
-		for (let { k: n, b: r } of i ? F() : []) for (let i of D) {
-			let s = (e) => t.value(e, n), c = p.seen(i.p, s), l = p.seen(i.f, s);
-			[a / 2 - 9, o / 2 - 12].forEach((t, n) => {
-				let i = n ? (r.y[0] + r.y[1]) / 2 : (r.x[0] + r.x[1]) / 2, a = t - Math.abs(c[n] - i) / p.perMm;
-				e = Math.max(e, Math.abs(l[n]) / Math.max(a, 4));
-			});
-		}
-		return e > 0 ? Q(e / d.force) * d.force : v;
-	}
-	function L(e, n = !1) {
-		let s = i ? F().map(({ b: e }) => e) : [ot(p, r, A)].filter((e) => e !== null), c = i ? [46, 40] : [a - Math.max(.22 * a, 34), o - Math.max(.22 * o, 30)], l = Math.max(0, ...s.flatMap((e) => [(e.x[1] - e.x[0]) / c[0], (e.y[1] - e.y[0]) / c[1]]));
-		n && s.length && ee(s[0], l) || (!i && s.length && (y.middle = M(s[0])), l > 0 && (y.perMm = Q(l / d.length) * d.length)), v = e ?? I();
-		for (let e of O) {
-			let n = t.largest((n) => Math.max(0, ...e.rows.map((e) => Math.hypot(...e.map((e) => t.value(e, n))))));
-			e.perMm = n > 0 ? Q(n / ft / e.unit.size) * e.unit.size : NaN;
-		}
-		R();
-	}
-	function ee(e, t) {
-		let n = (e, t, n) => Math.max(...e.map((e) => Math.abs(e - t))) < y.perMm * n;
-		return t > .5 * y.perMm && n(e.x, y.middle[0], a / 2 - 8) && n(e.y, y.middle[1], o / 2 - 10);
-	}
-	function R() {
-		let e = i ? y : l.window ?? y;
-		p.perMm = e.perMm, i || (p.middle = [...e.middle]);
-	}
-	function z() {
-		let e = [
-			[
-				T,
-				p.perMm,
-				s.length
-			],
-			[
-				E,
-				D.length ? v : NaN,
-				s.force
-			],
-			...O.map((e) => [
-				e.bar,
-				_(e.layer) && !i ? e.perMm : NaN,
-				e.unit
-			])
-		], [t, n] = [-a / 2 + 2, o / 2 - 2.6];
-		for (let [r, i, o] of e) {
-			t > -a / 2 + 2 && t + 46 > a / 2 && ([t, n] = [-a / 2 + 2, n - 5]);
-			let e = r.set([t, n], i, o);
-			e > t && (t = e + 5);
-		}
-	}
-	function B() {
-		let e = new Ne([
-			-a / 2,
-			-o / 2,
-			a / 2,
-			o / 2 - 6
-		]);
-		for (let t of [...h, ...w.map((e) => e.a)]) t.mark?.(e);
-		for (let { l: t, p: n, q: r } of k) {
-			let i = _("names") || !!r && l.shown.names === void 0;
-			if (t.el.setAttribute("visibility", i ? "visible" : "hidden"), !i) continue;
-			let a = p.point(n), o = r ? p.point(r) : a, s = (r ? [
-				.5,
-				.35,
-				.65
-			] : [0]).map((e) => [a[0] + e * (o[0] - a[0]), a[1] + e * (o[1] - a[1])]);
-			e.put({
-				label: t,
-				anchors: s,
-				away: r ? void 0 : a,
-				leave: r ? .8 : 1.3
-			});
-		}
-		for (let { a: n } of w) {
-			let r = t.solved ? n.anchor() : null;
-			r ? e.put({
-				label: n.label,
-				anchors: r.slice(0, -1),
-				away: r[r.length - 1],
-				leave: .9
-			}) : n.label.el.setAttribute("visibility", "hidden");
-		}
-	}
-	return {
-		svg: f,
-		paper: p,
-		fit: L,
-		need: I,
-		look: R,
-		on: _,
-		force: () => v,
-		fitted: () => y.perMm,
-		resize(e, t) {
-			[a, o] = [e, t], f.setAttribute("viewBox", `${-a / 2} ${-o / 2} ${a} ${o}`);
-		},
-		update(e) {
-			if (p.values = _("values"), b.setAttribute("display", _("traces") ? "inline" : "none"), e && m.forEach((e) => e.update()), S.setAttribute("visibility", t.solved ? "visible" : "hidden"), z(), t.finite) {
-				i && (p.middle = M(P((e) => t.here[e]) ?? {
-					x: [0, 0],
-					y: [0, 0]
-				}));
-				for (let e of h) e.update();
-				for (let { a: e, layer: t } of w) _(t) ? e.update() : e.hide();
-				B();
-			}
-		}
-	};
+function tn(e, t) {
+	n("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
+	let r = n("dl", e);
+	for (let [e, i] of Object.entries(t.assumptions)) n("dt", r, {}, e), n("dd", r, {}, i);
+	t.source && n("p", e, {}, `Source: ${t.source}`), n("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/charts.ts
-var mt = 16, ht = 5, gt = 8, _t = 4;
-function vt(e, t) {
+var nn = 16, rn = 5, an = 8, on = 4;
+function sn(e, t) {
 	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
 	return r * ([
 		1,
@@ -2311,7 +3062,7 @@ function vt(e, t) {
 		10
 	].find((e) => e * r >= n) ?? 10);
 }
-function yt(e, t) {
+function cn(e, t) {
 	return [
 		1,
 		2,
@@ -2324,137 +3075,137 @@ function yt(e, t) {
 		90,
 		180,
 		360
-	].find((n) => n >= e / t) ?? 360 * vt(e / 360, t);
+	].find((n) => n >= e / t) ?? 360 * sn(e / 360, t);
 }
-function bt(e, t, n) {
+function ln(e, t, n) {
 	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
 	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
 }
-function xt(e, o, s, u, d, f) {
-	let m = r("figure", e, { class: "chart" }), h = o.units[u.kind];
-	r("figcaption", m, {}, `${u.title}, ${h.unit}`);
-	let g = o.views.charts.flatMap((e) => e.curves.map((e) => p(e.name, 3))), _ = Math.max(44, 13 + _t * u.curves.length), v = ut(m, f, _, u.title), y = _ - ht - gt, b = -_ / 2 + ht, x = 0, S = 0, C = n("path", v, {
+function un(a, o, l, u, d, p) {
+	let m = n("figure", a, { class: "chart" }), h = o.units[u.kind];
+	n("figcaption", m, {}, `${u.title}, ${h.unit}`);
+	let g = o.views.charts.flatMap((e) => e.curves.map((e) => f(e.name, 3))), _ = Math.max(44, 13 + on * u.curves.length), v = et(m, p, _, u.title), y = _ - rn - an, b = -_ / 2 + rn, x = 0, S = 0, C = t("path", v, {
 		class: "l-grid",
 		style: "fill:none"
-	}), w = n("path", v, {
+	}), w = t("path", v, {
 		class: "l-axis",
 		style: "fill:none"
-	}), T = n("g", v), E = u.curves.map((e) => n("path", v, {
+	}), T = t("g", v), E = u.curves.map((e) => t("path", v, {
 		class: `l-${e.role}`,
 		style: "fill:none"
-	})), D = n("path", v, { class: "cursor" }), O = u.curves.map((e) => n("circle", v, {
+	})), D = t("path", v, { class: "cursor" }), O = u.curves.map((e) => t("circle", v, {
 		class: `l-${e.role}-h`,
 		r: .9
-	})), k = Math.max(s.count - 1, 1), A = o.noise[u.kind] ?? 0, j = u.curves.map((e, t) => {
-		let r = n("text", v, {
+	})), k = Math.max(l.count - 1, 1), A = o.noise[u.kind] ?? 0, j = u.curves.map((e, n) => {
+		let r = t("text", v, {
 			class: `l-${e.role}-t key`,
 			"font-size": 3,
-			y: b + 3 + _t * t,
+			y: b + 3 + on * n,
 			tabindex: 0,
 			role: "button"
 		});
-		return l(r, e.name, 3), n("title", r).textContent = "show what lowers its peak", r.addEventListener("click", () => d.pick(e)), r.addEventListener("keydown", (t) => t.key === "Enter" && d.pick(e)), r;
+		return c(r, e.name, 3), t("title", r).textContent = "show what lowers its peak", r.addEventListener("click", () => d.pick(e)), r.addEventListener("keydown", (t) => t.key === "Enter" && d.pick(e)), r;
 	}), M = (e, t) => {
-		let n = s.value(e.row, t) / h.size;
+		let n = l.value(e.row, t) / h.size;
 		return Math.abs(n) * h.size < A ? 0 : n;
 	}, N = NaN, P = NaN, F = 1, I = (e) => S + e / k * x, L = (e) => b + y - (e - N) / (P - N) * y;
-	function ee() {
+	function R() {
 		let [e, t] = [Infinity, -Infinity];
-		for (let n of u.curves) for (let r = 0; r < s.count; r++) if (s.good[r]) {
-			let i = M(n, r), a = s.reverses(r) ? s.onceAfter(() => M(n, r)) : i;
+		for (let n of u.curves) for (let r = 0; r < l.count; r++) if (l.good[r]) {
+			let i = M(n, r), a = l.reverses(r) ? l.onceAfter(() => M(n, r)) : i;
 			e = Math.min(e, i, a), t = Math.max(t, i, a);
 		}
-		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), F = vt(t - e, 4), [e, t] = [Math.floor(e / F + 1e-9) * F, Math.ceil(t / F - 1e-9) * F], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
+		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), F = sn(t - e, 4), [e, t] = [Math.floor(e / F + 1e-9) * F, Math.ceil(t / F - 1e-9) * F], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
 	}
-	function R() {
-		let e = o.drives[0], t = (e, t, r, i) => n("text", T, {
+	function z() {
+		let e = o.drives[0], n = (e, n, r, i) => t("text", T, {
 			class: "l-note-t",
 			"font-size": 2.6,
 			"text-anchor": i,
-			x: t,
+			x: n,
 			y: r
 		}).textContent = e;
 		T.replaceChildren();
-		let r = "";
-		for (let e of bt(N, P, F)) r += `M${S} ${i(L(e))}h${x}`, t(a(e, 5), S - 1.2, L(e) + .9, "end");
+		let a = "";
+		for (let e of ln(N, P, F)) a += `M${S} ${r(L(e))}h${x}`, n(i(e, 5), S - 1.2, L(e) + .9, "end");
 		if (e) {
-			let [n, o] = [0, k].map((t) => s.position(e.name, t) / e.size);
-			for (let s of bt(Math.min(n, o), Math.max(n, o), (e.unit === "°" ? yt : vt)(Math.abs(o - n), 6))) {
-				let c = S + (s - n) / (o - n || 1) * x;
-				r += `M${i(c)} ${b}v${y}`, t(a(s, 5) + (e.unit === "°" ? "°" : ""), c, b + y + 3.4, "middle");
+			let [t, o] = [0, k].map((t) => l.position(e.name, t) / e.size);
+			for (let s of ln(Math.min(t, o), Math.max(t, o), (e.unit === "°" ? cn : sn)(Math.abs(o - t), 6))) {
+				let c = S + (s - t) / (o - t || 1) * x;
+				a += `M${r(c)} ${b}v${y}`, n(i(s, 5) + (e.unit === "°" ? "°" : ""), c, b + y + 3.4, "middle");
 			}
-			t(`${e.name}, ${e.unit}`, S + x, b + y + 6.6, "end");
+			n(`${e.name}, ${e.unit}`, S + x, b + y + 6.6, "end");
 		}
-		C.setAttribute("d", r), w.setAttribute("d", `M${S} ${b}v${y}` + (N < 0 && P > 0 ? `M${S} ${i(L(0))}h${x}` : ""));
+		C.setAttribute("d", a), w.setAttribute("d", `M${S} ${b}v${y}` + (N < 0 && P > 0 ? `M${S} ${r(L(0))}h${x}` : ""));
 	}
-	function z(e) {
-		f = e, [x, S] = [f - mt - Math.min(Math.max(...g) + 4, .3 * f), -f / 2 + mt], v.setAttribute("viewBox", `${-f / 2} ${-_ / 2} ${f} ${_}`), j.forEach((e) => e.setAttribute("x", i(S + x + 2))), N = NaN;
+	function B(e) {
+		p = e, [x, S] = [p - nn - Math.min(Math.max(...g) + 4, .3 * p), -p / 2 + nn], v.setAttribute("viewBox", `${-p / 2} ${-_ / 2} ${p} ${_}`), j.forEach((e) => e.setAttribute("x", r(S + x + 2))), N = NaN;
 	}
-	z(f);
-	let B = (e) => d.seek((c(v, e)[0] - S) / x * k);
+	B(p);
+	let ee = (e) => d.seek((s(v, e)[0] - S) / x * k);
 	return v.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (v.setPointerCapture(e.pointerId), B(e));
-	}), v.addEventListener("pointermove", (e) => e.buttons && v.hasPointerCapture(e.pointerId) && B(e)), {
-		resize: z,
-		update(e) {
-			e && (ee() && R(), E.forEach((e, t) => e.setAttribute("d", Ve(s, (e) => [I(e), L(M(u.curves[t], e))]))));
-			let n = i(I(Math.min(d.time(), k)));
-			D.setAttribute("d", `M${n} ${b}v${y}`), u.curves.forEach((e, r) => {
-				let a = s.solved ? {
+		e.target.closest(".key") || (v.setPointerCapture(e.pointerId), ee(e));
+	}), v.addEventListener("pointermove", (e) => e.buttons && v.hasPointerCapture(e.pointerId) && ee(e)), {
+		resize: B,
+		update(t) {
+			t && (R() && z(), E.forEach((e, t) => e.setAttribute("d", ke(l, (e) => [I(e), L(M(u.curves[t], e))]))));
+			let n = r(I(Math.min(d.time(), k)));
+			D.setAttribute("d", `M${n} ${b}v${y}`), u.curves.forEach((t, i) => {
+				let a = l.solved ? {
 					cx: n,
-					cy: i(L(s.here[e.row] / h.size))
+					cy: r(L(l.here[t.row] / h.size))
 				} : {};
-				t(O[r], {
-					visibility: s.solved ? "visible" : "hidden",
+				e(O[i], {
+					visibility: l.solved ? "visible" : "hidden",
 					...a
-				}), j[r].classList.toggle("picked", d.picked() === e);
+				}), j[i].classList.toggle("picked", d.picked() === t);
 			});
 		}
 	};
 }
-function St(e, t, i, o) {
-	let s = r("figure", e, { class: "polar" }), [c, l] = i.f, u = r("figcaption", s), d = ut(s, 66, 66, `polar diagram of joint ${i.name}`);
-	n("path", d, {
+function dn(e, r, a, o) {
+	let s = n("figure", e, { class: "polar" }), [c, l] = a.f, u = n("figcaption", s), d = et(s, 66, 66, `polar diagram of joint ${a.name}`);
+	t("path", d, {
 		class: "l-grid",
 		style: "fill:none",
 		d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"
 	});
-	let f = n("path", d, {
-		class: `l-${i.role}`,
+	let f = t("path", d, {
+		class: `l-${a.role}`,
 		style: "fill:none"
-	}), p = new h(d, "joint-force", i.name), m = 1;
+	}), p = new m(d, "joint-force", a.name), h = 1;
 	return { update(e) {
 		if (e) {
-			let e = Q(t.largest((e) => Math.hypot(t.value(c, e), t.value(l, e))) / o.size);
-			m = e / 30 * o.size, f.setAttribute("d", Ve(t, (e) => [t.value(c, e) / m, -t.value(l, e) / m], !0)), u.textContent = `Joint ${i.name}: circles of ${a(e / 2)} and ${a(e)} ${o.unit}`;
+			let e = Ge(r.largest((e) => Math.hypot(r.value(c, e), r.value(l, e))) / o.size);
+			h = e / 30 * o.size, f.setAttribute("d", ke(r, (e) => [r.value(c, e) / h, -r.value(l, e) / h], !0)), u.textContent = `Joint ${a.name}: circles of ${i(e / 2)} and ${i(e)} ${o.unit}`;
 		}
-		p.set([0, 0], t.solved ? [t.here[c] / m, -t.here[l] / m] : [0, 0]);
+		p.set([0, 0], r.solved ? [r.here[c] / h, -r.here[l] / h] : [0, 0]);
 	} };
 }
-function Ct(e, t, i, a, s) {
-	let c = r("figure", e, { class: "polygon" }), l = t.units.force;
-	r("figcaption", c, {}, a);
-	let u = ut(c, 110, 80, a), d = n("g", u), f = /* @__PURE__ */ new Set(), p = s.map(({ sides: e }) => {
+function fn(e, r, i, o, s) {
+	let c = n("figure", e, { class: "polygon" }), l = r.units.force;
+	n("figcaption", c, {}, o);
+	let u = et(c, 110, 80, o), d = t("g", u), f = /* @__PURE__ */ new Set(), p = s.map(({ sides: e }) => {
 		let t = e.find((e) => e.kind === "joint" && f.has(e.of));
 		for (let t of e) t.kind === "joint" && f.add(t.of);
 		return {
 			shared: t,
 			drawn: e.filter((e) => e !== t).map((e) => ({
 				s: e,
-				arrow: new h(u, e.role, e.name),
-				name: je(d, e.role, e.name, 3)
+				arrow: new m(u, e.role, e.name),
+				name: ye(d, e.role, e.name, 3)
 			}))
 		};
-	}), m = n("path", u, {
+	}), h = t("path", u, {
 		class: "l-gap",
 		style: "fill:none"
-	}), g = new lt(u, !0);
+	}), g = new $e(u, !0);
 	return {
 		figure: c,
 		update() {
 			if (u.setAttribute("visibility", i.solved ? "visible" : "hidden"), !i.solved) return;
-			let e = i.here, t = /* @__PURE__ */ new Map(), n = [], r = [], a = p.flatMap(({ shared: i, drawn: a }) => {
-				let o = rt(n)?.y[1] ?? 0, s = t.get(i?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
+			let e = i.here, t = /* @__PURE__ */ new Map(), n = [], r = [], o = p.flatMap(({ shared: i, drawn: a }) => {
+				let o = qe(n)?.y[1] ?? 0, s = t.get(i?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
 				i && (s = c(i.f));
 				let u = a.map((e) => {
 					let r = s;
@@ -2465,17 +3216,17 @@ function Ct(e, t, i, a, s) {
 					};
 				});
 				return r.push([l, s]), u;
-			}), s = rt(n) ?? {
+			}), s = qe(n) ?? {
 				x: [0, 0],
 				y: [0, 0]
-			}, c = Q(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / l.size) * l.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new Ne([
+			}, c = Ge(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / l.size) * l.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new xe([
 				-55,
 				-40,
 				55,
 				36
 			]);
-			for (let { from: e, to: t } of a) f.line(d(e), d(t));
-			for (let { arrow: e, name: t, from: n, to: r } of a) {
+			for (let { from: e, to: t } of o) f.line(d(e), d(t));
+			for (let { arrow: e, name: t, from: n, to: r } of o) {
 				let [i, a] = [d(n), d(r)], o = e.set(i, a), s = [(i[0] + a[0]) / 2, (i[1] + a[1]) / 2];
 				t.el.setAttribute("visibility", o ? "visible" : "hidden"), o && f.put({
 					label: t,
@@ -2484,55 +3235,55 @@ function Ct(e, t, i, a, s) {
 					leave: .9
 				});
 			}
-			m.setAttribute("d", r.map(([e, t]) => o([d(e), d(t)])).join("")), g.set([-53, 37.4], c, l);
+			h.setAttribute("d", r.map(([e, t]) => a([d(e), d(t)])).join("")), g.set([-53, 37.4], c, l);
 		}
 	};
 }
 // src/results.ts
-var wt = 4.6, Tt = (e) => Math.min(Math.max(e / wt, 72), 140), Et = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
-function Dt(e, t, n, i, a, o) {
-	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = n.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
-	for (let e of f ? s : []) u.push(xt(f, t, n, e, i, 120));
-	let p = n.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
+var pn = 4.6, mn = (e) => Math.min(Math.max(e / pn, 72), 140), hn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
+function gn(e, t, r, i, a, o) {
+	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = r.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
+	for (let e of f ? s : []) u.push(un(f, t, r, e, i, 120));
+	let p = r.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
 	if (f && p.length) {
-		r("h2", f, {}, "Polar diagrams");
+		n("h2", f, {}, "Polar diagrams");
 		for (let e of p) d.push({
 			box: f,
-			view: St(f, n, e, t.units.force)
+			view: dn(f, r, e, t.units.force)
 		});
 	}
-	let m = e.add("Forces", "free bodies, their equations, and force polygons"), h = r("select", m, { "aria-label": "link" }), g = c.map((e, i) => {
-		r("option", h, { value: i }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let o = r("div", m, { class: "body" }), s = pt(o, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
+	let m = e.add("Forces", "free bodies, their equations, and force polygons"), h = n("select", m, { "aria-label": "link" }), g = c.map((e, i) => {
+		n("option", h, { value: i }, `${e.title}${e.member && `, ${e.member} member`}`);
+		let o = n("div", m, { class: "body" }), s = rt(o, r, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
 		return d.push({
 			box: o,
 			view: s,
 			link: i
 		}, {
 			box: o,
-			view: ye(o, t, n, e),
+			view: en(o, t, r, e),
 			link: i
 		}), s;
 	});
 	if (l.links.length) {
-		l.links.forEach((e, r) => {
-			let i = Ct(m, t, n, `Force polygon of link ${e.title}`, [e]);
+		l.links.forEach((e, n) => {
+			let i = fn(m, t, r, `Force polygon of link ${e.title}`, [e]);
 			d.push({
 				box: i.figure,
 				view: i,
-				link: r
+				link: n
 			});
 		});
 		let e = l.chain.map((e) => l.links[e]);
 		d.push({
 			box: m,
-			view: Ct(m, t, n, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
+			view: fn(m, t, r, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
 		});
 	}
 	let _ = e.add("Numbers", "the numbers of this position");
 	d.push({
 		box: _,
-		view: ve(_, t, n)
+		view: $t(_, t, r)
 	});
 	let v = () => void (a.body = c[+h.value]?.link ?? ""), y = (e) => {
 		let t = c.findIndex((t) => t.link === e);
@@ -2548,20 +3299,20 @@ function Dt(e, t, n, i, a, o) {
 		bodies: g,
 		fit: b,
 		choose: y,
-		resize: (e) => u.forEach((t) => t.resize(Tt(e))),
+		resize: (e) => u.forEach((t) => t.resize(mn(e))),
 		update(e) {
-			for (let t of u) Et(f) && t.update(e);
-			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && Et(t) && n.update(e);
+			for (let t of u) hn(f) && t.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && hn(t) && n.update(e);
 		}
 	};
 }
 // src/sentences.ts
-function $(e, t = 6) {
+function _n(e, t = 6) {
 	if (!Number.isFinite(e)) return Number.isNaN(e) ? "nan" : e > 0 ? "inf" : "-inf";
 	let [n, r] = e.toExponential(t - 1).split("e"), i = +r, a = (e) => e.includes(".") ? e.replace(/\.?0+$/, "") : e;
 	return i < -4 || i >= t ? `${a(n)}e${i < 0 ? "-" : "+"}${String(Math.abs(i)).padStart(2, "0")}` : a(e.toFixed(Math.max(t - 1 - i, 0)));
 }
-var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, kt = class {
+var vn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, yn = class {
 	data;
 	kernel;
 	s;
@@ -2575,11 +3326,11 @@ var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	refusal() {
 		for (let { sentence: e, rows: t, error: n } of this.s.gears) {
 			let [r, i, a] = t.map((e) => this.kernel.here[e]), o = i + a;
-			if (Math.abs(r - o) > n * o) return y(e, {
-				found: $(r),
-				ri: $(Math.abs(i)),
-				rj: $(Math.abs(a)),
-				wanted: $(o)
+			if (Math.abs(r - o) > n * o) return Q(e, {
+				found: _n(r),
+				ri: _n(Math.abs(i)),
+				rj: _n(Math.abs(a)),
+				wanted: _n(o)
 			});
 		}
 		return "";
@@ -2596,7 +3347,7 @@ var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		].join();
 		return this.said.key !== s && (this.said = {
 			key: s,
-			text: r === "not_assembled" ? this.open(a, o) : y(a, this.places(r, o, e))
+			text: r === "not_assembled" ? this.open(a, o) : Q(a, this.places(r, o, e))
 		}), this.said.text;
 	}
 	run(e) {
@@ -2626,18 +3377,18 @@ var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 			...i,
 			figures: this.figures(t, n)
 		};
-		let { kernel: a, s: o } = this, s = o.unknowns.map((e) => e.name), c = o.contacts.filter((t) => e === "reversal" ? a.here[t.row] !== a.hereAfter[t.row] : a.here[t.row] === 0), l = [...new Set(c.map((e) => e.joint))], u = o.unknowns.map((e) => y(o.words.sides, {
+		let { kernel: a, s: o } = this, s = o.unknowns.map((e) => e.name), c = o.contacts.filter((t) => e === "reversal" ? a.here[t.row] !== a.hereAfter[t.row] : a.here[t.row] === 0), l = [...new Set(c.map((e) => e.joint))], u = o.unknowns.map((e) => Q(o.words.sides, {
 			name: e.name,
 			before: this.quantity(a.here[e.row], e.kind),
 			after: this.quantity(a.hereAfter[e.row], e.kind)
 		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
 		return {
 			...i,
-			joints: e === "reversal" ? Ot(l) : l.join(", "),
+			joints: e === "reversal" ? vn(l) : l.join(", "),
 			verb: d,
-			values: Ot(u),
+			values: vn(u),
 			name: s[0] ?? "",
-			names: Ot(s)
+			names: vn(s)
 		};
 	}
 	figures(e, t) {
@@ -2648,7 +3399,7 @@ var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		for (let t = e[0]; t <= e[1]; t++) {
 			n.at(t), n.other(a, o);
 			let e = r.unknowns.reduce((e, { row: t }) => e + Math.abs(n.here[t] - o[t]), 0);
-			e > c && ([c, l] = [e, t], u = r.unknowns.map(({ name: e, kind: t, row: i }) => y(r.words.needs, {
+			e > c && ([c, l] = [e, t], u = r.unknowns.map(({ name: e, kind: t, row: i }) => Q(r.words.needs, {
 				name: e,
 				rubbed: this.quantity(n.here[i], t),
 				bare: this.quantity(o[i], t)
@@ -2658,7 +3409,7 @@ var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	}
 	quantity(e, t, n = 6) {
 		let { unit: r, size: i } = this.s.units[t];
-		return `${$(e / i, n)} ${r}`;
+		return `${_n(e / i, n)} ${r}`;
 	}
 	drive(e, t) {
 		return this.quantity(this.kernel.position(e.name, t), e.turns ? "angle" : "length");
@@ -2671,20 +3422,20 @@ var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let r = t === n ? t : t + (n - t + 1 >> 1), { pose: i, gaps: a } = this.kernel.motion.open(r), o = (e) => this.s.joints.indexOf(e), s = this.arc([t, n]).trim() || this.s.words.described;
 		a.sort((e, t) => o(e.joint) - o(t.joint));
 		let c = this.most(a.map((e) => [e.joint, e.length]), "length", this.data.sketch.length), l = [c, this.most(a.map((e) => [e.joint, e.angle]), "angle", 1)].filter(Boolean);
-		return l.length ? y(e, {
+		return l.length ? Q(e, {
 			span: s,
 			gap: `: ${t !== n && this.data.drives.length ? `${this.arc([r, r]).trim()} ` : ""}${l.join(" and ")}`,
 			datum: c ? "a length" : "a direction"
-		}) : this.loose(i) || y(this.s.words.unfollowed, { span: s });
+		}) : this.loose(i) || Q(this.s.words.unfollowed, { span: s });
 	}
 	loose(e) {
 		let { drives: t, sketch: n } = this.data, r = this.kernel.motion.sketch.mobility(e), i = r.freedoms - t.length;
 		if (n.dimension !== 2 || i <= 0) return "";
 		let a = r.joints.slice(0, 6).map((e) => `${e.joint} (${e.angular ? "turn" : "slide"})`), o = a.length ? ` at ${i === 1 ? "one" : "some"} of ${a.join(", ")}` : "", s = (e, t) => e ? `${e} ${t}${e > 1 ? "s" : ""}` : `no ${t}`;
-		return `${y(this.s.words.counts, {
+		return `${Q(this.s.words.counts, {
 			freedoms: s(r.freedoms, "freedom"),
 			drives: s(t.length, "drive")
-		})}; ${y(this.s.words.add, {
+		})}; ${Q(this.s.words.add, {
 			drives: s(i, "drive"),
 			where: o,
 			loose: r.links.join(", ")
@@ -2694,16 +3445,16 @@ var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let { words: r, limits: i } = this.s, a = e.filter(([, e]) => e > i.shut * n);
 		if (!a.length) return "";
 		let [o, s] = a.reduce((e, t) => t[1] > e[1] ? t : e), c = this.quantity(s, t, 3);
-		if (a.length === 1) return y(r.one, {
+		if (a.length === 1) return Q(r.one, {
 			...r.kinds[t],
 			joint: o,
 			figure: c
 		});
-		let l = Math.min(...a.map(([, e]) => e)) > i.alike * s ? y(r.alike, { joints: a.map(([e]) => e).join(", ") }) : y(r.most, {
+		let l = Math.min(...a.map(([, e]) => e)) > i.alike * s ? Q(r.alike, { joints: a.map(([e]) => e).join(", ") }) : Q(r.most, {
 			joint: o,
 			figure: c
 		});
-		return y(r.several, {
+		return Q(r.several, {
 			...r.kinds[t],
 			total: this.quantity(e.reduce((e, [, t]) => e + t, 0), t, 3),
 			where: l
@@ -2713,246 +3464,21 @@ var Ot = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let { overflow: e, words: t } = this.s, n = (e) => this.kernel.here[e], r = "";
 		for (let [i, a] of Object.entries(e)) {
 			let o = a.filter(([, ...t]) => !t.every((t) => Number.isFinite(n(t) * n(t)) || Number.isFinite(n(t)) && i !== Object.keys(e)[0])).map(([e]) => e);
-			if (o.length) return y(t.of, {
+			if (o.length) return Q(t.of, {
 				what: i,
 				names: o.join(", ")
 			});
-			r = y(t.checks, { what: i });
+			r = Q(t.checks, { what: i });
 		}
 		return r;
 	}
-};
-// src/menu.ts
-function At(e, [t, n], i) {
-	if (e.querySelector(".menu")?.remove(), !i.length) return;
-	let a = document.activeElement, o = r("div", e, {
-		class: "menu",
-		role: "menu",
-		"aria-label": "of this place"
-	}), s = () => {
-		o.isConnected && (o.remove(), document.removeEventListener("pointerdown", c, !0), a?.focus?.());
-	}, c = (e) => {
-		e.composedPath().includes(o) || s();
-	}, l = i.map(({ said: e, act: t }) => {
-		let n = r("button", o, {
-			type: "button",
-			role: "menuitem"
-		}, e);
-		return n.addEventListener("click", () => (s(), t())), n;
-	});
-	o.addEventListener("keydown", (e) => {
-		let t = l.indexOf(document.activeElement), n = l.length, r = {
-			ArrowDown: (t + 1) % n,
-			ArrowUp: (t + n - 1) % n,
-			Home: 0,
-			End: n - 1
-		}[e.key];
-		if (r !== void 0) l[r].focus();
-		else if (e.key === "Escape" || e.key === "Tab") s();
-		else return;
-		e.preventDefault(), e.stopPropagation();
-	});
-	let { width: u, height: d } = o.getBoundingClientRect();
-	o.style.left = `${Math.max(4, Math.min(t, window.innerWidth - u - 4))}px`, o.style.top = `${Math.max(4, Math.min(n, window.innerHeight - d - 4))}px`, document.addEventListener("pointerdown", c, !0), l[0].focus({ preventScroll: !0 });
-}
-// src/viewport.ts
-var jt = 1e4, Mt = 12, Nt = 1.25;
-function Pt(e, t, n, r, i, a) {
-	let { svg: o, paper: s } = e, l = /* @__PURE__ */ new Map(), u = !1, d = (n, r) => {
-		let i = e.fitted();
-		n > i / jt && n < i * jt && r.every(Number.isFinite) && (t.window = {
-			perMm: n,
-			middle: r
-		}, e.look(), a());
-	}, f = ([e, t]) => d(s.perMm, [s.middle[0] - e * s.perMm, s.middle[1] + t * s.perMm]), p = (e, t = [0, 0]) => {
-		let [n, r] = s.metres(t), i = s.perMm / e;
-		d(i, [n - t[0] * i, r + t[1] * i]);
-	}, m = () => {
-		t.window = null, e.look(), a();
-	};
-	o.addEventListener("wheel", (e) => {
-		if (!n && !e.ctrlKey && !e.metaKey) return;
-		e.preventDefault();
-		let t = e.deltaMode === 1 ? 16 : 1;
-		p(Math.exp(-e.deltaY * t * (e.ctrlKey ? .01 : .0015)), c(o, e));
-	}, { passive: !1 }), o.addEventListener("pointerdown", (e) => {
-		e.pointerType === "mouse" && e.button > 1 || (l.size || e.button === 1 || r(e)) && (e.button === 1 && e.preventDefault(), o.setPointerCapture(e.pointerId), l.set(e.pointerId, c(o, e)), u = !1);
-	}), o.addEventListener("pointermove", (e) => {
-		let t = l.get(e.pointerId);
-		if (!t) return;
-		let n = c(o, e), r = [n[0] - t[0], n[1] - t[1]];
-		u = !0;
-		let a = [...l].find(([t]) => t !== e.pointerId)?.[1];
-		if (l.set(e.pointerId, n), a) {
-			let e = (e) => Math.hypot(e[0] - a[0], e[1] - a[1]) || 1;
-			p(e(n) / e(t), a);
-		} else i && !e.shiftKey && e.buttons !== 4 ? i(r) : f(r);
-	});
-	let h = (e) => void l.delete(e.pointerId);
-	return o.addEventListener("pointerup", h), o.addEventListener("pointercancel", h), o.addEventListener("lostpointercapture", h), o.addEventListener("dblclick", (e) => {
-		r(e) && m();
-	}), o.addEventListener("click", (e) => u && e.stopImmediatePropagation(), { capture: !0 }), o.tabIndex = 0, o.addEventListener("keydown", (e) => {
-		if (e.target !== o || e.ctrlKey || e.metaKey || e.altKey) return;
-		let t = {
-			ArrowLeft: [Mt, 0],
-			ArrowRight: [-12, 0],
-			ArrowUp: [0, Mt],
-			ArrowDown: [0, -12]
-		};
-		if (t[e.key]) f(t[e.key]);
-		else if (e.key === "+" || e.key === "=") p(Nt);
-		else if (e.key === "-") p(1 / Nt);
-		else if (e.key === "0") m();
-		else return;
-		e.preventDefault(), e.stopPropagation();
-	}), {
-		zoom: p,
-		fit: m,
-		pan: f
-	};
-}
-// src/stage.ts
-var Ft = 3.6, It = 5.2, Lt = 550, Rt = 8;
-function zt(e, t, i, a, o, s) {
-	let l = r("div", e, { class: "paper" }), u = pt(l, t, i, null, 170, 119, a, "the mechanism", o, s.rates ?? []), { svg: d } = u, f = n("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
-		let t = e.target.closest("[data-item]")?.dataset.item;
-		return t ? Se(t) : null;
-	}, h = (e) => {
-		let t = m(e);
-		return !t || !s.held(t);
-	}, g = () => {
-		s.on?.({
-			type: "view",
-			view: o
-		}), s.again(!0);
-	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = Pt(u, o, !!s.full, h, _, g);
-	p && (d.style.cursor = "move");
-	let y = (e, t) => u.paper.metres(c(d, {
-		clientX: e,
-		clientY: t
-	})), b = (e, t, n = 6) => we(d, e, t, n), x = (e) => {
-		o.chosen = e, Te(d, e), s.chosen(e);
-	}, S = (e) => [e.clientX, e.clientY];
-	d.addEventListener("click", (e) => {
-		let t = b(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6), n = t.length ? t : m(e) ? [m(e)] : [];
-		s.on?.({
-			type: "select",
-			items: n,
-			at: S(e),
-			point: y(e.clientX, e.clientY)
-		}) || x(n[0] && !Ce(n[0], o.chosen) ? n[0] : null);
-	});
-	let C = (t, n) => {
-		let r = y(...n);
-		t[0] && x(t[0]), s.on?.({
-			type: "menu",
-			items: t,
-			at: n,
-			point: r
-		}) || At(e.closest(".dalembert") ?? document.body, n, s.entries(t, r));
-	};
-	d.addEventListener("contextmenu", (e) => {
-		e.preventDefault();
-		let t = e.button < 0 || e.clientX === 0 && e.clientY === 0 ? m(e) : null;
-		if (!t) return C(b(e.clientX, e.clientY), S(e));
-		let n = e.target.getBoundingClientRect();
-		C([t], [n.left + n.width / 2, n.top + n.height / 2]);
-	}), d.addEventListener("keydown", (e) => {
-		if (e.key !== "ContextMenu" && !(e.key === "F10" && e.shiftKey)) return;
-		e.preventDefault();
-		let t = e.target.getBoundingClientRect(), n = m(e);
-		C(n ? [n] : [], [t.left + t.width / 2, t.top + t.height / 2]);
-	});
-	let w = 0, T = [0, 0];
-	d.addEventListener("pointerdown", (e) => {
-		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(b(e.clientX, e.clientY, 14), T), Lt));
-	}, { capture: !0 });
-	let E = () => clearTimeout(w);
-	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > Rt && E(), { capture: !0 });
-	for (let e of ["pointerup", "pointercancel"]) d.addEventListener(e, E, { capture: !0 });
-	return {
-		m: u,
-		paper: l,
-		view: v,
-		overlay: f,
-		hit: b,
-		metres: y,
-		choose: x,
-		resize() {
-			let { width: e, height: t } = l.getBoundingClientRect();
-			if (!(e > 0 && t > 0)) return;
-			let n = Math.min(Math.max(Math.min(e / 170, t / 105), Ft), It);
-			u.resize(e / n, t / n);
-		}
-	};
-}
-// src/switches.ts
-var Bt = {
-	loads: ["loads", "loads, efforts of drives, weights, springs"],
-	reactions: ["reactions", "forces in the joints"],
-	inertia: ["inertia", "D'Alembert's inertia forces and couples"],
-	velocities: ["velocities", "velocities of joints and mass centres"],
-	accelerations: ["accelerations", "accelerations of joints and mass centres"],
-	names: ["names", "names of joints and links"],
-	traces: ["paths", "paths of the joints"],
-	values: ["values", "the value beside each arrow"],
-	digits: ["large digits", "the chosen curve's value, to be read from the last row"]
-};
-function Vt(e, t) {
-	let n = r("label", e, { title: t.title }), i = r("input", n, { type: "checkbox" });
-	i.checked = t.on, n.append(t.said), i.addEventListener("change", () => t.act(i.checked));
-}
-function Ht(e, t, n, r, i) {
-	for (let a of n) {
-		let [n, o] = Bt[a];
-		Vt(e, {
-			said: n,
-			title: o,
-			on: t.shown[a] ?? $e(a, r),
-			act: (e) => (t.shown[a] = e, i())
-		});
-	}
-}
-function Ut(e, t, n, i, a) {
-	let o = r("span", e, {
-		class: "group",
-		role: "group",
-		"aria-label": "view"
-	}), s = (e, t, n) => {
-		let i = r("button", o, {
-			type: "button",
-			title: t,
-			.../^\w/.test(e) ? {} : { "aria-label": t }
-		}, e);
-		return i.addEventListener("click", n), i;
-	};
-	if (s("−", "zoom out (-)", () => t.zoom(.8)), s("+", "zoom in (+)", () => t.zoom(1.25)), s("fit", "the whole mechanism (0)", () => t.fit()), !i) return;
-	let c = r("span", e, {
-		class: "group",
-		role: "group",
-		"aria-label": "dragging"
-	}), l = ["shape", "turn"].map((e) => {
-		let t = r("button", c, {
-			type: "button",
-			title: e === "shape" ? "dragging a joint changes the mechanism" : "dragging a joint or a link turns the mechanism"
-		}, e === "shape" ? "reshape" : "turn");
-		return t.addEventListener("click", () => {
-			n.drag = e, u(), a();
-		}), {
-			way: e,
-			b: t
-		};
-	}), u = () => l.forEach(({ way: e, b: t }) => t.setAttribute("aria-pressed", String(n.drag === e)));
-	u();
-}
-// src/tabs.ts
-var Wt = 0;
-function Gt(e, t, n) {
-	let i = r("div", e, {
+}, bn = 0;
+function xn(e, t, r) {
+	let i = n("div", e, {
 		class: "tabs",
 		role: "tablist",
 		"aria-label": "results"
-	}), a = r("div", e, { class: "panels" }), o = [], s = (e, t = !1) => {
+	}), a = n("div", e, { class: "panels" }), o = [], s = (e, t = !1) => {
 		let n = o.find((t) => t.name === e) ?? o[0];
 		if (n) {
 			for (let { tab: e, panel: t } of o) {
@@ -2961,8 +3487,8 @@ function Gt(e, t, n) {
 			}
 			t && n.tab.focus(), a.scrollTop = 0;
 		}
-	}, c = (e, r = !1) => {
-		t.tab = e === o[0].name ? "" : e, s(e, r), n();
+	}, c = (e, n = !1) => {
+		t.tab = e === o[0].name ? "" : e, s(e, n), r();
 	};
 	return i.addEventListener("keydown", (e) => {
 		let t = o.findIndex((t) => t.tab === document.activeElement || t.tab === e.target), n = o.length, r = {
@@ -2973,14 +3499,14 @@ function Gt(e, t, n) {
 		}[e.key];
 		t < 0 || r === void 0 || (e.preventDefault(), e.stopPropagation(), c(o[r].name, !0));
 	}), {
-		add(e, n = e) {
-			let l = `dalembert-tab-${++Wt}`, u = r("button", i, {
+		add(e, r = e) {
+			let l = `dalembert-tab-${++bn}`, u = n("button", i, {
 				type: "button",
 				role: "tab",
 				id: l,
-				title: n,
+				title: r,
 				"aria-controls": `${l}-panel`
-			}, e), d = r("section", a, {
+			}, e), d = n("section", a, {
 				role: "tabpanel",
 				id: `${l}-panel`,
 				"aria-labelledby": l,
@@ -2996,202 +3522,37 @@ function Gt(e, t, n) {
 		show: (e) => c(e)
 	};
 }
-// src/tools.ts
-var Kt = class {
-	b;
-	data;
-	kernel;
-	on = !1;
-	arrows;
-	constructor(e, t, r) {
-		this.b = e, this.data = t, this.kernel = r;
-		let i = n("g", e.svg, { class: "gradient" }), a = t.gradient ? t.handles.flatMap((e) => "ends" in e && e.ends.length ? [e] : []) : [];
-		this.arrows = a.map((e) => ({
-			p: e.p,
-			ends: e.ends,
-			arrow: new h(i, "acceleration", `lower the peak by ${e.name}`)
-		}));
-	}
-	peak(e) {
-		let t = this.kernel, n = (n) => Math.abs(t.value(e.row, n)), r = t.largest(n), i = Math.max(0, t.good.findIndex((e, t) => e > 0 && n(t) === r));
-		return {
-			k: i,
-			size: r,
-			where: t.count > 1 ? ` at ${qt(this.data, t, i)}` : ""
-		};
-	}
-	update(e) {
-		let t = this.data.gradient, n = this.kernel, r = e && t ? t.curves.indexOf(e.row) : -1;
-		if (!this.on || r < 0 || !t || !e || !n.solved) return this.arrows.forEach((e) => e.arrow.set([0, 0], [0, 0]));
-		let i = this.peak(e).k, a = n.gradient(r, i), o = -Math.sign(n.value(e.row, i)) || 1, s = new Map(t.numbers.map((e, t) => [e, a[t]])), c = this.arrows.map(({ ends: e }) => {
-			let t = this.b.paper.axes[0].map(() => 0);
-			for (let r of e) r.axes.forEach((e, i) => e.forEach((e, a) => t[a] += o * n.here[e] * (s.get(r.n[i]) ?? 0)));
-			return this.b.paper.project(t);
-		}), l = Math.max(...c.map((e) => Math.hypot(...e)), 1e-300);
-		this.arrows.forEach(({ p: e, arrow: t }, n) => {
-			let [r, i] = this.b.paper.point(e), [a, o] = c[n];
-			t.set([r, i], [r + 14 * a / l, i - 14 * o / l], .5);
-		});
-	}
-}, qt = (e, t, n) => e.drives.map((e) => `${e.name} = ${a(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), Jt = class {
-	b;
-	kernel;
-	places;
-	on = !1;
-	part = .005;
-	draws;
-	out;
-	numbers;
-	canvas;
-	constructor(e, t, n, r, i) {
-		this.b = t, this.kernel = r, this.places = i, this.numbers = n.numbers.flatMap((e, t) => /\.points\./.test(e.path) || e.path.endsWith(".center.0") || e.path.endsWith(".center.1") ? [t] : []), this.canvas = document.createElement("canvas"), this.canvas.className = "cloud", this.canvas.setAttribute("aria-hidden", "true"), e.append(this.canvas), this.out = new Float64Array(r.here.length);
-		let a = 12345, o = () => ((a = Math.imul(a, 1664525) + 1013904223 >>> 0) + .5) / 4294967296, s = () => Math.sqrt(-2 * Math.log(o())) * Math.cos(2 * Math.PI * o());
-		this.draws = Array.from({ length: 1e3 }, () => Float64Array.from({ length: this.numbers.length }, s));
-	}
-	update(e) {
-		let t = this.canvas;
-		if (t.hidden = !this.on, !this.on) return null;
-		let n = this.b.svg.getBoundingClientRect(), r = window.devicePixelRatio || 1, [i, a] = [Math.round(n.width * r), Math.round(n.height * r)];
-		(t.width !== i || t.height !== a) && (t.width = i, t.height = a);
-		let o = t.getContext("2d"), s = this.b.svg.viewBox.baseVal, c = Math.min(i / s.width, a / s.height);
-		o.clearRect(0, 0, i, a), o.fillStyle = "rgba(122,47,160,.25)";
-		let l = this.kernel, u = l.values.slice(), d = this.part * this.reach() / 3, f = u.slice(), p = 0, m = 0, h = 0;
-		for (let t of this.draws) if (this.numbers.forEach((e, n) => f[e] = u[e] + d * t[n]), l.other(f, this.out), l.numbered(this.out[this.out.length - 1])) {
-			for (let e of this.places) {
-				let [t, n] = this.b.paper.of(...this.b.paper.seen(e, (e) => this.out[e]));
-				o.fillRect((t - s.x) * c + (i - s.width * c) / 2, (n - s.y) * c + (a - s.height * c) / 2, r, r);
-			}
-			e !== void 0 && (p += this.out[e], m += this.out[e] ** 2, h++);
-		}
-		l.other(u, this.out);
-		let g = p / (h || 1);
-		return h ? {
-			mean: g,
-			sigma: Math.sqrt(Math.max(m / h - g * g, 0))
-		} : null;
-	}
-	reach() {
-		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
-	}
-}, Yt = class {
-	kernel;
-	gate;
-	past = [];
-	future = [];
-	now;
-	constructor(e, t) {
-		this.kernel = e, this.gate = t, this.now = e.state();
-	}
-	note() {
-		this.kernel.values.every((e, t) => e === this.now[t]) || (this.past.push(this.now), this.past.length > 500 && this.past.shift(), this.future = [], this.now = this.kernel.state());
-	}
-	go(e) {
-		let t = e ? this.past : this.future, n = e ? this.future : this.past, r = t.pop();
-		return r ? (n.push(this.now), this.now = r, this.kernel.restore(r), this.gate.accept(this.kernel.values), !0) : !1;
-	}
-	get can() {
-		return [this.past.length > 0, this.future.length > 0];
-	}
-};
-function Xt(e, t) {
-	let n = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]), r = n.length ? t.motion.assembly() : [];
-	return Object.fromEntries([...n, ...r.map((t, n) => [e.sketch.assembly[n], t])]);
-}
-function Zt(e, t, n) {
-	let r = new URLSearchParams({ t: String(+n.t.toFixed(4)) });
-	for (let [e, t] of Ze(n)) r.set(e, t);
-	for (let [n, i] of Object.entries(Xt(e, t))) r.set(n, String(i));
-	return r.toString();
-}
-function Qt(e, t, n, r) {
-	let i = new Map(new URLSearchParams(r.replace(/^#/, ""))), a = {};
-	Qe(n, i);
-	for (let [e, t] of i) e !== "t" && !e.startsWith("~") && (a[e] = t.trim() ? Number(t) : NaN);
-	t.change(a);
-	let o = Number(i.get("t") ?? 0);
-	n.t = Number.isFinite(o) ? Math.min(Math.max(o, 0), e.end) : 0;
-}
-function $t(e, t) {
-	let n = [...t.values, ...t.motion.assembly()], r = e.numbers.map((e, n) => e.value !== t.values[n]), i = r.includes(!0);
-	return e.template.map((e) => typeof e == "string" ? e : e.was !== void 0 && !e.of?.some((e) => r[e] ?? i) ? e.was : e.now.map((e) => typeof e == "string" ? e : String(n[e[0]] / e[1])).join("")).join("");
-}
-function en(e, t) {
-	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
-		x: n,
-		unit: e.units[t.kind]
-	}))), i = [[
-		...e.drives.map((e) => `${e.name} [${e.unit}]`),
-		"status",
-		...r.map(({ x: e, unit: t }) => `${e.of} [${t.unit}]`)
-	].map(n).join(",")];
-	for (let n = 0; n < t.count; n++) {
-		let a = e.drives.map((e) => t.positions.get(e.name)[n] / e.size);
-		i.push([
-			...a,
-			e.statuses[t.markAt(n)].status,
-			...r.map(({ x: e, unit: r }) => t.good[n] ? t.value(e.row, n) / r.size : "")
-		].join(","));
-	}
-	return i.join("\n") + "\n";
-}
-function tn(e, r) {
-	let i = e.cloneNode(!0), { width: a, height: o } = e.viewBox.baseVal;
-	i.querySelectorAll(".handles, .overlay").forEach((e) => e.remove()), t(i, {
-		xmlns: "http://www.w3.org/2000/svg",
-		width: `${a}mm`,
-		height: `${o}mm`,
-		"font-family": "'DejaVu Sans', Arial, sans-serif"
-	});
-	let s = n("style", null);
-	return s.textContent = r, i.prepend(s), new XMLSerializer().serializeToString(i);
-}
-var nn = 300 / 25.4;
-async function rn(e, t) {
-	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([tn(e, t)], { type: "image/svg+xml" }));
-	try {
-		i.src = a, await i.decode();
-		let e = document.createElement("canvas"), t = e.getContext("2d");
-		return [e.width, e.height] = [Math.round(n * nn), Math.round(r * nn)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
-	} finally {
-		URL.revokeObjectURL(a);
-	}
-}
-function an(e, t, n) {
-	let r = document.createElement("a");
-	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
-}
-var on = (e) => u(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";
 // src/toolbar.ts
-function sn(e, t, n, i, a, o) {
-	let s = r("header", e);
-	r("h1", s, {}, t.title);
-	let c = r("div", s, {
+function Sn(e, t, r, i, a, o) {
+	let s = n("header", e);
+	n("h1", s, {}, t.title);
+	let c = n("div", s, {
 		class: "bar",
 		role: "toolbar",
 		"aria-label": "cycle and page"
-	}), l = (e, t, n) => {
-		let i = r("button", c, {
+	}), l = (e, t, r) => {
+		let i = n("button", c, {
 			type: "button",
 			title: t,
 			.../^\w/.test(e) ? {} : { "aria-label": t }
 		}, e);
-		return i.addEventListener("click", n), i;
-	}, u = l("▶", "play along the cycle (space)", o.play), d = r("input", c, {
+		return i.addEventListener("click", r), i;
+	}, u = l("▶", "play along the cycle (space)", o.play), d = n("input", c, {
 		type: "range",
 		min: 0,
-		max: n.end,
+		max: r.end,
 		step: t.only_at_positions ? 1 : "any",
 		"aria-label": "position in the cycle"
-	}), f = r("output", c, { class: "readout" }), p = r("select", c, {
+	}), f = n("output", c, { class: "readout" }), p = n("select", c, {
 		class: "speed",
 		title: "speed of play; , and . step, with Shift by ten",
 		"aria-label": "speed of play"
 	});
-	for (let e of Ye) r("option", p, { value: e }, `${e}×`);
+	for (let e of Re) n("option", p, { value: e }, `${e}×`);
 	p.value = String(a.speed), p.addEventListener("change", () => a.speed = +p.value);
 	let m = l("↶", "undo (Ctrl+Z)", () => o.go(!0)), h = l("↷", "redo (Ctrl+Y)", () => o.go(!1));
-	l("Reset", "all numbers as in the file", o.reset);
-	let g = r("p", s, {
+	o.back && l("Back", "to the sketch, without the last thing added", o.back), l("Reset", "all numbers as in the file", o.reset);
+	let g = n("p", s, {
 		class: "mark",
 		role: "status"
 	});
@@ -3201,96 +3562,97 @@ function sn(e, t, n, i, a, o) {
 		d,
 		f,
 		p
-	]) e.hidden = n.count < 2;
+	]) e.hidden = r.count < 2;
 	return {
 		playing: (e) => u.textContent = e ? "❚❚" : "▶",
-		update(e, r, a) {
+		update(e, n, a) {
 			let o = [a, i.at(e)].filter(Boolean).join(" ");
-			g.textContent !== o && (g.textContent = o), d.value = String(e), f.textContent = qt(t, n, e), [m.disabled, h.disabled] = r.map((e) => !e);
+			g.textContent !== o && (g.textContent = o), d.value = String(e), f.textContent = yt(t, r, e), [m.disabled, h.disabled] = n.map((e) => !e);
 		}
 	};
 }
 // src/tracers.ts
-function cn(e, r, a, o) {
-	let s = n("g", null, { class: "tracers" });
-	e.svg.querySelector("g").before(s);
+function Cn(n, i, a, o) {
+	let s = t("g", null, { class: "tracers" });
+	n.svg.querySelector("g").before(s);
 	let c = [];
 	return (l) => {
-		let u = o.tracers.filter((e) => r.links.includes(e.link));
+		let u = o.tracers.filter((e) => i.links.includes(e.link));
 		for (; c.length > u.length;) for (let e of Object.values(c.pop())) e.remove();
 		u.forEach((o, u) => {
-			let d = r.links.indexOf(o.link), f = !c[u];
+			let d = i.links.indexOf(o.link), f = !c[u];
 			c[u] ??= {
-				line: n("path", s, {
+				line: t("path", s, {
 					class: "l-trace",
 					style: "fill:none"
 				}),
-				dot: n("circle", s, {
+				dot: t("circle", s, {
 					class: "l-trace tracer",
 					r: 1.1,
 					"data-item": `tracer:${u}`
 				})
-			}, (l || f) && c[u].line.setAttribute("d", Ve(a, (t) => r.on(e.paper, d, o.u, t), !0));
-			let [p, m] = e.paper.of(...e.paper.project(r.place(d, o.u)));
-			t(c[u].dot, {
-				cx: i(p),
-				cy: i(m)
+			}, (l || f) && c[u].line.setAttribute("d", ke(a, (e) => i.on(n.paper, d, o.u, e), !0));
+			let [p, m] = n.paper.of(...n.paper.project(i.place(d, o.u)));
+			e(c[u].dot, {
+				cx: r(p),
+				cy: r(m)
 			});
 		});
 	};
 }
 // src/solved.ts
-var ln = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", un = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", dn = 6, fn = 10, pn = 8;
-async function mn(e, t, n, i) {
-	let o = await pe.create(t), s = [], c = new T(t, o);
-	i.changes && c.change(i.changes), i.address && Qt(o, c, n, location.hash);
-	let l = i.pose && o.motion.take(i.pose);
-	l != null && (n.t = l), n.t = Math.min(Math.max(n.t, 0), o.end);
+var wn = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Tn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", En = 6, Dn = 10, On = 8;
+async function kn(e, t, r, a) {
+	let o = await Yt.create(t), s = [], c = new Bt(t, o);
+	a.changes && c.change(a.changes), a.address && wt(o, c, r, location.hash);
+	let u = a.pose && o.motion.take(a.pose);
+	u != null && (r.t = u), r.t = Math.min(Math.max(r.t, 0), o.end);
 	let d = 0, f = !0, p = 0;
 	o.cycle();
-	let m = new Yt(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
+	let m = new xt(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
 		curve: n,
 		unit: t.units[e.kind]
-	}))), g = h.find((e) => e.curve.of === n.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], v = new kt(t, o), y = sn(e, t, o, v, n, {
-		play: ce,
+	}))), v = h.find((e) => e.curve.of === r.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], y = new yn(t, o), b = Sn(e, t, o, y, r, {
+		play: q,
 		show: K,
-		go: W,
-		reset: ae
-	}), b = r("main", e), x = r("section", b, {
+		go: ae,
+		reset: W,
+		back: a.back
+	}), x = n("main", e), S = n("section", x, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), S = new me(t.sketch.links, t.sketch.poses, o), C = zt(x, o, t.views.mechanism, t.units, n, {
-		full: i.full,
+	}), C = new _(t.sketch.links, t.sketch.poses, o), w = pt(S, o, t.views.mechanism, t.units, r, {
+		full: a.full,
 		rates: t.views.rates,
-		on: i.on,
+		on: a.on,
 		entries: te,
-		chosen: V,
-		again: q,
-		held: (e) => o.count > 1 && De(t, `${e.kind}:${e.name}`) >= 0
-	}), { m: w, paper: D } = C, O = r("output", D, {
+		chosen: ne,
+		again: J,
+		held: (e) => o.count > 1 && se(t, `${e.kind}:${e.name}`) >= 0
+	}), { m: T, paper: E } = w, D = n("output", E, {
 		class: "digits",
 		"aria-label": "value of the chosen curve"
-	}), k = new Kt(w, t, o), A = cn(w, S, o, n), j = new Jt(D, w, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), M = E(w, t, o, {
+	}), O = new vt(T, t, o), k = Cn(T, C, o, r), A = new bt(E, T, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), j = Vt(T, t, o, {
 		changed: U,
 		finished: ie
 	});
-	Oe(w, t, o, S, {
+	le(T, t, o, C, {
 		seek: K,
-		time: () => n.t
+		time: () => r.t
 	});
-	let N = _(w, t, o), P = r("section", b, {
+	let M = g(T, t, o), N = n("section", x, {
 		class: "side",
 		"aria-label": "results"
-	}), F = Gt(P, n, () => q(!0)), I = (e) => (g = h.find((t) => t.curve === e), n.curve = e.of, q(!0)), L = Dt(F, t, o, {
-		time: () => n.t,
+	}), P = xn(N, r, () => J(!0)), F = (e) => (v = h.find((t) => t.curve === e), r.curve = e.of, J(!0)), I = gn(P, t, o, {
+		time: () => r.t,
 		seek: K,
-		pick: I,
-		picked: () => g?.curve
-	}, n, () => q(!0)), ee = z(), R = he(F.add("Change", "every number of the file"), t, o, c, (e) => e ? ie() : U());
-	ne(), be(F.add("About", "method and assumptions"), t);
+		pick: F,
+		picked: () => v?.curve
+	}, r, () => J(!0)), L = z(), R = Xt(P.add("Change", "every number of the file"), t, o, c, (e) => e ? ie() : U());
+	V(), tn(P.add("About", "method and assumptions"), t);
 	function z() {
-		let e = r("div", x, { class: "switches" }), { arrows: i, labels: a } = t.views.mechanism;
-		Ut(e, C.view, n, o.count > 1, () => q(!0));
+		let e = n("div", S, { class: "switches" }), { arrows: i, labels: a } = t.views.mechanism;
+		_t(e, w.view, r, o.count > 1, () => J(!0));
 		let s = (e) => i.some((t) => e.includes(t.kind)), c = t.views.rates.length > 0, l = [
 			["values", !0],
 			["digits", h.length > 0],
@@ -3308,206 +3670,217 @@ async function mn(e, t, n, i) {
 			["names", !0],
 			["traces", t.views.mechanism.items.some((e) => e.t === "trace")]
 		];
-		return t.gradient && Vt(e, {
+		return t.gradient && ht(e, {
 			said: "what lowers the peak",
 			title: "arrows: moving a joint in this direction lowers the peak of the chosen curve",
 			on: !1,
-			act: (e) => (k.on = e, q(!0))
-		}), Ht(e, n, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > pn, () => (H(), q(!0))), t.handles.some((e) => e.kind === "joint") && Vt(e, {
+			act: (e) => (O.on = e, J(!0))
+		}), gt(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > On, () => (H(), J(!0))), t.handles.some((e) => e.kind === "joint") && ht(e, {
 			said: "tolerances",
 			title: "a thousand machines with points displaced by up to 0.5 % of the drawing's width",
 			on: !1,
-			act: (e) => (j.on = e, q(!0))
-		}), w.paper.axes.length > 2 && r("span", e, {}, "drag to rotate the view"), r("span", e, { class: "spread" });
+			act: (e) => (A.on = e, J(!0))
+		}), T.paper.axes.length > 2 && n("span", e, {}, "drag to rotate the view"), n("span", e, { class: "spread" });
 	}
 	function B({ kind: e, name: n }) {
-		return t.sketch.links[De(t, `${e}:${n}`)] ?? t.views.mechanism.arrows.find((t) => t.of === n && t.kind === e)?.link;
+		return t.sketch.links[se(t, `${e}:${n}`)] ?? t.views.mechanism.arrows.find((t) => t.of === n && t.kind === e)?.link;
 	}
-	function te(e, r) {
+	function ee({ kind: e, name: n }) {
+		let r = t.handles.find((t) => t.kind === e && (t.name === n || t.name.startsWith(`${n}:`)));
+		return r ? T.paper.point(r.p) : null;
+	}
+	function te(e, n) {
 		let i = [], a = /* @__PURE__ */ new Set();
 		for (let s of e) {
-			let { kind: e, name: c } = s, l = De(t, `${e}:${c}`), d = l < 0 ? void 0 : t.sketch.links[l], f = e === "joint" || e === "reaction" ? h.find((e) => e.curve.of === `reaction.${c}.magnitude`) : h.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
+			let { kind: e, name: c } = s, u = se(t, `${e}:${c}`), d = u < 0 ? void 0 : t.sketch.links[u], f = e === "joint" || e === "reaction" ? h.find((e) => e.curve.of === `reaction.${c}.magnitude`) : h.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
 			f && i.push({
-				said: `Curve of ${u(f.curve.name)}`,
-				act: () => (I(f.curve), F.show("Curves"))
+				said: `Curve of ${l(f.curve.name)}`,
+				act: () => (F(f.curve), P.show("Curves"))
 			});
 			let p = t.numbers.find((t) => t.path.split(".")[1] === c && t.path.startsWith(e === "center" ? "link" : e));
 			p && i.push({
 				said: `Numbers of ${c}`,
-				act: () => (F.show("Change"), R.focus(p.path))
+				act: () => (P.show("Change"), R.focus(p.path))
 			}), e === "tracer" && i.push({
 				said: "Remove this path",
-				act: () => (n.tracers.splice(+c, 1), H(), q(!0))
+				act: () => (r.tracers.splice(+c, 1), H(), J(!0))
 			}), d && !a.has(d) && (a.add(d), i.push({
 				said: `Free body of ${d}`,
-				act: () => (L.choose(d), F.show("Forces"))
+				act: () => (I.choose(d), P.show("Forces"))
 			}), o.count > 1 && i.push({
 				said: `Path of this point of ${d}`,
 				act: () => {
-					n.tracers.push({
+					r.tracers.push({
 						link: d,
-						u: S.local(w.paper, l, w.paper.of(...r))
-					}), H(), q(!0);
+						u: C.local(T.paper, u, ee(s) ?? T.paper.of(...n))
+					}), H(), J(!0);
 				}
 			}));
 		}
-		return n.window && i.push({
+		return r.window && i.push({
 			said: "Fit the whole mechanism",
-			act: C.view.fit
+			act: w.view.fit
 		}), i;
 	}
-	function V(e) {
-		e && e.kind !== "joint" && L.choose(B(e)), q(!0);
+	function ne(e) {
+		e && e.kind !== "joint" && I.choose(B(e)), J(!0);
 	}
-	function ne() {
-		let e = F.add("Save", "files to save, print, share"), a = on(t.title), s = (t, n) => r("button", e, { type: "button" }, t).addEventListener("click", n);
-		s("Model file", () => an(`${a}.yaml`, $t(t, o), "text/yaml")), s("Curves as CSV", () => an(`${a}.csv`, en(t, o), "text/csv")), s("Drawing as SVG", () => an(`${a}.svg`, tn(w.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void rn(w.svg, t.style.light).then((e) => an(`${a}.png`, e, "image/png"))), s("Print", () => window.print()), i.address && s("Copy link", () => {
-			location.hash = Zt(t, o, n), navigator.clipboard?.writeText(location.href);
+	function V() {
+		let e = P.add("Save", "files to save, print, share"), i = At(t.title), s = (t, r) => n("button", e, { type: "button" }, t).addEventListener("click", r);
+		s("Model file", () => X(`${i}.yaml`, Tt(t, o), "text/yaml")), s("Curves as CSV", () => X(`${i}.csv`, Et(t, o), "text/csv")), s("Drawing as SVG", () => X(`${i}.svg`, Dt(T.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void kt(T.svg, t.style.light).then((e) => X(`${i}.png`, e, "image/png"))), s("Print", () => window.print()), a.address && s("Copy link", () => {
+			location.hash = Ct(t, o, r), navigator.clipboard?.writeText(location.href);
 		});
 	}
 	function H() {
-		i.address && window.history.replaceState(null, "", "#" + Zt(t, o, n)), i.on?.({
+		a.address && window.history.replaceState(null, "", "#" + Ct(t, o, r)), a.on?.({
 			type: "view",
-			view: n
+			view: r
 		});
 	}
 	function re() {
-		q(!0), R.update();
-		let e = Xt(t, o);
-		i.edited?.(e), i.on?.({
+		J(!0), R.update();
+		let e = St(t, o);
+		a.edited?.(e), a.on?.({
 			type: "change",
 			changes: e
 		}), H();
 	}
 	function U() {
-		c.pass(), q(!0);
+		c.pass(), J(!0);
 	}
 	function ie() {
 		let { sentence: e } = c;
 		c.pass() && (c.sentence = e), m.note(), G(!0), re();
 	}
-	function ae() {
+	function W() {
 		c.change({}), ie(), G();
 	}
-	function W(e) {
+	function ae(e) {
 		m.go(e) && (G(!0), re());
 	}
 	function G(e = !1) {
-		o.cycle(), w.fit(void 0, e), L.fit();
+		o.cycle(), T.fit(void 0, e), I.fit();
 	}
 	function oe() {
-		C.resize();
-		let e = P.querySelector(".panels").clientWidth;
-		e > 0 && L.resize(e - 12), w.fit(), q(!0);
+		w.resize();
+		let e = N.querySelector(".panels").clientWidth;
+		e > 0 && I.resize(e - 12), T.fit(), J(!0);
 	}
 	function K(e) {
-		n.t = Math.min(Math.max(e, 0), o.end), t.only_at_positions && (n.t = Math.round(n.t)), q(!1);
+		r.t = Math.min(Math.max(e, 0), o.end), t.only_at_positions && (r.t = Math.round(r.t)), J(!1);
 	}
-	function se(e) {
-		let t = e > 0 ? Math.floor(n.t + 1e-9) + e : Math.ceil(n.t - 1e-9) + e;
+	function ce(e) {
+		let t = e > 0 ? Math.floor(r.t + 1e-9) + e : Math.ceil(r.t - 1e-9) + e;
 		K(o.cyclic ? (t % o.count + o.count) % o.count : t);
 	}
-	function ce() {
-		if (y.playing(!p), p) return le();
-		let e = performance.now(), t = n.t, r = (i) => {
-			t += (i - e) / 1e3 / dn * n.speed * o.end, e = i, t >= o.end && (t = 0), K(t), p = requestAnimationFrame(r);
+	function q() {
+		if (b.playing(!p), p) return ue();
+		let e = performance.now(), t = r.t, n = (i) => {
+			t += (i - e) / 1e3 / En * r.speed * o.end, e = i, t >= o.end && (t = 0), K(t), p = requestAnimationFrame(n);
 		};
-		p = requestAnimationFrame(r);
+		p = requestAnimationFrame(n);
 	}
-	function le() {
+	function ue() {
 		cancelAnimationFrame(p), p = 0;
 	}
-	function q(e) {
+	function J(e) {
 		f ||= e, d ||= requestAnimationFrame(() => {
 			d = 0;
 			let e = performance.now();
-			J(), s.push(performance.now() - e), s.length > 2e3 && s.shift();
+			de(), s.push(performance.now() - e), s.length > 2e3 && s.shift();
 		});
 	}
-	function J() {
+	function de() {
 		let t = f;
-		f = !1, t && o.cycle(), o.at(n.t);
-		let r = v.refusal();
-		r !== o.refused && (o.refused = r, o.cycle()), e.classList.toggle("unsolved", !o.solved), e.classList.toggle("turning", n.drag === "turn"), w.update(t), A(t), M(), N(), k.update(g?.curve);
-		let i = j.update(g?.curve.row), s = k.on && g && k.peak(g.curve), l = s && g ? `arrows lower the peak of ${u(g.curve.name)}, now ${a(s.size / g.unit.size)} ${g.unit.unit}${s.where}` : "";
-		ee.textContent = [l, i && g ? `${u(g.curve.name)}: ${a(i.mean / g.unit.size)} ± ${a(i.sigma / g.unit.size, 2)} ${g.unit.unit} (1 σ)` : ""].filter(Boolean).join("; "), O.hidden = !g || !w.on("digits"), g && !O.hidden && (O.textContent = `${u(g.curve.name)} ${o.solved ? a(o.here[g.curve.row] / g.unit.size) : "–"} ${g.unit.unit}`), L.update(t), y.update(n.t, m.can, c.sentence);
+		f = !1, t && o.cycle(), o.at(r.t);
+		let n = y.refusal();
+		n !== o.refused && (o.refused = n, o.cycle()), e.classList.toggle("unsolved", !o.solved), e.classList.toggle("turning", r.drag === "turn"), T.update(t), k(t), j(), M(), O.update(v?.curve);
+		let a = A.update(v?.curve.row), s = O.on && v && O.peak(v.curve), u = s && v ? `arrows lower the peak of ${l(v.curve.name)}, now ${i(s.size / v.unit.size)} ${v.unit.unit}${s.where}` : "";
+		L.textContent = [u, a && v ? `${l(v.curve.name)}: ${i(a.mean / v.unit.size)} ± ${i(a.sigma / v.unit.size, 2)} ${v.unit.unit} (1 σ)` : ""].filter(Boolean).join("; "), D.hidden = !v || !T.on("digits"), v && !D.hidden && (D.textContent = `${l(v.curve.name)} ${o.solved ? i(o.here[v.curve.row] / v.unit.size) : "–"} ${v.unit.unit}`), I.update(t), b.update(r.t, m.can, c.sentence);
 	}
-	e.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => q(!0)));
-	let ue = i.full ? document : e, Y = (e) => X(e);
-	ue.addEventListener("keydown", Y);
-	function X(e) {
+	e.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => J(!0)));
+	let Y = a.full ? document : e, fe = (e) => pe(e);
+	Y.addEventListener("keydown", fe);
+	function pe(e) {
 		let t = e.target;
-		if (!(e.defaultPrevented || t.closest?.(ln))) {
-			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), W(e.key.toLowerCase() === "z" && !e.shiftKey);
+		if (!(e.defaultPrevented || t.closest?.(wn))) {
+			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), ae(e.key.toLowerCase() === "z" && !e.shiftKey);
 			else if (e.ctrlKey || e.metaKey || e.altKey || o.count < 2) return;
-			else e.key === " " && !t.closest?.(un) ? (e.preventDefault(), ce()) : [
-				".",
-				",",
-				">",
-				"<",
-				":",
-				";"
-			].includes(e.key) && se((".>:".includes(e.key) ? 1 : -1) * (e.shiftKey ? fn : 1));
+			else e.key === " " && !t.closest?.(Tn) ? (e.preventDefault(), q()) : ".,><:;".includes(e.key) && ce((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Dn));
 		}
 	}
-	return o.at(n.t), G(), {
+	return o.at(r.t), G(), {
 		kernel: o,
 		data: t,
 		times: s,
 		show: K,
-		stage: C,
+		stage: w,
 		opened() {
-			oe(), J(), R.update(), C.choose(n.chosen);
+			oe(), de(), R.update(), w.choose(r.chosen);
 		},
 		set(e) {
-			c.change(e), m.note(), G(!0), q(!0), R.update();
+			c.change(e), m.note(), G(!0), J(!0), R.update();
 		},
-		text: () => $t(t, o),
+		text: () => Tt(t, o),
 		pose: () => o.motion.placed(),
-		redraw: () => q(!0),
-		observed: [D, P],
+		redraw: () => J(!0),
+		observed: [E, N],
 		resize: oe,
 		remove() {
-			le(), ue.removeEventListener("keydown", Y);
+			ue(), Y.removeEventListener("keydown", fe);
 		}
 	};
 }
 // src/page.ts
-async function hn(t, n, i = {}) {
-	let a = i.view ?? Xe(), o = new ResizeObserver(() => s.resize()), s = await c(n, i);
-	async function c(n, s) {
+async function An(e, t, r = {}) {
+	let i = r.view ?? ze(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, r);
+	async function c(t, s) {
 		let c = document.createElement("div");
-		c.className = i.full ? "dalembert full" : "dalembert", c.tabIndex = -1;
-		let d = `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{${n.style.light}}`;
-		r("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);padding:.25em;display:flex;position:fixed;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + n.style.light + d;
-		let f = n.format === "dalembert-sketch/1" ? await e(c, n, a, {
+		c.className = r.full ? "dalembert full" : "dalembert", c.tabIndex = -1;
+		let f = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
+		n("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{-webkit-user-select:none;user-select:none;flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert main.one{flex-direction:column;display:flex}.dalembert main.one .stage{flex:1}.dalembert.full main.one .paper{aspect-ratio:auto;min-height:20em;max-height:none}.dalembert .missing{flex-wrap:wrap;gap:.3em;padding:.1em 0 .4em;display:flex}.dalembert .missing p{color:var(--warn);flex-basis:100%;margin:0;font-size:.92em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);padding:.25em;display:flex;position:fixed;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + t.style.light + f;
+		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Ft(c, t, i, {
 			...s,
-			taken: u
-		}) : n.format === "dalembert-page/1" ? await mn(c, n, a, s) : null;
-		if (!f) throw Error(`this page cannot show data of format ${n.format}`);
-		let p = l();
-		o.disconnect(), t.replaceChildren(c), f.opened();
-		for (let e of f.observed) o.observe(e);
-		return p && c.querySelector(p)?.focus({ preventScroll: !0 }), f;
+			taken: l,
+			back: p
+		}) : t.format === "dalembert-page/1" ? await kn(c, t, i, {
+			...s,
+			back: p
+		}) : null;
+		if (!m) throw Error(`this page cannot show data of format ${t.format}`);
+		let h = d();
+		a.disconnect(), e.replaceChildren(c), m.opened();
+		for (let e of m.observed) a.observe(e);
+		return h && c.querySelector(h)?.focus({ preventScroll: !0 }), m;
 	}
-	function l() {
-		let e = t.contains(document.activeElement) ? document.activeElement : null;
-		if (!e) return "";
+	async function l(e, t) {
+		o.push(s.data), await p(e, t);
+	}
+	async function u() {
+		let e = o.pop();
+		e && await p(e);
+	}
+	function d() {
+		let t = e.contains(document.activeElement) ? document.activeElement : null;
+		if (!t) return "";
 		let n = [
 			"data-path",
 			"data-item",
 			"aria-label"
-		].find((t) => e.hasAttribute(t));
-		return n ? `${e.tagName.toLowerCase()}[${n}="${CSS.escape(e.getAttribute(n))}"]` : "";
+		].find((e) => t.hasAttribute(e));
+		return n ? `${t.tagName.toLowerCase()}[${n}="${CSS.escape(t.getAttribute(n))}"]` : "";
 	}
-	async function u(e, t = s.pose()) {
-		let n = s, r = await c(e, {
-			...i,
+	async function f(e, t) {
+		o.length = 0, await p(e, t);
+	}
+	async function p(e, t = s.pose()) {
+		let n = s;
+		s = await c(e, {
+			...r,
 			changes: void 0,
 			address: !1,
 			pose: t
-		});
-		n.remove(), s = r;
+		}), n.remove();
 	}
 	return {
 		get kernel() {
@@ -3526,10 +3899,10 @@ async function hn(t, n, i = {}) {
 			return s.stage.overlay;
 		},
 		get sketch() {
-			return !s.kernel;
+			return s.sketch;
 		},
-		view: a,
-		replace: u,
+		view: i,
+		replace: f,
 		set: (e) => s.set(e),
 		show: (e) => s.show(e),
 		text: () => s.text(),
@@ -3540,14 +3913,14 @@ async function hn(t, n, i = {}) {
 		choose: (e) => s.stage.choose(e),
 		paper: (e) => s.stage.m.paper.of(...s.stage.m.paper.project(e)),
 		remove() {
-			o.disconnect(), s.remove(), t.replaceChildren();
+			a.disconnect(), s.remove(), e.replaceChildren();
 		}
 	};
 }
 // src/main.ts
-async function gn(e, t) {
+async function jn(e, t) {
 	try {
-		return await hn(e, JSON.parse(new TextDecoder().decode(await ue(t))), {
+		return await An(e, JSON.parse(new TextDecoder().decode(await re(t))), {
 			address: location.protocol !== "about:",
 			full: !0
 		});
@@ -3555,21 +3928,21 @@ async function gn(e, t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var _n = { async render({ model: e, el: t }) {
-	let n = "", i = Xe(), a = (t) => {
-		n = JSON.stringify(t), e.set("changes", t), e.save_changes();
+var Mn = { async render({ model: e, el: t }) {
+	let r = "", i = ze(), a = (t) => {
+		r = JSON.stringify(t), e.set("changes", t), e.save_changes();
 	}, o = async () => {
-		let n = await hn(t, e.get("data"), {
+		let r = await An(t, e.get("data"), {
 			edited: a,
 			changes: e.get("changes"),
 			view: i
 		});
-		return r("style", t, {}, `[data-dalembert="${e.get("frame")}"]{display:none}`), n;
+		return n("style", t, {}, `[data-dalembert="${e.get("frame")}"]{display:none}`), r;
 	}, s = await o(), c = async () => {
 		i.window = null, s.remove(), s = await o();
-	}, l = () => JSON.stringify(e.get("changes")) !== n && s.set(e.get("changes"));
+	}, l = () => JSON.stringify(e.get("changes")) !== r && s.set(e.get("changes"));
 	return e.on("change:data", c), e.on("change:changes", l), () => {
 		e.off("change:data", c), e.off("change:changes", l), s.remove();
 	};
 } };
-export { _n as default, hn as mount, gn as open };
+export { Mn as default, An as mount, jn as open };
