@@ -208,6 +208,37 @@ def test_accelerations_that_jump_have_two_numbers() -> None:
     assert "Jump of the acceleration in F at 0 deg, 90 deg" in r.text()
 
 
+def test_a_groove_pushes_with_one_wall_and_conjugate_discs_with_both() -> None:
+    """m s'' w^2 / cos(phi) changes its sign half-way; both discs differ by it while their preload keeps them on."""
+    tree = machine({"roller": "8 mm"})
+    tree["joints"]["F"]["contact"] = "holds"
+    tree.pop("loads")
+    groove = da.dynamics(da.mechanism(tree)).contact("F")
+    assert groove.walls is not None
+    assert groove.walls[0] - groove.walls[1] == pytest.approx(groove.force)
+    assert groove.walls.min(axis=0) == pytest.approx(0)
+    assert groove.changes is not None
+    assert math.degrees(groove.changes[0]) == pytest.approx(45, abs=0.5)
+    largest = float(np.abs(groove.force).max())
+    for part, off in ((0.3, True), (0.49, True), (0.51, False)):
+        tree["joints"]["F"]["preload"] = part * largest
+        r = da.dynamics(da.mechanism(tree))
+        pair = r.contact("F")
+        assert pair.walls is not None
+        assert pair.changes is not None
+        assert pair.walls[0] - pair.walls[1] == pytest.approx(pair.force)
+        on = pair.walls.min(axis=0) > 0
+        assert pair.walls.sum(axis=0)[on] == pytest.approx(2 * part * largest)
+        assert pair.walls.min() >= 0
+        assert bool(pair.changes.size) == (not on.all()) == off
+        assert ("A disc of F comes off or on near O = " in r.text()) == off
+    tree["joints"]["F"]["contact"] = "pushes"
+    with pytest.raises(
+        da.ModelError, match="preload of joint 'F': a preload is that of two rollers on conjugate"
+    ):
+        da.mechanism(tree)
+
+
 def test_a_copied_cam_is_the_cam_of_the_copied_machine() -> None:
     """Turned by 40 deg, and in the mirror; arcs in the mirror are refused."""
     tree = machine({"roller": "8 mm"}) | {

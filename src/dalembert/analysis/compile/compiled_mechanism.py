@@ -328,9 +328,10 @@ def _references(m: Mechanism, index: dict[str, int], at: Places) -> Array:
 
 
 def characteristic_length(m: Mechanism, at: Places) -> float:
-    """Mean over the links of the largest distance between two points of joints, or else of any points; 1 m if all links
-    are points."""
+    """Mean over the links of the largest distance between two points of joints, and over the cams of a radius; or else
+    of any points; 1 m if all links are points."""
     spans = [span for span in link_spans(m, at).values() if span > 0]
+    spans += [j.profile.size for j in m.joints.values() if j.outlined]  # type: ignore[union-attr]
     if not spans:
         every = [_span(list(m.points(link).values())) for link in m.links]
         spans = [span for span in every if span > 0]

@@ -6,12 +6,13 @@ Mechanics: docs/theory.md 5.5.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.compile.pushing_contacts import with_held_contacts
-from dalembert.analysis.methods.cam_contacts import cam_contact, is_cam
+from dalembert.analysis.methods.cam_contacts import cam_contact, is_cam, normal_force
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
@@ -40,6 +41,10 @@ class ContactHistory:
 
     place, pressure_angle (P,): of a cam, where a flat face touches, from its point along it, m; and the angle from the
     motion of that place to the normal, > 0 against the cam's sense.
+
+    walls (2, P): of a roller in a groove the forces of its inner and outer wall, of conjugate cams those of both discs;
+    changes (K,): positions of the first drive at which it goes over from one to the other, or a disc of a preloaded
+    pair comes off or on again.
     """
 
     joint: str
@@ -51,15 +56,18 @@ class ContactHistory:
     lift_acceleration: float = np.nan
     place: Array | None = field(default=None, repr=False)
     pressure_angle: Array | None = field(default=None, repr=False)
+    walls: Array | None = field(default=None, repr=False)
+    changes: Array | None = field(default=None, repr=False)
 
     @property
     def force(self) -> Array:
-        """The normal force (P,), N, NaN where the contact is lost."""
-        return np.where(self.needed < 0, np.nan, self.needed)
+        """The normal force (P,), N, NaN where the contact is lost; in a groove < 0 of the outer wall."""
+        return self.needed if self.walls is not None else np.where(self.needed < 0, np.nan, self.needed)
 
 
 def contact_force(r: Result, joint: str) -> ContactHistory:
-    """Normal force of a contact along a result, also where it is lost; raises ModelError for a joint that holds.
+    """Normal force of a contact along a result, also where it is lost; raises ModelError for a joint that holds and is
+    no cam.
 
     >>> import dalembert as da
     >>> crate = {"points": {"F": [0, 0]}, "mass": 40, "center": [0, 0.6], "inertia": 3}
@@ -76,6 +84,8 @@ def contact_force(r: Result, joint: str) -> ContactHistory:
     of = [] if pushing is None else sorted({r.joints[k] for k in pushing.joint})
     if joint not in r.joints:
         raise ModelError(f"unknown joint {joint!r}", closest(joint, of or list(r.joints)))
+    if joint not in of and is_cam(r, joint):
+        return _held_follower(r, joint)
     if pushing is None or joint not in of:
         what = f"the contact of joint {joint!r} holds both ways"
         raise ModelError(what, "write contact: pushes" if not of else f"choose among {', '.join(of)}")
@@ -93,6 +103,28 @@ def contact_force(r: Result, joint: str) -> ContactHistory:
     of_cam = cam_contact(r, joint)[1:] if is_cam(r, joint) else (None, None)
     needed, speeding = forces.sum(axis=1), _lift_acceleration(r, holding, rows, forces)
     return ContactHistory(joint, needed, behind, ahead, factor, factor * speed, speeding, *of_cam)
+
+
+def _held_follower(r: Result, joint: str) -> ContactHistory:
+    """Of a follower in a groove, or on conjugate cams: the forces of both walls or discs, and where it changes."""
+    force, cam = normal_force(r, joint), cam_contact(r, joint)
+    preload = getattr(r.mechanism.joints[joint], "preload", None) or 0.0
+    force = np.where(np.abs(force) <= LOST * np.nanmax(np.abs(r.force_array), initial=0.0), 0.0, force)
+    alone = np.abs(force) > 2 * preload
+    walls = np.array([np.where(alone, np.maximum(s * force, 0.0), preload + s * force / 2) for s in (1, -1)])
+    state = np.where(alone, np.sign(force), 0.0)
+    known = np.flatnonzero(np.isfinite(force) if preload else state != 0)
+    pairs = [(a, b) for a, b in pairwise(known.tolist()) if state[a] != state[b]]
+    changes = [_crossing(r, force, a, b, preload) for a, b in pairs] if r.drives else []
+    none = (None, None, np.nan, np.nan, np.nan)
+    return ContactHistory(joint, force, *none, cam.place, cam.pressure_angle, walls, np.array(changes))
+
+
+def _crossing(r: Result, force: Array, a: int, b: int, preload: float) -> float:
+    """Position of the first drive between two positions where a force passes a limit, linearly between them."""
+    q, limits = r.schedule.position[:, 0], (0.0,) if not preload else (2 * preload, -2 * preload)
+    limit = min(limits, key=lambda x: abs(force[a] + force[b] - 2 * x))
+    return float(q[a] + (q[b] - q[a]) * (limit - force[a]) / (force[b] - force[a]))
 
 
 def _lift_acceleration(r: Result, holding: Mechanism, rows: Array, forces: Array) -> float:

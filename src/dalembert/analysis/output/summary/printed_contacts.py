@@ -16,11 +16,15 @@ if TYPE_CHECKING:
     from dalembert.analysis.methods.contact_force import ContactHistory
     from dalembert.analysis.result.result import Result
 
+MOST_NAMED = 8
+"""Places that are named one by one."""
+
 ENDS = (("behind", ", rear end"), ("ahead", ", front end"))
 
 
 def contact_parts(r: Result, to: Printed) -> Iterator[Part]:
     """A row for each contact, of a guide with lengths for each end; and up to which speed one that is lost stays on."""
+    yield from _held_parts(r, to)
     pushing = r.compiled.pushing
     if pushing is None or not r.inertia or not np.isfinite(r.force_array).any():
         return
@@ -39,6 +43,27 @@ def contact_parts(r: Result, to: Printed) -> Iterator[Part]:
     yield TextTable(["contact", f"least normal force\n{unit}", f"greatest\n{unit}", "lost from"], rows)
     if lost:
         yield "\n".join(map(wrap, lost))
+
+
+def _held_parts(r: Result, to: Printed) -> Iterator[Part]:
+    """Where followers in grooves and on conjugate cams go over from one wall or disc to the other."""
+    if not np.isfinite(r.force_array).any() or not r.drives:
+        return
+    for name, joint in r.mechanism.joints.items():
+        if not joint.outlined or joint.contact.mode != "holds":  # type: ignore[union-attr]
+            continue
+        c = r.contact(name)
+        if c.changes is None or not c.changes.size:
+            continue
+        kind = drive_kinds(r, r.drives[0])["position"]
+        at = ", ".join(to.number(kind, x) for x in c.changes[:MOST_NAMED].tolist())
+        more = f" and {len(c.changes) - MOST_NAMED} more" if len(c.changes) > MOST_NAMED else ""
+        where = f"near {r.drives[0]} = {at}{more} {to.text(kind)}"
+        if joint.preload is None:  # type: ignore[union-attr]
+            yield wrap(f"{name} goes over from one wall to the other {where}: with play it knocks there.")
+        else:
+            least = to.quantity("force", float(np.nanmax(np.abs(c.force))) / 2)
+            yield wrap(f"A disc of {name} comes off or on {where}; from {least} of preload on both stay on.")
 
 
 def _forces(joint: str, c: ContactHistory) -> list[tuple[str, Array]]:

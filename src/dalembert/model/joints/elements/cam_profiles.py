@@ -324,6 +324,16 @@ class CamProfile(Part):
         """The form that it has."""
         return next(name for name in FORMS if getattr(self, name) is not None)
 
+    @property
+    def size(self) -> float:
+        """A radius of the cam, m."""
+        if self.arcs is not None:
+            return max(abs(arc.radius) for arc in self.arcs)
+        if self.points is not None:
+            return max(self.points.radius)
+        base = self.tangent.base if self.tangent is not None else self.base or self.prime
+        return base or self.radius or 0.0
+
     @model_validator(mode="after")
     def _one_form(self) -> Self:
         given = [name for name in FORMS if getattr(self, name) is not None]

@@ -48,6 +48,10 @@ class Cam(JointPart):
     elasticity: Annotated[float, Scalar("pressure", "positive")] | None = Field(
         None, description="modulus of cam and follower: for the pressure of the contact"
     )
+    preload: Annotated[float, Scalar("force", "positive")] | None = Field(
+        None,
+        description="force with which the two rollers of conjugate cams are pressed on their discs, at rest",
+    )
     poisson: Annotated[float, Scalar("number", "not negative")] = Field(
         0.3, description="Poisson's ratio of both"
     )
@@ -89,6 +93,12 @@ class Cam(JointPart):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
+        if self.preload is not None and (self.contact.mode != "holds" or self.follower.kind != "roller"):
+            raise ModelError(
+                "a preload is that of two rollers on conjugate cams",
+                "write contact: holds and follower: {roller: ...}; press a single follower on by a spring",
+                ("preload",),
+            )
         if self.face is not None and not self.flat:
             raise ModelError(f"a {self.follower.kind} has no face", "leave it out", ("face",))
         if self.profile.prime is not None and self.follower.kind != "roller":
