@@ -12,7 +12,7 @@ import pytest
 
 import dalembert as da
 from dalembert.errors import NUMBERED
-from dalembert.pages.with_changes import with_changed_numbers
+from dalembert.pages.saved_text import with_changed_numbers
 from tests.browser.opened import FILES
 from tests.browser.test_page import FOUR_BAR
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import random
 import re
+from collections.abc import Mapping
 from typing import Any
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
@@ -21,7 +22,6 @@ from dalembert.model.files.rewriting import text_changes
 from dalembert.model.files.splicing import Change, with_changes
 from dalembert.model.quantities.dimensions import si_unit
 from dalembert.pages.sketch_data import assembly_paths
-from dalembert.pages.with_changes import with_changed_numbers
 from dalembert.units import KINDS, NUMBER, quantity
 
 Part = str | Tree
@@ -187,3 +187,24 @@ def _at(tree: Any, keys: list[str]) -> Any:
     for key in keys:
         tree = tree[int(key) if isinstance(tree, list) else key]
     return tree
+
+
+def with_changed_numbers(m: Mechanism, changes: Mapping[str, float]) -> Mechanism:
+    """The mechanism with the numbers that a page has changed, and in the assembly mode that it shows.
+
+    >>> import dalembert as da
+    >>> with_changed_numbers(da.four_bar(), {"assembly.rocker": 1.8}).assembly
+    {'rocker': 1.8}
+    """
+    numbers = {path: x for path, x in changes.items() if not path.startswith("assembly.")}
+    poses: Tree = {}
+    for path, x in changes.items():
+        if path not in numbers:
+            _, link, *keys = path.split(".")
+            if len(keys) == 2:  # a vector, in the order of its components
+                poses.setdefault(link, {}).setdefault(keys[0], []).append(x)
+            elif keys:
+                poses[link][keys[0]] = x
+            else:
+                poses[link] = x
+    return m.with_values(numbers | ({"assembly": poses} if poses else {}))

@@ -14,8 +14,8 @@ from dalembert.errors import DalembertError
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.pages.html_page import page
 from dalembert.pages.page_data import page_data
+from dalembert.pages.saved_text import with_changed_numbers
 from dalembert.pages.sweep import with_cycle
-from dalembert.pages.with_changes import with_changed_numbers
 from dalembert.saving import check_installed
 
 BUNDLE = Path(__file__).with_name("bundle")

@@ -13,7 +13,7 @@ from dalembert.model.files.model_files import loads
 from dalembert.model.files.rewriting import text_of
 from dalembert.model.files.source import Path
 from dalembert.model.files.splicing import REMOVED
-from dalembert.pages.with_changes import with_changed_numbers
+from dalembert.pages.saved_text import with_changed_numbers
 from dalembert.studio.editing.draft import Draft, End, Point
 from dalembert.studio.editing.drawing_gestures import snapped
 from dalembert.studio.editing.entries import remove
