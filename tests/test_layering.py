@@ -63,6 +63,7 @@ MAY_IMPORT = {
     "exams": SHOWN | {"grading", "views", "reports", "exams"},
     "studies": SHOWN | {"", "kernel", "views", "reports", "studies"},  # designs are drawn in machine code
     "cli": SHOWN | {"", "grading", "views", "reports", "pages", "exams", "studies", "studio", "cli"},
+    "interchange": ANALYSIS | {"interchange"},
     "__init__": SHOWN | {"grading", "views", "reports", "pages", "exams", "studies"},
     "__main__": {"cli"},
 }
@@ -88,6 +89,8 @@ FACADES = {
     "machine.balance.balancing",
     "machine.balance.rotors",
     "model.description",
+    "model.files.conversion",
+    "model.files.model_files",
     "views.paper.scene",
     "analysis.batch.compiled_kernel",
     "machine.members.member_forces",
@@ -102,8 +105,8 @@ FACADES = {
 }
 """Result, Mechanism, Scene, Kernel, Sweep, Study, StudyResult, System, and the answers of `machine`, which print
 and draw themselves: their methods call what is built on them, by imports inside the methods."""
-SHOWING = {"notebook", "pages", "views", "reports"}
-"""What they call to show themselves."""
+SHOWING = {"notebook", "pages", "views", "reports", "interchange"}
+"""What they call to show themselves, and to read and write other programs' files."""
 
 
 def room(path: Path) -> str:

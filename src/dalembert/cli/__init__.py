@@ -9,6 +9,7 @@ import gc
 import io
 import os
 import sys
+import warnings
 
 from dalembert import __version__
 
@@ -95,9 +96,11 @@ def _run(arguments: list[str]) -> int:
         return 0
     token = DATA_FOLDER.set(folder)
     try:
-        status = command_line(first)(
-            _name_streams(arguments), exit_on_error=False, print_error=False, result_action="return_value"
-        )
+        with warnings.catch_warnings():
+            warnings.showwarning = _note
+            status = command_line(first)(
+                _name_streams(arguments), exit_on_error=False, print_error=False, result_action="return_value"
+            )
     except CycloptsError as error:
         return _refuse(command_line_error(error, arguments))
     except AnalysisError as error:
@@ -114,6 +117,11 @@ def _run(arguments: list[str]) -> int:
     finally:
         DATA_FOLDER.reset(token)
     return int(status or 0)
+
+
+def _note(message: Warning | str, *where: object, **more: object) -> None:
+    """A warning as a line, as of what a file of another program says that is not kept."""
+    print(f"note: {message}", file=sys.stderr)
 
 
 def _data_folder(arguments: list[str]) -> tuple[list[str], str]:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
-from dalembert.cli.options import Force, ModelFile, NewFile, Seen, Set, Theme, with_help
+from dalembert.cli.options import Force, ModelFile, NewFile, Seen, Set, Theme, flag, with_help
 from dalembert.cli.options import output as written
 from dalembert.errors import ModelError
 from dalembert.printing import table
@@ -123,23 +124,28 @@ def _title(path: Path) -> str:
 
 def convert(
     file: ModelFile,
+    target: Annotated[Path | None, with_help("File to write, as -o.")] = None,
     /,
     *,
-    output: Annotated[Path, written("File to write; its extension selects the format.")],
+    output: Annotated[Path | None, written("File to write; its extension selects the format.")] = None,
     set: Set = None,  # noqa: A002
+    strict: Annotated[bool, flag("Write nothing where something would not be kept.")] = False,
     force: Force = False,
 ) -> int:
-    """Write a model file in another format: .yaml, .json or .toml."""
+    """Write a model file in another format: .yaml, .json, .toml, or that of another program; either may be FILE's."""
     from dalembert.cli.options import with_settings
     from dalembert.model import convert as convert_file
-    from dalembert.model import load
 
-    check_new(output, force)
-    if set:
-        with_settings(load(file), set).save(output, overwrite=force)
-    else:
-        convert_file(file, output, overwrite=force)
-    print(f"Written: {output}")
+    if (target is None) == (output is None):
+        raise ModelError("convert needs one file to write", "write dalembert convert FILE OUT")
+    out = target or output
+    assert out is not None
+    check_new(out, force)
+    change = (lambda m: with_settings(m, set)) if set else None
+    lost = convert_file(file, out, force, strict, change)
+    for note in lost:
+        print(f"not kept: {note}", file=sys.stderr)
+    print(f"Written: {out}")
     return 0
 
 
@@ -214,7 +220,10 @@ COMMANDS: dict[Callable[..., int], str] = {
     new: """Examples:
   dalembert new
   dalembert new slider_crank -o engine.yaml""",
-    convert: "Examples:\n  dalembert convert four_bar.yaml -o four_bar.json",
+    convert: """Examples:
+  dalembert convert four_bar.yaml -o four_bar.json
+  dalembert convert four_bar.yaml four_bar.xml
+  dalembert convert arm.urdf arm.yaml""",
     examples: """Examples:
   dalembert examples
   dalembert examples four_bar -o four_bar.yaml""",

@@ -333,12 +333,12 @@ class Mechanism(WrittenParts):
         """Write it to a .yaml, .json or .toml file; raises ModelError if the file exists and not `overwrite`.
 
         The text of a file is kept as its author wrote it: only the characters of changed values change. Tables
-        whose columns are in a file of the same folder stay there; in another folder they are written out.
+        whose columns are in a file of the same folder stay there; in another folder they are written out. Suffixes of
+        other programs write their files (docs/formats.md), with a warning for each thing that is not kept.
         """
-        from dalembert.model.files.model_files import format_of, save_text
-        from dalembert.model.files.rewriting import text_of
+        from dalembert.model.files.conversion import save
 
-        save_text(text_of(self.written, format_of(path), os.path.dirname(path)), path, overwrite)
+        save(self, path, overwrite)
 
 
 def file_rules(tree: Mapping[str, object], folder: str = "", data: str = "") -> ReadingRules:

@@ -42,9 +42,15 @@ def as_mechanism(m: ModelOrPath) -> Mechanism:
 def load(path: FilePath, data: FilePath = "") -> Mechanism:
     """The mechanism of a .yaml, .json or .toml file; raises ModelError with file and line.
 
+    Files of other programs are read by their suffix (docs/formats.md), with a warning for each thing that is not kept.
     Tables may come from text files in its folder; from those in the folder ``data`` too. Raises
     FileNotFoundError, which is a ModelError too, for a file that does not exist.
     """
+    if Path(path).suffix.lower() not in FORMATS and not is_stream(path):
+        from dalembert.interchange.file_formats import is_foreign, load_foreign
+
+        if is_foreign(path):
+            return load_foreign(path)
     tree, source = read_file(path)
     return mechanism(tree, replace(source, data=os.fspath(data)) if data else source)
 

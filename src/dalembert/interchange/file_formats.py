@@ -1,0 +1,173 @@
+"""The table of other programs' files: suffix, program, reader, writer; docs/formats.md says what each keeps.
+
+A reader takes the bytes and the name of a file and gives a graph of links, or the tree of a model file in the plane,
+with notes of what is not kept. A writer takes a mechanism and gives the file's bytes, with such notes.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from dalembert.arrays import Tree
+from dalembert.errors import MissingFileError, ModelError
+from dalembert.interchange.link_graph import LinkGraph, graph_of, tree_of
+from dalembert.model import Mechanism
+from dalembert.model.files.source import FileSource
+from dalembert.saving import new_file
+
+LARGEST = 10_000_000
+"""Bytes of a file that is read; each format has its own, smaller bound."""
+
+
+class NotKept(UserWarning):
+    """What a file of another program says that the mechanism does not have, or the reverse."""
+
+
+@dataclass(frozen=True)
+class ReadFile:
+    """The tree of a model file, notes of what is not in it, lines of links and joints."""
+
+    tree: Tree
+    lost: list[str]
+    lines: dict[tuple[str | int, ...], int]
+
+
+@dataclass(frozen=True)
+class FileFormat:
+    """A format: its name, the program, and the functions that read and write it, as ``module:function``."""
+
+    name: str
+    reader: str = ""
+    writer: str = ""
+
+    def function(self, what: str) -> Callable[..., Any]:
+        """The function that reads or writes, imported when needed."""
+        module, _, name = what.partition(":")
+        call: Callable[..., Any] = getattr(import_module(f"dalembert.interchange.{module}"), name)
+        return call
+
+
+FILE_FORMATS: dict[str, FileFormat] = {
+    ".xml": FileFormat("MJCF (MuJoCo)", "robots.mjcf_loops:read_mjcf", "robots.mjcf_writer:write_mjcf"),
+    ".mjcf": FileFormat("MJCF (MuJoCo)", "robots.mjcf_loops:read_mjcf", "robots.mjcf_writer:write_mjcf"),
+    ".sdf": FileFormat("SDFormat", "robots.sdf_reader:read_sdf", "robots.sdf_writer:write_sdf"),
+    ".urdf": FileFormat("URDF", "robots.urdf_reader:read_urdf", "robots.urdf_writer:write_urdf"),
+}
+"""Suffix -> format."""
+
+
+def is_foreign(path: str | os.PathLike[str]) -> bool:
+    """True if the suffix is that of another program's file."""
+    return Path(path).suffix.lower() in FILE_FORMATS
+
+
+def read_foreign(path: str | os.PathLike[str]) -> tuple[Mechanism, list[str]]:
+    """The mechanism of another program's file, and what the file says that it does not have, a line each.
+
+    Raises ModelError with file and line for what cannot be left out without another motion or other forces.
+    """
+    from dalembert.model.description import mechanism
+
+    name = os.fspath(path)
+    form = _form(path, "reader")
+    read: Any = form.function(form.reader)(_content(Path(path)), name)
+    if isinstance(read, LinkGraph):
+        read = read_file_of(read)
+    source = FileSource(name, lambda: read.lines, "", form.name)
+    return mechanism(read.tree, source), read.lost
+
+
+def read_file_of(graph: LinkGraph) -> ReadFile:
+    """Tree, notes and lines of a graph of links."""
+    parts = [("links", link) for link in graph.links.values()] + [
+        ("joints", j) for j in graph.joints.values()
+    ]
+    lines: dict[tuple[str | int, ...], int] = {
+        (key, part.name): part.line for key, part in parts if part.line
+    }
+    return ReadFile(tree_of(graph), graph.lost, lines)
+
+
+def load_foreign(path: str | os.PathLike[str]) -> Mechanism:
+    """As `read_foreign`; what is not kept is a warning (NotKept) each."""
+    m, lost = read_foreign(path)
+    _warn(path, lost)
+    return m
+
+
+def save_with_warnings(m: Mechanism, path: str | os.PathLike[str], overwrite: bool = False) -> None:
+    """As `save_foreign`; what is not kept is a warning (NotKept) each."""
+    _warn(path, save_foreign(m, path, overwrite))
+
+
+def _warn(path: str | os.PathLike[str], lost: list[str]) -> None:
+    for note in lost:
+        warnings.warn(f"{os.fspath(path)}: not kept: {note}", NotKept, stacklevel=4)
+
+
+def foreign_bytes(m: Mechanism, path: str | os.PathLike[str]) -> tuple[bytes, list[str]]:
+    """Content of another program's file by the suffix of its name, and what of the mechanism is not in it."""
+    form = _form(path, "writer")
+    write = form.function(form.writer)
+    if form.writer.startswith(("robots", "assemblies")):
+        graph = graph_of(m)
+        content = write(graph)
+        lost = [*graph.lost, *_beyond(m)]
+    else:
+        content, lost = write(m)
+    return (content.encode() if isinstance(content, str) else content), lost
+
+
+def save_foreign(m: Mechanism, path: str | os.PathLike[str], overwrite: bool = False) -> list[str]:
+    """Write another program's file; returns what of the mechanism is not in it, a line each."""
+    content, lost = foreign_bytes(m, path)
+    with new_file(path, overwrite) as temporary:
+        temporary.write_bytes(content)
+    return lost
+
+
+def _beyond(m: Mechanism) -> list[str]:
+    """What no format of links and joints keeps."""
+    notes = []
+    counts = [len(m.schedule().position)]
+    if counts[0] > 1:
+        notes.append(f"{counts[0] - 1} of {counts[0]} positions: the file has the first")
+    if m.friction.enabled and any(getattr(joint, "friction", None) for joint in m.joints.values()):
+        notes.append("dry friction")
+    if m.answers:
+        notes.append("published answers")
+    return notes
+
+
+def _form(path: str | os.PathLike[str], what: str) -> FileFormat:
+    suffix = Path(path).suffix.lower()
+    form = FILE_FORMATS.get(suffix)
+    if form is None or not getattr(form, what):
+        known = [s for s, f in FILE_FORMATS.items() if getattr(f, what)]
+        verb = "read" if what == "reader" else "written"
+        raise ModelError(
+            f"{os.fspath(path)}: {suffix or 'no suffix'} is not {verb}", f"use {', '.join(known)}"
+        )
+    return form
+
+
+def _content(path: Path) -> bytes:
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise MissingFileError(str(path)) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ModelError(
+            f"the file cannot be read: {reason}", "check its name and permissions", (), str(path)
+        ) from None
+    if len(content) > LARGEST:
+        raise ModelError(f"the file has more than {LARGEST} bytes", "leave meshes out", (), str(path), 1)
+    return content

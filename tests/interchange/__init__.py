@@ -1,0 +1,1 @@
+"""Files of other programs, and mechanisms that run in them."""
