@@ -238,8 +238,8 @@ def inertia_matrix(value: Any) -> Array:
     """Inertia (3, 3) from none, three principal values, or a matrix."""
     if value is None:
         return np.zeros((3, 3))
-    rows: Array = np.array(value, float)
-    return np.asarray(np.diag(rows)) if rows.ndim == 1 else rows
+    rows = np.array(value, float)
+    return np.asarray(rows * np.eye(3) if rows.ndim == 1 else rows)
 
 
 def number(value: Any, kind: str) -> float:
@@ -274,7 +274,8 @@ def _connection(m: Mechanism, name: str) -> Connection:
 def relative(graph: LinkGraph, joint: Connection) -> Array:
     """Placement of the joint's axes on j in its axes on i, as drawn."""
     i, j = (graph.place(link) @ place for link, place in zip(joint.links, joint.places, strict=True))
-    return inverse(i) @ j
+    out: Array = inverse(i) @ j
+    return out
 
 
 def flipped(joint: Connection) -> Connection:
