@@ -16,10 +16,11 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.exams import exam_folder
+from dalembert.exams.asked import figure
 from dalembert.exams.choices import read_choices
-from dalembert.exams.question_sheet import question_sheet
+from dalembert.exams.question_sheet import ExamText, key_sheet, question_sheet
 from dalembert.grading.file_answers import check
-from dalembert.reports.sheet import Heading
+from dalembert.reports.sheet import Blanks, Drawings, Heading, Paragraph, ReportSheet, SheetTable
 from tests.methods.test_question import falsified
 from tests.model.test_shapes import box_mesh
 
@@ -214,7 +215,7 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path: Path, monkeypatch: pyte
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(exam_folder, "_write_variant", lambda *_: None)
+    monkeypatch.setattr(exam_folder, "_write_variant", lambda *_: ReportSheet("Question"))
     monkeypatch.setattr(exam_folder, "_write_key", interrupted)
     with pytest.raises(KeyboardInterrupt):
         some.save(out)
@@ -255,3 +256,80 @@ def test_a_key_has_the_letters_of_the_file(tmp_path: Path) -> None:
     da.variants(m, {"loads.F.value": [80.0, 100.0]}, count=2, seed=1, ask=["reaction.O"]).save(tmp_path / "e")
     text = (tmp_path / "e" / "variants.json").read_text(encoding="utf-8")
     assert "Öse" in text
+
+
+ENGINE = """
+dalembert: 1
+title: Engine
+units: {length: mm, force: N, mass: kg, time: s, angle: deg}
+gravity: none
+parameters: {p: 1.2 MPa, bore: 100 mm}
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [50, 0]}, mass: 1, center: 20 @ 180, inertia: 0.01 kg*m^2}
+  rod: {points: {A: [0, 0], B: [200, 0], C: {from: center, at: 30 @ 90}}, mass: 2, center: [80, 0]}
+  piston: {points: {B: [0, 0]}, mass: 1.5}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  guide: {type: slider, links: [ground, piston], at: [O, B], direction: 0}
+drives: {O: {position: 320 deg, speed: 300 rpm}}
+loads:
+  gas: {type: force, on: piston, at: B, value: ["-p*pi*bore^2/4", 0]}
+  side: {type: force, on: rod, at: C, value: 100 @ 330}
+  drag: {type: couple, on: rod, value: 2 N*m}
+assembly: {rod: 10}
+"""
+
+
+def test_a_question_states_the_data_as_the_file_does(tmp_path: Path) -> None:
+    """Its units, angles and letters, also of a value that replaces another; the figure has no product of letters."""
+    (tmp_path / "engine.yaml").write_text(ENGINE, encoding="utf-8")
+    m = da.load(tmp_path / "engine.yaml").with_values({"drives.O.speed": "400 rpm"})
+    r = da.dynamics(m)
+    exam = ExamText("ME 301", "Read all.\n\nThen begin.", {"effort.O": 4, "reaction": 2})
+    asked = [da.Answer(quantity="effort", of="O"), da.Answer(quantity="reaction", of="B", on="piston")]
+    sheet = question_sheet(r, asked, "07", exam=exam).sheet
+    cells = [cell for b in sheet.blocks if isinstance(b, SheetTable) for row in b.rows for cell in row]
+    for text in (
+        "320°, 400 rpm",
+        "20 ∠ 180°",
+        "0.01 kg·m²",
+        "(−p·π·bore²/4, 0) on 4 piston at B",
+        "100 N ∠ 330° on 3 rod at C",
+        "2 N·m on 3 rod",
+        "A (0, 0); B (200, 0); C 30 ∠ 90° from centre",
+    ):
+        assert text in cells
+    said = " ".join(b.text for b in sheet.blocks if isinstance(b, Paragraph))
+    assert "Read all. Then begin." in said
+    assert "Lengths (mm): OA = 50, AB = 200." in said
+    (figure,) = (b.scenes[0] for b in sheet.blocks if isinstance(b, Drawings))
+    drawn = " ".join(item.text for item in figure.items if hasattr(item, "text"))
+    assert "side = 100 N" in drawn
+    assert "gas = " not in drawn
+    (questions,) = (b.rows for b in sheet.blocks if isinstance(b, Blanks) and len(b.rows) == 2)
+    assert [words for words, _ in questions] == [
+        "Driving torque at O, $T_{12}$ (4 marks)",
+        "Reaction of B on piston, $F_{34}$ (2 marks)",
+    ]
+    assert sheet.subtitle == "ME 301 · Variant 07"
+
+
+def test_marks_stand_on_the_key_and_every_question_in_one_file(tmp_path: Path) -> None:
+    pytest.importorskip("typst")
+    some, out = four_bar(ask=["effort.O2", "reaction.A"]), tmp_path / "exam"
+    with pytest.raises(da.ModelError, match="no question is named 'efort'; did you mean 'effort'"):
+        some.save(out, marks={"efort": 4})
+    some.save(out, course="ME 301", marks={"effort": 4, "default": 2})
+    with (out / "key.csv").open(encoding="utf-8") as file:
+        assert [row["marks"] for row in csv.DictReader(file)] == ["4", "2"] * 2
+    for name in ("questions.pdf", "key.pdf"):
+        assert (out / name).read_bytes().startswith(b"%PDF")
+    values = {v.name: [figure(v.result, a) for a in some.asked] for v in some}
+    sheet = key_sheet(some[0].result, values, some.asked, ExamText(marks={"effort": 4})).sheet
+    _, answers = (b for b in sheet.blocks if isinstance(b, SheetTable))
+    size, angle = some[1].key[1]["value"].split(" @ ")
+    assert answers.rows[1][2] == f"{float(size):.4g} ∠ {float(angle):.2f}°".replace("-", "−")
+    some.save(out, overwrite=True)

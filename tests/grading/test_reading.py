@@ -14,7 +14,7 @@ from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import read_sheet
-from dalembert.grading.marking.figure_names import FigureNames
+from dalembert.grading.marking.figure_names import FigureNames, columns_of
 from dalembert.grading.written_figure import decimal_comma, read_written
 
 FOUR_BAR = examples()["four_bar"]
@@ -224,3 +224,40 @@ def test_one_mistake_costs_at_most_half_a_sheet(tmp_path: Path) -> None:
     (ann,) = da.grade(table, tmp_path / "key.csv").students
     assert {m.outcome for m in ann.marks} <= {"concept", "right"}
     assert ann.total == ann.most / 2
+
+
+HEADINGS = {
+    "1. Driving torque T12 in lbf in": {"quantity": "effort", "of": "O2"},
+    "Driving torque at O2, T12 [N m]": {"quantity": "effort", "of": "O2"},
+    "Reaction of A on coupler, F23": {"quantity": "reaction", "of": "A", "on": "coupler"},
+    "Force at B on the coupler": {"quantity": "reaction", "of": "B", "on": "coupler"},
+    "Direction of F23": {"quantity": "reaction", "of": "A", "on": "coupler", "component": "direction"},
+    "Force at A, size": {"quantity": "reaction", "of": "A", "component": "magnitude"},
+}
+FOUR_BAR_NAMES = FigureNames(
+    ("ground", "crank", "coupler", "rocker"),
+    {"O2": ("ground", "crank"), "A": ("crank", "coupler"), "B": ("coupler", "rocker")},
+    {"O2": "O2"},
+)
+
+
+def test_headings_of_forms_are_understood() -> None:
+    """As the sheets print a question, or a teacher puts it; points and feedback of a quiz are no answers."""
+    others = [
+        "Which variant do you have?",
+        "Start time",
+        "Completion time",
+        "Points - Force at A",
+        "Feedback - T12",
+    ]
+    found = columns_of([*others, *HEADINGS], FOUR_BAR_NAMES, {})
+    assert found.figures == HEADINGS
+    assert found.variant == "Which variant do you have?"
+
+
+@pytest.mark.parametrize(
+    "heading", ["Reaction of A on coupler, F34", "What did you find hard?", "Torque on crank"]
+)
+def test_a_heading_that_contradicts_itself_is_refused(heading: str) -> None:
+    with pytest.raises(da.ModelError, match="no figure is known by the heading"):
+        columns_of([heading, "T12"], FOUR_BAR_NAMES, {})

@@ -9,13 +9,17 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from dalembert.cli.options import AS_STATED, At, Force, ModelFile, Steady, numeric, output, target
+from dalembert.errors import ModelError
 
 EXAMPLES = """Examples:
   dalembert variants four_bar.yaml --vary "loads.T_4.value=100..140" -o exam
   dalembert variants engine.yaml --vary "drives.O.position=20..60 deg" \\
     --vary "loads.gas.value=[-2 kN, -3 kN]" --ask effort.O --count 8 -o exam
+  dalembert variants four_bar.yaml --vary "loads.T_4.value=100..140" --course "ME 301, 20 November" \\
+    --text @intro.txt --marks effort=4 --marks default=2 -o exam
 
-The folder: questions, solutions, answers (tables to fill in), problems (model files), key.csv and key.json."""
+The folder: questions, solutions, answers (tables to fill in), problems (model files), key.csv and key.json;
+questions.pdf and key.pdf to print."""
 
 
 def variants(
@@ -48,6 +52,14 @@ def variants(
     tolerance: Annotated[
         str, target("Smallest effect of a common mistake, and the key's tolerance, e.g. 3 %.")
     ] = "",
+    course: Annotated[str, target("Course and date, printed under the title of each sheet.")] = "",
+    text: Annotated[
+        str, target("Introduction printed before the given data; @FILE reads it from a text file.")
+    ] = "",
+    marks: Annotated[
+        list[str] | None,
+        Parameter(negative=(), help="Marks of a question, one or more: effort=4, reaction.A=2, default=1."),
+    ] = None,
     of: Steady = AS_STATED,
     force: Force = False,
 ) -> int:
@@ -59,14 +71,29 @@ def variants(
     from dalembert.printing import tables
 
     check_folder(output, force)
+    worth = dict(map(_marks, marks or ()))
     choices = dict(map(read_option, vary))
     m = of.load(file)
     exam = drawn(m, choices, count, seed, ask or (), at, of.static, tolerance)
-    exam.save(output, force)
+    exam.save(output, force, course, _introduction(text), worth)
     rows = [[v.name, *(value_text(v.values[path]) for path in choices)] for v in exam]
     print(tables(["variant", *choices], rows, 1))
     print(f"Written: {output}; --seed {exam.seed} draws the same again.", file=sys.stderr)
     return 0
+
+
+def _introduction(text: str) -> str:
+    from dalembert.model.quantities.column_files import file_text
+
+    return file_text(Path(text[1:])).strip() if text.startswith("@") else text
+
+
+def _marks(text: str) -> tuple[str, float]:
+    name, _, number = text.partition("=")
+    try:
+        return name.strip(), float(number)
+    except ValueError:
+        raise ModelError(f"--marks {text}: no number of marks", "write --marks effort=4") from None
 
 
 COMMANDS = {variants: EXAMPLES}

@@ -10,6 +10,7 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import effort_actions
 from dalembert.analysis.output.rounding import least
 from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import named_figure, without_value
@@ -128,6 +129,9 @@ def question_words(shown: Shown, answer: StatedAnswer) -> str:
     words = describe_answer(answer.model_copy(update={"component": None, "at": None if one else answer.at}))
     words = words[:1].upper() + words[1:]
     of = str(answer.of)
+    if answer.quantity == "effort" and of in shown.r.drives:
+        kind = "torque" if drive_kinds(shown.r, of)["effort"] == "moment" else "force"
+        words = words.replace("Effort of", f"Driving {kind} at", 1)
     if answer.quantity == "reaction":
         words += f", ${shown.reaction(of, str(answer.on))}$"
     if answer.quantity.startswith("effort") and of in shown.r.drives:

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.exams.asked import COLUMNS
-from dalembert.exams.question_sheet import question_sheet, solution_sheet
+from dalembert.exams.asked import COLUMNS, figure
+from dalembert.exams.question_sheet import NO_TEXT, ExamText, key_sheet, question_sheet, solution_sheet
 from dalembert.progress import progress
+from dalembert.reports.writers.typst_writer import typst_bytes
 from dalembert.saving import check_installed, check_new_folder, new_folder
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from dalembert.arrays import Tree
     from dalembert.exams.candidates import Variant
     from dalembert.model import Mechanism, StatedAnswer
+    from dalembert.reports.sheet import ReportSheet
 
 RECORD = "variants.json"
 """The seed, the required quantities and the values of each variant: identifies such a folder."""
@@ -32,7 +34,7 @@ PARTS = {
 }
 """Folders of a variant's files, and their endings."""
 
-ALONE = ("key.csv", "key.json", RECORD)
+ALONE = ("questions.pdf", "key.pdf", "key.csv", "key.json", RECORD)
 SHEET = ("variant", "quantity", "of", "on", "at", "extreme", "component", "axes", "value", "unit")
 """Columns of the table that a student may fill in."""
 
@@ -68,27 +70,36 @@ def write_folder(
     record: Tree,
     folder: Path,
     overwrite: bool,
+    exam: ExamText = NO_TEXT,
 ) -> None:
     """Writes all sheets beside the folder and moves them into place when all are complete."""
     check_folder(folder, overwrite)
     with new_folder(folder) as beside, progress("Sheets", len(problems)) as step:
+        sheets: list[ReportSheet] = []
         for part in PARTS:
             (beside / part).mkdir()
         for k, one in enumerate(problems):
             step(k, one.name)
-            _write_variant(one, questions, beside)
+            sheets.append(_write_variant(one, questions, beside, exam))
         _write_key(key, record, beside)
+        (beside / "questions.pdf").write_bytes(typst_bytes(sheets[0], "pdf", *sheets[1:]))
+        values = {one.name: [figure(one.result, a) for a in questions] for one in problems}
+        key_sheet(problems[0].result, values, questions, exam).save(beside / "key.pdf")
 
 
-def _write_variant(v: Variant, questions: Sequence[StatedAnswer], folder: Path) -> None:
+def _write_variant(
+    v: Variant, questions: Sequence[StatedAnswer], folder: Path, exam: ExamText
+) -> ReportSheet:
+    """Writes a variant's files; returns its question sheet."""
     v.mechanism.save(folder / "problems" / f"{v.name}.yaml")
     _copy_meshes(v.mechanism, folder / "problems")
-    for part, sheet in (("questions", question_sheet), ("solutions", solution_sheet)):
-        made = sheet(v.result, questions, v.name)
+    question = question_sheet(v.result, questions, v.name, exam=exam)
+    for part, made in (("questions", question), ("solutions", solution_sheet(v.result, questions, v.name))):
         for ending in PARTS[part]:
             made.save(folder / part / f"{v.name}{ending}")
     rows = [{**row, "variant": v.name, "value": ""} for row in v.key]
     _write_csv(folder / "answers" / f"{v.name}.csv", SHEET, rows)
+    return question.sheet
 
 
 def _copy_meshes(m: Mechanism, folder: Path) -> None:

@@ -22,6 +22,7 @@ from dalembert.grading.file_answers import describe_answer
 from dalembert.grading.tolerance import NEAR, percent
 from dalembert.model import ModelOrPath, as_mechanism
 from dalembert.progress import progress
+from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism, StatedAnswer
@@ -58,17 +59,45 @@ class Variants(Sequence[Variant]):
         start = f"{folder}/" if folder else ""
         return [{"variant": v.name, "file": f"{start}{v.name}.yaml", **row} for v in self for row in v.key]
 
-    def save(self, folder: str | Path, overwrite: bool = False) -> None:
-        """Write problems, question sheets, solutions and the key into a new folder, all of it or nothing."""
-        from dalembert.exams.exam_folder import write_folder
+    def save(
+        self,
+        folder: str | Path,
+        overwrite: bool = False,
+        course: str = "",
+        text: str = "",
+        marks: Mapping[str, float] | None = None,
+    ) -> None:
+        """Write problems, question sheets, solutions and the key into a new folder, all of it or nothing.
 
+        ``course`` is printed under the title, ``text`` (paragraphs, an empty line between) before the given data;
+        ``marks``: of a question by its name, `effort.O2`, its quantity, `reaction`, or `default`.
+        """
+        from dalembert.exams.exam_folder import write_folder
+        from dalembert.exams.question_sheet import ExamText
+
+        exam = ExamText(course, text, read_marks(marks or {}, self.asked))
+        key = [
+            row | ({} if (worth := exam.marks_of(a)) is None else {"marks": worth})
+            for row, a in zip(self.key("problems"), self.asked * len(self), strict=True)
+        ]
         record = {
             "title": self[0].mechanism.title,
             "seed": self.seed,
             "asked": [describe_answer(a) for a in self.asked],
             "variants": {v.name: dict(v.values) for v in self},
         }
-        write_folder(self.found, self.asked, self.key("problems"), record, Path(folder), overwrite)
+        write_folder(self.found, self.asked, key, record, Path(folder), overwrite, exam)
+
+
+def read_marks(marks: Mapping[str, float], asked: Sequence[StatedAnswer]) -> dict[str, float]:
+    """Marks of questions; ModelError for a name that no question has, or a number below 0."""
+    names = {n for a in asked for n in (a.name, f"{a.quantity}.{a.of}", a.quantity)} | {"default"}
+    for name, worth in marks.items():
+        if name not in names:
+            raise ModelError(f"no question is named {name!r}", closest(name, sorted(names)), ("marks", name))
+        if isinstance(worth, bool) or not isinstance(worth, (int, float)) or not 0 <= worth <= 1e6:
+            raise ModelError(f"marks of {name}: {worth!r} is not a number of marks", "write 0 or more")
+    return dict(marks)
 
 
 def variants(

@@ -16,7 +16,8 @@ def stated_picture(c: ReportContext) -> Scene:
     """The mechanism with its loads, without friction; in a question without the unknowns."""
     if c.question:
         seen = ISOMETRIC if c.r.mechanism.dimension == 3 else None
-        return question_scene(c.r, c.k, c.notation, seen, data=False)
+        letters = c.written.by_letters() if c.written else ()
+        return question_scene(c.r, c.k, c.notation, seen, data=False, by_letters=letters)
     if c.r.mechanism.dimension == 3:
         return space_mechanism_scene(c.r, c.k, ISOMETRIC, c.notation, friction=False)
     return mechanism_scene(c.r, c.k, c.notation, friction=False)

@@ -10,6 +10,7 @@ from dalembert.views.notation import Figures, Notation, Shown
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.reports.sections.as_written import AsWritten
 
 Method = Literal["steps", "matrix", "graphical", "superposition", "virtual-work"]
 METHODS: tuple[Method, ...] = ("steps", "matrix", "graphical", "superposition", "virtual-work")
@@ -20,7 +21,7 @@ class ReportContext:
     """Context of a report: the result, the position, the reader's notation, and the methods shown.
 
     ``choice``: what the reader chooses of the steps, with the joint to take moments about.
-    ``question``: only the given data are shown, without computed values.
+    ``question``: only the given data are shown, without computed values; ``written``: as the file states them.
     """
 
     r: Result
@@ -30,6 +31,7 @@ class ReportContext:
     choice: Choice = field(default_factory=Choice)
     notation: Notation = field(default_factory=Notation)
     question: bool = False
+    written: AsWritten | None = None
 
     @property
     def about(self) -> str:

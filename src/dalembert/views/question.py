@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, other_actions
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Notation, Shown, load_sign
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import fit_frame
 from dalembert.views.paper.scene import Scene
@@ -45,11 +45,13 @@ def question_scene(
     notation: Notation | None = None,
     camera: Camera | None = None,
     data: bool = True,
+    by_letters: Collection[str] = (),
 ) -> Scene:
     """The mechanism to scale with known loads by name and value, and unknown ones by name alone.
 
     Computed efforts, reactions, speeds and angles are left out, and so are the senses of efforts and unknown loads;
-    ``data`` lists the given data below. Equilibrium positions are unknowns and are not drawn.
+    ``data`` lists the given data below; loads ``by_letters`` have no number, as the reader is to find it. Equilibrium
+    positions are unknowns and are not drawn.
     """
     title, notation = r.mechanism.title or "Mechanism", as_stated(notation)
     stated = [f"Drive {d}: {drive_text(Shown(r, notation), k, d)}." for d in r.drives]
@@ -60,10 +62,13 @@ def question_scene(
     canvas = Canvas()
     known, unknown = _sort(r, sought)
     if camera is None:
-        notes, scales = _draw_plane(canvas, k, shown, known, unknown)
+        notes, scales = _draw_plane(canvas, k, shown, known, unknown, by_letters)
     else:
         notes, scales = _draw_space(canvas, k, shown, camera, known, unknown)
-    notes += [UNNUMBERED] * bool(unknown) + [ELSEWHERE] * bool(sought)
+    lettered = [load_sign(n) for n in by_letters]
+    notes += [f"Given in letters: {', '.join(lettered)}."] * bool(lettered and camera is None)
+    notes += [UNNUMBERED.replace("Arrows", "Other arrows") if lettered else UNNUMBERED] * bool(unknown)
+    notes += [ELSEWHERE] * bool(sought)
     heading = title if sought else place_title(r, k, title, shown)
     lines = [*stated, *stated_lines(shown, k)] if data else []
     return canvas.scene(heading, notes=[*notes, *lines], scales=scales)
@@ -97,14 +102,22 @@ def _sort(r: Result, without: Sequence[str]) -> tuple[list[Action], list[Action]
 
 
 def _draw_plane(
-    canvas: Canvas, k: int, shown: Shown, known: list[Action], unknown: list[Action]
+    canvas: Canvas,
+    k: int,
+    shown: Shown,
+    known: list[Action],
+    unknown: list[Action],
+    by_letters: Collection[str],
 ) -> tuple[list[str], dict[str, float]]:
     """The mechanism and its loads; notes and scales."""
     r = shown.r
+    lettered = [a for a in known if a.of in by_letters]
+    known = [a for a in known if a.of not in by_letters]
     frame = fit_frame(every_path(r)[:, k], 120.0, 90.0, unit_size(r, "length"))
     draw_links(canvas, r, k, frame)
     canvas_names(canvas, r, k, frame, shown)
     per_mm = draw_actions(canvas, r, known, k, frame, shown, 22.0, clear=True)
+    draw_actions(canvas, r, lettered, k, frame, shown, 22.0, values=False, clear=True)
     draw_actions(canvas, r, unknown, k, frame, shown, ASKED, per_mm=1 / ASKED, values=False, clear=True)
     return scale_notes(shown, frame, per_mm)
 

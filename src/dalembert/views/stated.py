@@ -82,8 +82,9 @@ def drive_text(shown: Shown, k: int, drive: str) -> str:
     return ", ".join(parts)
 
 
-def load_text(shown: Shown, k: int, name: str) -> str:
-    """Given data of a load; a force or couple at position k, in ground axes; of an unknown load, its place."""
+def load_text(shown: Shown, k: int, name: str, written: str = "") -> str:
+    """Given data of a load; a force or couple at position k, in ground axes, or as it is ``written`` in the file; of
+    an unknown load, its place."""
     r = shown.r
     load: Any = r.mechanism.loads[name]
     if load.ON == "span":
@@ -94,6 +95,8 @@ def load_text(shown: Shown, k: int, name: str) -> str:
     where = f" on {shown.heading(load.on)}{_spot(shown, getattr(load, 'at', None))}"
     if load.unknown:
         return f"unknown{_along(shown, load)}{where}"
+    if written:
+        return written + where
     a = next(a for a in actions(r) if a.of == name and a.kind == "load")
     force = load.ON == "point"
     return vector_text(shown, "force" if force else "moment", (a.force if force else a.couple)[k]) + where

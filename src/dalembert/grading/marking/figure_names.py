@@ -24,9 +24,10 @@ STUDENT = re.compile(
 )
 GIVEN_NAME = re.compile(r"first name|given name|forename", re.I)
 SURNAME = re.compile(r"last name|surname|family name", re.I)
-VARIANT = re.compile(r"variant|version|set|group|problem no\.?", re.I)
+VARIANT = re.compile(r"variant|version|set|group|problem no\.?|(?:.*\W)?(?:variant|version)(?:\W.*)?", re.I)
 PASSED_OVER = re.compile(
-    r"time ?stamp|started(?: on)?|completed(?: on)?|duration|time taken|state|status|score|grade/?[\d.]*"
+    r"time ?stamp|(?:start|completion|last modified|grade posted) time|started(?: on)?|completed(?: on)?|duration"
+    r"|time taken|state|status|score|grade/?[\d.]*|(?:points|feedback|score) ?-.*|(?:quiz|grader) feedback|language"
     r"|section\w*|submitted|attempt|n (?:in)?correct|total.*|q\. ?\d+ ?/.*|\d+(?:\.\d+)?|institution"
     r"|department|last downloaded.*|instructions?|",
     re.I,
@@ -46,6 +47,14 @@ _EFFORT = re.compile(
     r"|(?:driving|input|crank|motor|required)?\s*(?:torque|moment|couple)\s*(?:at|of|on)?\s*(\w+)?",
     re.I,
 )
+
+_IN_UNIT = re.compile(
+    r"\s+in (?:k?N(?:[ *·.]?(?:m|mm|cm))?|newtons?|lbf?(?:[ *·.-]?(?:in|ft))?|(?:in|ft)[ *·.-]?lbf?)\.?$",
+    re.I,
+)
+_SYMBOL = re.compile(r"(.*[^\s,:])[\s,:]+([FGRT]_?\{?\d[,_ ]?\d\}?)")
+_PART_OF = re.compile(r"(size|magnitude|direction|angle) of (?:the )?(.+)", re.I)
+_ON = re.compile(r"(.+) on (?:the )?(\w+)", re.I)
 
 
 @dataclass(frozen=True)
@@ -82,13 +91,32 @@ class FigureNames:
         text = re.sub(r"\[[^\]]*\]|\((?!x|y|z|size|magn|dir|angle)[^)]*\)", " ", name).strip(" ._:")
         if (exact := _exact(text)) is not None:
             return exact
+        text = _IN_UNIT.sub("", text)
+        if part_of := _PART_OF.fullmatch(text):
+            text = f"{part_of[2]} {part_of[1]}"
+        if (said := self._with_symbol(text)) is not None:
+            return said
+        if (linked := _ON.fullmatch(text)) and linked[2] in self.links:
+            found = self.keys(linked[1])
+            return None if found is None or found["quantity"] != "reaction" else found | {"on": linked[2]}
         component = _COMPONENT.search(text)
         part: dict[str, Any] = {}
         if component and text not in self.joints:
             word = component[1].lower()
-            part, text = {"component": _WORDS.get(word, word)}, text[: component.start()].strip(" ._:")
+            part, text = {"component": _WORDS.get(word, word)}, text[: component.start()].strip(" ._:,")
         found = self._numbered(text) or self._of_joint(text) or self._of_drive(text)
         return None if found is None else found | part
+
+    def _with_symbol(self, text: str) -> dict[str, Any] | None:
+        """A figure in words with its symbol behind, as sheets print it: `Reaction of A on coupler, F23`."""
+        both = _SYMBOL.fullmatch(text)
+        if both is None:
+            return None
+        words, symbol = self.keys(both[1]), self._numbered(both[2])
+        if words is None or symbol is None:
+            return None
+        agree = all(words.get(key, value) == value for key, value in symbol.items())
+        return words | symbol if agree else None
 
     def _numbered(self, text: str) -> dict[str, Any] | None:
         """`F23`, the force of 2 on 3; `T12`, the effort between 1 and 2."""
@@ -208,4 +236,5 @@ def _unknown(unknown: list[str], heads: list[str], names: FigureNames) -> tuple[
     )
     target = wanted[0] if wanted else "effort.NAME"
     asked = f"; asked are {', '.join(wanted)}" if wanted else ""
-    return what + asked, f'write --columns "{example}={target}", or "{example}=-" to pass over it'
+    each = ", --columns once for each heading" if len(unknown) > 1 else ""
+    return what + asked, f'write --columns "{example}={target}", or "{example}=-" to pass over it{each}'

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -49,7 +50,11 @@ def knowns(sheet: ReportSheet, c: ReportContext) -> None:
     if m.dimension == 3 and not c.question:
         joint_axes(sheet, c)
     loads = [
-        [as_formula(load_sign(n)), load.type.replace("_", " "), load_text(shown, c.k, n)]
+        [
+            as_formula(load_sign(n)),
+            load.type.replace("_", " "),
+            load_text(shown, c.k, n, c.written.load(n) if c.written else ""),
+        ]
         for n, load in m.loads.items()
     ]
     sheet.table(["Load", "Type", "Value"], loads)
@@ -77,14 +82,16 @@ def _links(sheet: ReportSheet, c: ReportContext) -> None:
         g = m.center(link)
         cells = [
             shown.heading(link),
-            "; ".join(f"{n} ({place_text(shown, p)})" for n, p in m.points(link).items()),
-            (mass_text(shown, link) if c.question else shown.text("mass", m.mass(link)))
-            if m.mass(link)
-            else "massless",
-            place_text(shown, g) if m.mass(link) else "–",
+            "; ".join(
+                f"{n} {(c.written and c.written.point(link, n)) or f'({place_text(shown, p)})'}"
+                for n, p in m.points(link).items()
+            ),
+            _mass(c, link) if m.mass(link) else "massless",
+            ((c.written and c.written.center(link)) or place_text(shown, g)) if m.mass(link) else "–",
         ]
         if m.dimension == 2:
-            cells.append(shown.text("inertia", m.inertia(link)) if m.inertia(link) else "–")
+            written = c.written.of_link(link, "inertia", "inertia") if c.written else ""
+            cells.append((written or shown.text("inertia", m.inertia(link))) if m.inertia(link) else "–")
         rows.append(cells)
     length = shown.unit("length")
     heads = ["Link", f"Points, link axes ({length})", "Mass", f"Centre ({length})"]
@@ -92,8 +99,31 @@ def _links(sheet: ReportSheet, c: ReportContext) -> None:
     if m.dimension == 3 or c.question:
         ground = "; ".join(f"{n} ({place_text(shown, p)})" for n, p in m.points(GROUND).items())
         sheet.text(f"On the ground ({length}): {ground}." if ground else "")
+    if c.question and (between := lengths(c)):
+        sheet.text(f"Lengths ({length}): {', '.join(between)}.")
     if m.dimension == 3:
         _inertias(sheet, c)
+
+
+def _mass(c: ReportContext, link: str) -> str:
+    if not c.question:
+        return c.shown.text("mass", c.r.mechanism.mass(link))
+    return (c.written and c.written.of_link(link, "mass", "mass")) or mass_text(c.shown, link)
+
+
+def lengths(c: ReportContext) -> list[str]:
+    """Distances between the joints of each moving link, one after the other: `AB = 15`."""
+    m, out = c.r.mechanism, []
+    for link in c.r.links:
+        places: dict[str, np.ndarray] = {}
+        for name, joint in m.joints.items():
+            for end, at in zip(joint.links, m.joint_points(name), strict=True):
+                named = [n for n, p in m.points(link).items() if end == link and np.allclose(p, at)]
+                places |= {n: np.asarray(at, float) for n in named[:1]}
+        for (a, p), (b, q) in pairwise(places.items()):
+            if (distance := float(np.linalg.norm(q - p))) > PART * c.r.compiled.layout.length:
+                out.append(f"{a}{b} = {c.shown.number('length', distance)}")
+    return list(dict.fromkeys(out))
 
 
 def _inertias(sheet: ReportSheet, c: ReportContext) -> None:
@@ -157,7 +187,8 @@ def _convention(c: ReportContext) -> str:
 
 def _drive_row(c: ReportContext, d: str) -> list[str]:
     if c.question:
-        return [drive_text(c.shown, c.k, d), ""]
+        written = c.written.drive(d, drive_kinds(c.r, d)) if c.written else ""
+        return [written or drive_text(c.shown, c.k, d), ""]
     r, shown, kinds = c.r, c.shown, drive_kinds(c.r, d)
     motion = ", ".join(
         shown.text(kinds[name], float(values[c.k]))

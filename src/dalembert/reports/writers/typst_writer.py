@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from importlib import import_module
 from importlib.resources import files
 from typing import Any
@@ -38,25 +39,32 @@ GAP = 3.0
 """Between drawings side by side, mm."""
 
 
-def typst_bytes(sheet: ReportSheet, kind: str) -> bytes:
-    """The report as `pdf` or `html`."""
+@cache
+def _fonts() -> Any:
+    """The fonts of this machine, looked for once."""
+    return import_module("typst").Fonts()
+
+
+def typst_bytes(sheet: ReportSheet, kind: str, *more: ReportSheet) -> bytes:
+    """The report as `pdf` or `html`; with ``more`` sheets behind it, each of which begins a page."""
     engine: Any = import_module("typst")
     pictures: dict[str, bytes] = {}
-    tree: Tree = {
-        "title": sheet.title,
-        "source": sheet.source,
-        "subtitle": sheet.subtitle,
-        "blocks": [_block(b, pictures) for b in sheet.blocks],
-    }
+    tree: Tree = {"sheets": [_sheet(one, pictures) for one in (sheet, *more)]}
     template = files("dalembert.reports").joinpath("template.typ").read_text(encoding="utf-8")
     tree["style"] = files("dalembert.reports").joinpath("page.css").read_text(encoding="utf-8")
     out = engine.compile(
         {"main": template.encode(), "sheet.json": json.dumps(tree).encode(), **pictures},
         format=kind,
+        font_paths=_fonts(),
         sys_inputs={"target": "html" if kind == "html" else "paged"},
     )
     assert isinstance(out, bytes)
     return out.replace(DOUBT, b" " * len(DOUBT)) if kind == "pdf" else out
+
+
+def _sheet(sheet: ReportSheet, pictures: dict[str, bytes]) -> Tree:
+    blocks = [_block(b, pictures) for b in sheet.blocks]
+    return {"title": sheet.title, "source": sheet.source, "subtitle": sheet.subtitle, "blocks": blocks}
 
 
 def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
