@@ -70,6 +70,8 @@ if TYPE_CHECKING:
     from dalembert.machine.elements.hertz_contact import hertz_line as hertz_line
     from dalembert.machine.elements.pin_stresses import PinStresses as PinStresses
     from dalembert.machine.elements.pin_stresses import pin as pin
+    from dalembert.machine.elements.pin_table import PinTable as PinTable
+    from dalembert.machine.elements.pin_table import pins as pins
     from dalembert.machine.elements.turning_equilibria import TurningRange as TurningRange
     from dalembert.machine.elements.turning_equilibria import small_swings as small_swings
     from dalembert.machine.elements.turning_equilibria import turning_range as turning_range
@@ -90,6 +92,8 @@ if TYPE_CHECKING:
     from dalembert.machine.motion_law import law as law
     from dalembert.machine.motors.motor_choice import MotorChoice as MotorChoice
     from dalembert.machine.motors.motor_choice import motor as motor
+    from dalembert.machine.shafts.critical_speeds import CriticalSpeeds as CriticalSpeeds
+    from dalembert.machine.shafts.critical_speeds import critical_speeds as critical_speeds
     from dalembert.machine.shaking import shaking as shaking
     from dalembert.model import Answer as Answer
     from dalembert.model import Band as Band
@@ -230,6 +234,7 @@ _NAMES = {
     "machine.bearings.bearing_table": "BearingTable bearings",
     "machine.elements.governors": "Governor governor",
     "machine.elements.pin_stresses": "PinStresses pin",
+    "machine.elements.pin_table": "PinTable pins",
     "machine.elements.turning_equilibria": "TurningRange small_swings turning_range",
     "machine.flywheel.flywheel_size": "FlywheelSize flywheel_size",
     "machine.flywheel.flywheels": "flywheel",
@@ -242,6 +247,7 @@ _NAMES = {
     "machine.elements.hertz_contact": "hertz_line",
     "machine.motion_law": "MotionLaw law",
     "machine.members.member_forces": "MemberForces member_forces",
+    "machine.shafts.critical_speeds": "CriticalSpeeds critical_speeds",
     "machine.shaking": "shaking",
     "model.library": (
         "belt_drive bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hartnell_governor "

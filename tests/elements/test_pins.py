@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.machine.elements.pin_stresses import moment_along
 
 FORK = {"diameter": "30 mm", "eye": "40 mm", "cheeks": "22 mm", "gap": "1 mm"}
 
@@ -75,6 +76,24 @@ def test_one_plane_has_twice_the_shear_of_two() -> None:
     )
 
 
+def test_pressures_and_the_drawn_moment_of_a_stack() -> None:
+    """Each link presses by the force on it over d t; the drawn moment has its peak at the largest of the layers."""
+    stack = {"diameter": "20 mm", "stack": ["left", "hook", "right"], "layers": [0, 0.018, 0.04]}
+    stack |= {"thicknesses": ["10 mm", "16 mm", "12 mm"], "allowed_pressure": "60 MPa"}
+    r = da.statics(hung(stack))
+    x = da.pins(r).bolts["A"]
+    force = [*r.reaction("A", on="left")[0]], [*r.reaction("B", on="hook")[0]]
+    third = -np.sum(force, axis=0)
+    expected = [np.hypot(*f) / 0.02 / t for f, t in zip((*force, third), (0.01, 0.016, 0.012), strict=True)]
+    assert [x.pressures[n][0] for n in ("left", "hook", "right")] == pytest.approx(expected, rel=1e-9)
+    assert x.pressure_safety[0] == pytest.approx(60e6 / max(expected), rel=1e-9)
+    for size in (stack, FORK, {**FORK, "planes": 1}):
+        one = da.pin(da.statics(hung(size)), "A")
+        assert moment_along(one, 0)[1].max() == pytest.approx(one.moment[0], rel=1e-3)
+    assert "hook" in da.pins(r).text()
+    assert len(da.pins(r).draw().items) > 10
+
+
 WRONG: list[tuple[dict[str, Any], str]] = [
     ({"eye": "40 mm"}, "the key 'diameter' is missing in pin of joint 'A'; write diameter: ..."),
     ({"diameter": 0}, "diameter of pin of joint 'A': 0 is not positive; write a positive one"),
@@ -86,6 +105,11 @@ WRONG: list[tuple[dict[str, Any], str]] = [
         {**FORK, "stack": ["left", "hook"], "layers": [1, 0]},
         "the layers do not increase; write them from one end",
     ),
+    (
+        {"diameter": 0.02, "stack": ["left", "hook"], "layers": [0, 0.01], "thicknesses": [0.01, 0.012]},
+        "links 1 and 2 of the stack overlap",
+    ),
+    ({**FORK, "thicknesses": [0.01]}, "thicknesses are those of a stack; write eye and cheeks"),
     ({**FORK, "stack": ["left"], "layers": [1]}, "1 links and 1 layers do not go together; give each link"),
 ]
 

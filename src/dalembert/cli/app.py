@@ -51,7 +51,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "Choose the machine's parts": {
         "machine.machine_commands": ("simulate", "shake", "balance", "flywheel"),
-        "machine.member_commands": ("members", "bearings", "motor"),
+        "machine.member_commands": ("members", "pins", "bearings", "shaft", "motor"),
         "machine.element_commands": ("cam",),
     },
     "Many designs": {

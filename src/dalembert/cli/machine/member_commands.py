@@ -1,4 +1,4 @@
-"""`dalembert members`, `bearings`, `motor`: what links and joints have to bear, and what is chosen by it."""
+"""`dalembert members`, `pins`, `bearings`, `shaft`, `motor`: loads of links and joints, and what is chosen by them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Annotated
 from dalembert.cli.answer_files import NO_LABELLED, LabelledOutputs
 from dalembert.cli.machine.machine_commands import answer, cycle_of, number_of
 from dalembert.cli.options import AS_GIVEN, ModelFile, Of, numeric, several, target, with_help
+from dalembert.errors import ModelError
 
 
 def members(
@@ -64,6 +65,58 @@ BEARINGS = """Examples:
   dalembert bearings press.yaml --joints A B --set "joints.A.bearing={rating: 12 kN}" --report bearings.pdf"""
 
 
+def pins(
+    file: ModelFile,
+    /,
+    *,
+    joints: Annotated[
+        list[str] | None, several("Joints to analyse, one or more (default: all with a pin).")
+    ] = None,
+    of: Of = AS_GIVEN,
+    out: LabelledOutputs = NO_LABELLED,
+) -> int:
+    """Shear, bearing pressure on each link, bending and safety of the bolts of FILE."""
+    from dalembert.machine.elements.pin_table import pins as pin_table
+
+    answer(cycle_of(file, of, out), lambda r: pin_table(r, joints), out)
+    return 0
+
+
+PINS = """Examples:
+  dalembert pins press.yaml
+  dalembert pins press.yaml --joints A --set "joints.A.pin={diameter: 20 mm, eye: 30 mm, cheeks: 15 mm}"
+  dalembert pins press.yaml --drawing pins.svg --report pins.pdf"""
+
+
+def shaft(
+    file: ModelFile,
+    /,
+    *,
+    link: Annotated[
+        str | None, with_help("The shaft (default: the first link with an elastic section).")
+    ] = None,
+    count: Annotated[int, numeric("count", "Number of critical speeds (default: 3).")] = 3,
+    of: Of = AS_GIVEN,
+    out: LabelledOutputs = NO_LABELLED,
+) -> int:
+    """Critical speeds of a shaft of FILE with the masses on it, beside Dunkerley's and Rayleigh's."""
+    from dalembert.machine.shafts.critical_speeds import critical_speeds
+
+    r = cycle_of(file, of, out)
+    links = r.mechanism.links
+    elastic = [n for n in r.links if (s := links[n].section) is not None and s.elasticity is not None]
+    if link is None and not elastic:
+        remedy = "give one section: {circle: 50 mm, elasticity: 210 GPa}"
+        raise ModelError("no link has a section with elasticity", remedy).at_source(r.mechanism.source)
+    answer(r, lambda r: critical_speeds(r, link or elastic[0], count), out)
+    return 0
+
+
+SHAFT = """Examples:
+  dalembert shaft rotor.yaml --static
+  dalembert shaft rotor.yaml --static --link spindle --count 5 --drawing spindle.svg"""
+
+
 def motor(
     file: ModelFile,
     /,
@@ -103,5 +156,5 @@ MOTOR = """Examples:
   dalembert motor press.yaml --inertia 0.002kg*m^2 --ratio 8 --efficiency 0.95
   dalembert motor press.yaml --inertia 0.002kg*m^2 --curve motor.csv --rated 3N*m --report motor.pdf"""
 
-COMMANDS = {members: MEMBERS, bearings: BEARINGS, motor: MOTOR}
+COMMANDS = {members: MEMBERS, pins: PINS, bearings: BEARINGS, shaft: SHAFT, motor: MOTOR}
 """Each with its examples."""

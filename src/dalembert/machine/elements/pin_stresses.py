@@ -10,7 +10,7 @@ Source: Budynas and Nisbett, Shigley's Mechanical Engineering Design, chapter 8;
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import permutations
 from typing import TYPE_CHECKING, Any
@@ -28,6 +28,8 @@ from dalembert.wording import closest
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
+SAMPLES = 25
+"""Places between two links of a bolt where its moment is drawn."""
 MOST = 6
 """Links of a stack up to which every order is tried."""
 
@@ -39,6 +41,7 @@ class PinStresses(Labelled):
     force (P,): the joint's, of a stack the largest shear, N. shear: mean in the plane that carries most; peak_shear: in
     its middle, 4/3 of it; eye_pressure, cheek_pressure: over the projected areas; bending: M over the section's
     modulus. planes (P, n): shear force in each plane of a stack. best: the order of a stack with the least bending.
+    pressures: link -> bearing pressure on it (P,), Pa, where its thickness is given.
     """
 
     result: Result = field(repr=False)
@@ -51,6 +54,7 @@ class PinStresses(Labelled):
     moment: Array = field(repr=False)
     planes: Array = field(repr=False)
     best: tuple[str, ...] = ()
+    pressures: Mapping[str, Array] = field(default_factory=dict, repr=False)
 
     @property
     def described(self) -> Any:
@@ -78,6 +82,14 @@ class PinStresses(Labelled):
         with np.errstate(all="ignore"):
             return np.asarray((self.size.yield_stress or math.nan) / self.equivalent)
 
+    @property
+    def pressure_safety(self) -> Array:
+        """Allowed pressure over the largest on a link (P,); NaN without either."""
+        limit = self.size.allowed_pressure or math.nan
+        largest = [np.full(len(self.force), math.nan), *self.pressures.values()]
+        with np.errstate(all="ignore"):
+            return np.asarray(limit / np.fmax.reduce(largest))
+
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
         """Force, stresses, moment."""
         yield Column(f"force.{self.joint}", "force", self.force)
@@ -85,6 +97,8 @@ class PinStresses(Labelled):
             values = getattr(self, name)
             if np.isfinite(values).any():
                 yield Column(f"{name}.{self.joint}", "pressure", values)
+        for link, values in self.pressures.items() if self.size.stack else ():
+            yield Column(f"pressure_{link}.{self.joint}", "pressure", values)
         yield Column(f"moment.{self.joint}", "moment", self.moment)
 
     def record(self, to: Scale) -> Tree:
@@ -104,6 +118,8 @@ class PinStresses(Labelled):
         yield TextTable([f"bolt of {self.joint}", "largest", "unit", "no."], rows, 1)
         if np.isfinite(self.safety).any():
             yield f"Safety against yielding {number(float(np.nanmin(self.safety)), 4)}: bending, or shear by von Mises."
+        if np.isfinite(self.pressure_safety).any():
+            yield f"Safety of the pressure {number(float(np.nanmin(self.pressure_safety)), 4)}."
         if self.best:
             yield f"Least bending with the links in the order {', '.join(self.best)}."
 
@@ -135,15 +151,25 @@ def pin(r: Result, joint: str) -> PinStresses:
         planes, moments = _along(forces, np.array(size.layers))
         most = planes.max(axis=1)
         best = _best(forces, size) if len(size.stack) <= MOST else ()
+        thick = size.thicknesses or ()
+        pressures = {
+            link: np.hypot(*forces[:, k].T) / (size.diameter * t)
+            for k, (link, t) in enumerate(zip(size.stack, thick, strict=False))
+        }
+        greatest = moments.max(axis=1)
         return PinStresses(
-            r, joint, size, most, most / area, nothing, nothing, moments.max(axis=1), planes, best
+            r, joint, size, most, most / area, nothing, nothing, greatest, planes, best, pressures
         )
     force = np.hypot(*r.reaction(joint).T)
     each, eye, cheek = force / size.planes, size.eye, size.cheeks
     arm = math.nan
     if eye and cheek:
         arm = cheek / 2 + size.gap + eye / 4 if size.planes == 2 else (cheek / 2 + size.gap + eye / 2) / 2
+    i, j = r.mechanism.joints[joint].links
+    pressures = {j: force / (size.diameter * eye)} if eye else {}
+    pressures |= {i: each / (size.diameter * cheek)} if cheek else {}
     return PinStresses(
+        pressures=pressures,
         result=r,
         joint=joint,
         size=size,
@@ -177,6 +203,32 @@ def _forces_on(r: Result, joint: str, stack: tuple[str, ...]) -> Array:
         for link in m.joints[n].links:
             force[link] = force[link] + r.reaction(n, on=link)
     return np.stack([force[link] for link in stack], axis=1)
+
+
+def moment_along(x: PinStresses, k: int) -> tuple[Array, Array]:
+    """Places along the bolt (N,), m, and the bending moment (N,), N m, at position k; empty without thicknesses."""
+    size = x.size
+    if size.stack is not None:
+        places = np.array(size.layers)
+        shear = np.cumsum(_forces_on(x.result, x.joint, size.stack)[k], axis=0)[:-1]
+        part = np.linspace(0, 1, SAMPLES)
+        start, s, m = np.zeros(2), [places[:1]], [np.zeros(1)]
+        for n, v in enumerate(shear):
+            d = (places[n + 1] - places[n]) * part
+            s.append(places[n] + d)
+            m.append(np.hypot(*(start + d[:, None] * v).T))
+            start = start + d[-1] * v
+        return np.concatenate(s), np.concatenate(m)
+    if not (size.eye and size.cheeks):
+        return np.zeros(0), np.zeros(0)
+    each, top = float(x.planes[k, 0]), float(x.moment[k])
+    if size.planes == 1:
+        ends = (size.cheeks + size.eye) / 2 + size.gap
+        return np.array([0.0, ends / 2, ends]), np.array([0.0, top, 0.0])
+    lead = size.cheeks / 2 + size.gap
+    u = np.linspace(0, size.eye, SAMPLES)
+    inner = each * lead + each * u - each / size.eye * u**2
+    return np.concatenate([[0.0], lead + u, [2 * lead + size.eye]]), np.concatenate([[0.0], inner, [0.0]])
 
 
 def _along(forces: Array, places: Array) -> tuple[Array, Array]:

@@ -17,6 +17,7 @@ import numpy as np
 
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
+from dalembert.machine.members.end_conditions import carrying_joints
 from dalembert.machine.members.stresses import section_of
 from dalembert.machine.members.struts import NEAR, PlacedMember
 from dalembert.wording import closest
@@ -164,9 +165,8 @@ def _member(
 ) -> DeflectedMember:
     """A member with its supports; one without joints is clamped at its first end."""
     m, placed = forces.result.mechanism, PlacedMember(forces, curve).joints
-    at = {
-        n: s for n, s in placed.items() if n in m.joints and not m.joints[n].wheels and np.isfinite(s).any()
-    }
+    some = {*placed} & {*m.joints} - {*carrying_joints(m, forces.link)}
+    at = {n: s for n, s in placed.items() if n in some and not m.joints[n].wheels and np.isfinite(s).any()}
     driven = {d.joint or name for name, d in m.drives.items()}
     clamped = [n for n in at if n in driven or not m.joints[n].freedoms]
     order = sorted(at, key=lambda name: float(np.nanmean(at[name])))

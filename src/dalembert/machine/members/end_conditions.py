@@ -20,9 +20,11 @@ from dalembert.core.equilibrium import load_rows
 from dalembert.core.layout import ConstraintRows, Pose
 from dalembert.machine.link_axes import in_space
 from dalembert.machine.members.column_loads import LOOSE, column_space, is_loose
+from dalembert.model import GROUND
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
 
 LOAD = "load {}"
 """An unknown load among the joints at a node: it holds what it acts on, as a joint does."""
@@ -109,7 +111,9 @@ class EndConditions:
     def _across(self, column: BucklingColumn) -> Array:
         """Across the plane a mechanism's joints hold their places; welds hold the angle, other joints do so only where
         nothing else would hold the column."""
-        known = self.r.mechanism.joints
+        m = self.r.mechanism
+        carrying = {j for node in column.nodes for j in carrying_joints(m, node.link)}
+        known = {name: joint for name, joint in m.joints.items() if name not in carrying}
         kinds = [[known[j] for j in node.joints if j in known] for node in column.nodes]
         held = [any(not j.wheels for j in some) for some in kinds]
         clamped = [any(not (j.freedoms or j.wheels) for j in some) for some in kinds]
@@ -117,6 +121,17 @@ class EndConditions:
             clamped = held
         keep = [not x for pair in zip(held, clamped, strict=True) for x in pair]
         return np.eye(len(keep))[:, keep]
+
+
+def carrying_joints(m: Mechanism, link: str) -> dict[str, str]:
+    """Welds of a link to others that have no other joint, which it carries and which do not hold it: joint -> other."""
+    out = {}
+    for name, joint in m.joints.items():
+        if link in joint.links and not joint.freedoms:
+            other = next(n for n in joint.links if n != link)
+            if other != GROUND and sum(other in j.links for j in m.joints.values()) == 1:
+                out[name] = other
+    return out
 
 
 def _is_short(joint: Any) -> bool:

@@ -6,10 +6,13 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from dalembert.answer.column import Axes, Column, Scale
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.machine.members.buckling import Buckling, stepped_column
+from dalembert.machine.members.deflections import Deflections
 from dalembert.machine.members.link_balance import acting
 from dalembert.machine.members.member_forces import MemberForces, forces_inside
 from dalembert.machine.members.stresses import Stresses
@@ -36,6 +39,7 @@ class MemberTable(MachineAnswer):
     buckling: dict[str, Buckling]
     left_out: dict[str, str]
     not_judged: dict[str, str] = field(default_factory=dict)
+    deflection: dict[str, Deflections] = field(default_factory=dict)
 
     @property
     def unknown(self) -> dict[str, str]:
@@ -59,6 +63,12 @@ class MemberTable(MachineAnswer):
                     yield Column(
                         f"effective_length.{link}.{plane.replace(' ', '_')}", "number", b.factors[:, k]
                     )
+            if link in self.deflection:
+                d = self.deflection[link]
+                yield Column(f"deflection.{link}", "length", d.greatest)
+                yield Column(f"deflection.{link}.place", "length", d.place)
+                for joint, slope in d.slopes().items():
+                    yield Column(f"slope.{link}.{joint}", "angle", slope)
 
     def record(self, to: Scale) -> Tree:
         """The largest of each link over the cycle, in the units of a scale."""
@@ -69,6 +79,8 @@ class MemberTable(MachineAnswer):
                 out[link]["stress"] = _stress_record(self.stress[link], to)
             if link in self.buckling:
                 out[link]["buckling"] = self._buckling_record(self.buckling[link], to)
+            if link in self.deflection:
+                out[link]["deflection"] = _deflection_record(self.deflection[link], to)
         return {
             "members": out,
             "left_out": self.left_out,
@@ -116,6 +128,13 @@ class MemberTable(MachineAnswer):
         member_section(sheet, self, shown)
 
 
+def _deflection_record(d: Deflections, to: Scale) -> Tree:
+    slopes = {joint: to("angle", float(np.nanmax(slope))) for joint, slope in d.slopes().items()}
+    place = to("length", float(d.place[d.position]))
+    where = {"member": d.member[d.position], "at": place, "position": d.position + 1}
+    return {"largest": to("length", d.largest), **where, "slopes": slopes}
+
+
 def _stress_record(s: Stresses, to: Scale) -> Tree:
     f = s.fatigue()
     return {
@@ -154,7 +173,8 @@ def member_table(r: Result, links: Iterable[str] | None = None) -> MemberTable:
     sections = {link: r.mechanism.links[link].section for link in forces}
     stress = {link: forces[link].stress() for link, s in sections.items() if s}
     buckled, why = buckled_links(r, {link: forces[link] for link, s in sections.items() if s})
-    return MemberTable(r, forces, stress, buckled, left, why)
+    bent = {link: forces[link].deflection() for link, s in sections.items() if s and s.elasticity}
+    return MemberTable(r, forces, stress, buckled, left, why, bent)
 
 
 def buckled_links(r: Result, some: dict[str, MemberForces]) -> tuple[dict[str, Buckling], dict[str, str]]:

@@ -1,7 +1,7 @@
 """Stress of a section along a member, safety against yield, and fatigue of each fibre.
 
 sigma = N/A - M_z y / I_z + M_y z / I_y at a fibre (y, z); von Mises at the outer fibres with torsion, and at the axis
-with shear and torsion, the larger. No notches, no stress concentration.
+with shear and torsion, the larger. A notch factor K_f multiplies mean and amplitude of fatigue, not the stress.
 
 Mechanics: docs/theory.md 10.4.
 """
@@ -17,6 +17,8 @@ import numpy as np
 
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
+from dalembert.machine.link_axes import in_space
+from dalembert.machine.members.link_balance import BESIDE
 from dalembert.machine.members.member_forces import MemberCurve
 from dalembert.machine.whole_cycle import sampling
 from dalembert.model.links.sections import Section
@@ -28,6 +30,8 @@ SAMPLES, ROUNDS = 33, 8
 """Places on each piece of a member where a stress is looked at, and how often, closer each time about the greatest."""
 STATIONS = 129
 """Places along a member where fatigue is looked at, three times, closer each time about the worst."""
+ANYWHERE = -1.0
+"""Key of a notch factor that holds at every place."""
 FIBRES = 72
 """Fibres round a circle that bends in both planes, looked at three times as the stations."""
 
@@ -184,9 +188,24 @@ def _utilisation(s: Section, mean: Array | float, amplitude: Array | float) -> A
     return np.asarray(np.asarray(amplitude) / s.endurance + np.maximum(mean, 0.0) / s.ultimate)
 
 
+def _notches(forces: MemberForces, curve: MemberCurve, s: Section) -> dict[float, float]:
+    """Notch factors by place along a member, m; of all others under ``ANYWHERE``."""
+    out, link = dict[float, float](), forces.result.mechanism.links[forces.link]
+    for point, factor in (s.notch or {}).items():
+        if not point:
+            out[ANYWHERE] = factor
+            continue
+        foot, off = curve.member.foot(in_space(link.point(point)))
+        if float(off) <= BESIDE * curve.member.length:
+            out[float(foot)] = factor
+    return out
+
+
 def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
     """The worst fibre of a member: at even stations and on both sides of every force, then closer about the worst."""
-    plane, length, jumps = forces.result.mechanism.dimension == 2, curve.member.length, curve.jumps
+    plane, length = forces.result.mechanism.dimension == 2, curve.member.length
+    notches = _notches(forces, curve, s)
+    jumps = np.union1d(curve.jumps, [x for x in notches if x != ANYWHERE])
     low, high, round_it = 0.0, length, (0.0, math.pi)
     best, worst = (-math.inf, 0.0, math.nan, math.nan), np.zeros(0)
     for _ in range(3):
@@ -194,7 +213,8 @@ def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
         at = outer_fibres(s, plane, *round_it)
         for side in ("before", "behind"):
             inner = places[(places > 0) if side == "before" else (places < length)]
-            sigma = fibre_stress(s, curve.at(inner, side), plane, at)
+            factors = [notches.get(x, notches.get(ANYWHERE, 1.0)) for x in inner.tolist()]
+            sigma = fibre_stress(s, curve.at(inner, side), plane, at) * np.array(factors)[:, None]
             mean, swing = (sigma.max(axis=0) + sigma.min(axis=0)) / 2, np.ptp(sigma, axis=0) / 2
             use = _utilisation(s, mean, swing)
             if np.isnan(use).any():

@@ -43,7 +43,11 @@ def member_parts(t: MemberTable, to: Printed) -> Iterator[Part]:
     if rows or not t.unknown:
         yield TextTable(heads, rows, 2) if rows else "The links carry no internal forces."
     yield from (_unknown(t, which, why) for which, why in t.unknown.items())
-    yield from (table for f in (_stress_table, _fatigue_table, _buckling_table) if (table := f(t, to)).rows)
+    yield from (
+        table
+        for f in (_stress_table, _fatigue_table, _buckling_table, _deflection_table)
+        if (table := f(t, to)).rows
+    )
     if notes := " ".join(_buckling_notes(t)):
         yield notes
     yield f"N tension +; the distance is from the first end of the member. {_closure(t)}".rstrip()
@@ -146,6 +150,32 @@ def _buckling_table(t: MemberTable, to: Printed) -> TextTable:
     heads = ["buckling\nof link", f"compression\n{to.text('force')}", "critical\n", "safety\n", "by\n"]
     heads += [f"K\n{plane}" for plane in t.planes] + ["ends\n", "slender-\nness"]
     return TextTable(heads, rows)
+
+
+def _deflection_table(t: MemberTable, to: Printed) -> TextTable:
+    rows = []
+    for link, d in t.deflection.items():
+        if not d.largest > 0:
+            continue
+        k = d.position
+        slopes = {joint: float(np.nanmax(slope)) for joint, slope in d.slopes().items()}
+        angles = ", ".join(f"{joint} {number(1e3 * slope, 3)}" for joint, slope in slopes.items())
+        place = to.number("length", float(d.place[k]))
+        rows.append(
+            [link, to.number("length", d.largest), d.member[k], place, where(t.result, to, k), angles]
+        )
+    heads = [
+        "deflection\nof link",
+        f"largest\n{to.text('length')}",
+        "member\n",
+        f"at\n{to.text('length')}",
+        "where\n",
+    ]
+    note = wrap(
+        "Deflections are from the tangent at a weld or a driven joint, else from the chord through the outermost "
+        "joints; shear is neglected."
+    )
+    return TextTable([*heads, "slopes\nmrad"], rows, note=note if rows else "")
 
 
 def _buckling_notes(t: MemberTable) -> Iterator[str]:

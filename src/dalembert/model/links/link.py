@@ -253,6 +253,10 @@ class Link(Part):
             if a == b:
                 what = f"points {pair[0]!r} and {pair[1]!r} are in one place"
                 raise ModelError(what, "name two that are apart", ("members", k))
+        for point in (self.section.notch or {}) if self.section else ():
+            if point and point not in self.points:
+                remedy = closest(point, [*self.points])
+                raise ModelError(f"notch at an unknown point {point!r}", remedy, ("section", "notch", point))
         names = [f"{a}-{b}" for a, b in self.members or ()]
         for member in self.effective_length or {}:
             if member and member not in names:

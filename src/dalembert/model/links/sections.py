@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
 from dalembert.model.links.shapes import Lengths
-from dalembert.model.part import Part
+from dalembert.model.part import Part, reading
 from dalembert.model.quantities.values import (
     NAME_OR_NUMBER,
+    NUMBER_OR_TEXT,
     JsonSchema,
     Scalar,
     ValueField,
     Vector,
+    at_item,
     list_schema,
     name,
     pair_of_names,
+    value_text,
 )
 
 MASS_ALONG = ("uniform", "shape", "lumped")
@@ -65,6 +69,30 @@ class Members(ValueField):
         return {"anyOf": [pair, list_schema(pair)]}
 
 
+class NotchFactor(ValueField):
+    """`1.8`, or by points of the link `{C: 1.8, D: 1.5}`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> dict[str, float]:
+        if isinstance(value, Mapping):
+            if not value:
+                raise ModelError("no point has a notch factor", "write notch: {C: 1.8}")
+            return {str(n): at_item(str(n), self._factor, v, info) for n, v in value.items()}
+        return {"": self._factor(value, info)}
+
+    def _factor(self, value: Any, info: ValidationInfo) -> float:
+        factor = reading(info).quantity(value, "number")
+        if not factor >= 1:
+            raise ModelError(f"a notch factor of {value} is below 1", "write K_f, such as notch: 1.8")
+        return factor
+
+    def write(self, value: dict[str, float]) -> object:
+        out = {n: value_text(k, "number") for n, k in value.items()}
+        return out[""] if [*out] == [""] else out
+
+    def json_schema(self) -> JsonSchema:
+        return {"anyOf": [NUMBER_OR_TEXT, {"type": "object", "additionalProperties": NUMBER_OR_TEXT}]}
+
+
 class Measures(NamedTuple):
     """Numbers of a section, SI, as the properties of ``Section`` say them."""
 
@@ -109,6 +137,9 @@ class Section(Part):
     yield_stress: Stress | None = Field(None, description="of the material, force per area")
     ultimate: Stress | None = Field(None, description="ultimate stress of the material")
     endurance: Stress | None = Field(None, description="endurance stress of the material")
+    notch: Annotated[dict[str, float], NotchFactor()] | None = Field(
+        None, description="fatigue notch factor K_f, at least 1: of all places, or by point {C: 1.8}"
+    )
     elasticity: Stress | None = Field(None, description="Young's modulus of the material")
 
     @model_validator(mode="after")

@@ -42,6 +42,12 @@ class PinSize(Part):
     layers: tuple[Annotated[float, Scalar("length")], ...] | None = Field(
         None, description="places of these links along the bolt, increasing lengths"
     )
+    thicknesses: tuple[Length, ...] | None = Field(
+        None, description="thickness of each link of the stack: the pressure on it"
+    )
+    allowed_pressure: Annotated[float, Scalar("pressure", "positive")] | None = Field(
+        None, description="bearing pressure that the links may have: its safety"
+    )
 
     @model_validator(mode="after")
     def _whole(self) -> Self:
@@ -49,10 +55,24 @@ class PinSize(Part):
             what = "a stack needs the places of its links"
             raise ModelError(what, "write stack: [one, two, three] and layers: [0 mm, 18 mm, 40 mm]")
         if self.stack is None or self.layers is None:
+            if self.thicknesses is not None:
+                what = "thicknesses are those of a stack"
+                raise ModelError(what, "write eye and cheeks, or stack and layers", ("thicknesses",))
             return self
         if len(self.stack) != len(self.layers) or len(self.stack) < 2 or len({*self.stack}) < len(self.stack):
             what = f"{len(self.stack)} links and {len(self.layers)} layers do not go together"
             raise ModelError(what, "give each link of the stack one place", ("layers",))
         if any(b <= a for a, b in zip(self.layers, self.layers[1:], strict=False)):
             raise ModelError("the layers do not increase", "write them from one end of the bolt", ("layers",))
+        if self.thicknesses is not None:
+            self._check_room(self.layers, self.thicknesses)
         return self
+
+    def _check_room(self, layers: tuple[float, ...], thick: tuple[float, ...]) -> None:
+        if len(thick) != len(layers):
+            what = f"{len(layers)} layers and {len(thick)} thicknesses do not go together"
+            raise ModelError(what, "give each link of the stack one", ("thicknesses",))
+        for k in range(1, len(layers)):
+            if (thick[k - 1] + thick[k]) / 2 > (layers[k] - layers[k - 1]) * (1 + 1e-9):
+                what = f"links {k} and {k + 1} of the stack overlap"
+                raise ModelError(what, "give layers at least half of both thicknesses apart", ("layers",))

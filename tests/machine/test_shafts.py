@@ -1,0 +1,186 @@
+"""Deflections against integrals of the moment; critical speeds against influence numbers, series and a book."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.tiers import tiers
+
+SHAFT = """
+title: Shaft with two gears, Budynas and Nisbett, Shigley's Mechanical Engineering Design, example 7-5
+units: {length: in, force: lbf}
+gravity: standard
+links:
+  ground: {points: {A: [0, 0], B: [31, 0]}}
+  shaft:
+    points: {A: [0, 0], B: [31, 0], C: [7, 0], D: [20, 0]}
+    section: {circle: 1, elasticity: 30e6 lbf/in^2}
+  gear_1: {points: {C: [0, 0]}, weight: 35 lbf}
+  gear_2: {points: {D: [0, 0]}, weight: 55 lbf}
+joints:
+  A: {type: pin, links: [ground, shaft]}
+  B: {type: slot, links: [ground, shaft]}
+  C: {type: weld, links: [shaft, gear_1]}
+  D: {type: weld, links: [shaft, gear_2]}
+"""
+STIFFNESS = 210e9 * np.pi / 64 * 0.03**4
+
+
+def test_the_shaft_of_a_book() -> None:
+    """Printed: influence numbers 2.061e-4, 3.534e-4, 2.224e-4 in/lbf, y 0.01945 and 0.02722 in; 1192 and 1150 rpm."""
+    r = da.statics(da.loads(SHAFT))
+    sag = da.member_forces(r, "shaft").deflection().members[0].at([7 * 0.0254, 20 * 0.0254])[0, :, 0]
+    np.testing.assert_allclose(-sag / 0.0254, [0.01945, 0.02722], atol=1e-5)  # 5e-6, and 90 lbf times 5e-8
+    c = da.critical_speeds(r, "shaft")
+    assert c.rayleigh * 30 / np.pi == pytest.approx(1192, abs=0.5)
+    assert c.dunkerley * 30 / np.pi == pytest.approx(1150, abs=1)
+    assert c.dunkerley < c.speeds[0] < c.rayleigh
+    d11, d22, d12, g = 2.061e-4, 3.534e-4, 2.224e-4, 386.1
+    mass = np.array([35, 55]) / g
+    exact = 1 / np.sqrt(np.linalg.eigvals(np.array([[d11, d12], [d12, d22]]) * mass))
+    np.testing.assert_allclose(np.sort(exact), c.speeds, rtol=5e-4)
+    assert "Dunkerley 1149.38 rpm (low), Rayleigh 1191.74 rpm (high)" in c.text()
+    assert len(c.draw().items) > 10
+
+
+def beam(rng: np.random.Generator, spread: bool) -> tuple[da.Mechanism, Any]:
+    """A beam on two bearings, overhanging, with forces, couples and an even mass; and its numbers."""
+    a, b = np.sort(rng.uniform(0, 1, 2)) + [0, 0.3]
+    length = b + rng.uniform(0, 0.5)
+    at, force = rng.uniform(0, length, 3), rng.normal(size=3) * 1000
+    mass = float(rng.uniform(5, 20)) if spread else 0.0
+    points = {"L": [0, 0], "R": [length, 0], "A": [a, 0], "B": [b, 0]} | {
+        f"P{k}": [x, 0] for k, x in enumerate(at)
+    }
+    shaft: Any = {"points": points, "section": {"circle": "30 mm", "elasticity": "210 GPa"}}
+    shaft |= {"members": [["L", "R"]], "mass": mass, "center": [length / 2, 0], "mass_along": "uniform"}
+    tree = {
+        "gravity": [0, -9.81],
+        "links": {"ground": {"points": {"A": [a, 0], "B": [b, 0]}}, "shaft": shaft},
+        "joints": {
+            "A": {"type": "pin", "links": ["ground", "shaft"]},
+            "B": {"type": "slot", "links": ["ground", "shaft"]},
+        },
+        "loads": {
+            f"F{k}": {"type": "force", "on": "shaft", "at": f"P{k}", "value": [0, float(f)]}
+            for k, f in enumerate(force)
+        },
+    }
+    return da.mechanism(tree), (a, b, length, at, force, mass)
+
+
+@pytest.mark.parametrize("seed", tiers(range(3), range(3, 20)))
+def test_deflection_is_the_double_integral_of_the_moment(seed: int) -> None:
+    """By Macaulay's brackets: E I v'' = sum F <x - a>, which knows nothing of pieces."""
+    rng = np.random.default_rng(seed)
+    m, (a, b, length, at, force, mass) = beam(rng, spread=True)
+    r = da.statics(m)
+    load = mass * 9.81 / length
+    right = (-(force * (at - a)).sum() + mass * 9.81 * (length / 2 - a)) / (b - a)
+    left = mass * 9.81 - force.sum() - right
+    x = np.linspace(0, length, 41)
+
+    def bracket(start: float, power: int) -> Any:
+        return np.maximum(x - start, 0.0) ** power
+
+    v = -load * x**4 / 24 + left * bracket(a, 3) / 6 + right * bracket(b, 3) / 6
+    v = v + sum(f * bracket(s, 3) / 6 for s, f in zip(at, force, strict=True))
+
+    def at_place(p: float) -> float:
+        y = -load * p**4 / 24 + left * max(p - a, 0) ** 3 / 6 + right * max(p - b, 0) ** 3 / 6
+        return float(y + sum(f * max(p - s, 0) ** 3 / 6 for s, f in zip(at, force, strict=True)))
+
+    on = np.array([at_place(a), at_place(b)])
+    v = (v - on[0] - (on[1] - on[0]) * (x - a) / (b - a)) / STIFFNESS
+    d = da.member_forces(r, "shaft").deflection()
+    np.testing.assert_allclose(d.members[0].at(x)[0, :, 0], v, atol=1e-9 * np.abs(v).max())
+    assert d.largest >= np.abs(v).max() * (1 - 1e-12)
+    assert d.largest <= np.abs(v).max() * 1.02
+    slopes = d.members[0].slope(np.array([a, b]))[0, :, 0]
+    np.testing.assert_allclose(np.abs(slopes), [d.slopes()[n][0] for n in "AB"], rtol=1e-9)
+    step = 1e-5
+    ends = d.members[0].at(np.array([a + step, a]))[0, :, 0]
+    assert (ends[0] - ends[1]) / step == pytest.approx(slopes[0], rel=1e-3, abs=1e-7)
+
+
+def test_an_even_beam_and_a_heavy_disc() -> None:
+    """A clamped bar has (1.8751 / L)^2 sqrt(E I / m'); with a disc at its end it has the speeds of the end's influence
+    numbers, and with the gyroscopic couple of I_p = 2 I_d it whirls faster."""
+    bar = da.loads("""
+space: space
+gravity: none
+links:
+  ground: {points: {O: [0, 0, 0]}}
+  bar: {points: {O: [0, 0, 0], T: [600 mm, 0, 0]}, section: {circle: 30 mm, elasticity: 210 GPa}}
+  disc: {points: {T: [0, 0, 0]}, mass: 8 kg, inertia: [0.08, 0.04, 0.04]}
+joints:
+  O: {type: weld, links: [ground, bar]}
+  T: {type: weld, links: [bar, disc]}
+""")
+    length, m = 0.6, 8.0
+    c = da.critical_speeds(da.statics(bar), "bar", 2)
+    d, half, turn = length**3 / 3, length**2 / 2, length
+    influence = np.array([[d, half], [half, turn]]) / STIFFNESS
+    for found, tilting in ((c.speeds, 0.04), (c.whirl, 0.04 - 0.08)):
+        squares = np.linalg.eigvals(influence @ np.diag([m, tilting])).real
+        expected = np.sort(1 / np.sqrt(squares[squares > 0]))
+        np.testing.assert_allclose(found[: len(expected)], expected, rtol=1e-9)
+        assert np.isinf(found[len(expected) :]).all()
+    assert c.whirl[0] > c.speeds[0]
+    even = da.loads("""
+gravity: none
+links:
+  ground: {points: {O: [0, 0]}}
+  bar: {points: {O: [0, 0], T: [1, 0]}, mass: 10, center: [0.5, 0], mass_along: uniform,
+        section: {circle: 30 mm, elasticity: 210 GPa}}
+joints: {O: {type: weld, links: [ground, bar]}}
+""")
+    c = da.critical_speeds(da.statics(even), "bar", 2)
+    roots = np.array([1.875104068711961, 4.694091132974175])
+    np.testing.assert_allclose(c.speeds, roots**2 * np.sqrt(STIFFNESS / 10), rtol=1e-6)
+    assert 0 < c.change < 1e-6
+
+
+WRONG = [
+    (
+        "section: {circle: 1, elasticity: 30e6 lbf/in^2}",
+        "section: {circle: 1}",
+        "has no section with elasticity",
+    ),
+    ("  B: {type: slot, links: [ground, shaft]}\n", "", "is held at A alone; give it two bearings"),
+    ("    section: {circle", "    weight: 10 lbf\n    section: {circle", "has no place along it"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "says"), WRONG)
+def test_what_a_shaft_needs(old: str, new: str, says: str) -> None:
+    assert old in SHAFT
+    text = SHAFT.replace(old, new) + ("drives: {A: {position: 0}}\n" if not new else "")
+    with pytest.raises(da.ModelError) as refused:
+        da.critical_speeds(da.statics(da.loads(text)), "shaft")
+    assert says in str(refused.value)
+
+
+def test_a_notch_lowers_the_safety_where_it_is() -> None:
+    """A crank that bends to and fro: a notch factor of 2 at its root halves the safety, at its tip not."""
+    section: Any = {"rectangle": ["20 mm", "40 mm"], "ultimate": "600 MPa", "endurance": "250 MPa"}
+    m = da.slider_crank(crank=0.05, rod=0.2).with_values({"links.crank.section": section})
+
+    def safety(notch: Any) -> float:
+        changed = m.with_values({"links.crank.section": {**section, "notch": notch}})
+        value = da.member_forces(da.dynamics(changed), "crank").stress().fatigue().safety
+        assert value is not None
+        return value
+
+    whole, root, tip = safety(2), safety({"O2": 2}), safety({"A": 2})
+    plain = safety(1)
+    assert (plain / whole, plain / root) == pytest.approx((2, 2), rel=1e-9)
+    assert plain / tip < 1.9
+    with pytest.raises(da.ModelError, match="notch at an unknown point 'Z'"):
+        safety({"Z": 2})
+    with pytest.raises(da.ModelError, match=r"a notch factor of 0\.5 is below 1; write K_f"):
+        safety(0.5)
