@@ -85,6 +85,8 @@ FACADES = {
     "machine.bearings.bearing_table",
     "machine.motors.motor_choice",
     "machine.elements.cam_design",
+    "machine.elements.pin_table",
+    "machine.shafts.critical_speeds",
     "machine.motion.simulation",
     "machine.balance.balancing",
     "machine.balance.rotors",

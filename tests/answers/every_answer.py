@@ -50,6 +50,26 @@ def cam() -> Any:
     return da.cam(da.load(examples()["cam_and_follower"]), "F")
 
 
+def bolts() -> Any:
+    size = {"diameter": "20 mm", "eye": "30 mm", "cheeks": "15 mm"}
+    return da.pins(da.dynamics(da.slider_crank(crank=0.05, rod=0.2).with_values({"joints.A.pin": size})))
+
+
+def shaft() -> Any:
+    """An even shaft on two bearings."""
+    described: Any = {
+        "points": {"A": [0, 0], "B": [1, 0]},
+        "mass": 15,
+        "center": [0.5, 0],
+        "mass_along": "uniform",
+    }
+    described["section"] = {"circle": "50 mm", "elasticity": "210 GPa"}
+    links = {"ground": {"points": {"A": [0, 0], "B": [1, 0]}}, "shaft": described}
+    joints = {n: {"type": kind, "links": ["ground", "shaft"]} for n, kind in (("A", "pin"), ("B", "slot"))}
+    tree = {"title": "Shaft", "links": links, "joints": joints}
+    return da.critical_speeds(da.statics(da.mechanism(tree)), "shaft")
+
+
 MADE: dict[str, Callable[[], Answer]] = {
     "Result": bar,
     "Shaking": lambda: da.shaking(engine()),
@@ -87,6 +107,8 @@ MADE: dict[str, Callable[[], Answer]] = {
     ),
     "MotionLaw": law,
     "CamDesign": cam,
+    "PinTable": bolts,
+    "CriticalSpeeds": shaft,
     "ClassMarks": marks,
     "System": lambda: da.wrench.System(
         da.wrench.Force("600 @ 60 N", at=["200 mm", 0]), da.wrench.Couple("-20 N*m"), title="Plate"

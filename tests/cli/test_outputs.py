@@ -39,6 +39,8 @@ ANSWERS: dict[str, tuple[str, ...]] = {
     "grade": ("ClassMarks",),
     "wrench": ("System",),
     "cam": ("CamDesign",),
+    "pins": ("PinTable",),
+    "shaft": ("CriticalSpeeds",),
 }
 """Command -> classes of its answers."""
 

@@ -431,3 +431,91 @@ def test_a_file_with_copies_and_a_value_of_another_kind_is_read_or_refused(seed:
         except da.ModelError as error:
             said = str(error)
         assert said.startswith("text:")
+
+
+def turned(v: Any, angle: float) -> list[float]:
+    """A vector turned about z by an angle in degrees."""
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    return [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]]
+
+
+def test_a_hexapod_of_copies_is_the_one_written_out() -> None:
+    """Six legs written once, against the same six written one by one, and against the platform's equilibrium."""
+    m = da.load(EXAMPLES / "hexapod.yaml")
+    lower, upper = [0, 80, 120, 200, 240, 320], [0, 40, 120, 160, 240, 280]
+    tree = da.load(EXAMPLES / "hexapod.yaml").to_tree()
+    si = {k: [x / 1000 for x in v] for k, v in {
+        "A": (375.877, 136.808, 0), "B": (191.511, 160.697, 0), "S": (61.455, -7.963, -166.667),
+        "barrel": (-61.455, 7.963, 166.667)}.items()}  # fmt: skip
+    line, tangent, pin = (-184.366, 23.889, 500), (23.889, 184.366, 0), (-184.366, 23.889, -69.1261)
+    links: Any = {
+        "ground": {"points": {}},
+        "platform": {"mass": 30, "inertia": [1, 1, 2], "points": {"P": [0.1, 0, 0.05]}},
+    }
+    joints: Any = {}
+    drives: Any = {}
+    for k, (a, b) in enumerate(zip(lower, upper, strict=True)):
+        links["ground"]["points"][f"A{k}"] = turned(si["A"], a)
+        links["platform"]["points"][f"B{k}"] = turned(si["B"], b)
+        links[f"barrel{k}"] = {
+            "points": {"A": [0, 0, 0]},
+            "mass": 4,
+            "center": turned(si["barrel"], a),
+            "inertia": 0.05,
+        }
+        center = turned(si["S"], a)
+        links[f"rod{k}"] = {"points": {"B": [0, 0, 0]}, "mass": 1.5, "center": center, "inertia": 0.02}
+        axes = {"i": {"z": turned(tangent, a)}, "j": {"z": turned(pin, a)}}
+        joints[f"A{k}"] = {
+            "type": "universal",
+            "links": ["ground", f"barrel{k}"],
+            "at": [f"A{k}", "A"],
+            "axes": axes,
+        }
+        slide = {
+            "type": "prismatic",
+            "links": [f"barrel{k}", f"rod{k}"],
+            "at": ["A", "B"],
+            "axis": turned(line, a),
+        }
+        joints[f"S{k}"] = slide
+        joints[f"B{k}"] = {"type": "spherical", "links": [f"rod{k}", "platform"], "at": ["B", f"B{k}"]}
+        drives[f"S{k}"] = {"position": 0.533443}
+    loads = {"work": {"type": "force", "on": "platform", "at": "P", "value": [300, 0, -1000]}}
+    written = {"space": "space", "gravity": "standard", "links": links, "joints": joints, "drives": drives}
+    r, out = da.statics(m), da.statics(da.mechanism({**written, "loads": loads}))
+    assert tree["links"].keys() >= {"rod_6", "barrel_2"}
+    names = ["S", *(f"S_{k}" for k in range(2, 7))]
+    np.testing.assert_allclose(
+        [r.effort(n)[0] for n in names], [out.effort(f"S{k}")[0] for k in range(6)], rtol=1e-7
+    )
+    balls = np.array([r.reaction("B" + n[1:], on="platform")[0] for n in names])
+    at = np.array([r.point("platform", p)[0] for p in ("B", *(f"B_{k}" for k in range(2, 7)))])
+    weight = np.array([0, 0, -30 * 9.80665])
+    load, place = np.array([300.0, 0, -1000]), r.point("platform", "P")[0]
+    center = r.center("platform")[0]
+    np.testing.assert_allclose(balls.sum(axis=0), -(weight + load), atol=1e-8)
+    moment = np.cross(at, balls).sum(axis=0) + np.cross(place, load) + np.cross(center, weight)
+    np.testing.assert_allclose(moment, 0, atol=1e-8)
+
+
+WRONG_IN_SPACE = [
+    ("    phase: {ground", "    about: A\n    phase: {ground", "copies in space are turned about the z axis"),
+    (
+        "A: [375.877, 136.808, 0]}",
+        "A: {from: Q, at: [0, 1, 0]}, Q: [375.877, 135.808, 0]}",
+        "placed from another one",
+    ),
+    (", platform: [0, 40, 120, 160, 240, 280]", ", platform: [0, 40]", "count is 2, but a list has 6 values"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "says"), WRONG_IN_SPACE)
+def test_wrong_copies_in_space_are_refused_with_their_line(
+    old: str, new: str, says: str, tmp_path: Path
+) -> None:
+    text = (EXAMPLES / "hexapod.yaml").read_text(encoding="utf-8")
+    assert old in text
+    (tmp_path / "h.yaml").write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(da.ModelError, match=rf"h\.yaml:\d+: copies 1: .*{says}"):
+        da.load(tmp_path / "h.yaml")

@@ -98,7 +98,7 @@ def test_deflection_is_the_double_integral_of_the_moment(seed: int) -> None:
     v = (v - on[0] - (on[1] - on[0]) * (x - a) / (b - a)) / STIFFNESS
     d = da.member_forces(r, "shaft").deflection()
     np.testing.assert_allclose(d.members[0].at(x)[0, :, 0], v, atol=1e-9 * np.abs(v).max())
-    assert d.largest >= np.abs(v).max() * (1 - 1e-12)
+    assert d.largest >= np.abs(v).max() * (1 - 1e-10)  # places are rounded to 1e-12 of the length
     assert d.largest <= np.abs(v).max() * 1.02
     slopes = d.members[0].slope(np.array([a, b]))[0, :, 0]
     np.testing.assert_allclose(np.abs(slopes), [d.slopes()[n][0] for n in "AB"], rtol=1e-9)

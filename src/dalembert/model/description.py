@@ -388,8 +388,6 @@ def _with_copies(
     """The tree with its copies, and the source that knows which line each is from."""
     from dalembert.model.files.copies.expansion import expand
 
-    if tree.get("space") == "space":
-        raise ModelError("copies are for the plane", "write the parts out", ("copies",))
     expanded, copied, alike = expand(tree, rules)
     return expanded, replace(source, copied=copied) if source else None, alike
 

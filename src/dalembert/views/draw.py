@@ -26,6 +26,8 @@ from dalembert.views.formats import glb
 from dalembert.views.formats.animation import Animation as Animation
 from dalembert.views.formats.animation import animation_scene
 from dalembert.views.formats.glb import SolidModel as SolidModel
+from dalembert.views.formats.skeleton_dxf import Skeleton as Skeleton
+from dalembert.views.formats.skeleton_dxf import skeleton as skeleton
 from dalembert.views.not_shown import refuse_still, refuse_structure
 from dalembert.views.notation import Notation as Notation
 from dalembert.views.notation import Shown

@@ -21,6 +21,7 @@ from dalembert.analysis.output.columns import (
     friction_joints,
     least_norms,
 )
+from dalembert.analysis.output.summary.printed_shapes import shape_record
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.number_kinds import in_plane, unknown_kinds
 from dalembert.analysis.result.reaction_axes import Axes
@@ -58,6 +59,7 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tre
             for name in result.joints
         },
         **_counts(result, to),
+        **({"mass_properties": shapes} if (shapes := shape_record(result, to)) else {}),
     }
 
 

@@ -74,6 +74,9 @@ def draw(
     camera: Seen = None,
     names: Names = False,
     question: Annotated[bool, flag("Show only the given data; nothing computed.")] = False,
+    skeleton: Annotated[
+        bool, flag("Write a .dxf for CAD at 1:1 in the file's unit of length, one layer a link.")
+    ] = False,
     of: OfAt = AT_FIRST,
     force: Force = False,
 ) -> int:
@@ -81,6 +84,8 @@ def draw(
     from dalembert.views import draw
 
     shown = _view_for(output, view, question)
+    if skeleton and output.suffix.lower() != ".dxf":
+        raise ModelError(f"{output.name}: a skeleton is a DXF file", "end its name in .dxf")
     check_new(output, force)
     with progress(f"Drawing {file}"):
         m, moves, positions = of.load(file), _moves(shown, output), of.positions
@@ -89,7 +94,9 @@ def draw(
         result, at = solve_at(m, of.at, of.static, positions)
         notation = draw.Notation(links="name" if names else "number")
         left: Sequence[str] = ()
-        if output.suffix.lower() == ".glb":
+        if skeleton:
+            draw.skeleton(result, at).save(output, force)
+        elif output.suffix.lower() == ".glb":
             draw.solid_model(result).save(output, force)
         elif moves:
             draw.animation(result, notation, camera=camera_at(camera)).save(output, force, theme)

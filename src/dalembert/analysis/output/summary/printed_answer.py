@@ -25,6 +25,7 @@ from dalembert.analysis.output.summary.printed_in_space import (
     space_reaction_tables,
 )
 from dalembert.analysis.output.summary.printed_series import MORE, position_tables, where
+from dalembert.analysis.output.summary.printed_shapes import shape_parts
 from dalembert.analysis.output.summary.printed_turning import turning_text
 from dalembert.analysis.output.summary.printed_units import (
     Printed,
@@ -63,7 +64,7 @@ def answer_parts(
         parts += _one(result, to, axes)
     else:
         parts += position_tables(result, to, axes, every, more)
-    parts += [*contact_parts(result, to), *element_parts(result, to)]
+    parts += [*contact_parts(result, to), *element_parts(result, to), *shape_parts(result, to)]
     parts += [reversals_text(result, to), problems_text(result, to)]
     return [*parts, wrap(branch_note(result)), checks_text(result)]
 

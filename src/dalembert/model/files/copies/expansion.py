@@ -9,6 +9,7 @@ from dalembert.errors import ModelError
 from dalembert.model.files.copies.copying import Copying
 from dalembert.model.files.copies.images import Image
 from dalembert.model.files.copies.likeness import Likeness
+from dalembert.model.files.copies.space_copying import SpaceCopying
 from dalembert.model.links.link import GROUND
 from dalembert.model.part import ReadingRules, mapping
 from dalembert.model.quantities.values import (
@@ -69,13 +70,15 @@ def expand(
             out[key] = {str(name): value for name, value in out[key].items()}
     _state_against(out)
     copied: dict[Path, Path] = {}
-    alike = []
+    alike: list[Likeness] = []
+    space = tree.get("space") == "space"
     for k, entry in enumerate(entries):
         try:
             for image in _images(entry, out, rules):
-                copying = Copying(out, [str(n) for n in entry["of"]], image, copied, ("copies", k))
+                kind = SpaceCopying if space else Copying
+                copying = kind(out, [str(n) for n in entry["of"]], image, copied, ("copies", k))
                 copying.run()
-                alike.append(copying.likeness())
+                alike += [] if space else [copying.likeness()]
         except ModelError as error:
             what = f"copies {k + 1}: {error.what}"
             raise ModelError(what, error.remedy, ("copies", k, *error.path)) from None
@@ -108,6 +111,10 @@ def _against(value: object, drive: str) -> object:
 
 def _images(entry: object, tree: Tree, rules: ReadingRules) -> Iterator[Image]:
     keys = mapping(entry, list(KEYS), EXAMPLE)
+    for key in ("mirror", "about") if tree.get("space") == "space" else ():
+        if key in keys:
+            what = "copies in space are turned about the z axis through the origins of the links that stay"
+            raise ModelError(what, "write phase: {ground: 60 deg, platform: 60 deg}", (key,))
     of, links = (
         keys.get("of"),
         {str(name) for name in tree["links"]} if isinstance(tree.get("links"), Mapping) else set(),
