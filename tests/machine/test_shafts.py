@@ -49,7 +49,7 @@ def test_the_shaft_of_a_book() -> None:
 
 def beam(rng: np.random.Generator, spread: bool) -> tuple[da.Mechanism, Any]:
     """A beam on two bearings, overhanging, with forces, couples and an even mass; and its numbers."""
-    a, b = np.sort(rng.uniform(0, 1, 2)) + [0, 0.3]
+    a, b = np.sort(rng.uniform(0, 1, 2)) + np.array([0.0, 0.3])
     length = b + rng.uniform(0, 0.5)
     at, force = rng.uniform(0, length, 3), rng.normal(size=3) * 1000
     mass = float(rng.uniform(5, 20)) if spread else 0.0

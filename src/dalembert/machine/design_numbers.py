@@ -30,6 +30,9 @@ def things_of(m: Any, links: tuple[str, ...], of: str) -> list[str]:
     if of == "rated":
         bearings = {n: getattr(j, "bearing", None) for n, j in m.joints.items()}
         return [n for n, b in bearings.items() if b is not None and b.rating is not None]
+    if of == "clear":
+        clear = any(getattr(j, "clearance", 0.0) for j in m.joints.values())
+        return [f"{link}.{p}" for link in links if clear for p in (*m.links[link].points, "center")]
     return [n for n, j in m.joints.items() if getattr(j, "pin", None) is not None]
 
 
@@ -90,6 +93,15 @@ def _pin_stress(r: Result, joint: str) -> Array:
     return pin(r, joint).equivalent
 
 
+def _play(part: str) -> Callable[[Result, str], Array]:
+    def read(r: Result, of: str) -> Array:
+        from dalembert.machine.clearances import clearance_error
+
+        return np.asarray(getattr(clearance_error(r, *of.split(".", 1)), part))
+
+    return read
+
+
 READ: dict[str, Callable[[Result, str], Array]] = {
     "stress": _stress,
     "fatigue": _fatigue,
@@ -98,5 +110,7 @@ READ: dict[str, Callable[[Result, str], Array]] = {
     "bearing_slope": _slope,
     "life": _life,
     "pin_stress": _pin_stress,
+    "play": _play("by_force"),
+    "play.worst": _play("worst"),
 }
 """Word -> its values over the positions (P,)."""

@@ -42,6 +42,18 @@ class Contributions(NamedTuple):
     note: str
 
 
+class CourseContributions(NamedTuple):
+    """The same at every position (P,): standard deviation, SI, mean of the sampled designs, shares and total shares of
+    the variance by path (NaN where nothing scatters), and the samples in which some position has no value."""
+
+    output: str
+    sigma: Array
+    mean: Array
+    shares: dict[str, Array]
+    total: dict[str, Array]
+    lost: int
+
+
 class WorstCase(NamedTuple):
     """The largest value, SI, the corner that has it, and what was assumed."""
 
@@ -163,9 +175,9 @@ def _places(study: Study, output: str, values: Array) -> Array:
     return study.engine_for((output,), "argpeak").block(values)[output]
 
 
-def _sobol(study: Study, output: str, designs: int) -> Contributions:
-    """First-order and total Sobol indices (Saltelli 2010, Jansen 1999), from designs * (numbers + 2) designs."""
-    d, n = len(study.paths), designs
+def _sobol_rows(study: Study, n: int) -> Array:
+    """Numbers of n * (numbers + 2) designs: two samples A and B, then A with each column of B."""
+    d = len(study.paths)
     if n < 2 or n & (n - 1):
         raise ModelError(f"the number of designs, {n}, is not a power of two", "use 4096, for example")
     both = DesignPlan(
@@ -181,20 +193,63 @@ def _sobol(study: Study, output: str, designs: int) -> Contributions:
         ab = a.copy()
         ab[:, j] = b[:, j]
         mixed.append(ab)
-    y = _answers(study, output, np.concatenate([a, b, *mixed])).reshape(d + 2, n)
+    return np.concatenate([a, b, *mixed])
+
+
+def _indices(y: Array) -> tuple[Array, Array, Array]:
+    """First and total indices (number, ...) and the variance (...) of centred answers (2 + number, design, ...)."""
+    fa, fb, fab = y[0], y[1], y[2:]
+    variance = y[:2].var(axis=(0, 1))
+    with np.errstate(all="ignore"):
+        first = (fb * (fab - fa)).mean(axis=1) / variance
+        total = ((fa - fab) ** 2).mean(axis=1) / (2 * variance)
+    return first, total, variance
+
+
+def _sobol(study: Study, output: str, designs: int) -> Contributions:
+    """First-order and total Sobol indices (Saltelli 2010, Jansen 1999), from designs * (numbers + 2) designs."""
+    d, n = len(study.paths), designs
+    y = _answers(study, output, _sobol_rows(study, n)).reshape(d + 2, n)
     good = np.isfinite(y).all(axis=0)
     if good.sum() < 2:
         raise ModelError(f"hardly a design has a value of {output}", "make the spreads smaller")
     y = y[:, good] - y[:2, good].mean()
-    fa, fb, fab = y[0], y[1], y[2:]
-    variance = float(np.var(y[:2]))
-    unit = variance if variance > 0 else 1.0
-    first = (fb * (fab - fa)).mean(axis=1) / unit
-    total = ((fa - fab) ** 2).mean(axis=1) / (2 * unit)
+    first, total, spread = _indices(y)
+    variance = float(spread)
+    if not variance > 0:
+        first, total = 0 * y[2:].mean(axis=1), 0 * y[2:].mean(axis=1)
     lost = int((~good).sum())
     note = f"{lost} of {n} rows left out, in which some design has no value" if lost else ""
     named = (dict(zip(study.paths, of.tolist(), strict=True)) for of in (first, total))
     return Contributions(next(named), variance**0.5, next(named), note)
+
+
+def course_contributions(study: Study, output: str, designs: int) -> CourseContributions:
+    """Implementation of `Study.contributions_along`: Sobol's indices of each position from the same designs."""
+    require("samples", designs, "designs")
+    if study.motion is not None:
+        raise ModelError("motions under forces have no positions in common", "use contributions")
+    _check(study, output)
+    if has_reductions(output):
+        raise ModelError(f"{output!r} is one number of the cycle", "use contributions")
+    engine = study.engine_for((output,), None)
+    rows = _sobol_rows(study, designs)
+    size = max(1, study.block_size())
+    parts = [
+        engine.block(np.ascontiguousarray(rows[k : k + size]))[output] for k in range(0, len(rows), size)
+    ]
+    y = np.concatenate(parts)
+    if y.ndim != 2:
+        raise ModelError(f"{output} is a vector", f"ask for {output}.x or {output}.magnitude")
+    y = y.reshape(len(study.paths) + 2, designs, -1)
+    good = np.isfinite(y).all(axis=(0, 2))
+    if good.sum() < 2:
+        raise ModelError(f"hardly a design has a value of {output}", "make the spreads smaller")
+    y = y[:, good]
+    mean = y[:2].mean(axis=(0, 1))
+    first, total, variance = _indices(y - mean)
+    named = (dict(zip(study.paths, of, strict=True)) for of in (first, total))
+    return CourseContributions(output, np.sqrt(variance), mean, next(named), next(named), int((~good).sum()))
 
 
 def worst_case(study: Study, output: str) -> WorstCase:

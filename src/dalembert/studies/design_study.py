@@ -345,6 +345,13 @@ class Study:
 
         return contributions(self, output, by, designs)
 
+    def contributions_along(self, output: str, designs: int = 1024) -> Any:
+        """Contribution of each number to the variance of an output at every position, by Sobol's indices of the same
+        designs: `CourseContributions`, arrays over the positions whatever `reduce` is."""
+        from dalembert.studies.contributions import course_contributions
+
+        return course_contributions(self, output, designs)
+
     def worst_case(self, output: str) -> Any:
         """The largest value of an output over the corners of all spreads; a `WorstCase`."""
         from dalembert.studies.contributions import worst_case

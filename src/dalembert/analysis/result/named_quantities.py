@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
     from dalembert.model import Mechanism
 
-SIZED = ("masses", "sections", "elastic", "fatigued", "rated", "bolted")
+SIZED = ("masses", "sections", "elastic", "fatigued", "rated", "bolted", "clear")
 """Things of machine design."""
 BOUNDS = ("low", "high")
 COMPONENTS = ("x", "y", "z", "magnitude", "direction")

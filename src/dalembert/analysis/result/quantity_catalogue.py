@@ -290,6 +290,15 @@ CATALOGUE: dict[str, QuantityWord] = {
             ("pin_stress", "bolted", "pressure"),
         )
     },
+    "play": QuantityWord(
+        "clear",
+        {
+            "": QuantityReading("length", _sized("play")),
+            "worst": QuantityReading("length", _sized("play.worst")),
+        },
+        False,
+        False,
+    ),
     "residual": QuantityWord("", {"": QuantityReading("number", _value("residual"))}),
     "power_balance": QuantityWord("", {"": QuantityReading("number", _value("power_balance"))}, False),
     "time": QuantityWord("times", {"": QuantityReading("time", _value("time"))}, False),

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -54,10 +55,7 @@ class Beam:
         fixed = [0.0, self.length, *self.pins, *self.clamps, *(p.place for p in self.points)]
         fixed += [x for m in self.spread for x in (m.start, m.end)]
         some = np.unique(np.round(np.array(fixed) / self.length, 12)) * self.length
-        parts = [
-            np.linspace(a, b, 2 + int(count * (b - a) / self.length))[:-1]
-            for a, b in zip(some, some[1:], strict=False)
-        ]
+        parts = [np.linspace(a, b, 2 + int(count * (b - a) / self.length))[:-1] for a, b in pairwise(some)]
         return np.concatenate([*parts, some[-1:]])
 
 
@@ -98,7 +96,7 @@ def beam_model(beam: Beam, count: int) -> BeamModel:
     x = beam.nodes(count)
     n = 2 * len(x)
     stiffness, carried, tilting = (np.zeros((n, n)) for _ in range(3))
-    for k, (a, b) in enumerate(zip(x, x[1:], strict=False)):
+    for k, (a, b) in enumerate(pairwise(x)):
         h, at = b - a, slice(2 * k, 2 * k + 4)
         stiffness[at, at] += beam.stiffness / h**3 * _bent(h)
         for m in beam.spread:

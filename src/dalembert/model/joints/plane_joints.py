@@ -101,6 +101,9 @@ class Pin(JointPart):
     bearing: Bearing | None = Field(None, description="its bearing: pressure and life over the cycle")
     pin: PinSize | None = Field(None, description="its bolt: shear, pressure and bending over the cycle")
     damping: TurnDamping = Field(0.0, description="viscous couple per angular speed")
+    clearance: Annotated[float, Scalar("length", "not negative")] = Field(
+        0.0, description="radial, of the journal in its bearing: the error of points by it"
+    )
     stops: Annotated[Stops, JointStops("angle")] | None = Field(None, description=STOPS)
 
 

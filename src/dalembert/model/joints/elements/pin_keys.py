@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -62,7 +63,7 @@ class PinSize(Part):
         if len(self.stack) != len(self.layers) or len(self.stack) < 2 or len({*self.stack}) < len(self.stack):
             what = f"{len(self.stack)} links and {len(self.layers)} layers do not go together"
             raise ModelError(what, "give each link of the stack one place", ("layers",))
-        if any(b <= a for a, b in zip(self.layers, self.layers[1:], strict=False)):
+        if any(b <= a for a, b in pairwise(self.layers)):
             raise ModelError("the layers do not increase", "write them from one end of the bolt", ("layers",))
         if self.thicknesses is not None:
             self._check_room(self.layers, self.thicknesses)
