@@ -86,6 +86,7 @@ FACADES = {
     "machine.motors.motor_choice",
     "machine.elements.cam_design",
     "machine.elements.pin_table",
+    "machine.design_numbers",
     "machine.shafts.critical_speeds",
     "machine.motion.simulation",
     "machine.balance.balancing",
@@ -106,7 +107,8 @@ FACADES = {
     "grading.marking.grade",
 }
 """Result, Mechanism, Scene, Kernel, Sweep, Study, StudyResult, System, and the answers of `machine`, which print
-and draw themselves: their methods call what is built on them, by imports inside the methods."""
+and draw themselves: their methods call what is built on them, by imports inside the methods. So do the quantities of
+`machine` that a result has by name."""
 SHOWING = {"notebook", "pages", "views", "reports", "interchange"}
 """What they call to show themselves, and to read and write other programs' files."""
 

@@ -63,10 +63,10 @@ if TYPE_CHECKING:
     from dalembert.machine.bearings.bearing_load import bearing as bearing
     from dalembert.machine.bearings.bearing_table import BearingTable as BearingTable
     from dalembert.machine.bearings.bearing_table import bearings as bearings
-    from dalembert.machine.clearances import ClearanceError as ClearanceError
-    from dalembert.machine.clearances import clearance_error as clearance_error
     from dalembert.machine.elements.cam_design import CamDesign as CamDesign
     from dalembert.machine.elements.cam_design import cam as cam
+    from dalembert.machine.elements.clearances import ClearanceError as ClearanceError
+    from dalembert.machine.elements.clearances import clearance_error as clearance_error
     from dalembert.machine.elements.governors import Governor as Governor
     from dalembert.machine.elements.governors import governor as governor
     from dalembert.machine.elements.hertz_contact import hertz_line as hertz_line
@@ -234,7 +234,7 @@ _NAMES = {
     "machine.balance.rotors": "RotorBalance balance_rotor",
     "machine.bearings.bearing_load": "BearingLoad bearing",
     "machine.bearings.bearing_table": "BearingTable bearings",
-    "machine.clearances": "ClearanceError clearance_error",
+    "machine.elements.clearances": "ClearanceError clearance_error",
     "machine.elements.governors": "Governor governor",
     "machine.elements.pin_stresses": "PinStresses pin",
     "machine.elements.pin_table": "PinTable pins",

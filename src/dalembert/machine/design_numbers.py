@@ -95,9 +95,10 @@ def _pin_stress(r: Result, joint: str) -> Array:
 
 def _play(part: str) -> Callable[[Result, str], Array]:
     def read(r: Result, of: str) -> Array:
-        from dalembert.machine.clearances import clearance_error
+        from dalembert.machine.elements.clearances import clearance_error
 
-        return np.asarray(getattr(clearance_error(r, *of.split(".", 1)), part))
+        link, point = of.split(".", 1)
+        return np.asarray(getattr(clearance_error(r, link, point), part))
 
     return read
 

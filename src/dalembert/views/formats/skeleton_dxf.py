@@ -165,8 +165,8 @@ def _lines(r: Result, link: str, named: dict[str, Array], k: int) -> Iterator[tu
 def _slides(r: Result, k: int) -> Iterator[tuple[str, Array]]:
     """Joints that slide along a straight line, with its direction (3,)."""
     for name, joint in r.mechanism.joints.items():
-        if r.mechanism.dimension == 2:
-            if joint.guides or joint.type == "slot":
-                yield name, in_space(slide_direction(r, name)[k])
-        elif joint.type in ("prismatic", "cylindrical"):
-            yield name, np.asarray(bearing_axis(r, name)[k])
+        if r.mechanism.dimension == 3:
+            if joint.pair.slides == "x":
+                yield name, np.asarray(bearing_axis(r, name)[k])
+        elif "slide" in joint.freedoms and hasattr(joint, "direction"):
+            yield name, in_space(slide_direction(r, name)[k])

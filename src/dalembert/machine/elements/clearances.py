@@ -131,7 +131,7 @@ def clearance_error(
     for name in known:
         if name not in m.joints:
             raise ModelError(f"unknown joint {name!r}", closest(name, [*m.joints]))
-        if m.joints[name].type != "pin":
+        if not hasattr(m.joints[name], "clearance"):
             raise ModelError(f"joint {name!r} is not a pin", "give clearances of pins", ("joints", name))
     count = len(r.status)
     by_force, worst = np.zeros((count, 2)), np.zeros((count, 2))
@@ -159,7 +159,7 @@ def derivative(r: Result, link: str, point: str, joint: str) -> Array:
         high, low = (kinematics(e, r.schedule.position).point(link, point) for e in ends)
         columns.append((high - low) / (2 * h))
     local = np.stack(columns, axis=-1)  # by offsets in i's axes
-    return np.einsum("pik,pjk->pij", local, turn)
+    return np.asarray(np.einsum("pik,pjk->pij", local, turn))
 
 
 def _moved(m: Mechanism, joint: str, offset: list[float]) -> Mechanism:
