@@ -204,19 +204,19 @@ export function board(parent: Element, kernel: Source, d: Drawing & { middle?: P
   }
 
   function placeLabels(): void {
-    const placer = new Placer([-w / 2, -h / 2, w / 2, h / 2 - 6]);
+    const placer = new Placer([-w / 2, -h / 2, w / 2, h / 2 - 6]), inside = ([x, y]: Point): boolean => Math.abs(x) < w / 2 && Math.abs(y) < h / 2;
     for (const part of [...live, ...arrows.map((x) => x.a)]) part.mark?.(placer);
     for (const { l, p, q } of names) {
-      const seen = on("names") || (!!q && view.shown.names === undefined);
+      const a = paper.point(p), b = q ? paper.point(q) : a;
+      const seen = (on("names") || (!!q && view.shown.names === undefined)) && inside([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]);
       l.el.setAttribute("visibility", seen ? "visible" : "hidden");
       if (!seen) continue;
-      const a = paper.point(p), b = q ? paper.point(q) : a;
       const anchors = (q ? [0.5, 0.35, 0.65] : [0]).map((t) => [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])] as Point);
       placer.put({ label: l, anchors, away: q ? undefined : a, leave: q ? 0.8 : 1.3 });
     }
     for (const { a } of arrows) {
       const at = kernel.solved ? a.anchor() : null;
-      if (!at) a.label.el.setAttribute("visibility", "hidden");
+      if (!at || !inside(at[0])) a.label.el.setAttribute("visibility", "hidden");
       else placer.put({ label: a.label, anchors: at.slice(0, -1), away: at[at.length - 1], leave: 0.9 });
     }
   }

@@ -152,15 +152,21 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
   };
 }
 
+/** Positions beyond which points nearer than FINE mm to the last one are not drawn. */
+const DENSE = 240, FINE = 0.3;
+
 /** A curve over the cycle, with gaps where no answer exists; ``closed`` if the cycle continues from its end. */
 export function curve(k: Source, at: (n: number) => Point, closed = false): string {
-  const last = closed && k.cyclic ? k.count : k.count - 1;
-  let d = "", pen = false;
+  const last = closed && k.cyclic ? k.count : k.count - 1, least = k.count > DENSE ? FINE : 0;
+  let d = "", pen = false, drawn: Point = [NaN, NaN];
   for (let c = 0; c <= last; c++) {
     const n = c % k.count, good = !!k.good[n];
     if (good) {
-      const [x, y] = at(n);
-      d += (pen ? "L" : "M") + short(x) + " " + short(y);
+      const [x, y] = at(n), skip = pen && c < last && !k.reverses(n) && Math.abs(x - drawn[0]) + Math.abs(y - drawn[1]) < least;
+      if (!skip) {
+        d += (pen ? "L" : "M") + short(x) + " " + short(y);
+        drawn = [x, y];
+      }
       if (k.reverses(n)) {
         const [ax, ay] = k.onceAfter(() => at(n));
         d += "L" + short(ax) + " " + short(ay);

@@ -48,12 +48,15 @@ export class Motion {
   private readonly phases: number[];
   private readonly phasesAtFirst: number[];
   private readonly weakest: string;
+  /** The drives at each position. */
+  private readonly driven: number[][];
   private readonly channels: { kind: "pose" | "position" | "branch" | "given"; part: keyof Pose; k: number; given: Float64Array }[];
 
   constructor(data: Data, private readonly kernel: Closing, closure: Program, private readonly shown: Program, private readonly values: Float64Array, private readonly inputs: (name: string) => Float64Array) {
     const s = (this.data = data.sketch);
     this.sketch = new Sketch(s, closure);
     this.count = data.kernel.count;
+    this.driven = Array.from({ length: this.count }, (_, k) => kernel.drives(k));
     this.poses = Array<Pose | null>(this.count).fill(null);
     this.branches = s.branches.map(() => new Float64Array(this.count).fill(1));
     this.model = new Float64Array(s.branches.length).fill(1);
@@ -316,9 +319,13 @@ export class Motion {
     const p = this.shown, { row } = p, n = this.count, spare = this.base.pose;
     this.model = model;
     p.values.set(this.values);
-    this.channels.forEach((c, at) => {
-      for (let k = 0; k < n; k++)
-        p.path[at * row + k] = c.kind === "pose" ? (this.poses[k] ?? spare)[c.part][c.k] : c.kind === "position" ? this.kernel.drives(k)[c.k] : c.kind === "given" ? c.given[k] : 1;
+    const poses = this.poses.map((q) => q ?? spare), { path } = p;
+    this.channels.forEach(({ kind, part, k: place, given }, at) => {
+      const from = at * row;
+      if (kind === "pose") for (let k = 0; k < n; k++) path[from + k] = poses[k][part][place];
+      else if (kind === "position") for (let k = 0; k < n; k++) path[from + k] = this.driven[k][place];
+      else if (kind === "given") path.set(given.subarray(0, n), from);
+      else path.fill(1, from, from + n);
     });
     this.branches.forEach((of, b) => {
       p.call(n);

@@ -28,6 +28,8 @@ const PRESSED = "button,summary,select,a,input[type=checkbox],[role=button],[rol
 const CYCLE = 6, STRIDE = 10;
 /** Joints of which all names would hide the drawing. */
 const MANY = 8;
+/** Parts of a place that its menu names. */
+const NAMED = 4;
 
 export async function solved(root: HTMLElement, data: Data, view: View, options: Options & { back?: () => void }): Promise<Inner> {
   const kernel = await Kernel.create(data), times: number[] = [], gate = new Gate(data, kernel);
@@ -89,7 +91,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
   /** What can be done with the parts of a place. */
   function entries(items: Identity[], point: Point): Entry[] {
     const out: Entry[] = [], links = new Set<string>();
-    for (const item of items) {
+    for (const item of items.slice(0, NAMED)) {
       const { kind, name } = item, link = linkOf(data, `${kind}:${name}`), owner = link < 0 ? undefined : data.sketch.links[link];
       const curve = kind === "joint" || kind === "reaction" ? curves.find((c) => c.curve.of === `reaction.${name}.magnitude`) : curves.find((c) => c.curve.of.startsWith(`${kind}.${name}.`));
       if (curve) out.push({ said: `Curve of ${plain(curve.curve.name)}`, act: () => (pick(curve.curve), tab.show("Curves")) });
@@ -106,7 +108,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
       } });
     }
     if (view.window) out.push({ said: "Fit the whole mechanism", act: s.view.fit });
-    return out;
+    return out.filter((one, k) => out.findIndex((x) => x.said === one.said) === k);
   }
   function chosen(item: Identity | null): void {
     if (item && item.kind !== "joint") shown.choose(owner(item));

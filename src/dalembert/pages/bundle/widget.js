@@ -480,11 +480,12 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	phases;
 	phasesAtFirst;
 	weakest;
+	driven;
 	channels;
 	constructor(e, t, n, r, i, a) {
 		this.kernel = t, this.shown = r, this.values = i, this.inputs = a;
 		let o = this.data = e.sketch;
-		this.sketch = new O(o, n), this.count = e.kernel.count, this.poses = Array(this.count).fill(null), this.branches = o.branches.map(() => new Float64Array(this.count).fill(1)), this.model = new Float64Array(o.branches.length).fill(1), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
+		this.sketch = new O(o, n), this.count = e.kernel.count, this.driven = Array.from({ length: this.count }, (e, n) => t.drives(n)), this.poses = Array(this.count).fill(null), this.branches = o.branches.map(() => new Float64Array(this.count).fill(1)), this.model = new Float64Array(o.branches.length).fill(1), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
 		let [s, c, l] = [
 			o.pose.point,
 			o.pose.rotation,
@@ -701,8 +702,13 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	}
 	spread(e) {
 		let t = this.shown, { row: n } = t, r = this.count, i = this.base.pose;
-		this.model = e, t.values.set(this.values), this.channels.forEach((e, a) => {
-			for (let o = 0; o < r; o++) t.path[a * n + o] = e.kind === "pose" ? (this.poses[o] ?? i)[e.part][e.k] : e.kind === "position" ? this.kernel.drives(o)[e.k] : e.kind === "given" ? e.given[o] : 1;
+		this.model = e, t.values.set(this.values);
+		let a = this.poses.map((e) => e ?? i), { path: o } = t;
+		this.channels.forEach(({ kind: e, part: t, k: i, given: s }, c) => {
+			let l = c * n;
+			if (e === "pose") for (let e = 0; e < r; e++) o[l + e] = a[e][t][i];
+			else if (e === "position") for (let e = 0; e < r; e++) o[l + e] = this.driven[e][i];
+			else e === "given" ? o.set(s.subarray(0, r), l) : o.fill(1, l, l + r);
 		}), this.branches.forEach((i, a) => {
 			t.call(r);
 			for (let n = 0; n < r; n++) i[n] = this.poses[n] ? t.at(a, n) < 0 ? -1 : 1 : e[a];
@@ -1299,7 +1305,7 @@ function De(n, i, o) {
 		class: `l-${i.role}`,
 		style: "fill:none"
 	});
-	if (i.t === "trace") return { update: () => c.setAttribute("d", ke(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
+	if (i.t === "trace") return { update: () => c.setAttribute("d", je(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
 	i.t === "hull" && (c.dataset.link = i.link);
 	let l = [], u = !1;
 	return {
@@ -1327,47 +1333,48 @@ function Oe(e, n, i) {
 		}
 	};
 }
-function ke(e, t, n = !1) {
-	let i = n && e.cyclic ? e.count : e.count - 1, a = "", o = !1;
+var ke = 240, Ae = .3;
+function je(e, t, n = !1) {
+	let i = n && e.cyclic ? e.count : e.count - 1, a = e.count > ke ? Ae : 0, o = "", s = !1, c = [NaN, NaN];
 	for (let n = 0; n <= i; n++) {
-		let i = n % e.count, s = !!e.good[i];
-		if (s) {
-			let [n, s] = t(i);
-			if (a += (o ? "L" : "M") + r(n) + " " + r(s), e.reverses(i)) {
-				let [n, o] = e.onceAfter(() => t(i));
-				a += "L" + r(n) + " " + r(o);
+		let l = n % e.count, u = !!e.good[l];
+		if (u) {
+			let [u, d] = t(l);
+			if (s && n < i && !e.reverses(l) && Math.abs(u - c[0]) + Math.abs(d - c[1]) < a || (o += (s ? "L" : "M") + r(u) + " " + r(d), c = [u, d]), e.reverses(l)) {
+				let [n, i] = e.onceAfter(() => t(l));
+				o += "L" + r(n) + " " + r(i);
 			}
 		}
-		o = s;
+		s = u;
 	}
-	return a;
+	return o;
 }
-function Ae(e, t, n, r, a) {
+function Me(e, t, n, r, a) {
 	let { unit: o, size: s } = a.units[r] ?? {
 		unit: "",
 		size: 1
 	};
 	be(e, a.values ? `${t} = ${i(n / s)} ${o}`.trim() : t);
 }
-function je(e, t, n, r, i, a = "force") {
-	return t.t === "couple" ? Ie(e, t, n) : Pe(e, t, n, r, i, a);
+function Ne(e, t, n, r, i, a = "force") {
+	return t.t === "couple" ? Re(e, t, n) : Ie(e, t, n, r, i, a);
 }
-var Me = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Ne = 13;
-function Pe(e, t, n, r, i, a) {
+var Pe = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Fe = 13;
+function Ie(e, t, n, r, i, a) {
 	let o = new m(e, t.role, t.name), s = t.t === "force" ? null : new m(e, t.role), c = t.t === "force" ? t.f : t.m, l = ye(e, t.role, t.name, 3.4), u = [0, 0], d = [0, 0], f = [0, 0], p = !1;
-	for (let e of [o, s]) e && Me(e.g, t);
+	for (let e of [o, s]) e && Pe(e.g, t);
 	return {
 		label: l,
 		hide() {
 			p = o.set([0, 0], [0, 0]), s?.set([0, 0], [0, 0]), l.el.setAttribute("visibility", "hidden");
 		},
 		update() {
-			let e = n.point(t.p), [m, h] = n.here(c), g = s ? Math.hypot(...c.map((e) => n.kernel.here[e])) / Ne || 1 : r(), _ = [m / g, -h / g], v = !1;
+			let e = n.point(t.p), [m, h] = n.here(c), g = s ? Math.hypot(...c.map((e) => n.kernel.here[e])) / Fe || 1 : r(), _ = [m / g, -h / g], v = !1;
 			if (i && i.length > 1 && !s) {
 				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
 				v = _[0] * (r[0] - e[0]) + _[1] * (r[1] - e[1]) > 1e-9;
 			}
-			[u, d] = v ? [[e[0] - _[0], e[1] - _[1]], e] : [e, [e[0] + _[0], e[1] + _[1]]], f = v ? u : d, p = o.set(u, d), s?.set(u, [u[0] + .78 * (d[0] - u[0]), u[1] + .78 * (d[1] - u[1])]), l.el.setAttribute("visibility", p ? "visible" : "hidden"), p && Ae(l, t.name, Math.hypot(...c.map((e) => n.kernel.here[e])), s ? "moment" : a, n);
+			[u, d] = v ? [[e[0] - _[0], e[1] - _[1]], e] : [e, [e[0] + _[0], e[1] + _[1]]], f = v ? u : d, p = o.set(u, d), s?.set(u, [u[0] + .78 * (d[0] - u[0]), u[1] + .78 * (d[1] - u[1])]), l.el.setAttribute("visibility", p ? "visible" : "hidden"), p && Me(l, t.name, Math.hypot(...c.map((e) => n.kernel.here[e])), s ? "moment" : a, n);
 		},
 		mark: (e) => p && e.line(u, d),
 		anchor() {
@@ -1381,8 +1388,8 @@ function Pe(e, t, n, r, i, a) {
 		}
 	};
 }
-var Fe = 4.6;
-function Ie(e, n, i) {
+var Le = 4.6;
+function Re(e, n, i) {
 	let a = i.kernel.here, o = t("g", e), s = ye(e, n.role, n.name, 3.4);
 	t("title", o).textContent = l(n.name), t("path", o, {
 		class: `l-${n.role}`,
@@ -1393,32 +1400,32 @@ function Ie(e, n, i) {
 		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
 	});
 	let c = !1;
-	return Me(o, n), {
+	return Pe(o, n), {
 		label: s,
 		hide() {
 			c = !1, o.setAttribute("display", "none"), s.el.setAttribute("visibility", "hidden");
 		},
 		update() {
 			let [e, t] = i.point(n.p), l = a[n.m[0]];
-			c = Number.isFinite(l) && Math.abs(l) > 1e-9, o.setAttribute("display", c ? "inline" : "none"), s.el.setAttribute("visibility", c ? "visible" : "hidden"), o.setAttribute("transform", `translate(${r(e)} ${r(t)}) scale(${l < 0 ? -1 : 1} 1)`), c && Ae(s, n.name, Math.abs(l), "moment", i);
+			c = Number.isFinite(l) && Math.abs(l) > 1e-9, o.setAttribute("display", c ? "inline" : "none"), s.el.setAttribute("visibility", c ? "visible" : "hidden"), o.setAttribute("transform", `translate(${r(e)} ${r(t)}) scale(${l < 0 ? -1 : 1} 1)`), c && Me(s, n.name, Math.abs(l), "moment", i);
 		},
 		mark(e) {
-			c && e.disc(i.point(n.p), Fe);
+			c && e.disc(i.point(n.p), Le);
 		},
 		anchor() {
 			let [e, t] = i.point(n.p);
 			return c ? [
-				[e, t - Fe],
-				[e - Fe, t],
-				[e + Fe, t],
-				[e, t + Fe],
+				[e, t - Le],
+				[e - Le, t],
+				[e + Le, t],
+				[e, t + Le],
 				[0, -1]
 			] : null;
 		}
 	};
 }
 // src/view.ts
-var Le = [
+var ze = [
 	"loads",
 	"reactions",
 	"inertia",
@@ -1428,14 +1435,14 @@ var Le = [
 	"traces",
 	"values",
 	"digits"
-], Re = [
+], Be = [
 	.1,
 	.25,
 	.5,
 	1,
 	2,
 	4
-], ze = () => ({
+], Ve = () => ({
 	t: 0,
 	shown: {},
 	window: null,
@@ -1448,18 +1455,18 @@ var Le = [
 	drag: "shape",
 	tracers: []
 });
-function Be(e) {
-	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => Le.filter((n) => e.shown[n] === t).join(" ");
+function He(e) {
+	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => ze.filter((n) => e.shown[n] === t).join(" ");
 	return n("show", r(!0)), n("hide", r(!1)), e.window && n("window", [e.window.perMm, ...e.window.middle].map((e) => +e.toPrecision(6)).join(" ")), n("tab", e.tab), n("speed", String(e.speed), "1"), n("drag", e.drag, "shape"), n("trace", e.tracers.map((e) => [e.link, ...e.u.map((e) => +e.toPrecision(6))].join(" ")).join("; ")), t;
 }
-function Ve(e, t) {
+function Ue(e, t) {
 	let n = (e) => t.get(`~${e}`) ?? "", r = (e) => e.split(" ").map(Number);
-	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of Le) n(t).split(" ").includes(i) && (e.shown[i] = r);
+	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of ze) n(t).split(" ").includes(i) && (e.shown[i] = r);
 	let [i, a, o] = r(n("window"));
 	i > 0 && Number.isFinite(i + a + o) && (e.window = {
 		perMm: i,
 		middle: [a, o]
-	}), e.tab = n("tab"), Re.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
+	}), e.tab = n("tab"), Be.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
 		let [t, ...n] = e.split(" "), r = n.map(Number);
 		return r.length > 1 && r.every(Number.isFinite) ? [{
 			link: t,
@@ -1467,7 +1474,7 @@ function Ve(e, t) {
 		}] : [];
 	});
 }
-function He(e, t) {
+function We(e, t) {
 	return {
 		loads: !0,
 		reactions: !0,
@@ -1481,7 +1488,7 @@ function He(e, t) {
 	}[e];
 }
 // src/board.ts
-var Ue = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", We = [
+var Ge = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", Ke = [
 	1,
 	1.25,
 	1.5,
@@ -1494,24 +1501,24 @@ var Ue = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.ki
 	8,
 	10
 ];
-function Ge(e) {
+function qe(e) {
 	if (!(e > 0) || !Number.isFinite(e)) return 1;
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (We.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+	return t * (Ke.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
 }
-function Ke(e) {
+function Je(e) {
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
 	return t * ([5, 2].find((n) => n * t <= e * (1 + 1e-12)) ?? 1);
 }
-function qe(e) {
+function Ye(e) {
 	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
 	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
 		x: n,
 		y: r
 	} : null;
 }
-var Je = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function Ye(e) {
+var Xe = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function Ze(e) {
 	return e.items.flatMap((e) => {
 		if (e.t === "circle") return [{
 			p: e.p,
@@ -1524,17 +1531,17 @@ function Ye(e) {
 		}] : [];
 	});
 }
-function Xe(e, t, n) {
-	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(Je);
+function Qe(e, t, n) {
+	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(Xe);
 	for (let t = 0; t < r.count; t += i) {
 		if (!r.good[t]) continue;
 		let i = (e) => r.value(e, t);
 		for (let t of o) a.push(e.seen(t, i));
-		a.push(...Ze(e, n, i));
+		a.push(...$e(e, n, i));
 	}
-	return qe(a);
+	return Ye(a);
 }
-var Ze = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), Qe = (e) => e.items.some((e) => e.t === "pair"), $e = class {
+var $e = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), et = (e) => e.items.some((e) => e.t === "pair"), tt = class {
 	arrow;
 	line;
 	text;
@@ -1552,26 +1559,26 @@ var Ze = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.see
 	set([t, n], o, s) {
 		let c = o / s.size, l = c > 0 && Number.isFinite(c);
 		if (this.line.setAttribute("visibility", l ? "visible" : "hidden"), this.text.textContent = "", !l) return t;
-		let u = Ke(26 * c), d = t + u / c, p = `${i(u)} ${s.unit}`, m = `M${r(t)} ${r(n - 1)}v2`, h = this.arrow ? `M${r(d - 2.4)} ${r(n - .8)}L${r(d)} ${r(n)}L${r(d - 2.4)} ${r(n + .8)}` : `M${r(d)} ${r(n - 1)}v2`;
+		let u = Je(26 * c), d = t + u / c, p = `${i(u)} ${s.unit}`, m = `M${r(t)} ${r(n - 1)}v2`, h = this.arrow ? `M${r(d - 2.4)} ${r(n - .8)}L${r(d)} ${r(n)}L${r(d - 2.4)} ${r(n + .8)}` : `M${r(d)} ${r(n - 1)}v2`;
 		return this.line.setAttribute("d", m + a([[t, n], [d, n]]) + h), e(this.text, {
 			x: r(d + 1.4),
 			y: r(n + 1)
 		}).textContent = p, d + 1.4 + f(p, 2.8);
 	}
 };
-function et(e, n, r, i) {
+function nt(e, n, r, i) {
 	return t("svg", e, {
 		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
 		role: "group",
 		"aria-label": i
 	});
 }
-var tt = 8, nt = 20;
-function rt(e, n, r, i, a, o, s, c, l, u = []) {
+var rt = 8, it = 20;
+function at(e, n, r, i, a, o, s, c, l, u = []) {
 	let d = {
 		length: s.length.size,
 		force: s.force.size
-	}, f = et(e, a, o, c), p = new Te(n, r.per_mm, s, Qe(r) ? l.camera : null), m = [], h = [], g = r.labels.filter((e) => e.kind === "joint").length > tt, _ = (e) => i && e !== "values" ? !0 : l.shown[e] ?? He(e, g), v = r.force, y = {
+	}, f = nt(e, a, o, c), p = new Te(n, r.per_mm, s, et(r) ? l.camera : null), m = [], h = [], g = r.labels.filter((e) => e.kind === "joint").length > rt, _ = (e) => i && e !== "values" ? !0 : l.shown[e] ?? We(e, g), v = r.force, y = {
 		perMm: r.per_mm,
 		middle: r.middle ?? [0, 0]
 	};
@@ -1579,15 +1586,15 @@ function rt(e, n, r, i, a, o, s, c, l, u = []) {
 	let b = t("g", f), x = t("g", f), S = t("g", f), C = t("g", f);
 	for (let e of r.items) (e.t === "trace" ? m : h).push(Ee(e.t === "trace" ? b : x, e, p));
 	let w = r.arrows.map((e) => ({
-		a: je(S, e, p, () => v, i ?? void 0),
-		layer: Ue(e)
-	})), T = new $e(C), E = new $e(C, !0), D = r.arrows.filter((e) => e.t === "force"), O = (u.length ? ["velocities", "accelerations"] : []).map((e) => {
+		a: Ne(S, e, p, () => v, i ?? void 0),
+		layer: Ge(e)
+	})), T = new tt(C), E = new tt(C, !0), D = r.arrows.filter((e) => e.t === "force"), O = (u.length ? ["velocities", "accelerations"] : []).map((e) => {
 		let t = e === "velocities" ? "speed" : "acceleration", n = e === "velocities" ? "velocity" : "acceleration", r = n[0], i = {
 			layer: e,
 			unit: s[t],
 			rows: u.map((e) => r === "v" ? e.v : e.a),
 			perMm: NaN,
-			bar: new $e(C, !0)
+			bar: new tt(C, !0)
 		};
 		return u.forEach((a, o) => {
 			let s = {
@@ -1601,7 +1608,7 @@ function rt(e, n, r, i, a, o, s, c, l, u = []) {
 				f: i.rows[o]
 			};
 			w.push({
-				a: je(S, s, p, () => i.perMm, void 0, t),
+				a: Ne(S, s, p, () => i.perMm, void 0, t),
 				layer: e
 			});
 		}), i;
@@ -1609,13 +1616,13 @@ function rt(e, n, r, i, a, o, s, c, l, u = []) {
 		l: ye(C, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
 		p: e.p,
 		q: e.q
-	})), A = Ye(r), j = Math.max(1, Math.floor(n.count / 72)), M = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], N = i ? [
+	})), A = Ze(r), j = Math.max(1, Math.floor(n.count / 72)), M = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], N = i ? [
 		...i,
 		...r.arrows.map((e) => e.p),
 		...r.items.flatMap((e) => e.t === "symbol" ? [e.p] : [])
 	] : [];
 	function P(e) {
-		return qe([...N.map((t) => p.seen(t, e)), ...Ze(p, A, e)]);
+		return Ye([...N.map((t) => p.seen(t, e)), ...$e(p, A, e)]);
 	}
 	function F() {
 		return Array.from({ length: Math.ceil(n.count / j) }, (e, t) => t * j).flatMap((e) => {
@@ -1635,14 +1642,14 @@ function rt(e, n, r, i, a, o, s, c, l, u = []) {
 				e = Math.max(e, Math.abs(l[n]) / Math.max(a, 4));
 			});
 		}
-		return e > 0 ? Ge(e / d.force) * d.force : v;
+		return e > 0 ? qe(e / d.force) * d.force : v;
 	}
 	function L(e, t = !1) {
-		let s = i ? F().map(({ b: e }) => e) : [Xe(p, r, A)].filter((e) => e !== null), c = i ? [46, 40] : [a - Math.max(.22 * a, 34), o - Math.max(.22 * o, 30)], l = Math.max(0, ...s.flatMap((e) => [(e.x[1] - e.x[0]) / c[0], (e.y[1] - e.y[0]) / c[1]]));
-		t && s.length && R(s[0], l) || (!i && s.length && (y.middle = M(s[0])), l > 0 && (y.perMm = Ge(l / d.length) * d.length)), v = e ?? I();
+		let s = i ? F().map(({ b: e }) => e) : [Qe(p, r, A)].filter((e) => e !== null), c = i ? [46, 40] : [a - Math.max(.22 * a, 34), o - Math.max(.22 * o, 30)], l = Math.max(0, ...s.flatMap((e) => [(e.x[1] - e.x[0]) / c[0], (e.y[1] - e.y[0]) / c[1]]));
+		t && s.length && R(s[0], l) || (!i && s.length && (y.middle = M(s[0])), l > 0 && (y.perMm = qe(l / d.length) * d.length)), v = e ?? I();
 		for (let e of O) {
 			let t = n.largest((t) => Math.max(0, ...e.rows.map((e) => Math.hypot(...e.map((e) => n.value(e, t))))));
-			e.perMm = t > 0 ? Ge(t / nt / e.unit.size) * e.unit.size : NaN;
+			e.perMm = t > 0 ? qe(t / it / e.unit.size) * e.unit.size : NaN;
 		}
 		z();
 	}
@@ -1684,31 +1691,31 @@ function rt(e, n, r, i, a, o, s, c, l, u = []) {
 			-o / 2,
 			a / 2,
 			o / 2 - 6
-		]);
+		]), t = ([e, t]) => Math.abs(e) < a / 2 && Math.abs(t) < o / 2;
 		for (let t of [...h, ...w.map((e) => e.a)]) t.mark?.(e);
-		for (let { l: t, p: n, q: r } of k) {
-			let i = _("names") || !!r && l.shown.names === void 0;
-			if (t.el.setAttribute("visibility", i ? "visible" : "hidden"), !i) continue;
-			let a = p.point(n), o = r ? p.point(r) : a, s = (r ? [
+		for (let { l: n, p: r, q: i } of k) {
+			let a = p.point(r), o = i ? p.point(i) : a, s = (_("names") || !!i && l.shown.names === void 0) && t([(a[0] + o[0]) / 2, (a[1] + o[1]) / 2]);
+			if (n.el.setAttribute("visibility", s ? "visible" : "hidden"), !s) continue;
+			let c = (i ? [
 				.5,
 				.35,
 				.65
 			] : [0]).map((e) => [a[0] + e * (o[0] - a[0]), a[1] + e * (o[1] - a[1])]);
 			e.put({
-				label: t,
-				anchors: s,
-				away: r ? void 0 : a,
-				leave: r ? .8 : 1.3
+				label: n,
+				anchors: c,
+				away: i ? void 0 : a,
+				leave: i ? .8 : 1.3
 			});
 		}
-		for (let { a: t } of w) {
-			let r = n.solved ? t.anchor() : null;
-			r ? e.put({
-				label: t.label,
-				anchors: r.slice(0, -1),
-				away: r[r.length - 1],
+		for (let { a: r } of w) {
+			let i = n.solved ? r.anchor() : null;
+			!i || !t(i[0]) ? r.label.el.setAttribute("visibility", "hidden") : e.put({
+				label: r.label,
+				anchors: i.slice(0, -1),
+				away: i[i.length - 1],
 				leave: .9
-			}) : t.label.el.setAttribute("visibility", "hidden");
+			});
 		}
 	}
 	return {
@@ -1737,7 +1744,7 @@ function rt(e, n, r, i, a, o, s, c, l, u = []) {
 	};
 }
 // src/menu.ts
-function it(e, [t, r], i) {
+function ot(e, [t, r], i) {
 	if (e.querySelector(".menu")?.remove(), !i.length) return;
 	let a = document.activeElement, o = n("div", e, {
 		class: "menu",
@@ -1770,11 +1777,11 @@ function it(e, [t, r], i) {
 	o.style.left = `${Math.max(4, Math.min(t, window.innerWidth - u - 4))}px`, o.style.top = `${Math.max(4, Math.min(r, window.innerHeight - d - 4))}px`, document.addEventListener("pointerdown", c, !0), l[0].focus({ preventScroll: !0 });
 }
 // src/viewport.ts
-var at = 1e4, ot = 12, st = 1.25;
-function ct(e, t, n, r, i, a) {
+var st = 1e4, ct = 12, lt = 1.25;
+function ut(e, t, n, r, i, a) {
 	let { svg: o, paper: c } = e, l = /* @__PURE__ */ new Map(), u = !1, d = (n, r) => {
 		let i = e.fitted();
-		n > i / at && n < i * at && r.every(Number.isFinite) && (t.window = {
+		n > i / st && n < i * st && r.every(Number.isFinite) && (t.window = {
 			perMm: n,
 			middle: r
 		}, e.look(), a());
@@ -1808,14 +1815,14 @@ function ct(e, t, n, r, i, a) {
 	}), o.addEventListener("click", (e) => u && e.stopImmediatePropagation(), { capture: !0 }), o.tabIndex = 0, o.addEventListener("keydown", (e) => {
 		if (e.target !== o || e.ctrlKey || e.metaKey || e.altKey) return;
 		let t = {
-			ArrowLeft: [ot, 0],
+			ArrowLeft: [ct, 0],
 			ArrowRight: [-12, 0],
-			ArrowUp: [0, ot],
+			ArrowUp: [0, ct],
 			ArrowDown: [0, -12]
 		};
 		if (t[e.key]) f(t[e.key]);
-		else if (e.key === "+" || e.key === "=") p(st);
-		else if (e.key === "-") p(1 / st);
+		else if (e.key === "+" || e.key === "=") p(lt);
+		else if (e.key === "-") p(1 / lt);
 		else if (e.key === "0") m();
 		else return;
 		e.preventDefault(), e.stopPropagation();
@@ -1826,9 +1833,9 @@ function ct(e, t, n, r, i, a) {
 	};
 }
 // src/stage.ts
-var lt = 3.6, ut = 5.2, dt = 550, ft = 8;
-function pt(e, r, i, a, o, c) {
-	let l = n("div", e, { class: "paper" }), u = rt(l, r, i, null, 170, 119, a, "the mechanism", o, c.rates ?? []), { svg: d } = u, f = t("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
+var dt = 3.6, ft = 5.2, pt = 550, mt = 8;
+function ht(e, r, i, a, o, c) {
+	let l = n("div", e, { class: "paper" }), u = at(l, r, i, null, 170, 119, a, "the mechanism", o, c.rates ?? []), { svg: d } = u, f = t("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
 		let t = e.target.closest("[data-item]")?.dataset.item;
 		return t ? W(t) : null;
 	}, h = (e) => !v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6).some(c.held), g = () => {
@@ -1836,7 +1843,7 @@ function pt(e, r, i, a, o, c) {
 			type: "view",
 			view: o
 		}), c.again(!0);
-	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => G(d, e, t, n), y = ct(u, o, !!c.full, h, _, g);
+	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => G(d, e, t, n), y = ut(u, o, !!c.full, h, _, g);
 	p && (d.style.cursor = "move");
 	let b = (e, t) => u.paper.metres(s(d, {
 		clientX: e,
@@ -1860,7 +1867,7 @@ function pt(e, r, i, a, o, c) {
 			items: t,
 			at: n,
 			point: r
-		}) || it(e.closest(".dalembert") ?? document.body, n, c.entries(t, r));
+		}) || ot(e.closest(".dalembert") ?? document.body, n, c.entries(t, r));
 	};
 	d.addEventListener("contextmenu", (e) => {
 		e.preventDefault();
@@ -1876,10 +1883,10 @@ function pt(e, r, i, a, o, c) {
 	});
 	let w = 0, T = [0, 0];
 	d.addEventListener("pointerdown", (e) => {
-		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), dt));
+		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), pt));
 	}, { capture: !0 });
 	let E = () => clearTimeout(w);
-	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > ft && E(), { capture: !0 });
+	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > mt && E(), { capture: !0 });
 	for (let e of ["pointerup", "pointercancel"]) d.addEventListener(e, E, { capture: !0 });
 	return {
 		m: u,
@@ -1892,13 +1899,13 @@ function pt(e, r, i, a, o, c) {
 		resize() {
 			let { width: e, height: t } = l.getBoundingClientRect();
 			if (!(e > 0 && t > 0)) return;
-			let n = Math.min(Math.max(Math.min(e / 170, t / 105), lt), ut);
+			let n = Math.min(Math.max(Math.min(e / 170, t / 105), dt), ft);
 			u.resize(e / n, t / n);
 		}
 	};
 }
 // src/switches.ts
-var mt = {
+var gt = {
 	loads: ["loads", "loads, efforts of drives, weights, springs"],
 	reactions: ["reactions", "forces in the joints"],
 	inertia: ["inertia", "D'Alembert's inertia forces and couples"],
@@ -1909,22 +1916,22 @@ var mt = {
 	values: ["values", "the value beside each arrow"],
 	digits: ["large digits", "the chosen curve's value, to be read from the last row"]
 };
-function ht(e, t) {
+function _t(e, t) {
 	let r = n("label", e, { title: t.title }), i = n("input", r, { type: "checkbox" });
 	i.checked = t.on, r.append(t.said), i.addEventListener("change", () => t.act(i.checked));
 }
-function gt(e, t, n, r, i) {
+function vt(e, t, n, r, i) {
 	for (let a of n) {
-		let [n, o] = mt[a];
-		ht(e, {
+		let [n, o] = gt[a];
+		_t(e, {
 			said: n,
 			title: o,
-			on: t.shown[a] ?? He(a, r),
+			on: t.shown[a] ?? We(a, r),
 			act: (e) => (t.shown[a] = e, i())
 		});
 	}
 }
-function _t(e, t, r, i, a) {
+function yt(e, t, r, i, a) {
 	let o = n("span", e, {
 		class: "group",
 		role: "group",
@@ -1957,7 +1964,7 @@ function _t(e, t, r, i, a) {
 	u();
 }
 // src/tools.ts
-var vt = class {
+var bt = class {
 	b;
 	data;
 	kernel;
@@ -1977,7 +1984,7 @@ var vt = class {
 		return {
 			k: i,
 			size: r,
-			where: t.count > 1 ? ` at ${yt(this.data, t, i)}` : ""
+			where: t.count > 1 ? ` at ${xt(this.data, t, i)}` : ""
 		};
 	}
 	update(e) {
@@ -1993,7 +2000,7 @@ var vt = class {
 			t.set([r, i], [r + 14 * a / l, i - 14 * o / l], .5);
 		});
 	}
-}, yt = (e, t, n) => e.drives.map((e) => `${e.name} = ${i(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), bt = class {
+}, xt = (e, t, n) => e.drives.map((e) => `${e.name} = ${i(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), St = class {
 	b;
 	kernel;
 	places;
@@ -2033,7 +2040,7 @@ var vt = class {
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, xt = class {
+}, Ct = class {
 	kernel;
 	gate;
 	past = [];
@@ -2053,29 +2060,29 @@ var vt = class {
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function St(e, t) {
+function wt(e, t) {
 	let n = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]), r = n.length ? t.motion.assembly() : [];
 	return Object.fromEntries([...n, ...r.map((t, n) => [e.sketch.assembly[n], t])]);
 }
-function Ct(e, t, n) {
+function Tt(e, t, n) {
 	let r = new URLSearchParams({ t: String(+n.t.toFixed(4)) });
-	for (let [e, t] of Be(n)) r.set(e, t);
-	for (let [n, i] of Object.entries(St(e, t))) r.set(n, String(i));
+	for (let [e, t] of He(n)) r.set(e, t);
+	for (let [n, i] of Object.entries(wt(e, t))) r.set(n, String(i));
 	return r.toString();
 }
-function wt(e, t, n, r) {
+function Et(e, t, n, r) {
 	let i = new Map(new URLSearchParams(r.replace(/^#/, ""))), a = {};
-	Ve(n, i);
+	Ue(n, i);
 	for (let [e, t] of i) e !== "t" && !e.startsWith("~") && (a[e] = t.trim() ? Number(t) : NaN);
 	t.change(a);
 	let o = Number(i.get("t") ?? 0);
 	n.t = Number.isFinite(o) ? Math.min(Math.max(o, 0), e.end) : 0;
 }
-function Tt(e, t) {
+function Dt(e, t) {
 	let n = [...t.values, ...t.motion.assembly()], r = e.numbers.map((e, n) => e.value !== t.values[n]), i = r.includes(!0);
 	return e.template.map((e) => typeof e == "string" ? e : e.was !== void 0 && !e.of?.some((e) => r[e] ?? i) ? e.was : e.now.map((e) => typeof e == "string" ? e : String(n[e[0]] / e[1])).join("")).join("");
 }
-function Et(e, t) {
+function Ot(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind]
@@ -2094,7 +2101,7 @@ function Et(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function Dt(n, r) {
+function kt(n, r) {
 	let i = n.cloneNode(!0), { width: a, height: o } = n.viewBox.baseVal;
 	i.querySelectorAll(".handles, .overlay").forEach((e) => e.remove()), e(i, {
 		xmlns: "http://www.w3.org/2000/svg",
@@ -2105,13 +2112,13 @@ function Dt(n, r) {
 	let s = t("style", null);
 	return s.textContent = r, i.prepend(s), new XMLSerializer().serializeToString(i);
 }
-var Ot = 300 / 25.4;
-async function kt(e, t) {
-	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Dt(e, t)], { type: "image/svg+xml" }));
+var At = 300 / 25.4;
+async function jt(e, t) {
+	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([kt(e, t)], { type: "image/svg+xml" }));
 	try {
 		i.src = a, await i.decode();
 		let e = document.createElement("canvas"), t = e.getContext("2d");
-		return [e.width, e.height] = [Math.round(n * Ot), Math.round(r * Ot)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
+		return [e.width, e.height] = [Math.round(n * At), Math.round(r * At)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
 	} finally {
 		URL.revokeObjectURL(a);
 	}
@@ -2120,7 +2127,7 @@ function X(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var At = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", jt = class {
+var Mt = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", Nt = class {
 	data;
 	program;
 	here;
@@ -2162,13 +2169,13 @@ var At = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g,
 	largest(e) {
 		return e(0);
 	}
-}, Mt = .02, Nt = 2, Pt = 500;
-async function Ft(o, c, l, u) {
+}, Pt = .02, Ft = 2, It = 500;
+async function Lt(o, c, l, u) {
 	let [d, f] = await Promise.all([U.create(c.sketch.closure, 1), U.create(c.shown, 1)]), m = c.sketch, h = {
 		point: Float64Array.from(m.pose.point),
 		rotation: Float64Array.from(m.pose.rotation),
 		turn: Float64Array.from(m.pose.turn)
-	}, v = new jt(c, f), y = new ge(m, d, ee(m, h, u.pose ?? {})), b = [], x = new _(m.links, c.poses, v), S = [], C = [], w = null, T = [], E = "there", O = 0, k = y.pose;
+	}, v = new Nt(c, f), y = new ge(m, d, ee(m, h, u.pose ?? {})), b = [], x = new _(m.links, c.poses, v), S = [], C = [], w = null, T = [], E = "there", O = 0, k = y.pose;
 	v.show(y.pose);
 	let A = n("header", o);
 	n("h1", A, {}, c.title);
@@ -2190,7 +2197,7 @@ async function Ft(o, c, l, u) {
 	let F = n("section", n("main", o, { class: "one" }), {
 		class: "stage",
 		"aria-label": "sketch"
-	}), I = pt(F, v, c.views.mechanism, c.units, l, {
+	}), I = ht(F, v, c.views.mechanism, c.units, l, {
 		full: u.full,
 		on: u.on,
 		entries: ae,
@@ -2220,7 +2227,7 @@ async function Ft(o, c, l, u) {
 			}[t.key];
 			if (!n) return;
 			t.preventDefault(), t.stopPropagation();
-			let i = Nt * (t.shiftKey ? 5 : 1), a = L.paper.point(r);
+			let i = Ft * (t.shiftKey ? 5 : 1), a = L.paper.point(r);
 			q(() => {
 				let t = {
 					link: m.links.indexOf(e),
@@ -2250,14 +2257,14 @@ async function Ft(o, c, l, u) {
 		});
 	}
 	function W() {
-		let e = n("div", F, { class: "switches" }), t = At(c.title);
-		_t(e, I.view, l, !1, () => Y()), gt(e, l, ["names"], !1, () => Y());
+		let e = n("div", F, { class: "switches" }), t = Mt(c.title);
+		yt(e, I.view, l, !1, () => Y()), vt(e, l, ["names"], !1, () => Y());
 		let r = n("span", e, {
 			class: "group",
 			role: "group",
 			"aria-label": "save"
 		});
-		M(r, "Model file", "the file with the pose that is drawn", () => X(`${t}.yaml`, oe(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${t}.svg`, Dt(L.svg, c.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void kt(L.svg, c.style.light).then((e) => X(`${t}.png`, e, "image/png")));
+		M(r, "Model file", "the file with the pose that is drawn", () => X(`${t}.yaml`, oe(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${t}.svg`, kt(L.svg, c.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void jt(L.svg, c.style.light).then((e) => X(`${t}.png`, e, "image/png")));
 	}
 	function ae(e) {
 		return e.flatMap(({ kind: e, name: t }) => m.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
@@ -2270,7 +2277,7 @@ async function Ft(o, c, l, u) {
 			type: "offer",
 			offer: e
 		})) {
-			if (!e.page) return X(`${At(c.title)}.yaml`, e.text, "text/yaml");
+			if (!e.page) return X(`${Mt(c.title)}.yaml`, e.text, "text/yaml");
 			await u.taken(JSON.parse(new TextDecoder().decode(await re(e.page))), K());
 		}
 	}
@@ -2289,12 +2296,12 @@ async function Ft(o, c, l, u) {
 			y.pose.turn[t]
 		]]));
 	}
-	let le = () => Mt * L.paper.perMm / m.length;
+	let le = () => Pt * L.paper.perMm / m.length;
 	function q(e) {
 		k = y.pose, e(), ue();
 	}
 	function ue() {
-		k !== y.pose && (S.push(k), S.length > Pt && S.shift(), C.length = 0), u.on?.({
+		k !== y.pose && (S.push(k), S.length > It && S.shift(), C.length = 0), u.on?.({
 			type: "pose",
 			pose: K(),
 			closed: y.closed
@@ -2391,21 +2398,21 @@ function $(e) {
 	let t = e.includes("'") && !e.includes("\"") ? "\"" : "'", n = t + e.replace(/\\/g, "\\\\") + t;
 	return n.length <= 60 ? n : n.slice(0, 57) + "...";
 }
-var It = {
+var Rt = {
 	"²": "^2",
 	"³": "^3",
 	"·": "*",
 	"⋅": "*",
 	"×": "*",
 	"−": "-"
-}, Lt = class {
+}, zt = class {
 	text;
 	reading;
 	units;
 	tokens;
 	constructor(e, t, n) {
 		this.text = e, this.reading = t, this.units = n;
-		let r = e.replace(/[²³·⋅×−]/g, (e) => It[e]).replaceAll("**", "^");
+		let r = e.replace(/[²³·⋅×−]/g, (e) => Rt[e]).replaceAll("**", "^");
 		r = r.replace(/\b(ft|in)-lb\b/g, "$1*lbf").replace(/\blb-(ft|in)\b/g, "lbf*$1").replace(/(?<=[a-zµμ])[-.](?=[a-zµμ])/gi, "*"), this.tokens = r.match(/\d+|[a-zµμ_]+|[°%]|[-*/^()]|\S/gi) ?? [];
 	}
 	read() {
@@ -2468,7 +2475,7 @@ var It = {
 		};
 	}
 };
-function Rt(e, t, n) {
+function Bt(e, t, n) {
 	let { kinds: r, sentences: i } = n, a = r[t.kind] ?? r.number, o = e.trim(), s = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/is.exec(o.replaceAll("−", "-")), c = {
 		text: $(o),
 		phrase: a.phrase,
@@ -2488,9 +2495,9 @@ function Rt(e, t, n) {
 	if (/^[\d/]/.test(d) && !/^1\/[^\W\d]/.test(d)) return l(i.several);
 	let f = (e) => Number.isFinite(e) ? e : l(i.finite);
 	if (!d || d === t.unit) return f(+u * t.size);
-	let p = new Lt(d, n, a.units).read(), m = [...p.dimension];
+	let p = new zt(d, n, a.units).read(), m = [...p.dimension];
 	if (a.per_radian && m[3] === 0 && (m[3] = a.dimension[3]), m.some((e, t) => e !== a.dimension[t])) {
-		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? zt(p.dimension);
+		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? Vt(p.dimension);
 		if (/\blb\b/.test(d) && a.force) return l(i.dimension, {
 			given: e,
 			remedy: Q(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
@@ -2503,7 +2510,7 @@ function Rt(e, t, n) {
 	}
 	return f(+u * p.up / p.down);
 }
-function zt(e) {
+function Vt(e) {
 	return `in ${[
 		"m",
 		"kg",
@@ -2512,7 +2519,7 @@ function zt(e) {
 	].flatMap((t, n) => e[n] ? [t + (e[n] === 1 ? "" : `^${e[n]}`)] : []).join("*")}`;
 }
 // src/gate.ts
-var Bt = class {
+var Ht = class {
 	data;
 	kernel;
 	sentence = "";
@@ -2524,7 +2531,7 @@ var Bt = class {
 	type(e, t) {
 		let n = this.data.numbers[e];
 		try {
-			let r = Rt(t, n, this.data.reading);
+			let r = Bt(t, n, this.data.reading);
 			this.check(n, r, $(t.trim())), this.kernel.values[e] = r;
 		} catch (e) {
 			if (!(e instanceof Z)) throw e;
@@ -2585,12 +2592,12 @@ var Bt = class {
 	}
 };
 // src/handles.ts
-function Vt(e, n, r, i) {
-	let a = t("g", e.svg, { class: "handles" }), o = n.handles.map((t) => Wt(a, e, t, r, i));
+function Ut(e, n, r, i) {
+	let a = t("g", e.svg, { class: "handles" }), o = n.handles.map((t) => Kt(a, e, t, r, i));
 	return () => r.finite && o.forEach((e) => e());
 }
-var Ht = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function Ut(e, t, n, r, [i, a]) {
+var Wt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function Gt(e, t, n, r, [i, a]) {
 	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
 		e.other(c, s);
 		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
@@ -2618,7 +2625,7 @@ function Ut(e, t, n, r, [i, a]) {
 		}
 	}
 }
-function Wt(n, i, a, o, c) {
+function Kt(n, i, a, o, c) {
 	let l = `${{
 		joint: "joint",
 		point: "point",
@@ -2653,11 +2660,11 @@ function Wt(n, i, a, o, c) {
 			!0
 		], v = "about" in a && a.about ? p(a.about) : [];
 	}, C = (e) => d.vector([e[0] - g[0], e[1] - g[1]]), w = (e) => {
-		if ("by" in a && a.by) Ut(o, d, a.p, a.by, d.metres(e));
+		if ("by" in a && a.by) Gt(o, d, a.p, a.by, d.metres(e));
 		else if ("ends" in a) E(a.ends, T(C(e)));
 		else if (a.kind === "direction") {
-			let t = d.point(a.p), n = [e[0] - t[0], t[1] - e[1]], [r, i] = m[0].axes.map((e) => Ht(e, n));
-			f[a.direction] = Gt(Math.atan2(i, r), f[a.direction]);
+			let t = d.point(a.p), n = [e[0] - t[0], t[1] - e[1]], [r, i] = m[0].axes.map((e) => Wt(e, n));
+			f[a.direction] = qt(Math.atan2(i, r), f[a.direction]);
 		} else D(a, C(e).map((e, t) => _[t] + e / d.perMm * i.force()));
 		c.changed();
 	}, T = (e) => {
@@ -2666,12 +2673,12 @@ function Wt(n, i, a, o, c) {
 		return r.map((e, n) => t[n] + i * e - h[n]);
 	}, E = (e, t) => e.forEach((e, n) => {
 		let r = h.map((e, r) => e + t[r] - m[n].at[r]);
-		e.n.forEach((e, t) => f[e] = Ht(m[n].axes[t], r));
+		e.n.forEach((e, t) => f[e] = Wt(m[n].axes[t], r));
 	}), D = (e, t) => {
-		let n = m[0].axes.map((e) => Ht(e, t));
+		let n = m[0].axes.map((e) => Wt(e, t));
 		if (e.components) return e.components.forEach((e, t) => f[e] = n[t]);
 		let r = Math.sign(f[e.size]) || 1;
-		e.direction === void 0 ? f[e.size] = r * Ht(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = Gt(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
+		e.direction === void 0 ? f[e.size] = r * Wt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = qt(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
 	}, O = () => {
 		b && c.finished(), b = !1;
 	};
@@ -2704,7 +2711,7 @@ function Wt(n, i, a, o, c) {
 		});
 	};
 }
-var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1, qt = 1e60, Jt = class {
+var qt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Jt = 1, Yt = 1e60, Xt = class {
 	table;
 	breaks;
 	pieces;
@@ -2721,7 +2728,7 @@ var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, Yt = class e {
+}, Zt = class e {
 	data;
 	whole;
 	one;
@@ -2749,7 +2756,7 @@ var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1
 	constructor(e, t, n, r, i, a) {
 		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, H(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
 			values: H(e.values),
-			pieces: e.table && new Jt(e.table),
+			pieces: e.table && new Xt(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}]));
 		let o = /* @__PURE__ */ new Set([...e.sketch.branches, ...e.sketch.known]);
@@ -2802,11 +2809,11 @@ var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1
 	cycle() {
 		this.motion.update(), this.closes(), this.side >= 0 && this.bothSides();
 		let e = this.rows.length - this.row;
-		for (let t = 0; t < this.count; t++) this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], (e) => this.rows[e * this.row + t]) : Kt, this.good[t] = +this.numbered(this.markAt(t));
+		for (let t = 0; t < this.count; t++) this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], (e) => this.rows[e * this.row + t]) : Jt, this.good[t] = +this.numbered(this.markAt(t));
 	}
 	closes() {
 		for (let { name: e, channel: t } of this.followed) this.whole.path.set(this.channels.get(e).values, t * this.row);
-		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== Kt));
+		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== Jt));
 	}
 	bothSides() {
 		let { path: e, out: t } = this.whole, n = this.side * this.row, r = t.slice();
@@ -2818,8 +2825,8 @@ var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1
 		return e === t ? this.numbered(e) && !this.here.every((e, t) => t === this.here.length - 1 || n(t)) && e === 0 ? this.marked("reversal") : e : this.numbered(e) ? t : e;
 	}
 	judged(e, t) {
-		if (e === Kt || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
-		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > qt);
+		if (e === Jt || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
+		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > Yt);
 		for (let e = 0; n && e < this.here.length - 1; e++) if (!Number.isFinite(t(e))) return this.marked("overflow");
 		return e;
 	}
@@ -2827,7 +2834,7 @@ var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1
 		return this.data.statuses.findIndex((t) => t.status === e);
 	}
 	closesAt(e) {
-		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== Kt;
+		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== Jt;
 	}
 	posed(e) {
 		return this.data.sketch.poses.map((t) => t.map((t) => this.value(t, e)));
@@ -2843,7 +2850,7 @@ var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1
 		this.run(e, t, t ? this.motion.read(t, e) : this.motion.otherwise);
 		for (let e = 0; e < n.length; e++) [n[e], this.hereAfter[e]] = [this.one.at(e), this.one.at(e, 1)];
 		let r = n.length - 1, i = this.side >= 0 ? this.between(n[r], this.hereAfter[r], (e) => n[e] === this.hereAfter[e]) : n[r];
-		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = Kt), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
+		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = Jt), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
 	}
 	stretch(e, t) {
 		let { sketch: n } = this.data, r = this.motion.look(e, t, this.motion.otherwise), i = n.branches.length + n.known.length;
@@ -2916,7 +2923,7 @@ var Gt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Kt = 1
 	}
 };
 // src/panels.ts
-function Xt(e, t, r, i, a) {
+function Qt(e, t, r, i, a) {
 	let o = [], s = /* @__PURE__ */ new Map(), c = (t) => {
 		let r = s.get(t);
 		if (!r) {
@@ -2929,7 +2936,7 @@ function Xt(e, t, r, i, a) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n: t } of l) {
-		let [s, l] = e.parameter ? ["Parameters", e.label] : Zt(e.label), f = n("label", c(s), { title: e.about ?? e.path });
+		let [s, l] = e.parameter ? ["Parameters", e.label] : $t(e.label), f = n("label", c(s), { title: e.about ?? e.path });
 		n("span", f, {}, l);
 		let p = n("input", f, {
 			type: "text",
@@ -2957,7 +2964,7 @@ function Xt(e, t, r, i, a) {
 		}), p.addEventListener("keydown", (e) => {
 			e.key === "Escape" && (g(""), p.value = u(h), p.blur());
 		}), e.parameter) {
-			let [i, o] = e.range ?? Qt(e.value), s = n("input", f, {
+			let [i, o] = e.range ?? en(e.value), s = n("input", f, {
 				type: "range",
 				min: i / e.size,
 				max: o / e.size,
@@ -2981,15 +2988,15 @@ function Xt(e, t, r, i, a) {
 		focus: (e) => o.find((t) => t.field.path === e)?.box.focus()
 	};
 }
-function Zt(e) {
+function $t(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function Qt(e) {
+function en(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function $t(e, t, r) {
+function tn(e, t, r) {
 	let a = n("tbody", n("table", e, { class: "answers" })), o = t.views.table.map((e) => {
 		let r = n("tr", a), i = t.units[e.kind];
 		return n("th", r, { scope: "row" }, l(e.name)), {
@@ -3005,7 +3012,7 @@ function $t(e, t, r) {
 		}
 	} };
 }
-function en(e, t, r, a) {
+function nn(e, t, r, a) {
 	let { terms: o, about: s } = a.equations, { force: c, moment: u } = t.units, d = o[0]?.f.length ?? 2, f = [
 		"x",
 		"y",
@@ -3045,15 +3052,15 @@ function en(e, t, r, a) {
 		}
 	} };
 }
-function tn(e, t) {
+function rn(e, t) {
 	n("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
 	let r = n("dl", e);
 	for (let [e, i] of Object.entries(t.assumptions)) n("dt", r, {}, e), n("dd", r, {}, i);
 	t.source && n("p", e, {}, `Source: ${t.source}`), n("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/charts.ts
-var nn = 16, rn = 5, an = 8, on = 4;
-function sn(e, t) {
+var an = 16, on = 5, sn = 8, cn = 4;
+function ln(e, t) {
 	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
 	return r * ([
 		1,
@@ -3062,7 +3069,7 @@ function sn(e, t) {
 		10
 	].find((e) => e * r >= n) ?? 10);
 }
-function cn(e, t) {
+function un(e, t) {
 	return [
 		1,
 		2,
@@ -3075,16 +3082,16 @@ function cn(e, t) {
 		90,
 		180,
 		360
-	].find((n) => n >= e / t) ?? 360 * sn(e / 360, t);
+	].find((n) => n >= e / t) ?? 360 * ln(e / 360, t);
 }
-function ln(e, t, n) {
+function dn(e, t, n) {
 	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
 	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
 }
-function un(a, o, l, u, d, p) {
+function fn(a, o, l, u, d, p) {
 	let m = n("figure", a, { class: "chart" }), h = o.units[u.kind];
 	n("figcaption", m, {}, `${u.title}, ${h.unit}`);
-	let g = o.views.charts.flatMap((e) => e.curves.map((e) => f(e.name, 3))), _ = Math.max(44, 13 + on * u.curves.length), v = et(m, p, _, u.title), y = _ - rn - an, b = -_ / 2 + rn, x = 0, S = 0, C = t("path", v, {
+	let g = o.views.charts.flatMap((e) => e.curves.map((e) => f(e.name, 3))), _ = Math.max(44, 13 + cn * u.curves.length), v = nt(m, p, _, u.title), y = _ - on - sn, b = -_ / 2 + on, x = 0, S = 0, C = t("path", v, {
 		class: "l-grid",
 		style: "fill:none"
 	}), w = t("path", v, {
@@ -3100,7 +3107,7 @@ function un(a, o, l, u, d, p) {
 		let r = t("text", v, {
 			class: `l-${e.role}-t key`,
 			"font-size": 3,
-			y: b + 3 + on * n,
+			y: b + 3 + cn * n,
 			tabindex: 0,
 			role: "button"
 		});
@@ -3115,7 +3122,7 @@ function un(a, o, l, u, d, p) {
 			let i = M(n, r), a = l.reverses(r) ? l.onceAfter(() => M(n, r)) : i;
 			e = Math.min(e, i, a), t = Math.max(t, i, a);
 		}
-		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), F = sn(t - e, 4), [e, t] = [Math.floor(e / F + 1e-9) * F, Math.ceil(t / F - 1e-9) * F], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
+		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), F = ln(t - e, 4), [e, t] = [Math.floor(e / F + 1e-9) * F, Math.ceil(t / F - 1e-9) * F], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
 	}
 	function z() {
 		let e = o.drives[0], n = (e, n, r, i) => t("text", T, {
@@ -3127,10 +3134,10 @@ function un(a, o, l, u, d, p) {
 		}).textContent = e;
 		T.replaceChildren();
 		let a = "";
-		for (let e of ln(N, P, F)) a += `M${S} ${r(L(e))}h${x}`, n(i(e, 5), S - 1.2, L(e) + .9, "end");
+		for (let e of dn(N, P, F)) a += `M${S} ${r(L(e))}h${x}`, n(i(e, 5), S - 1.2, L(e) + .9, "end");
 		if (e) {
 			let [t, o] = [0, k].map((t) => l.position(e.name, t) / e.size);
-			for (let s of ln(Math.min(t, o), Math.max(t, o), (e.unit === "°" ? cn : sn)(Math.abs(o - t), 6))) {
+			for (let s of dn(Math.min(t, o), Math.max(t, o), (e.unit === "°" ? un : ln)(Math.abs(o - t), 6))) {
 				let c = S + (s - t) / (o - t || 1) * x;
 				a += `M${r(c)} ${b}v${y}`, n(i(s, 5) + (e.unit === "°" ? "°" : ""), c, b + y + 3.4, "middle");
 			}
@@ -3139,7 +3146,7 @@ function un(a, o, l, u, d, p) {
 		C.setAttribute("d", a), w.setAttribute("d", `M${S} ${b}v${y}` + (N < 0 && P > 0 ? `M${S} ${r(L(0))}h${x}` : ""));
 	}
 	function B(e) {
-		p = e, [x, S] = [p - nn - Math.min(Math.max(...g) + 4, .3 * p), -p / 2 + nn], v.setAttribute("viewBox", `${-p / 2} ${-_ / 2} ${p} ${_}`), j.forEach((e) => e.setAttribute("x", r(S + x + 2))), N = NaN;
+		p = e, [x, S] = [p - an - Math.min(Math.max(...g) + 4, .3 * p), -p / 2 + an], v.setAttribute("viewBox", `${-p / 2} ${-_ / 2} ${p} ${_}`), j.forEach((e) => e.setAttribute("x", r(S + x + 2))), N = NaN;
 	}
 	B(p);
 	let ee = (e) => d.seek((s(v, e)[0] - S) / x * k);
@@ -3148,7 +3155,7 @@ function un(a, o, l, u, d, p) {
 	}), v.addEventListener("pointermove", (e) => e.buttons && v.hasPointerCapture(e.pointerId) && ee(e)), {
 		resize: B,
 		update(t) {
-			t && (R() && z(), E.forEach((e, t) => e.setAttribute("d", ke(l, (e) => [I(e), L(M(u.curves[t], e))]))));
+			t && (R() && z(), E.forEach((e, t) => e.setAttribute("d", je(l, (e) => [I(e), L(M(u.curves[t], e))]))));
 			let n = r(I(Math.min(d.time(), k)));
 			D.setAttribute("d", `M${n} ${b}v${y}`), u.curves.forEach((t, i) => {
 				let a = l.solved ? {
@@ -3163,8 +3170,8 @@ function un(a, o, l, u, d, p) {
 		}
 	};
 }
-function dn(e, r, a, o) {
-	let s = n("figure", e, { class: "polar" }), [c, l] = a.f, u = n("figcaption", s), d = et(s, 66, 66, `polar diagram of joint ${a.name}`);
+function pn(e, r, a, o) {
+	let s = n("figure", e, { class: "polar" }), [c, l] = a.f, u = n("figcaption", s), d = nt(s, 66, 66, `polar diagram of joint ${a.name}`);
 	t("path", d, {
 		class: "l-grid",
 		style: "fill:none",
@@ -3176,16 +3183,16 @@ function dn(e, r, a, o) {
 	}), p = new m(d, "joint-force", a.name), h = 1;
 	return { update(e) {
 		if (e) {
-			let e = Ge(r.largest((e) => Math.hypot(r.value(c, e), r.value(l, e))) / o.size);
-			h = e / 30 * o.size, f.setAttribute("d", ke(r, (e) => [r.value(c, e) / h, -r.value(l, e) / h], !0)), u.textContent = `Joint ${a.name}: circles of ${i(e / 2)} and ${i(e)} ${o.unit}`;
+			let e = qe(r.largest((e) => Math.hypot(r.value(c, e), r.value(l, e))) / o.size);
+			h = e / 30 * o.size, f.setAttribute("d", je(r, (e) => [r.value(c, e) / h, -r.value(l, e) / h], !0)), u.textContent = `Joint ${a.name}: circles of ${i(e / 2)} and ${i(e)} ${o.unit}`;
 		}
 		p.set([0, 0], r.solved ? [r.here[c] / h, -r.here[l] / h] : [0, 0]);
 	} };
 }
-function fn(e, r, i, o, s) {
+function mn(e, r, i, o, s) {
 	let c = n("figure", e, { class: "polygon" }), l = r.units.force;
 	n("figcaption", c, {}, o);
-	let u = et(c, 110, 80, o), d = t("g", u), f = /* @__PURE__ */ new Set(), p = s.map(({ sides: e }) => {
+	let u = nt(c, 110, 80, o), d = t("g", u), f = /* @__PURE__ */ new Set(), p = s.map(({ sides: e }) => {
 		let t = e.find((e) => e.kind === "joint" && f.has(e.of));
 		for (let t of e) t.kind === "joint" && f.add(t.of);
 		return {
@@ -3199,13 +3206,13 @@ function fn(e, r, i, o, s) {
 	}), h = t("path", u, {
 		class: "l-gap",
 		style: "fill:none"
-	}), g = new $e(u, !0);
+	}), g = new tt(u, !0);
 	return {
 		figure: c,
 		update() {
 			if (u.setAttribute("visibility", i.solved ? "visible" : "hidden"), !i.solved) return;
 			let e = i.here, t = /* @__PURE__ */ new Map(), n = [], r = [], o = p.flatMap(({ shared: i, drawn: a }) => {
-				let o = qe(n)?.y[1] ?? 0, s = t.get(i?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
+				let o = Ye(n)?.y[1] ?? 0, s = t.get(i?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
 				i && (s = c(i.f));
 				let u = a.map((e) => {
 					let r = s;
@@ -3216,10 +3223,10 @@ function fn(e, r, i, o, s) {
 					};
 				});
 				return r.push([l, s]), u;
-			}), s = qe(n) ?? {
+			}), s = Ye(n) ?? {
 				x: [0, 0],
 				y: [0, 0]
-			}, c = Ge(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / l.size) * l.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new xe([
+			}, c = qe(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / l.size) * l.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new xe([
 				-55,
 				-40,
 				55,
@@ -3240,34 +3247,34 @@ function fn(e, r, i, o, s) {
 	};
 }
 // src/results.ts
-var pn = 4.6, mn = (e) => Math.min(Math.max(e / pn, 72), 140), hn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
-function gn(e, t, r, i, a, o) {
+var hn = 4.6, gn = (e) => Math.min(Math.max(e / hn, 72), 140), _n = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
+function vn(e, t, r, i, a, o) {
 	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = r.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
-	for (let e of f ? s : []) u.push(un(f, t, r, e, i, 120));
+	for (let e of f ? s : []) u.push(fn(f, t, r, e, i, 120));
 	let p = r.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
 	if (f && p.length) {
 		n("h2", f, {}, "Polar diagrams");
 		for (let e of p) d.push({
 			box: f,
-			view: dn(f, r, e, t.units.force)
+			view: pn(f, r, e, t.units.force)
 		});
 	}
 	let m = e.add("Forces", "free bodies, their equations, and force polygons"), h = n("select", m, { "aria-label": "link" }), g = c.map((e, i) => {
 		n("option", h, { value: i }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let o = n("div", m, { class: "body" }), s = rt(o, r, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
+		let o = n("div", m, { class: "body" }), s = at(o, r, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
 		return d.push({
 			box: o,
 			view: s,
 			link: i
 		}, {
 			box: o,
-			view: en(o, t, r, e),
+			view: nn(o, t, r, e),
 			link: i
 		}), s;
 	});
 	if (l.links.length) {
 		l.links.forEach((e, n) => {
-			let i = fn(m, t, r, `Force polygon of link ${e.title}`, [e]);
+			let i = mn(m, t, r, `Force polygon of link ${e.title}`, [e]);
 			d.push({
 				box: i.figure,
 				view: i,
@@ -3277,13 +3284,13 @@ function gn(e, t, r, i, a, o) {
 		let e = l.chain.map((e) => l.links[e]);
 		d.push({
 			box: m,
-			view: fn(m, t, r, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
+			view: mn(m, t, r, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
 		});
 	}
 	let _ = e.add("Numbers", "the numbers of this position");
 	d.push({
 		box: _,
-		view: $t(_, t, r)
+		view: tn(_, t, r)
 	});
 	let v = () => void (a.body = c[+h.value]?.link ?? ""), y = (e) => {
 		let t = c.findIndex((t) => t.link === e);
@@ -3299,20 +3306,20 @@ function gn(e, t, r, i, a, o) {
 		bodies: g,
 		fit: b,
 		choose: y,
-		resize: (e) => u.forEach((t) => t.resize(mn(e))),
+		resize: (e) => u.forEach((t) => t.resize(gn(e))),
 		update(e) {
-			for (let t of u) hn(f) && t.update(e);
-			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && hn(t) && n.update(e);
+			for (let t of u) _n(f) && t.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && _n(t) && n.update(e);
 		}
 	};
 }
 // src/sentences.ts
-function _n(e, t = 6) {
+function yn(e, t = 6) {
 	if (!Number.isFinite(e)) return Number.isNaN(e) ? "nan" : e > 0 ? "inf" : "-inf";
 	let [n, r] = e.toExponential(t - 1).split("e"), i = +r, a = (e) => e.includes(".") ? e.replace(/\.?0+$/, "") : e;
 	return i < -4 || i >= t ? `${a(n)}e${i < 0 ? "-" : "+"}${String(Math.abs(i)).padStart(2, "0")}` : a(e.toFixed(Math.max(t - 1 - i, 0)));
 }
-var vn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, yn = class {
+var bn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, xn = class {
 	data;
 	kernel;
 	s;
@@ -3327,10 +3334,10 @@ var vn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		for (let { sentence: e, rows: t, error: n } of this.s.gears) {
 			let [r, i, a] = t.map((e) => this.kernel.here[e]), o = i + a;
 			if (Math.abs(r - o) > n * o) return Q(e, {
-				found: _n(r),
-				ri: _n(Math.abs(i)),
-				rj: _n(Math.abs(a)),
-				wanted: _n(o)
+				found: yn(r),
+				ri: yn(Math.abs(i)),
+				rj: yn(Math.abs(a)),
+				wanted: yn(o)
 			});
 		}
 		return "";
@@ -3384,11 +3391,11 @@ var vn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
 		return {
 			...i,
-			joints: e === "reversal" ? vn(l) : l.join(", "),
+			joints: e === "reversal" ? bn(l) : l.join(", "),
 			verb: d,
-			values: vn(u),
+			values: bn(u),
 			name: s[0] ?? "",
-			names: vn(s)
+			names: bn(s)
 		};
 	}
 	figures(e, t) {
@@ -3409,7 +3416,7 @@ var vn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	}
 	quantity(e, t, n = 6) {
 		let { unit: r, size: i } = this.s.units[t];
-		return `${_n(e / i, n)} ${r}`;
+		return `${yn(e / i, n)} ${r}`;
 	}
 	drive(e, t) {
 		return this.quantity(this.kernel.position(e.name, t), e.turns ? "angle" : "length");
@@ -3472,8 +3479,8 @@ var vn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		}
 		return r;
 	}
-}, bn = 0;
-function xn(e, t, r) {
+}, Sn = 0;
+function Cn(e, t, r) {
 	let i = n("div", e, {
 		class: "tabs",
 		role: "tablist",
@@ -3500,7 +3507,7 @@ function xn(e, t, r) {
 		t < 0 || r === void 0 || (e.preventDefault(), e.stopPropagation(), c(o[r].name, !0));
 	}), {
 		add(e, r = e) {
-			let l = `dalembert-tab-${++bn}`, u = n("button", i, {
+			let l = `dalembert-tab-${++Sn}`, u = n("button", i, {
 				type: "button",
 				role: "tab",
 				id: l,
@@ -3523,7 +3530,7 @@ function xn(e, t, r) {
 	};
 }
 // src/toolbar.ts
-function Sn(e, t, r, i, a, o) {
+function wn(e, t, r, i, a, o) {
 	let s = n("header", e);
 	n("h1", s, {}, t.title);
 	let c = n("div", s, {
@@ -3548,7 +3555,7 @@ function Sn(e, t, r, i, a, o) {
 		title: "speed of play; , and . step, with Shift by ten",
 		"aria-label": "speed of play"
 	});
-	for (let e of Re) n("option", p, { value: e }, `${e}×`);
+	for (let e of Be) n("option", p, { value: e }, `${e}×`);
 	p.value = String(a.speed), p.addEventListener("change", () => a.speed = +p.value);
 	let m = l("↶", "undo (Ctrl+Z)", () => o.go(!0)), h = l("↷", "redo (Ctrl+Y)", () => o.go(!1));
 	o.back && l("Back", "to the sketch, without the last thing added", o.back), l("Reset", "all numbers as in the file", o.reset);
@@ -3567,12 +3574,12 @@ function Sn(e, t, r, i, a, o) {
 		playing: (e) => u.textContent = e ? "❚❚" : "▶",
 		update(e, n, a) {
 			let o = [a, i.at(e)].filter(Boolean).join(" ");
-			g.textContent !== o && (g.textContent = o), d.value = String(e), f.textContent = yt(t, r, e), [m.disabled, h.disabled] = n.map((e) => !e);
+			g.textContent !== o && (g.textContent = o), d.value = String(e), f.textContent = xt(t, r, e), [m.disabled, h.disabled] = n.map((e) => !e);
 		}
 	};
 }
 // src/tracers.ts
-function Cn(n, i, a, o) {
+function Tn(n, i, a, o) {
 	let s = t("g", null, { class: "tracers" });
 	n.svg.querySelector("g").before(s);
 	let c = [];
@@ -3591,7 +3598,7 @@ function Cn(n, i, a, o) {
 					r: 1.1,
 					"data-item": `tracer:${u}`
 				})
-			}, (l || f) && c[u].line.setAttribute("d", ke(a, (e) => i.on(n.paper, d, o.u, e), !0));
+			}, (l || f) && c[u].line.setAttribute("d", je(a, (e) => i.on(n.paper, d, o.u, e), !0));
 			let [p, m] = n.paper.of(...n.paper.project(i.place(d, o.u)));
 			e(c[u].dot, {
 				cx: r(p),
@@ -3601,18 +3608,18 @@ function Cn(n, i, a, o) {
 	};
 }
 // src/solved.ts
-var wn = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Tn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", En = 6, Dn = 10, On = 8;
-async function kn(e, t, r, a) {
-	let o = await Yt.create(t), s = [], c = new Bt(t, o);
-	a.changes && c.change(a.changes), a.address && wt(o, c, r, location.hash);
+var En = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Dn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", On = 6, kn = 10, An = 8, jn = 4;
+async function Mn(e, t, r, a) {
+	let o = await Zt.create(t), s = [], c = new Ht(t, o);
+	a.changes && c.change(a.changes), a.address && Et(o, c, r, location.hash);
 	let u = a.pose && o.motion.take(a.pose);
 	u != null && (r.t = u), r.t = Math.min(Math.max(r.t, 0), o.end);
 	let d = 0, f = !0, p = 0;
 	o.cycle();
-	let m = new xt(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
+	let m = new Ct(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
 		curve: n,
 		unit: t.units[e.kind]
-	}))), v = h.find((e) => e.curve.of === r.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], y = new yn(t, o), b = Sn(e, t, o, y, r, {
+	}))), v = h.find((e) => e.curve.of === r.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], y = new xn(t, o), b = wn(e, t, o, y, r, {
 		play: q,
 		show: K,
 		go: ae,
@@ -3621,7 +3628,7 @@ async function kn(e, t, r, a) {
 	}), x = n("main", e), S = n("section", x, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), C = new _(t.sketch.links, t.sketch.poses, o), w = pt(S, o, t.views.mechanism, t.units, r, {
+	}), C = new _(t.sketch.links, t.sketch.poses, o), w = ht(S, o, t.views.mechanism, t.units, r, {
 		full: a.full,
 		rates: t.views.rates,
 		on: a.on,
@@ -3632,7 +3639,7 @@ async function kn(e, t, r, a) {
 	}), { m: T, paper: E } = w, D = n("output", E, {
 		class: "digits",
 		"aria-label": "value of the chosen curve"
-	}), O = new vt(T, t, o), k = Cn(T, C, o, r), A = new bt(E, T, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), j = Vt(T, t, o, {
+	}), O = new bt(T, t, o), k = Tn(T, C, o, r), A = new St(E, T, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), j = Ut(T, t, o, {
 		changed: U,
 		finished: ie
 	});
@@ -3643,16 +3650,16 @@ async function kn(e, t, r, a) {
 	let M = g(T, t, o), N = n("section", x, {
 		class: "side",
 		"aria-label": "results"
-	}), P = xn(N, r, () => J(!0)), F = (e) => (v = h.find((t) => t.curve === e), r.curve = e.of, J(!0)), I = gn(P, t, o, {
+	}), P = Cn(N, r, () => J(!0)), F = (e) => (v = h.find((t) => t.curve === e), r.curve = e.of, J(!0)), I = vn(P, t, o, {
 		time: () => r.t,
 		seek: K,
 		pick: F,
 		picked: () => v?.curve
-	}, r, () => J(!0)), L = z(), R = Xt(P.add("Change", "every number of the file"), t, o, c, (e) => e ? ie() : U());
-	V(), tn(P.add("About", "method and assumptions"), t);
+	}, r, () => J(!0)), L = z(), R = Qt(P.add("Change", "every number of the file"), t, o, c, (e) => e ? ie() : U());
+	V(), rn(P.add("About", "method and assumptions"), t);
 	function z() {
 		let e = n("div", S, { class: "switches" }), { arrows: i, labels: a } = t.views.mechanism;
-		_t(e, w.view, r, o.count > 1, () => J(!0));
+		yt(e, w.view, r, o.count > 1, () => J(!0));
 		let s = (e) => i.some((t) => e.includes(t.kind)), c = t.views.rates.length > 0, l = [
 			["values", !0],
 			["digits", h.length > 0],
@@ -3670,12 +3677,12 @@ async function kn(e, t, r, a) {
 			["names", !0],
 			["traces", t.views.mechanism.items.some((e) => e.t === "trace")]
 		];
-		return t.gradient && ht(e, {
+		return t.gradient && _t(e, {
 			said: "what lowers the peak",
 			title: "arrows: moving a joint in this direction lowers the peak of the chosen curve",
 			on: !1,
 			act: (e) => (O.on = e, J(!0))
-		}), gt(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > On, () => (H(), J(!0))), t.handles.some((e) => e.kind === "joint") && ht(e, {
+		}), vt(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > An, () => (H(), J(!0))), t.handles.some((e) => e.kind === "joint") && _t(e, {
 			said: "tolerances",
 			title: "a thousand machines with points displaced by up to 0.5 % of the drawing's width",
 			on: !1,
@@ -3691,7 +3698,7 @@ async function kn(e, t, r, a) {
 	}
 	function te(e, n) {
 		let i = [], a = /* @__PURE__ */ new Set();
-		for (let s of e) {
+		for (let s of e.slice(0, jn)) {
 			let { kind: e, name: c } = s, u = se(t, `${e}:${c}`), d = u < 0 ? void 0 : t.sketch.links[u], f = e === "joint" || e === "reaction" ? h.find((e) => e.curve.of === `reaction.${c}.magnitude`) : h.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
 			f && i.push({
 				said: `Curve of ${l(f.curve.name)}`,
@@ -3720,26 +3727,26 @@ async function kn(e, t, r, a) {
 		return r.window && i.push({
 			said: "Fit the whole mechanism",
 			act: w.view.fit
-		}), i;
+		}), i.filter((e, t) => i.findIndex((t) => t.said === e.said) === t);
 	}
 	function ne(e) {
 		e && e.kind !== "joint" && I.choose(B(e)), J(!0);
 	}
 	function V() {
-		let e = P.add("Save", "files to save, print, share"), i = At(t.title), s = (t, r) => n("button", e, { type: "button" }, t).addEventListener("click", r);
-		s("Model file", () => X(`${i}.yaml`, Tt(t, o), "text/yaml")), s("Curves as CSV", () => X(`${i}.csv`, Et(t, o), "text/csv")), s("Drawing as SVG", () => X(`${i}.svg`, Dt(T.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void kt(T.svg, t.style.light).then((e) => X(`${i}.png`, e, "image/png"))), s("Print", () => window.print()), a.address && s("Copy link", () => {
-			location.hash = Ct(t, o, r), navigator.clipboard?.writeText(location.href);
+		let e = P.add("Save", "files to save, print, share"), i = Mt(t.title), s = (t, r) => n("button", e, { type: "button" }, t).addEventListener("click", r);
+		s("Model file", () => X(`${i}.yaml`, Dt(t, o), "text/yaml")), s("Curves as CSV", () => X(`${i}.csv`, Ot(t, o), "text/csv")), s("Drawing as SVG", () => X(`${i}.svg`, kt(T.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void jt(T.svg, t.style.light).then((e) => X(`${i}.png`, e, "image/png"))), s("Print", () => window.print()), a.address && s("Copy link", () => {
+			location.hash = Tt(t, o, r), navigator.clipboard?.writeText(location.href);
 		});
 	}
 	function H() {
-		a.address && window.history.replaceState(null, "", "#" + Ct(t, o, r)), a.on?.({
+		a.address && window.history.replaceState(null, "", "#" + Tt(t, o, r)), a.on?.({
 			type: "view",
 			view: r
 		});
 	}
 	function re() {
 		J(!0), R.update();
-		let e = St(t, o);
+		let e = wt(t, o);
 		a.edited?.(e), a.on?.({
 			type: "change",
 			changes: e
@@ -3776,7 +3783,7 @@ async function kn(e, t, r, a) {
 	function q() {
 		if (b.playing(!p), p) return ue();
 		let e = performance.now(), t = r.t, n = (i) => {
-			t += (i - e) / 1e3 / En * r.speed * o.end, e = i, t >= o.end && (t = 0), K(t), p = requestAnimationFrame(n);
+			t += (i - e) / 1e3 / On * r.speed * o.end, e = i, t >= o.end && (t = 0), K(t), p = requestAnimationFrame(n);
 		};
 		p = requestAnimationFrame(n);
 	}
@@ -3803,10 +3810,10 @@ async function kn(e, t, r, a) {
 	Y.addEventListener("keydown", fe);
 	function pe(e) {
 		let t = e.target;
-		if (!(e.defaultPrevented || t.closest?.(wn))) {
+		if (!(e.defaultPrevented || t.closest?.(En))) {
 			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), ae(e.key.toLowerCase() === "z" && !e.shiftKey);
 			else if (e.ctrlKey || e.metaKey || e.altKey || o.count < 2) return;
-			else e.key === " " && !t.closest?.(Tn) ? (e.preventDefault(), q()) : ".,><:;".includes(e.key) && ce((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Dn));
+			else e.key === " " && !t.closest?.(Dn) ? (e.preventDefault(), q()) : ".,><:;".includes(e.key) && ce((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : kn));
 		}
 	}
 	return o.at(r.t), G(), {
@@ -3821,7 +3828,7 @@ async function kn(e, t, r, a) {
 		set(e) {
 			c.change(e), m.note(), G(!0), J(!0), R.update();
 		},
-		text: () => Tt(t, o),
+		text: () => Dt(t, o),
 		pose: () => o.motion.placed(),
 		redraw: () => J(!0),
 		observed: [E, N],
@@ -3832,18 +3839,18 @@ async function kn(e, t, r, a) {
 	};
 }
 // src/page.ts
-async function An(e, t, r = {}) {
-	let i = r.view ?? ze(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, r);
+async function Nn(e, t, r = {}) {
+	let i = r.view ?? Ve(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, r);
 	async function c(t, s) {
 		let c = document.createElement("div");
 		c.className = r.full ? "dalembert full" : "dalembert", c.tabIndex = -1;
 		let f = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
-		n("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{-webkit-user-select:none;user-select:none;flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert main.one{flex-direction:column;display:flex}.dalembert main.one .stage{flex:1}.dalembert.full main.one .paper{aspect-ratio:auto;min-height:20em;max-height:none}.dalembert .missing{flex-wrap:wrap;gap:.3em;padding:.1em 0 .4em;display:flex}.dalembert .missing p{color:var(--warn);flex-basis:100%;margin:0;font-size:.92em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);padding:.25em;display:flex;position:fixed;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + t.style.light + f;
-		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Ft(c, t, i, {
+		n("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{-webkit-user-select:none;user-select:none;flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert main.one{flex-direction:column;display:flex}.dalembert main.one .stage{flex:1}.dalembert.full main.one .paper{aspect-ratio:auto;min-height:20em;max-height:none}.dalembert .missing{flex-wrap:wrap;gap:.3em;padding:.1em 0 .4em;display:flex}.dalembert .missing p{color:var(--warn);flex-basis:100%;margin:0;font-size:.92em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);max-height:calc(100vh - 8px);padding:.25em;display:flex;position:fixed;overflow-y:auto;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + t.style.light + f;
+		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Lt(c, t, i, {
 			...s,
 			taken: l,
 			back: p
-		}) : t.format === "dalembert-page/1" ? await kn(c, t, i, {
+		}) : t.format === "dalembert-page/1" ? await Mn(c, t, i, {
 			...s,
 			back: p
 		}) : null;
@@ -3918,9 +3925,9 @@ async function An(e, t, r = {}) {
 	};
 }
 // src/main.ts
-async function jn(e, t) {
+async function Pn(e, t) {
 	try {
-		return await An(e, JSON.parse(new TextDecoder().decode(await re(t))), {
+		return await Nn(e, JSON.parse(new TextDecoder().decode(await re(t))), {
 			address: location.protocol !== "about:",
 			full: !0
 		});
@@ -3928,11 +3935,11 @@ async function jn(e, t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var Mn = { async render({ model: e, el: t }) {
-	let r = "", i = ze(), a = (t) => {
+var Fn = { async render({ model: e, el: t }) {
+	let r = "", i = Ve(), a = (t) => {
 		r = JSON.stringify(t), e.set("changes", t), e.save_changes();
 	}, o = async () => {
-		let r = await An(t, e.get("data"), {
+		let r = await Nn(t, e.get("data"), {
 			edited: a,
 			changes: e.get("changes"),
 			view: i
@@ -3945,4 +3952,4 @@ var Mn = { async render({ model: e, el: t }) {
 		e.off("change:data", c), e.off("change:changes", l), s.remove();
 	};
 } };
-export { Mn as default, An as mount, jn as open };
+export { Fn as default, Nn as mount, Pn as open };
