@@ -58,6 +58,8 @@ FILE_FORMATS: dict[str, FileFormat] = {
     ".mjcf": FileFormat("MJCF (MuJoCo)", "robots.mjcf_loops:read_mjcf", "robots.mjcf_writer:write_mjcf"),
     ".sdf": FileFormat("SDFormat", "robots.sdf_reader:read_sdf", "robots.sdf_writer:write_sdf"),
     ".urdf": FileFormat("URDF", "robots.urdf_reader:read_urdf", "robots.urdf_writer:write_urdf"),
+    ".fmu": FileFormat("FMI 2.0", "", "targets.source_fmu:write_fmu"),
+    ".zip": FileFormat("C and WebAssembly", "", "targets.source_archive:write_sources"),
 }
 """Suffix -> format."""
 

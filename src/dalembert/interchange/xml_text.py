@@ -16,7 +16,7 @@ class XmlText:
         self.depth = 0
         self.open: list[str] = []
 
-    def add(self, tag: str, text: str = "", **attributes: object) -> None:
+    def add(self, tag: str, text: str = "", /, **attributes: object) -> None:
         """An element without parts; an attribute None is left out, and class_ is class."""
         head = self._head(tag, attributes)
         self._line(f"<{head}>{escape(text)}</{tag}>" if text else f"<{head}/>")

@@ -331,14 +331,16 @@ class Kernel:
         return c_source(self, name)
 
     def to_wasm(self, row: int | None = None) -> Any:
-        """`WasmModule`: self-contained WebAssembly for many positions: numbers, drives' quantities, outputs, status
-        codes.
-
-        row: largest number of positions of one call, default as many as the file has. Raises ModelError if reduced.
-        """
+        """`WasmModule` of up to ``row`` positions a call (default: the file's); raises ModelError if reduced."""
         from dalembert.analysis.batch.kernel_export import wasm_module
 
         return wasm_module(self, row)
+
+    def to_fmu(self, version: str = "2.0") -> bytes:
+        """Functional mock-up unit with C sources (FMI 2.0 or 3.0): numbers are parameters, drives inputs."""
+        from dalembert.interchange.targets.source_fmu import fmu_bytes
+
+        return fmu_bytes(self, version)
 
     def to_casadi(self, name: str = "mechanism") -> Any:
         """casadi Function of (values, inputs) with the outputs by name; raises ModelError without casadi."""
