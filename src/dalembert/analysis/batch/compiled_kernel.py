@@ -350,8 +350,7 @@ class Kernel:
 
     @cached_property
     def _deciding(self) -> Ints:
-        """Places of the numbers that decide which motion a design has: of `assembly`, and of the geometry where the
-        file's motion passes change points (a parallelogram passes them, its neighbours do not)."""
+        """Numbers that decide the branch: of `assembly`, and of the geometry where the motion passes change points."""
         flips = self.trace.catalogue.traced.flips
         return np.flatnonzero([chooses_motion(self.mechanism, path, flips) for path in self.numbers])
 
@@ -378,8 +377,7 @@ class Kernel:
         return {n: arrays[n] for n in shapes}, {n: arrays[f"gradient.{n}"] for n in slopes}
 
     def _settle(self, values: Array, course: PositionPath, sides: Sides, redo: bool) -> int:
-        """Uses the general executor where the kernel is not sure, and removes numbers where a design is not solved;
-        returns the number of designs it was used for."""
+        """Number of designs for which the general executor was used; numbers that are not solved are removed."""
         from dalembert.analysis.batch.careful_path import redone
 
         code, arrays, rates = sides.code, sides.arrays, sides.rates
