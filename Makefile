@@ -50,12 +50,12 @@ test-browser: $(VENV)/.test
 	@command -v chromium >/dev/null || { apt-get update -qq && apt-get install -y -qq chromium; }
 	@DALEMBERT_BROWSER=$$(command -v chromium) $(PYTEST) -m "not exhaustive" tests/browser $(PYTEST_ARGS)
 
-# The front end of the live pages: web/ to src/dalembert/pages/bundle; needs Node. check-web fails where they differ.
+# The front end of the live pages: web/ to the bundles of pages and studio; needs Node. check-web fails where they differ.
 web:
 	@cd web && npm ci --no-audit --no-fund --silent && npm run --silent build
 
 check-web: web
-	@git diff --exit-code --stat src/dalembert/pages/bundle
+	@git diff --exit-code --stat src/dalembert/pages/bundle src/dalembert/studio/bundle
 
 style: $(VENV)/.test
 	@$(BIN)/ruff check .

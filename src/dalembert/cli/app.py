@@ -43,6 +43,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         "documents.draw_command": ("draw",),
         "documents.report_command": ("report",),
         "page_command": ("page",),
+        "documents.studio_command": ("studio",),
         "wrench_command": ("wrench",),
     },
     "Create and check model files": {
@@ -73,6 +74,7 @@ FIELD_WORDS = {
     "cam": "cams follower valve",
     "simulate": "motion run",
     "solve": "analyse analyze statics kinematics dynamics forces",
+    "studio": "sketch editor mouse gui",
     "draw": "plot chart charts picture",
     "new": "template templates",
 }

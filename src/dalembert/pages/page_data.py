@@ -66,10 +66,10 @@ ALWAYS = (
 """Roles that the page itself draws."""
 
 
-def page_data(m: Mechanism, static: bool = False) -> Tree:
+def page_data(m: Mechanism, static: bool = False, slopes: bool = True) -> Tree:
     """The data of a page; raises ModelError for features of the analyses alone.
 
-    static: leave inertia out.
+    static: leave inertia out. slopes: with the derivatives that show what lowers a peak, half of the work.
     """
     m = with_cycle(m)
     inertia = m.has_speeds and not static
@@ -107,7 +107,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
         "assumptions": known.assumptions,
         "style": style(b.items.roles),
     }
-    gradient = _gradient(k, b, dragged, views["charts"])
+    gradient = _gradient(k, b, dragged, views["charts"]) if slopes else None
     if gradient is not None:
         data["gradient"] = gradient["fields"]
         channels = gradient["channels"]

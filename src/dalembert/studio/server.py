@@ -1,0 +1,214 @@
+"""The server of the studio: the page, and a socket for each tab. It listens on this machine only."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import socket
+import webbrowser
+from collections.abc import AsyncIterator
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from dalembert.arrays import Tree
+from dalembert.errors import DalembertError
+from dalembert.studio.access import HOST, LARGEST, TABS, Access, Rate
+from dalembert.studio.session import Session, read_message, sentence
+from dalembert.studio.solver import Solver
+from dalembert.studio.stored_file import StoredFile
+
+BUNDLE = Path(__file__).with_name("bundle")
+FILES = {"/": ("index.html", "text/html"), "/studio.js": ("studio.js", "text/javascript")}
+LOOK = 0.7
+"""Seconds between looks at the disk: what was typed is on disk within two."""
+REFUSED = 4403
+"""Code with which a socket is closed that may not speak."""
+
+
+class StudioServer:
+    """One session, its tabs and its solver."""
+
+    def __init__(self, session: Session, access: Access, solver: Solver | None = None) -> None:
+        self.session, self.access, self.solver = session, access, solver or Solver()
+        self.tabs: dict[WebSocket, int] = {}
+        self.changes = 0
+        self._wanted = asyncio.Event()
+
+    def app(self) -> Starlette:
+        """The application."""
+        routes = [
+            *(Route(path, self.page, methods=["GET"]) for path in FILES),
+            WebSocketRoute("/tab", self.tab),
+            Route("/{rest:path}", self.nothing),
+        ]
+        return Starlette(routes=routes, lifespan=self._lifespan)
+
+    async def page(self, request: Request) -> Response:
+        """The page and its script."""
+        refused = self.access.refused(request.headers)
+        if refused:
+            return PlainTextResponse(refused, 403, headers=self.access.headers())
+        name, kind = FILES[request.url.path]
+        return Response((BUNDLE / name).read_bytes(), media_type=kind, headers=self.access.headers())
+
+    async def nothing(self, request: Request) -> Response:
+        """Any other address."""
+        refused = self.access.refused(request.headers)
+        return PlainTextResponse(refused or "there is nothing here", 403 if refused else 404)
+
+    async def tab(self, ws: WebSocket) -> None:
+        """One tab, from its token to its end."""
+        refused = self.access.refused(ws.headers, socket=True)
+        if not refused and len(self.tabs) >= TABS:
+            refused = f"the studio is open in {TABS} tabs; close one"
+        await ws.accept()
+        try:
+            known = self.access.knows(await _token(ws))
+            if not refused and not known:
+                refused = "this address has no token, or an old one; open the one that the command printed"
+            if refused:
+                await ws.send_text(json.dumps({"refused": refused}))
+                await ws.close(REFUSED)
+                return
+            self.tabs[ws] = 0
+            await self._tell_all()
+            await self._listen(ws)
+        except (WebSocketDisconnect, RuntimeError):
+            pass  # the tab is closed
+        finally:
+            self.tabs.pop(ws, None)
+
+    async def _listen(self, ws: WebSocket) -> None:
+        rate = Rate()
+        while True:
+            text = await ws.receive_text()
+            if len(text) > LARGEST:
+                await self._send(ws, {"refused": f"a message has more than {LARGEST} characters"})
+                continue
+            if rate.too_fast():
+                await self._send(ws, {"refused": "too many messages; the studio takes 300 a second"})
+                await ws.close(REFUSED)
+                return
+            await self._message(ws, text)
+
+    async def _message(self, ws: WebSocket, text: str) -> None:
+        n: object = None
+        before = self.session.document.text, self.session.static, self.session.friction
+        try:
+            message = read_message(text)
+            n = message.get("n") if isinstance(message, dict) else None
+            if isinstance(message, dict) and message.get("ask") in ("check", "report", "page"):
+                answer = await asyncio.to_thread(self.solver.ask, self.session.question(message["ask"]))
+                await self._send(ws, {"n": n, "ask": message["ask"], **answer})
+                return
+            answer = self.session.handle(message)
+        except DalembertError as error:
+            await self._send(ws, {"n": n, "refused": sentence(error)})
+            await self._send(ws, self.session.state())
+            return
+        await self._send(ws, {"n": n, **answer})
+        if isinstance(message, dict) and not {"pull", "problems"} & set(message):
+            changed = before != (self.session.document.text, self.session.static, self.session.friction)
+            await self._tell_all(changed)
+
+    async def _tell_all(self, changed: bool = True) -> None:
+        state = self.session.state()
+        for ws in list(self.tabs):
+            await self._send(ws, state)
+        if changed:
+            self.changes += 1
+            self._wanted.set()
+
+    async def _send(self, ws: WebSocket, message: Tree) -> None:
+        with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+            await ws.send_text(json.dumps(message, separators=(",", ":"), default=float))
+
+    async def _solve(self) -> None:
+        """Forces of the latest text; those of overtaken ones are not sent."""
+        while True:
+            await self._wanted.wait()
+            self._wanted.clear()
+            asked, session = self.changes, self.session
+            reading = session.document.reading
+            if reading.error or reading.alone or reading.mechanism is None:
+                answer: Tree = {"missing": "" if reading.error else "Draw a link: press B and drag."}
+            else:
+                answer = await asyncio.to_thread(self.solver.ask, session.question("data"))
+                if "error" in answer:
+                    answer = {"missing": answer["error"], "path": answer["path"]}
+            if asked != self.changes:
+                continue
+            for ws in list(self.tabs):
+                await self._send(ws, {"hash": session.document.hash, **answer})
+
+    async def _look(self) -> None:
+        while True:
+            await asyncio.sleep(LOOK)
+            try:
+                told = self.session.look()
+            except DalembertError as error:
+                for ws in list(self.tabs):
+                    await self._send(ws, {"refused": sentence(error)})
+                continue
+            if told:
+                await self._tell_all()
+
+    @contextlib.asynccontextmanager
+    async def _lifespan(self, _: Any) -> AsyncIterator[None]:
+        tasks = [asyncio.create_task(self._solve()), asyncio.create_task(self._look())]
+        try:
+            yield
+        finally:
+            for task in tasks:
+                task.cancel()
+            with contextlib.suppress(DalembertError):
+                self.session.look()
+            self.solver.close()
+
+
+async def _token(ws: WebSocket) -> object:
+    """The first message, which has to come soon and be short."""
+    try:
+        text = await asyncio.wait_for(ws.receive_text(), 5.0)
+        return read_message(text[:1000]).get("token")
+    except (TimeoutError, DalembertError, AttributeError):
+        return None
+
+
+def run(path: Path | None, port: int = 0, browser: bool = True) -> None:
+    """Serve one file until Ctrl+C; prints the address and opens it."""
+    import uvicorn
+
+    session = Session(StoredFile(path or unused_name(Path.cwd())))
+    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listening.bind((HOST, port))
+    access = Access(listening.getsockname()[1])
+    solver = Solver()
+    studio = StudioServer(session, access, solver)
+    config = uvicorn.Config(
+        studio.app(),
+        log_level="error",
+        access_log=False,
+        ws="websockets-sansio",
+        ws_max_size=LARGEST,
+        timeout_graceful_shutdown=1,
+    )
+    print(f"Studio of {session.file.path.name}: {access.address}\nCtrl+C ends it.", flush=True)
+    solver.start()
+    if browser:
+        webbrowser.open(access.address)
+    uvicorn.Server(config).run(sockets=[listening])
+
+
+def unused_name(folder: Path) -> Path:
+    """The file of a new mechanism: a name that is free."""
+    names = (f"mechanism{'' if n == 1 else f'_{n}'}.yaml" for n in range(1, 10_000))
+    return next(p for name in names if not (p := folder / name).exists())

@@ -1,0 +1,178 @@
+"""A process of its own that solves texts, so that one that takes too long or too much memory ends with a sentence."""
+
+from __future__ import annotations
+
+import base64
+import json
+import multiprocessing
+import tempfile
+from multiprocessing.connection import Connection
+from pathlib import Path
+from threading import Lock
+from typing import Any, NamedTuple
+
+from dalembert.arrays import Tree
+from dalembert.errors import DalembertError
+
+SECONDS, REPORT_SECONDS = 5.0, 60.0
+"""Longest solution, and longest report."""
+MEMORY = 4 << 30
+"""Bytes of address space."""
+
+
+class Question(NamedTuple):
+    """What is asked of a text: ``data`` of its page, its own answers compared (``check``), or a file to download."""
+
+    ask: str
+    text: str
+    form: str
+    name: str
+    static: bool = False
+    friction: bool = True
+
+
+class Solver:
+    """The process, started when it is first needed and again after it was ended."""
+
+    def __init__(self, seconds: float = SECONDS) -> None:
+        self.seconds = seconds
+        self._lock, self._process = Lock(), None
+        self._pipe: Connection | None = None
+
+    def start(self) -> None:
+        """Start the process, which takes a second, before something is asked."""
+        with self._lock:
+            self._connection()
+
+    def ask(self, question: Question) -> Tree:
+        """The answer of one question; ``{"error": sentence, "path": ...}`` where there is none."""
+        with self._lock:
+            limit = self.seconds if question.ask in ("data", "check") else REPORT_SECONDS
+            try:
+                pipe = self._connection()
+                pipe.send(question)
+                if pipe.poll(limit):
+                    answer: Tree = json.loads(pipe.recv_bytes())
+                    return answer
+                reason = f"no answer within {limit:g} s"
+            except (EOFError, OSError):
+                reason = "the solver ended: out of memory"
+            self._end()
+            return {"error": f"{reason}; use fewer positions or a smaller mechanism", "path": []}
+
+    def close(self) -> None:
+        """End the process."""
+        with self._lock:
+            self._end()
+
+    def _connection(self) -> Connection:
+        if self._pipe is None:
+            context = multiprocessing.get_context("spawn")
+            self._pipe, there = context.Pipe()
+            process: Any = context.Process(target=_serve, args=(there,), daemon=True)
+            process.start()
+            there.close()
+            self._process = process
+        return self._pipe
+
+    def _end(self) -> None:
+        if self._pipe is not None:
+            self._pipe.close()
+        if self._process is not None:
+            self._process.kill()
+            self._process.join()
+        self._process = self._pipe = None
+
+
+def _serve(pipe: Connection) -> None:
+    """Answers questions until the pipe is closed."""
+    _limit_memory()
+    _warm_up()
+    while True:
+        try:
+            question = pipe.recv()
+        except (EOFError, OSError, KeyboardInterrupt):
+            return
+        pipe.send_bytes(json.dumps(answered(question), separators=(",", ":")).encode())
+
+
+def _warm_up() -> None:
+    """Import and run what the first question needs, before it is asked."""
+    from dalembert.model.library import template_text
+
+    answered(Question("data", template_text("four_bar"), "yaml", "four_bar"))
+
+
+def _limit_memory() -> None:
+    try:
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    except (ImportError, OSError, ValueError):
+        return  # not on this system
+
+
+def answered(question: Question) -> Tree:
+    """The answer of a question, in this process."""
+    from dalembert.model.files.model_files import loads
+
+    try:
+        m = loads(question.text, question.form, question.name)
+        if not question.friction:
+            m = m.with_values({"friction.enabled": False})
+        return _ASKED[question.ask](m, question)
+    except DalembertError as error:
+        what, remedy = getattr(error, "what", str(error)), getattr(error, "remedy", "")
+        return {"error": f"{what}; {remedy}" if remedy else what, "path": list(getattr(error, "path", ()))}
+    except MemoryError:
+        return {"error": "too little memory; use fewer positions or a smaller mechanism", "path": []}
+    except Exception as error:  # a fault of the program ends no session
+        return {"error": f"the analysis failed ({type(error).__name__}); please report this file", "path": []}
+
+
+def _data(m: Any, question: Question) -> Tree:
+    from dalembert.pages.page_data import page_data
+
+    return {"data": page_data(m, question.static, slopes=False)}
+
+
+def _check(m: Any, _: Question) -> Tree:
+    from dalembert.grading.file_answers import check
+
+    rows = check(m)
+    return {
+        "rows": [
+            {
+                "quantity": r.quantity,
+                "published": r.published,
+                "computed": r.computed,
+                "ok": r.ok,
+                "why": r.why,
+            }
+            for r in rows
+        ]
+    }
+
+
+def _report(m: Any, question: Question) -> Tree:
+    from dalembert.analysis.solution import solve, statics
+    from dalembert.reports import report
+
+    written = report(statics(m) if question.static else solve(m), 0)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "report.html"
+        written.save(path)
+        return _download(path.read_bytes(), "html")
+
+
+def _page(m: Any, question: Question) -> Tree:
+    from dalembert.pages.html_page import page
+
+    return _download(page(m, static=question.static).encode(), "html")
+
+
+def _download(content: bytes, ending: str) -> Tree:
+    return {"file": base64.b64encode(content).decode(), "ending": ending}
+
+
+_ASKED = {"data": _data, "check": _check, "report": _report, "page": _page}

@@ -1,0 +1,50 @@
+"""A studio served in this process, and its solver too."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from threading import Thread
+from typing import Any
+
+import pytest
+
+from dalembert.studio.access import HOST, LARGEST, Access
+from dalembert.studio.session import Session
+from dalembert.studio.solver import Question, Solver, answered
+from dalembert.studio.stored_file import StoredFile
+
+
+class Here(Solver):
+    """Answers in this process."""
+
+    def ask(self, question: Question) -> dict[str, Any]:
+        return answered(question)
+
+
+@contextmanager
+def serving(file: Path, port: int = 0) -> Iterator[Any]:
+    """The studio of a file on a port of this machine."""
+    uvicorn = pytest.importorskip("uvicorn")
+    from dalembert.studio.server import StudioServer
+
+    listening = socket.create_server((HOST, port))
+    access = Access(listening.getsockname()[1])
+    served = StudioServer(Session(StoredFile(file)), access, Here())
+    config = uvicorn.Config(
+        served.app(),
+        log_level="critical",
+        ws="websockets-sansio",
+        ws_max_size=LARGEST,
+        timeout_graceful_shutdown=1,
+    )
+    server = uvicorn.Server(config)
+    thread = Thread(target=server.run, kwargs={"sockets": [listening]})
+    thread.start()
+    try:
+        yield served
+    finally:
+        server.should_exit = True
+        thread.join(10)

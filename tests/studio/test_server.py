@@ -1,0 +1,181 @@
+"""The server speaks to its own page on this machine, and to nobody else; every refusal is a sentence."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from dalembert.studio.access import LARGEST, TABS, Rate
+from dalembert.studio.document import EMPTY, text_hash
+from dalembert.studio.problems import problem_text, problems
+from dalembert.studio.session import Session
+from dalembert.studio.solver import Question, Solver
+from dalembert.studio.stored_file import StoredFile
+from tests.studio.served import serving
+
+httpx = pytest.importorskip("httpx")
+client = pytest.importorskip("websockets.sync.client")
+FOUR_BAR = problem_text("example", "four_bar")
+
+
+@pytest.fixture
+def studio(tmp_path: Path) -> Iterator[Any]:
+    with serving(tmp_path / "m.yaml") as served:
+        yield served
+
+
+@contextmanager
+def tab(studio: Any, token: object = None, origin: str = "") -> Iterator[Any]:
+    """A socket that has said its token."""
+    access = studio.access
+    own = f"http://{access.hosts[0]}"
+    with client.connect(f"ws://{access.hosts[0]}/tab", origin=origin or own, max_size=2**22) as ws:
+        ws.send(json.dumps({"token": access.token if token is None else token}))
+        yield ws
+
+
+def until(ws: Any, key: str) -> Any:
+    """The next message with a key."""
+    while True:
+        told = json.loads(ws.recv(timeout=20))
+        if key in told:
+            return told
+
+
+def test_only_the_page_of_this_host_is_served(studio: Any) -> None:
+    address, evil = f"http://{studio.access.hosts[0]}", {"host": "evil.example"}
+    for headers, path, code, said in (
+        ({}, "/", 200, "studio.js"),
+        (evil, "/", 403, "not 'evil.example'"),
+        (evil, "/anything", 403, "not 'evil.example'"),
+        ({"origin": "http://evil.example"}, "/studio.js", 403, "may not speak"),
+        ({}, "/../../etc/passwd", 404, "nothing here"),
+        ({}, "/%2e%2e/pyproject.toml", 404, "nothing here"),
+    ):
+        answer = httpx.get(address + path, headers=headers)
+        assert (answer.status_code, said in answer.text) == (code, True), (headers, path)
+        assert studio.access.token not in answer.text
+    policy = httpx.get(address + "/").headers
+    assert "frame-ancestors 'none'" in policy["content-security-policy"]
+    assert policy["x-content-type-options"] == "nosniff"
+    assert httpx.post(address + "/").status_code in (404, 405)
+
+
+def test_a_socket_needs_the_token_and_the_origin(studio: Any) -> None:
+    wrong = [("wrong", "", "has no token"), (3, "", "has no token")]
+    for origin in ("http://evil.example", "http://127.0.0.1:1", "null"):
+        wrong.append((studio.access.token, origin, "may not speak"))
+    for token, origin, said in wrong:
+        with tab(studio, token, origin) as ws:
+            assert said in until(ws, "refused")["refused"]
+            with pytest.raises(Exception, match="4403"):
+                ws.recv(timeout=5)
+    assert not studio.tabs
+
+
+MALFORMED = [
+    "{",
+    "[]",
+    "{}",
+    "[" * 100_000,
+    '{"do": 3}',
+    '{"do": {"op": "bar"}}',
+    '{"do": {"op": "delete", "kind": "links", "name": "x", "more": 1}}',
+    json.dumps({"edit": [["a", 2]], "base": text_hash(EMPTY)}),
+    json.dumps({"edit": [[0, 99999, ""]], "base": text_hash(EMPTY)}),
+    '{"edit": [[0, 0, "x"]], "base": "of another text"}',
+    '{"open": {"kind": "problem", "name": "../../pyproject"}}',
+    '{"save": "../elsewhere.yaml"}',
+    '{"pull": {"link": "ground", "at": [0, 0], "path": [[1, 1]]}}',
+    '{"undo": true, "redo": true}',
+]
+
+
+def test_malformed_messages_are_refused_and_change_nothing(studio: Any, tmp_path: Path) -> None:
+    with tab(studio) as ws:
+        until(ws, "text")
+        for message in MALFORMED:
+            ws.send(message)
+            assert len(until(ws, "refused")["refused"]) > 15, message[:80]
+            assert until(ws, "text")["text"] == EMPTY
+    assert list(tmp_path.glob("*")) == []
+
+
+def test_a_huge_message_and_too_many_end_the_tab(studio: Any) -> None:
+    with tab(studio) as ws:
+        until(ws, "text")
+        ws.send(json.dumps({"edit": [[0, 0, "#" * 300_000]], "base": text_hash(EMPTY)}))
+        assert "more than 256000" in until(ws, "refused")["refused"]
+        ws.send("x" * (LARGEST + 1))
+        with pytest.raises(Exception, match="1009"):
+            until(ws, "never")
+    rate = Rate()
+    assert [rate.too_fast() for _ in range(302)].index(True) == 300
+
+
+def test_tabs_agree_and_the_last_text_is_solved(studio: Any) -> None:
+    with tab(studio) as one, tab(studio) as two:
+        for ws in (one, two):
+            until(ws, "text")
+        one.send(json.dumps({"open": {"kind": "example", "name": "four_bar"}}))
+        assert until(two, "data")["hash"] == until(one, "data")["hash"] == text_hash(FOUR_BAR)
+        two.send(json.dumps({"n": 7, "undo": True}))
+        assert until(two, "n")["n"] == 7
+        assert until(one, "text")["text"] == EMPTY
+        assert "press B" in until(one, "missing")["missing"]
+    assert len(studio.tabs) <= TABS
+
+
+def test_it_saves_reloads_and_never_overwrites(studio: Any, tmp_path: Path) -> None:
+    path, side = tmp_path / "m.yaml", tmp_path / ".m.yaml.autosave"
+    with tab(studio) as ws:
+        until(ws, "text")
+        ws.send(json.dumps({"open": {"kind": "example", "name": "four_bar"}}))
+        end = time.monotonic() + 20
+        while not side.exists() and time.monotonic() < end:
+            time.sleep(0.05)
+        assert side.read_text(encoding="utf-8") == FOUR_BAR, "kept within two seconds"
+        again = Session(StoredFile(path))
+        assert (again.document.text, again.kept, again.dirty) == (FOUR_BAR, FOUR_BAR, True)
+        ws.send(json.dumps({"n": 1, "save": True}))
+        assert until(ws, "said")["said"] == "Saved as m.yaml"
+        path.write_text(FOUR_BAR + "# outside\n", encoding="utf-8")
+        while until(ws, "text")["text"] != FOUR_BAR + "# outside\n":
+            pass
+        ws.send(json.dumps({"edit": [[0, 0, "# mine\n"]], "base": text_hash(FOUR_BAR + "# outside\n")}))
+        path.write_text("# theirs\n" + FOUR_BAR, encoding="utf-8")
+        while not until(ws, "outside")["outside"]:
+            pass
+        ws.send(json.dumps({"save": True}))
+        assert "changed by another program" in until(ws, "refused")["refused"]
+        assert path.read_text(encoding="utf-8") == "# theirs\n" + FOUR_BAR
+        ws.send(json.dumps({"choose": "mine"}))
+        ws.send(json.dumps({"n": 2, "save": True}))
+        until(ws, "said")
+        assert path.read_text(encoding="utf-8").startswith("# mine\n")
+
+
+@pytest.mark.long
+def test_the_solver_is_ended_after_its_time_and_works_again() -> None:
+    solver = Solver(seconds=0.0)
+    asked = Question("data", FOUR_BAR, "yaml", "m.yaml")
+    assert "no answer within 0 s" in solver.ask(asked)["error"]
+    solver.seconds = 60.0
+    assert solver.ask(asked)["data"]["title"] == "Four-bar linkage, dynamic"
+    assert (
+        "no drive" in solver.ask(asked._replace(text="links: {a: {points: {A: [0, 0], B: [1, 0]}}}"))["error"]
+    )
+    assert solver.ask(asked._replace(ask="page"))["ending"] == "html"
+    solver.close()
+
+
+def test_every_bundled_problem_can_be_opened() -> None:
+    texts = [problem_text(p["kind"], p["name"]) for p in problems()]
+    assert len(texts) > 150
+    assert all("links" in text for text in texts)

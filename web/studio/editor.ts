@@ -1,0 +1,97 @@
+/** The file beside the drawing: typed edits go to the server as splices, its text comes back as splices. */
+
+import { Annotation, EditorState } from "@codemirror/state";
+import { EditorView, keymap, lineNumbers, highlightActiveLine, drawSelection } from "@codemirror/view";
+import { defaultKeymap, indentWithTab } from "@codemirror/commands";
+import { yaml } from "@codemirror/lang-yaml";
+import { bracketMatching, HighlightStyle, syntaxHighlighting } from "@codemirror/language";
+import { tags } from "@lezer/highlight";
+import { lintGutter, setDiagnostics } from "@codemirror/lint";
+import type { Socket } from "./socket";
+
+const FromServer = Annotation.define<boolean>();
+/** Pause after which what was typed is sent, ms. */
+const PAUSE = 250;
+const colours = HighlightStyle.define([
+  { tag: [tags.propertyName, tags.definition(tags.propertyName)], color: "var(--key)" },
+  { tag: tags.comment, color: "var(--grey)", fontStyle: "italic" },
+  { tag: [tags.string, tags.number], color: "var(--value)" },
+]);
+
+export class Editor {
+  readonly view: EditorView;
+  private base = "";
+  private sent = "";
+  private timer = 0;
+  private busy = false;
+  private crlf = false;
+
+  constructor(el: HTMLElement, private readonly socket: Socket, undo: (back: boolean) => void) {
+    const history = [
+      { key: "Mod-z", run: () => (undo(true), true) },
+      { key: "Mod-y", run: () => (undo(false), true) },
+      { key: "Mod-Shift-z", run: () => (undo(false), true) },
+    ];
+    this.view = new EditorView({
+      parent: el,
+      state: EditorState.create({
+        extensions: [
+          lineNumbers(), lintGutter(), drawSelection(), highlightActiveLine(), bracketMatching(), yaml(), syntaxHighlighting(colours),
+          keymap.of([...history, ...defaultKeymap, indentWithTab]),
+          EditorView.contentAttributes.of({ "aria-label": "model file" }),
+          EditorView.updateListener.of((u) => {
+            if (!u.docChanged || u.transactions.some((t) => t.annotation(FromServer))) return;
+            clearTimeout(this.timer);
+            this.timer = window.setTimeout(() => void this.flush(), PAUSE);
+          }),
+        ],
+      }),
+    });
+  }
+  /** Sends what was typed since the last message; done once the server has it. */
+  async flush(): Promise<void> {
+    clearTimeout(this.timer);
+    this.timer = 0;
+    const text = this.text;
+    if (this.busy || text === this.sent || !this.base) return;
+    const [start, end, insert] = difference(this.sent, text), place = (k: number): number => units(this.sent, k) + (this.crlf ? this.sent.slice(0, k).split("\n").length - 1 : 0);
+    this.busy = true;
+    await this.socket.send({ edit: [[place(start), place(end), this.crlf ? insert.replaceAll("\n", "\r\n") : insert]], base: this.base });
+    this.busy = false;
+  }
+  private get text(): string {
+    return this.view.state.doc.toString();
+  }
+  /** The server's text and its error; what is typed meanwhile stays. */
+  update(text: string, hash: string, error: string, line: number): void {
+    const typed = this.timer !== 0 && this.text !== this.sent;
+    this.base = hash;
+    const plain = text.replaceAll("\r\n", "\n");
+    this.crlf = plain !== text;
+    this.sent = plain;
+    if (!typed && plain !== this.text) {
+      const [start, end, insert] = difference(this.text, plain);
+      this.view.dispatch({ changes: { from: start, to: end, insert }, annotations: FromServer.of(true) });
+    }
+    if (typed) this.timer ||= window.setTimeout(() => void this.flush(), PAUSE);
+    const doc = this.view.state.doc;
+    const at = doc.line(Math.min(Math.max(line, 1), doc.lines));
+    this.view.dispatch(setDiagnostics(this.view.state, error ? [{ from: at.from, to: at.to, severity: "error", message: error }] : []));
+  }
+  /** Shows a line. */
+  show(text: string): void {
+    const at = this.text.indexOf(text);
+    if (at >= 0) this.view.dispatch({ selection: { anchor: at }, scrollIntoView: true });
+  }
+}
+
+/** Start and end of what differs in a text, and what takes its place. */
+function difference(a: string, b: string): [number, number, string] {
+  let start = 0, tail = 0;
+  while (start < a.length && start < b.length && a[start] === b[start]) start++;
+  while (tail < a.length - start && tail < b.length - start && a[a.length - 1 - tail] === b[b.length - 1 - tail]) tail++;
+  return [start, a.length - tail, b.slice(start, b.length - tail)];
+}
+
+/** A place in characters, as Python counts them. */
+const units = (text: string, place: number): number => [...text.slice(0, place)].length;

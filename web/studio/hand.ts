@@ -1,0 +1,347 @@
+/** What the mouse, a finger and typed digits do to the drawing: one tool at a time. */
+
+import { Canvas, make } from "./canvas";
+import type { Socket } from "./socket";
+import { dist, type DrawnJoint, type Drawing, ends, figures, type Picked, type Point, type Where } from "./state";
+
+export interface Tool { key: string; name: string; title: string; shape: "select" | "line" | "click"; fields?: string[] }
+export const TOOLS: Tool[] = [
+  { key: "v", name: "select", title: "Select, drag points, pull links", shape: "select" },
+  { key: "b", name: "bar", title: "Link: drag from end to end, or type its length and angle", shape: "line", fields: ["length", "angle"] },
+  { key: "x", name: "ground", title: "Ground: a fixed point, or fix a point of a link", shape: "click" },
+  { key: "p", name: "point", title: "Point on a link", shape: "click" },
+  { key: "s", name: "slider", title: "Slider: drag from a point along the guide (over a link: the link guides it)", shape: "line", fields: ["angle"] },
+  { key: "o", name: "slot", title: "Slot: drag from the pin along the slot (over a link: the slot is in it)", shape: "line", fields: ["angle"] },
+  { key: "g", name: "gear", title: "Gears: drag from one axis to the other", shape: "line" },
+  { key: "d", name: "drive", title: "Drive: click a joint", shape: "click", fields: ["position"] },
+  { key: "f", name: "force", title: "Force: drag from a point, or type its size and angle", shape: "line", fields: ["value", "angle"] },
+  { key: "m", name: "couple", title: "Couple: click a link", shape: "click", fields: ["value"] },
+  { key: "k", name: "spring", title: "Spring: drag from point to point", shape: "line", fields: ["value"] },
+  { key: "n", name: "damper", title: "Damper: drag from point to point", shape: "line", fields: ["value"] },
+  { key: "c", name: "cylinder", title: "Cylinder: drag from point to point", shape: "line", fields: ["value"] },
+];
+/** Pixels within which a place snaps to a point, and a press is a click. */
+const NEAR = 13, CLICK = 4;
+/** Degrees of the directions that bars snap to, and how near they have to be. */
+const DIRECTIONS = 15, TURN = 3;
+
+export interface Shown { drawing(): Drawing; pick(p: Picked | null): void; picked(): Picked | null; said(text: string): void; again(): void; tool(t: Tool): void; posed(d: Drawing): Drawing }
+
+export class Hand {
+  tool = TOOLS[0];
+  private from: { where: Where; x: number; y: number } | null = null;
+  private place: Where = { at: [0, 0] };
+  private typed: string[] = [];
+  private field = 0;
+  private drag: { kind: "move" | "pull" | "pan"; picked: Picked | null; at: Point; x: number; y: number; moved: boolean; pose?: any } | null = null;
+  private pointers = new Map<number, Point>();
+  private pulling = false;
+  private path: Point[] = [];
+  /** The drawing while something is dragged. */
+  shadow: Drawing | null = null;
+
+  constructor(private readonly canvas: Canvas, private readonly socket: Socket, private readonly shown: Shown) {
+    const { svg } = canvas;
+    svg.addEventListener("pointerdown", (e) => this.down(e));
+    svg.addEventListener("pointermove", (e) => this.move(e));
+    svg.addEventListener("pointerup", (e) => this.up(e));
+    svg.addEventListener("pointercancel", () => this.cancel());
+    svg.addEventListener("wheel", (e) => {
+      e.preventDefault();
+      this.canvas.window.zoom(Math.exp(-e.deltaY / 400), ...this.xy(e));
+      this.shown.again();
+    }, { passive: false });
+    document.addEventListener("keydown", (e) => this.key(e));
+  }
+
+  choose(tool: Tool): void {
+    this.cancel();
+    this.tool = tool;
+    this.shown.tool(tool);
+  }
+  cancel(): void {
+    this.from = this.drag = null;
+    this.shadow = null;
+    this.typed = [];
+    this.field = 0;
+    this.pointers.clear();
+    this.canvas.preview.replaceChildren();
+    this.shown.again();
+  }
+  private xy(e: { clientX: number; clientY: number }): Point {
+    const box = this.canvas.svg.getBoundingClientRect();
+    return [e.clientX - box.left, e.clientY - box.top];
+  }
+  private part(e: PointerEvent): { kind: Picked["kind"]; name: string; link?: string; point?: string } | null {
+    const el = document.elementsFromPoint(e.clientX, e.clientY).find((x) => (x as SVGElement).dataset?.kind) as SVGElement | undefined;
+    return el ? { kind: el.dataset.kind as Picked["kind"], name: el.dataset.name!, link: el.dataset.link, point: el.dataset.point } : null;
+  }
+  private linkAt(e: { clientX: number; clientY: number }): string {
+    const el = document.elementsFromPoint(e.clientX, e.clientY).find((x) => (x as SVGElement).dataset?.kind === "links") as SVGElement | undefined;
+    return el?.dataset.name ?? "";
+  }
+  /** The place of the pointer: on a point that is near, else on the grid. */
+  private snap(e: PointerEvent): Where {
+    const [x, y] = this.xy(e), at = this.canvas.window.metres(x, y), d = this.shown.drawing();
+    if (e.ctrlKey) return { at };
+    let best: Where | null = null, least = NEAR;
+    for (const end of ends(d)) {
+      const far = dist(this.canvas.window.px(end.at), [x, y]);
+      if (far < least - 0.01) [best, least] = [{ at: end.at, link: end.link, point: end.point }, far];
+    }
+    if (best) return best;
+    const a = this.from?.where.at;
+    if (a && this.tool.name !== "gear") {
+      const turn = (Math.atan2(at[1] - a[1], at[0] - a[0]) * 180) / Math.PI, near = Math.round(turn / DIRECTIONS) * DIRECTIONS, far = dist(a, at);
+      if (Math.abs(turn - near) < TURN) {
+        const step = this.canvas.window.step(d.units.length.size, 7), long = Math.round(far / step) * step, r = (near * Math.PI) / 180;
+        return { at: [a[0] + long * Math.cos(r), a[1] + long * Math.sin(r)] };
+      }
+    }
+    const step = this.canvas.window.step(d.units.length.size, 7);
+    return { at: [Math.round(at[0] / step) * step, Math.round(at[1] / step) * step] };
+  }
+
+  private down(e: PointerEvent): void {
+    this.canvas.svg.setPointerCapture(e.pointerId);
+    (document.activeElement as HTMLElement | null)?.blur?.();
+    this.pointers.set(e.pointerId, this.xy(e));
+    const [x, y] = this.xy(e);
+    if (this.pointers.size === 2 || e.button === 1) {
+      this.drag = { kind: "pan", picked: null, at: [0, 0], x, y, moved: true };
+      return;
+    }
+    if (e.button) return;
+    if (this.tool.shape === "line") {
+      if (this.from) this.place = this.snap(e);
+      else this.from = { where: (this.place = this.snap(e)), x, y };
+      this.show();
+    } else if (this.tool.shape === "click") this.clicked(e);
+    else this.grab(e, x, y);
+  }
+  private grab(e: PointerEvent, x: number, y: number): void {
+    const part = this.part(e), at = this.canvas.window.metres(x, y);
+    if (!part) {
+      this.drag = { kind: "pan", picked: null, at, x, y, moved: false };
+      return;
+    }
+    const picked: Picked = { kind: part.kind, name: part.name, link: part.link };
+    this.shown.pick(picked);
+    if (part.point) this.drag = { kind: "move", picked: { kind: "points", name: part.point, link: part.link }, at, x, y, moved: false };
+    else if (part.kind === "links") this.drag = { kind: "pull", picked, at, x, y, moved: false };
+  }
+  private move(e: PointerEvent): void {
+    const [x, y] = this.xy(e), before = this.pointers.get(e.pointerId);
+    if (this.pointers.size === 2 && before) {
+      const other = [...this.pointers].find(([id]) => id !== e.pointerId)![1], was = dist(before, other), now = dist([x, y], other);
+      this.canvas.window.zoom(now / Math.max(was, 1), ...other);
+      this.pointers.set(e.pointerId, [x, y]);
+      this.shown.again();
+      return;
+    }
+    this.pointers.set(e.pointerId, [x, y]);
+    if (this.from) {
+      this.place = this.snap(e);
+      this.show();
+    } else if (this.drag) this.dragged(e, x, y, before ?? [x, y]);
+    else if (this.tool.shape !== "select") {
+      this.canvas.preview.replaceChildren();
+      const at = this.snap(e);
+      if (at.point) make(this.canvas.preview, "circle", { class: "snap", cx: this.canvas.window.px(at.at)[0], cy: this.canvas.window.px(at.at)[1], r: 10 });
+    }
+    if (!e.buttons) this.pointers.delete(e.pointerId);
+  }
+  private dragged(e: PointerEvent, x: number, y: number, before: Point): void {
+    const g = this.drag!;
+    if (!g.moved && Math.hypot(x - g.x, y - g.y) < CLICK) return;
+    g.moved = true;
+    if (g.kind === "pan") {
+      this.canvas.window.pan(x - before[0], y - before[1]);
+      this.shown.again();
+    } else if (g.kind === "move") {
+      this.place = this.snapAway(e, g.picked!);
+      this.shadow = moved(this.shown.drawing(), g.picked!, this.place.at);
+      this.shown.again();
+    } else void this.pull(this.canvas.window.metres(x, y));
+  }
+  /** Snaps to points other than those at the place that is dragged. */
+  private snapAway(e: PointerEvent, picked: Picked): Where {
+    const d = this.shown.drawing(), old = d.links.find((l) => l.name === picked.link)!.points[picked.name], to = this.snap(e);
+    if (!to.point || dist(to.at, old) * this.canvas.window.scale > 3) return to;
+    return { at: this.canvas.window.metres(...this.xy(e)) };
+  }
+  private async pull(to: Point): Promise<void> {
+    this.path.push(to);
+    if (this.pulling) return;
+    const g = this.drag!, d = this.shown.drawing(), link = d.links.find((l) => l.name === g.picked!.name)!, [px, py, angle] = link.pose;
+    const dx = g.at[0] - px, dy = g.at[1] - py, at = [dx * Math.cos(angle) + dy * Math.sin(angle), dy * Math.cos(angle) - dx * Math.sin(angle)];
+    this.pulling = true;
+    while (this.path.length && this.drag === g) {
+      const path = this.path.splice(0).slice(-4), a = await this.socket.send({ pull: { link: link.name, at, path: sampled(path) } });
+      if (!a.pose || this.drag !== g) break;
+      g.pose = { links: a.pose, drives: a.drives };
+      this.shadow = posed(d, a.pose);
+      this.shown.again();
+    }
+    this.pulling = false;
+  }
+  private up(e: PointerEvent): void {
+    this.pointers.delete(e.pointerId);
+    const g = this.drag, [x, y] = this.xy(e);
+    if (this.from) {
+      if (Math.hypot(x - this.from.x, y - this.from.y) >= CLICK) void this.finish(e);
+      else this.show();
+      return;
+    }
+    this.drag = null;
+    this.path = [];
+    if (!g) return;
+    if (!g.moved) {
+      if (g.kind === "pan") this.shown.pick(null);
+      return;
+    }
+    if (g.kind === "move") void this.dropped(g.picked!);
+    else if (g.kind === "pull" && g.pose) void this.socket.gesture({ op: "pose", ...g.pose }).then(() => this.settle());
+  }
+  private async dropped(p: Picked): Promise<void> {
+    const to = this.place;
+    if (to.point && to.link !== p.link) await this.socket.gesture({ op: "merge", first: { at: to.at, link: p.link, point: p.name }, second: to });
+    else await this.socket.gesture({ op: "move", link: p.link, point: p.name, to: to.at });
+    this.settle();
+  }
+  private settle(): void {
+    this.shadow = null;
+    this.shown.again();
+  }
+
+  private clicked(e: PointerEvent): void {
+    const where = this.snap(e), link = this.linkAt(e), value = this.typed[0];
+    const joint = this.joint(where, this.part(e)?.kind === "joints" ? this.part(e)!.name : "");
+    const asked =
+      this.tool.name === "ground" ? { op: "ground", where }
+      : this.tool.name === "point" ? link && { op: "point", link, at: where.at }
+      : this.tool.name === "couple" ? link && { op: "couple", link, ...(value ? { value } : {}) }
+      : joint && { op: "drive", joint: joint.name, ...(value ? { position: value } : { here: Object.values(joint.here ?? { turn: 0 })[0] ?? 0 }), freedom: joint.type === "slot" ? "turn" : "" };
+    if (!asked) return this.shown.said(this.tool.title);
+    void this.socket.gesture(asked).then((a) => {
+      this.typed = [];
+      if (!a.refused && joint && this.tool.name === "drive") this.shown.pick({ kind: "joints", name: joint.name });
+      if (!a.refused && this.tool.name !== "ground" && this.tool.name !== "point") this.choose(TOOLS[0]);
+    });
+  }
+  /** The joint at a place that a drive can move: with the ground first. */
+  private joint(where: Where, named: string): DrawnJoint | undefined {
+    const d = this.shown.drawing(), some = d.joints.filter((j) => j.name === named || (where.point && (dist(j.q, where.at) < 1e-9 + 2 / this.canvas.window.scale)));
+    const free = some.filter((j) => j.freedoms.length);
+    return free.find((j) => j.links.includes("ground")) ?? free[0];
+  }
+
+  /** The line as it would be drawn, with its numbers. */
+  private show(): void {
+    const { preview, window } = this.canvas, u = this.shown.drawing().units.length;
+    preview.replaceChildren();
+    if (!this.from) return;
+    const a = window.px(this.from.where.at), end = this.end(), b = window.px(end);
+    make(preview, "path", { class: `line ${this.tool.name}`, d: `M${a}L${b}` });
+    for (const [p, where] of [[a, this.from.where], [b, this.place]] as const) make(preview, "circle", { class: where.point ? "snap" : "end", cx: p[0], cy: p[1], r: where.point ? 10 : 4 });
+    const long = dist(this.from.where.at, end) / u.size, turn = (Math.atan2(end[1] - this.from.where.at[1], end[0] - this.from.where.at[0]) * 180) / Math.PI;
+    const now: Record<string, string> = { length: `${figures(long)} ${u.unit}`, angle: `${figures(turn)}°`, value: this.tool.name === "force" ? `${figures(this.force(end))} ${this.shown.drawing().units.force.unit}` : "" };
+    const said = (this.tool.fields ?? []).map((f, k) => `${f} ${this.typed[k] ? `[${this.typed[k]}]` : now[f]}`).join("   ");
+    make(preview, "text", { x: b[0] + 14, y: b[1] - 14, class: "label" }, said);
+    this.shown.said(this.tool.fields ? `Type ${this.tool.fields.join(", Tab, ")}, then Enter; Esc leaves` : "");
+  }
+  /** Newtons, or the file's unit of force: ten for each 12 pixels, rounded. */
+  private force(end: Point): number {
+    return Math.max(10, Math.round((dist(this.from!.where.at, end) * this.canvas.window.scale) / 12) * 10);
+  }
+  private end(): Point {
+    const a = this.from!.where.at, b = this.place.at, u = this.shown.drawing().units;
+    const number = (name: string, size: number): number | null => {
+      const text = this.typed[(this.tool.fields ?? []).indexOf(name)], m = text && /^[-+]?[\d.,]+$/.test(text) ? +text.replace(",", ".") : NaN;
+      return Number.isFinite(m) ? m * size : null;
+    };
+    const long = number("length", u.length.size) ?? dist(a, b), turn = number("angle", u.angle.size) ?? Math.atan2(b[1] - a[1], b[0] - a[0]);
+    return [a[0] + long * Math.cos(turn), a[1] + long * Math.sin(turn)];
+  }
+  private async finish(e: { clientX: number; clientY: number } | null): Promise<void> {
+    const first = this.from!.where, end = this.end(), fields = this.tool.fields ?? [], typed = (name: string): string => this.typed[fields.indexOf(name)] ?? "";
+    const any = this.typed.some(Boolean), second: Where = this.place.point || !any ? this.place : { at: end };
+    const turn = Math.atan2(end[1] - first.at[1], end[0] - first.at[0]), over = e && !this.place.point ? this.linkAt(e) : this.place.link ?? "";
+    const unit = this.shown.drawing().units.force.size, size = this.force(end) * unit;
+    const value = typed("value") ? { value: typed("value") } : {};
+    const asked: Record<string, unknown> =
+      this.tool.name === "bar" ? { op: "bar", ends: [first, second], length: typed("length"), angle: typed("angle") }
+      : this.tool.name === "slider" || this.tool.name === "slot" ? { op: this.tool.name, where: first, guide: over && over !== first.link ? over : "ground", direction: turn, angle: typed("angle") }
+      : this.tool.name === "force" ? { op: "force", where: first, vector: [size * Math.cos(turn), size * Math.sin(turn)], angle: typed("angle"), ...value }
+      : { op: this.tool.name, first, second, ...value };
+    this.cancel();
+    const a = await this.socket.gesture(asked);
+    if (!a.refused && this.tool.name !== "bar") this.choose(TOOLS[0]);
+  }
+
+  private key(e: KeyboardEvent): void {
+    const on = e.target as HTMLElement;
+    if (on.closest?.("input,textarea,select,.cm-editor,.dalembert")) return;
+    const back = (e.ctrlKey || e.metaKey) && /^[zy]$/i.test(e.key);
+    if (back) {
+      e.preventDefault();
+      void this.socket.send(e.key.toLowerCase() === "z" && !e.shiftKey ? { undo: true } : { redo: true });
+      return;
+    }
+    if (e.ctrlKey || e.metaKey || e.altKey) return;
+    if (e.key === "Escape") this.from || this.typed.length ? this.cancel() : this.choose(TOOLS[0]);
+    else if (this.tool.fields && (this.from || this.tool.shape === "click") && this.type(e)) e.preventDefault();
+    else if ((e.key === "Delete" || e.key === "Backspace") && this.shown.picked()) {
+      const p = this.shown.picked()!;
+      void this.socket.gesture({ op: "delete", kind: p.kind, name: p.name, ...(p.kind === "points" ? { link: p.link } : {}) });
+      this.shown.pick(null);
+    } else if (e.key === "0") {
+      this.canvas.window.fit(this.shown.drawing());
+      this.shown.again();
+    } else {
+      const tool = TOOLS.find((t) => t.key === e.key.toLowerCase());
+      if (tool) this.choose(tool);
+    }
+  }
+  /** Digits, units, Tab and Enter while something is drawn; true if the key was one of them. */
+  private type(e: KeyboardEvent): boolean {
+    const now = this.typed[this.field] ?? "";
+    if (e.key === "Enter" && this.from) void this.finish(null);
+    else if (e.key === "Tab" && this.from) this.field = (this.field + 1) % this.tool.fields!.length;
+    else if (e.key === "Backspace" && now) this.typed[this.field] = now.slice(0, -1);
+    else if (/^[-\d.,]$/.test(e.key) || (now && /^[a-z*/^ °]$/i.test(e.key))) this.typed[this.field] = now + e.key;
+    else return false;
+    if (this.from) this.show();
+    else this.shown.said(`${this.tool.fields![0]} ${this.typed[0] ?? ""}: now click`);
+    return true;
+  }
+}
+
+/** At most four places of a path, the last one among them. */
+const sampled = (path: Point[]): Point[] => path.slice(-4);
+
+/** The drawing with all points at one place moved. */
+function moved(d: Drawing, p: Picked, to: Point): Drawing {
+  const old = d.links.find((l) => l.name === p.link)!.points[p.name], there = (q: Point): Point => (dist(q, old) < 1e-9 ? to : q);
+  return {
+    ...d,
+    links: d.links.map((l) => ({ ...l, center: undefined, points: Object.fromEntries(Object.entries(l.points).map(([n, q]) => [n, there(q)])) })),
+    joints: d.joints.map((j) => ({ ...j, p: there(j.p), q: there(j.q) })),
+    loads: d.loads.map((l) => ({ ...l, p: l.p && there(l.p), between: l.between && [there(l.between[0]), there(l.between[1])] })),
+  };
+}
+
+/** The drawing at another pose of its links. */
+function posed(d: Drawing, pose: Record<string, [number, number, number]>): Drawing {
+  const of = (link: string): ((p: Point) => Point) => {
+    const was = d.links.find((l) => l.name === link)?.pose ?? [0, 0, 0], now = pose[link] ?? was, turn = now[2] - was[2], c = Math.cos(turn), s = Math.sin(turn);
+    return (p) => [now[0] + c * (p[0] - was[0]) - s * (p[1] - was[1]), now[1] + s * (p[0] - was[0]) + c * (p[1] - was[1])];
+  };
+  const turned = (link: string): number => (pose[link]?.[2] ?? 0) - (d.links.find((l) => l.name === link)?.pose[2] ?? 0);
+  return {
+    ...d,
+    links: d.links.map((l) => ({ ...l, pose: pose[l.name] ?? l.pose, center: l.center && of(l.name)(l.center), points: Object.fromEntries(Object.entries(l.points).map(([n, p]) => [n, of(l.name)(p)])) })),
+    joints: d.joints.map((j) => ({ ...j, p: of(j.links[0])(j.p), q: of(j.links[1])(j.q), direction: j.direction === undefined ? undefined : j.direction + turned(j.links[0]) })),
+    loads: d.loads.map((l) => ({ ...l, p: l.p && l.on ? of(l.on)(l.p) : l.p, between: l.between && l.links && [of(l.links[0])(l.between[0]), of(l.links[1])(l.between[1])] })),
+  };
+}

@@ -1,0 +1,232 @@
+/** The studio: tools, drawing, forces, file. Everything it shows of mechanics comes from the server and from `mount`. */
+
+import { mount, type Page } from "../src/page";
+import { html } from "../src/svg";
+import { Canvas, make } from "./canvas";
+import { Editor } from "./editor";
+import { Hand, type Tool, TOOLS } from "./hand";
+import { Inspector } from "./inspector";
+import { Socket } from "./socket";
+import type { Drawing, Picked, State } from "./state";
+import { figures } from "./state";
+import style from "./studio.css?inline";
+
+const root = document.getElementById("studio")!;
+html("style", document.head).textContent = style;
+const bar = html("header", root), banner = html("div", root, { class: "banners", role: "status" }), main = html("main", root);
+const rail = html("nav", main, { "aria-label": "tools" }), left = html("section", main, { class: "left" }), right = html("section", main, { class: "right" });
+const paper = html("div", left, { class: "paper" }), foot = html("div", left, { class: "foot" }), verdict = html("p", foot, { class: "verdict", role: "status" }), hint = html("p", foot, { class: "hint" });
+const tabs = html("div", right, { class: "tabs", role: "tablist" }), panes = new Map<string, HTMLElement>();
+
+let state: State | null = null, picked: Picked | null = null, page: Page | null = null, mounted = false, fitted = false;
+let said = 0;
+
+const socket = new Socket({ state: update, forces, refused: say, ended });
+const canvas = new Canvas(paper);
+make(canvas.svg, "defs").innerHTML = ["driven", "acting"].map((id) => `<marker id="${id}" class="${id}" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="5" markerHeight="5" orient="auto-start-reverse"><path d="M0 0L10 5L0 10Z"/></marker>`).join("");
+const hand = new Hand(canvas, socket, { drawing, pick, picked: () => picked, said: (text) => (hint.textContent = text), again: draw, tool: chosen, posed: (d) => d });
+const pane = (name: string): HTMLElement => {
+  const el = html("div", right, { class: `pane ${name.toLowerCase()}`, role: "tabpanel", "aria-label": name });
+  html("button", tabs, { type: "button", role: "tab", "data-pane": name }, name).addEventListener("click", () => open(name));
+  panes.set(name, el);
+  return el;
+};
+const partPane = pane("Part"), forcePane = pane("Forces"), filePane = pane("File"), openPane = pane("Problems");
+const inspector = new Inspector(partPane, socket, pick);
+const editor = new Editor(filePane, socket, (back) => void editor.flush().then(() => socket.send(back ? { undo: true } : { redo: true })));
+open("Part");
+
+const button = (parent: HTMLElement, text: string, title: string, act: () => void): HTMLButtonElement => {
+  const b = html("button", parent, { type: "button", title }, text);
+  b.addEventListener("click", act);
+  return b;
+};
+const name = html("strong", bar), undo = button(bar, "↶", "Undo (Ctrl+Z)", () => void socket.send({ undo: true })), redo = button(bar, "↷", "Redo (Ctrl+Shift+Z)", () => void socket.send({ redo: true }));
+undo.setAttribute("aria-label", "undo");
+redo.setAttribute("aria-label", "redo");
+button(bar, "Save", "Save (Ctrl+S)", () => void save());
+const more = html("span", bar, { class: "more" });
+const dynamics = check(more, "dynamics", "with inertia, where a drive has a speed", (on) => ({ static: !on, friction: friction.checked })), friction = check(more, "friction", "with the friction that the file gives", (on) => ({ static: !dynamics.checked, friction: on }));
+button(more, "Report", "Worked solution as HTML", () => void download("report"));
+button(more, "Page", "Live page as one HTML file", () => void download("page"));
+for (const tool of TOOLS) {
+  const b = button(rail, "", `${tool.title} (${tool.key.toUpperCase()})`, () => hand.choose(tool));
+  b.dataset.tool = tool.name;
+  b.setAttribute("aria-label", tool.name);
+  b.innerHTML = `<span class="${tool.name}">${tool.name}</span><kbd>${tool.key.toUpperCase()}</kbd>`;
+}
+button(rail, "fit", "Show everything (0)", () => (canvas.window.fit(drawing()), draw()));
+chosen(TOOLS[0]);
+document.addEventListener("keydown", (e) => {
+  if ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() === "s") {
+    e.preventDefault();
+    void save();
+  }
+});
+new ResizeObserver(draw).observe(paper);
+window.addEventListener("beforeunload", (e) => {
+  void editor.flush();
+  if (state?.dirty) e.preventDefault();
+});
+
+function check(parent: HTMLElement, text: string, title: string, options: (on: boolean) => object): HTMLInputElement {
+  const line = html("label", parent, { title }), input = html("input", line, { type: "checkbox" });
+  input.checked = true;
+  line.append(text);
+  input.addEventListener("change", () => void socket.send({ options: options(input.checked) }));
+  return input;
+}
+function drawing(): Drawing {
+  return hand?.shadow ?? state?.drawing ?? ({ links: [], joints: [], loads: [], drives: [], freedoms: 0, closed: true, title: "", units: { length: { unit: "mm", size: 1e-3 } } } as unknown as Drawing);
+}
+function draw(): void {
+  if (state) canvas.draw(drawing(), picked);
+}
+function pick(p: Picked | null): void {
+  picked = p;
+  draw();
+  if (state) inspector.update(state.drawing, picked, state.text);
+  if (p && matchMedia("(min-width:761px)").matches && current() !== "Forces") open("Part");
+}
+function chosen(tool: Tool): void {
+  for (const b of rail.querySelectorAll("button")) b.setAttribute("aria-pressed", String(b.dataset.tool === tool.name));
+  canvas.svg.dataset.tool = tool.name;
+  hint.textContent = tool.title;
+}
+const current = (): string => tabs.querySelector<HTMLElement>("[aria-selected=true]")?.dataset.pane ?? "";
+function open(which: string): void {
+  for (const b of tabs.querySelectorAll<HTMLElement>("button")) b.setAttribute("aria-selected", String(b.dataset.pane === which));
+  for (const [one, el] of panes) el.hidden = one !== which;
+  right.dataset.pane = which;
+  if (which === "Forces") page?.redraw();
+  if (which === "Problems" && !openPane.childElementCount) void problems();
+}
+function update(s: State): void {
+  const first = !state;
+  state = s;
+  if (hand.shadow && s.drawing.links) hand.shadow = null;
+  if (picked && !exists(s.drawing, picked)) picked = null;
+  name.textContent = `${s.file}${s.dirty ? " •" : ""}`;
+  document.title = `${s.dirty ? "• " : ""}${s.file} – dalembert studio`;
+  [undo.disabled, redo.disabled, dynamics.checked, friction.checked] = [!s.undo, !s.redo, !s.static, s.friction];
+  editor.update(s.text, s.hash, s.error, s.line);
+  inspector.update(s.drawing, picked, s.text);
+  if (first || (!fitted && s.drawing.links?.length > 1)) {
+    fitted = (s.drawing.links?.length ?? 0) > 1;
+    if (first) canvas.window.fit(s.drawing);
+  }
+  banners(s);
+  if (s.error) verdictIs(`Line ${s.line}: ${s.error}`, true);
+  else if (s.hash !== solvedHash) verdictIs("…", false);
+  draw();
+}
+function exists(d: Drawing, p: Picked): boolean {
+  if (p.kind === "points") return !!d.links?.find((l) => l.name === p.link && p.name in l.points);
+  return !!(d[p.kind] as { name: string }[] | undefined)?.some((one) => one.name === p.name);
+}
+function verdictIs(text: string, wrong: boolean): void {
+  verdict.textContent = text;
+  verdict.classList.toggle("wrong", wrong);
+}
+/** The forces of the last text, or the sentence of what is missing, with what would add it. */
+async function forces(a: Record<string, any>): Promise<void> {
+  solvedHash = a.hash;
+  if (a.missing !== undefined) {
+    forcePane.classList.add("stale");
+    if (a.missing) verdictIs(a.missing, false);
+    offers(a.missing);
+    return;
+  }
+  forcePane.classList.remove("stale");
+  if (mounted && page) await page.replace(a.data);
+  else {
+    mounted = true;
+    page = await mount(forcePane, a.data, { edited: (values) => void edited(values) });
+  }
+  numbers();
+}
+/** Hash of the text of which the verdict speaks. */
+let solvedHash = "", last = "{}";
+/** Numbers that were changed in the page go into the text. */
+async function edited(values: Record<string, number>): Promise<void> {
+  const text = JSON.stringify(values);
+  if (text === last || text === "{}") return;
+  last = text;
+  await socket.gesture({ op: "changes", values });
+  last = "{}";
+}
+/** The efforts of the drives at the position shown. */
+function numbers(): void {
+  if (!page || page.sketch) return;
+  const { kernel, data } = page, efforts = data.views.table.filter((row) => row.name.startsWith("effort"));
+  const of = efforts.map((row) => `${row.name.replace(/[_{}]/g, "")} ${figures(kernel.rows[row.rows[0] * kernel.row] / data.units[row.kind].size, 5)} ${data.units[row.kind].unit}`);
+  const solved = kernel.good[0] === 1;
+  verdictIs(solved ? `${of.join("; ") || "In equilibrium"}${of.length ? " at the first position" : ""}. All forces: tab Forces.` : "No forces at the first position: see Forces", !solved);
+}
+function offers(missing: string): void {
+  const d = drawing();
+  if (d.space || !missing.includes("drive") || d.freedoms <= d.drives.length) return;
+  const free = d.joints.filter((j) => j.freedoms.length === 1 && !d.drives.some((v) => v.joint === j.name));
+  const best = free.filter((j) => j.links.includes("ground")).concat(free).filter((j, k, all) => all.indexOf(j) === k).slice(0, 3);
+  for (const j of best) button(verdict, `Drive ${j.name}`, "", () => void socket.gesture({ op: "drive", joint: j.name, here: Object.values(j.here ?? { turn: 0 })[0] ?? 0 }));
+}
+function say(sentence: string): void {
+  const line = html("p", banner, { class: "refusal", role: "alert" }, sentence);
+  clearTimeout(said);
+  for (const other of [...banner.querySelectorAll(".refusal")].slice(0, -1)) other.remove();
+  said = window.setTimeout(() => line.remove(), 9000);
+}
+function ended(sentence: string): void {
+  for (const old of banner.querySelectorAll(".ended")) old.remove();
+  html("p", banner, { class: "ended", role: "alert" }, sentence);
+}
+function banners(s: State): void {
+  banner.querySelectorAll(".choice").forEach((x) => x.remove());
+  const choice = (sentence: string, ...acts: [string, string][]): void => {
+    const line = html("p", banner, { class: "choice" }, sentence);
+    for (const [text, which] of acts) button(line, text, "", () => void socket.send({ choose: which }));
+  };
+  if (s.kept) choice("This is what was not saved when the studio last ended. ", ["Keep it", "kept"], ["Go back to the saved file", "forget"]);
+  if (s.outside) choice(`${s.file} was changed by another program. `, ["Load it (undo brings this back)", "disk"], ["Keep this one", "mine"]);
+}
+async function save(): Promise<void> {
+  await editor.flush();
+  const a = await socket.send({ save: true });
+  if (a.said) hint.textContent = a.said;
+}
+async function download(ask: string): Promise<void> {
+  await editor.flush();
+  hint.textContent = "Working it out ...";
+  const a = await socket.send({ ask });
+  if (a.error) return say(a.error);
+  const bytes = Uint8Array.from(atob(a.file), (c) => c.charCodeAt(0)), link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes], { type: "text/html" }));
+  link.download = `${state!.file.replace(/\.\w+$/, "")}${ask === "report" ? "_report" : ""}.${a.ending}`;
+  link.click();
+  hint.textContent = `${link.download} is in your downloads`;
+}
+async function problems(): Promise<void> {
+  const all: { kind: string; name: string; title: string }[] = (await socket.send({ problems: true })).problems;
+  const find = html("input", openPane, { type: "search", placeholder: "search", "aria-label": "search problems" }), answers = html("div", openPane, { class: "answers" }), list = html("div", openPane, { class: "list" });
+  const one = (said: string, asked: unknown, title = ""): HTMLElement =>
+    button(list, said, title, () => void socket.send({ open: asked }).then(async () => {
+      fitted = false;
+      setTimeout(() => (canvas.window.fit(drawing()), draw()), 60);
+      await ticks(answers);
+    }));
+  one("Empty drawing", "empty");
+  for (const kind of ["template", "example", "problem"]) {
+    html("h3", list, {}, { template: "Templates", example: "Examples", problem: "Published problems, with their answers" }[kind]!);
+    for (const p of all.filter((x) => x.kind === kind)) one(kind === "template" ? `${p.name.replaceAll("_", " ")}: ${p.title}` : p.title, { kind, name: p.name }, p.name);
+  }
+  find.addEventListener("input", () => list.querySelectorAll("button").forEach((b) => (b.hidden = !b.textContent!.toLowerCase().includes(find.value.toLowerCase()))));
+  await ticks(answers);
+}
+/** The answers that the file prints, each with a tick where the computed one agrees. */
+async function ticks(el: HTMLElement): Promise<void> {
+  const a = await socket.send({ ask: "check" });
+  el.replaceChildren();
+  for (const row of a.rows ?? []) html("p", el, { class: row.ok ? "ok" : "off", title: row.why }, `${row.ok ? "✓" : "✗"} ${row.quantity}: printed ${row.published}, computed ${row.computed}`);
+  if (a.error && /answers/.test(state?.text ?? "")) html("p", el, { class: "off" }, a.error);
+}
+Object.assign(window, { studio: { state: () => state, page: () => page, solved: () => solvedHash, pick, canvas, hand } });
