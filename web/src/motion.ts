@@ -431,9 +431,9 @@ export class Motion {
     let best = 0, away = Infinity;
     for (let k = 0; k < count; k++) if (off(k) < away) [best, away] = [k, off(k)];
     if (drives.length !== 1 || away < 1e-12 || kernel.stepped) return best;
-    for (const [low, high] of [[best - 1, best], [best, best + 1]]) {
+    for (const [low, high] of [[best - 1, best], [best, best + 1], ...(best === 0 ? [[count - 1, count]] : [])]) {
       if (low < 0 || high > kernel.end) continue;
-      const [a, b] = [low, high].map((t) => kernel.drives(t)[0]), x = angular[0] ? a + wrap(drives[0] - a) : drives[0], part = (x - a) / (b - a);
+      const [a, b] = [low, high].map((t) => kernel.drives(t)[0]), near = angular[0] ? wrap : (x: number): number => x, part = near(drives[0] - a) / near(b - a);
       if (part >= 0 && part <= 1) return low + part;
     }
     return best;

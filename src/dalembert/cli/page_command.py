@@ -8,7 +8,7 @@ from typing import Annotated
 from dalembert.cli.options import AS_STATED, Force, ModelFile, Steady
 from dalembert.cli.options import output as written
 from dalembert.errors import ModelError
-from dalembert.saving import check_new
+from dalembert.saving import check_new, new_file
 
 EXAMPLES = """Examples:
   dalembert page engine.yaml -o engine.html
@@ -23,13 +23,21 @@ def page(
     of: Steady = AS_STATED,
     force: Force = False,
 ) -> int:
-    """Make a live page of FILE, one HTML file: drag joints, change numbers, and all forces follow."""
-    from dalembert.pages.html_page import page as make_page
+    """Make a live page of FILE, one HTML file: drag joints, change numbers, and all forces follow.
+
+    A mechanism that is not finished is a sketch: drag its links, and add what is missing.
+    """
+    from dalembert.pages.html_page import html_text
+    from dalembert.pages.unfinished.sketch_page import page_or_sketch
 
     if output.suffix.lower() not in (".html", ".htm"):
         raise ModelError(f"{output.name}: a page is HTML", "name a file that ends in .html")
     check_new(output, force)
-    make_page(of.load(file), output, of.static, force)
+    data = page_or_sketch(of.load(file), of.static)
+    with new_file(output, force) as written_to:
+        written_to.write_text(html_text(data), encoding="utf-8")
+    if "missing" in data:
+        print(f"{output}: a sketch, for {data['missing']['sentence']}")
     print(f"{output}: open it in a browser")
     return 0
 

@@ -786,10 +786,14 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		let { kernel: t, data: n, count: r } = this, i = n.drives.map((e) => n.rows[e].angular), a = (r) => Math.hypot(...t.drives(r).map((t, r) => i[r] ? L(t - e[r]) : (t - e[r]) / n.length)), o = 0, s = Infinity;
 		for (let e = 0; e < r; e++) a(e) < s && ([o, s] = [e, a(e)]);
 		if (e.length !== 1 || s < 1e-12 || t.stepped) return o;
-		for (let [n, r] of [[o - 1, o], [o, o + 1]]) {
-			if (n < 0 || r > t.end) continue;
-			let [a, o] = [n, r].map((e) => t.drives(e)[0]), s = ((i[0] ? a + L(e[0] - a) : e[0]) - a) / (o - a);
-			if (s >= 0 && s <= 1) return n + s;
+		for (let [n, a] of [
+			[o - 1, o],
+			[o, o + 1],
+			...o === 0 ? [[r - 1, r]] : []
+		]) {
+			if (n < 0 || a > t.end) continue;
+			let [r, o] = [n, a].map((e) => t.drives(e)[0]), s = i[0] ? L : (e) => e, c = s(e[0] - r) / s(o - r);
+			if (c >= 0 && c <= 1) return n + c;
 		}
 		return o;
 	}
