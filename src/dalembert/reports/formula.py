@@ -134,7 +134,7 @@ LATEX_SIGNS = {sign: "\\" + name for name, sign in map(str.split, _LETTERS.split
 """Signs that LaTeX has in its mathematics only, and their commands."""
 
 _LATEX = {sign: f"{command} " for sign, command in LATEX_SIGNS.items()} | {
-    "·": r"{\cdot}", "²": "^2", "³": "^3", "°": r"^\circ", "−": "-", "'": "{}'", "\\": r"\backslash ",
+    "∓": r"\mp ", "·": r"{\cdot}", "²": "^2", "³": "^3", "°": r"^\circ", "−": "-", "'": "{}'", "\\": r"\backslash ",
     "~": r"\sim ", "^": r"\hat{}", "–": r"\text{--}", **{sign: "\\" + sign for sign in "_%&#${}"},
 }  # fmt: skip
 

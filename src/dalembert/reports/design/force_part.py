@@ -15,6 +15,7 @@ from dalembert.reports.design.verdict import (
     DesignVerdict,
     most_place,
     not_judged,
+    put_used,
     together,
 )
 from dalembert.views import charts
@@ -40,8 +41,8 @@ def force_part(c: DesignContext) -> Iterator[DesignPart]:
         "Largest moment",
         "At",
     ]
-    part.sheet.table(heads, _joint_rows(c), _caption(c))
-    part.sheet.table(["Drive or load", "Largest", "At", "Smallest", "At"], _effort_rows(c))
+    put_used(part.sheet, heads, _joint_rows(c), _caption(c))
+    put_used(part.sheet, ["Drive or load", "Largest", "At", "Smallest", "At"], _effort_rows(c))
     several = [j for j in r.joints if not r.unique(j).all() and np.isfinite(r.residual).any()]
     if several:
         part.verdicts.append(

@@ -23,6 +23,8 @@ from dalembert.reports.design.verdict import (
     not_judged,
 )
 
+USUAL = 0.05
+"""Cs of the flywheel that is proposed: of presses and machine tools 0.02 to 0.2 (Norton, Design of Machinery, 11)."""
 LIGHT = 1e-6
 """Part of the machine's mass, times the square of its size, that stands for no flywheel."""
 
@@ -63,15 +65,18 @@ def _motor(c: DesignContext, choice: MotorChoice) -> Iterator[DesignVerdict]:
 
 
 def flywheel_part(c: DesignContext) -> Iterator[DesignPart]:
-    """Fluctuation of energy, and of the speed with the links alone."""
+    """Fluctuation of energy, that of the speed with the links alone, and a flywheel for a usual Cs."""
     part, m = DesignPart("Flywheel"), c.r.mechanism
-    mass = sum(m.mass(link) for link in c.r.links) or 1.0
-    f = flywheel(c.r, inertia=LIGHT * mass * c.r.compiled.layout.length**2)
-    value = f"dE = {c.text('energy', f.size.energy)}"
+    f = flywheel(c.r, Cs=USUAL)
     reason = "the file has no limit of the speed's fluctuation"
-    part.verdicts.append(not_judged("fluctuation of energy", reason, value))
-    if f.exact is not None:
-        part.verdicts.append(not_judged("Cs with the links alone", reason, f"{f.exact.fluctuation:.4g}"))
+    part.verdicts.append(not_judged("fluctuation of energy", reason, c.text("energy", f.size.energy)))
+    mass = sum(m.mass(link) for link in c.r.links) or 1.0
+    alone = flywheel(c.r, inertia=LIGHT * mass * c.r.compiled.layout.length**2).exact
+    if alone is not None:
+        part.verdicts.append(not_judged("Cs with the links alone", reason, f"{alone.fluctuation:.4g}"))
+    if f.exact_size is not None:
+        value = c.text("inertia", f.exact_size.inertia)
+        part.verdicts.append(not_judged(f"flywheel for Cs = {USUAL:g}", f"a proposal; {reason}", value))
     put_answer(part.sheet, f, c)
     yield part
 

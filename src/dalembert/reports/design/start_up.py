@@ -35,6 +35,8 @@ def start_up_part(c: DesignContext) -> Iterator[DesignPart]:
     until: list[str | float] = [LONGEST, f"{drive}.speed = {sign * working:.6g} {unit}"]
     start = None if m.start else {drive: {"position": float(r.drive_position(drive)[0]), "speed": 0.0}}
     s = simulate(m, until, start, count=INSTANTS, tolerance=TOLERANCE)
+    if s.time[-1] < LONGEST / 4:  # few of the instants are before its end
+        s = simulate(m, [float(s.time[-1]), *until[1:]], start, count=INSTANTS, tolerance=TOLERANCE)
     part, kind = DesignPart("Start-up"), "angular_speed" if unit == "rad/s" else "speed"
     speed, time = c.text(kind, working), c.text("time", float(s.time[-1]))
     reached = abs(float(s.speed(drive)[-1])) >= working * (1 - 1e-6)

@@ -123,4 +123,4 @@ def _stress(c: DesignContext, t: MemberTable, link: str) -> Iterator[DesignVerdi
         if f.safety is None:
             yield not_judged(f"fatigue of {link}", "no endurance and ultimate stress in the section", value)
         else:
-            yield judged(f"fatigue of {link} (Goodman, no notches)", f.safety, value)
+            yield judged(f"fatigue of {link}", f.safety, value, remark="Goodman, no notches")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
@@ -14,6 +14,7 @@ from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.arrays import Array
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.printing import number
+from dalembert.reports.machine_sections import neat
 from dalembert.reports.sheet import Drawings, Heading, ReportSheet
 from dalembert.views.notation import Notation, Shown, pretty
 
@@ -86,20 +87,16 @@ class DesignContext:
         """A position as text; empty where there is only one."""
         if len(self.r.status) == 1:
             return ""
-        text = _neat(where(self.r, self.to, k))
+        text = neat(pretty(where(self.r, self.to, k)))
         return text if text.startswith("no.") else f"{text} (no. {k + 1})"
 
     def text(self, kind: str, value: float) -> str:
         """A number with its unit."""
-        return _neat(self.to.quantity(kind, float(value)).strip()) if math.isfinite(value) else "–"
+        return neat(pretty(self.to.quantity(kind, float(value)).strip())) if math.isfinite(value) else "–"
 
     def number(self, kind: str, value: float) -> str:
         """A number without its unit."""
         return pretty(self.to.number(kind, float(value))) if math.isfinite(value) else "–"
-
-
-def _neat(text: str) -> str:
-    return pretty(text).replace(" °", "°")
 
 
 @dataclass
@@ -122,9 +119,19 @@ class DesignPart:
 
 def put_verdicts(sheet: ReportSheet, verdicts: Iterable[DesignVerdict]) -> None:
     """A table of verdicts without the columns that are empty."""
-    rows = [v.row for v in verdicts]
-    used = [k for k in range(len(HEADS)) if any(row[k] not in ("", "–") for row in rows)]
-    sheet.table([HEADS[k] for k in used], [[row[k] for k in used] for row in rows], words=True)
+    put_used(sheet, HEADS, [v.row for v in verdicts], words=True)
+
+
+def put_used(
+    sheet: ReportSheet,
+    heads: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    caption: str = "",
+    words: bool = False,
+) -> None:
+    """A table without the columns in which no row has anything."""
+    used = [k for k in range(len(heads)) if any(row[k] not in ("", "–") for row in rows)]
+    sheet.table([heads[k] for k in used], [[row[k] for k in used] for row in rows], caption, words=words)
 
 
 Parts = Callable[[DesignContext], Iterable[DesignPart]]

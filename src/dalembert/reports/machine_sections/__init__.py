@@ -5,6 +5,7 @@ In: an answer of ``machine``, a notation. Out: a ``ReportSheet``. Imports ``mach
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from dalembert.analysis.result.position_lookup import position_at
@@ -45,8 +46,19 @@ def put_parts(sheet: ReportSheet, parts: Iterable[Part]) -> None:
     """Sentences and tables as an answer prints them, put on a sheet."""
     for part in parts:
         if isinstance(part, str):
-            sheet.text((pretty(part) if "*" in part else part).replace("\n", "; "))
+            head, line, rest = part.partition("\n")
+            text = f"{head}: {rest}" if line and head.isalpha() else part  # a list under its heading
+            sheet.text(neat(text if "*" not in text else pretty(text)).replace("\n", "; "))
         else:
-            heads = [pretty(head.replace("\n", " ")) for head in part.heads]
-            rows = [[pretty(cell) for cell in row] for row in part.rows]
+            heads = [neat(pretty(head.replace("\n", " "))) for head in part.heads]
+            rows = [[neat(pretty(cell)) for cell in row] for row in part.rows]
             sheet.table(heads, rows, part.note.replace("\n", " "))
+
+
+def neat(text: str) -> str:
+    """A text with degrees right behind their numbers.
+
+    >>> neat("78 ° to 90 °, angle °")
+    '78° to 90°, angle °'
+    """
+    return re.sub(r"(?<=\d) °", "°", text)

@@ -99,7 +99,7 @@ def flywheel_section(sheet: ReportSheet, f: Flywheel, shown: Shown) -> None:
         ("T_{m}", "", shown.number("moment", f.mean), "moment"),
         ("Δ E = E_{max} - E_{min}", f"{most} - ({least})", fluctuation, "energy"),
         ("I = frac(Δ E; C_{s} omega^{2})", rotating, shown.number("inertia", size.inertia), "inertia"),
-        ("omega = omega_{m} (1 -+ C_{s} / 2)", "", " quad ".join(limits), "angular_speed"),
+        ("omega = omega_{m} (1 ∓ C_{s} / 2)", "", " quad ".join(limits), "angular_speed"),
     ]
     sheet.equations([Working(a, b, f'{value} "{shown.unit(kind)}"') for a, b, value, kind in rows])
 
