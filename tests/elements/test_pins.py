@@ -65,6 +65,22 @@ def test_the_ends_of_a_stack_agree_with_the_other_joint_of_the_point() -> None:
     assert x.planes == pytest.approx(y.planes, rel=1e-12)
 
 
+def test_a_fork_in_a_stack_shares_its_force_between_its_layers() -> None:
+    """Two forks about an eye: half of each link's force in each of its layers."""
+    forked: dict[str, Any] = {"diameter": "20 mm", "stack": ["left", "right", "hook", "right", "left"]}
+    forked |= {"layers": [0, 0.012, 0.03, 0.048, 0.06], "thicknesses": [0.01, 0.01, 0.02, 0.01, 0.01]}
+    r = da.statics(hung(forked))
+    x = da.pin(r, "A")
+    left, hook = r.reaction("A", on="left")[0], r.reaction("B", on="hook")[0]
+    right = -left - hook
+    halves = [np.hypot(*(left / 2)), np.hypot(*((left + right) / 2))]
+    assert x.planes[0] == pytest.approx([*halves, *halves[::-1]], rel=1e-9)
+    middle = 0.03 * left / 2 + 0.018 * right / 2
+    assert x.moment[0] == pytest.approx(max(np.hypot(*middle), 0.012 * halves[0]), rel=1e-9)
+    assert x.pressures["right"][0] == pytest.approx(np.hypot(*right) / 2 / 0.02 / 0.01, rel=1e-9)
+    assert sorted(x.best) == sorted(forked["stack"])
+
+
 def test_one_plane_has_twice_the_shear_of_two() -> None:
     one, two = (da.pin(da.statics(hung({**FORK, "planes": n})), "A") for n in (1, 2))
     assert one.shear == pytest.approx(2 * two.shear, rel=1e-12)

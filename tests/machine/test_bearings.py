@@ -470,14 +470,25 @@ def test_a_bad_row_of_a_table_has_its_line(old: str, new: str, said: str, tmp_pa
         da.bearings(shaft("1898"), hours=5000, table=tmp_path / "b.csv")
 
 
+def test_without_speeds_there_are_loads_and_pressures_but_no_lives() -> None:
+    sized = "{diameter: 20 mm, length: 10 mm, rating: 12 kN}"
+    moving = da.bearing(shaft("1898", sized), "O")
+    table = da.bearings(
+        da.statics(shaft("1898", sized).mechanism.with_values({"drives.O.speed": 0.0})), hours=100
+    )
+    still = table.loads["O"]
+    np.testing.assert_allclose(still.pressure, still.radial / (0.02 * 0.01), rtol=1e-12)
+    assert np.isfinite(moving.hours)
+    assert np.isnan([still.hours, still.equivalent, still.mean_pv, still.rating_for(100)]).all()
+    assert "so there are no PV, equivalent loads and lives" in table.text()
+
+
 def test_what_has_no_life_is_refused() -> None:
     r = shaft("1898", "{diameter: 20 mm, length: 10 mm}")
     with pytest.raises(ModelError, match="the bearing of 'O' has no rating; give rating: 12 kN"):
         _ = da.bearing(r, "O").turns
     with pytest.raises(ModelError, match="a bearing is chosen by its life"):
         da.bearings(r, table="none.csv")
-    with pytest.raises(ModelError, match="the time of each position is not known"):
-        da.bearing(da.dynamics(r.mechanism.with_values({"drives.O.speed": 0.0})), "O")
     engine = da.dynamics(da.in_line_engine(cylinders=1))
     with pytest.raises(ModelError, match="joint 'cylinder_1' does not turn about one axis"):
         da.bearing(engine, "cylinder_1")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.output.summary.printed_units import Printed, scale_for
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.result.result import Result
@@ -109,7 +109,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         return [row_of(to, *each) for each in both]
 
     def _printed(self, units: UnitChoice) -> Printed:
-        return Printed(None if units == "SI" else self.mechanism.units)
+        return scale_for(None if units == "SI" else self.mechanism.units, {})
 
     @property
     def words(self) -> str:

@@ -96,7 +96,7 @@ class BearingLoad:
     def _at(self, at: Ints) -> BearingLoad:
         """The same at some positions alone."""
         arrays = {name: getattr(self, name)[at] for name in ("radial", "axial", "couple", "rate")}
-        return replace(self, **arrays, time=durations(self.result, at))
+        return replace(self, **arrays, time=_durations(self.result, at))
 
     def _summary(self) -> dict[str, float]:
         """The values that are over all positions."""
@@ -182,7 +182,7 @@ class BearingLoad:
 def bearing(r: Result, joint: str) -> BearingLoad:
     """The load of a joint's bearing over the cycle: pressure, PV, equivalent load, L10.
 
-    Of a pin or a revolute joint. Raises ModelError for others, and where the drive stands still.
+    Of a pin or a revolute joint; raises ModelError for others. Where the drives have no speed, means and lives are NaN.
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2).with_values({"joints.A.bearing": {"rating": "12 kN"}})
@@ -207,7 +207,16 @@ def bearing(r: Result, joint: str) -> BearingLoad:
     if np.nanmax(np.abs(rate), initial=0.0) <= STILL * max(np.nanmax(np.abs(w), initial=0.0) for w in (i, j)):
         rate = 0 * rate  # both links turn alike
     described = getattr(r.mechanism.joints[joint], "bearing", None)
-    return BearingLoad(r, joint, described, radial, axial, couple, rate + 0.0 * radial, durations(r))
+    time = _durations(r)
+    return BearingLoad(r, joint, described, radial, axial, couple, rate + 0.0 * (radial + time), time)
+
+
+def _durations(r: Result, at: Ints | None = None) -> Array:
+    """Time of each position; NaN where the drives have no speeds, so that loads and pressures are all there is."""
+    try:
+        return durations(r, at)
+    except ModelError:
+        return np.full(len(r.status) if at is None else len(at), np.nan)
 
 
 def turning_joints(r: Result) -> list[str]:

@@ -152,10 +152,10 @@ def pin(r: Result, joint: str) -> PinStresses:
         most = planes.max(axis=1)
         best = _best(forces, size) if len(size.stack) <= MOST else ()
         thick = size.thicknesses or ()
-        pressures = {
-            link: np.hypot(*forces[:, k].T) / (size.diameter * t)
-            for k, (link, t) in enumerate(zip(size.stack, thick, strict=False))
-        }
+        pressures: dict[str, Array] = {}
+        for k, (link, t) in enumerate(zip(size.stack, thick, strict=False)):
+            pressure = np.hypot(*forces[:, k].T) / (size.diameter * t)
+            pressures[link] = np.fmax(pressure, pressures.get(link, 0.0))
         greatest = moments.max(axis=1)
         return PinStresses(
             r, joint, size, most, most / area, nothing, nothing, greatest, planes, best, pressures
@@ -183,7 +183,8 @@ def pin(r: Result, joint: str) -> PinStresses:
 
 
 def _forces_on(r: Result, joint: str, stack: tuple[str, ...]) -> Array:
-    """Forces (P, n, 2) of the bolt on the links of a stack: of all pins at the place of this one."""
+    """Forces (P, n, 2) of the bolt on the layers of a stack: of all pins at the place of this one. A link with several
+    layers, a fork, shares its force evenly among them."""
     m = r.mechanism
     at = [set(zip(j.links, j.point_names(n), strict=True)) for n, j in m.joints.items()]
     names = list(m.joints)
@@ -197,12 +198,12 @@ def _forces_on(r: Result, joint: str, stack: tuple[str, ...]) -> Array:
         what = (
             f"the bolt of {joint!r} carries {', '.join(sorted(links))}, and its stack is {', '.join(stack)}"
         )
-        raise ModelError(what, "name each of them once", ("joints", joint, "pin", "stack"))
+        raise ModelError(what, "name each of them", ("joints", joint, "pin", "stack"))
     force = {link: np.zeros((len(r.status), 2)) for link in stack}
     for n in shared:
         for link in m.joints[n].links:
             force[link] = force[link] + r.reaction(n, on=link)
-    return np.stack([force[link] for link in stack], axis=1)
+    return np.stack([force[link] / stack.count(link) for link in stack], axis=1)
 
 
 def moment_along(x: PinStresses, k: int) -> tuple[Array, Array]:
@@ -242,7 +243,8 @@ def _along(forces: Array, places: Array) -> tuple[Array, Array]:
 def _best(forces: Array, size: PinSize) -> tuple[str, ...]:
     """The order with the least largest moment, the layers kept."""
     assert size.stack is not None
-    orders = [order for order in permutations(range(len(size.stack))) if order[0] < order[-1]]
+    every = [order for order in permutations(range(len(size.stack))) if order[0] < order[-1]]
+    orders = [*{tuple(size.stack[k] for k in order): order for order in every}.values()]
     places = np.array(size.layers)
     largest = [float(np.nanmax(_along(forces[:, order], places)[1])) for order in orders]
     return tuple(size.stack[k] for k in orders[int(np.argmin(largest))])

@@ -30,7 +30,7 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
         most, *others = (to.number("force", x) for x in (size, b.axial.max(), b.equivalent))
         turning = [
             to.number("angular_speed", b.speed),
-            "oscillating" if b.swings else "continuous" if b.speed else "-",
+            "oscillating" if b.swings else "continuous" if b.speed > 0 else "-",
         ]
         loads.append([joint, most, where(t.result, to, k), *others, *turning])
         if b.sized:
@@ -58,6 +58,11 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
         "The equivalent load is weighted by the relative rotation of the joint's links; exponent 3, for rollers "
         "10/3. For oscillating joints, revolutions = swept angle / 360 deg."
     )
+    if any(np.isnan(b.time).all() for b in t.loads.values()):
+        yield (
+            "The time of each position is not known, so there are no PV, equivalent loads and lives; give a drive a "
+            "range and a speed that is not 0 in it."
+        )
     changes = {f"{what} of {j}": part for j, b in t.loads.items() for what, part in b.sampling().items()}
     yield sampled(t.result, changes)
     thrust = [j for j, b in t.loads.items() if np.isfinite(b.radial).all() and not np.isfinite(b.load).all()]

@@ -12,6 +12,8 @@ from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import round_up
 from dalembert.views.paper.scene import Line, Polygon, Scene, Text
 
+WIDE = 1.9
+"""Width of a letter, mm, at least."""
 LONG, HIGH = 110.0, 22.0
 """Length of a drawn bolt, and the largest ordinate of its moment, mm."""
 
@@ -48,7 +50,8 @@ def pin_scene(x: PinStresses, notation: Notation) -> Scene:
     def at(s: float) -> float:
         return (s - low) / per_mm
 
-    for k, e in enumerate(layers):
+    rows: list[float] = []  # right ends of what is written in each row above the links
+    for e in layers:
         a, b = at(e.middle - e.thick / 2), at(e.middle + e.thick / 2)
         for side in (1, -1):
             y, far = side * half, side * (half + 8.0)
@@ -56,7 +59,11 @@ def pin_scene(x: PinStresses, notation: Notation) -> Scene:
         text = e.link
         if e.link in x.pressures:
             text += f", {shown.text('pressure', float(np.nanmax(x.pressures[e.link])))}"
-        canvas.add(Text(((a + b) / 2, half + 12.0 + 5.0 * (k % 2)), text, 3.0))
+        wide = WIDE * len(text)
+        left = (a + b - wide) / 2
+        row = next((k for k, right in enumerate(rows) if left > right), len(rows))
+        rows[row : row + 1] = [left + wide + WIDE]
+        canvas.add(Text(((a + b) / 2, half + 12.0 + 5.0 * row), text, 3.0))
     end = at(high)
     canvas.add(Polygon(((0.0, -half), (end, -half), (end, half), (0.0, half)), "pin"))
     canvas.add(Line(((-4.0, 0.0), (end + 4.0, 0.0)), "construction"))

@@ -64,6 +64,8 @@ PREFIXES = {3: "k", 6: "M", 9: "G", 12: "T"}
 PREFIXED = ("N", "N*m", "W", "J", "Pa")
 """Units that take a prefix; for others the power itself is printed."""
 PASCAL = {"N/m^2": "Pa"}
+THOUSANDTHS = {("kN/mm^2", -3): "N/mm^2"}
+"""A unit too large for stresses, with the power of ten that makes it the usual one."""
 OF_METRES = {"N*mm": "N*m", "mm/s": "m/s", "mm/s^2": "m/s^2"}
 """Units of millimetres -> those of metres that are a thousand times larger."""
 
@@ -73,9 +75,11 @@ def unit_with_power(unit: str, power: int) -> str:
 
     >>> unit_with_power("N*m", 3), unit_with_power("N*mm", 9), unit_with_power("lbf*in", 6)
     ('kN*m', 'MN*m', '10^6 lbf*in')
-    >>> unit_with_power("N/m^2", 6)
-    'MPa'
+    >>> unit_with_power("N/m^2", 6), unit_with_power("kN/mm^2", -3)
+    ('MPa', 'N/mm^2')
     """
+    if (unit, power) in THOUSANDTHS:
+        return THOUSANDTHS[unit, power]
     if power:
         unit = PASCAL.get(unit, unit)
     if power >= 3 and unit in OF_METRES:
@@ -101,7 +105,7 @@ def scale_for(units: object, most: Mapping[str, float], least: float = math.inf)
     """The scale for answers whose largest numbers (SI) are known by kind: a kind whose largest would be printed with an
     exponent has it with its unit. Forces and moments have one power, so that arms stay in the unit of the file: kN
     times mm is N*m. ``least``: the smallest force (N), for which a lower power is taken where the largest allows it.
-    Stresses and pressures in N/m^2 are in MPa."""
+    Stresses and pressures in N/m^2 are in MPa, those in kN/mm^2 in N/mm^2."""
     plain = Printed(units)
     watts = plain.text("power") == "W"
     sizes = {"force": 0.0, "moment": 0.0} | {k: float(abs(plain(k, size))) for k, size in most.items()}
@@ -116,6 +120,8 @@ def scale_for(units: object, most: Mapping[str, float], least: float = math.inf)
         powers |= {"force": common, "moment": common}
     if plain.text("pressure") in PASCAL:
         powers["pressure"] = 6
+    elif (plain.text("pressure"), -3) in THOUSANDTHS:
+        powers["pressure"] = -3
     return Printed(units, powers)
 
 

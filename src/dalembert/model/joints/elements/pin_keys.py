@@ -38,7 +38,8 @@ class PinSize(Part):
         None, description="of the bolt: its safety by von Mises"
     )
     stack: tuple[Name, ...] | None = Field(
-        None, description="links on the bolt in their order along it, of all pins that share the point"
+        None,
+        description="links on the bolt in their order along it, of all pins that share the point; a fork twice",
     )
     layers: tuple[Annotated[float, Scalar("length")], ...] | None = Field(
         None, description="places of these links along the bolt, increasing lengths"
@@ -60,7 +61,7 @@ class PinSize(Part):
                 what = "thicknesses are those of a stack"
                 raise ModelError(what, "write eye and cheeks, or stack and layers", ("thicknesses",))
             return self
-        if len(self.stack) != len(self.layers) or len(self.stack) < 2 or len({*self.stack}) < len(self.stack):
+        if len(self.stack) != len(self.layers) or len(self.stack) < 2:
             what = f"{len(self.stack)} links and {len(self.layers)} layers do not go together"
             raise ModelError(what, "give each link of the stack one place", ("layers",))
         if any(b <= a for a, b in pairwise(self.layers)):
