@@ -8,16 +8,20 @@ accelerations. Beside it: da.simulate with its checks and all joint forces at th
 printed; and the model built anew each time, here and in Exudyn (here, the machine code of a structure stays). The other
 programs have the coarse steps too that reach an accuracy soonest. Medians of runs taken in turns.
 
-    python benchmarks/simulate.py [seconds simulated]
+At the end machines whose joints rub, with friction in machine code and without.
+
+    python benchmarks/simulate.py [seconds simulated, or "rubbing"]
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from math import asin, atan2, cos, pi, sin
+from pathlib import Path
 from statistics import median
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
@@ -25,6 +29,9 @@ from scipy.integrate import solve_ivp
 
 import dalembert as da
 from dalembert.bundled import examples
+from dalembert.machine.motion.coded.coded_motion import CodedState
+from dalembert.machine.motion.coded.shared_motion import SharedMotion
+from dalembert.machine.motion.simulation import motion_of
 
 SECONDS, G, TORQUE, BEGIN, SPEED, REPEAT, TURN = 1.0, 9.80665, 0.4, pi / 3, 30.0, 5, 0.03
 A, B, C, D = 0.05, 0.15, 0.12, 0.2
@@ -297,6 +304,9 @@ def measured(ways: dict[str, Callable[[], float]], known: float) -> dict[str, tu
 
 
 def main() -> None:
+    if sys.argv[1:] == ["rubbing"]:
+        rubbing()
+        return
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else SECONDS
     for four_bar in (True, False):
         title = "Four-bar" if four_bar else "Slider-crank"
@@ -316,7 +326,67 @@ def main() -> None:
             print(f"{name:36} {time * 1e3:10.2f} ms {error:10.1e} rad")
         compare(found)
         many(four_bar)
+    rubbing()
     flywheels()
+
+
+RUBBING = {"A": {"coefficient": 0.1, "radius": 0.01}, "S": {"coefficient": 0.1}}
+"""Friction of two joints of the slider-crank."""
+
+
+def rubbing() -> None:
+    """Dry friction: the press of the guide, and the slider-crank with two joints that rub, against the same without
+    friction and against friction solved in numpy at each state; and 16 designs of the press as a study takes them."""
+    press = da.load(Path(__file__).parents[1] / "docs" / "press.yaml")
+    crank = model(False)
+    joints = {f"joints.{name}.friction": friction for name, friction in RUBBING.items()}
+    rough = da.mechanism(crank.model_dump(mode="json")).with_values(joints)
+    smooth = press.with_values({f"joints.{name}.friction": None for name in press.joints})
+    print("\ndry friction, CPU time |  machine code      numpy   ratio | frictionless | events, largest gap")
+    for name, m, free, until in (
+        ("press, 8 s", press, smooth, 8.0),
+        ("slider-crank, 1 s", rough, crank, 1.0),
+    ):
+        coded, solved, bare = (
+            _seconds(partial(da.simulate, of, until, count=201), fast)
+            for of, fast in ((m, True), (m, False), (free, True))
+        )
+        gap = max(
+            (abs(a.time - b.time) for a, b in zip(coded[1].events, solved[1].events, strict=True)), default=0
+        )
+        print(
+            f"{name:22} | {1e3 * coded[0]:10.1f} ms {1e3 * solved[0]:7.0f} ms {solved[0] / coded[0]:6.0f}x | "
+            f"{1e3 * bare[0]:9.1f} ms | {len(coded[1].events)}, {gap:.0e} s"
+        )
+    shared = SharedMotion(press, ("parameters.mu", "links.ram.mass"))
+    numbers = [{"parameters.mu": 0.06 + 0.0025 * k, "links.ram.mass": 50.0 + k} for k in range(16)]
+    designs = [press.with_values(values) for values in numbers]
+    motion_of(designs[0], 2.0, shared=shared)
+    start = process_time()
+    found = [float(motion_of(m, 2.0, shared=shared).speed("O")[-1]) for m in designs]
+    each = (process_time() - start) / len(designs)
+    taken, other = _seconds(lambda: da.simulate(designs[-1], 2.0), False)
+    gap, ratio = abs(float(other.speed("O")[-1]) - found[-1]), taken / each
+    print(
+        f"a design of a study of the press, 2 s: {1e3 * each:.0f} ms, {ratio:.0f}x; speeds within {gap:.0e} rad/s"
+    )
+
+
+def _seconds(run: Callable[[], Any], fast: bool) -> tuple[float, Any]:
+    """Median CPU time of a motion whose equation is known, and the motion; without machine code for friction if not
+    ``fast``."""
+    machine = CodedState.machine
+    if not fast:
+        CodedState.machine = lambda state, t, y: None  # type: ignore[method-assign]
+    try:
+        answer, times = run(), []
+        for _ in range(REPEAT if fast else 1):
+            start = process_time()
+            run()
+            times.append(process_time() - start)
+    finally:
+        CodedState.machine = machine  # type: ignore[method-assign]
+    return median(times), answer
 
 
 def flywheels() -> None:

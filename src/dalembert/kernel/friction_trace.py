@@ -62,6 +62,10 @@ POWER = 12
 """Power of the fixed point's matrix whose norm bounds its spectral radius."""
 
 
+TRACED = ("read", "lever", "coefficient", "resting", "reach", "viscous", "reckoned", "wrap", "given")
+"""Arrays of contacts that follow from numbers that vary."""
+
+
 class Slip(NamedTuple):
     """Rows that the contacts act along, their senses and rates, the response to c z, and c z (E,)."""
 
@@ -166,8 +170,7 @@ def _at_side(
 
 
 def trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
-    names = ("read", "lever", "coefficient", "resting", "reach", "viscous", "reckoned", "wrap", "given")
-    numbers: Tree = {name: trace_array(graph, getattr(contacts, name)) for name in names}
+    numbers: Tree = {name: trace_array(graph, getattr(contacts, name)) for name in TRACED}
     return replace(contacts, **numbers)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -15,9 +16,15 @@ from dalembert.analysis.batch.over_positions import reduce_positions
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError, errors_at
+from dalembert.machine.motion.coded.shared_motion import SharedMotion
 from dalembert.machine.motion.compiled_motion import MotionKernel, compile_motion
 from dalembert.machine.motion.occurrences import read_end
-from dalembert.machine.motion.simulation import Simulation, check_choices, read_start, simulate
+from dalembert.machine.motion.simulation import (
+    Simulation,
+    check_choices,
+    motion_of,
+    read_start,
+)
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import SLIDE, TURN
 from dalembert.model.part import check_keys
@@ -44,9 +51,9 @@ class SimulationPlan:
     count: int = 201
     tolerance: float = 1e-9
 
-    def of(self, m: Mechanism) -> Simulation:
+    def of(self, m: Mechanism, shared: SharedMotion | None = None) -> Simulation:
         """The motion of one design, with all its events."""
-        return simulate(m, self.until, count=self.count, tolerance=self.tolerance)
+        return motion_of(m, self.until, count=self.count, tolerance=self.tolerance, shared=shared)
 
     def tree(self) -> Tree:
         """In plain values."""
@@ -127,7 +134,7 @@ class MotionEngine:
 
 @dataclass(frozen=True)
 class SimulationEngine(AnalysisEngine):
-    """`da.simulate` of one design after the other: friction, brakes, stops, whatever it does."""
+    """`da.simulate` of one design after the other, with one equation: friction, brakes, stops, whatever it does."""
 
     motion: SimulationPlan
 
@@ -143,8 +150,12 @@ class SimulationEngine(AnalysisEngine):
     def text(self) -> str:
         return f"simulations of {self.outputs}, {self.reduce}, {self.motion}"
 
+    @cached_property
+    def _shared(self) -> SharedMotion:
+        return SharedMotion(self.mechanism, self.numbers)
+
     def one(self, m: Mechanism) -> tuple[Block, Array]:
-        s = self.motion.of(m)
+        s = self.motion.of(m, self._shared)
         last = (x[-1:] for x in (s.time, s.result.schedule.position, s.result.schedule.speed))
         parts = {name: x[0] for name, x in ends(m, *last).items()}
         parts |= {name: self._over_time(s, name) for name in self.outputs if name not in parts}

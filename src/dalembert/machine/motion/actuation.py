@@ -57,6 +57,8 @@ class Actuation:
     laws: dict[int, PrescribedLaw] = field(default_factory=dict)
     contacts: tuple[Any, ...] = ()
     """Contacts that push, whose gaps are drives or have stops: ``landing.opened_contacts.GapContact``."""
+    equation: Any = None
+    """An ``Equation`` that several machines share; None: each has its own."""
     on: Flags = field(init=False)
 
     def __post_init__(self) -> None:

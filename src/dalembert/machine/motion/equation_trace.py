@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import lru_cache, partial
 from typing import Any
 
@@ -17,6 +18,7 @@ import numpy as np
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.tracing.symbolic_model import functions
+from dalembert.analysis.batch.tracing.symbolic_model import numbers as varied_numbers
 from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME
@@ -28,7 +30,7 @@ from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
-from dalembert.kernel.friction_trace import trace_contacts
+from dalembert.kernel.friction_trace import TRACED, trace_contacts
 from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
 from dalembert.kernel.program import Program
 from dalembert.kernel.trace import Traced
@@ -142,6 +144,33 @@ def _set_contacts(out: Equation, trace: Trace) -> None:
         out.dry = DryFriction(contacts, _independent(contacts, trace_array(out.graph, slip.state.sense)))
         out.contacts = of_trace and trace_contacts(out.graph, of_trace)
         out.joints = [followed.compiled.joints[contacts.joint[e]] for e in out.dry.own]
+
+
+def shared_equation(m: Mechanism, vary: Sequence[str]) -> Equation | None:
+    """One equation for all numbers of links, joints and loads at the paths; None where each design needs its own: one
+    whose states are followed, or whose loads are computed outside machine code."""
+    try:
+        equation = trace_equation(m, vary)
+    except ModelError:
+        return None
+    return None if equation.known or any(callable(f) for f in equation.channels) else equation
+
+
+def equation_of_design(shared: Equation, m: Mechanism, vary: Sequence[str]) -> Equation | None:
+    """The shared equation with the numbers of a design; None where that may be on another branch."""
+    new, kernel, varied = shared.again(), shared.kernel, [n.value for n in varied_numbers(m, vary)]
+    design = np.array([*varied, *kernel.nominal[len(varied) :]])
+    if np.any(kernel.may_change_branch(design[None])):
+        return None
+    new.values[: len(varied)] = varied
+    if new.dry is not None and shared.contacts is not None:
+        known = {n.index: x for n, x in zip(kernel.number_nodes, design, strict=True)}
+        arrays: Tree = {}
+        for name in TRACED:
+            nodes = getattr(shared.contacts, name)
+            arrays[name] = np.array(shared.graph.evaluate(nodes.ravel(), known), float).reshape(nodes.shape)
+        new.dry.contacts = replace(new.dry.contacts, **arrays)
+    return new
 
 
 def _sided_functions(switches: dict[Node, Node], graph: Graph) -> Tree:

@@ -23,6 +23,7 @@ from dalembert.bounds import BOUNDS, text_of
 from dalembert.errors import ArgumentError, ModelError
 from dalembert.machine.elements.brake_heat import BrakeHeat
 from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
+from dalembert.machine.motion.coded.shared_motion import SharedMotion
 from dalembert.machine.motion.coordinates.pieces import analysis_along, instants, integrate
 from dalembert.machine.motion.energies import MotionChecks
 from dalembert.machine.motion.integration import Integration
@@ -294,16 +295,32 @@ def simulate(
     >>> bool(s.energy_residual < 1e-9), bool(s.law_residual < 1e-9)
     (True, True)
     """
-    m = as_mechanism(m)
+    return motion_of(as_mechanism(m), until, start, events, count, tolerance, steps)
+
+
+def motion_of(
+    m: Mechanism,
+    until: str | float | Sequence[str | float],
+    start: Mapping[str, object] | None = None,
+    events: Sequence[str] = (),
+    count: int = 201,
+    tolerance: float = TOLERANCE,
+    steps: int = Limits.steps,
+    shared: SharedMotion | None = None,
+) -> Simulation:
+    """The motion of ``simulate``; of one design of many by the equation that they have ``shared``."""
     try:
         prescribed, moves = actuation(m, read_start(m, start))
         whole, acting = opened(prescribed, moves) or (prescribed, moves)
+        if shared is not None and acting is moves:
+            acting.equation = shared.equation_of(whole)
         end, conditions = read_end(m, until, events, lambda name: watched_kind(whole, acting, name))
         check_choices(count, tolerance)
         if isinstance(steps, bool) or not isinstance(steps, int) or steps < 1:
             raise ModelError(f"{steps!r} is not a number of steps", "ask for 1 or more")
         times = np.linspace(0.0, end, count)[1:] if np.isfinite(end) else None
         run = Integration(whole, acting, end, times, conditions, tolerance, Limits(steps))
+        acting.equation = None  # the run has it; an answer can be pickled
         pieces = integrate(run)
     except ModelError as error:
         raise error.at_source(m.source) from None

@@ -57,7 +57,7 @@ class ContactState:
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         self.m, self.acting = m, actuation
-        self.equation: Equation = getattr(actuation, "equation", None) or equation_of(m)
+        self.equation: Equation = actuation.equation or equation_of(m)
         self.d = len(actuation.names)
         self.locked: Flags = np.zeros(self.d, bool)
         self.on_stop, self.resting = np.zeros(self.d), dict[int, str]()
