@@ -7,8 +7,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
 from dalembert.arrays import Array
 from dalembert.machine.whole_cycle import is_period
+from dalembert.model.drives.cylinders import PARTS
 from dalembert.printing import remainder
 from dalembert.reports.design.verdict import DesignContext, DesignPart, DesignVerdict, State, not_judged
 from dalembert.views.charts import MOST
@@ -75,9 +77,11 @@ def _curves(c: DesignContext) -> list[Scene]:
     out: list[Scene] = []
     for order, kind in enumerate(SLIDING):
         out += _chart(axis, kind, {j: r.freedom(j, f)[order] for j, f in slides}, "slides", order)
+    hidden = {f"{name}_{half}" for name in cylinders(r.mechanism) for half in PARTS}
+    links = [link for link in r.links if link not in hidden]
     reads: tuple[Callable[[str], Array], ...] = (r.speed, r.acceleration)
     for order, (kind, read) in enumerate(zip(TURNING, reads, strict=True), 1):
-        out += _chart(axis, kind, {link: _size(read(link)) for link in r.links}, "links", order)
+        out += _chart(axis, kind, {link: _size(read(link)) for link in links}, "links", order)
     return out
 
 

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from itertools import pairwise
 
 from dalembert.analysis.result.position_lookup import position_at
 from dalembert.answer.answer import Drawn, Worked
 from dalembert.machine.output.machine_answer import MachineAnswer
-from dalembert.printing import Part
+from dalembert.printing import WIDTH, Part
 from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.given import knowns
 from dalembert.reports.sheet import ReportSheet
@@ -48,11 +49,26 @@ def put_parts(sheet: ReportSheet, parts: Iterable[Part]) -> None:
         if isinstance(part, str):
             head, line, rest = part.partition("\n")
             text = f"{head}: {rest}" if line and head.isalpha() else part  # a list under its heading
-            sheet.text(neat(text if "*" not in text else pretty(text)).replace("\n", "; "))
+            text = unwrapped(text)
+            sheet.text(neat(pretty(text) if "*" in text else text))
         else:
             heads = [neat(pretty(head.replace("\n", " "))) for head in part.heads]
             rows = [[neat(pretty(cell)) for cell in row] for row in part.rows]
             sheet.table(heads, rows, part.note.replace("\n", " "))
+
+
+def unwrapped(text: str) -> str:
+    """One paragraph of several lines: those broken for their length go on, others are items of a list.
+
+    >>> unwrapped("one\\ntwo"), len(unwrapped("a" * 79 + "\\n" + "two"))
+    ('one; two', 83)
+    """
+    lines = text.split("\n")
+    out = lines[0]
+    for before, line in pairwise(lines):
+        broken = len(before) + 1 + len(line.split(" ")[0]) > WIDTH
+        out += (" " if broken else "; ") + line.strip()
+    return out
 
 
 def neat(text: str) -> str:
