@@ -92,6 +92,9 @@ def test_the_saved_text_has_the_pose_that_is_drawn() -> None:
     """Any pose that closes is written and found again, whatever the links hang on."""
     data = page_or_sketch(da.loads(LOOSE), inside=0)
     pose = data["sketch"]["pose"]
+    assert [(arrow["of"], arrow["link"]) for arrow in data["views"]["mechanism"]["arrows"]] == [
+        ("P", "coupler")
+    ]
     numbers = [x for k, turn in enumerate(pose["turn"]) for x in (*pose["point"][2 * k : 2 * k + 2], turn)]
     text = re.sub(r"@@(\d+)@@", lambda k: repr(numbers[int(k[1])]), data["text"])
     m = da.loads(text)

@@ -126,7 +126,7 @@ export async function sketched(root: HTMLElement, data: SketchPageData, view: Vi
   function switches(): void {
     const box = html("div", area, { class: "switches" }), name = fileName(data.title);
     viewButtons(box, st.view, view, false, () => request());
-    layers(box, view, ["names"], false, () => request());
+    layers(box, view, data.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], false, () => request());
     const files = html("span", box, { class: "group", role: "group", "aria-label": "save" });
     button(files, "Model file", "the file with the pose that is drawn", () => save(`${name}.yaml`, textOf(), "text/yaml"));
     button(files, "SVG", "the drawing", () => save(`${name}.svg`, svgText(m.svg, data.style.light), "image/svg+xml"));

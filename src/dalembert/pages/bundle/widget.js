@@ -2262,7 +2262,7 @@ async function Lt(o, c, l, u) {
 	}
 	function W() {
 		let e = n("div", F, { class: "switches" }), t = Mt(c.title);
-		yt(e, I.view, l, !1, () => Y()), vt(e, l, ["names"], !1, () => Y());
+		yt(e, I.view, l, !1, () => Y()), vt(e, l, c.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => Y());
 		let r = n("span", e, {
 			class: "group",
 			role: "group",

@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from importlib.metadata import version
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.methods.applied_forces import link_place
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Tree
@@ -67,6 +69,26 @@ class SketchItems(Items):
         """Rows of a link's points, each once."""
         named = [self.rows.place(link, u) for u in self.mechanism.points(link).values()]
         return [list(p) for p in dict.fromkeys(map(tuple, [*super().corners(link), *named]))]
+
+
+def acting(d: SketchItems, name: str) -> Iterator[Tree]:
+    """The arrow of a force whose components are plain numbers."""
+    m, rows = d.mechanism, d.rows
+    load: Any = m.loads[name]
+    value, way = getattr(load, "value", None), getattr(load, "direction", None)
+    if load.ON != "point" or load.unknown:
+        return
+    if type(value) is float and type(way) is float:
+        value = (value * math.cos(way), value * math.sin(way))
+    if not isinstance(value, tuple) or not all(type(x) is float for x in value):
+        return
+    x, y = rows.unit_vectors(load.on if load.axes == "link" else GROUND)
+    d.roles.add("load")
+    yield {
+        "t": "force", "role": "load", "of": name, "kind": "load", "link": load.on, "name": name,
+        "p": rows.place(load.on, point_of(m, load.on, load.at)),
+        "f": rows.vector(value[0] * a + value[1] * b for a, b in zip(x, y, strict=True)),
+    }  # fmt: skip
 
 
 def free_points(d: SketchItems) -> list[Tree]:
@@ -134,7 +156,8 @@ class Unfinished:
         """Items, names, and the rows of links, of their points, and of joints that may be apart."""
         m, links, rows = self.mechanism, self.compiled.links, d.rows
         labels = [*names(d, Shown(self.result, Notation())), *free_points(d)]
-        drawing: Tree = {"per_mm": d.frame.per_mm, "middle": list(d.frame.middle), "arrows": [], "force": 1.0}
+        drawing: Tree = {"per_mm": d.frame.per_mm, "middle": list(d.frame.middle), "force": 1.0}
+        drawing["arrows"] = [arrow for name in m.loads for arrow in acting(d, name)]
         ends = [(link, point) for link in links for point in m.links[link].points]
         return {
             "views": {"mechanism": drawing | {"items": whole(d), "labels": labels}},
