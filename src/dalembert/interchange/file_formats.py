@@ -6,6 +6,7 @@ with notes of what is not kept. A writer takes a mechanism and gives the file's 
 
 from __future__ import annotations
 
+import json
 import os
 import warnings
 from collections.abc import Callable
@@ -17,6 +18,7 @@ from typing import Any
 from dalembert.arrays import Tree
 from dalembert.errors import MissingFileError, ModelError
 from dalembert.interchange.link_graph import LinkGraph, graph_of, tree_of
+from dalembert.interchange.sketches.plane_sketch import PlaneSketch, sketch_tree
 from dalembert.model import Mechanism
 from dalembert.model.files.source import FileSource
 from dalembert.saving import new_file
@@ -34,8 +36,8 @@ class ReadFile:
     """The tree of a model file, notes of what is not in it, lines of links and joints."""
 
     tree: Tree
-    lost: list[str]
     lines: dict[tuple[str | int, ...], int]
+    lost: list[str]
 
 
 @dataclass(frozen=True)
@@ -53,11 +55,19 @@ class FileFormat:
         return call
 
 
+PYLINKAGE = ".json"
+"""Suffix that a file of pylinkage shares with model files: its links are a list."""
+
 FILE_FORMATS: dict[str, FileFormat] = {
     ".xml": FileFormat("MJCF (MuJoCo)", "robots.mjcf_loops:read_mjcf", "robots.mjcf_writer:write_mjcf"),
     ".mjcf": FileFormat("MJCF (MuJoCo)", "robots.mjcf_loops:read_mjcf", "robots.mjcf_writer:write_mjcf"),
     ".sdf": FileFormat("SDFormat", "robots.sdf_reader:read_sdf", "robots.sdf_writer:write_sdf"),
     ".urdf": FileFormat("URDF", "robots.urdf_reader:read_urdf", "robots.urdf_writer:write_urdf"),
+    ".pmks": FileFormat("PMKS and PMKS+", "sketches.pmks_links:read_pmks"),
+    ".txt": FileFormat("PMKS and PMKS+", "sketches.pmks_links:read_pmks"),
+    ".dxf": FileFormat("DXF skeleton", "sketches.dxf_skeletons:read_dxf"),
+    ".fcstd": FileFormat("FreeCAD sketches", "sketches.freecad_sketches:read_freecad"),
+    PYLINKAGE: FileFormat("pylinkage", "sketches.pylinkage_files:read_pylinkage"),
     ".fmu": FileFormat("FMI 2.0", "", "targets.source_fmu:write_fmu"),
     ".zip": FileFormat("C and WebAssembly", "", "targets.source_archive:write_sources"),
 }
@@ -65,8 +75,20 @@ FILE_FORMATS: dict[str, FileFormat] = {
 
 
 def is_foreign(path: str | os.PathLike[str]) -> bool:
-    """True if the suffix is that of another program's file."""
-    return Path(path).suffix.lower() in FILE_FORMATS
+    """True if the suffix is that of another program's file; a .json file if its links are a list."""
+    suffix = Path(path).suffix.lower()
+    return suffix in FILE_FORMATS and (suffix != PYLINKAGE or _lists_links(Path(path)))
+
+
+def _lists_links(path: Path) -> bool:
+    """True for a JSON file of pylinkage's form, small enough to be one."""
+    try:
+        if not path.is_file() or path.stat().st_size > 1_000_000:
+            return False
+        tree = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return False
+    return isinstance(tree, dict) and isinstance(tree.get("links"), list)
 
 
 def read_foreign(path: str | os.PathLike[str]) -> tuple[Mechanism, list[str]]:
@@ -81,6 +103,8 @@ def read_foreign(path: str | os.PathLike[str]) -> tuple[Mechanism, list[str]]:
     read: Any = form.function(form.reader)(_content(Path(path)), name)
     if isinstance(read, LinkGraph):
         read = read_file_of(read)
+    elif isinstance(read, PlaneSketch):
+        read = ReadFile(*sketch_tree(read, name), read.lost)
     source = FileSource(name, lambda: read.lines, "", form.name)
     return mechanism(read.tree, source), read.lost
 
@@ -93,7 +117,7 @@ def read_file_of(graph: LinkGraph) -> ReadFile:
     lines: dict[tuple[str | int, ...], int] = {
         (key, part.name): part.line for key, part in parts if part.line
     }
-    return ReadFile(tree_of(graph), graph.lost, lines)
+    return ReadFile(tree_of(graph), lines, graph.lost)
 
 
 def load_foreign(path: str | os.PathLike[str]) -> Mechanism:

@@ -21,6 +21,9 @@ from dalembert.wording import nearest
 LARGEST = 1_000_000
 """Bytes of a model file."""
 
+YAML_AND_TOML = (".yaml", ".yml", ".toml")
+"""Suffixes that no other program's files have."""
+
 FORMATS = {".yaml": "yaml", ".yml": "yaml", ".json": "json", ".toml": "toml"}
 
 FilePath = str | os.PathLike[str]
@@ -46,7 +49,7 @@ def load(path: FilePath, data: FilePath = "") -> Mechanism:
     Tables may come from text files in its folder; from those in the folder ``data`` too. Raises
     FileNotFoundError, which is a ModelError too, for a file that does not exist.
     """
-    if Path(path).suffix.lower() not in FORMATS and not is_stream(path):
+    if Path(path).suffix.lower() not in YAML_AND_TOML and not is_stream(path):
         from dalembert.interchange.file_formats import is_foreign, load_foreign
 
         if is_foreign(path):
