@@ -80,6 +80,12 @@ def is_foreign(path: str | os.PathLike[str]) -> bool:
     return suffix in FILE_FORMATS and (suffix != PYLINKAGE or _lists_links(Path(path)))
 
 
+def is_writable(path: str | os.PathLike[str]) -> bool:
+    """True if the suffix is that of another program's file that is written."""
+    form = FILE_FORMATS.get(Path(path).suffix.lower())
+    return form is not None and bool(form.writer)
+
+
 def _lists_links(path: Path) -> bool:
     """True for a JSON file of pylinkage's form, small enough to be one."""
     try:

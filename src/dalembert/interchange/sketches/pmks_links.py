@@ -114,13 +114,10 @@ def _link(text: str) -> PlaneSketch:
             continue
         x0, y0, x1, y1, size = map(decimal, rows[3:8])
         length = math.hypot(x1 - x0, y1 - y0)
-        on = (
-            rows[1]
-            if rows[1] in members
-            else next(n for n, ends in members.items() if set(rows[1]) <= set(ends))
-        )
+        keys = set(rows[1])
+        on_link = rows[1] if rows[1] in members else next(n for n, its in members.items() if keys <= set(its))
         force = [size * d / length if length else 0.0 for d in (x1 - x0, y1 - y0)]
-        sketch.forces[plain_name(rows[2], sketch.forces)] = (on, x0 / 100, y0 / 100, force[0], force[1])
+        sketch.forces[plain_name(rows[2], sketch.forces)] = (on_link, x0 / 100, y0 / 100, force[0], force[1])
     return sketch
 
 

@@ -27,24 +27,24 @@ def convert(
     that of another program (docs/formats.md). change: applied to the mechanism before it is written. Returns what is
     not kept, a line each; with strict such a line raises ModelError, and nothing is written.
     """
-    from dalembert.interchange.file_formats import foreign_bytes, is_foreign, read_foreign
+    from dalembert.interchange.file_formats import foreign_bytes, is_foreign, is_writable, read_foreign
     from dalembert.model.description import mechanism
     from dalembert.model.files.model_files import load, read_file, save_tree
     from dalembert.model.files.rewriting import in_folder
     from dalembert.saving import new_file
 
-    if not (change or is_foreign(path) or is_foreign(target)):
+    if not (change or is_foreign(path) or is_writable(target)):
         tree, source = read_file(path)
         tree = in_folder(mechanism(tree, source), tree, os.path.dirname(target))
         save_tree({key: value for key, value in tree.items() if value is not None}, target, overwrite)
         return []
     m, lost = read_foreign(path) if is_foreign(path) else (load(path), [])
     m = change(m) if change else m
-    content, more = foreign_bytes(m, target) if is_foreign(target) else (b"", [])
+    content, more = foreign_bytes(m, target) if is_writable(target) else (b"", [])
     lost += more
     if strict and lost:
         raise ModelError(f"not kept: {'; '.join(lost)}", "convert without strict", (), os.fspath(path))
-    if not is_foreign(target):
+    if not is_writable(target):
         m.save(target, overwrite)
         return lost
     with new_file(target, overwrite) as temporary:
@@ -54,11 +54,11 @@ def convert(
 
 def save(m: Mechanism, path: FilePath, overwrite: bool = False) -> None:
     """Write a mechanism to a model file, or to a file of another program with a warning for each thing not kept."""
-    from dalembert.interchange.file_formats import is_foreign, save_with_warnings
+    from dalembert.interchange.file_formats import is_writable, save_with_warnings
     from dalembert.model.files.model_files import format_of, save_text
     from dalembert.model.files.rewriting import text_of
 
-    if is_foreign(path):
+    if is_writable(path):
         save_with_warnings(m, path, overwrite)
     else:
         save_text(text_of(m.written, format_of(path), os.path.dirname(path)), path, overwrite)
