@@ -48,6 +48,15 @@ def test_the_lightest_beam_is_that_of_its_formulas(stress: float, sag: float) ->
     assert best.value == pytest.approx(7850 * 0.015 * h * 0.5, rel=1e-5)
 
 
+def test_the_range_of_a_parameter_bounds_it() -> None:
+    text = CANTILEVER.replace("high: 40 mm", "high: {value: 40 mm, range: [30 mm, 90 mm]}")
+    best = da.optimize(da.loads(text), {"high": "range"}, "mass", starts=2, static=True)
+    assert best.bounds.tolist() == [[0.03, 0.09]]
+    assert best.values[0] == pytest.approx(0.03)
+    with pytest.raises(da.ModelError, match=r"'broad' states no range; write broad: \[low, high\], or give"):
+        da.optimize(da.loads(text), {"broad": "range"}, "mass", starts=2, static=True)
+
+
 def test_an_aim_and_a_condition_may_be_functions() -> None:
     """A made-up cost with its least in the middle, and a condition that moves it."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from dalembert.errors import ModelError
@@ -16,7 +16,7 @@ KEYS = {
     "optimize": "version of this format, 1",
     "model": "the model file, beside this file",
     "title": "what it is about",
-    "vary": "path or parameter -> [low, high], or [low, high, step]",
+    "vary": "path or parameter -> [low, high], [low, high, step], or range",
     "least": "the aim, such as peak effort.O2",
     "where": "conditions at every position, such as transmission.B >= 33 deg",
     "starts": "number of random designs, such as 1000",
@@ -58,10 +58,12 @@ def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
     return {"vary": bounds, "least": least, "where": where, **options}
 
 
-def _bounds(name: str, ends: object) -> list[str]:
-    """Texts, read as in the model file: for vectors [x, y]."""
+def _bounds(name: str, ends: object) -> Sequence[str]:
+    """Texts, read as in the model file: for vectors [x, y]; or `range`."""
+    if ends == "range":
+        return "range"
     if not isinstance(ends, list) or len(ends) not in (2, 3):
         raise ModelError(
-            f"the bounds of {name!r} are {quote_value(ends)}", "write [low, high]", ("vary", name)
+            f"the bounds of {name!r} are {quote_value(ends)}", "write [low, high], or range", ("vary", name)
         )
     return [str(end).replace("'", "") for end in ends]

@@ -61,8 +61,8 @@ def optimize(
     """Optimal design of a mechanism: numbers within bounds, an aim to minimize, conditions at every position.
 
     vary: path -> (low, high), or (low, high, step) for values in steps from low; texts are read as in the file
-    ("13 in"), plain numbers are SI; for a vector the bounds apply to each component. least: ``peak``, ``mean``, ``rms``
-    or ``norm8`` of an output or an expression of outputs (`da.compile`), or an expression of such numbers,
+    ("13 in"), plain numbers are SI, "range" is that of a parameter; for a vector the bounds apply to each component.
+    least: ``peak``, ``mean``, ``rms`` or ``norm8`` of an output or an expression of outputs (`da.compile`), or an expression of such numbers,
     ``peak(effort.O2) + 0.1 m*range(reaction.A.x)``. where: conditions such as ``transmission.B >= 33 deg``,
     ``peak effort.O2 <= 2 N*m`` or ``range(slide.G) >= 60 mm``. starts: random designs within the bounds, besides the
     mechanism's (default 1000), all improved side by side with exact gradients; the best ten are polished one by one.
@@ -146,8 +146,20 @@ def bounds_of(m: Mechanism, vary: Bounds) -> tuple[tuple[VariedNumber, ...], Arr
     return tuple(varied), low, high, steps
 
 
+def _stated(m: Mechanism, path: str) -> tuple[float, float]:
+    """Range that the file states with a parameter."""
+    parameter = m.parameters.get(path)
+    if parameter is None or parameter.range is None:
+        what = f"{path!r} states no range"
+        raise ModelError(what, f"write {path}: [low, high], or give the parameter a range: [low, high]")
+    low, high = parameter.range
+    return low, high
+
+
 def _ends(m: Mechanism, path: str, bounds: Sequence[object], count: int) -> tuple[Array, Array, Array]:
-    """Low, high and step (count,) of the numbers at a path."""
+    """Low, high and step (count,) of the numbers at a path; ``range`` of a parameter is its own."""
+    if bounds == "range":
+        bounds = _stated(m, path)
     if not isinstance(bounds, Sequence) or isinstance(bounds, str) or len(bounds) not in (2, 3):
         raise ModelError(
             f"the bounds of {path!r} are {quote_value(bounds)}", "give (low, high) or (low, high, step)"

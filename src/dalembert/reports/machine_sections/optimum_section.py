@@ -30,7 +30,7 @@ def optimum_sheet(o: Optimum, notation: Notation | None = None) -> ReportSheet:
 
 def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
     """Objective over the cycle (if it has one value for a cycle, the first condition that changes), then the designs
-    before and after at its largest magnitude; a design that does not close at that position is left out."""
+    before and after where it is largest, or the margin least; a design that does not close at that position is left out."""
     names = {o.aim.of: o.aim.of, **{c.margin: f"margin of {c.text}" for c in o.conditions}}
     of = next((text for text in names if np.ptp(o.values_of(o.after, text)) > 0), o.aim.of)
     shown, kind = Shown(o.after, notation or Notation()), o.kind_of(of)
@@ -38,7 +38,8 @@ def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
     both = {"before": o.before, "after": o.after}
     curves = {name: o.values_of(r, of) * shown.value(kind, 1.0) for name, r in both.items()}
     title, unit = f"{names[of]} over the cycle", shown.unit(kind)
-    size = np.abs(o.values_of(o.after, of))
+    values = o.values_of(o.after, of)
+    size = np.abs(values) if of == o.aim.of else -values  # of a margin where it is least
     at = int(np.nanargmax(size)) if np.isfinite(size).any() else 0
     closed = [r for r in both.values() if np.isfinite(o.values_of(r, of)[at])]
     chart = curves_scene(x, curves, label, f"{names[of]} in {unit}" if unit else names[of], title, angle)
