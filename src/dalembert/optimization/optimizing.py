@@ -62,7 +62,8 @@ def optimize(
 
     vary: path -> (low, high), or (low, high, step) for values in steps from low; texts are read as in the file
     ("13 in"), plain numbers are SI, "range" is that of a parameter; for a vector the bounds apply to each component.
-    least: ``peak``, ``mean``, ``rms`` or ``norm8`` of an output or an expression of outputs (`da.compile`), or an expression of such numbers,
+    least: ``peak``, ``mean``, ``rms`` or ``norm8`` of an output or an expression of outputs (`da.compile`), or an
+    expression of such numbers,
     ``peak(effort.O2) + 0.1 m*range(reaction.A.x)``. where: conditions such as ``transmission.B >= 33 deg``,
     ``peak effort.O2 <= 2 N*m`` or ``range(slide.G) >= 60 mm``. starts: random designs within the bounds, besides the
     mechanism's (default 1000), all improved side by side with exact gradients; the best ten are polished one by one.

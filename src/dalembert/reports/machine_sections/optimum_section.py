@@ -30,7 +30,7 @@ def optimum_sheet(o: Optimum, notation: Notation | None = None) -> ReportSheet:
 
 def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
     """Objective over the cycle (if it has one value for a cycle, the first condition that changes), then the designs
-    before and after where it is largest, or the margin least; a design that does not close at that position is left out."""
+    before and after where it is largest, or the margin least; a design that does not close there is left out."""
     names = {o.aim.of: o.aim.of, **{c.margin: f"margin of {c.text}" for c in o.conditions}}
     of = next((text for text in names if np.ptp(o.values_of(o.after, text)) > 0), o.aim.of)
     shown, kind = Shown(o.after, notation or Notation()), o.kind_of(of)
