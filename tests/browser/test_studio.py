@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
@@ -116,7 +117,7 @@ def tabs(browser: Any) -> Iterator[Callable[[Any], Studio]]:
     contexts, opened = list[Any](), list[Studio]()
 
     def one(served: Any, **options: Any) -> Studio:
-        contexts.append(browser.new_context(viewport={"width": 1280, "height": 800}, **options))
+        contexts.append(browser.new_context(**{"viewport": {"width": 1280, "height": 800}, **options}))
         opened.append(Studio(contexts[-1], served.access.address))
         return opened[-1]
 
@@ -297,3 +298,51 @@ def test_a_printed_problem_is_ticked(tabs: Any, tmp_path: Path) -> None:
         s.page.wait_for_selector(".answers .ok")
         assert s.page.locator(".answers .off").count() == 0
         s.effort()
+
+
+@pytest.mark.long
+def test_a_phone_draws_with_taps(tabs: Any, tmp_path: Path) -> None:
+    with serving(tmp_path / "m.yaml") as served:
+        s = tabs(served, has_touch=True, viewport={"width": 390, "height": 844})
+        for tool, *taps in (
+            ("ground", (0, 0)),
+            ("bar", (0, 0), (0.03, 0.04)),
+            ("bar", (0.03, 0.04), (0.08, 0.05)),
+        ):
+            s.page.tap(f"[data-tool={tool}]")
+            before = s.page.evaluate("studio.state().hash")
+            for at in taps:
+                s.page.touchscreen.tap(*s.pixel(*at))
+            s.until(f"studio.state().hash !== '{before}'")
+        m = da.loads(s.text)
+        assert list(m.joints) == ["A", "B"]
+        assert s.page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+@pytest.mark.long
+def test_keys_and_drags_at_random_leave_a_readable_file(tabs: Any, tmp_path: Path) -> None:
+    r, path = Random(5), tmp_path / "m.yaml"
+    path.write_text(FOUR_BAR, encoding="utf-8")
+    with serving(path) as served:
+        s = tabs(served)
+        for k in range(120):
+            places = [[200 + r.random() * 400, 100 + r.random() * 500] for _ in range(2)]
+            if r.random() < 0.6:
+                ends = s.page.evaluate(
+                    "studio.state().drawing.links.flatMap(l => Object.values(l.points))",
+                )
+                places[0] = list(s.pixel(*r.choice(ends)))
+            s.page.keyboard.press(
+                r.choice("vvbbxpsogdfmknc") if k % 3 else r.choice(["Delete", "Escape", "Control+z", "0"])
+            )
+            s.page.mouse.move(*places[0])
+            s.page.mouse.down()
+            s.page.mouse.move(*places[1], steps=2)
+            s.page.mouse.up()
+            if r.random() < 0.3:
+                s.page.keyboard.type("12")
+                s.page.keyboard.press("Enter")
+        s.page.wait_for_timeout(300)
+        assert not s.page.evaluate("studio.state().error")
+        da.loads(s.text)
+        assert s.text != FOUR_BAR

@@ -237,3 +237,22 @@ def test_an_open_sketch_is_drawn_with_its_gap() -> None:
     assert not sketch.closed
     assert sketch.gap > 0.01
     assert not d.reading.error
+
+
+def test_numbers_dragged_on_the_page_are_short_and_typed_ones_exact() -> None:
+    d = Document(FILES["four_bar"].read_text(encoding="utf-8"))
+    dragged = {"links.crank.points.A.0": 0.15133148634551357, "links.coupler.points.B.0": 14.25 * 0.0254}
+    poses = {
+        "assembly.crank": 1.0471975511965976,
+        "assembly.coupler": 0.365,
+        "assembly.rocker": 1.8222934073341648,
+    }
+    d.do(gesture({"op": "changes", "values": dragged | poses}))
+    assert "A: [5.957933, 0]" in d.text
+    assert "B: [14.25, 0]" in d.text
+    assert da.loads(d.text).links["coupler"].points["B"][0] == 14.25 * 0.0254
+    assert "assembly: {crank: 60, coupler: 20.91296, rocker: 104.4097}" in d.text
+    before = d.text.splitlines()
+    assert (
+        len([x for x in before if x not in FILES["four_bar"].read_text(encoding="utf-8").splitlines()]) <= 3
+    )

@@ -117,7 +117,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
   function files(): void {
     const box = tab.add("Save", "files to save, print, share"), name = fileName(data.title);
     const one = (said: string, act: () => void) => html("button", box, { type: "button" }, said).addEventListener("click", act);
-    one("Model file", () => save(`${name}.yaml`, modelText(data, kernel), "text/yaml"));
+    if (data.template.length) one("Model file", () => save(`${name}.yaml`, modelText(data, kernel), "text/yaml"));
     one("Curves as CSV", () => save(`${name}.csv`, csvText(data, kernel), "text/csv"));
     one("Drawing as SVG", () => save(`${name}.svg`, svgText(m.svg, data.style.light), "image/svg+xml"));
     one("Drawing as PNG", () => void pngOf(m.svg, data.style.light).then((blob) => save(`${name}.png`, blob, "image/png")));

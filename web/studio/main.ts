@@ -45,6 +45,10 @@ const name = html("strong", bar), undo = button(bar, "↶", "Undo (Ctrl+Z)", () 
 undo.setAttribute("aria-label", "undo");
 redo.setAttribute("aria-label", "redo");
 button(bar, "Save", "Save (Ctrl+S)", () => void save());
+button(bar, "Save as", "Save under another name in the same folder", () => {
+  const other = window.prompt("Name of the new file, in the same folder", state?.file);
+  if (other) void save(other);
+});
 const more = html("span", bar, { class: "more" });
 const dynamics = check(more, "dynamics", "with inertia, where a drive has a speed", (on) => ({ static: !on, friction: friction.checked })), friction = check(more, "friction", "with the friction that the file gives", (on) => ({ static: !dynamics.checked, friction: on }));
 button(more, "Report", "Worked solution as HTML", () => void download("report"));
@@ -189,9 +193,9 @@ function banners(s: State): void {
   if (s.kept) choice("This is what was not saved when the studio last ended. ", ["Keep it", "kept"], ["Go back to the saved file", "forget"]);
   if (s.outside) choice(`${s.file} was changed by another program. `, ["Load it (undo brings this back)", "disk"], ["Keep this one", "mine"]);
 }
-async function save(): Promise<void> {
+async function save(as: string | true = true): Promise<void> {
   await editor.flush();
-  const a = await socket.send({ save: true });
+  const a = await socket.send({ save: as });
   if (a.said) hint.textContent = a.said;
 }
 async function download(ask: string): Promise<void> {

@@ -66,10 +66,11 @@ ALWAYS = (
 """Roles that the page itself draws."""
 
 
-def page_data(m: Mechanism, static: bool = False, slopes: bool = True) -> Tree:
+def page_data(m: Mechanism, static: bool = False, quick: bool = False) -> Tree:
     """The data of a page; raises ModelError for features of the analyses alone.
 
-    static: leave inertia out. slopes: with the derivatives that show what lowers a peak, half of the work.
+    static: leave inertia out. quick: without the derivatives that show what lowers a peak, and without the text to be
+    saved, which a studio has itself: half of the work.
     """
     m = with_cycle(m)
     inertia = m.has_speeds and not static
@@ -98,7 +99,7 @@ def page_data(m: Mechanism, static: bool = False, slopes: bool = True) -> Tree:
         "numbers": number_fields(b, k),
         "limits": limited,
         "reading": reading() | {"signs": sign_sentences()},
-        "template": template(m, k),
+        "template": [] if quick else template(m, k),
         "drives": drives,
         "handles": dragged,
         "views": views,
@@ -107,7 +108,7 @@ def page_data(m: Mechanism, static: bool = False, slopes: bool = True) -> Tree:
         "assumptions": known.assumptions,
         "style": style(b.items.roles),
     }
-    gradient = _gradient(k, b, dragged, views["charts"]) if slopes else None
+    gradient = _gradient(k, b, dragged, views["charts"]) if not quick else None
     if gradient is not None:
         data["gradient"] = gradient["fields"]
         channels = gradient["channels"]

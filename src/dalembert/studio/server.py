@@ -18,7 +18,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from dalembert.arrays import Tree
-from dalembert.errors import DalembertError
+from dalembert.errors import DalembertError, ModelError
 from dalembert.studio.access import HOST, LARGEST, TABS, Access, Rate
 from dalembert.studio.session import Session, read_message, sentence
 from dalembert.studio.solver import Solver
@@ -187,9 +187,10 @@ def run(path: Path | None, port: int = 0, browser: bool = True) -> None:
     import uvicorn
 
     session = Session(StoredFile(path or unused_name(Path.cwd())))
-    listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    listening.bind((HOST, port))
+    try:
+        listening = socket.create_server((HOST, port))
+    except (OSError, OverflowError):
+        raise ModelError(f"port {port} cannot be used", "choose another one, or leave --port out") from None
     access = Access(listening.getsockname()[1])
     solver = Solver()
     studio = StudioServer(session, access, solver)

@@ -133,7 +133,7 @@ def answered(question: Question) -> Tree:
 def _data(m: Any, question: Question) -> Tree:
     from dalembert.pages.page_data import page_data
 
-    return {"data": page_data(m, question.static, slopes=False)}
+    return {"data": page_data(m, question.static, quick=True)}
 
 
 def _check(m: Any, _: Question) -> Tree:
@@ -158,7 +158,7 @@ def _report(m: Any, question: Question) -> Tree:
     from dalembert.analysis.solution import solve, statics
     from dalembert.reports import report
 
-    written = report(statics(m) if question.static else solve(m), 0)
+    written = report(statics(m) if question.static else solve(m))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "report.html"
         written.save(path)

@@ -3738,7 +3738,7 @@ async function Mn(e, t, r, a) {
 	}
 	function V() {
 		let e = P.add("Save", "files to save, print, share"), i = Mt(t.title), s = (t, r) => n("button", e, { type: "button" }, t).addEventListener("click", r);
-		s("Model file", () => X(`${i}.yaml`, Dt(t, o), "text/yaml")), s("Curves as CSV", () => X(`${i}.csv`, Ot(t, o), "text/csv")), s("Drawing as SVG", () => X(`${i}.svg`, kt(T.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void jt(T.svg, t.style.light).then((e) => X(`${i}.png`, e, "image/png"))), s("Print", () => window.print()), a.address && s("Copy link", () => {
+		t.template.length && s("Model file", () => X(`${i}.yaml`, Dt(t, o), "text/yaml")), s("Curves as CSV", () => X(`${i}.csv`, Ot(t, o), "text/csv")), s("Drawing as SVG", () => X(`${i}.svg`, kt(T.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void jt(T.svg, t.style.light).then((e) => X(`${i}.png`, e, "image/png"))), s("Print", () => window.print()), a.address && s("Copy link", () => {
 			location.hash = Tt(t, o, r), navigator.clipboard?.writeText(location.href);
 		});
 	}

@@ -19,6 +19,7 @@ from dalembert.studio.editing.drawing_gestures import snapped
 from dalembert.studio.editing.entries import remove
 from dalembert.studio.editing.gesture import Coordinate, Gesture, Place, Text
 from dalembert.studio.editing.references import rename, rename_point
+from dalembert.units import quantity
 
 HOLDING = ("pin", "weld", "slot", "slider")
 """Joints whose points move together."""
@@ -109,7 +110,8 @@ class PageChanges(Gesture):
 
     def apply(self, d: Draft) -> None:
         m = loads(d.text, d.form)
-        d.text = text_of(with_changed_numbers(m, self.values), d.form)
+        values = {path: _short(d, path, x) for path, x in self.values.items()}
+        d.text = text_of(with_changed_numbers(m, values), d.form)
 
 
 class Rename(Gesture):
@@ -165,6 +167,20 @@ class Delete(Gesture):
             if at or f"{self.link}.{self.name}" in between:
                 d.text = remove(d.text, d.form, d.tree, "loads", load)
         d.splice({("links", self.link, "points", self.name): REMOVED})
+
+
+def _short(d: Draft, path: str, x: float) -> float:
+    """A number that was dragged, to seven figures in the file's unit; one that was typed as it is."""
+    length = ".points." in path or ".center." in path
+    kind = (
+        "length" if length else "angle" if path.startswith("assembly.") or path.endswith("direction") else ""
+    )
+    size = quantity(1.0, kind, d.units) if kind else 1.0
+    y = x / size
+    if abs(float(f"{y:.10g}") - y) <= 1e-14 * abs(y):
+        return x
+    rounded = float(f"{y:.7g}")
+    return quantity(rounded, kind, d.units) if kind else rounded
 
 
 def joint_ends(d: Draft) -> dict[str, tuple[End, End]]:
