@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import re
+from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import dalembert as da
 from dalembert.errors import ModelError
@@ -262,3 +264,82 @@ def test_conditions_of_quantities() -> None:
     assert [e.sentence for e in s.events] == ["time = 0.1 s", "normal.dome = 25 N", "energy.kinetic = 2 J"]
     k = int(np.flatnonzero(s.time == s.events[1].time)[0])
     assert s["normal.dome"][k] == pytest.approx(25, rel=1e-10)
+
+
+JUMPING = """gravity: none
+links:
+  ground: {points: {O: [0, 0], top: [0, 0.3]}}
+  cam: {points: {O: [0, 0]}, inertia: 0.05}
+  stem: {points: {F: [0, 0]}, mass: 1.2}
+joints:
+  O: {type: pin, links: [ground, cam]}
+  guide: {type: slider, links: [ground, stem], at: [O, F], direction: 90}
+  F: {type: cam, links: [cam, stem], at: [O, F], follower: FOLLOWER, profile: {eccentric: 0.012, radius: 0.04},
+      contact: {pushes: true, restitution: 0.4}}
+drives: {O: {effort: 0}}
+loads: {S: {type: spring, between: [ground.top, stem.F], stiffness: 8000, free_length: 0.28}}
+start: {O: {position: 0, speed: 150 rad/s}}
+"""
+
+
+def lift_of_a_disc(roller: float | None, turn: float) -> tuple[float, float, float]:
+    """Height of a follower over an eccentric disc, and its two derivatives by the turn."""
+    s, c, e = math.sin(turn), math.cos(turn), 0.012
+    if roller is None:
+        return 0.04 + e * s, e * c, -e * s
+    q = math.sqrt((0.04 + roller) ** 2 - (e * c) ** 2)
+    first = e * e * c * s / q
+    return e * s + q, e * c + first, -e * s + (e * e * (c * c - s * s) - first * first) / q
+
+
+@pytest.mark.parametrize("roller", [None, 0.01])
+def test_a_follower_jumps_off_its_cam_and_lands(roller: float | None) -> None:
+    """Against both motions written out and integrated by scipy: on the cam by Lagrange, off it freely."""
+    mass, inertia, e = 1.2, 0.05, 0.4
+
+    def spring(y: float) -> float:
+        return -8000 * (0.28 - (0.3 - y))
+
+    def on(_: float, x: Any) -> list[float]:
+        y, first, second = lift_of_a_disc(roller, x[0])
+        push = spring(y) * first - mass * first * second * x[1] ** 2
+        return [x[1], push / (inertia + mass * first**2)]
+
+    def normal(t: float, x: Any) -> float:
+        y, first, second = lift_of_a_disc(roller, x[0])
+        return mass * (first * on(t, x)[1] + second * x[1] ** 2) - spring(y)
+
+    def off(_: float, x: Any) -> list[float]:
+        return [x[1], 0.0, x[3], spring(x[2]) / mass]
+
+    def gap(_: float, x: Any) -> float:
+        return float(x[2] - lift_of_a_disc(roller, x[0])[0])
+
+    normal.terminal = gap.terminal = True  # type: ignore[attr-defined]
+    gap.direction = -1  # type: ignore[attr-defined]
+    exact = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853"}
+    phase = solve_ivp(on, (0, 0.05), [0, 150], events=normal, **exact)
+    expected, when, x = [phase.t[-1]], phase.t[-1], phase.y[:, -1]
+    y, first, _ = lift_of_a_disc(roller, x[0])
+    x = np.array([x[0], x[1], y, first * x[1]])
+    for _ in range(2):
+        phase = solve_ivp(off, (when, 0.05), x, events=gap, first_step=1e-6, **exact)
+        when, x = phase.t[-1], phase.y[:, -1]
+        first = lift_of_a_disc(roller, x[0])[1]
+        rate = x[3] - first * x[1]
+        expected += [when, -rate]
+        impulse = -(1 + e) * rate / (1 / mass + first**2 / inertia)
+        x[3], x[1] = x[3] + impulse / mass, x[1] - impulse * first / inertia
+    m = da.loads(JUMPING.replace("FOLLOWER", "flat" if roller is None else f"{{roller: {roller}}}"))
+    s = da.simulate(m, until="0.026 s" if roller else "0.03 s")
+    found = [s.event("lift-off")[0].time, *(v for x in s.event("landing")[:2] for v in (x.time, x.speed))]
+    assert found == pytest.approx(expected, rel=1e-9)
+    assert s.energy_residual < 1e-9
+    pushed = np.hypot(*s.result.reaction("F").T)
+    assert s["normal.F"] == pytest.approx(pushed, abs=1e-9 * pushed.max())
+    stop = da.simulate(m, until="normal.F = 100 N")
+    assert stop["normal.F"][-1] == pytest.approx(100)
+    held = da.simulate(m.with_values({"joints.F.contact": "holds"}), "0.004 s").result
+    on_cam = da.simulate(m, "0.004 s").result
+    assert on_cam.force_array == pytest.approx(held.force_array, abs=1e-8 * pushed.max())
+    assert on_cam.moment_array == pytest.approx(held.moment_array, abs=1e-8 * pushed.max())

@@ -15,7 +15,7 @@ from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array
 from dalembert.core import gear_rows, rotation_rows
 from dalembert.core.elements import cam_rows, lining_rows, strand_rows
-from dalembert.core.elements.cam_family import CamRow, CamSlip
+from dalembert.core.elements.cam_family import CamGap, CamRow, CamSlip
 from dalembert.core.elements.linings import BandStrands, Lining
 from dalembert.core.elements.strand_family import Strand, StrandSum
 from dalembert.core.geometry import arm, point_motion, span, span_motion
@@ -131,6 +131,7 @@ _MEASURES: dict[type[Family], Callable[..., Array]] = {
     Lining: lining_rows.lining_measure,
     BandStrands: lining_rows.strands_measure,
     CamRow: cam_rows.measure,
+    CamGap: cam_rows.measure,
     CamSlip: cam_rows.slip_measure,
     ToothForce: gear_rows.nothing,
     ToothCouple: gear_rows.nothing,
@@ -190,6 +191,7 @@ _WRENCHES: dict[type[Family], Callable[..., None]] = {
     Lining: lining_rows.lining_wrench,
     BandStrands: lining_rows.strands_wrench,
     CamRow: cam_rows.wrench,
+    CamGap: cam_rows.wrench,
     CamSlip: cam_rows.slip_wrench,
     ToothForce: gear_rows.force_wrench,
     ToothCouple: gear_rows.couple_wrench,
@@ -237,6 +239,7 @@ _DRIFTS: dict[type[Family], Callable[..., Array]] = {
     Lining: lining_rows.lining_drift,
     BandStrands: lining_rows.strands_drift,
     CamRow: cam_rows.drift,
+    CamGap: cam_rows.drift,
     CamSlip: cam_rows.slip_drift,
     ToothForce: gear_rows.force_drift,
     ToothCouple: gear_rows.couple_drift,

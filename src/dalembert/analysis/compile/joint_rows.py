@@ -119,10 +119,11 @@ class PlaneJoints(_Joints):
             self.arms[k] = place
             return
         if element is not None:
-            self.shapes[k] = element(self.constraints, self.m, k, name, self.ends[k], self.arms[k])
+            rows = self.freedoms if joint.gaps else self.constraints
+            self.shapes[k] = element(rows, self.m, k, name, self.ends[k], self.arms[k])
         else:
             table.add_constraints(self.constraints, k, joint, self.ends[k], *self.arms[k])
-        table.add_freedom(self.freedoms, k, joint, self.ends[k], *self.arms[k])
+            table.add_freedom(self.freedoms, k, joint, self.ends[k], *self.arms[k])
         self.names += [(name, freedom) for freedom in joint.freedoms]
 
     def contacts(self, fixed: Rows) -> Contacts | None:

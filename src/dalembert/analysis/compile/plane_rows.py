@@ -13,6 +13,7 @@ import numpy as np
 
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.elements.cam_curves import same_count
+from dalembert.core.elements.cam_family import CamGap
 from dalembert.core.elements.strand_family import Strand
 from dalembert.core.layout import (
     Along,
@@ -117,6 +118,8 @@ def opened_rows(
     joint: Joint, ends: tuple[int, int], ui: Array, uj: Array
 ) -> list[tuple[type, dict[str, Any]]]:
     """Constraints of a joint by kind, those that its contact has first; a guide's with lengths are its ends'."""
+    if joint.outlined:
+        return [(CamGap, {})]
     found = CapturedRows()
     _add_all_constraints(found, 0, joint, ends, ui, uj)  # type: ignore[arg-type]
     if joint.lifted != ("gap_behind", "gap_ahead"):

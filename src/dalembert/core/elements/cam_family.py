@@ -43,5 +43,10 @@ class CamRow:
 
 
 @dataclass(frozen=True)
+class CamGap(CamRow):
+    """The gap of a follower off its cam, along its own way: a freedom, whose wrench is not of unit size."""
+
+
+@dataclass(frozen=True)
 class CamSlip(CamRow):
     """Sliding of a knife edge or a face on the cam, along the tangent: a rate without a measure."""

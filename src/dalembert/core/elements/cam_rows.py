@@ -20,7 +20,7 @@ from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags, Numeric
 from dalembert.core.branchless import larger, root
 from dalembert.core.elements.cam_curves import TURN, arctan2, lift, sine
-from dalembert.core.elements.cam_family import FLAT, FLAT_SWINGS, SLIDES, SWINGS, CamRow
+from dalembert.core.elements.cam_family import FLAT, FLAT_SWINGS, SLIDES, SWINGS, CamGap, CamRow
 from dalembert.core.geometry import arm, span, span_motion
 from dalembert.core.layout import Layout, Pose
 
@@ -123,8 +123,17 @@ def touch(g: Algebra, f: CamRow, pose: Pose) -> Touch:
     s = lift(f.curve, turn)
     by_rho, by_beta = at.q[1] - s[1] * f.sense * at.turn[1], s[1] * f.sense
     across = 0.0 * by_beta if is_flat(f) else by_beta / rho
-    size = root(by_rho * by_rho + across * across)
+    own_way = isinstance(
+        f, CamGap
+    )  # along its own way, of one that swings at its arm or the distance of the axes
+    size = 1.0 / arm_of_swing(f) + 0.0 * rho if own_way else root(by_rho * by_rho + across * across)
     return Touch(at.q[0] - f.base - s[0], by_rho, by_beta, size, line, unit, rho, at, turn, s)
+
+
+def arm_of_swing(f: CamRow) -> Array:
+    """Length at which an angle of a follower is measured; 1 of one that slides."""
+    lengths = {SWINGS: f.a, FLAT_SWINGS: f.b}
+    return np.asarray(lengths.get(int(f.form[0]), np.ones_like(f.a)))
 
 
 def normal(g: Algebra, f: CamRow, pose: Pose) -> Array:

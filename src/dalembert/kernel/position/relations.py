@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from dalembert.arrays import Array
-from dalembert.core.elements.cam_family import CamRow
+from dalembert.core.elements.cam_family import CamGap, CamRow
 from dalembert.core.elements.linings import BandStrands, Lining
 from dalembert.core.elements.strand_family import Strand
 from dalembert.core.layout import Along, BeltMesh, Distance, Layout, Meet, Mesh, Turn
@@ -35,6 +35,7 @@ class Relation:
 NONE: Pair = (0.0, 0.0)
 _KINDS: dict[type, str] = {Meet: "meet", Along: "along", Turn: "turn", Distance: "distance", Mesh: "mesh"}
 _KINDS |= {BeltMesh: "mesh", Strand: "strand", Lining: "pressed", BandStrands: "pressed", CamRow: "cam"}
+_KINDS[CamGap] = "cam"
 ARMED = Meet | Along | Distance | Mesh | Lining | BandStrands | CamRow
 
 

@@ -110,7 +110,11 @@ class Simulation(BrakeHeat, WithMotors, MotionChecks, NamedAnswer, MachineAnswer
     @property
     def normals(self) -> Mapping[str, Array]:
         """Normal force (T,) of each contact that only pushes or pulls, N."""
-        return {} if self.opened is None else self.opened.normals(self.efforts, self._loaded[1])
+        return (
+            {}
+            if self.opened is None
+            else self.opened.normals(self.free_result, self.efforts, self._loaded[1])
+        )
 
     @property
     def gaps(self) -> Mapping[str, Array]:

@@ -10,7 +10,7 @@ from dalembert.analysis.compile.elements.cam_shapes import CamShape, cam_shape
 from dalembert.analysis.compile.plane_rows import RowBuilder
 from dalembert.arrays import Array
 from dalembert.core.elements.cam_curves import with_jumps
-from dalembert.core.elements.cam_family import CamRow
+from dalembert.core.elements.cam_family import CamGap, CamRow
 from dalembert.model import GROUND, Mechanism
 
 Ends = tuple[int, int]
@@ -23,7 +23,7 @@ def add_cam(
     shape = cam_shape(m, name)
     if all(np.asarray(value).dtype != object for value in shape.numbers.values()):
         refuse_undercut(m, name)
-    rows.add(CamRow, index, ends, **cam_numbers(shape, *arms))
+    rows.add(CamGap if m.joints[name].gaps else CamRow, index, ends, **cam_numbers(shape, *arms))
     return shape
 
 

@@ -10,13 +10,32 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
+from dalembert.algebra import plane
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.core.constraints import measure, system
+from dalembert.core.elements.cam_family import CamGap
+from dalembert.core.layout import Pose
 from dalembert.machine.motion.stops.gap_contacts import GapContact
 from dalembert.model import Mechanism, Schedule
+
+
+def normal_size(r: Result, c: GapContact) -> Array:
+    """Normal force (T,) of a contact for a unit effort along its gap: 1, but of cams, whose gap is along the follower's
+    way."""
+    row, layout = r.compiled.freedoms.index((c.joint, c.freedom)), r.compiled.layout
+    on_j = system(layout.algebra, layout.freedoms, full_pose(r)).on_j[:, row, : layout.algebra.d]
+    return np.asarray(np.sqrt((on_j**2).sum(axis=-1)))
+
+
+def _about_point(c: Compiled, pose: Pose, row: int, force: Array) -> Array:
+    """Moment (T,) about the reference point of its link of a force at the point of a follower."""
+    cams = (f for f in c.layout.freedoms.families if isinstance(f, CamGap))
+    f, n = next((f, n) for f in cams for n, of in enumerate(f.row) if of == row)
+    arm = plane.rotate(pose.rotation[:, int(f.j[n])], f.uj[n])
+    return np.asarray(plane.cross(arm, force)[:, 0])
 
 
 @dataclass(frozen=True)
@@ -37,10 +56,10 @@ class OpenedMotion:
             out[contact.name] = contact.side * (x - contact.at) + 0.0
         return out
 
-    def normals(self, effort: Array, stops: Mapping[str, Array]) -> dict[str, Array]:
+    def normals(self, r: Result, effort: Array, stops: Mapping[str, Array]) -> dict[str, Array]:
         """Normal force (T,) of each contact, N, from efforts (T, D) and the forces of stops."""
         return {
-            c.name: c.side * (effort[:, c.drive] if c.drive >= 0 else stops[c.name]) + 0.0
+            c.name: c.side * (effort[:, c.drive] if c.drive >= 0 else stops[c.name]) * normal_size(r, c) + 0.0
             for c in self.contacts
         }
 
@@ -58,6 +77,8 @@ class OpenedMotion:
             push = np.where(value[:, None] == 0, 0.0, value[:, None] * rows.on_j[:, row, : g.d])
             force[:, k] += push
             guide = getattr(getattr(own.joints[joint], "friction", None), "guide", None)
+            if own.joints[joint].outlined:  # a face touches beside its point
+                moment[:, k] += value * rows.on_j[:, row, 2] - _about_point(opened, pose, row, push)
             if freedom in ("gap_behind", "gap_ahead") and guide is not None:
                 reach = -guide[0] if freedom == "gap_behind" else guide[1]
                 moment[:, k] += reach * value

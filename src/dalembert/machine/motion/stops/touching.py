@@ -18,6 +18,8 @@ from dalembert.arrays import Array
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.occurrences import Guard, Value, Words, say
+from dalembert.machine.motion.rest.standstill import at_state
+from dalembert.machine.motion.stops.contact_answer import normal_size
 from dalembert.machine.motion.stops.gap_contacts import GapContact
 from dalembert.machine.motion.stops.impacts import Stop, StopState
 from dalembert.model import Mechanism
@@ -80,6 +82,13 @@ class TouchState(StopState):
         effort = self.at(t, y)[1]
         return {c: c.side * float(effort[c.drive]) for c in self.closed}
 
+    def normal_size(self, c: GapContact, t: float, y: Array) -> float:
+        """Normal force of a contact for a unit effort along its gap."""
+        if not self.m.joints[c.joint].outlined:
+            return 1.0
+        q, u = y[: self.d], y[self.d : 2 * self.d]
+        return float(normal_size(at_state(self.m, self.acting.position, t, q, u, 0 * u), c)[1])
+
     def contact_force(self, c: GapContact, t: float, y: Array) -> float:
         """Normal force of a contact, 0 of an open one."""
         if c.drive >= 0:
@@ -95,7 +104,7 @@ class TouchState(StopState):
         small = ROUNDING * max(map(abs, self.at(t, y)[1]), default=0.0)
         for c, force in forces.items():
             if force < -small:
-                self.lost_at_start(c, -force)
+                self.lost_at_start(c, -force * self.normal_size(c, t, y))
         if min(forces.values(), default=np.inf) <= small:
             self.decide_gaps(t, y)
 

@@ -65,7 +65,7 @@ def watched(state: TouchState, name: str) -> Value:
             contacts[0].side * (state.motion_of(state.gap_stops[contacts[0]], t, y)[0] - contacts[0].at)
         )
     if contacts:
-        return lambda t, y: sum(state.contact_force(c, t, y) for c in contacts)
+        return lambda t, y: sum(state.contact_force(c, t, y) * state.normal_size(c, t, y) for c in contacts)
     if name == "time":
         return lambda t, y: t
     if name == "energy.kinetic":

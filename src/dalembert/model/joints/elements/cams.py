@@ -58,8 +58,10 @@ class Cam(JointPart):
 
     @property
     def lifted(self) -> tuple[str, ...]:
-        """Motions under forces keep the follower on its cam."""
-        return ()
+        """The gap along the follower's own way; motions under forces keep one with friction, or a face that swings, on
+        its cam."""
+        swings = self.flat and self.profile.segments is not None and self.profile.segments.kind == "angle"
+        return () if swings or self.friction is not None else ("gap",)
 
     @property
     def apart(self) -> bool:
