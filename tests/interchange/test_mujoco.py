@@ -6,11 +6,12 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
+from tests.tiers import tiers
 
 mujoco = pytest.importorskip("mujoco")
 
 
-@pytest.mark.parametrize("name", ["four_bar", "engine", "rssr"])
+@pytest.mark.parametrize("name", tiers(["rssr"], ["four_bar", "engine"]))
 def test_torque_and_loop_forces_are_those_of_mujoco(name: str) -> None:
     from benchmarks.cross_check import compared
 
@@ -24,6 +25,7 @@ def test_torque_and_loop_forces_are_those_of_mujoco(name: str) -> None:
     assert found.closed_torque > 0.1
 
 
+@pytest.mark.long
 def test_another_mass_is_seen() -> None:
     """The comparison tells a coupler that is 1 % heavier."""
     from benchmarks import cross_check

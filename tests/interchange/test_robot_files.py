@@ -51,7 +51,12 @@ def test_files_of_others_are_read(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", tiers([name for name in READ if READ[name][0] < 5], [n for n in READ if READ[n][0] > 4])
+    "name",
+    tiers(
+        [name for name in READ if READ[name][0] < 5],
+        ["multiple_constraints.xml", "5bar_linkage.urdf"],
+        ["robot_delta.urdf", "talos_like.urdf"],
+    ),
 )
 def test_their_freedoms_are_counted_by_rank(name: str) -> None:
     with pytest.raises(ModelError, match=f"the mechanism has {READ[name][2]} freedoms? and"):
@@ -66,7 +71,7 @@ def test_a_coupling_without_wheels_is_refused_at_its_line() -> None:
 
 
 @pytest.mark.parametrize("suffix", [".xml", ".sdf"])
-@pytest.mark.parametrize("name", ["four_bar", "rssr", "quick_return"])
+@pytest.mark.parametrize("name", tiers(["four_bar"], ["rssr", "quick_return"]))
 def test_written_and_read_back_gives_the_same_effort(name: str, suffix: str, tmp_path: Path) -> None:
     m = da.load(examples()[name])
     back, lost = read_back(m, tmp_path / f"x{suffix}")
@@ -80,7 +85,7 @@ def test_another_mass_is_another_effort(tmp_path: Path) -> None:
     assert 1e-4 < largest_difference(m, back) < 0.1
 
 
-@over(2, 22)
+@over(0, 20)
 def test_random_mechanisms_come_back_from_mjcf(seed: int, tmp_path: Path) -> None:
     """Poses, speeds and forces of the tree and of its loops, where MJCF has the joints."""
     plane = random_mechanisms.tree(random_mechanisms.random_mechanism(seed, links=(4, 8), loads=False))

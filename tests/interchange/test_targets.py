@@ -52,6 +52,12 @@ def run_fmu(content: bytes, folder: Path, rows: list[dict[str, float]], version:
     return dict(json.loads(ran.stdout.splitlines()[-1]))
 
 
+LATER = [
+    pytest.param("rssr", "3.0", marks=pytest.mark.long),
+    pytest.param("four_bar", "3.0", marks=pytest.mark.long),
+]
+
+
 def expected(m: da.Mechanism, drive: str, row: dict[str, float]) -> dict[str, float]:
     """Every number of dynamics at one position."""
     values = {f"drives.{drive}.{key}": row[f"drive.{drive}.{key}"] for key in ("speed", "acceleration")}
@@ -63,7 +69,7 @@ def expected(m: da.Mechanism, drive: str, row: dict[str, float]) -> dict[str, fl
     return out
 
 
-@pytest.mark.parametrize(("name", "version"), [("four_bar", "2.0"), ("rssr", "3.0")])
+@pytest.mark.parametrize(("name", "version"), [("four_bar", "2.0"), *LATER])
 def test_a_unit_gives_the_numbers_of_dynamics_at_the_same_instant(
     name: str, version: str, tmp_path: Path
 ) -> None:
@@ -90,6 +96,7 @@ def test_a_unit_gives_the_numbers_of_dynamics_at_the_same_instant(
     assert found["units"][f"drive.{drive}.position"] == "rad"
 
 
+@pytest.mark.long
 def test_a_position_that_does_not_close_has_nan_and_its_status(tmp_path: Path) -> None:
     m = da.four_bar(ground=0.5, crank=0.4, coupler=0.2, rocker=0.3, sweep=(0.2, 1.0))
     rows = [{"drive.O2.position": x} for x in (0.4, math.pi, 0.4)]
@@ -112,6 +119,7 @@ def test_a_slide_is_a_length_and_its_effort_a_force() -> None:
     assert content == foreign_bytes(da.load(examples()["bucket"]), "x.fmu")[0]
 
 
+@pytest.mark.long
 def test_what_only_python_computes_is_refused() -> None:
     with pytest.raises(ModelError, match=r"FMI 1\.0 is not written; use 2\.0 or 3\.0"):
         fmu_bytes(da.compile(da.four_bar(), ["links.coupler.mass"]), "1.0")

@@ -235,11 +235,11 @@ def drawn_graph(result: Result, k: int) -> LinkGraph:
 
 
 def inertia_matrix(value: Any) -> Array:
-    """Inertia (3, 3) from none, three principal values, or a matrix."""
+    """Inertia (3, 3) from none, one value about every axis, three principal values, or a matrix."""
     if value is None:
         return np.zeros((3, 3))
     rows = np.array(value, float)
-    return np.asarray(rows * np.eye(3) if rows.ndim == 1 else rows)
+    return np.asarray(rows * np.eye(3) if rows.ndim < 2 else rows)
 
 
 def number(value: Any, kind: str) -> float:
