@@ -25,7 +25,7 @@ REFUSED = re.compile(
     "not lifted|be lifted|of no solid|no equality|its wheels|axes are not parallel|blocked|closes a loop|second link"
     "|drives the joint"
 )
-"""Reasons for which a mechanism has no MJCF file; a driven universal joint comes back as two revolutes of other names."""
+"""Reasons for which a mechanism has no MJCF file; a driven universal joint comes back as two revolutes."""
 
 READ = {
     "jdotv_connect_2d.xml": (4, 5, 2),
