@@ -237,3 +237,26 @@ def test_mistakes_are_printed_with_their_lines(tmp_path: Path, capsys: pytest.Ca
     assert out.endswith("1 of 2 right.\n")
     assert main(["check-answers", str(BUNDLED["four_bar"]), str(mine), "--tolerance", "1%"]) == 1
     assert capsys.readouterr().out.endswith("0 of 2 right.\n")
+
+
+def test_two_mistakes_are_named_together() -> None:
+    """The weight of the coupler forgotten and the couple reversed; with one random figure more nothing is named."""
+    m = da.load(BUNDLED["seed-003-norton-11-3-gravity"])
+    pull = float(m.mass("coupler") * m.g)
+    tree = m.to_tree()
+    tree["loads"]["lift"] = {"type": "force", "on": "coupler", "at": "center", "value": [0, f"{pull!r} N"]}
+    couple = next(name for name, load in m.loads.items() if load.type == "couple")
+    right = da.dynamics(m)
+    wrong = da.dynamics(da.mechanism(tree).with_values({f"loads.{couple}.value": -m.loads[couple].value}))
+    sheet: Any = {
+        "efforts": {"O2": f"{float(wrong.effort('O2')[0]):.6g} N*m"},
+        "reactions": {j: [f"{v:.6g} N" for v in wrong.reaction(j)[0].tolist()] for j in right.joints},
+    }
+    problem = SolvedProblem(m)
+    found = problem.verdicts(read_sheet(sheet).answers)
+    (said,) = {v.mistake for v in found if not v.right}
+    assert "the weight of coupler is left out" in said
+    assert f"load {couple} has the wrong sense" in said
+    sheet["reactions"]["B"] = ["12.3 N", "-45.6 N"]
+    again = problem.verdicts(read_sheet(sheet).answers)
+    assert not any(v.kind == "named" for v in again)

@@ -23,6 +23,7 @@ from dalembert.arrays import Array
 from dalembert.errors import DalembertError
 from dalembert.grading.figure import StudentValue, values_of
 from dalembert.grading.own_figures import OwnFigures
+from dalembert.grading.two_mistakes import two_mistakes
 from dalembert.grading.value_slips import (
     FINEST,
     POSSIBLE,
@@ -121,10 +122,27 @@ class _Sheet:
         expected = {k: self._expected(option, compatible) for k, option in enumerate(found)}
         order = sorted(expected, key=lambda k: (found[k].cost, expected[k]))
         if not order or not self._better(found[order[0]], slip_cost):
-            return self._by_parts(None)
+            return self._pair() or self._by_parts(None)
         best = found[order[0]]
+        if best.open and (pair := self._pair()):
+            return pair
         best.also = [found[k].problem for k in order[1:] if self._same(best, found[k])]
         return self._with(best, expected[order[0]])
+
+    def _pair(self) -> dict[int, Explanation]:
+        """Two mistakes of the problem that explain all wrong figures, where chance does not; else nothing."""
+        if self.problems is None or len(self.slips) == len(self.wrong):
+            return {}
+        pair = two_mistakes(
+            self.figures,
+            self.wrong,
+            self.problems.linear(),
+            lambda problem, n: self._values(problem.solution(), n),
+            sum(self.own.numbers.values()),
+        )
+        if pair is None or pair.chance > SURE:
+            return {}
+        return dict.fromkeys(self.wrong, Explanation(pair.sentence, "named", pair.weight))
 
     def _same(self, best: _Option, other: _Option) -> bool:
         """True if the sheet does not tell two mistakes apart."""
@@ -210,11 +228,11 @@ class _Sheet:
 
     def _is_sure(self, slip: ValueSlip) -> bool:
         """True if chance does not explain a slip, nor the structure of the machine."""
-        unexplained = len(self.wrong) - len(self.slips)
+        unexplained = [n for n in self.wrong if n not in self.slips and n not in self.own.follows]
         elsewhere = {s.sentence for s in self.slips.values() if s.kind == "named"}
-        if slip.kind == "named" and len(elsewhere) > ELSEWHERE:
-            return False
-        return slip.chance <= (SURE if unexplained <= len(self.slips) else ALONE)
+        if slip.kind == "named" and (len(elsewhere) > ELSEWHERE or self.own.follows):
+            return False  # a value that is carried on is not one of another joint
+        return slip.chance <= (ALONE if unexplained else SURE)
 
     def _options(self, slip_cost: float) -> tuple[list[_Option], list[tuple[int, int]]]:
         """Mistakes that explain some figure, and the order and number of moved figures of all that could have moved
@@ -292,6 +310,8 @@ class _Sheet:
 def _said(option: _Option, kind: str) -> Explanation:
     """A mistake in the problem, named or said to be possible, with those that lead to the same figures."""
     every = [option.problem, *option.also]
-    sentence = ", or ".join(dict.fromkeys(p.sentence for p in every[:TOGETHER]))
+    words = [*dict.fromkeys(p.sentence for p in every)]
+    more = ["another mistake with the same figures"] if len(words) > TOGETHER else []
+    sentence = ", or ".join([*words[:TOGETHER], *more])
     weight = min((p.weight for p in every), key=("datum", "concept").index)
     return Explanation(sentence if kind == "named" else f"may be: {sentence}", kind, weight)

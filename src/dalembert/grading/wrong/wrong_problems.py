@@ -81,6 +81,16 @@ class WrongProblems:
             yield from self._of_wrenches
             yield from self._misread
 
+    def linear(self) -> list[WrongProblem]:
+        """The usual mistakes whose changes of the answer add up: none with friction, or at an unknown position."""
+        try:
+            refuse_nonlinear(self.result)
+        except ModelError:
+            return []
+        if self.full.schedule.unknown is not None:
+            return []
+        return [*self._linear, *(p for p in self._of_wrenches if p.order < 3)]
+
     def usual(self) -> Iterator[WrongProblem]:
         """The mistakes that every variant of an exam must show: parts of the superposition, and single data."""
         if self.full.schedule.unknown is None:
