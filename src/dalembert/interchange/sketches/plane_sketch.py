@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.interchange.link_graph import plain_name
+from dalembert.interchange.placements import clean
 from dalembert.model import GROUND
 
 
@@ -50,12 +53,12 @@ class PlaneSketch:
     lost: list[str] = field(default_factory=list)
 
     def links(self) -> dict[str, list[SketchJoint]]:
-        """Joints of each link, ground first."""
+        """Joints of each link, ground first; those on the ground before the others."""
         out: dict[str, list[SketchJoint]] = {GROUND: []}
         for joint in self.joints:
             for link in joint.links:
                 out.setdefault(link, []).append(joint)
-        return out
+        return {link: sorted(joints, key=lambda j: GROUND not in j.links) for link, joints in out.items()}
 
 
 Axes = tuple[float, float, float]
@@ -74,7 +77,7 @@ def in_axes(axes: Axes, x: float, y: float) -> list[float]:
     ox, oy, angle = axes
     c, s = math.cos(angle), math.sin(angle)
     dx, dy = x - ox, y - oy
-    return [c * dx + s * dy, c * dy - s * dx]
+    return clean(np.array([c * dx + s * dy, c * dy - s * dx]))
 
 
 def sketch_tree(sketch: PlaneSketch, file: str) -> tuple[Tree, dict[tuple[str | int, ...], int]]:
