@@ -14,6 +14,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.util import find_spec
+from itertools import pairwise
 from threading import RLock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -153,6 +154,8 @@ class Equation:
     ) -> None:
         self.names, self.program, self.graph, self.channels = names, program, program.graph, channels
         self.ends, self.numbers, self.values = np.cumsum([len(part) for part in parts]), numbers, values
+        bounds = [0, *self.ends.tolist()]
+        self.slices = [slice(a, b) for a, b in pairwise(bounds)]
         self.places, self.rates = places, [places[n.index] for n in numbers]
         program.__dict__["places"] = program.places | places
         self.joints: list[str] = []
@@ -215,7 +218,7 @@ class Equation:
     def terms(self, out: Array) -> Terms:
         """The terms of all outputs, numbers or nodes."""
         d, linear = len(self.names), None
-        effort, mass, power, rates, closure, freedoms, corners, *more = np.split(out, self.ends[:-1])
+        effort, mass, power, rates, closure, freedoms, corners, *more = (out[part] for part in self.slices)
         if self.dry:
             e = self.dry.contacts.count
             shapes = (d, e), (3, e), (3, e, d), (3, e, e), (e,)

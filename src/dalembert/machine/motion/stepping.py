@@ -262,4 +262,6 @@ class StepState(CodedState):
         after = min(after, g.turned)
         if value(before) <= 0:
             return before
+        if value(after) >= 0:  # beyond zero by the state's own rounding alone
+            return after
         return float(brentq(value, before, after, xtol=1e-15 * max(after, 1e-300) + 1e-300, rtol=1e-15))

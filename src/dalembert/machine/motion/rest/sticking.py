@@ -99,6 +99,8 @@ class StickState(CornerState):
 
     def _stop(self, push: Array, rates: Array, y: Array) -> None:
         """Take from the speeds what is left of the rates of contacts at rest."""
+        if not push.shape[1]:
+            return
         u = y[self.d : 2 * self.d]
         u += np.linalg.lstsq(push.T, rates, rcond=PARALLEL)[0]
         u[_within(np.eye(self.d), push) & (np.abs(u) <= STILL * self.fastest)] = 0.0
