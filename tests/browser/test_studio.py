@@ -61,11 +61,13 @@ class Studio:
         )
 
     def click(self, key: str, *at: float) -> None:
+        self.page.evaluate("document.activeElement?.blur()")
         self.page.keyboard.press(key)
         self.changes(lambda: self.page.mouse.click(*self.pixel(*at)))
 
     def line(self, key: str, a: tuple[float, float], b: tuple[float, float], *typed: str) -> None:
         """Drag from a to b; or, with typed values, click, type and press Enter."""
+        self.page.evaluate("document.activeElement?.blur()")
         self.page.keyboard.press(key)
         self.page.mouse.move(*self.pixel(*a))
         if not typed:
@@ -231,7 +233,8 @@ def test_the_file_beside_the_drawing_is_edited_either_way(tabs: Any, tmp_path: P
         assert f"Line {line}" in one.page.inner_text(".verdict")
         two.until("studio.state().error")
         assert two.page.evaluate("studio.state().drawing.links.length") == 4, "the last good drawing stays"
-        two.changes(lambda: two.page.keyboard.press("Control+z"))
+        while two.text != FOUR_BAR:  # a step for each pause of the typing
+            two.changes(lambda: two.page.keyboard.press("Control+z"))
         one.until("!studio.state().error")
         assert one.text == FOUR_BAR
         assert one.page.evaluate(
@@ -247,6 +250,12 @@ def test_the_file_beside_the_drawing_is_edited_either_way(tabs: Any, tmp_path: P
         one.page.click(".choice button:has-text('Load it')")
         one.until("studio.state().text.startsWith('# theirs')")
         assert not one.page.evaluate("studio.state().dirty")
+        said = "# typed while earlier letters are on their way "
+        one.page.click("[data-pane=File]")
+        one.page.click(".cm-line >> nth=0")
+        one.page.keyboard.press("Home")
+        one.page.keyboard.type(said, delay=45)
+        two.until(f"studio.state().text.startsWith('{said}# theirs')")
 
 
 @pytest.mark.long

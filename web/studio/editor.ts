@@ -23,7 +23,9 @@ export class Editor {
   private base = "";
   private sent = "";
   private timer = 0;
-  private busy = false;
+  /** The text of an edit that was sent and has not come back, and whether the server took it. */
+  private flying: string | null = null;
+  private accepted = false;
   private crlf = false;
 
   constructor(el: HTMLElement, private readonly socket: Socket, undo: (back: boolean) => void) {
@@ -41,8 +43,7 @@ export class Editor {
           EditorView.contentAttributes.of({ "aria-label": "model file" }),
           EditorView.updateListener.of((u) => {
             if (!u.docChanged || u.transactions.some((t) => t.annotation(FromServer))) return;
-            clearTimeout(this.timer);
-            this.timer = window.setTimeout(() => void this.flush(), PAUSE);
+            this.later();
           }),
         ],
       }),
@@ -51,29 +52,39 @@ export class Editor {
   /** Sends what was typed since the last message; done once the server has it. */
   async flush(): Promise<void> {
     clearTimeout(this.timer);
-    this.timer = 0;
     const text = this.text;
-    if (this.busy || text === this.sent || !this.base) return;
+    if (this.flying !== null) return this.later();
+    if (text === this.sent || !this.base) return;
     const [start, end, insert] = difference(this.sent, text), place = (k: number): number => units(this.sent, k) + (this.crlf ? this.sent.slice(0, k).split("\n").length - 1 : 0);
-    this.busy = true;
-    await this.socket.send({ edit: [[place(start), place(end), this.crlf ? insert.replaceAll("\n", "\r\n") : insert]], base: this.base });
-    this.busy = false;
+    this.flying = text;
+    const a = await this.socket.send({ edit: [[place(start), place(end), this.crlf ? insert.replaceAll("\n", "\r\n") : insert]], base: this.base });
+    this.accepted = !a.refused;
+    if (!a.refused) return; // the state that follows has what was sent
+    this.flying = null;
+    if (!/meanwhile/.test(a.refused)) this.put(this.sent);
+  }
+  private later(): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.flush(), PAUSE);
+  }
+  private put(text: string): void {
+    if (text === this.text) return;
+    const [from, to, insert] = difference(this.text, text);
+    this.view.dispatch({ changes: { from, to, insert }, annotations: FromServer.of(true) });
   }
   private get text(): string {
     return this.view.state.doc.toString();
   }
   /** The server's text and its error; what is typed meanwhile stays. */
   update(text: string, hash: string, error: string, line: number): void {
-    const typed = this.timer !== 0 && this.text !== this.sent;
+    const plain = text.replaceAll("\r\n", "\n"), arrived = this.flying !== null && (this.accepted || plain === this.flying);
+    const before = arrived ? this.flying! : this.sent, typed = this.text !== before;
+    if (arrived) [this.flying, this.accepted] = [null, false];
     this.base = hash;
-    const plain = text.replaceAll("\r\n", "\n");
     this.crlf = plain !== text;
     this.sent = plain;
-    if (!typed && plain !== this.text) {
-      const [start, end, insert] = difference(this.text, plain);
-      this.view.dispatch({ changes: { from: start, to: end, insert }, annotations: FromServer.of(true) });
-    }
-    if (typed) this.timer ||= window.setTimeout(() => void this.flush(), PAUSE);
+    this.put(!typed ? plain : plain === before ? this.text : merged(before, this.text, plain));
+    if (this.text !== plain) this.later();
     const doc = this.view.state.doc;
     const at = doc.line(Math.min(Math.max(line, 1), doc.lines));
     this.view.dispatch(setDiagnostics(this.view.state, error ? [{ from: at.from, to: at.to, severity: "error", message: error }] : []));
@@ -91,6 +102,15 @@ function difference(a: string, b: string): [number, number, string] {
   while (start < a.length && start < b.length && a[start] === b[start]) start++;
   while (tail < a.length - start && tail < b.length - start && a[a.length - 1 - tail] === b[b.length - 1 - tail]) tail++;
   return [start, a.length - tail, b.slice(start, b.length - tail)];
+}
+
+/** Both changes of a text, one's own and the server's; the server's alone where they overlap. */
+function merged(before: string, own: string, server: string): string {
+  const [s, e, insert] = difference(before, own), [from, to, other] = difference(before, server);
+  if (e <= from) return server.slice(0, s) + insert + server.slice(e);
+  if (s < to) return server;
+  const shift = other.length - (to - from);
+  return server.slice(0, s + shift) + insert + server.slice(e + shift);
 }
 
 /** A place in characters, as Python counts them. */
