@@ -113,8 +113,11 @@ def slipped_sheets(problem: SolvedProblem, place: int, digits: int) -> Iterator[
 
 
 def named_first(made: Made, verdicts: list[Any]) -> bool | None:
-    """Whether the mistake is named, or another one that gives all the wrong figures; None if all are right."""
-    wrong = [v for v in verdicts if not v.right and v.kind != "open"]
+    """Whether the mistake is named, or another one that gives all the wrong figures; None if all are right.
+
+    Figures that follow from others of the sheet need no mistake of their own.
+    """
+    wrong = [v for v in verdicts if not v.right and v.kind not in ("open", "follow_through")]
     if not wrong:
         return None
     said = {v.mistake for v in wrong}

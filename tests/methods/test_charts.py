@@ -252,7 +252,7 @@ def test_charts_of_a_motion_under_forces() -> None:
     height = 0.2 * (np.sin(q) - np.sin(q[0]))
     known = {"kinetic": 0.5 * (0.01 + 2 * 0.04) * w**2, "potential": 2 * 9.80665 * height}
     chart = Chart(energies)
-    assert chart.labels == ("Time in s", "Energy in N·m")
+    assert chart.labels == ("Time in s", "Energy in J")
     for name, curve in known.items():
         np.testing.assert_allclose(chart.curves[name][1], curve, atol=1e-6 * np.abs(curve).max())
     works = {name: values for name, (_, values) in chart.curves.items() if name.startswith("work of ")}

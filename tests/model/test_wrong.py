@@ -87,7 +87,7 @@ FILES = {
     "control.yaml": (b"title: a\x07", "control.yaml:1: it is not YAML"),
     "mine.txt": (
         b"title: a",
-        "mine.txt does not have the name of a model file; end its name with .yaml, .json or .toml",
+        "mine.txt:1: the file has 0 links of PMKS+; give one: app.pmksplus.com/?...; the name of a model file ",
     ),
     "twice.json": (b'{"a": 1,\n"b": {"c": 1,\n"c": 2}}', "twice.json:3: the key 'c' occurs twice"),
     "nan.json": (

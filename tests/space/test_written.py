@@ -199,7 +199,7 @@ def test_one_position_is_printed_in_full(tmp_path: Path, capsys: pytest.CaptureF
         [line.split() for line in part.splitlines() if line.startswith(("C ", "rocker "))]
         for part in out.split("\n\n")
     ]
-    force, moment, place, rates, _ = [rows[0] for rows in tables if rows]
+    force, moment, place, rates, *_ = [rows[0] for rows in tables if rows]
     r = da.dynamics(one)
     assert [float(x) for x in force[3:6]] == pytest.approx(r.reaction("C", axes="joint")[0], rel=1e-5)
     assert [float(x) for x in moment[3:6]] == pytest.approx(

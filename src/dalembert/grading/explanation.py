@@ -126,7 +126,9 @@ class _Sheet:
         best = found[order[0]]
         if best.open and (pair := self._pair()):
             return pair
-        best.also = [found[k].problem for k in order[1:] if self._same(best, found[k])]
+        same = sorted(k for k in order if k == order[0] or self._same(best, found[k]))  # the most usual first
+        best = found[same[0]]
+        best.also = [found[k].problem for k in same[1:]]
         return self._with(best, expected[order[0]])
 
     def _pair(self) -> dict[int, Explanation]:

@@ -86,9 +86,10 @@ def position_sentence(r: Result, k: int, at: PositionChoice = None) -> str:
     """Sentence on a position and, of an extreme, on its value in the units of the file.
 
     >>> import dalembert as da
-    >>> r = da.dynamics(da.load("examples/four_bar.yaml"), positions=36)
+    >>> from dalembert.bundled import examples
+    >>> r = da.dynamics(examples()["four_bar"], positions=36)
     >>> position_sentence(r, position_at(r, "max effort.O2"), "max effort.O2")
-    'Position 3 of 36, O2 = 80 deg: effort.O2 is largest here, 292.341 lbf*in.'
+    'Position 3 of 36, O2 = 80 deg: effort.O2 is largest here, 292.29 lbf*in.'
     """
     from dalembert.analysis.output.summary.printed_units import print_scale
 

@@ -57,7 +57,8 @@ def read_pmks(content: bytes, file: str) -> PlaneSketch:
             return _first_pmks(text)
         if len(links) != 1 or len(links[0]) > LONGEST:
             what = f"the file has {len(links)} links of PMKS+"
-            raise ModelError(what, "give one: app.pmksplus.com/?...", (), file, 1)
+            one = "give one: app.pmksplus.com/?...; the name of a model file ends with .yaml, .json or .toml"
+            raise ModelError(what, one, (), file, 1)
         return _link(links[0].strip())
     except ModelError:
         raise
