@@ -444,10 +444,11 @@ def test_a_hexapod_of_copies_is_the_one_written_out() -> None:
     m = da.load(EXAMPLES / "hexapod.yaml")
     lower, upper = [0, 80, 120, 200, 240, 320], [0, 40, 120, 160, 240, 280]
     tree = da.load(EXAMPLES / "hexapod.yaml").to_tree()
-    si = {k: [x / 1000 for x in v] for k, v in {
-        "A": (375.877, 136.808, 0), "B": (191.511, 160.697, 0), "S": (61.455, -7.963, -166.667),
-        "barrel": (-61.455, 7.963, 166.667)}.items()}  # fmt: skip
-    line, tangent, pin = (-184.366, 23.889, 500), (23.889, 184.366, 0), (-184.366, 23.889, -69.1261)
+    si = {"A": turned([0.4, 0, 0], 20), "B": turned([0.25, 0, 0], 40)}
+    line = [*np.subtract(si["B"], si["A"])[:2], 0.5]
+    si |= {"S": [-x / 3 for x in line], "barrel": [x / 3 for x in line]}
+    tangent = (line[1], -line[0], 0)
+    pin = np.cross(tangent, line)
     links: Any = {
         "ground": {"points": {}},
         "platform": {"mass": 30, "inertia": [1, 1, 2], "points": {"P": [0.1, 0, 0.05]}},
@@ -480,7 +481,7 @@ def test_a_hexapod_of_copies_is_the_one_written_out() -> None:
         }
         joints[f"S{k}"] = slide
         joints[f"B{k}"] = {"type": "spherical", "links": [f"rod{k}", "platform"], "at": ["B", f"B{k}"]}
-        drives[f"S{k}"] = {"position": 0.533443}
+        drives[f"S{k}"] = {"position": math.hypot(*line)}
     loads = {"work": {"type": "force", "on": "platform", "at": "P", "value": [300, 0, -1000]}}
     written = {"space": "space", "gravity": "standard", "links": links, "joints": joints, "drives": drives}
     r, out = da.statics(m), da.statics(da.mechanism({**written, "loads": loads}))
@@ -502,7 +503,7 @@ def test_a_hexapod_of_copies_is_the_one_written_out() -> None:
 WRONG_IN_SPACE = [
     ("    phase: {ground", "    about: A\n    phase: {ground", "copies in space are turned about the z axis"),
     (
-        "A: [375.877, 136.808, 0]}",
+        "A: [base*cos(20 deg), base*sin(20 deg), 0]}",
         "A: {from: Q, at: [0, 1, 0]}, Q: [375.877, 135.808, 0]}",
         "placed from another one",
     ),

@@ -54,13 +54,14 @@ RATES = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 
 
 def printed_units(units: Any) -> dict[str, str]:
-    """By kind, the unit as it is printed: angles in degrees, rates without a unit of the file in radians."""
+    """By kind, the unit as it is printed: angles of links in degrees, rates without a unit of the file in radians."""
     texts = {kind: RATES[kind] if units.refuses_bare(kind) else units.text(kind) for kind in KINDS}
     signs = (("*", "·"), ("^2", "²"), ("^3", "³"), ("deg", "°"))
     printed = {kind: reduce(lambda t, sign: t.replace(*sign), signs, text) for kind, text in texts.items()}
     arm = re.sub(rf"{printed['force']}·|·{printed['force']}", "", printed["moment"])
     rolling = f"{printed['length']}/s"  # radii times radians
-    return printed | {"angle": "°", "arm": arm, "rolling": rolling, "rolling_rate": f"{rolling}²"}
+    own = {"angle": "°", "angle_of_drive": printed["angle"]}
+    return printed | own | {"arm": arm, "rolling": rolling, "rolling_rate": f"{rolling}²"}
 
 
 class Read(NamedTuple):

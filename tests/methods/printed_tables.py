@@ -54,7 +54,7 @@ def _said(reader: Reader, words: str) -> None:
     )
     for figure, of, how in re.findall(conversion, words):
         base, power = re.fullmatch(r"([\d.]+)(.*)", figure).groups()  # type: ignore[union-attr]
-        whole = float(base) ** int(power.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")) or 1)
+        whole = float(base) ** int(power.translate(RAISED) or 1)
         factor = whole ** (-1 if how == "divided" else 1)
         signs = "m" * ("masses" in of) + "IJ" * ("moments" in of)
         reader.factors |= dict.fromkeys(signs, factor)
@@ -281,12 +281,48 @@ def _parameters(reader: Reader, heads: list[str], rows: Cells) -> None:
         size = unit_names.unit(unit.translate(AS_TYPED)).si(1.0) if unit else 1.0
         found = times(reader.number(figure), Read(size, 0.0))
         if follows:
+            for word in re.findall(r"\d ([^\W\d]\w*)", follows):  # a quantity is a number times its unit
+                reader.known[word] = Read(unit_names.unit(word).si(1.0), 0.0)
             text = re.sub(r"(\w+)\^(\d+)", r"(\1^\2)", follows).replace("*", "·").replace("-", "−")
             reader.agree(reader.expression(text), found, f"{name}: {cell}")
         reader.known[name] = found
     reader.known = outside
 
 
+def _laws(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """Of every rise v = C_v h/b, a = C_a h/b^2 and j = C_j h/b^3; over a drive with a speed w, b/w for b."""
+    timed, speed = heads[1] in ("b (s)", "b (min)"), Read(1.0, 0.0)
+    for k, row in enumerate(rows):
+        b, h, *others = (_in_si(reader, *cell) for cell in zip(row[1:], heads[1:], strict=True))
+        assert b is not None
+        assert h is not None
+        for n, (factor, rate) in enumerate(zip(others[:3], others[3:], strict=True), 1):
+            assert (factor is None) == (rate is None), f"one of them is infinite: {row}"
+            if factor is None or rate is None:
+                continue
+            right, left = times(factor, h), rate
+            for _ in range(n):
+                left = times(left, b)
+            if not timed and (k, n) == (0, 1):
+                inverse = Read(1 / right.value, right.error / right.value**2)
+                speed = times(left, inverse)
+                continue
+            for _ in range(n):
+                right = times(right, speed)
+            reader.agree(right, left, f"{heads[n + 5]}: {row}")
+
+
+def _in_si(reader: Reader, cell: str, head: str) -> Read | None:
+    """The size of what a cell says in the unit of its head; None where it is infinite."""
+    found, unit = number(reader, cell), re.search(r" \((?:10([⁰¹²³⁴-⁹]+) )?(.*)\)$", head)
+    if found is None or unit is None:
+        return found
+    one = unit_names.unit(unit[2].translate(AS_TYPED)).si(10.0 ** int((unit[1] or "0").translate(RAISED)))
+    least = 0.5 * 10.0 ** (2 - reader.figures) if unit[2] == "°" else 0.0
+    return size(times(Read(found.value, max(found.error, least)), Read(one, 0.0)))
+
+
+RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 AS_TYPED = str.maketrans({"·": "*", "°": "deg", "²": "^2", "³": "^3", "⁴": "^4"})
 
 
@@ -301,6 +337,11 @@ HEADS = {
     "F ": "force",
     "Work": "force|moment",
     "Power": "power",
+    r"b \(": "time|angle_of_drive|length",
+    r"h \(": "angle_of_drive|length",
+    r"v \(": "angular_speed|speed",
+    r"a \(": "angular_acceleration|acceleration",
+    r"j \(": "angular_jerk|jerk",
 }
 """What a head with a unit begins with, and of which kind it is."""
 
@@ -328,6 +369,7 @@ def _unknowns(reader: Reader, heads: list[str], rows: Cells) -> None:
 
 TABLES: dict[str, Any] = {
     "Parameter|Value|Meaning": _parameters,
+    "Curve|b": _laws,
     "Unknown|Value": _unknowns,
     "Link|Points": _links,
     "Link|J_xx": _inertias,

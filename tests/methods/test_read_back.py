@@ -227,3 +227,17 @@ def test_matrices_are_read() -> None:
     sheet.blocks[k] = Matrix(matrix.rows, matrix.unknowns, ("1.000", *matrix.right[1:]), matrix.values)
     with pytest.raises(AssertionError):
         read_sheet(sheet)
+
+
+@pytest.mark.parametrize("column", [1, 2, 6, 7, 8])
+def test_laws_are_read(column: int) -> None:
+    """A length, a way or a peak of a rise that is 1 % off is found."""
+    sheet = worked(mechanism("cam_and_follower"))
+    (k,) = (k for k, b in enumerate(sheet.blocks) if isinstance(b, SheetTable) and b.heads[0] == "Curve")
+    table = sheet.blocks[k]
+    assert isinstance(table, SheetTable)
+    *others, row = table.rows
+    off = f"{1.01 * float(row[column].replace('−', '-')):.6g}".replace("-", "−")
+    sheet.blocks[k] = replace(table, rows=(*others, (*row[:column], off, *row[column + 1 :])))
+    with pytest.raises(AssertionError, match=re.escape(str([*row[:column], off, *row[column + 1 :]]))):
+        read_sheet(sheet)

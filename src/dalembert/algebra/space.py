@@ -24,6 +24,9 @@ IDENTITY = np.eye(3).ravel()
 FEW = 1200
 """Numbers of rotations below which one call of matmul is faster than many of arithmetic."""
 
+ROUNDING = 1e-12
+"""Twice the sine of a turn about an axis, below which it is no turn about it."""
+
 
 def _vector(x: Array, y: Array, z: Array) -> Array:
     """Three components as the last axis (faster than numpy.stack)."""
@@ -120,12 +123,18 @@ def angle_and_axis(rotation: Array) -> tuple[float, Array]:
 
     >>> angle_and_axis(np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]))
     (1.5707963267948966, array([0., 0., 1.]))
+
+    Of a small turn, rounding beside 1 is nothing in its axis:
+
+    >>> angle_and_axis(np.array([[1, -1e-6, 1e-16], [1e-6, 1, 0], [0, 0, 1]]))[1]
+    array([0., 0., 1.])
     """
     if not np.isfinite(rotation).all():
         return float("nan"), np.full(3, np.nan)
     skew = np.array(
         [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
     )
+    skew[np.abs(skew) < ROUNDING] = 0.0
     angle = float(np.arctan2(np.linalg.norm(skew), np.trace(rotation) - 1))
     if angle < 1e-9:
         return 0.0, np.zeros(3)

@@ -143,15 +143,15 @@ def _system_size(
 ) -> None:
     """The size of a system that is not printed, and its solution."""
     sheet.text(
-        f"{links}: {equations} equations with {len(some)} unknowns, assembled from those above and solved as one, "
-        "reactions as they act on the second link of each joint:"
+        f"{links}: {equations} equations with {len(some)} unknowns, assembled from those above and solved as one."
     )
     least = _least(c)
     cells = [(f"${u.sign}$", c.shown.text(u.kind, u.value, least[u.kind])) for u in some]
     cells += [("", "")] * (-len(cells) % ABREAST)
     high = len(cells) // ABREAST
     rows = [[text for n in range(ABREAST) for text in cells[n * high + row]] for row in range(high)]
-    sheet.table(["Unknown", "Value"] * ABREAST, rows)
+    caption = f"Reactions as they act on the second link of each joint{in_ground(c)}"
+    sheet.table(["Unknown", "Value"] * ABREAST, rows, caption)
 
 
 def _least(c: ReportContext) -> dict[str, float]:
