@@ -77,10 +77,6 @@ HARSH = [(1e15, 1.0, 1.0), (1e-15, 1.0, 1.0), (1e10, 1e-6, 1e3)]
 HARSH += [(10.0**m, 10.0**k, 10.0**t) for m in (-15, 0, 15) for k in (-6, 0, 6) for t in (-6, 0, 6)]
 
 
-OPEN = {("friction", (1e-15, 1e-6, 1e6)): "one acceleration beside the end differs by 1.9e-8"}
-"""Motions whose digits are not yet those in SI units."""
-
-
 def moved(name: str, scale: tuple[float, float, float]) -> da.Simulation:
     return da.simulate(machine(name, *scale), 1.5 * scale[2], count=31)
 
@@ -99,8 +95,6 @@ def test_a_motion_has_the_same_digits_in_other_units(name: str, scale: tuple[flo
 @pytest.mark.parametrize("scale", HARSH)
 @pytest.mark.parametrize("name", MACHINES)
 def test_and_in_harsh_ones(name: str, scale: tuple[float, float, float]) -> None:
-    if (name, scale) in OPEN:
-        pytest.xfail(OPEN[name, scale])
     same_digits(name, scale)
 
 

@@ -8,12 +8,17 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.arrays import Array
+from dalembert.machine.motion import stepping
 from dalembert.machine.motion.actuation import actuation
 from dalembert.machine.motion.coded import traced_friction
 from dalembert.machine.motion.coded.coded_motion import CodedState
 from dalembert.machine.motion.coded.shared_motion import SharedMotion
+from dalembert.machine.motion.integration import Integration
+from dalembert.machine.motion.occurrences import Guard
 from dalembert.machine.motion.simulation import motion_of
 from tests.machine.rubbing_machines import machine
+from tests.machine.test_motion_scale import moved
 from tests.tiers import tiers
 
 TIME = 1e-9
@@ -85,3 +90,38 @@ def test_a_design_of_another_branch_has_its_own_equation() -> None:
     assert shared.equation_of(actuation(m)[0]) is not None
     longer = m.with_values({"links.crank.points.A": (0.069, 0.0)})
     assert shared.equation_of(actuation(longer)[0]) is None
+
+
+def sides(patch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
+    """Instants at which a contact will bear on another side, and its margins as parts of the largest."""
+    out, happen = list[tuple[float, float]](), Integration._happen
+
+    def noted(state: Integration, t: float, y: Array, crossed: list[Guard]) -> None:
+        out.extend((t, g.value(t, y) / state.bearing) for g in crossed if g.kind == "side")
+        happen(state, t, y, crossed)
+
+    patch.setattr(Integration, "_happen", noted)
+    return out
+
+
+def test_a_step_ends_where_a_guide_bears_on_another_side(monkeypatch: pytest.MonkeyPatch) -> None:
+    """There the motion has a corner, whose error no step size control sees surely: so its digits are those in any
+    units."""
+    found = sides(monkeypatch)
+    scale = (1e-15, 1.0, 1e-6)
+    one, other = moved("friction", (1.0, 1.0, 1.0)), moved("friction", scale)
+    half = len(found) // 2
+    assert half > len(one.events)
+    assert np.abs([margin for _, margin in found]).max() < 1e-6
+    assert [t * 1e6 for t, _ in found[half:]] == pytest.approx([t for t, _ in found[:half]], abs=1e-9)
+    assert other.position("O") == pytest.approx(one.position("O"), abs=1e-10)
+
+
+def test_sides_that_change_without_end_are_left_to_the_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    found, known = sides(monkeypatch), moved("friction", (1.0, 1.0, 1.0))
+    assert found
+    found.clear()
+    monkeypatch.setattr(stepping, "FLICKERS", 0)
+    s = moved("friction", (1.0, 1.0, 1.0))
+    assert not found
+    assert s.position("O") == pytest.approx(known.position("O"), abs=1e-6)

@@ -241,8 +241,8 @@ class Equation:
         The state: positions, speeds; ``works`` of drives, of brakes, loads, dampers and friction. After ``values``
         follow, each (D,): effort at speed 0, its slope, that of the brake, acceleration of the prescribed drives; then
         of the O own contacts the senses, and 1 where they stick. ``corners`` of drives: changes of slope of these
-        lines. Watched, each (O,): rates of these contacts; where several drives move freely, so that contacts may
-        stick, their room and part of the limit.
+        lines. Watched: rates of these contacts (O,), ``margins`` (2K,) of all; where several drives move freely, so
+        that contacts may stick, room and part of the limit, each (O,).
         """
         if self.known or any(callable(f) for f in self.channels) or find_spec("llvmlite") is None:
             return None
@@ -285,7 +285,7 @@ class Equation:
         effort, change = e.effort + e.mass @ a, np.vstack([change, push + e.mass @ change])
         none = np.zeros(push.shape[1])
         if not self.dry or not e.linear:
-            return Contacted(a, effort, *(none,) * 5), e
+            return Contacted(a, effort, *(none,) * 6), e
         contacts = self.dry.solve(e.linear, a, effort, change, self.dry.senses(e.rates, sense), stuck)
         if contacts is None:
             raise StoppedError("the machine jams: no acceleration satisfies the law of friction")

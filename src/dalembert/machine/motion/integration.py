@@ -123,8 +123,7 @@ class Integration(StepState):
         limit = self.end if np.isfinite(self.end) else self.limits.time
         solver, tiny, steps = self._solver(t, y, min(limit, self.next_bend(t))), 0, 0
         longest, self.longest = self.longest, 0.0
-        coded = isinstance(solver, MachineSteps)
-        self.coded = (solver.code, solver.values) if isinstance(solver, MachineSteps) else None
+        self._take_up(solver, guards, t, y)
         while solver.status == "running":
             if isinstance(solver, MachineSteps) and self.waiting is not None:
                 longest = self._take_quiet(solver, guards, t, longest)
@@ -142,7 +141,7 @@ class Integration(StepState):
                 raise StoppedError("the integration steps become too small, as where friction nearly jams")
             if solver.step():
                 self.longest = longest
-                if coded and self.equation.dry:
+                if self.coded is not None and self.equation.dry:
                     self.keep_samples()
                     self.careful = (
                         True  # friction is not proved to have one solution: to the next event in numpy
@@ -163,6 +162,7 @@ class Integration(StepState):
                     raise StoppedError(self.why_stopped(LIGHT))
             met = self._event(solver, guards, before, from_)
             if met is not None:
+                self.flickers = self.flickers + 1 if met[0] - t <= 2 * longest else 0
                 return met
             self.fastest = np.maximum(self.fastest, np.abs(solver.y[self.d : 2 * self.d]))
             if self.waiting is None and not self._keep_step(solver, before, from_):
@@ -174,6 +174,11 @@ class Integration(StepState):
         if limit <= solver.t < self.end:
             self._give_up(solver.t, solver.y)
         return solver.t, solver.y
+
+    def _take_up(self, solver: Steps | MachineSteps, guards: list[Guard], t: float, y: Array) -> None:
+        """Machine code of a solver, and the sides on which contacts bear by it."""
+        self.coded = (solver.code, solver.values) if isinstance(solver, MachineSteps) else None
+        self.take_side([g for g in guards if g.kind == "side"], t, y)
 
     def _event(
         self, solver: Steps | MachineSteps, guards: list[Guard], before: float, from_: Array
@@ -201,7 +206,9 @@ class Integration(StepState):
             self._keep_until(dense, before, when)
             self.reached = when, y
             self._happen(when, y, first)
-            self.keep(when, y)
+            self.bears = {g.which: -g.side for g in first if g.kind == "side"}
+            if any(g.kind != "side" for g in first):
+                self.keep(when, y)
             return when, y
         if (self.locked & self.acting.free).any() and self._loose(solver.t, solver.y):
             dense = solver.dense_output()
@@ -272,7 +279,7 @@ class Integration(StepState):
         state = self._exactly(t, y, when) if when > t else y.copy()
         if g.kind == "corner":
             return self._beyond(g, when, state, g.value(t, y))
-        for _ in range(2 if when > t else 0):
+        for _ in range(2 if when > t and g.kind != "side" else 0):
             short = 1e-3 * (when - t)
             slope = (
                 g.value(when + short, state + short * self.rate(when, state)) - g.value(when, state)

@@ -88,6 +88,7 @@ class Guard:
     A side of 0 is not known yet. ``trend``: how it went on, times its side, at the end of the last step; ``turned``: an
     instant within a step at which it is beyond zero, to come back before the step ends. ``column``: where machine code
     has the value, less ``level``: a number of the state, or behind these one that is watched; -1 where it has not.
+    ``least``: amount by which it is surely beyond zero.
     """
 
     kind: str
@@ -98,17 +99,20 @@ class Guard:
     turned: float = inf
     column: int = -1
     level: float = 0.0
+    least: float = 0.0
 
     @property
     def known(self) -> bool:
         """True if the segment behind an event knows its side by itself."""
-        return self.kind not in ("on", "off", "kink", "gear", "condition")
+        return self.kind not in ("on", "off", "kink", "side", "gear", "condition")
 
     def at_zero(self, t: float, y: Array, d: int) -> bool:
         """True if its value is too small for a sign, at a state of d drives."""
-        return abs(self.value(t, y)) <= 1e-12 * max(float(abs(y[: 2 * d]).max()), 1.0)
+        return abs(self.value(t, y)) <= (self.least or 1e-12 * max(float(abs(y[: 2 * d]).max()), 1.0))
 
 
+ROUNDING = 1e-9
+"""Part of the largest force of contacts so far by which one surely bears on a side."""
 TURNING = ("corner", "condition", "clutch")
 """Guards that may pass zero and come back within a step."""
 CONDITION = re.compile(r"\s*(?P<drive>\S+)\.(?P<what>position|speed)\s*=\s*(?P<value>.+?)\s*")

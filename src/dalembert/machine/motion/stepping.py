@@ -25,7 +25,7 @@ from dalembert.machine.motion.coded.steps import (
     state_sizes,
 )
 from dalembert.machine.motion.equation import StoppedError
-from dalembert.machine.motion.occurrences import TURNING, EventCondition, Guard, Value, Words, less
+from dalembert.machine.motion.occurrences import ROUNDING, TURNING, EventCondition, Guard, Value, Words, less
 from dalembert.machine.motion.stops.watched_quantities import watched
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
@@ -40,6 +40,9 @@ class Limits:
 
 
 NO_TIME = Limits()
+FLICKERS = 10
+"""Segments in turn, each of a step or two, after which a contact's change of sides, as of one without a force, ends
+none."""
 
 
 class StepState(CodedState):
@@ -61,6 +64,7 @@ class StepState(CodedState):
         self.lengths, self.natural = drive_lengths(m), (np.ones((1, 1)), np.ones(1))
         self.waiting = None if times is None else list(times)
         self.ended: Words = ()
+        self.flickers, self.bears = 0, dict[int, float]()
         self.samples: list[tuple[float, Array]] = []
         self.parts: list[Array] = []
         self.ends: list[float] = []
@@ -119,9 +123,9 @@ class StepState(CodedState):
             known = self.acting.free
             parts = np.full((len(t), len(self.stuck)), np.nan)
             if not self.locked.any():
-                parts[:, self.equation.dry.own] = (
-                    watched[:, 2 * own : 3 * own] if code.watched > own else self.sense
-                )
+                place = 2 * own + 2 * len(self.sided)
+                part = watched[:, place : place + own] if code.watched > place else self.sense
+                parts[:, self.equation.dry.own] = part
             self.parts += list(parts)
         applied = np.where(known, first + slope * y[:, d : 2 * d] + brake, np.nan)
         on_stop = np.where(self.on_stop != 0, first + slope * y[:, d : 2 * d], np.nan)
@@ -170,6 +174,7 @@ class StepState(CodedState):
             solver.step()
         if solver.status == "failed" and self.coded is not None:
             self.coded, self.careful = None, True
+            self.forget()
             return self._exactly(t, y, when)
         return np.asarray(solver.y).copy()
 
@@ -196,6 +201,9 @@ class StepState(CodedState):
         def room(c: int) -> Value:
             return lambda t, y: float(self.room(t, y)[c])
 
+        def margin(k: int) -> Value:
+            return lambda t, y: float(self.margins(t, y)[k])
+
         def switch(k: int, of: Switch) -> Value:
             return lambda t, y: acting.switched(of, k, t, y[:d], y[d:])
 
@@ -203,12 +211,16 @@ class StepState(CodedState):
             return lambda t, y: float(self.equation(t, y[:d], y[d : 2 * d]).corners[j])
 
         rubbing = np.flatnonzero(self.rubs & ~self.locked & ~self.bound).tolist()
-        n, own = 3 * d + 4, len(self.sense)
+        n, own, sided = 3 * d + 4, len(self.sense), len(self.sided)
+        self.forget()
         out = [Guard("rest", k, speed(k), float(self.toward[k]), column=d + k) for k in rubbing]
         slipping = [(c, float(s)) for c, s in enumerate(self.sense) if not self.tied[c]]
         out += [Guard("contact", c, rate(c), s, column=n + c) for c, s in slipping]
         sticking = np.flatnonzero(self.own(self.stuck)).tolist()
-        out += [Guard("slip", c, room(c), 1.0, column=n + own + c) for c in sticking]
+        out += [Guard("slip", c, room(c), 1.0, column=n + own + 2 * sided + c) for c in sticking]
+        if not self.pressed and self.flickers < FLICKERS:
+            new = self.bears
+            out += [Guard("side", k, margin(k), new.get(k, 0.0), column=n + own + k) for k in self._sliding()]
         for k, motor in acting.motors.items():
             out += [Guard(key, k, switch(k, of)) for key, of in self._switches(k)]
             out += [Guard("kink", k, speed(k, w), column=d + k, level=w) for w in motor.kinks]
@@ -221,16 +233,31 @@ class StepState(CodedState):
         levels = [c.value for c in self.conditions]
         met = enumerate(zip(values, places, levels, strict=True))
         out += [Guard("condition", n, value, column=k, level=level) for n, (value, k, level) in met]
-        for g in out:
-            g.side = g.side or (0.0 if g.at_zero(t, y, d) else float(np.sign(g.value(t, y))))
+        self.take_side([g for g in out if g.kind != "side"], t, y)
         return out
+
+    def _sliding(self) -> list[int]:
+        """Margins of the contacts that slip; only one of those without a tilting force."""
+        dry, count = self.equation.dry, len(self.sided)
+        margins = [k for k in range(2 * count) if not self.stuck[self.sided[k % count]]]
+        return [
+            k for k in margins if k < count or (dry and dry.contacts.read[2, self.sided[k - count]].any())
+        ]
+
+    def take_side(self, guards: Sequence[Guard], t: float, y: Array) -> None:
+        """The sides on which guards begin."""
+        for g in guards:
+            if g.kind == "side":
+                g.value(t, y)
+                g.least = ROUNDING * self.bearing
+            g.side = g.side or (0.0 if g.at_zero(t, y, self.d) else float(np.sign(g.value(t, y))))
 
     def _crosses(self, g: Guard, t: float, y: Array) -> bool:
         value = g.value(t, y)
         if not g.side:
-            g.side = float(np.sign(value))
+            g.side = float(np.sign(value)) if abs(value) > g.least else 0.0
             return False
-        return value * g.side < 0
+        return value * g.side < -g.least
 
     def _dips(self, g: Guard, solver: Steps | MachineSteps, before: float) -> bool:
         """True if a corner, a condition or a tooth is passed within the last step, which ends on its first side."""
@@ -264,4 +291,7 @@ class StepState(CodedState):
             return before
         if value(after) >= 0:  # beyond zero by the state's own rounding alone
             return after
-        return float(brentq(value, before, after, xtol=1e-15 * max(after, 1e-300) + 1e-300, rtol=1e-15))
+        near = (
+            1e-15 * max(after, 1e-300) + 1e-300 + (ROUNDING * (after - before) if g.kind == "side" else 0.0)
+        )
+        return float(brentq(value, before, after, xtol=near, rtol=1e-15))

@@ -20,6 +20,7 @@ from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mech
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.methods.applied_forces import link_place
 from dalembert.analysis.result.result import Result
+from dalembert.analysis.status.overflow import size_sentence
 from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import measure
 from dalembert.core.layout import Pose
@@ -192,14 +193,14 @@ class Unfinished:
 
 
 def unfinished(m: Mechanism) -> Unfinished | None:
-    """The mechanism as a sketch where its freedoms are not its drives or it does not close; None where it is finished
-    or in space."""
+    """The mechanism as a sketch where its freedoms are not its drives or it does not close; None where it is finished,
+    in space, or of a size whose squares are no numbers."""
     if m.dimension != 2:
         return None
     bare = m.model_copy(update={"drives": {}, "loads": {}})
     try:
         c = compile_mechanism(bare, bare.schedule())
-        if not c.links:
+        if not c.links or size_sentence(c) is not None:
             return None
         pose = _first_pose(m, c)
     except ModelError:

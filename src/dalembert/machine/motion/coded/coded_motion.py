@@ -6,6 +6,7 @@ Mechanics: docs/theory.md 10.6.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -13,7 +14,9 @@ from dalembert.arrays import Array
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.coded.steps import Integrator
 from dalembert.machine.motion.coordinates.dead_centres import LeadState
+from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.occurrences import TURNING, Guard
+from dalembert.machine.motion.rest.dry_friction import sided
 from dalembert.model import Mechanism
 
 Coded = tuple[Integrator, Array]
@@ -30,6 +33,12 @@ class CodedState(LeadState):
         super().__init__(m, actuation)
         self.coded: Coded | None = None
         self.careful, self.longest = False, 0.0
+        self.forget()
+        self.bearing = 0.0
+        self.sided = sided(self.equation.dry.contacts) if self.equation.dry else np.zeros(0, int)
+
+    def forget(self) -> None:
+        """What was watched at the last state: senses may be others."""
         self.seen: tuple[tuple[float, bytes], Array] = (np.nan, b""), np.zeros(0)
 
     def machine(self, t: float, y: Array) -> Coded | None:
@@ -55,11 +64,24 @@ class CodedState(LeadState):
         return np.asarray(self.coded[0].rates(self.coded[1], t, y[None])[0])
 
     def _watched(self, t: float, y: Array) -> Array:
-        """What the machine code watches, that of the last state kept."""
-        assert self.coded is not None
-        if self.seen[0] != (t, y.tobytes()):
-            self.seen = (t, y.tobytes()), self.coded[0].rates_watched(self.coded[1], t, y[None])[1][0]
-        return self.seen[1]
+        """What the machine code watches, in numpy the margins of contacts; that of the last state kept."""
+        if self.seen[0] == (t, y.tobytes()):
+            return self.seen[1]
+        found = np.zeros(2 * len(self.sided))  # no sides where there is no motion
+        if self.coded is not None:
+            found = self.coded[0].rates_watched(self.coded[1], t, y[None])[1][0]
+        else:
+            with suppress(StoppedError):
+                found = self.solved(t, y)[0].margins
+        self.seen = (t, y.tobytes()), found
+        return found
+
+    def margins(self, t: float, y: Array) -> Array:
+        """Margins (2K,) of the contacts that bear on one of two sides; the largest of all is kept."""
+        first = len(self.sense) if self.coded is not None else 0
+        found = self._watched(t, y)[first : first + 2 * len(self.sided)]
+        self.bearing = max(self.bearing, float(np.abs(found).max()))
+        return found
 
     def rubbing_rates(self, t: float, y: Array) -> Array:
         """Rates of the contacts that slip by themselves."""
@@ -71,19 +93,23 @@ class CodedState(LeadState):
         """How much more friction the own contacts that stick could take."""
         if self.coded is None:
             return self.own(self.solved(t, y)[0].room)
-        return self._watched(t, y)[len(self.sense) : 2 * len(self.sense)]
+        first = len(self.sense) + 2 * len(self.sided)
+        return self._watched(t, y)[first : first + len(self.sense)]
 
     def quiet(self, records: Array, watched: Array, guards: Sequence[Guard]) -> int:
         """Number of steps before the first at which a guard may change its sign."""
-        if any(g.column < 0 or not g.side for g in guards):
+        if any(g.column < 0 or not (g.side or g.kind == "side") for g in guards):
             return 0
         assert self.coded is not None
         code, values = self.coded
         n, columns = code.n, [g.column for g in guards]
-        level, side = np.array([[g.level for g in guards], [g.side for g in guards]])
         after = np.column_stack([records[:, 2 + n : 2 + 2 * n], watched])
+        for g in guards:
+            clear = after[np.abs(after[:, g.column]) > g.least, g.column] if not g.side else after[:0, 0]
+            g.side = float(np.sign(clear[0])) if clear.size else g.side
+        level, side, least = np.array([[g.level, g.side, g.least] for g in guards]).reshape(-1, 3).T
         now = (after[:, columns] - level) * side
-        meets = ~(now >= 0).all(axis=1)
+        meets = ~(now >= -least).all(axis=1)
         turning = [k for k, g in enumerate(guards) if g.kind in TURNING]
         if turning:
             short = SHORT * records[:, 1]

@@ -108,7 +108,7 @@ def _rubbing(
     slips = 1.0 if stuck is None else np.array([1.0 - x for x in stuck], object)
     rates = terms.rates.copy()
     rates[own] = rates[own] * slips
-    watched = [*terms.rates[own]] if stuck is None else [*terms.rates[own], *f.room, *f.part]
+    watched = [*terms.rates[own], *f.margins, *(() if stuck is None else (*f.room, *f.part))]
     return terms.effort + f.effort, terms.power, (f.cz * rates).sum(), f.a, watched
 
 

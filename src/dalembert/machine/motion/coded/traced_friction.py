@@ -27,7 +27,7 @@ from dalembert.core.friction.contact_equations import (
 from dalembert.kernel.friction_trace import trace_slip
 from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.kernel.program import KernelFlags
-from dalembert.machine.motion.rest.dry_friction import Linear
+from dalembert.machine.motion.rest.dry_friction import Linear, side_margins
 
 SURE = 1e-300
 """Factor of a root that is added: of a negative number it makes the sum no number, of a positive one it changes
@@ -37,12 +37,13 @@ Solve = Callable[[Array, Array], Array]
 
 
 class TracedMotion(NamedTuple):
-    """Accelerations and efforts required (D,), friction c z of the contacts (E,); of the own ones (O,) the room that
-    those that stick have, and friction as a part of its limit."""
+    """Accelerations and efforts required (D,), friction c z of the contacts (E,), their ``margins`` (2K,); of the
+    own ones (O,) the room that those that stick have, and friction as a part of its limit."""
 
     a: Array
     effort: Array
     cz: Array
+    margins: Array
     room: Array
     part: Array
 
@@ -89,7 +90,10 @@ def traced_motion(
     a, sure = a + (change @ cz[:, None])[:, 0], _sure(graph, flags)
     a[free] = [x + SURE * (sure - 0.5).sqrt() for x in a[free]]
     effort = mass @ a + (f.push @ cz[:, None])[:, 0]
-    return TracedMotion(a, effort, cz, *_rooms(contacts, own, r, c, cz, sense, held, stuck is not None))
+    margins = side_margins(contacts, argument(r, cz))
+    return TracedMotion(
+        a, effort, cz, margins, *_rooms(contacts, own, r, c, cz, sense, held, stuck is not None)
+    )
 
 
 def _rooms(

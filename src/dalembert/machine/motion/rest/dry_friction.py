@@ -31,6 +31,9 @@ from dalembert.core.friction.contact_equations import (
 )
 from dalembert.core.friction.friction_solver import newton, solve_friction
 
+SIDED = ("guide", "mesh", "separation")
+"""Kinds of contacts of the plane that bear on one of two sides."""
+
 
 class Linear(NamedTuple):
     """Inverse dynamics in accelerations and friction: G (D, E), y0 (3, E), Ya (3, E, D), H (3, E, E), d (E,)."""
@@ -45,7 +48,7 @@ class Linear(NamedTuple):
 class Contacted(NamedTuple):
     """Accelerations and efforts (D,), and of the contacts (E,): the rates of their rates, friction c z, how much more
     those that stick could take, friction as a part of its limit in motion against the sense, and what their limits at
-    rest would make of the rates' rates."""
+    rest would make of the rates' rates; ``margins`` (2K,) of the K that bear on one of two sides."""
 
     a: Array
     effort: Array
@@ -54,6 +57,22 @@ class Contacted(NamedTuple):
     room: Array
     part: Array
     size: Array
+    margins: Array
+
+
+def sided(contacts: Contacts) -> Ints:
+    """Contacts (K,) whose bearing force max(|y1|, |y3|) has corners where they change sides."""
+    plane = contacts.at.shape[-1] == 2
+    kinds = zip(contacts.kind, contacts.signed, strict=True)
+    return np.array(
+        [e for e, (kind, signed) in enumerate(kinds) if plane and kind in SIDED and not signed], int
+    )
+
+
+def side_margins(contacts: Contacts, y: Array) -> Array:
+    """y1 + y3 and y1 - y3 (2K,) of arguments y (3, E), N: each passes 0 at a corner."""
+    part = y[:, sided(contacts)]
+    return np.concatenate([part[0] + part[2], part[0] - part[2]])
 
 
 @dataclass
@@ -100,7 +119,8 @@ class DryFriction:
         )
         room, pushed = np.where(stuck, limit - np.abs(cz), 0.0), limit * r.change[2 * d :].diagonal()
         parts = np.where(stuck, -cz / least, sense)
-        return Contacted(x[:d], x[d : 2 * d], x[2 * d :], cz, room, parts, pushed)
+        margins = side_margins(self.contacts, argument(r, cz))
+        return Contacted(x[:d], x[d : 2 * d], x[2 * d :], cz, room, parts, pushed, margins)
 
     def _slip(self, r: ContactResponse, sense: Array, c: Array) -> Array | None:
         """z of those that slip: near the last one, else on the path from no friction."""

@@ -327,7 +327,7 @@ class StopState(ClutchState):
         a[f], self.pushing = solution[: len(f)], solution[len(f) :]
         effort, no = e.effort + e.mass @ a - n.T @ self.pushing - rotor * a, np.zeros(0)
         moved = acting.free & ~self.locked
-        return Contacted(a, effort, *(no,) * 5), np.where(moved, tau - rotor * a, effort), e
+        return Contacted(a, effort, *(no,) * 6), np.where(moved, tau - rotor * a, effort), e
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
         if not self.pressed:
