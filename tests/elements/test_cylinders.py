@@ -183,6 +183,42 @@ def test_a_cylinder_does_the_work_of_the_crank_that_moves_the_same_machine(seed:
     assert force == pytest.approx(pushed.effort("C")[0] * line / length, rel=1e-9, abs=1e-9)
 
 
+PISTON = """units: {length: mm}
+links:
+  ground: {points: {O: [0, 0], F: [-500, -100]}}
+  crank: {points: {O: [0, 0], A: [100, 0]}}
+  rod: {points: {A: [0, 0], B: [300, 0]}}
+  piston: {points: {B: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  S: {type: slider, links: [ground, piston], at: [O, B], direction: 0 deg}
+drives: {C: {cylinder: {between: [ground.F, piston.B], bore: 50, rod: 20}, position: LENGTH mm, speed: 1 mm/s}}
+assembly: {crank: CRANK rad, rod: ROD rad, piston: 0}
+"""
+
+
+@pytest.mark.parametrize("beside", [0.5, -0.03, 0.03, math.pi - 0.001, math.pi + 0.001])
+def test_near_a_dead_centre_the_stated_crank_angle_chooses(beside: float) -> None:
+    x, y = 100 * math.cos(beside), 100 * math.sin(beside)
+    out, lean = x + math.sqrt(300**2 - y**2), math.asin(y / 300)
+    text = PISTON.replace("LENGTH", repr(math.hypot(out + 500, 100)))
+
+    def crank(error: float, side: int) -> tuple[float, str]:
+        angle = side * (beside + error * math.sin(beside))
+        stated = text.replace("CRANK", repr(angle)).replace("ROD", repr(-side * lean))
+        r = da.kinematics(da.loads(stated))
+        return math.sin(r.angle("crank")[0]), str(r.mode)
+
+    for side in (1, -1):
+        assert crank(0.0, side) == (pytest.approx(side * y / 100, rel=1e-6), "None")
+        for error in (0.3, -0.3):  # the nearer mode is meant, and the other is named
+            found, mode = crank(error, side)
+            assert found == pytest.approx(side * y / 100, rel=1e-6)
+            assert ("nearest" in mode and "other modes" in mode) == (abs(math.sin(beside)) < 0.1)
+
+
 @over(quick=4, whole=200)
 def test_the_column_is_that_of_beam_elements(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -22,8 +22,8 @@ MOST = 64
 """Modes that are kept while links are placed: all modes of six groups, the first in order of more groups."""
 
 NEAR = 0.35
-"""Largest error of given angles, radians. A mode within this distance is accepted without a search for others; where
-two modes are, both are near a dead centre, and Newton from the given angles converges to the nearer one."""
+"""Largest error of given angles, radians. Where two modes are within this distance, both are near a dead centre, and
+the nearer one is meant."""
 
 TRIALS = 16
 """Number of perturbations of the given angles that must all imply the same side."""
@@ -138,8 +138,8 @@ def stated_sides(layout: Layout, plan: PlacementPlan, target: Array, wanted: Wan
 def _order(layout: Layout, placed: Laid, stated: Array, wanted: Wanted) -> Ints:
     """Order of preference of modes, some of them only partly placed."""
     wrong = (placed.side * stated[: placed.side.shape[1]] < 0).sum(axis=1)
-    off = np.nansum(wrap_angle(placed.turn - wanted.turn)[:, :-1] ** 2, axis=1)
-    shift = np.nansum((placed.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length / layout.length
+    off = np.sqrt(np.nansum(wrap_angle(placed.turn - wanted.turn)[:, :-1] ** 2, axis=1))
+    shift = np.sqrt(np.nansum((placed.point - wanted.point)[:, :-1] ** 2, axis=(1, 2))) / layout.length
     keys = [wrong, off, shift]
     if wanted.start is not None:
         away = np.nansum(wrap_angle(placed.turn - wanted.start.turn) ** 2, axis=1)
@@ -193,8 +193,8 @@ def distinct(layout: Layout, pose: Pose) -> Pose:
 def sort_modes(layout: Layout, pose: Pose, wanted: Wanted) -> Ints:
     """Order of modes whose groups are unknown: by distance from given angles, else by preference."""
     if wanted.any_known:
-        off = np.nansum(wrap_angle(pose.turn - wanted.turn)[:, :-1] ** 2, axis=1).round(9)
-        return np.argsort(off, kind="stable")
+        off = np.sqrt(np.nansum(wrap_angle(pose.turn - wanted.turn)[:, :-1] ** 2, axis=1))
+        return np.argsort(off.round(9), kind="stable")
     along, height = measures(layout, pose)
     return np.lexsort((-height, -along))
 

@@ -7,20 +7,16 @@ Mechanics: docs/theory.md 3.1."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.algebra import plane
-from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import dense, measure, stack_rows
-from dalembert.core.elements.cam_family import CamRow
 from dalembert.core.elements.linings import BandStrands, Lining
 from dalembert.core.elements.strand_family import Strand
-from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, select_rows
+from dalembert.core.layout import Along, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, select_rows
 from dalembert.core.linear import generalized_inverse
 from dalembert.core.position.assembly_modes import (
     NEAR,
@@ -33,12 +29,29 @@ from dalembert.core.position.assembly_modes import (
     wrap_angle,
 )
 from dalembert.core.position.assur_plan import plan
+from dalembert.core.position.link_tree import (
+    PointEdge,
+    arms_of,
+    edges_of,
+    extend_tree,
+    offset_of,
+    place_link,
+    spread_turns,
+    turns,
+)
 from dalembert.core.position.newton import CLOSED, close_loops, distance
 from dalembert.core.position.wheel_places import WheelPlaces, loose_places
 
 STARTS = 64
 FEW = 40
 """Largest number of links for which every start is used; beyond it, starts are few and links only placed."""
+
+EXACT = 1e-7
+"""Difference from the given angles, radians, up to which a pose is the given one, whatever the others are: what near a
+dead centre the rounding of a length leaves of an angle."""
+
+BESIDE = 12
+"""Starts beside the given angles that find whether a nearer mode is there."""
 
 LOOSE = 1e-6
 """Part of a link's turn left by the constraints above which it can be held."""
@@ -71,7 +84,7 @@ class Guess:
     def angles(self, layout: Layout, target: Array) -> Array:
         """The given angles (L+1,) and those that follow from them and the drives, NaN where none does."""
         turn = np.append(self.turn[:-1], 0.0)[None]
-        _spread_turns(turn, target, _edges(layout))
+        spread_turns(turn, target, edges_of(layout))
         return np.asarray(turn[0])
 
     def near(self, pose: Pose) -> Guess:
@@ -100,22 +113,43 @@ def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
 
 
 def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
+    """Modes without phases. Newton from the given angles may pass by a nearer mode: those beside its own are sought."""
     drawn = _starting_poses(free, target, guess, np.zeros((1, layout.links + 1)), slides_ahead(layout, free))
     pose, missing = close_loops(free, drawn, target[None])
-    known = np.isfinite(guess.turn[:-1])
-    if missing[0] <= CLOSED * layout.length:
-        off = np.abs(wrap_angle(pose.turn[0, :-1] - guess.turn[:-1])[known]).max(initial=0.0)
-        if known.any() and off < NEAR:
-            return Modes(remove_whole_turns(layout, pose), "given")
-        if not known.any() and distance(layout, pose, drawn)[0] < SAME:
-            return Modes(remove_whole_turns(layout, pose), "drawn")
-    start = pose.at(0) if missing[0] <= CLOSED * layout.length else None
-    result = _search_modes(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
-    if result is None or not known.any():
+    known, closes = np.isfinite(guess.turn[:-1]).any(), missing[0] <= CLOSED * layout.length
+    off = np.abs(_off(pose, guess)).max(initial=0.0)
+    if closes and known and off < EXACT:
+        return Modes(remove_whole_turns(layout, pose), "given")
+    if closes and not known and distance(layout, pose, drawn)[0] < SAME:
+        return Modes(remove_whole_turns(layout, pose), "drawn")
+    wanted = Wanted(guess.turn, guess.point, pose.at(0) if closes else None)
+    if closes and known and off < NEAR:
+        pose = remove_whole_turns(layout, pose)
+        like = Guess(np.where(np.isfinite(guess.turn), guess.turn, pose.turn[0]), guess.point)
+        beside = _search_modes(layout, free, target, wanted, like, BESIDE)
+        result: Modes | None = _nearer(layout, pose, beside, guess)
+    else:
+        result = _search_modes(layout, free, target, wanted, guess)
+    if result is None or not known:
         return result
-    off = np.abs(wrap_angle(result.pose.turn[:, :-1] - guess.turn[:-1])[:, known]).max(axis=1)
-    alone = off[0] < NEAR and (off[1:] > NEAR).all()
-    return result._replace(chosen_by="given") if alone else result
+    every = np.abs(_off(result.pose, guess)).max(axis=1)
+    alone = every[0] < NEAR and (every[1:] > NEAR).all()
+    return result._replace(chosen_by="given") if alone or every[0] < EXACT else result
+
+
+def _nearer(layout: Layout, pose: Pose, found: Modes | None, guess: Guess) -> Modes:
+    """A mode (1, L+1, ...) and those found beside it, the nearest to the given angles first."""
+    if found is None:
+        return Modes(pose, "nearest")
+    ahead, here = (np.linalg.norm(_off(p, guess)[0]) for p in (found.pose, pose))
+    if ahead < here - EXACT:
+        return found
+    return Modes(distinct(layout, Pose(*map(np.concatenate, zip(pose, found.pose, strict=True)))), "nearest")
+
+
+def _off(pose: Pose, guess: Guess) -> Array:
+    """Differences of the links' angles (P, ...) from the given ones, of the links that have one."""
+    return np.asarray(wrap_angle(pose.turn - guess.turn)[:, :-1][:, np.isfinite(guess.turn[:-1])])
 
 
 def tree_pose(layout: Layout, target: Array, guess: Guess) -> Pose:
@@ -206,17 +240,23 @@ def held_wheels(layout: Layout, free: Layout, target: Array, phased: Ints, guess
     return held
 
 
-def _search_modes(layout: Layout, free: Layout, target: Array, wanted: Wanted, guess: Guess) -> Modes | None:
-    """Every mode, in the order of ``assembly_modes``: group by group in closed form, else as many as starts find."""
+def _search_modes(
+    layout: Layout, free: Layout, target: Array, wanted: Wanted, guess: Guess, beside: int = 0
+) -> Modes | None:
+    """Every mode, in the order of ``assembly_modes``: group by group in closed form, else as many as starts find.
+
+    With ``beside``, as many starts as that find those that may be nearer than a mode within ``NEAR``.
+    """
     groups, starts = plan(free), STARTS if layout.links <= FEW else 8
     by = "nearest" if wanted.any_known else "search"
     if groups is None or not groups.closed:
-        angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
+        angles, slides = _spread(beside or starts, layout.links + 1, free.constraints.count)
+        angles = angles * (2 * NEAR / np.pi) if beside else angles
         ahead = slides * slides_ahead(layout, free)
         poses = _closing(free, _starting_poses(free, target, guess, angles, ahead), target)
         if poses is not None:
-            poses = distinct(layout, remove_whole_turns(layout, poses))
-            return Modes(poses.at(sort_modes(layout, poses, wanted)), by)
+            poses = remove_whole_turns(layout, poses)
+            return Modes(distinct(layout, poses.at(sort_modes(layout, poses, wanted))), by)
     if groups is None:
         return None
     poses = _closing(free, enumerate_modes(free, groups, target, wanted).at(slice(starts)), target)
@@ -241,21 +281,21 @@ def _spread(starts: int, links: int, rows: int) -> tuple[Array, Array]:
 
 def _starting_poses(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Array) -> Pose:
     """Starting poses (S, L+1, ...): links placed joint by joint from the ground."""
-    g, edges = layout.algebra, _edges(layout)
-    turn = _turns(layout, target, guess, angles, edges)
+    g, edges = layout.algebra, edges_of(layout)
+    turn = turns(target, guess.turn, angles, edges)
     rotation = g.rotation(turn)
     point = np.full((*turn.shape, g.d), np.nan)
     point[:, -1] = 0.0
     known = np.isfinite(guess.point).all(axis=-1)
     point[:, known] = guess.point[known]
     placed = set(np.flatnonzero(known).tolist()) | {layout.links}
-    arms = _arms(layout, edges, rotation)
+    arms = arms_of(layout, edges, rotation)
 
-    def place(edge: _PointEdge) -> None:
-        _place(edge, _offset(g, edge, target, rotation, slides), point, *arms)
+    def place(edge: PointEdge) -> None:
+        place_link(edge, offset_of(g, edge, target, rotation, slides), point, *arms)
 
     while len(placed) <= layout.links:
-        if _extend_tree(placed, edges.pins, place) or _extend_tree(placed, edges.others, place, one=True):
+        if extend_tree(placed, edges.pins, place) or extend_tree(placed, edges.others, place, one=True):
             continue
         lone = min(set(range(layout.links)) - placed)
         point[:, lone] = 0.0
@@ -277,124 +317,3 @@ def _fit_translations(layout: Layout, target: Array, pose: Pose) -> Pose:
     point = pose.point.copy()
     point[:, :-1] += shift.reshape(len(pose.turn), layout.links, g.d)
     return pose._replace(point=point)
-
-
-def _extend_tree(
-    placed: set[int], edges: list[_PointEdge], place: Callable[[_PointEdge], None], one: bool = False
-) -> bool:
-    """Places links across edges with one placed end; True if any was placed."""
-    any_ = False
-    for edge in edges:
-        if (edge.i in placed) != (edge.j in placed):
-            place(edge)
-            placed |= {edge.i, edge.j}
-            any_ = True
-            if one:
-                break
-    return any_
-
-
-class _PointEdge(NamedTuple):
-    i: int
-    j: int
-    ui: Array
-    uj: Array
-    axis: Array | None  # in i's axes, of a coordinate kept at its target
-    row: int
-    far: float = 0.0  # distance of the points, where the row holds it
-
-
-class _Edges(NamedTuple):
-    turns: list[tuple[int, int, int]]  # link i, link j, stacked row
-    pins: list[_PointEdge]
-    others: list[_PointEdge]
-
-
-def _edges(layout: Layout) -> _Edges:
-    turns: list[tuple[int, int, int]] = []
-    pins: list[_PointEdge] = []
-    slides: list[_PointEdge] = []
-    place = {int(f): layout.constraints.count + k for k, f in enumerate(layout.driven)}
-    for rows, where in ((layout.constraints, None), (layout.freedoms, place)):
-        for f in rows.families:
-            first = f.row.reshape(len(f.i), -1)[:, 0]
-            for k, (i, j, row) in enumerate(zip(f.i.tolist(), f.j.tolist(), first.tolist(), strict=True)):
-                if where is not None:
-                    if row not in where:
-                        continue
-                    row = where[row]
-                if isinstance(f, Turn):
-                    turns.append((i, j, row))
-                elif isinstance(f, Meet):
-                    pins.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row))
-                elif isinstance(f, Along) and where is None and not f.pitch[k]:
-                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], f.axis[k], row))
-                elif isinstance(f, Mesh) and f.touches:
-                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row, float(f.ri[k] + f.rj[k])))
-                elif isinstance(f, Distance | CamRow):
-                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row, np.nan))
-    return _Edges(turns, pins, slides)
-
-
-def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _Edges) -> Array:
-    """Angles (S, L+1): ground and given ones, spread over the joints that fix relative angles, then the free ones.
-
-    Later starts deviate more and more from the given angles.
-    """
-    turn = np.full(angles.shape, np.nan)
-    turn[:, -1] = 0.0
-    _spread_turns(turn, target, edges)
-    known = np.isfinite(guess.turn)
-    further = np.linspace(0, 1, len(turn))[:, None]
-    spread = np.where(known, np.nan_to_num(guess.turn) + angles * further, angles)
-    tied = np.unique([link for edge in edges.turns for link in edge[:2]]).astype(np.intp)
-    alone = np.isnan(turn[0])
-    alone[tied] = False
-    turn[:, alone] = spread[:, alone]
-    for k in tied[np.argsort(~known[tied], kind="stable")]:
-        if np.isnan(turn[0, k]):
-            turn[:, k] = spread[:, k]
-            _spread_turns(turn, target, edges)
-    return turn
-
-
-def _spread_turns(turn: Array, target: Array, edges: _Edges) -> None:
-    grown = True
-    while grown:
-        grown = False
-        for i, j, row in edges.turns:
-            if np.isnan(turn[0, i]) != np.isnan(turn[0, j]) and np.isfinite(target[row]):
-                known, new, sign = (i, j, 1.0) if np.isnan(turn[0, j]) else (j, i, -1.0)
-                turn[:, new] = turn[:, known] + sign * target[row]
-                grown = True
-
-
-def _arms(layout: Layout, edges: _Edges, rotation: Array) -> tuple[Array, Array]:
-    """Arms (S, K + D, 2) on links i and j of each edge, by its row."""
-    every = [*edges.pins, *edges.others]
-    ri, rj = np.zeros((2, len(rotation), layout.stack.count, layout.algebra.d))
-    if every:
-        i, j, ui, uj, _, row, _ = zip(*every, strict=True)
-        ri[:, row] = layout.algebra.rotate(rotation[:, i], np.array(ui))
-        rj[:, row] = layout.algebra.rotate(rotation[:, j], np.array(uj))
-    return ri, rj
-
-
-def _offset(g: Algebra, edge: _PointEdge, target: Array, rotation: Array, slides: Array) -> Array | float:
-    """Vector from the point of i to that of j (S, 2): along a slide, or at a distance (1 m on a cam)."""
-    if edge.axis is not None:
-        across = g.rotate(rotation[:, edge.i], edge.axis)
-        along = -plane.across(across)
-        return np.asarray(across * target[edge.row] + along * slides[:, edge.row, None])
-    if edge.far:
-        far = (target[edge.row] or 1.0) if np.isnan(edge.far) else edge.far
-        return np.asarray(far * g.rotation(np.pi / 2 * slides[:, edge.row] / np.abs(slides).max()))
-    return 0.0
-
-
-def _place(edge: _PointEdge, offset: Array | float, point: Array, ri: Array, rj: Array) -> None:
-    """Places one of the two links of an edge from the other."""
-    if np.isnan(point[0, edge.j, 0]):
-        point[:, edge.j] = point[:, edge.i] + ri[:, edge.row] + offset - rj[:, edge.row]
-    else:
-        point[:, edge.i] = point[:, edge.j] + rj[:, edge.row] - offset - ri[:, edge.row]
