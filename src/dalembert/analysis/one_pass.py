@@ -168,8 +168,8 @@ def _block(
 
     def solve(forcing: Forcing, sources: Mapping[str, WrenchSource]) -> SolvedForces:
         if c.contacts is not None:
-            given = (c, c.contacts, part, forcing, known, pose, moving, rows, solver)
-            return friction_equilibrium(FrictionProblem(*given, dict(sources)))
+            values = (c, c.contacts, part, forcing, known, pose, moving, rows, solver)
+            return friction_equilibrium(FrictionProblem(*values, dict(sources)))
         w = total_wrench(layout, *sources.values())
         w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
         equilibrium = balance(layout, forcing, known, pose, moving, rows, solver, w)

@@ -92,8 +92,8 @@ def column_diagrams(answer: Answer, to: Scale, axes: Axes) -> list[Diagram]:
             groups.setdefault(c.kind, []).append(Named(c.name, to.text(c.kind), to(c.kind, values)))
     for group in groups.values():
         group.sort(key=lambda of: -float(np.nan_to_num(np.abs(of.values)).max()))
-    found = (Diagram(kind.replace("_", " ").capitalize(), x, of[:MOST_CURVES]) for kind, of in groups.items())
-    return list(islice(found, MOST_DIAGRAMS))
+    value = (Diagram(kind.replace("_", " ").capitalize(), x, of[:MOST_CURVES]) for kind, of in groups.items())
+    return list(islice(value, MOST_DIAGRAMS))
 
 
 @contextmanager

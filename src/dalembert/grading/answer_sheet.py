@@ -70,8 +70,8 @@ def _as_read(item: Tree) -> Tree:
         return item
     readings = readings_of(value).readings
     if len(readings) > 1:
-        said = " or ".join(map(str, readings))
-        raise ModelError(f"{quote_value(value)} may be {said}", "write one of them", ("value",))
+        text = " or ".join(map(str, readings))
+        raise ModelError(f"{quote_value(value)} may be {text}", "write one of them", ("value",))
     return item | {"value": readings[0]} if readings else item
 
 

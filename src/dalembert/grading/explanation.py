@@ -118,17 +118,19 @@ class _Sheet:
         slip_cost = len({s.sentence for s in self.slips.values()}) + 1.5 * len(
             [n for n in self.wrong if n not in self.slips and n not in self.own.follows]
         )
-        found, compatible = self._options(slip_cost)
-        expected = {k: self._expected(option, compatible) for k, option in enumerate(found)}
-        order = sorted(expected, key=lambda k: (found[k].cost, expected[k]))
-        if not order or not self._better(found[order[0]], slip_cost):
+        options, compatible = self._options(slip_cost)
+        expected = {k: self._expected(option, compatible) for k, option in enumerate(options)}
+        order = sorted(expected, key=lambda k: (options[k].cost, expected[k]))
+        if not order or not self._better(options[order[0]], slip_cost):
             return self._pair() or self._by_parts(None)
-        best = found[order[0]]
+        best = options[order[0]]
         if best.open and (pair := self._pair()):
             return pair
-        same = sorted(k for k in order if k == order[0] or self._same(best, found[k]))  # the most usual first
-        best = found[same[0]]
-        best.also = [found[k].problem for k in same[1:]]
+        same = sorted(
+            k for k in order if k == order[0] or self._same(best, options[k])
+        )  # the most usual first
+        best = options[same[0]]
+        best.also = [options[k].problem for k in same[1:]]
         return self._with(best, expected[order[0]])
 
     def _pair(self) -> dict[int, Explanation]:
@@ -164,8 +166,8 @@ class _Sheet:
 
     def _with(self, best: _Option, chance: float) -> dict[int, Explanation]:
         """The figures with a mistake that is named, or possible."""
-        whole = not best.open and len(self.wrong) == len(best.offs) + len(best.slips)
-        if chance <= SURE and whole:
+        complete = not best.open and len(self.wrong) == len(best.offs) + len(best.slips)
+        if chance <= SURE and complete:
             kind = "named"
         elif chance <= POSSIBLE and (not best.open or len(best.offs) > len(best.open)):
             kind = "may_be"
@@ -173,10 +175,10 @@ class _Sheet:
             return self._by_parts(None)
         if kind == "may_be" and (self.own.follows or self.own.slip):
             return self._by_parts(best)
-        said = self._alone(best, kind) or _said(best, kind)
+        text = self._alone(best, kind) or _said(best, kind)
         slips = {n: Explanation(s.sentence, s.kind) for n, s in best.slips.items()}
         rest = {n: Explanation(NONE, "unknown") for n in best.open}
-        return dict.fromkeys(best.offs, said) | slips | rest
+        return dict.fromkeys(best.offs, text) | slips | rest
 
     def _alone(self, best: _Option, kind: str) -> Explanation | None:
         """A mistake beside a slip that leads to the same figure, where only one is wrong."""
@@ -239,7 +241,7 @@ class _Sheet:
     def _options(self, slip_cost: float) -> tuple[list[_Option], list[tuple[int, int]]]:
         """Mistakes that explain some figure, and the order and number of moved figures of all that could have moved
         wrong ones and no right one. Those that are seldom are not tried where a usual one explains everything."""
-        found: list[_Option] = []
+        out: list[_Option] = []
         compatible: list[tuple[int, int]] = []
         done = 9
         for problem in sorted(self.problems or (), key=lambda p: p.order):
@@ -257,10 +259,10 @@ class _Sheet:
                 n: off for n, some in values.items() if (off := distance(self.figures[n], some)) is not None
             }
             if offs:
-                found.append(self._option(problem, result, offs, values))
+                out.append(self._option(problem, result, offs, values))
                 if len(offs) == len(self.wrong) and max(offs.values()) <= FINEST:
                     done = min(done, max(problem.order, 2))
-        return found, compatible
+        return out, compatible
 
     def _option(
         self,
@@ -301,8 +303,8 @@ class _Sheet:
     @cached_property
     def slips(self) -> dict[int, ValueSlip]:
         """The slip that explains a figure best, where chance does not."""
-        found = {n: self._slip(n, self.figures[n].right) for n in self.wrong}
-        return {n: slip for n, slip in found.items() if slip is not None}
+        out = {n: self._slip(n, self.figures[n].right) for n in self.wrong}
+        return {n: slip for n, slip in out.items() if slip is not None}
 
     def _slip(self, n: int, values: Sequence[Array], result: Result | None = None) -> ValueSlip | None:
         result = result or (None if self.problems is None else self.problems.result)

@@ -118,11 +118,11 @@ class SolvedProblem:
                 continue
             if place not in self._equations:
                 self._equations[place] = SheetEquations(self.result, place)
-            found = own_figures(self._equations[place], some)
-            out.follows |= {here[k]: how for k, how in found.follows.items()}
-            out.first |= {here[k]: [here[m] for m in rest] for k, rest in found.first.items()}
-            out.numbers |= {here[k]: count for k, count in found.numbers.items()}
-            out.slip = out.slip or found.slip
+            value = own_figures(self._equations[place], some)
+            out.follows |= {here[k]: how for k, how in value.follows.items()}
+            out.first |= {here[k]: [here[m] for m in rest] for k, rest in value.first.items()}
+            out.numbers |= {here[k]: count for k, count in value.numbers.items()}
+            out.slip = out.slip or value.slip
         return out
 
     def wrong_problems(self, some: Sequence[StudentValue]) -> WrongProblems:

@@ -60,10 +60,10 @@ class OwnSheet:
         taken = [n for n in range(len(self.figures)) if n not in self.wrong]
         left = sorted(self.wrong)
         while left:
-            found = next(((n, how) for n in left if (how := self._way(n, taken))), None)
-            if found is not None:
-                n = found[0]
-                out.follows[n] = found[1]
+            match = next(((n, how) for n in left if (how := self._way(n, taken))), None)
+            if match is not None:
+                n = match[0]
+                out.follows[n] = match[1]
             else:
                 chains = {n: self._chain(n, taken, left) for n in left}
                 n = min(left, key=lambda n: (-len(chains[n]), self._place(n)))
@@ -118,10 +118,10 @@ class OwnSheet:
         for row in self.q.rows:
             if of[0] not in row.parts:
                 continue
-            found = self._others(row, of[0], own)
-            if found is None:
+            value = self._others(row, of[0], own)
+            if value is None:
                 continue
-            b, wrong = found
+            b, wrong = value
             for k, (link, wrench) in changes.items():
                 moved = float(row.twist[link] @ wrench)
                 b, wrong = b - moved, wrong or (k in self.wrong and bool(moved))
@@ -148,15 +148,15 @@ class OwnSheet:
         _, matrix, part = of
         rows = list(self._usable(n, [k for k in taken if k != n]))
         rank = int(np.linalg.matrix_rank(matrix, 1e-7))
-        asked = matrix["xyz".index(part)][None] if part in ("x", "y", "z") and len(matrix) > 1 else matrix
-        need = int(np.linalg.matrix_rank(asked, 1e-7))
+        requested = matrix["xyz".index(part)][None] if part in ("x", "y", "z") and len(matrix) > 1 else matrix
+        need = int(np.linalg.matrix_rank(requested, 1e-7))
         for row, c, b, wrong in rows if need == 1 else ():
-            unit = asked[int(np.argmax(np.abs(asked).max(axis=1)))]
+            unit = requested[int(np.argmax(np.abs(requested).max(axis=1)))]
             factor = float(c @ unit) / float(unit @ unit)
             if not wrong or abs(factor) < 1e-12 or np.abs(c - factor * unit).max() > 1e-7 * np.abs(c).max():
                 continue
-            along = asked @ np.linalg.pinv(unit[None]) * (b / factor)
-            if f.close.holds(_shown(f, along[:, 0] if len(asked) > 1 else along[:, 0][:1], rank)):
+            along = requested @ np.linalg.pinv(unit[None]) * (b / factor)
+            if f.close.holds(_shown(f, along[:, 0] if len(requested) > 1 else along[:, 0][:1], rank)):
                 return row.words
         for some in self._together(rows, need) if need > 1 else ():
             x = np.linalg.lstsq(
@@ -244,12 +244,12 @@ def own_figures(equations: SheetEquations, figures: Sequence[StudentValue]) -> O
     wrong = [k for k, n in enumerate(judged) if not figures[n].met]
     if len(judged) < 2 or not wrong:
         return OwnFigures()
-    found = OwnSheet(equations, [figures[n] for n in judged], wrong).run()
+    value = OwnSheet(equations, [figures[n] for n in judged], wrong).run()
     return OwnFigures(
-        {judged[k]: how for k, how in found.follows.items()},
-        {judged[k]: [judged[m] for m in some] for k, some in found.first.items()},
-        {judged[k]: count for k, count in found.numbers.items()},
-        found.slip,
+        {judged[k]: how for k, how in value.follows.items()},
+        {judged[k]: [judged[m] for m in some] for k, some in value.first.items()},
+        {judged[k]: count for k, count in value.numbers.items()},
+        value.slip,
     )
 
 
@@ -264,14 +264,14 @@ def _shown(f: StudentValue, whole: Array, rank: int) -> Array:
 
 def _amounts(f: StudentValue, value: Array, change: Array) -> list[float]:
     """Amounts of a violation that give a figure."""
-    given = np.atleast_1d(np.asarray(f.given.value, float))
+    known = np.atleast_1d(np.asarray(f.given.value, float))
     if f.answer.component is None:
-        return [float(change @ (given - value) / (change @ change))]
+        return [float(change @ (known - value) / (change @ change))]
     if f.answer.component in ("x", "y", "z"):
         axis = "xyz".index(f.answer.component)
-        return [float(given[0] - value[axis]) / float(change[axis])] if abs(change[axis]) > 0 else []
+        return [float(known[0] - value[axis]) / float(change[axis])] if abs(change[axis]) > 0 else []
     if f.answer.component != "magnitude":
         return []
-    a, b, c = float(change @ change), 2 * float(change @ value), float(value @ value) - float(given[0]) ** 2
+    a, b, c = float(change @ change), 2 * float(change @ value), float(value @ value) - float(known[0]) ** 2
     root = b * b - 4 * a * c
     return [] if root < 0 else [(-b + sign * math.sqrt(root)) / (2 * a) for sign in (1, -1)]

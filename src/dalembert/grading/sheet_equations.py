@@ -51,7 +51,7 @@ class SheetEquations:
         steps = solved_forces(r, k).steps
         last = {f.of: s.number for s in steps for f in s.finds}
         self.order = {n: last.get(n, len(steps)) for n in range(len(self.e.unknowns))}
-        self.rows = [self._row(*said) for said in self._said()]
+        self.rows = [self._row(*text) for text in self._said()]
 
     def _said(self) -> Iterator[tuple[str, str, tuple[int, ...], Array]]:
         e = self.e
@@ -83,13 +83,13 @@ class SheetEquations:
                 yield "powers", "powers", every, (t * scale).reshape(len(e.links), e.n)
 
     def _row(self, kind: str, words: str, links: tuple[int, ...], twist: Array) -> SheetRow:
-        whole = {n: np.einsum("ln,lnc->c", twist, u.columns) for n, u in enumerate(self.e.unknowns)}
-        size = max((float(np.abs(c).max(initial=0.0)) for c in whole.values()), default=0.0)
-        parts = {n: c for n, c in whole.items() if np.abs(c).max(initial=0.0) > ROUNDING * size}
-        said = "of" if kind == "powers" else "on"
+        total = {n: np.einsum("ln,lnc->c", twist, u.columns) for n, u in enumerate(self.e.unknowns)}
+        size = max((float(np.abs(c).max(initial=0.0)) for c in total.values()), default=0.0)
+        parts = {n: c for n, c in total.items() if np.abs(c).max(initial=0.0) > ROUNDING * size}
+        text = "of" if kind == "powers" else "on"
         of = "all links" if kind == "powers" else " and ".join(self.e.links[n] for n in links)
         return SheetRow(
-            f"{words} {said} {of}", links, kind, parts, float((twist * self.e.wrenches).sum()), twist
+            f"{words} {text} {of}", links, kind, parts, float((twist * self.e.wrenches).sum()), twist
         )
 
     # figures
@@ -121,8 +121,8 @@ class SheetEquations:
         """Statements of some figures about the unknowns."""
         lots: dict[int, list[tuple[int, Array, Array]]] = {}
         for k in which:
-            if (found := self.linear(figures[k])) is not None:
-                lots.setdefault(found[0], []).append((k, found[1], found[2]))
+            if (value := self.linear(figures[k])) is not None:
+                lots.setdefault(value[0], []).append((k, value[1], value[2]))
         out = {}
         for n, lot in lots.items():
             rows, values = np.concatenate([r for _, r, _ in lot]), np.concatenate([v for _, _, v in lot])

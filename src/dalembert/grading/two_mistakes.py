@@ -60,8 +60,8 @@ def two_mistakes(
             parts = [np.atleast_1d(v[0] - figures[n].right[0]) for n, v in zip(judged, each, strict=True)]
             changes.append(np.concatenate(parts))
             known.append(problem)
-    found = _pairs(figures, judged, wrong, np.array(changes)) if len(changes) > 1 else []
-    return _said(figures, wrong, known, found, len(changes), independent)
+    value = _pairs(figures, judged, wrong, np.array(changes)) if len(changes) > 1 else []
+    return _said(figures, wrong, known, value, len(changes), independent)
 
 
 def _pairs(
@@ -69,11 +69,11 @@ def _pairs(
 ) -> list[tuple[int, int, dict[int, Array]]]:
     """Pairs of changes with which every figure of the sheet is right, and the values of the wrong ones."""
     right = np.concatenate([np.atleast_1d(figures[n].right[0]) for n in judged])
-    given = np.concatenate([np.atleast_1d(figures[n].given.value) for n in judged])
+    known = np.concatenate([np.atleast_1d(figures[n].given.value) for n in judged])
     sizes = np.concatenate(
         [np.full(figures[n].right[0].size, np.linalg.norm(figures[n].given.value) or 1.0) for n in judged]
     )
-    scaled, wanted = changes / sizes, (given - right) / sizes
+    scaled, wanted = changes / sizes, (known - right) / sizes
     norms = np.linalg.norm(scaled, axis=1)
     ends = np.cumsum([figures[n].right[0].size for n in judged])
     out = []

@@ -141,10 +141,10 @@ _MARKS = str.maketrans({"−": "-", "–": "-", "—": "-", "º": "°", "\u202f"
 
 def _named(raw: str) -> tuple[str, str]:
     """The name before a value, `T12 = 33.9`, and the rest."""
-    found = _NAME.match(raw)
-    if found is None or re.fullmatch(r"F?_?[xy]", found[1].strip(), re.I):
+    match = _NAME.match(raw)
+    if match is None or re.fullmatch(r"F?_?[xy]", match[1].strip(), re.I):
         return "", raw
-    return found[1].strip(), raw[found.end() :].strip()
+    return match[1].strip(), raw[match.end() :].strip()
 
 
 def _readings(raw: str, comma: bool | None, turned: int, notes: list[str]) -> list[object]:
@@ -161,8 +161,8 @@ def _readings(raw: str, comma: bool | None, turned: int, notes: list[str]) -> li
 
 def _parts(inner: str, bracketed: bool) -> list[re.Match[str]]:
     """Components, each a number and a unit; none where the text is not a list of them."""
-    if found := _UNIT_VECTORS.fullmatch(inner):
-        texts = [f"{part} {found[4]}" for part in found.groups()[:3] if part]
+    if match := _UNIT_VECTORS.fullmatch(inner):
+        texts = [f"{part} {match[4]}" for part in match.groups()[:3] if part]
     else:
         texts = [text for text in _COMPONENTS.split(inner) if text]
         if len(texts) == 1 and bracketed:
@@ -172,9 +172,9 @@ def _parts(inner: str, bracketed: bool) -> list[re.Match[str]]:
     parts = [
         _SINGLE.fullmatch(re.sub(r"^F?_?[xyz]\s*[=:]\s*", "", text.strip(), flags=re.I)) for text in texts
     ]
-    whole = [part for part in parts if part is not None]
-    angle = re.fullmatch(_DEGREES, whole[-1]["unit"].strip(), re.I) if whole else None
-    return whole if len(whole) == len(texts) and not (angle and len(texts) == 2) else []
+    total = [part for part in parts if part is not None]
+    angle = re.fullmatch(_DEGREES, total[-1]["unit"].strip(), re.I) if total else None
+    return total if len(total) == len(texts) and not (angle and len(texts) == 2) else []
 
 
 def _vector(parts: list[re.Match[str]], behind: str, comma: bool | None) -> list[object]:
@@ -251,14 +251,14 @@ def number(text: str, comma: bool | None = None) -> tuple[str, ...]:
     tail = f"e{exponent}" if exponent else ""
     last = max(",.", key=mantissa.rfind)
     if "," in mantissa and "." in mantissa:
-        found: tuple[str, ...] = (_grouped(mantissa, "," if last == "." else ".", last),)
+        result: tuple[str, ...] = (_grouped(mantissa, "," if last == "." else ".", last),)
     elif mantissa.count(last) > 1:
-        found = (_grouped(mantissa, last, ""),)
+        result = (_grouped(mantissa, last, ""),)
     else:
-        found = _either(mantissa, last, comma)
-    if not all(math.isfinite(float(value + tail)) for value in found):
+        result = _either(mantissa, last, comma)
+    if not all(math.isfinite(float(value + tail)) for value in result):
         raise ValueError(text)
-    return tuple(value + tail for value in found)
+    return tuple(value + tail for value in result)
 
 
 def _either(mantissa: str, mark: str, comma: bool | None) -> tuple[str, ...]:

@@ -36,16 +36,16 @@ def split(graph: LinkGraph, joint: Connection) -> None:
         )
     if joint.more.get("damping"):
         graph.lose(f"damping of {joint.name!r}")
-    found, at, speeds = coordinates(joint.kind), values(graph, joint), rates(graph, joint)
+    one, at, speeds = coordinates(joint.kind), values(graph, joint), rates(graph, joint)
     link, here = joint.links[0], joint.places[0]
     spin = graph.links[link].spin if link in graph.links else np.zeros(3)
     slid = np.zeros(3)
     del graph.joints[joint.name]
-    for k, coordinate in enumerate(found):
+    for k, coordinate in enumerate(one):
         kind, main = KINDS[coordinate.kind]
         axes = placement(np.eye(3) if coordinate.kind == "ball" else along(main, coordinate.axis), [0, 0, 0])
         name = plain_name(f"{joint.name} {coordinate.freedom}", graph.joints)
-        if k == len(found) - 1:
+        if k == len(one) - 1:
             places = (here @ axes, joint.places[1] @ axes)
             graph.joints[name] = Connection(name, kind, (link, joint.links[1]), places, line=joint.line)
             return

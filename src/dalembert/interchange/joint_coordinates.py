@@ -48,17 +48,17 @@ def coordinates(kind: str) -> list[Coordinate]:
 def values(graph: LinkGraph, joint: Connection) -> list[float]:
     """The coordinates as drawn; a ball has the four numbers w, x, y, z of its quaternion."""
     place, out = relative(graph, joint), []
-    found = coordinates(joint.kind)
-    out += [float(c.axis @ place[:3, 3]) for c in found if c.kind == "slide"]
+    value = coordinates(joint.kind)
+    out += [float(c.axis @ place[:3, 3]) for c in value if c.kind == "slide"]
     rotation = place[:3, :3]
-    turns = [c.axis for c in found if c.kind == "hinge"]
+    turns = [c.axis for c in value if c.kind == "hinge"]
     for k, axis in enumerate(turns):
         other = turns[1 - k] if len(turns) == 2 else np.roll(axis, 1)
         side, seen = np.cross(axis, other), rotation @ other
         angle = float(np.arctan2(side @ seen, other @ seen))
         out.append(angle)
         rotation = turned(axis, -angle) @ rotation
-    if found and found[-1].kind == "ball":
+    if value and value[-1].kind == "ball":
         out += to_quaternion(rotation).tolist()
     return out
 
@@ -70,13 +70,13 @@ def rates(graph: LinkGraph, joint: Connection) -> list[float]:
     at = axes_j[:3, 3]
     velocities = [link_velocity(graph, link, at) for link in joint.links]
     slid, spun = velocities[1] - velocities[0], spins[1] - spins[0]
-    found = coordinates(joint.kind)
-    out = [float((axes_i[:3, :3] @ c.axis) @ slid) for c in found if c.kind == "slide"]
-    turns = [c.axis for c in found if c.kind == "hinge"]
+    value = coordinates(joint.kind)
+    out = [float((axes_i[:3, :3] @ c.axis) @ slid) for c in value if c.kind == "slide"]
+    turns = [c.axis for c in value if c.kind == "hinge"]
     if turns:
         lines = [axes_i[:3, :3] @ turns[0]] + [axes_j[:3, :3] @ b for b in turns[1:]]
         out += np.linalg.lstsq(np.array(lines).T, spun, rcond=None)[0].tolist()
-    if found and found[-1].kind == "ball":
+    if value and value[-1].kind == "ball":
         out += (axes_j[:3, :3].T @ spun).tolist()
     return out
 

@@ -103,13 +103,13 @@ def value_of(r: Result, name: str, functions: Mapping[str, Function]) -> Array:
     if name not in functions:
         return quantity(r, name).values
     try:
-        given = np.asarray(functions[name](r), float)
+        known = np.asarray(functions[name](r), float)
     except (TypeError, ValueError) as error:
         raise ModelError(f"{name} gives no number: {error}", "return one number, or one a position") from None
-    if given.shape not in ((), (len(r.status),)):
-        shape = " x ".join(map(str, given.shape))
+    if known.shape not in ((), (len(r.status),)):
+        shape = " x ".join(map(str, known.shape))
         raise ModelError(f"{name} gives {shape} numbers", f"return one, or {len(r.status)}, one a position")
-    return np.broadcast_to(given, (len(r.status),))
+    return np.broadcast_to(known, (len(r.status),))
 
 
 def named(functions: Sequence[Any]) -> dict[str, Function]:

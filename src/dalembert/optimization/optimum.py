@@ -148,14 +148,14 @@ class Optimum(Labelled, Drawn, Worked, Remade):
             {name: to(kind, v) for name, v in zip(names, pair, strict=False)}
             for kind, pair in zip(self._kinds, sizes, strict=True)
         ]
-        found = {
+        out = {
             "feasible": self.feasible,
             "alike": self.found,
             "polished": self.polished,
             "started": self.started,
         }
         margins = dict(zip(of[1:], both[1:], strict=True))
-        return {"optimum": {"numbers": numbers, "aim": {"of": of[0], **both[0]}, "margin": margins, **found}}
+        return {"optimum": {"numbers": numbers, "aim": {"of": of[0], **both[0]}, "margin": margins, **out}}
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
         """Before and after, and how sure it is."""

@@ -85,8 +85,8 @@ class Synthesis(Labelled, Drawn, Worked, Remade):
         """Numbers before and after, and how near the outputs come."""
         columns = zip(self.numbers, self.kinds, self.nominal, self.values, strict=True)
         numbers = {n: {"before": to(kind, a), "after": to(kind, b)} for n, kind, a, b in columns}
-        found = {"error": self.error, "exact": self.exact, "started": self.started}
-        return {"synthesis": {"numbers": numbers, **found}}
+        out = {"error": self.error, "exact": self.exact, "started": self.started}
+        return {"synthesis": {"numbers": numbers, **out}}
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
         """Numbers before and after, and how near the outputs come."""

@@ -135,7 +135,7 @@ class StudioServer:
         while True:
             await self._wanted.wait()
             self._wanted.clear()
-            asked, session = self.changes, self.session
+            requested, session = self.changes, self.session
             reading = session.document.reading
             if reading.error or reading.alone or reading.mechanism is None:
                 answer: Tree = {"missing": "" if reading.error else "Draw a link: press B and drag."}
@@ -143,7 +143,7 @@ class StudioServer:
                 answer = await asyncio.to_thread(self.solver.ask, session.question("data"))
                 if "error" in answer:
                     answer = {"missing": answer["error"], "path": answer["path"]}
-            if asked != self.changes:
+            if requested != self.changes:
                 continue
             for ws in list(self.tabs):
                 await self._send(ws, {"hash": session.document.hash, **answer})
@@ -152,12 +152,12 @@ class StudioServer:
         while True:
             await asyncio.sleep(LOOK)
             try:
-                told = self.session.look()
+                data = self.session.look()
             except DalembertError as error:
                 for ws in list(self.tabs):
                     await self._send(ws, {"refused": sentence(error)})
                 continue
-            if told:
+            if data:
                 await self._tell_all()
 
     @contextlib.asynccontextmanager

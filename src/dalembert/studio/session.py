@@ -78,14 +78,14 @@ class Session:
 
     def look(self) -> bool:
         """Look at the disk and keep what is not saved; True if tabs are to be told."""
-        told = False
+        data = False
         outside = self.file.outside()
         if outside is not None and not self.dirty:
             self.document.replace(outside)
             self.saved = self.file.read() or ""
-            told = True
+            data = True
         elif outside != self.outside:
-            self.outside, told = outside, True
+            self.outside, data = outside, True
         if self.dirty and self.document.hash != self._kept_hash:
             self.file.keep(self.document.text)
             self._kept_hash = self.document.hash
@@ -93,7 +93,7 @@ class Session:
             self._kept_hash = ""
             if self.kept is None:
                 self.file.discard()
-        return told
+        return data
 
     def _do(self, asked: Any, _: Any) -> None:
         self.document.do(gesture(asked))

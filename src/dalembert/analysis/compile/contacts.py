@@ -81,8 +81,8 @@ def friction_on(m: Mechanism) -> bool:
 
 def has_friction(m: Mechanism, joint: object) -> bool:
     """True if a joint has friction, or teeth with an efficiency, that is not switched off."""
-    given = (getattr(joint, key, None) for key in ("friction", "efficiency"))
-    return m.friction.enabled and any(value is not None for value in given)
+    known = (getattr(joint, key, None) for key in ("friction", "efficiency"))
+    return m.friction.enabled and any(value is not None for value in known)
 
 
 def coefficient(m: Mechanism, joint: Any) -> Numeric:

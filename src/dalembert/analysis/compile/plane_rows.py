@@ -120,14 +120,14 @@ def opened_rows(
     """Constraints of a joint by kind, those that its contact has first; a guide's with lengths are its ends'."""
     if joint.outlined:
         return [(CamGap, {})]
-    found = CapturedRows()
-    _add_all_constraints(found, 0, joint, ends, ui, uj)  # type: ignore[arg-type]
+    value = CapturedRows()
+    _add_all_constraints(value, 0, joint, ends, ui, uj)  # type: ignore[arg-type]
     if joint.lifted != ("gap_behind", "gap_ahead"):
-        return found.rows
+        return value.rows
     guide: Any = joint
     behind, ahead = guide.friction.guide
     along = np.array([np.cos(guide.angle), -np.sin(guide.angle)])
-    kind, numbers = found.rows[0]
+    kind, numbers = value.rows[0]
     return [(kind, numbers | {"uj": uj + reach * along}) for reach in (-behind, ahead)]
 
 

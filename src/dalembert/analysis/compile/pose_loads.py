@@ -26,16 +26,16 @@ def coordinates(c: Compiled, pose: Pose, names: Iterable[str], twist: Array | No
     freedoms = c.layout.freedoms
     measured = measure(c.layout.algebra, freedoms, pose)
     speeds = None if twist is None else rates(system(c.layout.algebra, freedoms, pose), twist)
-    found: Tree = {}
+    out: Tree = {}
     for name in names:
         kind, of, which = parts(name) or ("", "", "")
         if kind == "links":
             turned = pose.turn if not is_speed(name) or twist is None else twist[..., -1]
-            found[name] = turned[..., c.links.index(of)][()]
+            out[name] = turned[..., c.links.index(of)][()]
         elif kind:
             values = measured if not is_speed(name) or speeds is None else speeds
-            found[name] = values[..., c.freedoms.index((of, which))][()]
-    return found
+            out[name] = values[..., c.freedoms.index((of, which))][()]
+    return out
 
 
 def counted_coordinates(c: Compiled, counted: Compiled, pose: Pose, names: Iterable[str]) -> Tree:
@@ -45,8 +45,8 @@ def counted_coordinates(c: Compiled, counted: Compiled, pose: Pose, names: Itera
         moving = motion(c.layout, pose, c.schedule.speed, np.zeros_like(c.schedule.speed))[0]
         singular = ~(moving.rcond >= singular_below(c.layout))
         twist = np.where(singular[:, None, None], np.nan, moving.twist)
-    found = coordinates(c, pose, names, twist)
-    return {name: value + counted.pose_turns.get(name, 0.0) for name, value in found.items()}
+    result = coordinates(c, pose, names, twist)
+    return {name: value + counted.pose_turns.get(name, 0.0) for name, value in result.items()}
 
 
 def _everywhere(values: Array, reached: Flags) -> Array:

@@ -26,30 +26,30 @@ def pushing_contacts(m: Mechanism, rows: Rows) -> Pushing | None:
     pressed = {
         int(rows.joint[n]) for f in rows.families if isinstance(f, Lining | BandStrands) for n in f.row
     }
-    found: list[tuple[int, int, Numeric, Numeric, int, float]] = []
+    out: list[tuple[int, int, Numeric, Numeric, int, float]] = []
     for k, joint in enumerate(m.joints.values()):
         if isinstance(joint, Clutch) and not joint.RELEASED:  # its couple on j has one sense
-            found.append((k, int(np.flatnonzero(rows.joint == k)[0]), 0.0, joint.way, 0, 0.0))
+            out.append((k, int(np.flatnonzero(rows.joint == k)[0]), 0.0, joint.way, 0, 0.0))
         contact = getattr(joint, "contact", None)
         if contact is None or contact.mode == "holds" or contact.opened or k not in normal:
             continue
         sign = pushing_sign(joint, k in pressed)
         if joint.TOOTHED:
-            found.append((k, normal[k], sign, 0.0, 0, 0.0))
+            out.append((k, normal[k], sign, 0.0, 0, 0.0))
             continue
         guide = getattr(getattr(joint, "friction", None), "guide", None) if joint.guides else None
         if guide is None:
-            found.append((k, normal[k], sign, 0.0, 0, 0.0))
+            out.append((k, normal[k], sign, 0.0, 0, 0.0))
             if joint.wheels and has_friction(m, joint):
                 limit = sign * resting_coefficient(m, joint)
-                found += [(k, normal[k], limit, 0.0, SLIP, along) for along in (-1.0, 1.0)]
+                out += [(k, normal[k], limit, 0.0, SLIP, along) for along in (-1.0, 1.0)]
             continue
         behind, ahead = guide
-        found.append((k, normal[k], sign * ahead / (behind + ahead), -sign / (behind + ahead), BEHIND, 0.0))
-        found.append((k, normal[k], sign * behind / (behind + ahead), sign / (behind + ahead), AHEAD, 0.0))
-    if not found:
+        out.append((k, normal[k], sign * ahead / (behind + ahead), -sign / (behind + ahead), BEHIND, 0.0))
+        out.append((k, normal[k], sign * behind / (behind + ahead), sign / (behind + ahead), AHEAD, 0.0))
+    if not out:
         return None
-    joints, row, force, moment, corner, tangent = map(list, zip(*found, strict=True))
+    joints, row, force, moment, corner, tangent = map(list, zip(*out, strict=True))
     return Pushing(
         np.array(joints, np.intp),
         np.array(row, np.intp),

@@ -22,9 +22,9 @@ class Beyond:
 
 def beyond_ends(m: Mechanism, known: Mapping[str, Array]) -> tuple[Beyond, ...]:
     """Tables that refuse some position of what they are against, where that is known."""
-    asked = ((what, table, known.get(table.against)) for what, table in _tables(m))
+    requested = ((what, table, known.get(table.against)) for what, table in _tables(m))
     return tuple(
-        Beyond(what, table, at) for what, table, at in asked if at is not None and table.beyond(at).any()
+        Beyond(what, table, at) for what, table, at in requested if at is not None and table.beyond(at).any()
     )
 
 

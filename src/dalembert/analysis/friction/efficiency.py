@@ -93,8 +93,8 @@ def efficiency(r: Result) -> Efficiency:
     put = np.where(ahead.jammed & (ahead.bare > 0), 0.0, put)
     known = r.compiled.known
     moved = known.requested & (r.schedule.speed != 0).any(axis=0)  # drives that only hold have no power
-    given = np.where(known.requested, 0.0, known.effort * r.schedule.speed)
-    by_load = bool(not moved.any() and given.any())
+    values = np.where(known.requested, 0.0, known.effort * r.schedule.speed)
+    by_load = bool(not moved.any() and values.any())
     forward, reverse = (taken, put) if by_load else (put, taken)
     return Efficiency(forward, reverse, *_cycle(r), back.damped, by_load)
 

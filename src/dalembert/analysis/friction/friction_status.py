@@ -129,8 +129,8 @@ def _jam_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     f, side = _side(f, _jams, int(run[0]))
     assert f.friction is not None
     scale = float(np.nanmin(f.friction.critical[run]))
-    if said := _grabbing(c, scale, run):
-        return said
+    if text := _grabbing(c, scale, run):
+        return text
     return f"{JAMMED.format(arc=arc(c, run), side=side)} {FREED.format(scale=f'{scale:.6g}')}"
 
 
@@ -142,9 +142,9 @@ def _grabbing(c: Compiled, critical: float, run: Ints) -> str | None:
     if not joints or not all(c.mechanism.joints[name].BRAKES for name in joints):
         return None
     mu = float(c.contacts.coefficient[acting].max())
-    said = GRABS.format(arc=arc(c, run), least=f"{critical * mu:.4g}", now=f"{mu:.4g}")
+    text = GRABS.format(arc=arc(c, run), least=f"{critical * mu:.4g}", now=f"{mu:.4g}")
     return (
-        f"{joints[0]}: {said}." if len(set(joints)) == 1 else f"{' or '.join(dict.fromkeys(joints))}: {said}."
+        f"{joints[0]}: {text}." if len(set(joints)) == 1 else f"{' or '.join(dict.fromkeys(joints))}: {text}."
     )
 
 

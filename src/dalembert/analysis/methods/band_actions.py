@@ -88,8 +88,8 @@ def strand_directions(r: Result, joint: str) -> list[Both]:
         if isinstance(f, BandStrands) and k in layout.constraints.joint[f.row]
     )
     mine = list(layout.constraints.joint[f.row]).index(k)
-    found = strands(layout.algebra, f, pose)
+    value = strands(layout.algebra, f, pose)
     return [
         (pose.point[:, link[mine]] + arm[:, mine] + r.compiled.origin, t[:, mine])
-        for link, arm, _, t, *_ in found
+        for link, arm, _, t, *_ in value
     ]

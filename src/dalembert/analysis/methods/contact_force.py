@@ -129,13 +129,13 @@ def _crossing(r: Result, force: Array, a: int, b: int, preload: float) -> float:
 
 def _lift_acceleration(r: Result, holding: Mechanism, rows: Array, forces: Array) -> float:
     """Size of the first acceleration from which on a contact is lost; of forces at the given one they are linear."""
-    given = r.schedule.acceleration[:, (r.schedule.acceleration != 0).any(axis=0)]
-    if not given.size:
+    known = r.schedule.acceleration[:, (r.schedule.acceleration != 0).any(axis=0)]
+    if not known.size:
         return np.nan
     even = _forces(r, holding, 1.0, 0.0)[:, rows]
     falls = (even > 0) & (even - forces > LOST * np.abs(forces).max(initial=0.0))
     part = np.where(falls, even / np.where(falls, even - forces, 1.0), np.inf).min(initial=np.inf)
-    return float(part * np.abs(given[:, 0]).max()) if np.isfinite(part) else np.nan
+    return float(part * np.abs(known[:, 0]).max()) if np.isfinite(part) else np.nan
 
 
 def _forces(r: Result, holding: Mechanism, factor: float, ahead: float | None = None) -> Array:

@@ -77,10 +77,10 @@ def _diagrams(result: Result, to: Scale, axes: Axes) -> Iterator[Diagram]:
     """Efforts and unknown loads of one unit together, sizes of the largest joint forces, polar diagrams of pins."""
     first = result.drives[0]
     x = named(Column(first, drive_kinds(result, first)["position"], result.drive_position(first)), to)
-    asked = {
+    requested = {
         n: (result.effort if n in result.drives else result.unknown_load)(n) for n in unknown_kinds(result)
     }
-    unknown = with_values(Named(n, to.text(k), to(k, asked[n])) for n, k in unknown_kinds(result).items())
+    unknown = with_values(Named(n, to.text(k), to(k, requested[n])) for n, k in unknown_kinds(result).items())
     for unit in dict.fromkeys(of.unit for of in unknown):
         yield Diagram("Effort", x, [of for of in unknown if of.unit == unit])
     unit = to.text("force")

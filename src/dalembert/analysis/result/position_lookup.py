@@ -97,11 +97,11 @@ def position_sentence(r: Result, k: int, at: PositionChoice = None) -> str:
     kinds = {d: drive_kinds(r, d)["position"] for d in r.drives}
     places = [f"{d} = {to.quantity(kind, float(r.drive_position(d)[k]))}" for d, kind in kinds.items()]
     text = ", ".join([f"Position {k + 1} of {len(r.status)}", *places])
-    found = extreme(r, at) if isinstance(at, str) else None
-    if found is None:
+    result = extreme(r, at) if isinstance(at, str) else None
+    if result is None:
         return f"{text}."
-    value = to.quantity(found.kind, found.value).strip()
-    return f"{text}: {found.of} is {EXTREMES[found.word]} here, {value}."
+    value = to.quantity(result.kind, result.value).strip()
+    return f"{text}: {result.of} is {EXTREMES[result.word]} here, {value}."
 
 
 def position_at(r: Result, at: PositionChoice = None) -> int:
@@ -127,8 +127,8 @@ def _place(r: Result, at: PositionChoice) -> int:
         if not 1 <= n <= len(r.status):
             raise ModelError(f"position {n} does not exist", f"use a number from 1 to {len(r.status)}")
         return n - 1
-    if isinstance(at, str) and (found := extreme(r, at)) is not None:
-        return found.position
+    if isinstance(at, str) and (value := extreme(r, at)) is not None:
+        return value.position
     if not r.drives:
         raise ModelError(
             "the mechanism has no drive to name a position by", "give the number of the position"

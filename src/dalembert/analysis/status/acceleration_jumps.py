@@ -25,8 +25,8 @@ def jump_marks(c: Compiled, pose: Pose, twist: Array) -> Array:
     the law of a drive jumps; else 0."""
     cams = [f for f in c.layout.constraints.families if isinstance(f, CamRow)]
     led = c.schedule.jumps.any(axis=1, keepdims=True).astype(float)
-    found = np.concatenate([*(jumps(c.layout.algebra, f, pose, twist) for f in cams), led], axis=-1)
-    return np.where(np.isfinite(found), found, 0.0)
+    value = np.concatenate([*(jumps(c.layout.algebra, f, pose, twist) for f in cams), led], axis=-1)
+    return np.where(np.isfinite(value), value, 0.0)
 
 
 def both_sides(c: Compiled, marks: Array) -> Iterator[tuple[Ints, Compiled, Compiled]]:

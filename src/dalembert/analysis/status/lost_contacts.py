@@ -86,8 +86,8 @@ def _lost_sentence(c: Compiled, lacking: Array, run: Ints) -> str:
         i, j = c.mechanism.joints[joint].links
         return FREE.format(joint=joint, couple=couple, arc=arc(c, run), i=i, j=j)
     force = quantity_text(c, "force", float(lacking[run][position, contact]))
-    if said := lifting(c, joint, force, run):
-        return said
+    if text := lifting(c, joint, force, run):
+        return text
     mode: str = c.mechanism.joints[joint].contact.mode  # type: ignore[union-attr]
     return LACKS.format(
         joint=joint,

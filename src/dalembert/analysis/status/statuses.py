@@ -117,8 +117,8 @@ def no_balance_sentence(c: Compiled, where: Ints) -> str:
             f"The loads have no equilibrium here: they turn {links} about the line of two ball joints, {holds}. "
             "Replace one of them by a universal joint, or move the mass centre onto the line."
         )
-    if unknown and (said := helping(c, where)):
-        return said
+    if unknown and (text := helping(c, where)):
+        return text
     if unknown:
         why = "it has no power here"
         if c.contacts is not None and c.schedule.moves[where].any():

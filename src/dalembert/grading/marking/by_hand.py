@@ -35,8 +35,8 @@ class ReadFigure(NamedTuple):
 
     def choice(self, best: int) -> str:
         """The sentence on a cell with two readings."""
-        said = " or ".join(str(answer.value) for answer in self.answers)
-        return f"{self.cell} may be {said}: {self.answers[best].value}, the nearer to the key, counts"
+        text = " or ".join(str(answer.value) for answer in self.answers)
+        return f"{self.cell} may be {text}: {self.answers[best].value}, the nearer to the key, counts"
 
 
 def read_figure(one: Given, sheet: StudentSheet, names: FigureNames) -> ReadFigure:

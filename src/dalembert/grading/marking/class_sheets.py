@@ -56,16 +56,16 @@ def class_sheets(
 
     ``names`` are those of the problem, for headings such as `F23`; ``columns`` says what other headings mean.
     """
-    names, given = names or FigureNames(), columns or {}
+    names, known = names or FigureNames(), columns or {}
     path = Path(path)
     if not path.is_dir():
         if not path.exists():
             raise MissingFileError(str(path), "name a folder of answers, or a table")
-        return list(_sheets(path, names, given, strict=True))
+        return list(_sheets(path, names, known, strict=True))
     files = sorted(p for p in path.iterdir() if p.suffix.lower() in ENDINGS and not p.name.startswith("."))
     if not files:
         raise ModelError(f"{path} has no answer files", f"their names end in {', '.join(ENDINGS)}")
-    sheets = [sheet for file in files for sheet in _sheets(file, names, given)]
+    sheets = [sheet for file in files for sheet in _sheets(file, names, known)]
     if len(sheets) > MOST:
         raise ModelError(f"there are {len(sheets)} sheets", f"divide them: at most {MOST}")
     return sheets
@@ -136,8 +136,8 @@ def _long(path: Path, rows: list[TableRow]) -> Iterator[StudentSheet]:
         cells = row.cells
         keys: dict[str, object] = {key: cells[key] for key in KEYS if key in cells}
         value = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
-        given = Given(keys | {"at": place(cells.get("at")), "value": value}, row.line)
-        by_student[name].figures.append(given)
+        known = Given(keys | {"at": place(cells.get("at")), "value": value}, row.line)
+        by_student[name].figures.append(known)
     yield from by_student.values()
 
 
@@ -150,8 +150,8 @@ def _joined(figures: list[Given], names: FigureNames) -> Iterator[Given]:
         by_vector.setdefault(vector, {})[one.keys.get("component")] = one
     for (quantity, of, _), parts in by_vector.items():
         for written, pair in ((" @ ", ("magnitude", "direction")), ("; ", ("x", "y"))):
-            asked = any((quantity, of, part) in names.asked for part in pair)
-            if asked or not all(part in parts for part in pair):
+            requested = any((quantity, of, part) in names.asked for part in pair)
+            if requested or not all(part in parts for part in pair):
                 continue
             a, b = parts.pop(pair[0]), parts.pop(pair[1])
             keys = {key: value for key, value in a.keys.items() if key != "component"}

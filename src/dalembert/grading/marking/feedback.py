@@ -51,8 +51,8 @@ def feedback(s: StudentMarks) -> str:
     lines += [f"Variant {_plain(s.variant)}.", ""] if s.variant else []
     lines += [f"{s.total:.4g} of {s.most:.4g} marks{waits_text(s)}.", ""]
     lines += [f"- {_sentence(m)}" for m in s.marks]
-    said = {m.sentence for m in s.marks}
-    others = [f"- {_plain(problem)}" for problem in s.problems if problem not in said]
+    text = {m.sentence for m in s.marks}
+    others = [f"- {_plain(problem)}" for problem in s.problems if problem not in text]
     lines += ["", "Not counted:", "", *others] if others else []
     return "\n".join(lines).replace(_plain(s.file), _plain(Path(s.file).name)).rstrip() + "\n"
 

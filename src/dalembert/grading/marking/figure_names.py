@@ -94,18 +94,18 @@ class FigureNames:
         text = _IN_UNIT.sub("", text)
         if part_of := _PART_OF.fullmatch(text):
             text = f"{part_of[2]} {part_of[1]}"
-        if (said := self._with_symbol(text)) is not None:
-            return said
+        if (words := self._with_symbol(text)) is not None:
+            return words
         if (linked := _ON.fullmatch(text)) and linked[2] in self.links:
-            found = self.keys(linked[1])
-            return None if found is None or found["quantity"] != "reaction" else found | {"on": linked[2]}
+            value = self.keys(linked[1])
+            return None if value is None or value["quantity"] != "reaction" else value | {"on": linked[2]}
         component = _COMPONENT.search(text)
         part: dict[str, Any] = {}
         if component and text not in self.joints:
             word = component[1].lower()
             part, text = {"component": _WORDS.get(word, word)}, text[: component.start()].strip(" ._:,")
-        found = self._numbered(text) or self._of_joint(text) or self._of_drive(text)
-        return None if found is None else found | part
+        value = self._numbered(text) or self._of_joint(text) or self._of_drive(text)
+        return None if value is None else value | part
 
     def _with_symbol(self, text: str) -> dict[str, Any] | None:
         """A figure in words with its symbol behind, as sheets print it: `Reaction of A on coupler, F23`."""
@@ -135,8 +135,8 @@ class FigureNames:
     def _numbers(self) -> dict[str, int]:
         """Numbers of the links: the one at the end of a name, else its place; the ground is 1."""
         own = {link: re.search(r"(\d+)$", link) for link in self.links}
-        if all(found for link, found in own.items() if link != "ground"):
-            return {link: int(found[1]) if found else 1 for link, found in own.items()}
+        if all(one for link, one in own.items() if link != "ground"):
+            return {link: int(one[1]) if one else 1 for link, one in own.items()}
         return {link: k + 1 for k, link in enumerate(["ground", *(n for n in self.links if n != "ground")])}
 
     def _of_joint(self, text: str) -> dict[str, Any] | None:
@@ -198,10 +198,10 @@ def columns_of(heads: Iterable[str], names: FigureNames, given: Mapping[str, str
     unknown = [head for head, role in roles.items() if role is None]
     if unknown or not figures:
         raise ModelError(*_unknown(unknown, heads, names))
-    first, last, whole = (
+    first, last, both = (
         next((h for h, role in roles.items() if role == word), None) for word in ("first", "last", "student")
     )
-    full = next((h for h in heads if re.fullmatch(r"(?:student |full )?name|student", _bare(h), re.I)), whole)
+    full = next((h for h in heads if re.fullmatch(r"(?:student |full )?name|student", _bare(h), re.I)), both)
     student = tuple(filter(None, (first, last) if first or last else (full,)))
     return TableColumns(student, next((h for h, role in roles.items() if role == "variant"), None), figures)
 
@@ -220,9 +220,9 @@ def _role(text: str, names: FigureNames) -> dict[str, Any] | str | None:
     ):
         if pattern.fullmatch(text):
             return word
-    found = names.keys(text)
-    if found is not None:
-        return found
+    value = names.keys(text)
+    if value is not None:
+        return value
     return "-" if text == "-" or PASSED_OVER.fullmatch(text) else None
 
 
@@ -235,6 +235,6 @@ def _unknown(unknown: list[str], heads: list[str], names: FigureNames) -> tuple[
         else f"no column is a figure: {', '.join(map(repr, heads))}"
     )
     target = wanted[0] if wanted else "effort.NAME"
-    asked = f"; asked are {', '.join(wanted)}" if wanted else ""
+    requested = f"; asked are {', '.join(wanted)}" if wanted else ""
     each = ", --columns once for each heading" if len(unknown) > 1 else ""
-    return what + asked, f'write --columns "{example}={target}", or "{example}=-" to pass over it{each}'
+    return what + requested, f'write --columns "{example}={target}", or "{example}=-" to pass over it{each}'

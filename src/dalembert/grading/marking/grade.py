@@ -171,11 +171,11 @@ class _Marker:
 
     def _of_neighbour(self, sheet: StudentSheet, variant: ExamVariant, taken: list[_Taken]) -> Iterator[str]:
         """A sentence where no figure is right and all are those of another variant."""
-        given = [t for t in taken if t.given is not None and isinstance(t.found, StudentValue)]
-        if len(given) < 2 or any(isinstance(t.found, StudentValue) and t.found.met for t in given):
+        known = [t for t in taken if t.given is not None and isinstance(t.found, StudentValue)]
+        if len(known) < 2 or any(isinstance(t.found, StudentValue) and t.found.met for t in known):
             return
         for other in self.key.variants.values():
-            if other is not variant and all(self._is_of(other, t) for t in given):
+            if other is not variant and all(self._is_of(other, t) for t in known):
                 yield f"{sheet.file}:{sheet.line}: the figures are those of variant {other.name}"
 
     def _is_of(self, other: ExamVariant, t: _Taken) -> bool:
@@ -187,10 +187,10 @@ class _Marker:
         if question is None or t.given is None:
             return False
         try:
-            found = other.compare(question, t.given, self.tolerance)
+            value = other.compare(question, t.given, self.tolerance)
         except ModelError:
             return False
-        return isinstance(found, StudentValue) and found.met
+        return isinstance(value, StudentValue) and value.met
 
     def _taken(
         self, sheet: StudentSheet, variant: ExamVariant, problems: list[str]
@@ -232,8 +232,8 @@ class _Marker:
         some = [self._one(variant, question, answer, part, read.where) for answer in read.answers]
 
         def off(k: int) -> float:
-            found = some[k].found
-            return 0.0 if found is None or isinstance(found, Verdict) or found.met else found.off
+            value = some[k].found
+            return 0.0 if value is None or isinstance(value, Verdict) or value.met else value.off
 
         best = min(range(len(some)), key=off)
         if len(some) > 1:

@@ -88,8 +88,8 @@ class Key:
     def names(self) -> FigureNames:
         """Names by which figures may be written: those of the first variant's problem and of all required figures."""
         problem = next((v.problem for v in self.variants.values() if v.problem is not None), None)
-        asked = [question.answer for v in self.variants.values() for question in v.asked]
-        return FigureNames.of(None if problem is None else problem.result.mechanism, asked)
+        requested = [question.answer for v in self.variants.values() for question in v.asked]
+        return FigureNames.of(None if problem is None else problem.result.mechanism, requested)
 
     def variant(self, name: str, student: str) -> ExamVariant:
         """The variant that a sheet names, that of a student's name, or the only one."""

@@ -79,7 +79,7 @@ def figures(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:
 def _problems(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:
     yield ["student", "what"]
     for s in students:
-        yield from ([s.student, said] for said in s.problems)
+        yield from ([s.student, text] for text in s.problems)
 
 
 def _rubric(r: Rubric) -> Iterator[Sequence[object]]:

@@ -47,8 +47,8 @@ def _of_csv(path: Path) -> Iterator[tuple[int, list[str]]]:
         for cells in reader:
             yield reader.line_num, cells
     except csv.Error as error:
-        said = f"the table cannot be read: {error}"
-        raise ModelError(said, "save it as CSV, UTF-8", (), str(path), reader.line_num) from None
+        words = f"the table cannot be read: {error}"
+        raise ModelError(words, "save it as CSV, UTF-8", (), str(path), reader.line_num) from None
 
 
 def _of_workbook(path: Path) -> Iterator[tuple[int, list[str]]]:

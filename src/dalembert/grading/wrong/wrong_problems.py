@@ -129,8 +129,8 @@ class WrongProblems:
             ]
             return self._each(3, scaled)
         with np.errstate(all="ignore"):  # where points fall together a mistake has no number
-            found = list(wrench_changes(r))
-        return [WrongProblem(c.order, c.sentence, cache(partial(changed_by, r, c.added))) for c in found]
+            out = list(wrench_changes(r))
+        return [WrongProblem(c.order, c.sentence, cache(partial(changed_by, r, c.added))) for c in out]
 
     @cached_property
     def _misread(self) -> list[WrongProblem]:

@@ -148,8 +148,8 @@ def _mass_changes(r: Result, actions: list[Action]) -> Iterator[WrenchChange]:
             (of_mass if a.force.any() else of_inertia).setdefault(a.link, []).append(a)
     for words, some in (("mass", of_mass), ("moment of inertia", of_inertia)):
         for link, mine in some.items():
-            for factor, said in FACTORS[:2]:
-                yield WrenchChange(3, f"the {words} of {link} {said}", _times(mine, factor))
+            for factor, text in FACTORS[:2]:
+                yield WrenchChange(3, f"the {words} of {link} {text}", _times(mine, factor))
     weights = [a for a in actions if a.kind == "weight"]
     if weights:
         words = "masses in kg are mistaken for weights in N: g is missing"

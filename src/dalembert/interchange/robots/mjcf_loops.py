@@ -283,8 +283,8 @@ class _MjcfGraph:
     def _coupled(self, part: Element) -> None:
         """Two joints that move in a ratio: a gear; one that is held: a drive at its position."""
         known = [self.freedom.get(part.get(key)) for key in ("joint1", "joint2")]
-        given = part.numbers(part.get("polycoef", "0 1"), (1, 2, 3, 4, 5), "polycoef")
-        coefficients = given + [0.0, 1.0, 0.0, 0.0, 0.0][len(given) :]
+        values = part.numbers(part.get("polycoef", "0 1"), (1, 2, 3, 4, 5), "polycoef")
+        coefficients = values + [0.0, 1.0, 0.0, 0.0, 0.0][len(values) :]
         if known[0] is None or ("joint2" in part.attributes and known[1] is None):
             raise part.error(
                 "the equality names a joint that is a ball or is not there", "name hinges or slides"

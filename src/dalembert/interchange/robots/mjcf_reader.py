@@ -191,8 +191,8 @@ class MjcfTree:
         self, part: Element, place: Array, keys: dict[str, str]
     ) -> Iterator[tuple[float, Array, Array]]:
         kind = "mesh" if "mesh" in keys and "type" not in keys else keys.get("type", "sphere")
-        given = part.numbers(keys["mass"], 1, "mass of <geom>")[0] if "mass" in keys else None
-        if kind in MASSLESS or given == 0:
+        known = part.numbers(keys["mass"], 1, "mass of <geom>")[0] if "mass" in keys else None
+        if kind in MASSLESS or known == 0:
             return
         if kind not in SIZES or "shellinertia" in keys:
             what = f"the mass of a geom of type {kind} comes from its mesh {keys.get('mesh', '')!r}"
@@ -200,7 +200,7 @@ class MjcfTree:
         size, where = geom_sizes(part, keys, kind)
         at = place @ (self.placed(part, keys) if where is None else where)
         density = part.numbers(keys.get("density", str(DENSITY)), 1, "density of <geom>")[0]
-        mass = density * volume(kind, size) if given is None else given
+        mass = density * volume(kind, size) if known is None else known
         if mass:
             axes = at[:3, :3]
             yield mass, at[:3, 3], axes @ np.diag(principal_inertia(kind, size, mass)) @ axes.T

@@ -34,8 +34,8 @@ def write_mjcf(graph: LinkGraph) -> str:
 
 def branch_coordinates(joint: Connection, is_flipped: bool) -> list[Coordinate]:
     """MuJoCo's joints of a branch; from j to i they come in the other order, about axes that point the other way."""
-    found = coordinates(joint.kind)
-    return [c._replace(axis=-c.axis) for c in reversed(found)] if is_flipped else found
+    value = coordinates(joint.kind)
+    return [c._replace(axis=-c.axis) for c in reversed(value)] if is_flipped else value
 
 
 def branch_values(graph: LinkGraph, joint: Connection, is_flipped: bool) -> tuple[list[float], list[float]]:
@@ -243,8 +243,8 @@ class _MjcfText:
         return cosine
 
     def _hinge(self, link: str) -> Connection | None:
-        found = [j for j in self.tree.branches if j.links[1] == link and j.kind == "revolute"]
-        return found[0] if found else None
+        out = [j for j in self.tree.branches if j.links[1] == link and j.kind == "revolute"]
+        return out[0] if out else None
 
     def _threads(self) -> None:
         for joint in self.tree.branches:

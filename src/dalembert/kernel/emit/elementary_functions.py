@@ -171,8 +171,8 @@ def _exponential(lanes: int) -> list[str]:
     value = t.fma(ratio, t.splat(2.0), t.splat(1.0))
     half = t.intrinsic("rint", t.exact("fmul", n, t.splat(0.5)))
     for power in (half, t.exact("fsub", n, half)):
-        whole = t.integer("shl", t.integer("add", t.let(f"fptosi {t.kind} {power} to {t.whole}"), 1023), 52)
-        value = t.exact("fmul", value, t.let(f"bitcast {t.whole} {whole} to {t.kind}"))
+        total = t.integer("shl", t.integer("add", t.let(f"fptosi {t.kind} {power} to {t.whole}"), 1023), 52)
+        value = t.exact("fmul", value, t.let(f"bitcast {t.whole} {total} to {t.kind}"))
     beyond = t.select(
         t.compare("olt", "%x", t.splat(0.0)), t.splat(0.0), t.exact("fmul", "%x", t.splat(float("inf")))
     )

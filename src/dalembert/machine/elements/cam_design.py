@@ -135,14 +135,14 @@ class CamDesign(Drawn, Labelled, Worked):
         for low, high in ((k - 1, k), (k, k + 1)):
             if low >= 0 and high < len(self.turn):
                 ends = self.turn[low] + 1e-9, self.turn[high] - 1e-9
-                found = minimize_scalar(
+                value = minimize_scalar(
                     lambda x: -float(of(np.array([x]))[0]),
                     bounds=ends,
                     method="bounded",
                     options={"xatol": 1e-12},
                 )
-                if -found.fun > best:
-                    best, at = float(-found.fun), float(found.x)
+                if -value.fun > best:
+                    best, at = float(-value.fun), float(value.x)
         return best, at
 
     @cached_property
@@ -300,12 +300,12 @@ class CamDesign(Drawn, Labelled, Worked):
             return hertz_line(force, width, (radius, inner), elasticity, self._joint.poisson)
         turns = self.turns_of(self.result)
         radii = self.profile_radius(turns)
-        found = [
+        out = [
             hertz_line(float(n), width, (float(r), inner), elasticity, self._joint.poisson)
             for n, r in zip(self.force, radii, strict=True)
             if n > 0
         ]
-        return max(found, key=lambda x: x.pressure)
+        return max(out, key=lambda x: x.pressure)
 
     def turns_of(self, r: Result) -> Array:
         """Turns (P,) of the cam, in its sense, at the positions of a result."""

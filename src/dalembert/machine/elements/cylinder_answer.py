@@ -145,9 +145,9 @@ def _column(c: FluidCylinder, length: Array) -> tuple[Array, Array, Array]:
         return none[0], none[1], none[2]
     barrel = c.elasticity * math.pi / 64 * (c.barrel**4 - c.bore**4)
     rod = c.elasticity * math.pi / 64 * c.rod**4
-    for k, whole in enumerate(length.tolist()):
-        if whole > 0:
-            first = min(c.barrel_part, whole)
-            none[0, k] = critical_load(first, whole - first, barrel, rod, c.ends)
-            none[1:, k] = euler(whole, rod, c.ends), euler(whole, barrel, c.ends)
+    for k, total in enumerate(length.tolist()):
+        if total > 0:
+            first = min(c.barrel_part, total)
+            none[0, k] = critical_load(first, total - first, barrel, rod, c.ends)
+            none[1:, k] = euler(total, rod, c.ends), euler(total, barrel, c.ends)
     return none[0], none[1], none[2]

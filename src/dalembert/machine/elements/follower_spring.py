@@ -50,13 +50,13 @@ def _softest(need: Array, lift: Array, high: float) -> tuple[float, float]:
     from scipy.optimize import linprog
 
     size = max(float(np.abs(need).max()), 1e-300)
-    found = linprog(
+    value = linprog(
         [1.0, 1.0],
         A_ub=np.stack([-np.ones_like(lift), -lift / high], axis=1),
         b_ub=-need / size,
         bounds=(0, None),
     )
-    preload, rise = np.asarray(found.x) * size
+    preload, rise = np.asarray(value.x) * size
     return float(rise / high), float(preload)
 
 

@@ -200,8 +200,8 @@ def governor(
     m = as_mechanism(m)
     name = governor_drive(m, drive)
     positions = np.linspace(*limits(m, name, range), count)
-    asked = at_rest(m, name)
-    r = statics_at(asked, name, positions)
+    requested = at_rest(m, name)
+    r = statics_at(requested, name, positions)
     lost = next(
         (text for text, ok in zip(r.reasons, np.isfinite(r.turning_speed), strict=True) if not ok), None
     )
@@ -225,7 +225,7 @@ def governor(
         interval=r.turning_interval,
         sleeve_force=np.abs(speed**2 * slopes.inertia / slopes.height),
         stable=np.asarray(change > 0),
-        isochronous=_isochronous(asked, name, positions, speed),
+        isochronous=_isochronous(requested, name, positions, speed),
         pull=float(slopes.masses[np.abs(slopes.out).max(axis=0) > 1e-9 * radius.max()].sum()) * speed**2,
     )
 
@@ -237,8 +237,8 @@ def governor_drive(m: Mechanism, drive: str | None) -> str:
         )
     if drive is not None and drive not in m.drives:
         raise ModelError(f"unknown drive {drive!r}", closest(drive, list(m.drives)))
-    given = [n for n, d in m.drives.items() if d.effort is not None]
-    name = drive or next(iter([*given, *m.drives]), "")
+    known = [n for n, d in m.drives.items() if d.effort is not None]
+    name = drive or next(iter([*known, *m.drives]), "")
     if not name:
         raise ModelError("no drive positions the governor", "drive the sleeve or an arm", ("drives",))
     return name
@@ -316,11 +316,11 @@ def _isochronous(m: Mechanism, drive: str, positions: Array, speed: Array) -> tu
     for k in np.flatnonzero(steps[:-1] * steps[1:] < 0):
         sign = np.sign(steps[k])
         low, high = sorted((positions[k], positions[k + 2]))
-        found = minimize_scalar(
+        value = minimize_scalar(
             lambda q, sign=sign: -sign * float(statics_at(m, drive, np.array([q])).turning_speed[0]),
             bounds=(low, high),
             method="bounded",
             options={"xatol": 1e-9 * (high - low)},
         )
-        out.append(float(found.x))
+        out.append(float(value.x))
     return tuple(out)

@@ -188,11 +188,11 @@ def _forces_on(r: Result, joint: str, stack: tuple[str, ...]) -> Array:
     m = r.mechanism
     at = [set(zip(j.links, j.point_names(n), strict=True)) for n, j in m.joints.items()]
     names = list(m.joints)
-    shared, found = {joint}, at[names.index(joint)]
+    shared, value = {joint}, at[names.index(joint)]
     for _ in names:
-        new = {n for n, ends in zip(names, at, strict=True) if ends & found and m.joints[n].hinge}
+        new = {n for n, ends in zip(names, at, strict=True) if ends & value and m.joints[n].hinge}
         shared |= new
-        found = set().union(*(at[names.index(n)] for n in shared))
+        value = set().union(*(at[names.index(n)] for n in shared))
     links = {link for n in shared for link in m.joints[n].links}
     if links != {*stack}:
         what = (

@@ -53,20 +53,20 @@ def turning_range(m: ModelOrPath, drive: str | None = None, count: int = 361) ->
     q = np.linspace(*limits(m, name, None), count)
     loads, unit = curve(q)
     least = 1e-9 * np.abs(loads).max(initial=0.0)
-    found, places = [], []
+    one, places = [], []
     for k in np.flatnonzero((unit[:-1] * unit[1:] < 0) | (unit[:-1] == 0)):
         x = _root(lambda x: curve(np.array([x]))[1][0], q[k], q[k + 1])
         if abs(curve(np.array([x]))[0][0]) <= max(least, 1e-7 * np.abs(loads).max(initial=0.0)):
             square = curve.limit(x, abs(q[1] - q[0]))
             if square > 0:
-                found.append(math.sqrt(square))
+                one.append(math.sqrt(square))
                 places.append(float(x))
     with np.errstate(all="ignore"):
         squares = np.where(np.abs(unit) > 1e-9 * np.abs(unit).max(), -loads / unit, np.nan)
     steps = np.diff(squares)
     inner = np.flatnonzero(steps[:-1] * steps[1:] < 0)
     folds = [math.sqrt(squares[k + 1]) for k in inner if squares[k + 1] > 0]
-    return TurningRange(tuple(found), tuple(places), tuple(folds))
+    return TurningRange(tuple(one), tuple(places), tuple(folds))
 
 
 class _Efforts:

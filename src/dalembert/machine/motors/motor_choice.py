@@ -223,16 +223,16 @@ def motor(
         raise ModelError("the machine has no drive, and a motor turns one", "drive a joint")
     if name not in r.drives:
         raise ModelError(f"unknown drive {name!r}", closest(name, list(r.drives)))
-    given = r.mechanism.drives[name].motor
-    if given is not None:
-        inertia = given.inertia if inertia is None else inertia
-        ratio = given.ratio if ratio is None and given.geared else ratio
-        efficiency = given.efficiency if efficiency is None else efficiency
+    known = r.mechanism.drives[name].motor
+    if known is not None:
+        inertia = known.inertia if inertia is None else inertia
+        ratio = known.ratio if ratio is None and known.geared else ratio
+        efficiency = known.efficiency if efficiency is None else efficiency
     inertia, efficiency = inertia or 0.0, 1.0 if efficiency is None else efficiency
     if isinstance(curve, (str, Path)):
         curve = read_curve(curve, r.mechanism.units)
     motion = r.effort(name), r.drive_speed(name), r.drive_acceleration(name), reduced_inertia(r, name)
-    motor_curve = curve or given
+    motor_curve = curve or known
     choice = MotorChoice(r, name, *motion, durations(r), inertia, efficiency, motor_curve, rated)
     ratios = {
         "given": ratio,

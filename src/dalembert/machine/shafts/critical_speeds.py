@@ -273,5 +273,5 @@ def _welded(r: Result, link: str, e: Straight) -> tuple[dict[str, PointMass], li
 
 def _matrix(inertia: Any) -> Array:
     """An inertia as a file gives it as a matrix (3, 3)."""
-    given = np.asarray(inertia, float)
-    return given if given.ndim == 2 else np.diag(given * np.ones(3))
+    known = np.asarray(inertia, float)
+    return known if known.ndim == 2 else np.diag(known * np.ones(3))

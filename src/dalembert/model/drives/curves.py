@@ -103,12 +103,12 @@ class CurvePiece:
             angles = [math.asin(level), PI - math.asin(level)]
             shift = self.phase + (order + 1) * PI / 2
             turns = range(-3, 2 + int(self.frequency * self.length / PI) + int(abs(shift) / PI))
-            found = [(x - shift + 2 * PI * k) / self.frequency for x in angles for k in turns]
+            out = [(x - shift + 2 * PI * k) / self.frequency for x in angles for k in turns]
         else:
             c = np.polynomial.polynomial.polyder(self.polynomial, order + 1)
             roots = np.polynomial.polynomial.polyroots(np.trim_zeros(c, "b")) if np.any(c) else np.zeros(0)
-            found = [float(x.real) for x in roots if abs(x.imag) <= 1e-9 * self.length]
-        return [u for u in found if 0 < u < self.length]
+            out = [float(x.real) for x in roots if abs(x.imag) <= 1e-9 * self.length]
+        return [u for u in out if 0 < u < self.length]
 
 
 def integrated(speed: float, pieces: Iterable[tuple[float, float, float, float]]) -> tuple[CurvePiece, ...]:

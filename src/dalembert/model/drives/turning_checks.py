@@ -22,8 +22,8 @@ def freed_drive(m: Mechanism) -> str | None:
     """The drive whose effort is given, where the speed of the turning frame is unknown."""
     if m.turning is None or m.turning.speed != UNKNOWN:
         return None
-    given = [name for name, drive in m.drives.items() if drive.effort is not None]
-    return given[0] if given else next(iter(m.drives), None)
+    known = [name for name, drive in m.drives.items() if drive.effort is not None]
+    return known[0] if known else next(iter(m.drives), None)
 
 
 def plane_moments(m: Mechanism, link: str) -> Vector:
@@ -66,12 +66,12 @@ def turning_problems(m: Mechanism) -> Iterator[ModelError]:
 
 def _unknown_speed(m: Mechanism) -> Iterator[ModelError]:
     path = ("turning", "speed")
-    given = [name for name, drive in m.drives.items() if drive.effort is not None]
+    known = [name for name, drive in m.drives.items() if drive.effort is not None]
     if not m.drives:
         remedy = "drive the sleeve with effort: 0, or give the speed"
         yield ModelError("the speed of turning is unknown, and no drive holds the mechanism", remedy, path)
-    elif len(given) > 1 or (not given and len(m.drives) > 1):
-        what = f"the speed of turning is unknown, and {len(given) or 'no'} efforts of the drives are given"
+    elif len(known) > 1 or (not known and len(m.drives) > 1):
+        what = f"the speed of turning is unknown, and {len(known) or 'no'} efforts of the drives are given"
         yield ModelError(what, "give the effort of one drive, 0 for one that holds nothing", path)
     loads = [name for name, load in m.loads.items() if load.unknown]
     if loads:

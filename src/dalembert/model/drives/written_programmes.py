@@ -94,23 +94,23 @@ def _segment(value: object, kind: str, master: str, rules: ReadingRules) -> Segm
             f"write {RISE_EXAMPLE.replace('0.2 s', '100 deg')}",
             ("by",) if "by" in value else ("speed",),
         )
-    found: dict[str, Any] = {"form": form, "by": str(value.get("by", ""))}
+    out: dict[str, Any] = {"form": form, "by": str(value.get("by", ""))}
     if "in" in value or (form == "dwell" and value["dwell"] != REST):
         key = "in" if "in" in value else "dwell"
-        found["length"] = at_item(key, rules.quantity, value[key], master)
-        at_item(key, check_sign, found["length"], value[key], "positive")
+        out["length"] = at_item(key, rules.quantity, value[key], master)
+        at_item(key, check_sign, out["length"], value[key], "positive")
     if "to" in value:
-        found["to"] = at_item("to", rules.quantity, value["to"], kind)
+        out["to"] = at_item("to", rules.quantity, value["to"], kind)
     if form in ("constant", "s_curve", "limited"):
-        found["limits"] = tuple(_limit(key, value[key], kind, form, rules) for key in RATES if key in value)
+        out["limits"] = tuple(_limit(key, value[key], kind, form, rules) for key in RATES if key in value)
     if form == "trapezoidal":
-        found["limits"] = at_item("parts", _parts, value["parts"], rules)
+        out["limits"] = at_item("parts", _parts, value["parts"], rules)
     if "ends" in value:
-        found["ends"] = at_item("ends", _ends, value["ends"], kind, master, form, rules)
+        out["ends"] = at_item("ends", _ends, value["ends"], kind, master, form, rules)
     if form == "spline":
-        found["points"] = _points(value, kind, master, rules)
-        found["length"] = found["points"][0][-1] - found["points"][0][0]
-    return Segment(**found)
+        out["points"] = _points(value, kind, master, rules)
+        out["length"] = out["points"][0][-1] - out["points"][0][0]
+    return Segment(**out)
 
 
 def _form(value: Mapping[str, object]) -> str:

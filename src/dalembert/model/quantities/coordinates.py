@@ -47,8 +47,8 @@ def quantity_name(path: str) -> str:
     >>> quantity_name("joints.G.slide"), quantity_name("links.rod.angle.speed"), quantity_name("O.speed")
     ('slide.G', 'angle.rod.speed', 'O.speed')
     """
-    found = parts(path)
-    return f"{found[2]}.{found[1]}{SPEED if is_speed(path) else ''}" if found else path
+    value = parts(path)
+    return f"{value[2]}.{value[1]}{SPEED if is_speed(path) else ''}" if value else path
 
 
 def parts(path: str) -> tuple[str, str, str] | None:

@@ -134,14 +134,14 @@ class Table:
 
         breaks, coefficients = self.pieces()
         low, high = breaks[0], breaks[-1]
-        given = np.asarray(position, float) - self.shift
-        place = np.clip(given, low, high) if self.period is None else low + np.mod(given - low, self.period)
+        known = np.asarray(position, float) - self.shift
+        place = np.clip(known, low, high) if self.period is None else low + np.mod(known - low, self.period)
         piece = np.clip(np.searchsorted(breaks, place, "right") - 1, 0, len(breaks) - 2)
         step, value = place - breaks[piece], np.zeros(place.shape)
         for row in coefficients:
             value = value * step + row[piece]
         if self.outside == "zero" and self.period is None:
-            value = np.where(np.abs(given - place) > SLACK * (high - low), 0.0, value)
+            value = np.where(np.abs(known - place) > SLACK * (high - low), 0.0, value)
         return value[()]
 
 

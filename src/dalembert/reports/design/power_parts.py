@@ -32,15 +32,15 @@ LIGHT = 1e-6
 def motor_part(c: DesignContext) -> Iterator[DesignPart]:
     """What each drive needs of a motor, and whether that of the file gives it."""
     m, part = c.r.mechanism, DesignPart("Motor")
-    asked = [d for d in c.r.drives if m.drives[d].effort is None and m.drives[d].cylinder is None]
-    if not asked:
+    requested = [d for d in c.r.drives if m.drives[d].effort is None and m.drives[d].cylinder is None]
+    if not requested:
         return
-    given = [d for d in asked if m.drives[d].motor is not None]
-    for drive in given or asked[:1]:
+    known = [d for d in requested if m.drives[d].motor is not None]
+    for drive in known or requested[:1]:
         choice = motor(c.r, drive)
         part.verdicts += list(_motor(c, choice))
         put_answer(part.sheet, choice, c)
-    rest = [d for d in asked if d not in given]
+    rest = [d for d in requested if d not in known]
     if rest:
         part.verdicts.append(not_judged(", ".join(rest), "the file has no motor for it"))
     yield part

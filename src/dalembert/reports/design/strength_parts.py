@@ -57,14 +57,14 @@ def bearing_part(c: DesignContext) -> Iterator[DesignPart]:
     part, joints, turning = DesignPart("Bearings"), c.r.mechanism.joints, turning_joints(c.r)
     if not turning:
         return
-    given = [j for j in turning if getattr(joints[j], "bearing", None) is not None]
-    table = bearings(c.r, given or None)
-    for joint in given:
+    known = [j for j in turning if getattr(joints[j], "bearing", None) is not None]
+    table = bearings(c.r, known or None)
+    for joint in known:
         part.verdicts += list(_bearing(c, table, joint))
-    others = [j for j in turning if j not in given]
+    others = [j for j in turning if j not in known]
     if others:
         part.verdicts.append(not_judged(together(others), "the file has no bearing for them"))
-    put_answer(part.sheet, table, c, drawn=bool(given))
+    put_answer(part.sheet, table, c, drawn=bool(known))
     yield part
 
 

@@ -28,8 +28,8 @@ def summary(sheet: ReportSheet, c: DesignContext, parts: Sequence[DesignPart]) -
     for title, some in _sections(parts):
         for state in ("exceeded", "not judged"):
             sheet.text(_named(title, state, [v for part in some for v in part.verdicts if v.state == state]))
-    found = worst_rows(c)
-    sheet.table(WORST_HEADS, found[:MOST], "Worst positions: of each kind the most extreme")
+    value = worst_rows(c)
+    sheet.table(WORST_HEADS, value[:MOST], "Worst positions: of each kind the most extreme")
     sheet.blocks.append(Blanks((("Checked by", (("name", ""), ("date", ""), ("signature", ""))),)))
 
 

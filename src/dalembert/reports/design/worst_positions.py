@@ -38,11 +38,11 @@ def sought(c: DesignContext) -> Iterator[QuantityExtreme]:
         if word == "power_lost" and r.friction is None:
             continue
         try:
-            found = extreme(r, f"{'min' if word in SMALLEST else 'peak'} {name}")
+            value = extreme(r, f"{'min' if word in SMALLEST else 'peak'} {name}")
         except (ModelError, ValueError):
             continue
-        if found is not None and np.isfinite(found.value):
-            yield found
+        if value is not None and np.isfinite(value.value):
+            yield value
 
 
 MOST = 4

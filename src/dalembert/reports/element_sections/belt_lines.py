@@ -49,8 +49,8 @@ def _degrees(c: ReportContext, angle: float) -> str:
 def _belt_words(c: ReportContext, name: str, belt: Any) -> str:
     kind = "chain" if belt.chain else "crossed belt" if belt.crossed else "open belt"
     key, value = belt.stated_tension
-    said = SUMS[key][1]
-    return f"{name}, {'a' if kind != 'open belt' else 'an'} {kind}. {said}: {c.shown.text('force', float(value))}."
+    text = SUMS[key][1]
+    return f"{name}, {'a' if kind != 'open belt' else 'an'} {kind}. {text}: {c.shown.text('force', float(value))}."
 
 
 def _belt_lines(c: ReportContext, name: str, belt: Any) -> list[Working]:

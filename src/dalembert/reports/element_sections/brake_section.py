@@ -21,12 +21,12 @@ def brakes(sheet: ReportSheet, c: ReportContext) -> None:
         return
     sheet.heading("Brakes and clutches")
     for name in names:
-        found = brake(c.r, name)
-        words, lines = _shown(c, name, found)
+        value = brake(c.r, name)
+        words, lines = _shown(c, name, value)
         sheet.text(words)
         sheet.equations(lines)
         j = c.r.mechanism.joints[name].links[1]
-        if j != GROUND and not isinstance(found, FaceBrake):
+        if j != GROUND and not isinstance(value, FaceBrake):
             sheet.figure(draw.force_polygon(c.r, j, c.k + 1, c.notation))
 
 

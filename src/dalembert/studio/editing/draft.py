@@ -191,8 +191,8 @@ class Draft:
     def assemble(self, link: str, x: float, y: float, angle: float, joined: bool) -> None:
         """The approximate pose of a link in the file: an angle, of one that is not joined its place too."""
         self.placed[link] = (x, y, angle)
-        said = self.angle_text(angle)
-        value: object = said if joined else [*self.vector((x, y), 6), said]
+        text = self.angle_text(angle)
+        value: object = text if joined else [*self.vector((x, y), 6), text]
         if link in self.entries("assembly"):
             self.splice({("assembly", link): value})
         else:

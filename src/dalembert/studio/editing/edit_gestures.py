@@ -62,8 +62,8 @@ class PoseLinks(Gesture):
             if is_number((d.entries("drives").get(drive) or {}).get("position")):
                 slides = joint_type(d, drive) == "slider"
                 kind = "length" if slides else "angle"
-                said = d.number(position, kind, 6) if slides else d.angle_text(position)
-                d.splice({("drives", drive, "position"): said})
+                text = d.number(position, kind, 6) if slides else d.angle_text(position)
+                d.splice({("drives", drive, "position"): text})
 
 
 class SetValue(Gesture):
@@ -203,16 +203,16 @@ def joint_type(d: Draft, drive: str) -> str:
 def cluster(d: Draft, end: End) -> list[End]:
     """A point and all that joints hold at its place."""
     d.world(end)
-    found, joints = [end], joint_ends(d)
-    for here in found:
+    one, joints = [end], joint_ends(d)
+    for here in one:
         for name, (i, j) in joints.items():
             if d.entries("joints")[name].get("type") not in HOLDING or here not in (i, j):
                 continue
             other = j if here == i else i
             near = math.dist(d.world(other), d.world(here)) < 1e-6 * d.width
-            if other not in found and near:
-                found.append(other)
-    return found
+            if other not in one and near:
+                one.append(other)
+    return one
 
 
 def move_end(

@@ -66,10 +66,10 @@ class PointForce(Gesture):
         if self.value:
             size = typed(d, self.value, "force")
         name = d.numbered("loads", "F", 1)
-        said = {"value": f"{size} @ {d.angle_text(turn)}"}
+        text = {"value": f"{size} @ {d.angle_text(turn)}"}
         if isinstance(size, str):  # a unit may be written once only, and the direction is in the file's
-            said = {"value": size, "direction": d.angle_text(turn)}  # type: ignore[dict-item]
-        d.put("loads", name, {"type": "force", "on": self.where.link, "at": self.where.point, **said})
+            text = {"value": size, "direction": d.angle_text(turn)}  # type: ignore[dict-item]
+        d.put("loads", name, {"type": "force", "on": self.where.link, "at": self.where.point, **text})
 
 
 class LinkCouple(Gesture):

@@ -72,10 +72,10 @@ def rename_point(text: str, form: str, link: str, old: str, new: str) -> str:
         raise ModelError(f"link {link!r} has no point {old!r}", "choose one that is in the file")
     changes = [_key(form, index["links", link, "points", old], new)]
     for path, place in index.items():
-        said = _word(text, place) if place.form == "scalar" else ""
-        if said == f"{link}.{old}" and ("between" in path or path[0] == "answers"):
+        words = _word(text, place) if place.form == "scalar" else ""
+        if words == f"{link}.{old}" and ("between" in path or path[0] == "answers"):
             changes.append(_value(text, form, place, f"{link}.{new}"))
-        elif said == old and _of_link(text, index, path, link):
+        elif words == old and _of_link(text, index, path, link):
             changes.append(_value(text, form, place, new))
     changes += _joints_at(text, form, index, link, old, new)
     return with_changes(text, sorted(set(changes)))
@@ -92,13 +92,13 @@ def _changes(text: str, form: str, index: Places, kind: str, old: str, new: str)
             if pattern.endswith("*") and path[-1] == old and place.key is not None:
                 yield _key(form, place, new)
             elif place.form == "scalar" and not pattern.endswith("*"):
-                said = _word(text, place)
-                if said == old or (kind == "links" and said.startswith(old + ".")):
-                    yield _value(text, form, place, new + said[len(old) :])
+                words = _word(text, place)
+                if words == old or (kind == "links" and words.startswith(old + ".")):
+                    yield _value(text, form, place, new + words[len(old) :])
         if place.form == "scalar" and path[0] in ("loads", "drives", "parameters", "joints"):
-            said = _word(text, place)
-            changed = _in_expression(said, kind, old, new)
-            if changed != said and not any(_meant(path, p) for p in REFERENCES[kind]):
+            words = _word(text, place)
+            changed = _in_expression(words, kind, old, new)
+            if changed != words and not any(_meant(path, p) for p in REFERENCES[kind]):
                 yield _value(text, form, place, changed)
 
 
@@ -128,11 +128,11 @@ def _joints_at(text: str, form: str, index: Places, link: str, old: str, new: st
         both = path[1] if at is None else _word(text, at) if at.form == "scalar" else None
         if link not in ends or both != old:
             continue
-        said = value_text([new if end == link else old for end in ends], form)
+        words = value_text([new if end == link else old for end in ends], form)
         if at is None:
-            yield _with_at(text, form, index, str(path[1]), said)
+            yield _with_at(text, form, index, str(path[1]), words)
         else:
-            yield Change(at.start, at.end, said)
+            yield Change(at.start, at.end, words)
 
 
 def _with_at(text: str, form: str, index: Places, joint: str, said: str) -> Change:

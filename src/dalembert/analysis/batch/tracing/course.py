@@ -38,9 +38,9 @@ class PositionPath:
 
     def with_target(self, target: Mapping[str, Array]) -> PositionPath:
         """The same course, as far as it is followed."""
-        found = copy(self)
-        found.__dict__["target"] = target
-        return found
+        value = copy(self)
+        value.__dict__["target"] = target
+        return value
 
     @cached_property
     def compiled(self) -> Compiled:
@@ -52,8 +52,8 @@ class PositionPath:
         if beyond is not None:
             raise ModelError(beyond, "", ("links",))
         with np.errstate(all="ignore"):
-            found = quick_answer(self.compiled, inertia=True, forces=False)
-        return found if isinstance(found, Positions) else positions(self.compiled)
+            value = quick_answer(self.compiled, inertia=True, forces=False)
+        return value if isinstance(value, Positions) else positions(self.compiled)
 
     @cached_property
     def cycle(self) -> bool:
@@ -84,8 +84,8 @@ class PositionPath:
 
     def going_by(self, names: Iterable[str]) -> Tree:
         """Variables (P,) that a changing quantity depends on: drives, time, and the pose, the motion being known."""
-        found: Tree = {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
-        found |= {name + SPEED: self.schedule.speed[:, k] for k, name in enumerate(self.schedule.names)}
+        out: Tree = {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
+        out |= {name + SPEED: self.schedule.speed[:, k] for k, name in enumerate(self.schedule.names)}
         clock = self.schedule.clock
         if TIME in names and clock is None:
             raise ModelError(
@@ -95,7 +95,7 @@ class PositionPath:
         by_pose = [name for name in names if parts(name)]
         at = counted_coordinates(self.compiled, self.counted, self.pose, by_pose) if by_pose else {}
         at = {name: np.where(np.isfinite(values), values, values[self.first]) for name, values in at.items()}
-        return {TIME: clock, **found, **at}
+        return {TIME: clock, **out, **at}
 
     @cached_property
     def slips(self) -> dict[tuple[str, str], Array]:

@@ -63,17 +63,17 @@ class Inputs:
                 value = getattr(self.course.schedule, rate)[0, k]
                 node = symbol if isinstance(symbol, Node) else self.graph.constant(value) if steady else None
                 columns[rate].append(self._drive(kind, name, rate, k) if node is None else node)
-        found = Drives(*(np.array(column, object) for column in columns.values()))
+        result = Drives(*(np.array(column, object) for column in columns.values()))
         if kind == "channel":
-            self.motion = found
-        return found
+            self.motion = result
+        return result
 
     def known(self) -> Tree:
         """Time, positions and speeds of the drives by the names that changing quantities have for them."""
         names, s = self.course.schedule.names, self.course.schedule
-        found = dict(zip(names, self.motion.position, strict=True))
-        found |= dict(zip((name + SPEED for name in names), self.motion.speed, strict=True))
-        return found | ({} if s.clock is None else {TIME: self.time()})
+        out = dict(zip(names, self.motion.position, strict=True))
+        out |= dict(zip((name + SPEED for name in names), self.motion.speed, strict=True))
+        return out | ({} if s.clock is None else {TIME: self.time()})
 
     def inside(self, varying: Any) -> bool:
         """True if a changing quantity depends on something that a design's numbers may move."""

@@ -31,13 +31,13 @@ def table_function(graph: Graph) -> Callable[[Table, Scalar], Node]:
             raise ModelError(what, f"give it at most {MOST}, or use da.dynamics, da.statics or da.sweep")
         place = _inside(graph, table, node(graph, position) - table.shift, breaks)
         chosen = _choose(graph, place, breaks, [breaks[:-1].tolist(), *coefficients])
-        step, found = place - chosen[0], chosen[1]
+        step, result = place - chosen[0], chosen[1]
         for coefficient in chosen[2:]:
-            found = found * step + coefficient
+            result = result * step + coefficient
         if table.outside == "zero" and table.period is None:
             below, above = _ends(table, node(graph, position) - table.shift)
-            found = found * ((1.0 - (-below).positive()) * (1.0 - (-above).positive()))
-        return node(graph, found * table.times)
+            result = result * ((1.0 - (-below).positive()) * (1.0 - (-above).positive()))
+        return node(graph, result * table.times)
 
     return value
 

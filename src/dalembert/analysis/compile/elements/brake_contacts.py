@@ -197,7 +197,7 @@ def with_unknown_clamps(m: Mechanism) -> Mechanism:
 
     The couple of faces does not depend on other reactions, so that it is found without friction, and the force from it.
     """
-    found: dict[str, Couple] = {}
+    out: dict[str, Couple] = {}
     for name, joint in m.joints.items():
         if isinstance(joint, Faces) and joint.clamped is None:
             first, second = joint.links
@@ -208,5 +208,5 @@ def with_unknown_clamps(m: Mechanism) -> Mechanism:
                 what = f"joint {name!r} has an unknown force and no friction"
                 raise ModelError(what, "give it friction: {coefficient: 0.3}", ("joints", name))
             if name not in m.loads:
-                found[name] = Couple(on=second if first == GROUND else first, by=GROUND, value="unknown")
-    return m.model_copy(update={"loads": {**m.loads, **found}}) if found else m
+                out[name] = Couple(on=second if first == GROUND else first, by=GROUND, value="unknown")
+    return m.model_copy(update={"loads": {**m.loads, **out}}) if out else m

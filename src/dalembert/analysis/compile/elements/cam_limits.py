@@ -80,7 +80,7 @@ def least_size(m: Mechanism, name: str, c: CamMotion) -> tuple[float, float]:
         left, right = np.roll(values, 1), np.roll(values, -1)
         bends = np.maximum(left, right) > values + ENOUGH * base  # not within a dwell
         low = np.flatnonzero((values <= left) & (values <= right) & (values <= close) & bends)[:FEW]
-        found = [(float(values.min()), float(turns[int(np.argmin(values))]))]
+        out = [(float(values.min()), float(turns[int(np.argmin(values))]))]
         for k in low:
             ends = turns[max(int(k) - 1, 0)], turns[min(int(k) + 1, len(turns) - 1)]
             x = minimize_scalar(
@@ -89,9 +89,9 @@ def least_size(m: Mechanism, name: str, c: CamMotion) -> tuple[float, float]:
                 method="bounded",
                 options={"xatol": 1e-11},
             )
-            found.append((float(x.fun), float(x.x)))
-        least = min(value for value, _ in found)
-        return least, min(at for value, at in found if value <= least + ENOUGH * base)
+            out.append((float(x.fun), float(x.x)))
+        least = min(value for value, _ in out)
+        return least, min(at for value, at in out if value <= least + ENOUGH * base)
 
     def margin(base: float) -> float:
         try:

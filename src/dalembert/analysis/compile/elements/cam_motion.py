@@ -75,8 +75,8 @@ class CamMotion:
         if self.joint.profile.segments is None:  # over directions in the cam's axes
             turns = [self._turn_of(float(x)) for x in starts]
             starts = np.array(turns)
-        found = np.unique(np.round(np.mod(starts, TURN), 14))
-        return np.asarray(found[(found > 1e-9) & (found < TURN - 1e-9)])
+        value = np.unique(np.round(np.mod(starts, TURN), 14))
+        return np.asarray(value[(value > 1e-9) & (value < TURN - 1e-9)])
 
     def turns(self, count: int) -> Array:
         """Even turns (N,) with those of the joints of pieces."""

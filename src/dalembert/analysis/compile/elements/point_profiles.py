@@ -55,8 +55,8 @@ def polar_points(name: str, p: CamPoints, roller: float) -> Array:
     # the offset curve has the same normal: its slope dR/dbeta = R tan(angle of the normal)
     tan = np.tan(np.arctan2(first, r) + np.arctan2(aside, along))
     slope = out * tan
-    whole = rho + roller
-    bend = (out * out + 2 * slope * slope - np.hypot(out, slope) ** 3 / whole) / out
+    total = rho + roller
+    bend = (out * out + 2 * slope * slope - np.hypot(out, slope) ** 3 / total) / out
     return _hermite(direction, out, slope, bend)
 
 

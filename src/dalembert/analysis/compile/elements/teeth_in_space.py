@@ -38,8 +38,8 @@ def fitted_contacts(m: Mechanism, contacts: Contacts | None, layout: Layout, pos
             families.append(f)
             continue
         joints = contacts.rows.joint[f.row]
-        found = [_numbers(layout, int(k)) for k in joints]
-        fitted: Any = {name: np.array([numbers[name] for numbers in found]) for name in FITTED}
+        out = [_numbers(layout, int(k)) for k in joints]
+        fitted: Any = {name: np.array([numbers[name] for numbers in out]) for name in FITTED}
         f = replace(f, **fitted)
         families.append(f)
         first, second = (g[0] for g in gains(layout.algebra, f, pose.at(None)))

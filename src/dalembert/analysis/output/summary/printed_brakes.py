@@ -22,8 +22,8 @@ LEAST = 1e-6
 def brake_parts(r: Result, to: Printed) -> Iterator[Part]:
     """A row and a verdict for each brake at the only position."""
     names = [name for name, part in r.mechanism.joints.items() if part.BRAKES]
-    found = [brake(r, name) for name in names if _rubs(r, name)]
-    if not found:
+    out = [brake(r, name) for name in names if _rubs(r, name)]
+    if not out:
         return
     heads = [
         "brake",
@@ -32,8 +32,8 @@ def brake_parts(r: Result, to: Printed) -> Iterator[Part]:
         f"p_max\n{to.text('pressure')}",
     ]
     heads += [f"p v\n{to.text('pressure_speed')}", "grabs\nfrom mu", "now\nmu"]
-    rows = [[b.joint, *_cells(b, to)] for b in found]
-    verdicts = [f"{b.joint}: {text}." for b in found if (text := "; ".join(_verdicts(b, to)))]
+    rows = [[b.joint, *_cells(b, to)] for b in out]
+    verdicts = [f"{b.joint}: {text}." for b in out if (text := "; ".join(_verdicts(b, to)))]
     yield TextTable(heads, rows, 1, "\n".join(verdicts))
 
 

@@ -28,9 +28,9 @@ def contact_parts(r: Result, to: Printed) -> Iterator[Part]:
     pushing = r.compiled.pushing
     if pushing is None or not r.inertia or not np.isfinite(r.force_array).any():
         return
-    found = {joint: r.contact(joint) for joint in dict.fromkeys(r.joints[k] for k in pushing.joint)}
+    out = {joint: r.contact(joint) for joint in dict.fromkeys(r.joints[k] for k in pushing.joint)}
     rows, lost = [], []
-    for joint, c in found.items():
+    for joint, c in out.items():
         speed = _speed(r, c, to) if c.lift_factor > 0 else ""
         for name, force in _forces(joint, c):
             ends = [float(np.nanmin(force)), float(np.nanmax(force))] if np.isfinite(force).any() else []

@@ -26,8 +26,8 @@ def shaped_links(m: Mechanism) -> list[str]:
 
 def inertia_matrix(m: Mechanism, link: str) -> Array:
     """Inertia about the mass centre (3, 3), link axes, of a link with a shape; in the plane only about z."""
-    given = np.asarray(m.inertia(link), float)
-    return given if given.ndim == 2 else np.diag([0.0, 0.0, float(given)])
+    known = np.asarray(m.inertia(link), float)
+    return known if known.ndim == 2 else np.diag([0.0, 0.0, float(known)])
 
 
 def shape_parts(r: Result, to: Printed) -> Iterator[Part]:

@@ -84,15 +84,15 @@ class SpaceCopying(Copying):
             for i, row in enumerate(value)
         ]
         try:
-            given = [[self.image.rules.quantity(x, "inertia") for x in row] for row in rows]
+            known = [[self.image.rules.quantity(x, "inertia") for x in row] for row in rows]
         except ModelError:
             return value
-        if any(not isinstance(x, float | int) or type(x) not in (float, int) for row in given for x in row):
+        if any(not isinstance(x, float | int) or type(x) not in (float, int) for row in known for x in row):
             what = "an inertia that follows from parameters is not turned"
             raise ModelError(what, "give the copies a shape, or one number")
         cos, sin = unit_vector(angle)
         turn = [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]
-        half = [[sum(turn[i][k] * given[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+        half = [[sum(turn[i][k] * known[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
         full = [[sum(half[i][k] * turn[j][k] for k in range(3)) for j in range(3)] for i in range(3)]
         return [[f"{(full[min(i, j)][max(i, j)])!r} kg*m^2" for j in range(3)] for i in range(3)]
 

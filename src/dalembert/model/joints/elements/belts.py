@@ -93,11 +93,11 @@ class Belt(JointPart):
         if keys.get("idlers"):
             what = "idlers of a belt are not analysed: they change its wrap and its force on the shafts"
             raise ModelError(what, "leave them out, and give the strands by tight or slack", ("idlers",))
-        given = [t for t in TENSIONS if keys.get(t) is not None]
-        if len(given) > 1:
-            what = f"{given[0]} and {given[1]} are both given, and each gives the sum of the tensions"
-            raise ModelError(what, "keep one of them", (given[1],))
-        if not given and keys.get("chain") is not True:
+        known = [t for t in TENSIONS if keys.get(t) is not None]
+        if len(known) > 1:
+            what = f"{known[0]} and {known[1]} are both given, and each gives the sum of the tensions"
+            raise ModelError(what, "keep one of them", (known[1],))
+        if not known and keys.get("chain") is not True:
             raise ModelError(
                 "its tension is missing: the torque gives the difference of both strands only",
                 "write tension (of each strand at rest), tensioner (pull on the shaft), tight or slack",

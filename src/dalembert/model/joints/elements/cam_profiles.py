@@ -135,10 +135,10 @@ class Arcs(ValueField):
         if isinstance(value, str) or not isinstance(value, Sequence) or len(value) < 2:
             raise ModelError(f"{quote_value(value)} are not two arcs or more", f"write {self.EXAMPLE}")
         rules = reading(info)
-        found = tuple(at_item(k, self._arc, item, rules) for k, item in enumerate(value))
-        if any(b.to <= a.to for a, b in pairwise(found)):
+        result = tuple(at_item(k, self._arc, item, rules) for k, item in enumerate(value))
+        if any(b.to <= a.to for a, b in pairwise(result)):
             raise ModelError("the ends of the arcs do not increase", "sort the arcs counter-clockwise")
-        return found
+        return result
 
     def _arc(self, value: object, rules: ReadingRules) -> CamArc:
         keys = mapping(value, ["center", "radius", "to"], self.EXAMPLE, ["center", "radius", "to"])
@@ -223,13 +223,13 @@ class Points(ValueField):
         rules = reading(info)
         keys = mapping(value, ["angle", "radius", "file"], self.EXAMPLE)
         if "file" in keys:
-            found = CamPoints(*at_item("file", _from_file, keys["file"], rules), file=str(keys["file"]))
+            result = CamPoints(*at_item("file", _from_file, keys["file"], rules), file=str(keys["file"]))
         else:
             mapping(value, ["angle", "radius"], self.EXAMPLE, ["angle", "radius"])
             angle = at_item("angle", numbers, keys["angle"], "angle", rules)
-            found = CamPoints(angle, at_item("radius", numbers, keys["radius"], "length", rules))
-        _check_points(found)
-        return found
+            result = CamPoints(angle, at_item("radius", numbers, keys["radius"], "length", rules))
+        _check_points(result)
+        return result
 
     def write(self, value: CamPoints) -> object:
         if value.file:
@@ -270,8 +270,8 @@ def _from_drawing(path: str, rules: ReadingRules) -> tuple[tuple[float, ...], tu
     if not lines:
         raise ModelError(f"{path!r} has no closed polyline", "draw the cam as one, about its axis at (0, 0)")
     corners = [(x, y) for x, y, *_ in lines[0].get_points()]
-    found = sorted((math.atan2(y, x) % (2 * math.pi), math.hypot(x, y)) for x, y in corners)
-    return tuple(a for a, _ in found), tuple(rules.quantity(r, "length") for _, r in found)
+    value = sorted((math.atan2(y, x) % (2 * math.pi), math.hypot(x, y)) for x, y in corners)
+    return tuple(a for a, _ in value), tuple(rules.quantity(r, "length") for _, r in value)
 
 
 def _check_points(p: CamPoints) -> None:
@@ -336,9 +336,9 @@ class CamProfile(Part):
 
     @model_validator(mode="after")
     def _one_form(self) -> Self:
-        given = [name for name in FORMS if getattr(self, name) is not None]
-        if len(given) != 1:
-            what = f"it has {' and '.join(given)}" if given else "it has no form"
+        known = [name for name in FORMS if getattr(self, name) is not None]
+        if len(known) != 1:
+            what = f"it has {' and '.join(known)}" if known else "it has no form"
             raise ModelError(what, f"give one of {', '.join(FORMS)}")
         if self.segments is not None and (self.base is None) == (self.prime is None):
             both = "both base and prime are given" if self.base is not None else "its size is missing"
@@ -346,10 +346,10 @@ class CamProfile(Part):
                 both, "give base, the least radius of the cam, or prime, that of the roller's centre"
             )
         if self.segments is None and not (self.base is None and self.prime is None):
-            raise ModelError(f"base and prime are for segments, not for {given[0]}", "leave them out")
+            raise ModelError(f"base and prime are for segments, not for {known[0]}", "leave them out")
         if self.start and self.segments is None and self.tangent is None:
             raise ModelError(
-                f"start is for segments and tangent, not for {given[0]}", "leave it out", ("start",)
+                f"start is for segments and tangent, not for {known[0]}", "leave it out", ("start",)
             )
         if (self.eccentric is None) != (self.radius is None):
             raise ModelError("a disc needs eccentric and radius", "write eccentric: 12 mm, radius: 40 mm")

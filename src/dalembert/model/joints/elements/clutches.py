@@ -102,13 +102,13 @@ class Faces(BrakePart):
 
     @model_validator(mode="after")
     def _pressed(self) -> Self:
-        given = [key for key in ("force", "pressure", "cylinder", "spring") if getattr(self, key) is not None]
-        if "cylinder" in given and self.cylinder is not None and self.cylinder.pressure is None:
-            given.remove("cylinder")
-        if len(given) != 1:
-            what = f"{' and '.join(given)} are given" if given else "nothing presses its faces together"
+        known = [key for key in ("force", "pressure", "cylinder", "spring") if getattr(self, key) is not None]
+        if "cylinder" in known and self.cylinder is not None and self.cylinder.pressure is None:
+            known.remove("cylinder")
+        if len(known) != 1:
+            what = f"{' and '.join(known)} are given" if known else "nothing presses its faces together"
             remedy = "write one of force: 3 kN, force: unknown, pressure: 0.3 MPa, cylinder or spring"
-            raise ModelError(what, remedy, (given[-1],) if given else ())
+            raise ModelError(what, remedy, (known[-1],) if known else ())
         if (self.radii is None) == (getattr(self, "button", None) is None):
             raise ModelError("the size of its faces is not clear", "give radii: [inner, outer]")
         if self.radii is not None and self.radii[0] >= self.radii[1]:

@@ -135,10 +135,10 @@ class Rope(JointPart):
             if keys.get(key) and not isinstance(keys["through"], tuple):
                 what = f"a rope has no {key}: its points say which links it touches"
                 raise ModelError(what, f"write {EXAMPLE}", (key,))
-        given = keys["through"]
-        if not isinstance(given, (list, tuple)) or len(given) < 2:
+        known = keys["through"]
+        if not isinstance(known, (list, tuple)) or len(known) < 2:
             raise ModelError("a rope goes through two points at least", f"write {EXAMPLE}", ("through",))
-        points = [x if isinstance(x, Mapping | RopePoint) else {"round": x} for x in given]
+        points = [x if isinstance(x, Mapping | RopePoint) else {"round": x} for x in known]
         places = [p for p in map(_place, points) if len(p) == 2]
         other = next((p for p in places if p[0] != places[0][0]), None)
         if other is None and len(places) == len(points):

@@ -80,11 +80,11 @@ def faces(s: JointPlace) -> list[Item]:
         Circle(center, outer, "journal"),
         *([Circle(center, inner, "journal")] if inner else []),
     ]
-    whole = getattr(part, "sector", None) is None
+    unbounded = getattr(part, "sector", None) is None
     if getattr(part, "button", None):
         middle = _polar(center, (inner + outer) / 2, math.pi / 2)
         out.append(Circle(middle, (outer - inner) / 2, "block"))
-    elif not whole:
+    elif not unbounded:
         half = float(part.sector) / 2
         angles = np.linspace(math.pi / 2 - half, math.pi / 2 + half, 25)
         out.append(Polygon((*_ring(center, inner, angles), *_ring(center, outer, angles)[::-1]), "block"))
@@ -131,14 +131,14 @@ def _known(s: JointPlace) -> float:
 def _tensions(s: JointPlace) -> tuple[float, float]:
     """Tensions of the first and the last strand over the greatest; equal where they are not known."""
     try:
-        found = brake(s.r, s.name)
+        value = brake(s.r, s.name)
     except ModelError:
         return 0.5, 0.5
-    tight, slack = float(found.tight[s.k]), float(found.slack[s.k])
+    tight, slack = float(value.tight[s.k]), float(value.slack[s.k])
     if not (math.isfinite(tight) and slack > 0):
         return 0.5, 0.5
     clockwise = (
-        float(found.slip[s.k]) > 0
+        float(value.slip[s.k]) > 0
     )  # the drum against the lever: the tight end is that it moves away from
     return (1.0, slack / tight) if clockwise else (slack / tight, 1.0)
 
