@@ -108,10 +108,11 @@ class ClosedMotion(RelativeRates):
         for link in self.free:
             for joint in self.between(link):
                 if self.kind(joint) == "W":
-                    return MotionStep(
-                        (link,),
-                        f"{self.tag(link)} is fixed to {self.tag(self.other(joint, link))} in {joint}.",
-                    )
+                    name, other = self.tag(link), self.tag(self.other(joint, link))
+                    words = f"{name} is fixed to {other} in {joint}."
+                    if getattr(self.m.joints[joint], "BRAKES", False):
+                        words = f"{name} keeps the position in which its lining {joint} bears on {other}."
+                    return MotionStep((link,), words)
         return None
 
     def _single(self) -> MotionStep | None:
