@@ -31,7 +31,7 @@ class Studio:
 
     def until(self, holds: str) -> None:
         """Wait for something; the page's policy forbids what Playwright would wait by."""
-        for _ in range(1000):
+        for _ in range(3000):
             if self.page.evaluate(f"() => !!({holds})"):
                 return
             self.page.wait_for_timeout(20)
@@ -110,6 +110,7 @@ class Studio:
         self.until("studio.page() && studio.solved() === studio.state().hash")
         script = """() => { const p = studio.page(), k = p.kernel;
             const r = p.data.views.table.find(t => t.name.startsWith('effort')); return k.rows[r.rows[0] * k.row]; }"""
+        self.until(f"({script})()")  # the page computes in a frame of its own, later on a busy machine
         return float(self.page.evaluate(script))
 
 
