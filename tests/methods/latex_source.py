@@ -34,6 +34,8 @@ BOTH = {
         "IfFileExists",
         "parskip",
         "nopagebreak",
+        "allowbreak",
+        "emergencystretch",
         "textsuperscript",
         "textsubscript",
         "noindent",

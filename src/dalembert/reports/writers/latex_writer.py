@@ -26,6 +26,7 @@ HEAD = r"""\documentclass[a4paper,10pt]{article}
 \geometry{margin=18mm}
 \setcounter{MaxMatrixCols}{30}
 \setlength{\parindent}{0pt}
+\setlength{\emergencystretch}{3em}
 \setlength{\parskip}{3pt plus 1pt}
 \newcommand{\letters}[1]{\par\smallskip{\raggedright\hangindent=14mm\hspace*{3mm}$\displaystyle #1$\par}}
 \newcommand{\numbers}[1]{{\nopagebreak\raggedright\hangindent=20mm\hspace*{14mm}$\displaystyle #1$\par}}
@@ -33,8 +34,8 @@ HEAD = r"""\documentclass[a4paper,10pt]{article}
 """
 
 _ESCAPED = {sign: f"${command}$" for sign, command in LATEX_SIGNS.items()} | {
-    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}", "~": r"\~{}",
-    "^": r"\^{}", "$": r"\$", **{sign: f"$^{n}$" for n, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}, "⁻": "$^-$",
+    "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_\allowbreak{}", "{": r"\{", "}": r"\}",
+    "~": r"\~{}", "^": r"\^{}", "$": r"\$", **{sign: f"$^{n}$" for n, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}, "⁻": "$^-$",
     "°": r"$^\circ$", "−": "$-$", "–": "--", "—": "---",
     "’": "'", "‘": "`", "“": "``", "”": "''", "„": ",,", "…": r"\dots{}", "\u00a0": "~",
 }  # fmt: skip
