@@ -106,7 +106,7 @@ class Units:
     time: str = "s"
     angle: str = "deg"
     derived: tuple[tuple[str, str], ...] = ()
-    """Kinds with a unit of their own, and that unit; the others have products of the five."""
+    """Kinds with a named unit, and that unit; the others have products of the five."""
 
     def own(self, kind: str) -> str:
         """The unit that the file gives for this kind; torsional stiffness and damping follow the moment's unit."""

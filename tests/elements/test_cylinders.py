@@ -39,7 +39,7 @@ WRONG = {
     "closed cylinder, or longer; closed is the distance of its ends "
     "with the rod in",
     "bore: 80, barrel: 95": "cylinder of drive 'C': the length of its barrel is not known, "
-    "and its column is asked; give closed and stroke, or "
+    "and is needed for its column; give closed and stroke, or "
     "barrel_length",
     "bore: 80, ends: [free, pin]": "cylinder of drive 'C': ends: [free, pin] is not a case that is "
     "known; write one of [pin, pin], [fixed, free], [fixed, pin]",

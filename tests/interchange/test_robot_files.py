@@ -118,7 +118,7 @@ def test_convert_says_what_is_not_kept(tmp_path: Path, capsys: pytest.CaptureFix
     target = tmp_path / "x.xml"
     assert main(["convert", str(examples()["four_bar"]), str(target)]) == 0
     said = capsys.readouterr()
-    assert "not kept: load 'F_P' (force): MJCF has no forces of its own" in said.err
+    assert "not kept: load 'F_P' (force): MJCF cannot state forces" in said.err
     assert said.out == f"Written: {target}\n"
     assert main(["convert", str(target), "-o", str(tmp_path / "y.yaml")]) == 0
     assert da.load(tmp_path / "y.yaml").joints.keys() == {"O2", "A", "B", "O4"}

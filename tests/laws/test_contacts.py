@@ -162,7 +162,7 @@ def test_a_contact_that_makes_no_sense_is_refused(keys: dict[str, object], words
 def test_a_contact_is_written_as_it_is_read() -> None:
     m = crate(0.0, contact="pulls", side="right")
     assert da.mechanism(m.model_dump(mode="json")) == m
-    with pytest.raises(ModelError, match="holds both ways; write contact: pushes"):
+    with pytest.raises(ModelError, match="both pushes and pulls; write contact: pushes"):
         da.dynamics(crate(0.0, contact="holds")).contact("floor")
     with pytest.raises(ModelError, match="unknown joint 'flor'; did you mean 'floor'"):
         da.dynamics(crate(0.0)).contact("flor")

@@ -189,7 +189,7 @@ def test_a_wrong_text_names_its_line_and_keeps_the_drawing() -> None:
     assert d.reading.line == d.text[:place].count("\n") + 1
     assert "pinn" in d.reading.error
     assert d.reading.drawing["links"] == links
-    with pytest.raises(ModelError, match="correct it there"):
+    with pytest.raises(ModelError, match="correct it before"):
         d.do(gesture({"op": "ground", "where": {"at": [0, 0]}}))
     with pytest.raises(ModelError, match="outside the text"):
         d.edit([(0, 10**6, "")])

@@ -25,7 +25,7 @@ FEW = 1200
 """Numbers of rotations below which one call of matmul is faster than many of arithmetic."""
 
 ROUNDING = 1e-12
-"""Twice the sine of a turn about an axis, below which it is no turn about it."""
+"""Twice the sine of a turn about an axis, below which it does not count as a turn about it."""
 
 
 def _vector(x: Array, y: Array, z: Array) -> Array:

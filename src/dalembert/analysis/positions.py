@@ -38,7 +38,7 @@ SAMPLES = 12
 """Positions, spread over the course, at which a first pose is sought when the first of the list does not close."""
 
 STATED = 1e-9
-"""Angle, radians, up to which a drive stands as its links do in `assembly`."""
+"""Angle, radians, up to which a drive agrees with its links in `assembly`."""
 
 NAMED = 8
 """Ranges behind gaps that are named, each by a position."""
@@ -117,7 +117,7 @@ def on_stated_sides(c: Compiled, target: Array, modes: Modes) -> bool:
 
 
 def _places_to_try(c: Compiled) -> Iterator[int]:
-    """Positions at which a first pose is sought: where the drives stand as in `assembly`, some of all, then some of
+    """Positions at which a first pose is sought: where the drives agree with `assembly`, some of all, then some of
     those at which groups in closed form close, however few these are."""
     stated = _stated_places(c)
     yield from stated

@@ -119,7 +119,7 @@ class Answer(Compared):
         return card(title, *lines, *self.contents(), *drawn)
 
     def to_dict(self, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
-        """The JSON answer; None where there is no value."""
+        """The JSON answer; None for a missing value."""
         return {**self.head(units, axes), self.ROWS: list(self.records(units, axes))}
 
     def to_dataframe(

@@ -17,7 +17,7 @@ VERSION = 2
 
 
 def head(answer: Answer, units: UnitChoice) -> Tree:
-    """Part that precedes the rows: title, units, what the numbers rest on, and the numbers that are no column."""
+    """Part that precedes the rows: title, units, the assumptions, and the numbers that are not a column."""
     to, basis = answer.scale(units), answer.basis()
     assumed = {key: text for key, text in basis.items() if key not in ("title", "source", "mobility")}
     return {

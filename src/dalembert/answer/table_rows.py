@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def rows(answer: Answer, units: UnitChoice, axes: Axes) -> Iterator[list[object]]:
-    """Heads with units, then every row with its number; None where there is no value."""
+    """Heads with units, then every row with its number; None for a missing value."""
     to, some = answer.scale(units), list(answer.columns(axes))
     yield [answer.ROWS[:-1], *(c.head(to) for c in some)]
     for part in answer.blocks(len(some[0].values)):
@@ -29,7 +29,7 @@ def rows(answer: Answer, units: UnitChoice, axes: Axes) -> Iterator[list[object]
 
 
 def write_csv(answer: Answer, stream: IO[str], units: UnitChoice, axes: Axes) -> None:
-    """Every row into an open text file; an empty field where there is no value."""
+    """Every row into an open text file; an empty field for a missing value."""
     csv.writer(stream, lineterminator="\n").writerows(rows(answer, units, axes))
 
 

@@ -1,4 +1,4 @@
-"""An answer as a workbook: every row, native charts, and sheets of its own.
+"""An answer as a workbook: every row, native charts, and sheets of one answer.
 
 Numbers are numbers and texts are texts: a name that begins like a formula stays a name.
 """

@@ -1,6 +1,6 @@
 """Banded matrices of long chains: joined links are numbered close to each other (Cuthill and McKee, 1969).
 
-Where the bands are narrow, LAPACK eliminates them several times as fast as sparse elimination does.
+If the bands are narrow, LAPACK eliminates them several times as fast as sparse elimination does.
 
 Mechanics: docs/theory.md 1.2.
 """

@@ -96,7 +96,7 @@ _LARGER = np.frompyfunc(
 
 
 DOUBLINGS = 8
-"""Of a traced hyperbolic tangent, from its series at 1/256 of the argument: its error there is rounding up to 7."""
+"""Traced hyperbolic tangent, from its series at 1/256 of the argument: exact to rounding up to 7."""
 
 
 def _tanh(x: Numeric) -> Numeric:

@@ -250,7 +250,7 @@ def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rat
     """Unit vectors (..., k, d) from a to b.
 
     Where b passes a, a damper takes the direction of their relative motion: its force is the same just before and just
-    after. The force of a preloaded spring reverses there: NaN. A spring without force at zero length needs no
+    after. The force of a preloaded spring reverses at zero length: NaN. A spring without force at zero length needs no
     direction.
     """
     needed = needs_direction(springs)

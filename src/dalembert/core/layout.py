@@ -105,7 +105,7 @@ class Mesh:
 
 @dataclass(frozen=True)
 class BeltMesh(Mesh):
-    """A belt round wheels whose centres are apart: the row of a mesh, r_j negative where they turn the same way.
+    """A belt round wheels whose centres are apart: the row of a mesh, r_j negative where they turn in the same sense.
 
     The multiplier is the difference of both strands' tensions; its force is reported at j's point, with the couple.
     """

@@ -1,4 +1,4 @@
-"""Variants on disk: a folder that appears complete or not at all, and that replaces only one made in the same way."""
+"""Variants on disk: a folder that appears complete or not at all, and that replaces only one made likewise."""
 
 from __future__ import annotations
 

@@ -119,10 +119,10 @@ ACROSS = 6
 
 RULES = (
     "A figure within 0.5 %, or right in the digits that are written, has full marks; so has one that is right with the "
-    "student's own earlier figures.",
+    "student's earlier figures.",
     "A wrong sense, sign, axis or unit costs half a question, once: the same slip again costs nothing.",
     "A mistake in one datum (a load, a mass, a length) costs a quarter of each question that it touches; one that runs "
-    "through the whole problem (no gravity, no inertia, the position) costs half. All of it together costs at most "
+    "through the complete problem (no gravity, no inertia, the position) costs half. All of it together costs at most "
     "{cap} of the sheet, and at least half a question.",
 )
 """Rules of marking as the default rubric has them."""

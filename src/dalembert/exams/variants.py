@@ -161,7 +161,7 @@ def variants(
 
 
 def _draws(choices: Sequence[Choices], possible: int, chance: random.Random) -> Iterator[dict[str, object]]:
-    """Sets of values in a random order, none twice: a shuffle of all, of which only the requested part is made."""
+    """Sets of values in a random order, none twice: the first part of a shuffle of all."""
     moved: dict[int, int] = {}
     for k in range(possible):
         other = k + int(chance.random() * (possible - k))

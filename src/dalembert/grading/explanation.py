@@ -3,8 +3,8 @@
 A mistake in the problem (a load, a mass, a length) moves many figures at once, and none that is right. A slip in one
 value (sense, axis, unit, another joint) is of one figure. So many mistakes are tried that some come near any number:
 expected are E = N p1 p2 ... coincidences, with N the mistakes that could have moved these figures and no other, and p
-the chance that a wrong number lies as near to a candidate. E decides whether a mistake is named, is said to be
-possible, or is not said. A figure that follows from the student's own earlier figures needs no other explanation.
+the chance that a wrong number lies as near to a candidate. E decides whether a mistake is named, is called
+possible, or is not named. A figure that follows from the student's earlier figures needs no other explanation.
 
 Mechanics: docs/theory.md 12.
 """
@@ -43,16 +43,16 @@ GRAPHICAL = 0.05
 """Relative difference that a drawing may have."""
 
 SURE = 0.01
-"""Expected coincidences up to which a mistake is named (up to ``POSSIBLE`` it is said to be possible)."""
+"""Expected coincidences up to which a mistake is named (up to ``POSSIBLE`` it is called possible)."""
 
 ALONE = 5e-4
-"""The same as ``SURE`` for a slip beside figures that nothing explains."""
+"""The same as ``SURE`` for a slip beside unexplained figures."""
 
 MOVED = 0.002
 """Relative difference from which a mistake moves a figure."""
 
 TOGETHER = 3
-"""Mistakes that are said together where a sheet does not tell them apart."""
+"""Number of mistakes that are named together if a sheet does not distinguish them."""
 
 ELSEWHERE = 2
 """Different slips of the kind "this is joint A" that one sheet may have: forces often coincide in a machine."""
@@ -114,7 +114,7 @@ class _Sheet:
         self.own = own or OwnFigures()
 
     def explanations(self) -> dict[int, Explanation]:
-        """The mistake that explains most, if chance does not; else what follows from own figures, and slips."""
+        """The mistake that explains most, if chance does not; else figures that follow from earlier ones, and slips."""
         slip_cost = len({s.sentence for s in self.slips.values()}) + 1.5 * len(
             [n for n in self.wrong if n not in self.slips and n not in self.own.follows]
         )
@@ -149,7 +149,7 @@ class _Sheet:
         return dict.fromkeys(self.wrong, Explanation(pair.sentence, "named", pair.weight))
 
     def _same(self, best: _Option, other: _Option) -> bool:
-        """True if the sheet does not tell two mistakes apart."""
+        """True if the sheet does not distinguish two mistakes."""
         figures = best.offs.keys() == other.offs.keys() and best.open == other.open
         return figures and all(alike(self.figures[n], best.values[n], other.values[n]) for n in best.offs)
 
@@ -160,7 +160,7 @@ class _Sheet:
         return max(count, 1) * self._chance(option)
 
     def _better(self, best: _Option, slip_cost: float) -> bool:
-        """True if a mistake says more than slips, and own figures, do."""
+        """True if a mistake explains more than slips and carried-forward errors do."""
         margin = -0.2 if self.own.follows else 1e-9
         return best.cost < slip_cost + margin or (len(best.offs) == len(self.wrong) and slip_cost >= 1)
 
@@ -188,7 +188,7 @@ class _Sheet:
         return Explanation(f"{slip.sentence}, or {_said(best, kind).sentence}", slip.kind)
 
     def _chance(self, option: _Option) -> float:
-        """Chance that so many independent wrong numbers lie where a mistake puts them."""
+        """Chance that this many independent wrong numbers lie where a mistake puts them."""
         each = [
             coincidence(self.figures[n], option.values[n], off)
             for n, off in option.offs.items()
@@ -207,7 +207,7 @@ class _Sheet:
         return 1 if alone else 2
 
     def _by_parts(self, possible: _Option | None) -> dict[int, Explanation]:
-        """Each figure by itself: a slip, right with own figures, or not explained."""
+        """Each figure by itself: a slip, carried forward, or not explained."""
         near = all(self.figures[n].off <= SMALL for n in self.wrong)
         return {n: self._one(n, possible, near) for n in self.wrong}
 
@@ -312,7 +312,7 @@ class _Sheet:
 
 
 def _said(option: _Option, kind: str) -> Explanation:
-    """A mistake in the problem, named or said to be possible, with those that lead to the same figures."""
+    """A mistake in the problem, named or called possible, with those that lead to the same figures."""
     every = [option.problem, *option.also]
     words = [*dict.fromkeys(p.sentence for p in every)]
     more = ["another mistake with the same figures"] if len(words) > TOGETHER else []

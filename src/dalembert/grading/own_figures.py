@@ -1,10 +1,10 @@
-"""Figures that are right with the student's own earlier ones, by parts of the equations of the solution by steps.
+"""Figures that are right with the student's earlier ones, by parts of the equations of the solution by steps.
 
 A free body of one link, or of two that touch, gives single equations: sums along x, y (and z), moments about each
-joint; all links together give the powers of a motion. A wrong figure follows if equations whose other forces stand on
+joint; all links together give the powers of a motion. A wrong figure follows if equations whose other forces are on
 the sheet give it, one of these being wrong: a torque or a component by one equation, a force by the sums of one body,
 in the plane also by the moments of two links. The first wrong figure is the one from which most follow. A sheet of
-sizes, or with gaps, is looked at as a whole: one equation of one link, violated by some amount; one figure settles it
+sizes, or with gaps, is judged as a unit: one equation of one link, violated by some amount; one figure settles it
 and all others must agree.
 
 Mechanics: docs/theory.md 12.
@@ -34,7 +34,8 @@ ACROSS = 0.05
 
 @dataclass
 class OwnFigures:
-    """``follows``: right with own figures, and by which equation; ``first``: the wrong ones from which they follow.
+    """``follows``: right with the student's figures, and by which equation; ``first``: the wrong ones from which they
+    follow.
 
     ``numbers``: of every wrong figure that does not follow, how many independent numbers are wrong in it. ``slip``: one
     violated equation that explains a sheet of sizes or with gaps.

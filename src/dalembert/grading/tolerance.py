@@ -30,7 +30,7 @@ COARSE = 0.01
 """Relative difference up to which rounding to the digits written excuses a figure: two digits at least."""
 
 DIRECTION = math.radians(0.5)
-"""The same for an angle: one in whole degrees is excused, one in tens of degrees is not."""
+"""The same for an angle: one rounded to degrees is excused, one to tens of degrees is not."""
 
 MOST_PERCENT = 50
 """The largest tolerance: beyond it a figure says nothing."""

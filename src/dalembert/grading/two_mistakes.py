@@ -99,7 +99,7 @@ def _said(
     count: int,
     independent: int,
 ) -> MistakePair | None:
-    """The pair that is found, in words; two pairs with the same figures are both said, more are not told apart."""
+    """The pair of mistakes, in words; of pairs with the same figures at most two are named."""
     if not 1 <= len(found) <= 2:
         return None
     values = found[0][2]

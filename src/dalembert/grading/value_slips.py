@@ -114,7 +114,7 @@ def slip_of(f: StudentValue, values: Sequence[Array], result: Result | None, pla
 
 
 def alike(f: StudentValue, one: Array, other: Array) -> bool:
-    """True if a figure does not tell two values apart."""
+    """True if a figure does not distinguish two values."""
     size = float(np.linalg.norm(f.given.value)) or 1.0
     return float(np.linalg.norm(one - other)) <= 2 * width(f, 0.0) * size
 

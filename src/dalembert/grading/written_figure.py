@@ -272,7 +272,7 @@ def _either(mantissa: str, mark: str, comma: bool | None) -> tuple[str, ...]:
 
 
 def _grouped(mantissa: str, thousands: str, decimal: str) -> str:
-    """Digits without the marks of thousands, which must stand before groups of three."""
+    """Digits without the marks of thousands, which must precede groups of three."""
     behind = rf"\{decimal}\d*" if decimal else ""
     if re.fullmatch(rf"[-+]?\d{{1,3}}(\{thousands}\d{{3}})+{behind}", mantissa) is None:
         raise ValueError(mantissa)

@@ -24,11 +24,11 @@ from dalembert.model.files.source import FileSource
 from dalembert.saving import new_file
 
 LARGEST = 10_000_000
-"""Bytes of a file that is read; each format has its own, smaller bound."""
+"""Bytes of a file that is read; each format has a smaller bound."""
 
 
 class NotKept(UserWarning):
-    """What a file of another program says that the mechanism does not have, or the reverse."""
+    """Contents of a file of another program that the mechanism does not have, or the reverse."""
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ def save_foreign(m: Mechanism, path: str | os.PathLike[str], overwrite: bool = F
 
 
 def _beyond(m: Mechanism) -> list[str]:
-    """What no format of links and joints keeps."""
+    """Parts that no format of links and joints keeps."""
     notes = []
     counts = [len(m.schedule().position)]
     if counts[0] > 1:

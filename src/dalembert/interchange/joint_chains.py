@@ -11,7 +11,7 @@ from dalembert.interchange.placements import along, placement, turned
 from dalembert.interchange.spanning_tree import SpanningTree, spanning_tree
 
 WHOLE = ("gear", "weld", "revolute", "spherical", "prismatic", "screw")
-"""Kinds that are no chains."""
+"""Kinds that are not chains."""
 
 KINDS = {"slide": ("prismatic", "x"), "hinge": ("revolute", "z"), "ball": ("spherical", "x")}
 """Kind of a coordinate -> its joint and the local axis that lies along it."""

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LinkPart:
-    """A link: where it is as drawn, in ground axes, and its mass properties in its own axes."""
+    """A link: where it is as drawn, in ground axes, and its mass properties in its local axes."""
 
     name: str
     place: Array = field(default_factory=lambda: np.eye(4))
@@ -36,7 +36,7 @@ class LinkPart:
     points: Mapping[str, Array] = field(default_factory=dict)
     line: int = 0
     velocity: Array = field(default_factory=lambda: np.zeros(3))
-    """Of the origin, in ground axes."""
+    """Position of the origin, in ground axes."""
     spin: Array = field(default_factory=lambda: np.zeros(3))
     """Angular velocity, in ground axes."""
 
@@ -138,7 +138,7 @@ def tree_of(graph: LinkGraph) -> Tree:
 
 
 def _point(points: Tree, name: str, at: Array) -> str:
-    """Name of the point of a link where a joint is: one that is there, or a new one."""
+    """Name of the point of a link where a joint is: an existing one, or a new one."""
     for known, place in points.items():
         if np.allclose(place, at, rtol=0, atol=1e-15):
             return known

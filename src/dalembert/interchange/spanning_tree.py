@@ -9,7 +9,7 @@ from dalembert.interchange.link_graph import Connection, LinkGraph, flipped
 from dalembert.model import GROUND
 
 LAST = {"spherical": 2, "revolute": 1}
-"""Kinds that may be cut -> how soon; gears are no branches at all."""
+"""Kinds that may be cut -> how soon; gears are never branches."""
 
 
 @dataclass(frozen=True)

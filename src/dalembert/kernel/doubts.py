@@ -10,12 +10,12 @@ from dalembert.core.layout import Layout
 from dalembert.kernel.graph import Graph, Node, is_zero, trace_array
 
 HELD = 1e-7
-"""Couple about a line that nothing holds a link about, over its length and the largest load, above which the general
+"""Couple about a line about which a link is free, over its length and the largest load, above which the general
 executor decides whether it is zero."""
 
 
 def unheld(graph: Graph, layout: Layout, spins: Array, w: Array) -> list[Node]:
-    """Nodes that are negative where loads turn a link about the line of its two ball joints, which nothing holds."""
+    """Nodes that are negative where loads turn a link about the line of its two ball joints, about which it is free."""
     if not spins.size:
         return []
     size = HELD * layout.length * largest(graph, trace_array(graph, w * layout.wrench_scale))

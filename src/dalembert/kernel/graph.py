@@ -135,7 +135,7 @@ class Node:
         return self
 
     def _decision(self) -> float:
-        """Sampled value for decisions on structure (which wheel is larger), taken at the file's numbers."""
+        """Sampled value for decisions on structure (which wheel is larger), evaluated with the file's numbers."""
         if self.level & POSITION:
             raise TypeError(f"a traced value that changes along the motion has no truth: {self!r}")
         return float(self.graph.evaluate([self], {})[0])

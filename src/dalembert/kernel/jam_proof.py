@@ -5,7 +5,7 @@ weights w >= 0 require of a solution
 
     sum_a w_a e_a . y0_a + sum_b d_b S_b <= 0    with d_b = sum_a w_a e_a . K_ab - w_b
 
-Where no d_b is negative and the first sum is positive, no solution exists. A negative d_b is first transferred to the
+If no d_b is negative and the first sum is positive, no solution exists. A negative d_b is first transferred to the
 other contacts by S_b <= |y0_b| + sum_c |K_bc| S_c. Slopes and weights are those along which friction would grow without
 bound: S and w after a few multiplications by K and its transpose. The proof is valid for any choice of them.
 

@@ -38,7 +38,7 @@ EVALUATE: dict[str, Callable[..., Numeric]] = {
 
 
 def power_by_roots(x: Any, power: float) -> Any:
-    """A positive power; of one that is not whole, of a positive value, by square roots, one for each binary digit."""
+    """A positive power; a fractional one of a positive value, by square roots, one for each binary digit."""
     out, root, rest = None, x, power - int(power)
     for _ in range(int(power)):
         out = x if out is None else out * x

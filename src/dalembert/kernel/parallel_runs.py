@@ -156,7 +156,7 @@ def in_parts(
     part: Callable[[slice], None], count: int, step: int, threads: int | None, progress: Progress | None
 ) -> None:
     """Calls ``part`` on slices of ``count`` items, in this thread and in others, and ``progress`` in this thread; on an
-    interruption or an error it returns after the parts under way."""
+    interruption or an error it returns after the parts that are running."""
     if 0 < count <= step:
         part(slice(0, count))
         if progress is not None:

@@ -39,8 +39,8 @@ class KernelFlags:
     """Nodes that decide whether the outputs are valid, each negative where it applies.
 
     open: the linkage does not close. doubt (below zero, or no number): the general executor decides. rest: friction
-    has no rate to tell its sense. Elsewhere ``slips``, as doubt, and so where both ``unsure`` and ``sure`` are, but for
-    ``jam``, which is asked there: it surely jams. turned: friction turns the power of the unknowns round; there
+    has no rate that gives its sense. Elsewhere ``slips``, as doubt, and so where both ``unsure`` and ``sure`` are, but
+    for ``jam``, which decides it: it surely jams. turned: friction turns the power of the unknowns round; there
     ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
     contact (below zero): a contact that only pushes would have to pull. outside (below zero): a table ends before.
     slope (below zero, or no number): the outputs are right, but some derivative has no value.

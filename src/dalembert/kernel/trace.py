@@ -102,7 +102,7 @@ class Traced:
     """All possible outputs as nodes: arrays as in a ``Result`` without the position axis. closure: doubts that are
     squares of what vanishes at a dead centre, or fourth powers where rows are redundant; unbalanced, loads (L, n):
     residual of all wrenches on a link, sum of those that are not reactions; virtual (D, L+1, n): twists at unit speeds
-    of drives; power (D,) of loads and efforts there; sources: wrenches of loads by kind, `asked` the unknown ones."""
+    of drives; power (D,) of loads and efforts; sources: wrenches of loads by kind, `asked` the unknown ones."""
 
     pose: Pose
     twist: Array

@@ -33,8 +33,8 @@ COEFFICIENTS = ("C_v", "C_a", "C_j")
 class MotionLaw(Labelled):
     """A law of motion over time, or over another drive's position (then its rates are slopes by that).
 
-    times (N + 1,): where its pieces join, s (or rad, m). rises: its rises and returns, each a way h in a length b with
-    C_v = v b/h, C_a = a b^2/h, C_j = j b^3/h of the largest speed, acceleration and jerk in it.
+    times (N + 1,): where its pieces join, s (or rad, m). rises: its rises and returns, each a stroke h in a length b
+    with C_v = v b/h, C_a = a b^2/h, C_j = j b^3/h of the largest speed, acceleration and jerk in it.
     """
 
     ROWS: ClassVar[str] = "instants"
@@ -87,17 +87,17 @@ class MotionLaw(Labelled):
 
     @property
     def speed(self) -> Array:
-        """Speeds (T,) there."""
+        """Speeds (T,) at these times."""
         return self._values(1)
 
     @property
     def acceleration(self) -> Array:
-        """Accelerations (T,) there."""
+        """Accelerations (T,) at these times."""
         return self._values(2)
 
     @property
     def jerk(self) -> Array:
-        """Jerks (T,) there."""
+        """Jerks (T,) at these times."""
         return self._values(3)
 
     @property
@@ -141,7 +141,7 @@ class MotionLaw(Labelled):
         return {"law": {"drive": self.drive, "over": self.over or "time", **found, "peaks": peaks}}
 
     def _row(self, x: MotionRise, to: Scale) -> list[str]:
-        """A rise: its curve, where it begins, its way and length, its coefficients."""
+        """A rise: its curve, where it begins, its stroke and length, its coefficients."""
         places = (number(float(to(self._master(), place))) for place in (x.start, x.length))
         begins, lasts = places
         way = number(float(to(self._kinds()[0], x.way)))
@@ -168,7 +168,7 @@ class MotionLaw(Labelled):
 
 
 def law(m: ModelOrPath, drive: str, by: str | None = None) -> MotionLaw:
-    """The law of motion of a drive; ``by`` puts another curve in place of that of every rise, to compare them.
+    """The law of motion of a drive; ``by`` replaces the curve of every rise, for a comparison.
 
     >>> import dalembert as da
     >>> links = {"ground": {"points": {"O": [0, 0]}}, "ram": {"points": {"F": [0, 0]}}}
@@ -205,7 +205,7 @@ def _programme(d: Drive, name: str) -> Programme:
 
 
 class MotionRise(NamedTuple):
-    """A rise or return of a programme: its curve, its way and the ``length`` in time or of the other drive, and the
+    """A rise or return of a programme: its curve, its stroke and the ``length`` in time or of the other drive, and the
     coefficients C_v = v b/h, C_a = a b^2/h, C_j = j b^3/h of the largest speed, acceleration and jerk inside it."""
 
     by: str

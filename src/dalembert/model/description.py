@@ -270,7 +270,7 @@ class Mechanism(WrittenParts):
     def with_values(self, values: Mapping[str, object]) -> Mechanism:
         """Another mechanism with some values replaced, each named by its path.
 
-        Numbers are SI and radians; texts are read as the file reads them: `"3 @ 30"`, `"[1 in, 20]"`, `"60"` in its
+        Numbers are SI and radians; texts are read as in the file: `"3 @ 30"`, `"[1 in, 20]"`, `"60"` in its
         units. A parameter is named by its name, and every value that depends on it is computed again. A value that
         depends on parameters becomes a plain number once it is replaced by its path; a parameter that is no longer used
         is left out. Raises ModelError for a path that does not exist.
@@ -333,7 +333,7 @@ class Mechanism(WrittenParts):
         """Write it to a .yaml, .json or .toml file; raises ModelError if the file exists and not `overwrite`.
 
         The text of a file is kept as its author wrote it: only the characters of changed values change. Tables
-        whose columns are in a file of the same folder stay there; in another folder they are written out. Suffixes of
+        whose columns are in a file of the same folder stay in it; in another folder they are written out. Suffixes of
         other programs write their files (docs/formats.md), with a warning for each thing that is not kept.
         """
         from dalembert.model.files.conversion import save

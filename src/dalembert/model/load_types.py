@@ -338,7 +338,9 @@ class GasSpring(SpanLoad):
     rod: Annotated[float, Scalar("length", "positive")] = Field(description="diameter of the rod, a length")
     volume: Annotated[float, Scalar("volume", "positive")] = Field(description="of the gas at that length")
     pressure: Annotated[float, Scalar("pressure", "positive")] = Field(description="absolute, at that length")
-    length: Annotated[float, Scalar("length", "positive")] = Field(description="distance of its points there")
+    length: Annotated[float, Scalar("length", "positive")] = Field(
+        description="distance of its points at this force"
+    )
     exponent: Annotated[float, Scalar("number", "positive")] = Field(
         1.35,
         description="of the change of state; default 1.35, 1 where it is so slow that its temperature stays",
@@ -349,7 +351,7 @@ class GasSpring(SpanLoad):
 
     @property
     def area(self) -> float:
-        """Of the rod, m2."""
+        """Area of the rod, m2."""
         return self.rod * self.rod * (math.pi / 4)
 
 

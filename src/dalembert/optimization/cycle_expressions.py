@@ -1,7 +1,7 @@
 """Expressions with reductions over the cycle inside, ``peak(effort.O) + 0.1 m*range(slide.G)``, of many designs.
 
 Values carry their derivatives by the numbers (forward mode), exact wherever the expression is differentiable. It is not
-where two positions share a peak or an extreme, or where abs, min and max change branch: there the derivative is that of
+where two positions share a peak or an extreme, or where abs, min and max change branch: the derivative is then that of
 one side, which descent with a line search and SLSQP accept.
 """
 
@@ -67,7 +67,7 @@ def whole_call(text: str) -> tuple[str, str]:
 
 
 def has_quantities(text: str) -> bool:
-    """True if an expression has a value of its own at every position: a quantity is outside of its reductions.
+    """True if an expression has a separate value at every position: a quantity is outside of its reductions.
 
     >>> has_quantities("peak(effort.O) + links.rod.mass*2"), has_quantities("effort.O - mean(effort.O)")
     (False, True)

@@ -113,7 +113,7 @@ def value_of(r: Result, name: str, functions: Mapping[str, Function]) -> Array:
 
 
 def named(functions: Sequence[Any]) -> dict[str, Function]:
-    """Functions by names that expressions may hold: their own, numbered where two are alike."""
+    """Functions by names that expressions may hold: their names, numbered where two are alike."""
     out: dict[str, Function] = {}
     for f in functions:
         name = re.sub(r"\W", "_", getattr(f, "__name__", type(f).__name__)).strip("_") or "function"

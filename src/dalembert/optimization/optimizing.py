@@ -158,7 +158,7 @@ def _stated(m: Mechanism, path: str) -> tuple[float, float]:
 
 
 def _ends(m: Mechanism, path: str, bounds: Sequence[object], count: int) -> tuple[Array, Array, Array]:
-    """Low, high and step (count,) of the numbers at a path; ``range`` of a parameter is its own."""
+    """Low, high and step (count,) of the numbers at a path; a parameter has its ``range``."""
     if bounds == "range":
         bounds = _stated(m, path)
     if not isinstance(bounds, Sequence) or isinstance(bounds, str) or len(bounds) not in (2, 3):

@@ -25,8 +25,8 @@ def page(
     """The HTML of a live page of a mechanism; written to ``path`` where that is given.
 
     Every drawn number is computed by the kernel's WebAssembly in the page: joints, loads and every number of the file
-    can be changed, and all forces follow. A mechanism of the plane that is not finished is a sketch: its links can be
-    pulled, what is missing stands beside it, and each offer adds one thing. static: leave inertia out. overwrite:
+    can be changed, and all forces follow. A plane mechanism that is not finished is a sketch: its links can be
+    pulled, what is missing is listed beside it, and each offer adds one thing. static: leave inertia out. overwrite:
     replace an existing file. Raises ModelError for features of the analyses alone (redundant mechanisms, unknown
     positions).
 

@@ -234,7 +234,7 @@ def _wheels(d: Items, name: str, link: str | None) -> list[Tree]:
 
 
 def _belt(d: Items, name: str, link: str | None) -> list[Tree]:
-    """Both wheels, and on the whole mechanism both strands."""
+    """Both wheels, and on the complete mechanism both strands."""
     ri, rj = d.mechanism.joints[name].signed_radii  # type: ignore[union-attr]
     strands = [] if link else [_tangent(d, name, side * ri, -side * rj) for side in (1.0, -1.0)]
     return [*_wheels(d, name, link), *strands]

@@ -162,7 +162,7 @@ def _structure(k: Kernel, layout: Layout, s: Sketch) -> Tree:
 
 
 def solver_data(c: Compiled, layout: Layout, s: Sketch) -> Tree:
-    """What the page's solver needs beside the program of a sketch."""
+    """Data of the page's solver beside the program of a sketch."""
     rows = [
         {"kind": row.kind, "joint": c.joints[row.joint] if row.joint >= 0 else "", "angular": row.angular}
         | {"value": row.value, "ends": list(row.ends)}

@@ -71,7 +71,7 @@ def report(
     design: bool = False,
 ) -> Report:
     """The worked solution of one position of a result, of a force system of `da.wrench`, or of any other answer
-    that has one (`da.shaking`, `da.flywheel`, `da.optimize`, `da.study`), of which ``notation`` alone is asked.
+    that has one (`da.shaking`, `da.flywheel`, `da.optimize`, `da.study`), with ``notation`` alone.
 
     ``methods``: some of `steps`, `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
     ``about``: a joint, or a point (m), to take moments about where this is possible; an unknown one is a ModelError.

@@ -54,7 +54,7 @@ class SheetTable:
 
 @dataclass(frozen=True)
 class PageBreak:
-    """What follows begins a page."""
+    """Page break before what follows."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class Matrix:
 
 @dataclass(frozen=True)
 class Drawings:
-    """Drawings side by side; with ``columns`` those without scales are made smaller until so many fit beside."""
+    """Drawings side by side; with ``columns`` those without scales are made smaller until that many fit."""
 
     scenes: tuple[Scene, ...]
     caption: str = ""

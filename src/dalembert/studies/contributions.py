@@ -44,7 +44,7 @@ class Contributions(NamedTuple):
 
 class CourseContributions(NamedTuple):
     """The same at every position (P,): standard deviation, SI, mean of the sampled designs, shares and total shares of
-    the variance by path (NaN where nothing scatters), and the samples in which some position has no value."""
+    the variance by path (NaN without scatter), and the samples in which some position has no value."""
 
     output: str
     sigma: Array

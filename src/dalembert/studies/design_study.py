@@ -120,7 +120,7 @@ def study(
 
 
 def _checked_counts(designs: float, **counts: int | None) -> int:
-    """The number of designs, a whole one; every count is within its bounds."""
+    """The number of designs, an integer; every count is within its bounds."""
     number = int(designs) if isinstance(designs, float) and designs.is_integer() else designs
     for key, value in (counts | {"designs": number}).items():
         require(key, value, path=(key,))

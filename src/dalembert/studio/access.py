@@ -21,7 +21,7 @@ POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; img-src data: blob:; "
     "connect-src 'self' ws://{host}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-"""Policy of the page: nothing from anywhere else, and only its own socket."""
+"""Policy of the page: no other source, and only the socket of the page."""
 
 
 @dataclass(frozen=True)

@@ -88,12 +88,10 @@ class Document:
         """A gesture: one step. A text that can be read is never changed into one that cannot."""
         now = self.reading
         if now.error:
-            raise ModelError(
-                f"line {now.line} of the text is wrong", "correct it there before you go on drawing"
-            )
+            raise ModelError(f"line {now.line} of the text is wrong", "correct it before you go on drawing")
         m = now.mechanism
         if m is not None and m.dimension == 3:
-            raise ModelError("the studio draws mechanisms of the plane", "edit the text of one in space")
+            raise ModelError("the studio draws plane mechanisms", "edit the text of one in space")
         d = Draft(self.text, self.form, now.tree, now.sketch.placed if now.sketch else {})
         if m is not None:
             d.points = {(link, point): u for link in m.links for point, u in m.points(link).items()}  # type: ignore[misc]
@@ -103,7 +101,7 @@ class Document:
             raise
         except (AssertionError, AttributeError, KeyError, IndexError, TypeError, ValueError) as error:
             raise ModelError(
-                "the text is written in a way that this gesture cannot change", "edit the text"
+                "the text is written in a form that this gesture cannot change", "edit the text"
             ) from error
         after = read(d.text, self.form, self.name, now)
         if after.error:

@@ -16,7 +16,8 @@ SHOWN = ("length", "angle", "force", "moment", "mass", "stiffness", "damping")
 
 
 def drawing(m: Mechanism, sketch: SketchPose | None, written: Tree, hidden: str = "") -> Tree:
-    """Links, joints, loads and drives where they are drawn; ``written``: the tree of the text, for its own words.
+    """Links, joints, loads and drives where they are drawn; ``written``: the tree of the text, for the author's
+    wording.
 
     ``hidden``: a link that is in no file.
     """

@@ -1,4 +1,4 @@
-"""What a message of a tab does to the document, and what every tab is told."""
+"""Effect of a tab's message on the document, and the reply to every tab."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Session:
         return self.document.text != self.saved
 
     def state(self) -> Tree:
-        """What a tab shows but for the forces."""
+        """Contents of a tab without the forces."""
         d, reading = self.document, self.document.reading
         undo, redo = d.can
         return {
@@ -70,14 +70,14 @@ class Session:
         return Question(ask, d.text, d.form, d.name, self.static, self.friction)
 
     def handle(self, message: Any) -> Tree:
-        """Do what a message says; what only the sender is told. Raises ModelError where it cannot be done."""
+        """Do what a message says; returns the reply to its sender. Raises ModelError where it cannot be done."""
         kinds = [kind for kind in _DOES if kind in message] if isinstance(message, dict) else []
         if len(kinds) != 1:
             raise ModelError("the message cannot be read", "reload the page")
         return _DOES[kinds[0]](self, message[kinds[0]], message) or {}
 
     def look(self) -> bool:
-        """Look at the disk and keep what is not saved; True if tabs are to be told."""
+        """Look at the disk and keep what is not saved; True if tabs need an update."""
         data = False
         outside = self.file.outside()
         if outside is not None and not self.dirty:
@@ -139,7 +139,7 @@ class Session:
         return {"said": f"Saved as {self.file.path.name}"}
 
     def _choose(self, which: Any, _: Any) -> None:
-        """What is to become of two versions: the one on disk (``disk``), the one here (``mine``), the one that an
+        """Choice between two versions: the one on disk (``disk``), the one here (``mine``), the one that an
         earlier run did not save (``kept``), or the saved one instead (``forget``)."""
         if which == "disk" and self.outside is not None:
             self.document.replace(self.outside)

@@ -1,4 +1,4 @@
-"""A process of its own that solves texts, so that one that takes too long or too much memory ends with a sentence."""
+"""A separate process that solves texts, so that one that takes too long or too much memory ends with a sentence."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MEMORY = 4 << 30
 
 
 class Question(NamedTuple):
-    """What is asked of a text: ``data`` of its page, its own answers compared (``check``), or a file to download."""
+    """Request about a text: ``data`` of its page, its answers compared (``check``), or a file to download."""
 
     ask: str
     text: str
@@ -40,7 +40,7 @@ class Solver:
         self._pipe: Connection | None = None
 
     def start(self) -> None:
-        """Start the process, which takes a second, before something is asked."""
+        """Start the process, which takes a second, before the first request."""
         with self._lock:
             self._connection()
 
@@ -97,7 +97,7 @@ def _serve(pipe: Connection) -> None:
 
 
 def _warm_up() -> None:
-    """Import and run what the first question needs, before it is asked."""
+    """Import and run what the first request needs, before it comes."""
     from dalembert.model.library import template_text
 
     answered(Question("data", template_text("four_bar"), "yaml", "four_bar"))

@@ -30,7 +30,7 @@ class StoredFile:
         return self.path.with_name(f".{self.path.name}.autosave")
 
     def read(self) -> str | None:
-        """The text on disk, which is known from now on; None where there is no file yet."""
+        """The text on disk, which is known from now on; None if the file does not exist yet."""
         text = self._content(self.path)
         self.known = "" if text is None else text_hash(text)
         return text

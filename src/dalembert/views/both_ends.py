@@ -33,7 +33,7 @@ def end_words(r: Result, name: str, end: Result, which: str, k: int, shown: Show
 
 
 def ends(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
-    """Both ends of every unknown at a position: a sentence, the result there, and whether it has a value."""
+    """Both ends of every unknown at a position: a sentence, the result for it, and whether it has a value."""
     out = []
     for name, pair in zip(unknown_names(r), r.ends, strict=True):
         for which, end in zip(("Low", "High"), pair, strict=True):
@@ -43,7 +43,7 @@ def ends(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
 
 
 def sides(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
-    """Both sides of a reversal: a sentence, the result there, and whether its forces are known."""
+    """Both sides of a reversal: a sentence, the result for it, and whether its forces are known."""
     joints, out = " and ".join(reversing_joints(r, k)), []
     for word, side in zip(("before", "after"), r.sides, strict=True):
         parts = []

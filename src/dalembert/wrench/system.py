@@ -73,7 +73,7 @@ class CentralAxis:
 
 
 class System(Drawn, Worked):
-    """Forces and couples, all of the plane or all of space; ``units`` are those it is shown in (default SI).
+    """Forces and couples, all plane or all spatial; ``units`` are those it is shown in (default SI).
 
     ``points`` names places (m), for drawings and as points to take moments about.
 

@@ -236,7 +236,7 @@ def _compiled(
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Sweep(NamedAnswer, Labelled, Drawn):
-    """Answers along one axis a path (one for all where taken together), then position; SI and radians.
+    """Answers along one axis a path (one for all paths that vary together), then position; SI and radians.
 
     ``s["effort.O2"]`` has the axes (values..., position), of a vector its components last; NaN where unsolved;
     ``status`` gives the reason. Where contacts reverse the numbers are those just before, ``answers.after`` has those

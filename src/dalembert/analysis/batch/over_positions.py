@@ -22,8 +22,8 @@ PARTS: dict[str, tuple[str, ...]] = {
     "refined_place": ("argpeak",),
     "squares": ("square",),
 }
-"""Largest magnitude; mean; root mean square; (least, largest); place of the largest magnitude, from 0; the smooth
-stand-in of the peak, the eighth root of the mean of the eighth powers; and the peak between the positions, by a
+"""Largest magnitude; mean; root mean square; (least, largest); place of the largest magnitude, from 0; a smooth
+approximation of the peak, the eighth root of the mean of the eighth powers; and the peak between the positions, by a
 parabola through the largest magnitude and its neighbours, and its place; the sum of squares, of the differences to a
 target if one is given."""
 

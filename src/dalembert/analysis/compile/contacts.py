@@ -40,8 +40,8 @@ class Contact:
 
     ``read``: its arguments; ``leader``: which contact gives its sense, 0 for itself and -1 for the previous one;
     ``group`` of the contacts of the joint that share a slip, 0 for those that do not; ``given``: force that presses
-    them, beside what they read; ``own``: how much of its own friction it bears; ``coefficient``: if not the joint's;
-    ``viscous``: damping of the slide before it, whose force it carries, None where it carries none."""
+    them, beside what they read; ``own``: the part of its friction that it bears itself; ``coefficient``: if not the
+    joint's; ``viscous``: damping of the slide before it, whose force it carries, None where it carries none."""
 
     kind: str
     row: Row
@@ -163,7 +163,7 @@ def contacts(
 
 def opened_multipliers(m: Mechanism, constraints: Rows) -> dict[int, dict[int, list[tuple[int, float]]]]:
     """Reactions of joints (by number) whose contact is opened, by their places among its rows: sums of multipliers, of
-    the drives' efforts along its gaps among them; an effort of a guide's end is the force there."""
+    the drives' efforts along its gaps among them; an effort of a guide's end is the force at that end."""
     first = constraints.count
     effort = {(d.joint, str(d.freedom)): first + k for k, d in enumerate(m.drives.values())}
     out: dict[int, dict[int, list[tuple[int, float]]]] = {}

@@ -230,7 +230,7 @@ def given_effort(s: LoadSetting, name: str) -> Array:
 
 
 def _requested(m: Mechanism, name: str) -> bool:
-    """True if the effort of a drive is asked for, or met by the speed of a turning frame."""
+    """True if the effort of a drive is unknown, or is met by the speed of a turning frame."""
     return m.drives[name].effort is None or name == freed_drive(m)
 
 

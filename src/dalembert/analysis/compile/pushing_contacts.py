@@ -61,7 +61,7 @@ def pushing_contacts(m: Mechanism, rows: Rows) -> Pushing | None:
 
 
 def pushing_sign(joint: Any, pressed: bool = False) -> float:
-    """1 where a contact pushes j along its normal, -1 against it; of a ``pressed`` lining the normal is its own."""
+    """1 where a contact pushes j along its normal, -1 against it; a ``pressed`` lining has its normal."""
     if joint.TOOTHED:
         return -1.0 if joint.flank == "right" else 1.0
     other = not pressed and (getattr(joint, "side", "left") == "right" or getattr(joint, "internal", False))
@@ -69,7 +69,7 @@ def pushing_sign(joint: Any, pressed: bool = False) -> float:
 
 
 def with_held_contacts(m: Mechanism) -> Mechanism:
-    """The mechanism with contacts that hold both ways."""
+    """The mechanism with contacts that push and pull."""
     joints = {
         name: j.model_copy(update={"contact": HOLDS}) if "contact" in type(j).model_fields else j
         for name, j in m.joints.items()

@@ -13,7 +13,7 @@ from dalembert.model.quantities.tables import Table
 
 @dataclass(frozen=True)
 class Beyond:
-    """A table of a load or effort (``what``), and where it is asked (P,)."""
+    """A table of a load or effort (``what``), and the places (P,) at which it is read."""
 
     what: str
     table: Table

@@ -1,7 +1,7 @@
 """Speeds of a plane that turns: given, or those at which the effort of a drive is the one given.
 
 Without friction the effort is linear in the square of the speed, and virtual work gives it. With friction it is linear
-piece by piece: secants find it; at rest two, at which the drive is about to move one way and the other.
+piece by piece: secants find it; at rest two, at which the drive is about to move in either direction.
 Mechanics: docs/theory.md 4.1.
 """
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
 
 STEPS = 40
-"""Secants after which the last square of the speed is accepted: the residual tells."""
+"""Secants after which the last square of the speed is accepted: the residual decides."""
 
 CLOSE = 1e-15
 """Relative change of the square of the speed that is rounding."""
@@ -83,7 +83,7 @@ def _without_range(friction: Friction | None, unknown: int) -> Friction | None:
 
 
 def _given(f: SolvedForces, frame: TurningFrame) -> SolvedForces:
-    """Forces with the given effort in place of the one that the speed found meets but for rounding."""
+    """Forces with the given effort instead of the one that the computed speed meets but for rounding."""
     effort = f.effort.copy()
     known = np.isfinite(effort[:, frame.driven])
     effort[known, frame.driven] = frame.effort[known]
@@ -117,7 +117,7 @@ class _Squares:
         return self.solve(replace(self.forcing, turning=frame), {**self.sources, "turning": turning})
 
     def square(self, read: Callable[[SolvedForces], Array]) -> Array:
-        """Squares (P,) at which what is read is the given effort, NaN where none is found."""
+        """Squares (P,) at which what is read is the given effort, NaN where none exists."""
         a, b = self.bare, self.bare * 1.01
         fa = read(self.forces(a)) - self.frame.effort
         for _ in range(STEPS):

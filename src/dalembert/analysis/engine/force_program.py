@@ -83,7 +83,7 @@ def trace_forces(c: Compiled, pose: Pose, numbers: Numbers, inertia: bool) -> Fo
     flags = t.friction.flags
     outputs["margin"] = _varying(t.doubt, t.contacts, flags.slips, flags.rest)
     nodes = friction | {name: outputs[name] for name in KEPT} | {name: outputs[name] for name in CHECKS}
-    nodes |= {f"mark {name}": _varying(getattr(flags, name)) for name in MARKS}
+    nodes |= {f"flag {name}": _varying(getattr(flags, name)) for name in MARKS}
     graph.samples.clear()
     return ForceProgram(graph, symbols.inputs, nodes, bool(friction))
 
@@ -179,14 +179,14 @@ def force_blocks(c: Compiled, k: ForceProgram, numbers: Numbers, size: int) -> F
 
 def _below(k: ForceProgram, name: str, out: Array) -> Flags:
     """True at positions where a flag is negative, or not a number."""
-    return np.asarray(~(out[k.rows[f"mark {name}"]] >= 0).all(axis=0))
+    return np.asarray(~(out[k.rows[f"flag {name}"]] >= 0).all(axis=0))
 
 
 def _locked(k: ForceProgram, out: Array) -> tuple[Flags, Flags]:
     """Flags where friction reverses the sign of the power of the unknowns, and where that, or friction, is in doubt."""
     doubt = _below(k, "unsure", out) & _below(k, "sure", out)
     turned = _below(k, "turned", out)
-    locked = turned & _below(k, "locked", out) if k.nodes["mark locked"].size else turned
+    locked = turned & _below(k, "locked", out) if k.nodes["flag locked"].size else turned
     return locked, doubt | (turned & _below(k, "still", out))
 
 

@@ -267,7 +267,7 @@ class _Ways:
         nearer = np.hypot(mc - cos, ms - sin) - np.hypot(pc - cos, ps - sin)
         if not abs(nearer) > 0:
             raise DeadCentreError
-        self.inputs.append(self.graph.input("common", f"way {len(self.inputs)}", float(np.sign(nearer))))
+        self.inputs.append(self.graph.input("common", f"sense {len(self.inputs)}", float(np.sign(nearer))))
         return self.inputs[-1]
 
 

@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Brake:
-    """A brake or clutch at every position (P,), SI; NaN where there is no answer.
+    """A brake or clutch at every position (P,), SI; NaN at positions without an answer.
 
     torque: size of the couple of friction about the drum's axis, N m; force: normal force of a shoe, mean tension of a
     band, force that presses faces together, N; pressure: greatest on the lining, Pa, NaN without its size; pv: the
     greatest pressure times speed, W/m2; slip: rate of j against i, rad/s
-    self_energising: force over the force that the same load would give without friction of its own, 1 where friction
-    does not act on it; locking_coefficient: from this coefficient on it grabs at the present forces, inf where it never
-    does
+    self_energising: force over the force that the same load would give without friction at this contact, 1 where
+    friction does not act on it; locking_coefficient: from this coefficient on it grabs at the present forces, inf
+    where it never does
     """
 
     joint: str
@@ -51,7 +51,7 @@ class Brake:
 @dataclass(frozen=True)
 class ShoeBrake(Brake):
     """A shoe; normal_moment, friction_moment (P,): sizes of the moments of its normal forces and of friction about its
-    point of the joint, N m; ``place``: angle of the greatest pressure from there, rad."""
+    point of the joint, N m; ``place``: angle of the greatest pressure from that line, rad."""
 
     normal_moment: Array = field(repr=False)
     friction_moment: Array = field(repr=False)
@@ -71,8 +71,8 @@ class BandBrake(Brake):
 @dataclass(frozen=True)
 class FaceBrake(Brake):
     """Discs or a cone; friction_radius, m: couple of a face over mu times its force; force_radius, m: where the force
-    of a pad acts, 0 of a whole ring; oil (P,): pressure in its cylinder, Pa; push_in, draw_off (P,): forces to move a
-    cone in without slip and off again, N, NaN of discs."""
+    of a pad acts, 0 for a complete ring; oil (P,): pressure in its cylinder, Pa; push_in, draw_off (P,): forces to
+    move a cone in without slip and off again, N, NaN of discs."""
 
     friction_radius: float
     force_radius: float

@@ -200,7 +200,7 @@ def _load_power(k: int, r: Result) -> Array:
 
 
 def _work(r: Result, power: Callable[[Result], Array], weight: Array) -> float:
-    """Integral of power over the times, half of a position's time before a reversal there and half after it; single
+    """Integral of power over the times, with half of a position's time before a reversal and half after it; single
     positions without a value take that of their neighbours."""
     work = []
     for side in r.sides:

@@ -1,8 +1,8 @@
 """Equilibrium with dry friction at a block of positions: senses of slip, the friction forces, losses, rest.
 
-Where all contacts slip their senses follow from the motion, and friction is the solution of one system of equations per
-position. Where a rate is zero for an instant only (a dead centre) there are two solutions, just before and just after.
-Where a contact stays at rest every unknown lies in an interval; at its ends motion impends.
+If all contacts slip, their senses follow from the motion, and friction is the solution of one system of equations per
+position. If a rate is zero for an instant only (a dead centre) there are two solutions, just before and just after.
+If a contact stays at rest every unknown lies in an interval; at its ends motion impends.
 Mechanics: docs/theory.md 6.2.
 """
 

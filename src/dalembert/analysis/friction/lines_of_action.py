@@ -55,7 +55,7 @@ def acting_lines(r: Result, k: int) -> tuple[Action, ...]:
     """Everything that acts on the links, each joint's reaction unsplit and on its line of action.
 
     The reaction of a pin touches its friction circle; that of a slider acts on the face that bears, or, where two
-    corners bear at position ``k``, as two forces there. Where a guide of no given length would bear far away, its force
+    corners bear at position ``k``, as two forces. Where a guide of no given length would bear far away, its force
     is left at j's point with its couple. Without friction these are ``actions(r)``.
 
     >>> import dalembert as da

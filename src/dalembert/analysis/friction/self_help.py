@@ -49,7 +49,7 @@ def _problem(r: Result) -> ContactResponse:
 
 
 def self_help(r: Result, e: int) -> tuple[Array, float]:
-    """Force of a contact over what it were without its own friction, and the coefficient at which it grabs.
+    """Force of a contact over its value without friction at this contact, and the coefficient at which it grabs.
 
     The determinant of friction's equations is linear in the strength of one contact; it grabs where that is 0.
     """

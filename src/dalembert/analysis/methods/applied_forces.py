@@ -332,7 +332,7 @@ class _ActionBuilder:
                 self.add(link, kind, name.format(link), one, k, self.center(k), "force")
 
     def inertia(self, one: WrenchSource, word: str) -> None:
-        """D'Alembert's forces and couples of links with mass, or those of the plane that turns."""
+        """D'Alembert's forces and couples of links with mass, or those of the turning plane."""
         f = self.r.compiled.forcing
         spread = f.inertia.inertia if f.turning is None or word == "inertia" else f.turning.moments
         for k, link in enumerate(self.r.links):

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class BeltLimit:
     """Belt on the point of slipping (P,): both tensions, N, the torques (P, 2) on the wheels of i and j, N m, and the
-    power, W; infinite where nothing limits it. best_speed: of the belt, m/s, at which the power at the limit is
+    power, W; infinite without a limit. best_speed: of the belt, m/s, at which the power at the limit is
     greatest, and that power; infinite without mass."""
 
     tight: Array

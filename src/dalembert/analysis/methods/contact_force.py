@@ -32,7 +32,7 @@ SPEEDS = (0.5, 1.0, 2.0)
 class ContactHistory:
     """Normal force of a joint whose ``contact`` pushes or pulls, at every position (P,), N.
 
-    needed (P,): the force as if the contact held both ways, below 0 where it is lost; ``force`` is NaN there. behind,
+    needed (P,): the force as if the contact could also pull, below 0 where it is lost (``force`` is NaN). behind,
     ahead (P,): of a guide with lengths, the forces at its ends, the same way. lift_factor: the least factor of all
     speeds (accelerations by its square) from which on the contact is lost somewhere, NaN where it never is, 0 where the
     loads alone do not close it; lift_speed: that of the first drive that moves. lift_acceleration: size of that of the
@@ -87,7 +87,7 @@ def contact_force(r: Result, joint: str) -> ContactHistory:
     if joint not in of and is_cam(r, joint):
         return _held_follower(r, joint)
     if pushing is None or joint not in of:
-        what = f"the contact of joint {joint!r} holds both ways"
+        what = f"the contact of joint {joint!r} both pushes and pulls"
         raise ModelError(what, "write contact: pushes" if not of else f"choose among {', '.join(of)}")
     rows = np.flatnonzero((pushing.joint == r.joints.index(joint)) & ~pushing.slips)
     holding = with_held_contacts(r.mechanism)
@@ -106,7 +106,7 @@ def contact_force(r: Result, joint: str) -> ContactHistory:
 
 
 def _held_follower(r: Result, joint: str) -> ContactHistory:
-    """Of a follower in a groove, or on conjugate cams: the forces of both walls or discs, and where it changes."""
+    """Forces of both walls or discs on a follower in a groove or on conjugate cams, and where it changes."""
     force, cam = normal_force(r, joint), cam_contact(r, joint)
     preload = getattr(r.mechanism.joints[joint], "preload", None) or 0.0
     force = np.where(np.abs(force) <= LOST * np.nanmax(np.abs(r.force_array), initial=0.0), 0.0, force)

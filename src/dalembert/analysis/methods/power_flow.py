@@ -198,7 +198,7 @@ class _Motion:
 
 
 def _rolling(r: Result, motion: _Motion, joint: str) -> Array:
-    """Power (P,) that teeth transmit in the frame in which the axes of both wheels stand: of the side that drives."""
+    """Power (P,) that teeth transmit in the frame in which the axes of both wheels are fixed, on the driving side."""
     from dalembert.analysis.methods.applied_forces import link_place
 
     described = r.mechanism.joints[joint]

@@ -69,10 +69,10 @@ BY_FRICTION = (*UNKNOWN, "reaction", "reaction_moment", "friction_force", "frict
 MOTION = (*FREEDOMS, "angle", "rotation", "point")
 CHECKS = ("residual", "power_balance")
 GIVEN = ("time", "drive", "turning_speed", "turning_torque")
-"""What is prescribed, or as the speed of a turning frame may be prescribed."""
+"""Prescribed quantities, or ones that may be, as the speed of a turning frame."""
 
 ELEMENTS = ("pressure", "flow", "screw_torque")
-"""Quantities of drives that are machine elements; bearings have theirs in tables of their own."""
+"""Quantities of drives that are machine elements; bearings have separate tables."""
 
 
 def entries(

@@ -44,7 +44,7 @@ def result_tabs(result: Result, units: UnitChoice, axes: Axes) -> Iterator[Tab]:
 
 
 def _extremes(result: Result, units: UnitChoice, axes: Axes) -> Iterator[list[object]]:
-    """Largest and smallest value of each effort, unknown load and reaction, with positions and drives there."""
+    """Largest and smallest value of each effort, unknown load and reaction, with the position and the drives."""
     to = Printed(None if units == "SI" else result.mechanism.units)
     kinds = {drive: drive_kinds(result, drive)["position"] for drive in result.drives}
     places = [f"{drive} [{to.text(kind)}]" for drive, kind in kinds.items()]

@@ -26,7 +26,7 @@ ANY = 1.25
 
 
 def kind_in_file(tree: object, keys: Sequence[str]) -> str:
-    """Kind of the number at a path of a saved file, from `units.KINDS`, by the unit that is written there."""
+    """Kind of the number at a path of a saved file, from `units.KINDS`, by the unit written with it."""
     for key in keys:
         tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
     unit = tree.partition(" ")[2] if isinstance(tree, str) else ""

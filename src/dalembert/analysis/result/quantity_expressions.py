@@ -92,7 +92,7 @@ def check_units(tree: Tree, known: Mapping[str, Powers | None], parameters: Coll
 
 
 def check_reductions(tree: Tree, functions: Collection[str]) -> None:
-    """Raise ModelError for a reduction over the cycle where each position has a value of its own."""
+    """Raise ModelError for a reduction over the cycle where each position needs its value."""
     for part in nodes(tree):
         if isinstance(part, Apply) and part.function in REDUCTIONS and part.function not in functions:
             what = f"{part.function}(...) is a number of a complete cycle, and an output has one at every position"

@@ -36,7 +36,7 @@ def solve_at(m: Mechanism, at: str | None, static: bool, positions: int | None) 
 
 def position_alone(r: Result, at: str | None) -> tuple[Result, str]:
     """The answer at one position alone, in the pose it has among the others, and the sentence that names it, empty
-    where there are no others."""
+    without others."""
     import numpy as np
 
     from dalembert.analysis.one_pass import at_poses
@@ -49,7 +49,7 @@ def position_alone(r: Result, at: str | None) -> tuple[Result, str]:
 
 
 def announce(result: Result, output: Path, at: str | None) -> int:
-    """Say what was written, of which position if it was sought, and which are not ok and why; the exit status."""
+    """Say what was written, the position if sought, and those that are not ok with their reasons; the exit status."""
     from dalembert.analysis.output.summary.printed_answer import problems_text
     from dalembert.analysis.output.summary.printed_units import print_scale
     from dalembert.analysis.result.position_lookup import extreme, position_at, position_sentence

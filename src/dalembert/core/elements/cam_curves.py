@@ -29,7 +29,7 @@ def piece(start: float, **values: object) -> list[object]:
 
 
 def with_jumps(table: Array) -> Array:
-    """The table with a mark where the second derivative of a piece is not that of the one before it."""
+    """The table with a flag where the second derivative of a piece is not that of the one before it."""
     if any_traced(table):
         return table
     ends = np.append(table[1:, 0], table[0, 0] + TURN)
@@ -49,7 +49,7 @@ def same_count(tables: list[Array]) -> list[Array]:
 def lift(table: Array, x: Array) -> tuple[Array, Array, Array]:
     """Values and first two derivatives (..., k) of tables (k, N, W) at angles x (..., k), periodic in a turn.
 
-    At a joint of pieces those of the piece that begins there.
+    At a joint of pieces those of the piece that begins at it.
     """
     start = table[:, 0, 0]
     if any_traced(table, x):

@@ -15,9 +15,9 @@ class CamRow:
     """A follower on link j on the cam of link i, about i's point.
 
     A point follower is at the distance rho from the cam's axis, in the direction beta of the cam; a flat one has the
-    distance rho along its outward ``normal`` (in j's axes), and is turned by beta. Its own motion gives the coordinate
-    q(rho) and the turn of the cam A(rho) - beta at which it would be there on the link that carries both. Measure:
-    q - base - Q(sense (A - beta)), with the lift Q of ``curve``, over the size of its gradient: the gap along
+    distance rho along its outward ``normal`` (in j's axes), and is turned by beta. Its motion gives the coordinate
+    q(rho) and the turn of the cam A(rho) - beta at which it would reach this place on the link that carries both.
+    Measure: q - base - Q(sense (A - beta)), with the lift Q of ``curve``, over the size of its gradient: the gap along
     the normal.
 
     form SLIDES: a the offset, gamma the direction of the stem on the carrier; SWINGS: a the arm, b the distance of the
@@ -44,7 +44,7 @@ class CamRow:
 
 @dataclass(frozen=True)
 class CamGap(CamRow):
-    """The gap of a follower off its cam, along its own way: a freedom, whose wrench is not of unit size."""
+    """The gap of a follower off its cam, along its path: a freedom, whose wrench is not of unit size."""
 
 
 @dataclass(frozen=True)

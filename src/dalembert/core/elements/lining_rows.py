@@ -4,7 +4,7 @@ u   unit vector from the drum's axis O to j's point; n across it
 f   unit force on j at the angle to u
 t   unit vector of a strand from its end E to the drum
 
-Their measures keep the value of the first pose: a brake is adjusted to be closed there. Mechanics: docs/theory.md 6.4.
+Their measures keep the value of the first pose: a brake is adjusted to be closed in it. Mechanics: docs/theory.md 6.4.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def lining_wrench(g: Algebra, f: Lining, pose: Pose, on_i: Array, on_j: Array) -
 
 
 def lining_drift(g: Algebra, f: Lining, pose: Pose, twist: Array) -> Array:
-    """Of f . v - rho sin(angle) omega_j: the force turns with the line."""
+    """Row f . v - rho sin(angle) omega_j: the force turns with the line."""
     line, length, force = _directions(g, f, pose)
     rate, second = span_motion(g, f, pose, twist)
     around = g.cross(line, rate)[..., 0] / length**2
@@ -70,7 +70,7 @@ def strands(
     g: Algebra, f: BandStrands, pose: Pose
 ) -> Iterator[tuple[Ints, Array, Array, Array, Array, Array, float]]:
     """For each strand: its end's link and arm, tension, unit vector t, span E to O, free length, and the
-    side of t on which it touches the drum: 1, to its left, of the first, since the band runs clockwise from there."""
+    side of t on which it touches the drum: 1, to its left, of the first, since the band runs clockwise from it."""
     center = pose.point[..., f.i, :] + arm(g, pose, f.i, f.ui)
     arms = [arm(g, pose, link, u) for link, u in ((f.end_a, f.ua), (f.end_b, f.ub))]
     first, last = (pose.point[..., link, :] + r for link, r in zip((f.end_a, f.end_b), arms, strict=True))

@@ -57,7 +57,7 @@ class Pushing:
 
 
 def normals(layout: Layout, pose: Pose, row: Ints) -> Array:
-    """Unit normals (..., K, 2) of contacts, in ground axes: the way in which their constraints push j."""
+    """Unit normals (..., K, 2) of contacts, in ground axes: the direction in which their constraints push j."""
     g, out = layout.algebra, dict[int, Array]()
     for f in layout.constraints.families:
         if isinstance(f, Along):

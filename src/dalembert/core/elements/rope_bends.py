@@ -15,7 +15,7 @@ from dalembert.core.layout import Layout, Pose
 
 
 def bend_factor(layout: Layout, pose: Pose, mu: Array, bends: Ints, way: Ints, given: Array) -> Array:
-    """Strength (..., E) at the wrap of a pose over that of a ``given`` wrap (E,), half a turn and whole ones.
+    """Strength (..., E) at the wrap of a pose over that of a ``given`` wrap (E,), half a turn and full turns.
 
     mu (..., E): coefficients; bends (E, 2): the strands before and behind, ``way`` as in ``strand_rows.wraps``.
     """

@@ -1,4 +1,4 @@
-"""Limits of belts and ropes as margins, below zero where one slips or hangs slack: there the careful path answers.
+"""Limits of belts and ropes as margins, below zero where one slips or hangs slack; the careful path then answers.
 
 Mechanics: docs/theory.md 5.7.
 """

@@ -80,7 +80,7 @@ def strands(layout: Layout) -> Strand | None:
 
 
 def with_zero(layout: Layout, f: Strand, first: Pose) -> Strand:
-    """The strands at the first pose: angles count from there, and parallel strands run so that the rope is long."""
+    """The strands at the first pose: angles count from it, and parallel strands run so that the rope is long."""
     g = layout.algebra
     _, length = direction(g, f, first)
     total = np.zeros(int(f.rope.max()) + 1)

@@ -16,7 +16,7 @@ def capstan(mu: Array, wrap: Array, blocks: Array) -> Array:
 
     R = exp(mu wrap) is their ratio (Euler-Eytelwein), with n blocks of wrap/n each ((1 + mu tan b) / (1 - mu tan b))^n,
     b = wrap/2n. Both are hyperbolic tangents: 2 tanh(mu wrap/2) and 2 tanh(n artanh(mu tan b)). 2, all of the tension,
-    where mu tan b is not below 1: there a block grips at any tension.
+    where mu tan b is not below 1: then a block grips at any tension.
     """
     out = np.array(np.broadcast_arrays(tanh(mu * wrap * 0.5), wrap)[0])
     for e in np.flatnonzero(blocks):

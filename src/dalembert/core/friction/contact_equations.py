@@ -72,7 +72,7 @@ class Contacts:
     given (E,)  force that presses it whatever the reactions, a part of its first argument
     carried (E,)  contact whose friction it also carries, as its second force: the slide of a block on a pin; -1 for
     none viscous (E,)  damping of that slide, whose force it carries with it
-    own (E,)    part of its own friction that is added to the first argument
+    own (E,)    part of its friction that is added to the first argument
     link, at (joints,), (joints, d)  link j of each joint of the mechanism, and the arm of the joint's point on it
     damping     viscous friction of the joints beside
     """

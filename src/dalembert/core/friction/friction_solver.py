@@ -49,7 +49,7 @@ BENT = 0.2
 """Largest distance between Newton's solution and the landing point of its first step, over the length of that step."""
 
 SHORT = 1e-3
-"""Changes below this fraction of the largest friction force may exceed it: the branch has a kink there."""
+"""Changes below this fraction of the largest friction force may exceed it: the branch has a kink."""
 
 SMALLEST = 1e-10
 """Step of the friction scale below which the branch has ended."""

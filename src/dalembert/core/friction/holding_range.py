@@ -5,10 +5,10 @@ that it can balance. The limits are not convex, so each step maximizes the effor
 last state (inner approximation: Marks and Wright, 1978).
 
 A state of rest is t = c z with |t_e| <= c_e S_e(y0 + H t) for every contact. S is convex: with its slope s at a state
-y, s . y0 + s H t is never more than S, and is S there. So |t_e| <= c_e s_e . (y0 + H t) allows only states of rest,
-including y itself, and the one with the largest effort solves a linear programme. The next programme takes the slope at
-that state; the iteration ends when the effort no longer increases. Every iterate can be reached from the frictionless
-state through states of rest. An unbounded programme shows a wedge: friction holds any value.
+y, s . y0 + s H t is never more than S, and equal to S at it. So |t_e| <= c_e s_e . (y0 + H t) allows only states of
+rest, including y itself, and the one with the largest effort solves a linear programme. The next programme takes the
+slope at that state; the iteration ends when the effort no longer increases. Every iterate can be reached from the
+frictionless state through states of rest. An unbounded programme shows a wedge: friction holds any value.
 
 t   friction forces and couples (..., E), in units of each that make values near one
 
@@ -57,8 +57,8 @@ MOST = 10**6
 
 
 class _Rest(NamedTuple):
-    """Contacts, and a response whose t are scaled to values near one; c (E,) on the same scale; contacts with friction
-    of their own (F,)."""
+    """Contacts, and a response whose t are scaled to values near one; c (E,) on the same scale; contacts that have
+    friction (F,)."""
 
     contacts: Contacts
     r: ContactResponse
@@ -216,7 +216,7 @@ def _exact(rest: _Rest, t: Array) -> Array:
 
 def _limits(rest: _Rest, t: Array, steep: Array) -> tuple[Array, Array, Array]:
     """Linear limits on changes of t, with the bearing forces linearized: directions (B, E, F) of t with those of the
-    contacts' own friction; g (B, M, F) times a change of these is at most h (B, M)."""
+    contacts' friction; g (B, M, F) times a change of these is at most h (B, M)."""
     contacts, active, c = rest.contacts, rest.active, rest.c
     count, each = t.shape
     bears = (steep * argument(rest.r, t)).sum(axis=-2)

@@ -48,7 +48,7 @@ def friction_arrays(
 
 
 BESIDE = ("lining", "band")
-"""Kinds of contacts in the plane whose force does not act at j's point: it has a couple there."""
+"""Kinds of contacts in the plane whose force does not act at j's point: it has a couple about that point."""
 
 
 def dry_wrenches(

@@ -2,7 +2,7 @@
 
 The slider of an engine is at rest for an instant while the crank turns on. Its rate is opposite to its second rate
 before the instant and along it afterwards, and friction changes sense. Where the second rate is zero too, positions
-slightly before and after give the sense; a contact at rest there too stays at rest.
+slightly before and after give the sense; a contact that is at rest then too stays at rest.
 
 Mechanics: docs/theory.md 6.3.
 """
@@ -107,7 +107,7 @@ def _sign(contacts: Contacts, rate: Array) -> Array:
 def _aside(
     layout: Layout, contacts: Contacts, pose: Pose, moving: LinkMotions, driven: Driven, sign: float
 ) -> SlipState:
-    """Senses slightly before (sign -1) or after the positions; open where the linkage does not close there."""
+    """Senses slightly before (sign -1) or after the positions; open where the linkage does not close."""
     dt = _moment(layout, moving)[:, None]
     ahead, bent = sign * dt, dt * dt / 2
     target = driven.target.copy()

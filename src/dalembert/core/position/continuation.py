@@ -86,7 +86,7 @@ class Nodes(NamedTuple):
 
 
 class Station(NamedTuple):
-    """One pose (L+1, ...) of a march and the links' twists (L+1, n) per unit of s there.
+    """One pose (L+1, ...) of a march and the links' twists (L+1, n) per unit of s.
 
     ``clear`` measures the distance from a singular pose, like the smallest singular value of J; its sign changes where
     the march passes through one. ``side`` changes its sign where J (``matrix``) became singular since the previous

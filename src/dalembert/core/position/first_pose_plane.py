@@ -51,7 +51,7 @@ EXACT = 1e-7
 dead centre the rounding of a length leaves of an angle."""
 
 BESIDE = 12
-"""Starts beside the given angles that find whether a nearer mode is there."""
+"""Starts beside the given angles that detect a nearer mode."""
 
 LOOSE = 1e-6
 """Part of a link's turn left by the constraints above which it can be held."""
@@ -113,7 +113,7 @@ def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
 
 
 def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
-    """Modes without phases. Newton from the given angles may pass by a nearer mode: those beside its own are sought."""
+    """Modes without phases. Newton from the given angles may pass by a nearer mode: its neighbours are sought."""
     drawn = _starting_poses(free, target, guess, np.zeros((1, layout.links + 1)), slides_ahead(layout, free))
     pose, missing = close_loops(free, drawn, target[None])
     known, closes = np.isfinite(guess.turn[:-1]).any(), missing[0] <= CLOSED * layout.length
@@ -138,7 +138,7 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
 
 
 def _nearer(layout: Layout, pose: Pose, found: Modes | None, guess: Guess) -> Modes:
-    """A mode (1, L+1, ...) and those found beside it, the nearest to the given angles first."""
+    """A mode (1, L+1, ...) and those computed beside it, the nearest to the given angles first."""
     if found is None:
         return Modes(pose, "nearest")
     ahead, here = (np.linalg.norm(_off(p, guess)[0]) for p in (found.pose, pose))

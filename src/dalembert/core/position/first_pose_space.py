@@ -1,8 +1,8 @@
-"""The first pose in space: as drawn and followed from there, or near the given poses, or from many starts at once.
+"""The first pose in space: as drawn and continued, or near the given poses, or from many starts at once.
 
 As drawn, every link's axes are parallel to the ground's, its points are placed joint by joint, and the drives are at 0.
-The motion is followed from there to the first position. Where that fails, links are placed with random values of their
-joint coordinates, from a fixed seed.
+The motion continues from this pose to the first position. Where that fails, links are placed with random values of
+their joint coordinates, from a fixed seed.
 
 Mechanics: docs/theory.md 3.1.
 """

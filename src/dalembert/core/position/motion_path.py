@@ -100,7 +100,7 @@ def _march_both_directions(
 
 def _around(layout: Layout, along: PathSamples, period: Array, known: Path) -> Path:
     """Positions of the cycle before and after this one, from the first and last of the list where the motion has
-    reached them: the motion continues from there into the known part."""
+    reached them: the motion continues from them into the known part."""
     count, listed, followed = len(along.s), np.empty_like(along.targets), known.reached
     listed[along.order] = along.targets
     for sign, place in ((-1, 0), (1, count - 1)):

@@ -37,7 +37,7 @@ MOST_GAPS = 64
 """Largest number of entries behind gaps that no closed form locates."""
 
 Entry = tuple[int, Pose]
-"""Index of a position in the list, and the pose there."""
+"""Index of a position in the list, and its pose."""
 
 Known = Callable[[], tuple[Pose, Flags]]
 """Poses (P, L+1, ...) of the positions, and flags (P,) for those reached so far."""

@@ -37,7 +37,7 @@ def whole_turns(phi: Array, near: Array) -> Array:
 
 
 class Way(NamedTuple):
-    """End of a motion towards given positions of the drives: angles of the freedoms (F,), and whether it got there."""
+    """End of a motion towards given positions of the drives: angles of the freedoms (F,), and True if reached."""
 
     pose: Pose
     phi: Array

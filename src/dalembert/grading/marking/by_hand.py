@@ -65,7 +65,7 @@ def _fits(keys: dict[str, object] | None, one: Given) -> bool:
 
 
 def decide_cells(sheets: Sequence[StudentSheet], path: Path) -> None:
-    """Puts what a teacher has read in place of cells: a table of student, figure (its column) and value."""
+    """Replaces cells by a teacher's readings: a table of student, figure (its column) and value."""
     for row in read_table(path):
         lacking = [name for name in ("student", "figure", "value") if name not in row.cells]
         if lacking:
@@ -77,14 +77,14 @@ def decide_cells(sheets: Sequence[StudentSheet], path: Path) -> None:
         if sheet is None or not places:
             known = [s.student for s in sheets] if sheet is None else [one.name for one in sheet.figures]
             what = f"student {student!r}" if sheet is None else f"figure {figure!r} on the sheet of {student}"
-            raise ModelError(f"there is no {what}", f"there are {', '.join(known)}", (), str(path), row.line)
+            raise ModelError(f"unknown {what}", f"there are {', '.join(known)}", (), str(path), row.line)
         for k in places:
             one = sheet.figures[k]
             sheet.figures[k] = one._replace(keys=one.keys | {"value": cell_value(value)})
 
 
 def check_class(students: Sequence[StudentMarks], file: str) -> None:
-    """Raises ModelError where figures of a whole class are judged and none is right: the key or the columns are
+    """Raises ModelError where figures of a complete class are judged and none is right: the key or the columns are
     others."""
     judged = [m for s in students for m in s.marks if m.given and m.most]
     if len({s.student for s in students if any(m.given for m in s.marks)}) < LEAST or any(
@@ -101,4 +101,4 @@ def check_class(students: Sequence[StudentMarks], file: str) -> None:
 
 
 LEAST = 3
-"""Students of a class of which no figure can be right by chance."""
+"""Students of a class without any figure that chance could make right."""

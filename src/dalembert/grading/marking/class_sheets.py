@@ -143,7 +143,7 @@ def _long(path: Path, rows: list[TableRow]) -> Iterator[StudentSheet]:
 
 def _joined(figures: list[Given], names: FigureNames) -> Iterator[Given]:
     """Figures with the parts of a vector that two columns give made one: size and direction, or x and y; not where
-    the parts are what is asked for."""
+    the components are what is required."""
     by_vector: dict[tuple[object, ...], dict[str | None, Given]] = {}
     for one in figures:
         vector = tuple(one.keys.get(key) for key in ("quantity", "of", "on"))

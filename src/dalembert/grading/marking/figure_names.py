@@ -149,7 +149,7 @@ class FigureNames:
         return None
 
     def _asks_only_force_of(self, name: str) -> bool:
-        """True if of what has this name a force is asked, and no effort."""
+        """True if the unknown of this name is a force, not an effort."""
         quantities = {quantity for quantity, of, _ in self.asked if of == name}
         return "reaction" in quantities and "effort" not in quantities
 
@@ -192,7 +192,7 @@ def columns_of(heads: Iterable[str], names: FigureNames, given: Mapping[str, str
     heads = list(heads)
     for head in given:
         if head not in heads:
-            raise ModelError(f"there is no column {head!r}", f"the columns are {', '.join(map(repr, heads))}")
+            raise ModelError(f"unknown column {head!r}", f"the columns are {', '.join(map(repr, heads))}")
     roles = {head: _role(given.get(head, _bare(head)), names) for head in heads}
     figures = {head: role for head, role in roles.items() if isinstance(role, dict)}
     unknown = [head for head, role in roles.items() if role is None]

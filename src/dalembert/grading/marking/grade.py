@@ -53,11 +53,11 @@ class ClassMarks(Worked):
         return {"title": "Marks"}
 
     def scale(self, units: UnitChoice) -> Scale:
-        """Marks have no unit; figures are texts with their own."""
+        """Marks have no unit; figures are texts with units."""
         return Scale(None)
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
-        """Student, variant, figure, as given and as computed, outcome, marks, why, and where it stands."""
+        """Student, variant, figure, as given and as computed, outcome, marks, why, and its place."""
         rows = list(figures(self.students))
         for k, name in enumerate(FIGURE):
             yield Column(name, WORD, [row[k] for row in rows])

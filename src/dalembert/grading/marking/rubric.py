@@ -30,7 +30,7 @@ SHARES = {
 }
 """Share of the marks that a figure keeps: right; right for the student's earlier wrong figure; wrong by a slip already
 penalised in an earlier figure of the sheet; nearly right; wrong by a sense, a unit, another slip that is named; perhaps
-by a mistake that is said to be possible; wrong by one datum of the problem (a load, a mass, a length), or by a concept
+by a mistake that is called possible; wrong by one datum of the problem (a load, a mass, a length), or by a concept
 (no gravity, no inertia), each figure that it touches; a part of the required figure (the size of a force alone); wrong
 without explanation; missing."""
 
@@ -86,7 +86,7 @@ class Rubric:
         ]
 
     def _stated(self, sentence: str) -> bool:
-        """True if the rubric has a share of its own for a mistake."""
+        """True if the rubric has a separate share for a mistake."""
         return any(words.lower() in sentence.lower() for words in self.mistakes)
 
 

@@ -65,7 +65,7 @@ def _of_workbook(path: Path) -> Iterator[tuple[int, list[str]]]:
         for line, cells in enumerate(book.worksheets[0].iter_rows(values_only=True), 1):
             yield line, ["" if cell is None else str(cell) for cell in cells]
     except (OSError, ValueError, KeyError, IndexError, zipfile.BadZipFile) as error:
-        raise ModelError("the file is no workbook", "save it as .xlsx or CSV", (), str(path)) from error
+        raise ModelError("the file is not a workbook", "save it as .xlsx or CSV", (), str(path)) from error
 
 
 def _rows(lines: Iterator[tuple[int, list[str]]], path: Path) -> list[TableRow]:

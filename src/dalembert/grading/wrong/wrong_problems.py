@@ -42,7 +42,7 @@ CONCEPTS = (
     "degrees",
     "friction is left out",
 )
-"""Words of mistakes that concern the whole problem, not one of its data."""
+"""Words of mistakes that concern the complete problem, not one of its data."""
 
 STATIC: Tree = {}
 """The change that leaves all inertia out."""
@@ -52,7 +52,7 @@ class WrongProblem(NamedTuple):
     """The problem with one mistake, in words; order: how usual it is, from 1 (parts of the loads) to 3; solved when
     asked.
 
-    ``weight``: ``concept`` of what runs through the whole problem (all gravity, all inertia, the speed's unit, the
+    ``weight``: ``concept`` of what runs through the complete problem (all gravity, all inertia, the speed's unit, the
     position), ``datum`` of one load, link, mass or length.
     """
 

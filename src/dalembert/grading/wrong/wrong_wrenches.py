@@ -67,7 +67,7 @@ def _force(like: Action, force: Array) -> Action:
 
 
 def _couple(link: str, couple: Array) -> Action:
-    """A couple (P,) on a link of the plane."""
+    """A couple (P,) on a link of a plane mechanism."""
     zero = np.zeros((len(couple), 2))
     return Action("", "load", "", link, None, zero, zero, couple)
 

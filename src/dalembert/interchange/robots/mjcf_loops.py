@@ -90,7 +90,7 @@ class _MjcfGraph:
         return axes @ step @ inverse(axes)
 
     def _link(self, link: TreeLink) -> None:
-        """A link, and links without mass between its joints where it has several that are no pair of one name."""
+        """A link, and links without mass between its joints where it has several that do not form a named pair."""
         above = {place: self._place_of(link.parent, place) for place in ("q", "home")}
         moves = link.joints
         if any(joint.kind == "free" for joint in moves):
@@ -287,7 +287,7 @@ class _MjcfGraph:
         coefficients = values + [0.0, 1.0, 0.0, 0.0, 0.0][len(values) :]
         if known[0] is None or ("joint2" in part.attributes and known[1] is None):
             raise part.error(
-                "the equality names a joint that is a ball or is not there", "name hinges or slides"
+                "the equality names a joint that is a ball or does not exist", "name hinges or slides"
             )
         if known[1] is None:
             joint = self.tree.joints[part.get("joint1")]
@@ -362,6 +362,6 @@ _X_ON_Z = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
 
 
 def _common(one: str, two: str) -> str:
-    """What two names have in common before a dot."""
+    """Common part of two names before a dot."""
     head, _, _ = one.rpartition(".")
     return head if head and two.rpartition(".")[0] == head else ""

@@ -26,7 +26,7 @@ from dalembert.interchange.xml_tree import Element
 from dalembert.model import GROUND
 
 REFUSED = {"include", "attach", "replicate", "composite", "flexcomp", "plugin", "flex", "skin", "deformable"}
-"""Elements that stand for others, or bend."""
+"""Elements that replace others, or bend."""
 
 IGNORED = {"contact": "contact", "sensor": "sensors"}
 """Sections without a counterpart -> their name in a note; those that only show are left out without one."""

@@ -18,13 +18,13 @@ from dalembert.interchange.xml_text import XmlText, digits
 from dalembert.model import GROUND
 
 LEAST_MASS, LEAST_INERTIA = 1e-9, 1e-12
-"""Of links without mass: MuJoCo refuses 0."""
+"""Mass and inertia of links without mass: MuJoCo refuses 0."""
 
 STIFF = "0.9999 0.9999 0.001 0.5 2"
 """Impedance of equalities, the largest that MuJoCo takes: with it loop forces are good to about 3e-5."""
 
 ARM = 0.1
-"""Distance of the two points that hold a cut revolute in space from its own, of the largest coordinate."""
+"""Distance of the two points that hold a cut revolute in space from its point, over the largest coordinate."""
 
 
 def write_mjcf(graph: LinkGraph) -> str:
@@ -33,7 +33,7 @@ def write_mjcf(graph: LinkGraph) -> str:
 
 
 def branch_coordinates(joint: Connection, is_flipped: bool) -> list[Coordinate]:
-    """MuJoCo's joints of a branch; from j to i they come in the other order, about axes that point the other way."""
+    """MuJoCo's joints of a branch; from j to i they come in the other order, about axes of opposite direction."""
     value = coordinates(joint.kind)
     return [c._replace(axis=-c.axis) for c in reversed(value)] if is_flipped else value
 
@@ -202,7 +202,7 @@ class _MjcfText:
                     sites.append(self._site(link, f"{joint.name} cut", at))
                 self.equalities.append(("connect", {"name": name, "site1": sites[0], "site2": sites[1]}))
             if self.graph.is_plane:
-                self.graph.lose(f"pin {joint.name!r} closes a loop: it is a ball there (<connect>)")
+                self.graph.lose(f"pin {joint.name!r} closes a loop: it becomes a ball (<connect>)")
         else:
             what = f"the loop would be cut at {joint.name!r}, a {joint.kind} joint, which no equality of MJCF has"
             raise ModelError(what, "add a pin or a ball to the loop")
@@ -281,7 +281,7 @@ class _MjcfText:
             elif load["type"] == "damper" and load.get("damping"):
                 yield "spatial", keys | {"damping": digits(number(load["damping"], "damping"))}
             elif name not in self.kept:
-                self.graph.lose(f"load {name!r} ({load['type']}): MJCF has no forces of its own")
+                self.graph.lose(f"load {name!r} ({load['type']}): MJCF cannot state forces")
 
 
 def coordinate_name(joint: Connection, freedom: str) -> str:

@@ -26,7 +26,7 @@ KINDS = {
 CROSSED = ("universal", "revolute2")
 
 REFUSED = ("include", "model", "gripper", "static")
-"""Parts of a model that stand for others."""
+"""Parts of a model that replace others."""
 
 
 def read_sdf(content: bytes, file: str) -> LinkGraph:

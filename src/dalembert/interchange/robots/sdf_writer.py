@@ -59,7 +59,7 @@ def write_sdf(graph: LinkGraph) -> str:
         graph.lose(f"drive {name!r}: SDFormat prescribes no motion")
     for name, load in graph.loads.items():
         if load["type"] != "torsion_spring":
-            graph.lose(f"load {name!r} ({load['type']}): SDFormat has no forces of its own")
+            graph.lose(f"load {name!r} ({load['type']}): SDFormat cannot state forces")
     return str(text)
 
 

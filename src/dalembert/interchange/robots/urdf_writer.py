@@ -60,7 +60,7 @@ def _link(text: XmlText, link: LinkPart, to_axes: Array) -> None:
 
 
 def steps(joint: Connection, is_flipped: bool) -> list[Coordinate]:
-    """Coordinates of a branch, a ball as turns about x, y and z; from j to i in the other order, the other way."""
+    """Coordinates of a branch, a ball as turns about x, y and z; from j to i in the other order, with other signs."""
     out: list[Coordinate] = []
     for one in coordinates(joint.kind):
         if one.kind == "ball":

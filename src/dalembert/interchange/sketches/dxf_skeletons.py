@@ -22,7 +22,7 @@ UNITS = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0}
 """$INSUNITS -> metres."""
 
 SPECIAL = ("GROUND", "SLIDE", "DRIVE", "PIN")
-"""Layers that are no links."""
+"""Layers that are not links."""
 
 Point = tuple[float, float]
 Shape = tuple[str, list[Point]]

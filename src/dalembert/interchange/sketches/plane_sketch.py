@@ -81,7 +81,7 @@ def in_axes(axes: Axes, x: float, y: float) -> list[float]:
 
 
 def sketch_tree(sketch: PlaneSketch, file: str) -> tuple[Tree, dict[tuple[str | int, ...], int]]:
-    """The tree of the model file, and lines; raises ModelError where nothing is fixed."""
+    """The tree of the model file, and lines; raises ModelError without a fixed point."""
     links = sketch.links()
     if not links[GROUND]:
         raise ModelError("no joint is on the ground", "fix at least one joint", (), file, 1)

@@ -13,7 +13,7 @@ from dalembert.model import GROUND
 
 
 def read_pylinkage(content: bytes, file: str) -> PlaneSketch:
-    """The linkage of a pylinkage file; raises ModelError for what is no such file."""
+    """The linkage of a pylinkage file; raises ModelError for any other file."""
     try:
         tree = json.loads(content)
         joints, links = tree["joints"], tree["links"]

@@ -68,7 +68,7 @@ def _header(f: TargetFunction, name: str) -> str:
     outs = [(v.place, v.name, v.unit) for v in f.outputs]
     lines = [
         "/* One position of a mechanism, SI and radians. Made by dalembert.",
-        " * Returns 0 where solved; 9 where it is self-locking, and the numbers hold; else there is no answer:",
+        " * Returns 0 where solved; 9 where it is self-locking, and the numbers hold; other values: no answer,",
         " * 1 the linkage does not close, 2 doubtful, 3 at rest, 7 jammed, 14 outside a table, 15 a contact is lost.",
         *listed("v", numbers),
         *listed("c", channels),

@@ -106,7 +106,7 @@ def _channel(m: Mechanism, label: str, start: float, place: int) -> TargetVariab
     if what in RATES and of in m.drives:
         return TargetVariable(f"drive.{of}.{what}", RATES[what][slides(m, of)], start, place)
     if what == "time" or label == "time":
-        raise ModelError("a load goes by time", "give it by a drive, or as a number that varies")
+        raise ModelError("a load depends on time", "give it by a drive, or as a number that varies")
     if label.startswith("loads."):
         name = label.split(".")[1]
         kind = "force" if name in m.loads and m.loads[name].ON == "point" else "moment"
@@ -117,7 +117,7 @@ def _channel(m: Mechanism, label: str, start: float, place: int) -> TargetVariab
 
 
 def structured(name: str) -> str:
-    """A name by FMI's structured convention: parts that are no identifiers are quoted.
+    """A name by FMI's structured convention: parts that are not identifiers are quoted.
 
     >>> structured("reaction.joint-1.x"), structured("point.rod.center[1]")
     ("reaction.'joint-1'.x", 'point.rod.center[1]')

@@ -1,4 +1,4 @@
-"""Dormand and Prince's method of order 8 with step control, as LLVM text: one motion per lane, each with its own steps.
+"""Dormand and Prince's method of order 8 with step control, as LLVM text: one motion with separate steps per lane.
 
 The rates are a program of the state and of numbers. Hairer, Norsett, Wanner, Solving ODEs I, II.5 (DOP853).
 """

@@ -80,7 +80,7 @@ unused."""
 
 
 def draw(rows: Array, start: int, stop: int, lanes: int | None = None) -> Array:
-    """Values (design, number) of designs ``start`` to ``stop``; each number takes u from its own row of Philox.
+    """Values (design, number) of designs ``start`` to ``stop``; each number takes u from a separate row of Philox.
 
     It is (r + 1/2)/2^53 of the first 53 bits r of a word, strictly between 0 and 1.
     """

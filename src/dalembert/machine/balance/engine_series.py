@@ -101,7 +101,7 @@ def engine_series(r: Result) -> EngineSeries:
         )
     for c in all_cylinders:
         if np.nanmin(r.speed(c.crank)) < 0 < np.nanmax(r.speed(c.crank)):
-            what = f"{c.crank}, the crank of {c.piston}, swings: this is no engine"
+            what = f"{c.crank}, the crank of {c.piston}, swings: this is not an engine"
             raise ModelError(what, "compute the shaking force: da.shaking")
     m, counted = r.mechanism, {link for c in all_cylinders for link in (c.piston, c.rod)}
     parts = [part for c in all_cylinders for part in _parts(r, c)]

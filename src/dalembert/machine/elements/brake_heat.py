@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StopHeat:
-    """Rubbing work of a brake, J; the rise of temperature of what ``heat`` names, K, if all of it stays there, NaN
+    """Rubbing work of a brake, J; the rise of temperature of what ``heat`` names, K, if it keeps all of the heat, NaN
     without; and the work over the area of its lining, J/m2, NaN without its size."""
 
     energy: float

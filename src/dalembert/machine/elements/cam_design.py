@@ -147,7 +147,7 @@ class CamDesign(Drawn, Labelled, Worked):
 
     @cached_property
     def highest(self) -> tuple[float, float]:
-        """Greatest lift and the turn there."""
+        """Greatest lift and its turn."""
         top, at = self._extreme(lambda t: self.motion.at(t).y)
         return top - self._least, at
 
@@ -170,7 +170,7 @@ class CamDesign(Drawn, Labelled, Worked):
 
     @property
     def pressure_angle_peak_at(self) -> float:
-        """The turn there, rad."""
+        """Turn of the cam at this lift, rad."""
         return self._peak[1]
 
     @property
@@ -194,7 +194,7 @@ class CamDesign(Drawn, Labelled, Worked):
 
     @property
     def least_convex_radius_at(self) -> float:
-        """The turn there, rad."""
+        """Turn of the cam at this value, rad."""
         return self._sharpest[1]
 
     @property
@@ -223,12 +223,12 @@ class CamDesign(Drawn, Labelled, Worked):
 
     @property
     def nose_distance(self) -> float:
-        """Of a tangent cam: distance of the nose's centre from the axis, m."""
+        """Distance of the nose's centre from the axis of a tangent cam, m."""
         return np.nan if self._joint.profile.tangent is None else self._joint.profile.tangent.nose_distance
 
     @property
     def nose_radius(self) -> float:
-        """Of a tangent cam: radius of the nose, m."""
+        """Nose radius of a tangent cam, m."""
         return np.nan if self._joint.profile.tangent is None else self._joint.profile.tangent.nose_radius
 
     @property
@@ -239,7 +239,7 @@ class CamDesign(Drawn, Labelled, Worked):
 
     @cached_property
     def result(self) -> Result:
-        """Dynamics of the mechanism at its positions, the contact held both ways."""
+        """Dynamics of the mechanism at its positions, with a contact that pushes and pulls."""
         from dalembert.analysis.solution import dynamics
         from dalembert.model.joints.contact_keys import HOLDS
 
@@ -257,7 +257,7 @@ class CamDesign(Drawn, Labelled, Worked):
     @property
     def changes(self) -> Array:
         """Positions (n,) of the first drive between which the normal force changes its sign: a follower in a groove
-        goes over to its other wall there."""
+        goes over to its other wall."""
         k = np.flatnonzero(np.diff(np.sign(self.force)) != 0)
         x, n = self.result.schedule.position[:, 0], self.force
         return np.asarray(x[k] - n[k] * (x[k + 1] - x[k]) / (n[k + 1] - n[k]))
@@ -353,7 +353,7 @@ class CamDesign(Drawn, Labelled, Worked):
         """Write the outline to .dxf or .csv, 1:1 in the file's unit; another ending writes the answer.
 
         A closed polyline within ``tolerance`` (m, default 1e-6) of the outline; ``cutter``: radius (m) of a cutter
-        whose centre's path is written besides, on a layer of its own.
+        whose centre's path is written besides, on a separate layer.
         """
         from dalembert.machine.elements.cam_files import save_outline
 

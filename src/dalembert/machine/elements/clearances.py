@@ -163,7 +163,7 @@ def derivative(r: Result, link: str, point: str, joint: str) -> Array:
 
 
 def _moved(m: Mechanism, joint: str, offset: list[float]) -> Mechanism:
-    """The mechanism with a joint's centre on i moved in i's axes; other joints and loads there stay."""
+    """The mechanism with a joint's centre on i moved in i's axes; other joints and loads at it stay."""
     described = m.joints[joint]
     i, name = described.links[0], described.point_names(joint)[1]
     place = tuple(a + b for a, b in zip(m.joint_points(joint)[0], offset, strict=True))

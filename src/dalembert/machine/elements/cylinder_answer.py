@@ -33,7 +33,7 @@ ATMOSPHERE = 101325.0
 class CylinderAnswer:
     """A cylinder along a result, arrays (P,) in SI; gauge pressures, a force that pushes its points apart is positive.
 
-    force: of its rod; cap_pressure, rod_pressure: of both chambers, NaN where there is no force; flow_in, flow_out:
+    force: of its rod; cap_pressure, rod_pressure: of both chambers, NaN without a force; flow_in, flow_out:
     into the chamber that grows and out of the other; pressure_low, pressure_high: of ``pressure``, at rest with
     friction of the seals an interval. critical: load at which the column buckles at its length; critical_rod,
     critical_barrel: bounds, one section all along; NaN without the sizes of a column.

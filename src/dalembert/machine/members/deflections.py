@@ -1,7 +1,7 @@
 """Deflection and slope of the members of a link, from their bending moments: E I v'' = M_z along y, E I w'' = -M_y.
 
 Each member is measured from a line: the tangent at a weld or a driven joint on it, else the chord through its two
-outermost joints, or where it has only one the tangent there. Shear, stretch and what the deflection does to the forces
+outermost joints, or where it has only one the tangent at it. Shear, stretch and what the deflection does to the forces
 are neglected.
 
 Mechanics: docs/theory.md 10.4.
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from dalembert.model.links.sections import Section
 
 PLANES = ((5, 0, 1.0), (4, 1, -1.0))
-"""Of bending along y, then along z: row of the inner forces, second moment of area counted from the last, sign."""
+"""Bending along y, then along z: row of the inner forces, second moment of area counted from the last, sign."""
 SAMPLES, ROUNDS = 33, 4
 """Places on each piece of a member where the deflection is looked at, and how often, closer about the greatest."""
 

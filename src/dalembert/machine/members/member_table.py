@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class MemberTable(MachineAnswer):
-    """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: why others are not there,
+    """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: why others are missing,
     ``not_judged``: why links with a section have no critical compression."""
 
     result: Result = field(repr=False)

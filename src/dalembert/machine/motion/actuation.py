@@ -58,7 +58,7 @@ class Actuation:
     contacts: tuple[Any, ...] = ()
     """Contacts that push, whose gaps are drives or have stops: ``landing.opened_contacts.GapContact``."""
     equation: Any = None
-    """An ``Equation`` that several machines share; None: each has its own."""
+    """An ``Equation`` that several machines share; None: each has a separate one."""
     on: Flags = field(init=False)
 
     def __post_init__(self) -> None:
@@ -140,7 +140,7 @@ class Actuation:
         return float((self.motors[k].at(u[k]) if on else 0.0) - gear.inertia * gear.ratio**2 * a[k])
 
     def set_anchor(self) -> None:
-        """Keep the last state as the one at which a step begins: nothing depends on it here."""
+        """Keep the last state as the one at which a step begins: unused here."""
 
     def powers(self, t: float, q: Array, u: Array, effort: Array) -> Array:
         """Powers (D,) of the drives, that have these efforts."""

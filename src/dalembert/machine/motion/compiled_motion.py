@@ -1,4 +1,4 @@
-"""``da.compile_motion``: motions under forces of many designs side by side in machine code, each with its own step
+"""``da.compile_motion``: motions under forces of many designs side by side in machine code, each with a separate step
 sizes.
 
 Mechanics: docs/theory.md 10.6.
@@ -81,7 +81,8 @@ def compile_motion(
     count: int = 201,
     tolerance: float = 1e-9,
 ) -> MotionKernel:
-    """`da.simulate` of one structure as machine code, for any numbers at ``vary``: each design with its own step sizes.
+    """`da.simulate` of one structure as machine code, for any numbers at ``vary``: each design with separate step
+    sizes.
 
     until: a time, and conditions such as ``"O2.speed = 0 rad/s"`` that end a design's motion before it. vary: paths as
     in `da.compile`, and ``drives.NAME.effort``, ``drives.NAME.motor.stall`` and ``.no_load``, ``start.NAME.position``

@@ -70,7 +70,7 @@ def table_energy(s: Springs, length: Array) -> Array:
 
 
 def gas_energy(s: Springs, length: Array) -> Array:
-    """Work that gas springs have taken up (..., k) since their length."""
+    """Work done on gas springs (..., k) since their length."""
     out, x = np.zeros(length.shape), s.length - length
     for k in np.flatnonzero(s.area):
         ratio, n = s.volume[k] / (s.volume[k] - s.area[k] * x[..., k]), s.exponent[k]
@@ -80,7 +80,7 @@ def gas_energy(s: Springs, length: Array) -> Array:
 
 
 class MotionChecks:
-    """Checks of a motion: from ``free_result``, in which the gaps of contacts are freedoms of their own, the
+    """Checks of a motion: from ``free_result``, in which the gaps of contacts are separate freedoms, the
     ``efforts`` (T, D) in the freedom of each drive and gap, and the works."""
 
     works: Mapping[str, Array]
@@ -88,7 +88,7 @@ class MotionChecks:
 
     @property
     def free_result(self) -> Result:
-        """The analysis in which the gaps of contacts are freedoms of their own."""
+        """The analysis in which the gaps of contacts are separate freedoms."""
         raise NotImplementedError
 
     @property

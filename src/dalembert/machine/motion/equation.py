@@ -240,9 +240,9 @@ class Equation:
 
         The state: positions, speeds; ``works`` of drives, of brakes, loads, dampers and friction. After ``values``
         follow, each (D,): effort at speed 0, its slope, that of the brake, acceleration of the prescribed drives; then
-        of the O own contacts the senses, and 1 where they stick. ``corners`` of drives: changes of slope of these
-        lines. Watched: rates of these contacts (O,), ``margins`` (2K,) of all; where several drives move freely, so
-        that contacts may stick, room and part of the limit, each (O,).
+        of the O independent contacts the senses, and 1 where they stick. ``corners`` of drives: changes of slope of
+        these lines. Watched: rates of these contacts (O,), ``margins`` (2K,) of all; where several drives move freely,
+        so that contacts may stick, room and part of the limit, each (O,).
         """
         if self.known or any(callable(f) for f in self.channels) or find_spec("llvmlite") is None:
             return None

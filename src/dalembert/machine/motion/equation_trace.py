@@ -147,8 +147,8 @@ def _set_contacts(out: Equation, trace: Trace) -> None:
 
 
 def shared_equation(m: Mechanism, vary: Sequence[str]) -> Equation | None:
-    """One equation for all numbers of links, joints and loads at the paths; None where each design needs its own: one
-    whose states are followed, or whose loads are computed outside machine code."""
+    """One equation for all numbers of links, joints and loads at the paths; None where each design needs a separate
+    one: one whose states are followed, or whose loads are computed outside machine code."""
     try:
         equation = trace_equation(m, vary)
     except ModelError:
@@ -255,7 +255,7 @@ def _shared(k: KeptProgram, names: tuple[str, ...], freedoms: Freedoms) -> Equat
 
 
 def _independent(contacts: Contacts, sense: Array) -> Ints:
-    """Contacts whose sense is that of their own rate.
+    """Contacts whose sense is that of their rate.
 
     Contacts of a common slip share a direction, and teeth are always pushed apart: these follow from the others.
     """

@@ -1,4 +1,4 @@
-"""Motions of many designs at once, each with its own step sizes, until its end; and their outputs.
+"""Motions of many designs at once, each with separate step sizes, until its end; and their outputs.
 
 Mechanics: docs/theory.md 10.6.
 """

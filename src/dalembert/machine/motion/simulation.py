@@ -77,7 +77,7 @@ class Simulation(BrakeHeat, WithMotors, MotionChecks, NamedAnswer, MachineAnswer
     on_joints: Array = field(repr=False)  # stops of joints, (T, J, 2)
     status: str = "ended"
     """``ended`` by a time or a condition; ``not_met``: its conditions are not, within the limits or as it is at rest
-    for good; ``stopped`` where nothing goes on, ``interrupted`` by Ctrl-C: ``ended`` says why and when."""
+    for good; ``stopped`` if the motion cannot go on, ``interrupted`` by Ctrl-C: ``ended`` says why and when."""
     motion: Result | None = field(repr=False, default=None)  # poses and rates where other freedoms have led
     evaluations: int = field(repr=False, default=0)
     opened: OpenedMotion | None = field(repr=False, default=None)
@@ -97,7 +97,7 @@ class Simulation(BrakeHeat, WithMotors, MotionChecks, NamedAnswer, MachineAnswer
 
     @property
     def free_result(self) -> Result:
-        """The analysis in which the gaps of contacts are freedoms of their own."""
+        """The analysis in which the gaps of contacts are separate freedoms."""
         return self._loaded[0]
 
     @cached_property

@@ -17,7 +17,7 @@ from dalembert.model.drives.motors import MotorCurve
 
 @dataclass(frozen=True)
 class MotorUse:
-    """A motor at the instants of a motion, arrays (T,) in SI, on its own shaft.
+    """A motor at the instants of a motion, arrays (T,) in SI, on the motor's shaft.
 
     speed: rad/s, or m/s where it drives a slide without a gear; torque: of its curve, N m or N; gear_torque: what its
     shaft gives to the gear, the torque less what its rotor takes; loss: power lost in the gear, W; power: of the curve.
@@ -58,7 +58,7 @@ class WithMotors:
 
     @cached_property
     def motor(self) -> dict[str, MotorUse]:
-        """Torque, speed and losses of each motor on its own shaft, by drive."""
+        """Torque, speed and losses of each motor on the motor's shaft, by drive."""
         out, s = {}, self.schedule
         for name, drive in self.moves.m.drives.items():
             if drive.motor is not None:

@@ -60,8 +60,8 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     )
     if any(np.isnan(b.time).all() for b in t.loads.values()):
         yield (
-            "The time of each position is not known, so there are no PV, equivalent loads and lives; give a drive a "
-            "range and a speed that is not 0 in it."
+            "The time of each position is not known, so PV, equivalent loads and lives are not computed; "
+            "give a drive a range and a speed that is not 0 in it."
         )
     changes = {f"{what} of {j}": part for j, b in t.loads.items() for what, part in b.sampling().items()}
     yield sampled(t.result, changes)

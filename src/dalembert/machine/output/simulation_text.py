@@ -53,10 +53,10 @@ def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
     if problems:
         yield "\n".join(f"instants {which}: {sentence}" for which, _, sentence in problems)
     if any(code == "contact_lost" for _, code, _ in problems):
-        yield "The motion is computed without backlash, as if these contacts held: from there on it is not exact."
+        yield "The motion is computed without backlash, as if these contacts held: after that it is not exact."
     if any(code in ("slips", "slack") for _, code, _ in problems):
         yield (
-            "The motion is computed as if belts and ropes neither slipped nor hung slack: from there on it is not that "
+            "The motion is computed as if belts and ropes neither slipped nor hung slack: after that it is not that "
             "of the machine."
         )
 

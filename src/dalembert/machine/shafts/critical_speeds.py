@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from dalembert.views.paper.scene import Scene
 
 ELEMENTS = 64
-"""Elements of a shaft, of which half are a check."""
+"""Elements of a shaft; half as many are a check."""
 G = 9.80665
 
 
@@ -127,7 +127,7 @@ class CriticalSpeeds(Labelled, Drawn, Worked):
 def critical_speeds(r: Result, link: str, count: int = 3) -> CriticalSpeeds:
     """Critical speeds of a link as a shaft: one straight member with a section and its Young's modulus.
 
-    Its bearings are its joints, at their places along it; a weld clamps it. Its masses are its own mass along it
+    Its bearings are its joints, at their places along it; a weld clamps it. Its masses are the shaft's mass along it
     (`mass_along: uniform` or `shape`) and links welded to it that have no other joint. Raises ModelError for a link of
     several members, for one that is not held, and for one with mass whose place along it is not given.
 

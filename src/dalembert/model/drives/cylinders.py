@@ -151,7 +151,7 @@ class FluidCylinder(Part):
             raise ModelError(what, "closed is the distance of its ends with the rod in", ("stroke",))
         if self.barrel is not None and self.barrel_part is None:
             remedy = "give closed and stroke, or barrel_length"
-            raise ModelError("the length of its barrel is not known, and its column is asked", remedy)
+            raise ModelError("the length of its barrel is not known, and is needed for its column", remedy)
         if self.mass is not None and self.lengths is None:
             what = "where the masses of barrel and rod are does not follow"
             raise ModelError(what, "give closed and stroke", ("mass",))
@@ -174,7 +174,7 @@ class CylinderLink(Link):
 
 
 def with_cylinders(tree: Mapping[str, Any], rules: ReadingRules) -> Mapping[str, Any]:
-    """The tree with the two links and three joints of each cylinder; links without masses may be the tree's own."""
+    """The tree with the two links and three joints of each cylinder; links without masses may be there already."""
     drives = tree.get("drives")
     items = drives.items() if isinstance(drives, Mapping) else ()
     found = {str(name): keys for name, drive in items if (keys := _of(drive)) is not None}
@@ -189,14 +189,14 @@ def with_cylinders(tree: Mapping[str, Any], rules: ReadingRules) -> Mapping[str,
                 remedy = (
                     "in space, write its barrel and rod as links, and drive the prismatic joint between them"
                 )
-                raise ModelError("a cylinder is a drive of the plane", remedy)
+                raise ModelError("a cylinder drives plane mechanisms only", remedy)
             if isinstance(c := _read(keys, rules), FluidCylinder):
                 _expand(name, c, parts["links"], parts["joints"], rules)
     return {**tree, **parts}
 
 
 def _read(keys: object, rules: ReadingRules) -> FluidCylinder | None:
-    """The cylinder; None of wrong keys, which are told where the drive is read."""
+    """The cylinder; None if its keys are wrong, which the drive's reader reports."""
     try:
         return keys if isinstance(keys, FluidCylinder) else FluidCylinder.model_validate(keys, context=rules)
     except ModelError:

@@ -71,7 +71,7 @@ class Jet:
         )
 
     def through(self, value: Any, slope: Any, bend: Any) -> Jet:
-        """A function of it, by its value and derivatives there."""
+        """A function of it, by its value and derivatives at a point."""
         return Jet(value, slope * self.first, slope * self.second + bend * self.first**2)
 
 

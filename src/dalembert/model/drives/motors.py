@@ -34,7 +34,7 @@ class MotorCurve:
     """Effort over speed by straight lines between points; beyond both ends the last line goes on if ``straight`` (given
     by stall and no-load), else the last effort holds. Off before ``on`` and from ``off``.
 
-    Behind a gear its numbers are those of its own shaft: ``ratio`` n, its speed over that of the drive (of one that
+    Behind a gear its numbers are those of the motor's shaft: ``ratio`` n, its speed over that of the drive (of one that
     slides, rad/m); ``inertia`` J of its rotor, kg m2; ``efficiency`` of the gear. X = T - J n a is what its shaft gives
     to the gear, and the drive gets eta n X while power goes to the machine, n X/eta while it comes back.
     """
@@ -50,12 +50,12 @@ class MotorCurve:
 
     @property
     def geared(self) -> bool:
-        """True if the drive does not get the effort of the curve at its own speed."""
+        """True if the drive does not get the effort of the curve at its speed."""
         return (self.ratio, self.inertia, self.efficiency) != (1.0, 0.0, 1.0)
 
     @property
     def at_drive(self) -> MotorCurve:
-        """Its curve as the drive has it behind a gear without inertia and loss."""
+        """Its curve as seen by the drive, behind a gear without inertia and loss."""
         return replace(
             self,
             speed=tuple(x / self.ratio for x in self.speed),
@@ -256,7 +256,7 @@ def motor_schema() -> JsonSchema:
         "on": NUMBER_OR_TEXT | {"description": switched + "on"},
         "off": NUMBER_OR_TEXT | {"description": switched + "off"},
         "ratio": NUMBER_OR_TEXT | {"description": "speed of the motor over that of the drive; default 1"},
-        "inertia": NUMBER_OR_TEXT | {"description": "of the rotor, about its own axis; default 0"},
-        "efficiency": NUMBER_OR_TEXT | {"description": "of the gear, both ways; default 1"},
+        "inertia": NUMBER_OR_TEXT | {"description": "of the rotor, about its axis; default 0"},
+        "efficiency": NUMBER_OR_TEXT | {"description": "of the gear, in both directions; default 1"},
     }
     return object_schema(keys)

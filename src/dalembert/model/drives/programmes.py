@@ -231,7 +231,7 @@ def rate_kind(kind: str, what: str) -> str:
 
 
 def segment_tree(s: Segment, kind: str, master: str) -> dict[str, object]:
-    """A segment as a file has it; ``master``: the kind of what it is over."""
+    """A segment as written in a file; ``master``: kind of the quantity that it depends on."""
     out: dict[str, object] = {}
     if s.form == "dwell":
         return {"dwell": REST if math.isnan(s.length) else value_text(s.length, master)}

@@ -67,8 +67,8 @@ class TurningPlane(Part):
         (0.0, 0.0), description="a point of the axis in ground axes, lengths; default the origin"
     )
     speed: Annotated[float | Literal["unknown"], TurningSpeed()] = Field(
-        description="angular speed of the plane, such as 180 rpm, or unknown: solved from a given effort"
+        description="angular speed, such as 180 rpm, or unknown: solved from a given effort"
     )
     acceleration: Annotated[float, Scalar("angular_acceleration")] = Field(
-        0.0, description="angular acceleration of the plane: it loads the shaft alone; default 0"
+        0.0, description="angular acceleration: it loads the shaft alone; default 0"
     )

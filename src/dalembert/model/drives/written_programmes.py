@@ -1,4 +1,4 @@
-"""Motion programmes as a file has them: reading, and the schema."""
+"""Motion programmes as written in a file: reading, and the schema."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ def convert(
 
     The mechanism is read first, so that a wrong file is not converted. Comments are not kept. Either file may be
     that of another program (docs/formats.md). change: applied to the mechanism before it is written. Returns what is
-    not kept, a line each; with strict such a line raises ModelError, and nothing is written.
+    not kept, a line each; with strict such a line raises ModelError, and no file is written.
     """
     from dalembert.interchange.file_formats import foreign_bytes, is_foreign, is_writable, read_foreign
     from dalembert.model.description import mechanism

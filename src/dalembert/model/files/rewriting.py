@@ -40,7 +40,7 @@ def text_of(m: Mechanism, form: str, folder: str | None = None) -> str:
     """The text of a model file in a format: the text of the mechanism's file, changed as little as possible, if it has
     one.
 
-    Columns of another file stay there if it is in the ``folder`` of the text (default: that of the mechanism's file).
+    Columns of another file stay in it if it is in the ``folder`` of the text (default: that of the mechanism's file).
     """
     file_folder = m.source.folder if m.source is not None else ""
     token = FILE_FOLDER.set(file_folder if folder is None else folder)

@@ -66,7 +66,7 @@ class TwoNumbers(ValueField):
 
 
 def kinds_of(part: type[Any]) -> list[type[Any]]:
-    """The classes of a part that have no kinds of their own: those that a file can name."""
+    """The classes of a part without subclasses: those that a file can name."""
     kinds = part.__subclasses__()
     return [leaf for kind in kinds for leaf in kinds_of(kind)] if kinds else [part]
 
@@ -137,7 +137,7 @@ class JointPart(Part):
 
     @property
     def outlined(self) -> bool:
-        """True if link i has an outline of its own, on which j's point moves."""
+        """True if link i has an outline, on which j's point moves."""
         return False
 
     @property

@@ -124,7 +124,7 @@ class Slider(JointPart):
 
     @property
     def lifted(self) -> tuple[str, ...]:
-        """Of a guide with lengths the gaps at its ends, else that along its normal."""
+        """Gaps at the ends of a guide with lengths, else the gap along its normal."""
         return (
             ("gap",) if self.friction is None or self.friction.guide is None else ("gap_behind", "gap_ahead")
         )
@@ -356,7 +356,7 @@ class Rolling(JointPart):
                 "give either radius, for a wheel on a line, or radii, for one on a circle",
             )
         if self.friction is not None and self.contact.mode == "holds":
-            what = "a wheel that is held on its track both ways has no limit of friction"
+            what = "a wheel that is held on its track on both sides has no limit of friction"
             raise ModelError(what, "write contact: pushes, or leave the friction out", ("friction",))
         if self.radii is not None and self.direction:
             raise ModelError("a wheel on a circle has no direction", "leave it out", ("direction",))

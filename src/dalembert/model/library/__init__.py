@@ -91,7 +91,7 @@ DESCRIPTIONS = {
     "radial_engine": "cylinders in a star on one throw; generated",
     "porter_governor": "balls on arms lift a sleeve in a plane that turns: speed over the height",
     "hartnell_governor": "balls on bell cranks against a spring in a plane that turns",
-    "planetary_train": "sun, planet, arm and a held ring, with losses both ways",
+    "planetary_train": "sun, planet, arm and a held ring, with losses in both directions",
     "rssr": "in space: crank, rod with two balls, rocker about any axis",
     "rssp": "in space: crank, rod with two balls, slider along any line",
     "rccc": "in space: a revolute and three cylindrical joints, the general four-bar",

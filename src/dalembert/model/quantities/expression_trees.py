@@ -19,7 +19,7 @@ ARGUMENTS |= dict.fromkeys(("atan2", "min", "max"), 2)
 MANY = ("min", "max")
 REDUCTIONS = ("peak", "mean", "rms", "range", "least", "greatest", "norm8", "final")
 """Functions of all values of a cycle, where a single number is required: the largest magnitude, the mean, the root mean
-square, the difference of the extremes, these, a smooth stand-in of the peak, and the last value."""
+square, the difference of the extremes, these, a smooth approximation of the peak, and the last value."""
 COMPARISONS = (">=", "<=", ">", "<")
 """Operators worth 1 or 0, in brackets."""
 

@@ -37,8 +37,8 @@ class Table:
     """A quantity known at `x` of `against` (radians, metres or seconds): SI values `y`, times a factor.
 
     ``against`` is a drive, `time`, `links.NAME.angle`, a freedom of a joint, `joints.NAME.slide`, or a speed of these.
-    ``outside`` its ends it holds the value there, is zero, or holds it and is refused by a status; with a `period` it
-    repeats. With a `shift` it comes so much later. ``of`` is the kind of y where
+    ``outside`` its ends it holds the end value, is zero, or holds it and is refused by a status; with a `period` it
+    repeats. With a `shift` it is delayed by this. ``of`` is the kind of y where
     ``times`` makes another of it, a pressure times an area; ``file`` is where the columns came from.
 
     >>> Table("O2", (0.0, 1.0, 2.0), (0.0, 10.0, 0.0)).at({"O2": 0.25})

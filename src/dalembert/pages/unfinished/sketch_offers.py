@@ -1,4 +1,4 @@
-"""What finishes an unfinished mechanism, as changes of its text: a pivot on the ground, a joint, a drive."""
+"""Additions that finish an unfinished mechanism, as changes of its text: a pivot on the ground, a joint, a drive."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from dalembert.model.files.splicing import REMOVED, splice
 MOST = 6
 """Offers of one kind at most."""
 TOGETHER = 1e-3
-"""Distance of points that are taken for one place, over the size of the mechanism."""
+"""Distance of points that count as one place, over the size of the mechanism."""
 
 Places = Mapping[tuple[str, str], Array]
 """Link and point -> its place, m."""
@@ -37,7 +37,7 @@ class Offered:
 def offers(
     m: Mechanism, c: Compiled, ranked: Rank, measures: Array, places: Places, text: str
 ) -> list[Offered]:
-    """Steps for a mechanism at a pose; ``measures`` (F,): where its freedoms stand; ``text``: its YAML."""
+    """Steps for a mechanism at a pose; ``measures`` (F,): the values of its freedoms; ``text``: its YAML."""
     free = unrooted(m)
     steps = [*_joints(m, places, c.layout.length)]
     if free:

@@ -174,7 +174,7 @@ class Unfinished:
 
     @property
     def measures(self) -> Array:
-        """Where the joints' freedoms (F,) stand."""
+        """Values of the joints' freedoms (F,)."""
         freedoms = self.compiled.layout.freedoms
         if not freedoms.count:
             return np.zeros(0)
@@ -194,7 +194,7 @@ class Unfinished:
 
 def unfinished(m: Mechanism) -> Unfinished | None:
     """The mechanism as a sketch where its freedoms are not its drives or it does not close; None where it is finished,
-    in space, or of a size whose squares are no numbers."""
+    in space, or of a size whose squares overflow."""
     if m.dimension != 2:
         return None
     bare = m.model_copy(update={"drives": {}, "loads": {}})
@@ -225,7 +225,7 @@ def driven_rank(m: Mechanism, c: Compiled, pose: Pose) -> Rank:
 
 
 def _first_pose(m: Mechanism, c: Compiled) -> Pose | None:
-    """The pose of the mechanism's own first position, else one of its joints alone; None where nothing closes."""
+    """The pose of the mechanism's first position, else one of its joints alone; None if neither closes."""
     tries: list[Callable[[], Compiled]] = [lambda: c]
     if m.drives:
         driven = m.model_copy(update={"loads": {}})
@@ -299,7 +299,7 @@ def _text(m: Mechanism) -> str:
 
 
 def _with_places(m: Mechanism, text: str, links: Sequence[str]) -> str:
-    """The text with marks @@k@@ where the numbers of the poses go: x, y (m), angle (rad) of each link in turn."""
+    """The text with @@k@@ at the places of the poses' numbers: x, y (m), angle (rad) of each link in turn."""
     free = unrooted(m)
     for k, link in enumerate(links):
         angle = f"@@{3 * k + 2}@@ rad"

@@ -26,11 +26,11 @@ from dalembert.reports.design.verdict import (
 USUAL = 0.05
 """Cs of the flywheel that is proposed: of presses and machine tools 0.02 to 0.2 (Norton, Design of Machinery, 11)."""
 LIGHT = 1e-6
-"""Part of the machine's mass, times the square of its size, that stands for no flywheel."""
+"""Part of the machine's mass, times the square of its size, that does not count as a flywheel."""
 
 
 def motor_part(c: DesignContext) -> Iterator[DesignPart]:
-    """What each drive needs of a motor, and whether that of the file gives it."""
+    """Motor that each drive needs, and whether the file's motor provides it."""
     m, part = c.r.mechanism, DesignPart("Motor")
     requested = [d for d in c.r.drives if m.drives[d].effort is None and m.drives[d].cylinder is None]
     if not requested:

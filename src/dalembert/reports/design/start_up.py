@@ -1,4 +1,4 @@
-"""Start-up of a design report: the machine let go under its motors, from rest to its working speed."""
+"""Start-up of a design report: the machine released under its motors, from rest to its working speed."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ LEAST = 1.0
 
 @dataclass(frozen=True)
 class DesignVerdict:
-    """One thing judged: ``margin`` is the limit over the value, NaN where there is no limit or no value."""
+    """One thing judged: ``margin`` is the limit over the value, NaN without a limit or a value."""
 
     item: str
     state: State

@@ -21,7 +21,7 @@ def motion_laws(sheet: ReportSheet, c: ReportContext) -> None:
         return
     sheet.heading("Laws of motion")
     sheet.text(
-        "A way h in a time b has the largest speed v = C_v h/b, acceleration a = C_a h/b² and jerk j = C_j h/b³ "
+        "A stroke h in a time b has the largest speed v = C_v h/b, acceleration a = C_a h/b² and jerk j = C_j h/b³ "
         "inside the rise; over the position of another drive, at its speed w, b/w is the time. Where the acceleration "
         "jumps, the jerk is infinite."
     )

@@ -123,7 +123,7 @@ def _parts(raw: object) -> list[object]:
 
 
 def _is_expression(raw: object) -> bool:
-    """True for letters that are no unit behind a number."""
+    """True for letters that are not a unit behind a number."""
     text = str(raw).strip()
     found = re.fullmatch(rf"({NUMBER})\s*(.*)", text)
     return bool(re.search("[A-Za-z]", text)) and (found is None or not _is_unit(found[2]))

@@ -51,7 +51,7 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
             out.append(zero_sum(*sums, shown, "length", "/s" if letter == "omega" else "/s²"))
     words = f"Mesh {joint}: the pitch circles roll on each other"
     if described.WRAPPED:
-        words = f"Belt {joint}: both rims have its speed, r negative where the wheels turn the same way"
+        words = f"Belt {joint}: both rims have its speed, r negative where the wheels turn in the same sense"
     if any(rate for _, _, rate, _ in rates):
         parts = [f"${letter}_{{c}}$ = {shown.text(kind, rate)}" for letter, kind, rate, _ in rates if rate]
         words += f", seen from the line of centres, for which {' and '.join(parts)}"

@@ -40,7 +40,7 @@ def solution_steps(sheet: ReportSheet, c: ReportContext, solved: ForceSteps, dra
     """All steps, those on one free body together and beside its figure where it comes first."""
     writer, shown_links = StepWriter(c, solved), set[str]()
     sheet.text(
-        "$h(F)$ is the distance of a force's line of action from the point of the moments; forces found before are "
+        "$h(F)$ is the distance of a force's line of action from the point of the moments; forces already solved are "
         "taken with their sizes, and each term has the sign of its sense; $c$ is the cosine of an unknown's angle with "
         "the direction of a sum."
         if c.r.mechanism.dimension == 2
@@ -72,7 +72,7 @@ def _rounds(solved: ForceSteps) -> str:
     if circles:
         parts.append(
             f"With friction in {', '.join(circles)} the point where the force touches the circle depends on the "
-            "force: the forces are taken at the tangent points of the last round of the iteration."
+            "force: the forces act at the tangent points of the last round of the iteration."
         )
     if leaning:
         parts.append(
@@ -209,7 +209,7 @@ class StepWriter:
         return f', quad "it acts at" {self.c.notation.direction(*map(float, s.whole))} deg'
 
     def _whole(self, s: SolvedStep) -> Working:
-        """Size and direction of a force whose components are found."""
+        """Size and direction of a force whose components are known."""
         assert s.whole is not None
         f, k = s.finds[0], s.finds[0].of
         marks = [
@@ -231,7 +231,7 @@ class StepWriter:
     # signs
 
     def _sign(self, f: FoundNumber, s: SolvedStep) -> str:
-        """Sign of a found number, on the free body of a step."""
+        """Sign of a solved number, on the free body of a step."""
         u = self.e.unknowns[f.of]
         sign = self._of(u, self._on(u, s.links), f.turning)
         return along(sign, f.mark) if f.mark else sign
@@ -332,7 +332,7 @@ class StepWriter:
 
 
 def replace_force(t: StepTerm, f: FoundNumber) -> StepTerm:
-    """The term with a force of size 1 where the number found is nothing."""
+    """The term with a force of size 1 where the solved number is zero."""
     return StepTerm(t.link, f.direction, t.at, t.couple, t.value, None, t.of, t.found, True)
 
 

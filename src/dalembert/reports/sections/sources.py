@@ -102,7 +102,7 @@ def _arms(sheet: ReportSheet, c: ReportContext, parts: Superposition) -> None:
         link = shown.heading(crank.link)
         sheet.text(
             f"The torque in {crank.joint} of each source: its force at {crank.pin} on link {link} times its arm h "
-            f"about {crank.joint}, and what balances the own moment of a source on this link."
+            f"about {crank.joint}, and what balances the moment of a source on this link."
         )
         every = effort_arms(parts, crank, c.k)
         rows = [row for a in every if (row := _arm_row(c, a)) is not None]

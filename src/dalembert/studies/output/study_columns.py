@@ -1,4 +1,4 @@
-"""The designs of a study as columns that are read by blocks: no more of a store stands in memory than is written."""
+"""The designs of a study as columns that are read by blocks: only the block being written is in memory."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dalembert.studies.study_result import StudyResult
 
 @dataclass(frozen=True)
 class ByBlocks:
-    """Numbers of many designs, of which slices are read."""
+    """Numbers of many designs, read by slices."""
 
     count: int
     read: Callable[[int, int], Array]

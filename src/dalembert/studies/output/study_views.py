@@ -22,7 +22,7 @@ DOTS = 1_000
 LEVELS = 8
 """Lines of equal value in a contour diagram, about."""
 EDGE = 8.0
-"""Distance from the edge of a diagram, mm, within which lines are not labelled: the numbers of its axes are there."""
+"""Distance from the edge of a diagram, mm, within which lines are not labelled: the axes' numbers are in it."""
 PERCENTS = {"median": (50.0, "curve-1"), "5 % and 95 %": (5.0, "curve-3"), "": (95.0, "curve-3")}
 
 

@@ -30,7 +30,7 @@ FINE = 12
 
 
 class Draft:
-    """The text of a mechanism of the plane while a gesture changes it. Places are in ground axes, m and rad."""
+    """The text of a plane mechanism while a gesture changes it. Places are in ground axes, m and rad."""
 
     def __init__(self, text: str, form: str, tree: Any, placed: Placed) -> None:
         self._text, self.form, self.tree = text, form, deepcopy(tree)
@@ -41,7 +41,7 @@ class Draft:
         self._values: dict[Path, object] = {}
         if self.tree.get("copies"):
             raise ModelError(
-                "a mechanism with copies is edited as text", "change the original or the copies there"
+                "a mechanism with copies is edited as text", "change the original or the copies in the text"
             )
 
     # text

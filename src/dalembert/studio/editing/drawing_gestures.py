@@ -12,7 +12,7 @@ from dalembert.studio.editing.gesture import Gesture, Place, Text, Where
 
 
 class DrawnLink(Gesture):
-    """A link of two points; an end that snapped to a point is pinned there.
+    """A link of two points; an end that snapped to a point is pinned to it.
 
     A typed length and angle place its second end; if that one snapped, the joints then pull the ends together.
     """
@@ -120,7 +120,7 @@ class Slide(Gesture):
                 f"a {self.op} guides a point of a link", "press on a point, and drag along the guide"
             )
         if end[0] == self.guide:
-            raise ModelError("a link cannot guide its own point", "choose another link, or the ground")
+            raise ModelError("a link cannot guide a point of itself", "choose another link, or the ground")
         if self.guide not in d.entries("links"):
             raise ModelError(f"links has no {self.guide!r}", "choose a link of the drawing")
         at = d.world(end)
@@ -154,7 +154,7 @@ class Slide(Gesture):
             root(d, end[0])
 
     def _direction(self, d: Draft, turn: float) -> float:
-        """The line's direction in the guide's axes: of a bar, its own."""
+        """The line's direction in the guide's axes: that of a bar."""
         if self.guide == GROUND:
             return turn
         places = [d.points[end] for end in d.ends() if end[0] == self.guide]

@@ -26,7 +26,7 @@ HOLDING = ("pin", "weld", "slot", "slider")
 
 
 class Move(Gesture):
-    """A point moved to a place with all points that joints hold there. A bar stays a bar: its length changes, and its
+    """A point moved to a place with all points that joints hold at it. A bar stays a bar: its length changes, and its
     angle."""
 
     op: Literal["move"]
@@ -67,7 +67,7 @@ class PoseLinks(Gesture):
 
 
 class SetValue(Gesture):
-    """A value of the file as it was typed, in the file's units or with its own."""
+    """A value of the file as it was typed, in the file's units or with a unit."""
 
     op: Literal["set"]
     path: Annotated[tuple[Text | int, ...], Field(min_length=1, max_length=8)]
@@ -242,7 +242,7 @@ def move_end(
 
 
 def repose_drives(d: Draft, poses: dict[str, tuple[float, float, float]]) -> None:
-    """Drives of pins that stand at one position follow the links that were turned."""
+    """Drives of pins that are at one position follow the links that were turned."""
     for drive, part in d.entries("drives").items():
         joint = d.entries("joints").get((part or {}).get("joint", drive)) or {}
         links = joint.get("links") or ()

@@ -109,7 +109,7 @@ def _link(end: object) -> str:
 
 
 def _whole_sections(tree: Any, gone: set[Path]) -> dict[Path, object]:
-    """Removals; a section of which nothing is left goes as a whole."""
+    """Removals; an empty section is removed too."""
     out: dict[Path, object] = {}
     for section in dict.fromkeys(path[0] for path in gone):
         paths = [path for path in gone if path[0] == section]

@@ -113,13 +113,13 @@ def _in_expression(said: str, kind: str, old: str, new: str) -> str:
 
 
 def _kept_points(text: str, form: str, index: Places, joint: str) -> Iterator[Change]:
-    """A joint without ``at`` finds its points by its own name: it now says it."""
+    """A joint without ``at`` that names its points by its name gets an ``at``."""
     if ("joints", joint, "links") in index and ("joints", joint, "at") not in index:
         yield _with_at(text, form, index, joint, value_text(joint, form))
 
 
 def _joints_at(text: str, form: str, index: Places, link: str, old: str, new: str) -> Iterator[Change]:
-    """Joints of a link at its point, which is one name on both links or the joint's own."""
+    """Joints of a link at its point, which is one name on both links or the joint's name."""
     for path in index:
         if len(path) != 2 or path[0] != "joints" or (*path, "links", 0) not in index:
             continue

@@ -37,7 +37,7 @@ Placed = Mapping[str, tuple[float, float, float]]
 
 @dataclass(frozen=True)
 class SketchPose:
-    """A compiled mechanism of the plane at a pose (1, L+1, ...); ``gap``: the largest residual, m; ``freedoms``: what
+    """A compiled plane mechanism at a pose (1, L+1, ...); ``gap``: the largest residual, m; ``freedoms``: what
     the joints leave free at this pose."""
 
     compiled: Compiled
@@ -102,9 +102,9 @@ class SketchPose:
 
 
 def sketch_pose(m: Mechanism, known: Placed) -> SketchPose:
-    """The pose of a mechanism of the plane that is nearest to its ``assembly`` and to what is known.
+    """The pose of a plane mechanism that is nearest to its ``assembly`` and to what is known.
 
-    Of a finished one of which nothing is known it is that of its analysis; nothing else is searched for, which may
+    For a finished one without known pose it is that of its analysis; no other is searched for, which may
     take seconds. Raises ModelError where it cannot be compiled.
     """
     with np.errstate(all="ignore"):
@@ -114,7 +114,7 @@ def sketch_pose(m: Mechanism, known: Placed) -> SketchPose:
 def _sketch_pose(m: Mechanism, known: Placed) -> SketchPose:
     c = compile_mechanism(m, m.schedule())
     if not isinstance(c.guess, Guess):
-        raise ModelError("the studio draws mechanisms of the plane", "edit the text of one in space")
+        raise ModelError("the studio draws plane mechanisms", "edit the text of one in space")
     pose, missing = settled(
         c, tree_pose(c.layout, c.first_target, _guess(c, c.guess, known)).at(None), drives=True
     )

@@ -19,7 +19,7 @@ APART, HIGH = 26.0, 9.0
 
 
 def shaft_scene(c: CriticalSpeeds, notation: Notation) -> Scene:
-    """The shaft, scale said below it; shapes have no scale of their own."""
+    """The shaft with its scale; mode shapes are not to scale."""
     shown, canvas = Shown(c.result, notation), Canvas()
     per_mm = round_up(c.beam.length / shown.size("length") / LONG) * shown.size("length")
     end = c.beam.length / per_mm

@@ -178,7 +178,7 @@ def _circular_slot_solids(r: Result, name: str, size: float) -> list[tuple[str, 
 
 
 def _cam_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
-    """A peg of j, in place of its roller, on the cam's plate."""
+    """A peg of j, instead of its roller, on the cam's plate."""
     joint: Any = r.mechanism.joints[name]
     at = lift(r, joint.links[1], r.mechanism.joint_points(name)[1], size)
     radius = joint.follower.roller or 0.9 * size

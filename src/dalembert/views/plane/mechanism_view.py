@@ -256,7 +256,7 @@ def draw_force(
     kind: str = "force",
     clear: bool = False,
 ) -> None:
-    """An arrow that leaves its point, or ends there where it pushes inwards; ``values`` None leaves it unnamed."""
+    """An arrow that leaves its point, or ends at it where it pushes inwards; ``values`` None leaves it unnamed."""
     at, (fx, fy) = frame(a.at[k]), map(float, a.force[k])
     dx, dy = fx / per_mm, fy / per_mm
     size = math.hypot(fx, fy)

@@ -146,7 +146,7 @@ def _layers(r: Result, m: Mount) -> list[float]:
 
 
 def _towards(r: Result, m: Mount, end: int) -> Array:
-    """Unit vector in the joint's axes to the middle of the rest of a link; away from the other link where there is no
+    """Unit vector in the joint's axes to the middle of the rest of a link; away from the other link if there is not a
     rest."""
     here = m.points[end]
     rest = [p for p in nodes(r, m.links[end]).values() if np.linalg.norm(p - here) > 1e-9]

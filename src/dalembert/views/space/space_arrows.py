@@ -82,7 +82,7 @@ class Arrows:
     def vector(
         self, at: Point, v: Array, role: str, of: str, text: str, turning: bool = False, inward: bool = False
     ) -> None:
-        """One arrow that leaves its place, or ends there where it pushes inwards; a moment is drawn slightly to one
+        """One arrow that leaves its place, or ends at it where it pushes inwards; a moment is drawn slightly to one
         side."""
         if not np.isfinite(v).all():
             return

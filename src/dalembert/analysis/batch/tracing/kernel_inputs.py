@@ -187,7 +187,7 @@ class Inputs:
             signs = _carry_sign_forward(self._signs(c, kind, plus, minus, a, b))
             return np.broadcast_to(signs, (len(c.schedule.position),))
 
-        sign = self.make("channel", f"way {a} {b} {len(self.named)}", along)
+        sign = self.make("channel", f"sense {a} {b} {len(self.named)}", along)
         self.branches.append(Branch(sign, plus, minus, a, b))
         return sign
 

@@ -104,7 +104,7 @@ class Catalogue(LinkMotion):
 
     @property
     def algebra(self) -> Algebra:
-        """Algebra of the plane, or of space."""
+        """Algebra in two or three dimensions."""
         return self.compiled.layout.algebra
 
     def _counted(self, name: str) -> Numeric:
@@ -124,7 +124,7 @@ class Catalogue(LinkMotion):
 
     @property
     def turning_speed(self) -> Node:
-        """Speed of the plane that turns."""
+        """Speed of the turning plane."""
         speed: Node = self.traced.square[0].sqrt()
         return speed
 

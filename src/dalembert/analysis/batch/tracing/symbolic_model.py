@@ -123,7 +123,7 @@ def _refuse_followed(m: Mechanism, path: str) -> None:
 
 
 def leads_rope(m: Mechanism, path: str) -> bool:
-    """True if a path names the direction of a guide that a rope with parallel strands takes as its own."""
+    """True if a path names a guide whose direction a rope with parallel strands takes over."""
     keys = path.split(".")
     if keys[0] != "joints" or keys[2:] != ["direction"]:
         return False

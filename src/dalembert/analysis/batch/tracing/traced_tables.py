@@ -1,7 +1,7 @@
 """Tables as nodes: differentiable by what they are against, by their values, their factor and their shift.
 
-The piece is found by bisection, unrolled: each half is chosen by a flag that is 0 or 1, so that all is exact and the
-slope is that of the piece. Beyond its ends a table holds its value, with a mark where it
+The piece is chosen by bisection, unrolled: each half is chosen by a flag that is 0 or 1, so that all is exact and the
+slope is that of the piece. Beyond its ends a table holds its value, with a flag where it
 refuses that.
 """
 
@@ -57,7 +57,7 @@ def _pieces(table: Table) -> tuple[Array, Sequence[Sequence[Scalar]]]:
 
 
 def _inside(graph: Graph, table: Table, place: Node, breaks: Array) -> Node:
-    """A position within the table, whole periods taken off; what is below zero outside its ends is a doubt."""
+    """A position within the table, less full periods; what is below zero outside its ends is a doubt."""
     low, high = float(breaks[0]), float(breaks[-1])
     if table.period is not None:
         turns = (place - low) / table.period
@@ -79,7 +79,7 @@ def _ends(table: Table, place: Node) -> list[Node]:
 
 
 def _choose(graph: Graph, place: Node, breaks: Array, rows: Sequence[Sequence[Scalar]]) -> list[Scalar]:
-    """Of each row (n,) of numbers the one of the piece that a position is in."""
+    """From each row (n,) of numbers, the one of the piece that contains the position."""
     if len(rows[0]) == 1:
         return [row[0] for row in rows]
     half = len(rows[0]) // 2

@@ -41,7 +41,7 @@ def belt_pulls(m: Mechanism) -> BeltPulls | None:
 
 
 def grip(m: Mechanism, belt: Belt) -> Numeric | None:
-    """Coefficient below which the belt slips: at rest, over the sine of half the groove; None where nothing is said."""
+    """Coefficient below which the belt slips: at rest, over the sine of half the groove; None without a coefficient."""
     if belt.grip is None or not m.friction.enabled:
         return None
     parts = (belt.grip.static, belt.grip.coefficient, m.friction.static, m.friction.coefficient)

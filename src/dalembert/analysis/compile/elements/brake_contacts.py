@@ -193,9 +193,9 @@ def add_brake(rows: RowBuilder, index: int, ends: tuple[int, int], place: BrakeP
 
 
 def with_unknown_clamps(m: Mechanism) -> Mechanism:
-    """The mechanism with an unknown couple, of the brake's name, in place of each pair of faces whose force is unknown.
+    """The mechanism with an unknown couple, of the brake's name, instead of each pair of faces of unknown force.
 
-    The couple of faces does not depend on other reactions, so that it is found without friction, and the force from it.
+    The couple of faces does not depend on other reactions, so it is solved without friction, and gives the force.
     """
     out: dict[str, Couple] = {}
     for name, joint in m.joints.items():

@@ -30,7 +30,7 @@ def worst_radius(c: CamMotion, turns: Array) -> Array:
 
 
 def refuse_undercut(m: Mechanism, name: str) -> None:
-    """Raise ModelError for a profile by lift that its own follower would cut away."""
+    """Raise ModelError for a profile by lift that the follower would undercut."""
     if m.joints[name].profile.segments is None:  # type: ignore[union-attr]
         return
     c = cam_motion(m, name)

@@ -98,7 +98,7 @@ class CamMotion:
 
     @cached_property
     def _scanned(self) -> tuple[Array, Array]:
-        """Even turns, and the directions that the row reads there."""
+        """Evenly spaced turns, and the directions that the row reads at them."""
         turns = np.linspace(0.0, TURN, 121)
         return turns, self._read(turns)
 

@@ -12,7 +12,7 @@ from dalembert.model.joints.elements.one_way_joints import Clutch, released
 
 def with_clutches(m: Mechanism, drives: int) -> Mechanism:
     """The mechanism with its clutches as they are: constraints where so many drives leave them a freedom to hold, else
-    released. Raises ModelError where some hold and some do not: which, only the motion tells."""
+    released. Raises ModelError where some hold and some do not: only the motion decides which."""
     clutches = {n: j for n, j in m.joints.items() if isinstance(j, Clutch) and not j.RELEASED}
     if not clutches or m.dimension != 2:
         return m

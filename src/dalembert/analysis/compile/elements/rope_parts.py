@@ -1,8 +1,8 @@
 """A rope as what it consists of: strands between points and wheels, and a pulley for each wheel that it runs over.
 
 A strand is a row between two links. Where the rope runs over a pulley, or slides on a fixed wheel, a link without mass
-stands for the rope there, on a pin of the wheel's link: its equilibrium says that both tensions are equal, but for
-friction. Mechanics: docs/theory.md 5.7.
+represents the rope at that place, on a pin of the wheel's link: its equilibrium says that both tensions are equal, but
+for friction. Mechanics: docs/theory.md 5.7.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class RopeWheel(NamedTuple):
     """A wheel between two strands of a rope.
 
     place: among the points of the rope; way: 1 where the rope turns counter-clockwise; drives: True if the rope holds
-    to it; holds: the coefficient at rest by which it does, None where nothing is said or nothing slips.
+    to it; holds: the coefficient at rest by which it does, None without a coefficient or without slip.
     """
 
     link: str

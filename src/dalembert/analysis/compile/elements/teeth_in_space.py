@@ -27,7 +27,7 @@ FITTED = ("ui", "uj", "ri", "rj", "direction", "cone", "outward", "ki", "kj")
 
 
 def fitted_contacts(m: Mechanism, contacts: Contacts | None, layout: Layout, pose: Pose) -> Contacts | None:
-    """The contacts with the teeth's places, directions and levers at a pose (L+1, ...), wheels in mesh there."""
+    """The contacts with the teeth's places, directions and levers at a pose (L+1, ...), at which the wheels mesh."""
     teeth = [f for f in contacts.rows.families if isinstance(f, ToothForce | ToothCouple)] if contacts else []
     if contacts is None or not teeth:
         return contacts
@@ -64,7 +64,7 @@ def _numbers(layout: Layout, joint: int) -> dict[str, Array]:
 
 
 def _levers(m: Mechanism, name: str, skew: bool, first: float, second: float) -> tuple[float, float]:
-    """Strength and own part of the couple of a mesh."""
+    """Strength of the couple of a mesh, and the part that it bears itself."""
     joint: Any = m.joints[name]
     if joint.efficiency is not None:
         if skew:

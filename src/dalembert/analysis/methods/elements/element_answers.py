@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class ElementAnswers:
-    """Answers of machine elements, each computed where it is asked for."""
+    """Answers of machine elements, each computed on request."""
 
     def contact(self, joint: str) -> ContactHistory:
         """Normal force of a contact that only pushes, and the speed at which it is lost: `contact_force.py`."""
@@ -53,7 +53,7 @@ class ElementAnswers:
 
     @property
     def turning_speed(self) -> Array:
-        """Angular speed (P,) of the plane that turns, rad/s: given, or solved; at rest with friction that without it.
+        """Angular speed (P,) of the turning plane, rad/s: given, or solved; at rest with friction that without it.
 
         Raises ModelError if the plane does not turn.
         """

@@ -36,7 +36,7 @@ NOTHING = 1e-10
 class FoundNumber:
     """A number of an unknown: the part of its force along ``direction`` (d,), or of its couple, on its last link.
 
-    ``mark``: `x`, `y`, `t` across the line to the moment point, `n` the rest, `` for the whole; ``value`` in SI.
+    ``mark``: `x`, `y`, `t` across the line to the moment point, `n` the rest, `` for the vector; ``value`` in SI.
     """
 
     of: int
@@ -202,7 +202,7 @@ class _Carrier:
         return shown, factor, sign
 
     def _mark(self, k: int, direction: Array, turning: bool, q: PaperEquation) -> str:
-        """The index of a component; nothing where it is the whole."""
+        """The index of a component; empty for the vector."""
         u, before = self.e.unknowns[k], [f for f in self.found[k] if f.turning == turning]
         rank = np.linalg.matrix_rank(u.force, FLAT) if not turning else self.e.n - self.e.d
         if (
@@ -231,7 +231,7 @@ class _Carrier:
         )
 
     def _whole(self, k: int, links: tuple[int, ...]) -> Array | None:
-        """The joint's force on the free body, where all its components are found and there is more than one."""
+        """The joint's force on the free body, if all its components are known and there are several."""
         u, some = self.e.unknowns[k], tuple(f for f in self.found[k] if not f.turning)
         if len(some) < 2 or len(some) < np.linalg.matrix_rank(u.force, FLAT):
             return None
@@ -240,7 +240,7 @@ class _Carrier:
     # terms
 
     def _terms(self, q: PaperEquation, sought: int = -1) -> Iterator[StepTerm]:
-        """Loads, weights, inertia, then forces found before, as far as they have a part in the equation."""
+        """Loads, weights, inertia, then known forces, as far as they enter the equation."""
         columns, _ = on_links(self.e, q.links)
         names = {self.e.links[n] for n in q.links}
         out = [self._applied(a, q) for a in self.e.known if a.link in names]

@@ -56,7 +56,7 @@ def driven_crank(parts: Superposition, drive: str) -> DrivenCrank | None:
 
 
 def effort_arms(parts: Superposition, crank: DrivenCrank, k: int = 0) -> list[EffortArm]:
-    """Every source's part: T = F h of the force at the crank's pin, and of a source on the crank itself its own moment.
+    """Every source's part: T = F h of the force at the crank's pin, and for a source on the crank itself its moment.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import cases

@@ -41,7 +41,7 @@ MOST_OPEN = 12
 
 @dataclass(frozen=True)
 class Found:
-    """One number found: ``vector`` (c,) of unknown ``of`` by an equation; ``rod``: a two-force link's direction."""
+    """One solved number: ``vector`` (c,) of unknown ``of`` by an equation; ``rod``: a two-force link's direction."""
 
     of: int
     vector: Array
@@ -91,7 +91,7 @@ class StepOrder:
         return [k for k, left in enumerate(self.sought) if left.shape[1]]
 
     def _learn(self, k: int, vector: Array) -> None:
-        """One number of unknown k is found: what is left is at right angles to it."""
+        """One number of unknown k becomes known: the rest is at right angles to it."""
         left = self.sought[k]
         self.sought[k] = left @ null_space(left.T @ vector[:, None], left.shape[1])
 
@@ -194,7 +194,7 @@ class StepOrder:
         return can
 
     def _block(self) -> Simultaneous | None:
-        """The fewest numbers that equations of free bodies, taken together, settle."""
+        """The fewest numbers that simultaneous equations of free bodies determine."""
         left = self.open()
         sizes = {k: self.sought[k].shape[1] for k in left}
         parts = [(some, found) for some in self.free_bodies if (found := self._parts(some))]

@@ -26,7 +26,7 @@ FLAT = 1e-7
 
 @dataclass(frozen=True)
 class PaperEquation:
-    """Equation of a free body of some links: its twist (n,) about the origin, and how it is said.
+    """Equation of a free body of some links: its twist (n,) about the origin, and its name.
 
     ``kind``: `forces` along ``direction``; `moments` about ``point`` (in space about the line along ``direction``);
     `screw` both at once. ``name``: the joint that the point is, the axis, or the two joints of a line.
@@ -49,7 +49,7 @@ def null_space(a: Array, size: int) -> Array:
 
 
 def about_line(point: Array, axis: Array | None = None) -> Array:
-    """Twist of moments about a point of the plane, or about a line in space."""
+    """Twist of moments about a point (plane) or a line (space)."""
     if axis is None:
         return np.array([point[1], -point[0], 1.0])
     return np.concatenate([np.cross(point, axis), axis])

@@ -62,7 +62,7 @@ def turned(v: Array) -> Array:
 
 
 def written(name: str) -> str:
-    """A name as it stands in a formula: without the signs that mean something there."""
+    """A name as a formula prints it: without signs that have a meaning in formulas."""
     return re.sub(r"[^\w]", " ", name)
 
 

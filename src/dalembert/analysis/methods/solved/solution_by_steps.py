@@ -45,7 +45,7 @@ class PaperSolution(Worked):
         return self.forces.steps
 
     def columns(self, axes: Axes = "ground") -> Iterator[Column]:
-        """A row a number found: step, links, equation, of what, which part; force or moment; and the answer's."""
+        """One row for each number: step, links, equation, of what, which part; force or moment; and the answer's."""
         rows = [(s, f, v) for s in self.steps for f, v in zip(s.finds, s.right, strict=True)]
         equations = [f"{s.equation.kind} {s.equation.name}".strip() for s, _, _ in rows]
         yield Column("step", WORD, [s.number for s, _, _ in rows])

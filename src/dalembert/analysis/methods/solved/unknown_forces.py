@@ -135,7 +135,7 @@ class ForceEquations:
                 u.columns[self.links.index(end)] += sign * change
 
     def _as_known(self, u: UnknownForce, rest: Array) -> None:
-        """What cannot be put into the columns is known from the answer, as friction of the last round."""
+        """Sources that cannot be put into the columns are known from the answer, as friction of the last round."""
         count, couple = len(self.r.status), rest[self.d :] if self.d == 3 else rest[2]
         at, force, couple = (np.stack([np.asarray(v)] * count) for v in (u.at, rest[: self.d], couple))
         for on, by, sign in ((u.links[1], u.links[0], 1.0), (u.links[0], u.links[1], -1.0)):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 LEAST = 1e-6
-"""Change of a force by its own friction that counts as none."""
+"""Change of a force by friction at the contact that counts as none."""
 
 
 def brake_parts(r: Result, to: Printed) -> Iterator[Part]:

@@ -46,7 +46,7 @@ def contact_parts(r: Result, to: Printed) -> Iterator[Part]:
 
 
 def _held_parts(r: Result, to: Printed) -> Iterator[Part]:
-    """Where followers in grooves and on conjugate cams go over from one wall or disc to the other."""
+    """Positions at which followers in grooves and on conjugate cams go over from one wall or disc to the other."""
     if not np.isfinite(r.force_array).any() or not r.drives:
         return
     for name, joint in r.mechanism.joints.items():

@@ -20,7 +20,7 @@ RPM = math.pi / 30
 
 
 def turning_note(m: Mechanism) -> dict[str, str]:
-    """Rotation of the plane, and links whose inertia about the axis is not known; empty where it does not."""
+    """Rotation of the turning plane, and links whose inertia about the axis is not known; empty where it does not."""
     if m.turning is None:
         return {}
     axis = {direction: name for name, direction in LINES.items()}.get(m.turning.axis)

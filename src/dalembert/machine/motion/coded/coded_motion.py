@@ -27,7 +27,7 @@ SHORT = 1e-6
 
 class CodedState(LeadState):
     """``coded``: of the segment that runs; ``careful``: True while friction needs the solution in numpy; ``longest``:
-    step so far, where a segment is taken up again."""
+    step so far, where a segment is continued."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         super().__init__(m, actuation)
@@ -38,7 +38,7 @@ class CodedState(LeadState):
         self.sided = sided(self.equation.dry.contacts) if self.equation.dry else np.zeros(0, int)
 
     def forget(self) -> None:
-        """What was watched at the last state: senses may be others."""
+        """Watched values at the last state, when senses may differ."""
         self.seen: tuple[tuple[float, bytes], Array] = (np.nan, b""), np.zeros(0)
 
     def machine(self, t: float, y: Array) -> Coded | None:
@@ -64,7 +64,7 @@ class CodedState(LeadState):
         return np.asarray(self.coded[0].rates(self.coded[1], t, y[None])[0])
 
     def _watched(self, t: float, y: Array) -> Array:
-        """What the machine code watches, in numpy the margins of contacts; that of the last state kept."""
+        """Values that the machine code watches; in numpy the margins of contacts, with those of the last state kept."""
         if self.seen[0] == (t, y.tobytes()):
             return self.seen[1]
         found = np.zeros(2 * len(self.sided))  # no sides where there is no motion
@@ -90,7 +90,7 @@ class CodedState(LeadState):
         return self._watched(t, y)[: len(self.sense)]
 
     def room(self, t: float, y: Array) -> Array:
-        """How much more friction the own contacts that stick could take."""
+        """Margin of friction of the independent contacts that stick."""
         if self.coded is None:
             return self.own(self.solved(t, y)[0].room)
         first = len(self.sense) + 2 * len(self.sided)

@@ -16,7 +16,7 @@ from dalembert.model import Mechanism
 
 @dataclass(frozen=True)
 class SharedMotion:
-    """What the motions of many designs share: the equation for any numbers at the paths ``vary``."""
+    """The common part of the motions of many designs: the equation for any numbers at the paths ``vary``."""
 
     mechanism: Mechanism
     vary: tuple[str, ...]
@@ -31,5 +31,5 @@ class SharedMotion:
         return shared_equation(actuation(self.mechanism)[0], self._paths)
 
     def equation_of(self, prescribed: Mechanism) -> Equation | None:
-        """The equation of a design; None where it needs its own."""
+        """The equation of a design; None where it needs a separate one."""
         return self._equation and equation_of_design(self._equation, prescribed, self._paths)

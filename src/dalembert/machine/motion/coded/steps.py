@@ -51,7 +51,7 @@ class Integrator:
 
     def advance(self, values: Array, motions: Array, most: int, between: bool = False) -> Array:
         """Advances motions (block, ``state_size``, lane) by at most ``most`` attempts of steps; their records (block,
-        most, ``record_size``, lane), of which only the attempted ones have numbers. No attempts: only the rates."""
+        most, ``record_size``, lane), with numbers in the attempted ones only. No attempts: only the rates."""
         blocks = len(motions)
         records = np.empty((blocks, max(most, 1), record_size(self.n, self.watched), self.lanes))
         where = (address(values), address(motions), address(records), address(TABLE))
@@ -209,7 +209,7 @@ class MachineSteps:
         return None
 
     def ahead(self, most: int = UNWATCHED) -> tuple[Array, Array]:
-        """Records of the steps that come next, at most so many where none are known yet, and what is watched behind
+        """Records of the steps that come next, at most this many where none are known yet, and what is watched behind
         each."""
         if self.next == len(self.records):
             self._more(most)
@@ -222,7 +222,7 @@ class MachineSteps:
         return self.next + np.flatnonzero(self.records[self.next :, 1] > 0)
 
     def take(self, count: int) -> None:
-        """Take so many of the steps that are known."""
+        """Take this many of the known steps."""
         coming = self._coming
         self.next = int(coming[count - 1])
         self.step()

@@ -2,7 +2,7 @@
 Newton's method.
 
 Accepted where the fixed-point map is proved to be a contraction, so that the solution is the only one, and the last
-step is small; elsewhere the accelerations are no numbers, and the steps in numpy decide.
+step is small; elsewhere the accelerations are NaN, and the steps in numpy decide.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -38,7 +38,7 @@ Solve = Callable[[Array, Array], Array]
 
 class TracedMotion(NamedTuple):
     """Accelerations and efforts required (D,), friction c z of the contacts (E,), their ``margins`` (2K,); of the
-    own ones (O,) the room that those that stick have, and friction as a part of its limit."""
+    independent ones (O,) the margin of those that stick, and friction as a part of its limit."""
 
     a: Array
     effort: Array
@@ -106,7 +106,7 @@ def _rooms(
     held: Array,
     sticks: bool,
 ) -> tuple[Array, Array]:
-    """Of the own contacts how much more those that stick could take, and friction as a part of its limit."""
+    """Margin of the independent contacts that stick, and friction as a part of its limit."""
     if not sticks:
         return np.zeros(0, object), sense[own]
     size = np.array([abs(x) for x in bearing(contacts, argument(r, cz))], object)

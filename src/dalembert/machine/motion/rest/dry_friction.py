@@ -32,7 +32,7 @@ from dalembert.core.friction.contact_equations import (
 from dalembert.core.friction.friction_solver import newton, solve_friction
 
 SIDED = ("guide", "mesh", "separation")
-"""Kinds of contacts of the plane that bear on one of two sides."""
+"""Kinds of plane contacts that bear on one of two sides."""
 
 
 class Linear(NamedTuple):
@@ -85,7 +85,7 @@ class DryFriction:
     last: Array | None = None
 
     def senses(self, rates: Array, chosen: Array) -> Array:
-        """Part of each contact (E,) in the direction of its slip; ``chosen``: senses of the own ones."""
+        """Part of each contact (E,) in the direction of its slip; ``chosen``: senses of the independent ones."""
         c = self.contacts
         sense = sign(c, rates * c.reckoned, (c.group == c.group[:, None]).sum(axis=0) == 1)
         sense[self.own] = chosen

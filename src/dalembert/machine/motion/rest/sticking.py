@@ -31,8 +31,8 @@ EVEN = 1e-9
 
 
 class StickState(CornerState):
-    """A motion's contacts and drives at rest; ``tied`` (own contacts,) and ``bound`` (D,): those at rest because
-    contacts stick."""
+    """A motion's contacts and drives at rest; ``tied`` (independent contacts,) and ``bound`` (D,): those at rest
+    because contacts stick."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         super().__init__(m, actuation)
@@ -50,8 +50,8 @@ class StickState(CornerState):
         self.settle(np.flatnonzero(self.rubs & (u == 0)).tolist(), t, y)
 
     def settle(self, drives: Sequence[int], t: float, y: Array, leaving: Sequence[int] = ()) -> list[int]:
-        """Decides on drives and contacts at rest, after contacts that are ``leaving`` have slipped; returns the own
-        contacts concerned.
+        """Decides on drives and contacts at rest, after contacts that are ``leaving`` have slipped; returns the
+        independent contacts concerned.
 
         In a machine of one freedom by the range of its effort, and so where there is a brake or a stop, or too many
         contacts; else by the contacts alone.
@@ -87,7 +87,7 @@ class StickState(CornerState):
         return np.asarray((self.acting.brake > 0) | self.acting.lossy | (self.on_stop != 0))
 
     def _resting(self, t: float, y: Array) -> tuple[Ints, Array, Array]:
-        """Own contacts whose rates are 0 and change with the free drives; rates (own,), the push (D, own) on them."""
+        """Independent contacts with rates 0 that the free drives change; rates (own,), the push (D, own) on them."""
         if not self.equation.dry:
             return np.zeros(0, np.intp), np.zeros(0), np.zeros((self.d, 0))
         terms = self.equation(t, y[: self.d], y[self.d : 2 * self.d])

@@ -35,7 +35,7 @@ class ClutchState(StickState):
         raise NotImplementedError
 
     def _place_clutch(self, stop: Any, x: float, rate: float) -> None:
-        """A clutch at the start: on its last tooth; one without teeth holds from there if it does not turn."""
+        """A clutch at the start: on its last tooth; one without teeth holds at once if it does not turn."""
         stop.looks = [(0.0, x, rate)]
         small = STILL * max(float(self.fastest.max()), 1e-300)
         if rate * stop.way < -small:

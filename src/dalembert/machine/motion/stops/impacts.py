@@ -68,7 +68,7 @@ class Stop:
         return self.ends.least if side < 0 else self.ends.greatest
 
     def near(self, x: float, guess: float) -> float:
-        """The position equal to x up to full turns, nearest to a guess; a drive counts its own turns."""
+        """The position equal to x up to full turns, nearest to a guess; a drive counts its turns."""
         counts = self.joint >= 0 and self.freedom == "turn"
         return x + 2 * np.pi * round((guess - x) / (2 * np.pi)) if counts and np.isfinite(x) else x
 

@@ -111,7 +111,7 @@ class TouchState(StopState):
     def lost_at_start(self, c: GapContact, force: float) -> None:
         """Refuse to start with a contact that would have to pull."""
         words: Words = (f"{c.joint} would have to pull{c.where} with ", ("force", force), " at the start")
-        raise StoppedError(f"{say(words)}: the contact is lost there")
+        raise StoppedError(f"{say(words)}: the contact is lost")
 
     def _touching(self, c: GapContact, y: Array) -> bool:
         """True if a gap is closed, and neither opens nor closes."""
@@ -245,8 +245,8 @@ class TouchState(StopState):
         if not lost:
             return otherwise
         return (
-            f"{' and '.join(lost)} being off, the gaps do not place the links there any more; lead the link by joints "
-            "of its own: two sliders and a pin"
+            f"without contact at {' and '.join(lost)} the gaps do not determine the position of the links; "
+            "guide the link by joints that remain: two sliders and a pin"
         )
 
     def open_pulling(self, t: float, y: Array) -> None:

@@ -120,7 +120,7 @@ class Copying:
         return new | {key: self.image.angle(place[key]) for key in ("turn", "mirror") if key in place}
 
     def point(self, link: str, point: str) -> str:
-        """Point that the copy is attached to: its own, or that of the image of a link that is not copied."""
+        """Point that the copy is attached to: that of its link, or of the image of a link that is not copied."""
         if link in self.of or link not in self.image.phase:
             return point
         new, owner = f"{point}{self.image.ending}", self.tree["links"].get(link)

@@ -1,7 +1,7 @@
 """One copy of links in space: turned about the z axis of the links that stay, with its joints and loads.
 
 The copy's points, directions and inertia are those of the original turned by the angle of ground's image, so that it
-stands as drawn with its axes parallel to ground's. A link that stays has its points turned by its own angle.
+is placed as drawn with its axes parallel to ground's. A link that stays has its points turned by its angle.
 """
 
 from __future__ import annotations
@@ -143,11 +143,11 @@ class SpaceCopying(Copying):
         return new
 
     def between(self, joint: str) -> float:
-        """0: a joint's own axes turn with it."""
+        """0: a joint's local axes turn with it."""
         return 0.0
 
     def require_mirrors(self, name: str, *links: str) -> None:
-        """Nothing is mirrored in space."""
+        """Mirror images do not exist in space."""
 
     def slides(self, joint: str, drive: Tree) -> bool:
         return True  # all values of its drives stay

@@ -31,7 +31,7 @@ class Belt(JointPart):
         description="of the wheels to the belt's middle, [of i, of j], lengths"
     )
     crossed: StrictBool = Field(
-        False, description="true: the strands cross, and the wheels turn opposite ways"
+        False, description="true: the strands cross, and the wheels turn in opposite senses"
     )
     tension: Pull | None = Field(None, description="of each strand at rest, with fixed centres; a force")
     tensioner: Pull | None = Field(
@@ -45,7 +45,7 @@ class Belt(JointPart):
         description="friction on the wheels, by which the belt holds: {coefficient: 0.3}",
     )
     groove: Annotated[float, Scalar("angle", "positive")] | None = Field(
-        None, description="whole angle between the sides of a V-belt's groove; default flat"
+        None, description="full angle between the sides of a V-belt's groove; default flat"
     )
     mass_per_length: Annotated[float, Scalar("line_density", "not negative")] = Field(
         0.0, description="of the belt: it takes the centrifugal tension m v^2"
@@ -76,7 +76,7 @@ class Belt(JointPart):
 
     @property
     def signed_radii(self) -> tuple[float, float]:
-        """Radii of i and j; j's negative where both wheels turn the same way."""
+        """Radii of i and j; j's negative where both wheels turn in the same sense."""
         return self.radii[0], self.radii[1] if self.crossed else -self.radii[1]
 
     @property

@@ -141,7 +141,7 @@ class Clamp(Part):
 
     @property
     def area(self) -> Numeric:
-        """Of the bore, m2."""
+        """Area of the bore, m2."""
         return math.pi * (self.bore or math.nan) ** 2 / 4
 
     @property

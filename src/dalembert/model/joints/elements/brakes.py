@@ -49,7 +49,7 @@ class OnDrum(BrakePart):
 
     @property
     def lining_area(self) -> float:
-        """Of the lining, m2; 0 where its size is not known."""
+        """Area of the lining, m2; 0 where its size is not known."""
         return 0.0
 
     @property
@@ -62,7 +62,7 @@ class Shoe(OnDrum):
     """A lining of link j on the drum i: at one point of j, or along an arc.
 
     Without angles it touches at j's point, which is at the drum's radius. With `from` and `to`, counted at the drum's
-    axis from the direction of j's point, it is long: rigid and pinned there, with p = p_m sin(th)/sin(th_a)
+    axis from the direction of j's point, it is long: rigid and pinned at it, with p = p_m sin(th)/sin(th_a)
     (`pressure: pinned`), or pivoted so that p = p_m cos of the angle from its middle (`cosine`).
 
     >>> shoe = Shoe(links=("drum", "lever"), at=("O", "Q"), radius=0.15, width=0.03, internal=True, to="126 deg")
@@ -89,7 +89,7 @@ class Shoe(OnDrum):
 
     @property
     def lining_area(self) -> float:
-        """Of the lining, m2; 0 where its size is not known."""
+        """Area of the lining, m2; 0 where its size is not known."""
         return float(2 * self.half * self.radius * (self.width or 0.0))
 
     @property
@@ -198,7 +198,7 @@ class Band(OnDrum):
         None, description="angle on the drum; default that of the tangents from its ends"
     )
     groove: Annotated[float, Scalar("angle", "positive")] | None = Field(
-        None, description="whole angle of a V groove: it counts as mu / sin(groove/2); default a flat drum"
+        None, description="full angle of a V groove: it counts as mu / sin(groove/2); default a flat drum"
     )
     blocks: Blocks | None = Field(None, description="{count: 14, angle: 15 deg}: blocks on the band")
 
@@ -211,7 +211,7 @@ class Band(OnDrum):
 
     @property
     def lining_area(self) -> float:
-        """Of the lining, m2; 0 where its size is not known."""
+        """Area of the lining, m2; 0 where its size is not known."""
         return (self.wound or 0.0) * self.radius * (self.width or 0.0)
 
     @property

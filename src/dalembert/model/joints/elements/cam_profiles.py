@@ -265,7 +265,7 @@ def _from_drawing(path: str, rules: ReadingRules) -> tuple[tuple[float, ...], tu
     import ezdxf
 
     if not os.path.isfile(path):
-        raise ModelError(f"there is no file {path!r}", "name the drawing of the cam, relative to this file")
+        raise ModelError(f"file {path!r} not found", "name the drawing of the cam, relative to this file")
     lines = [e for e in ezdxf.readfile(path).modelspace().query("LWPOLYLINE") if e.closed]
     if not lines:
         raise ModelError(f"{path!r} has no closed polyline", "draw the cam as one, about its axis at (0, 0)")

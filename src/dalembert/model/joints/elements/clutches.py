@@ -31,7 +31,7 @@ class Faces(BrakePart):
         None, description="that presses the faces together, or unknown where the torque is given"
     )
     pressure: Annotated[float, Scalar("pressure", "positive")] | None = Field(
-        None, description="greatest pressure on the faces, in place of force"
+        None, description="greatest pressure on the faces, instead of force"
     )
     cylinder: Clamp | None = Field(
         None, description="{bore: 40 mm, pressure: 20 bar}: presses the faces; with an unknown force its bore"
@@ -81,7 +81,7 @@ class Faces(BrakePart):
 
     @property
     def lining_area(self) -> Numeric:
-        """Of all rubbing faces, m2."""
+        """Area of all rubbing faces, m2."""
         inner, outer = self.edges
         return self.faces * self.share * (outer**2 - inner**2) / 2 / self.slope
 
@@ -106,7 +106,7 @@ class Faces(BrakePart):
         if "cylinder" in known and self.cylinder is not None and self.cylinder.pressure is None:
             known.remove("cylinder")
         if len(known) != 1:
-            what = f"{' and '.join(known)} are given" if known else "nothing presses its faces together"
+            what = f"{' and '.join(known)} are given" if known else "no force presses its faces together"
             remedy = "write one of force: 3 kN, force: unknown, pressure: 0.3 MPa, cylinder or spring"
             raise ModelError(what, remedy, (known[-1],) if known else ())
         if (self.radii is None) == (getattr(self, "button", None) is None):
@@ -128,10 +128,10 @@ class Disc(Faces):
 
     type: Literal["disc"] = "disc"
     sector: Annotated[float, Scalar("angle", "positive")] | None = Field(
-        None, description="angle of a pad; default the whole ring"
+        None, description="angle of a pad; default the complete ring"
     )
     button: Button | None = Field(
-        None, description="{radius: 20 mm, at: 100 mm}: round pads, in place of radii"
+        None, description="{radius: 20 mm, at: 100 mm}: round pads, instead of radii"
     )
 
     @property
@@ -154,7 +154,7 @@ class Disc(Faces):
 
     @property
     def force_radius(self) -> Numeric:
-        """Distance of a pad's resultant force from the axis, m; 0 of a whole ring."""
+        """Distance of a pad's resultant force from the axis, m; 0 for a complete ring."""
         if self.button:
             return self.button.at
         if self.sector is None:

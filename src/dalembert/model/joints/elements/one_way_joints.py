@@ -1,4 +1,4 @@
-"""One-way clutches and ratchets: joints that carry a couple one way and turn freely the other.
+"""One-way clutches and ratchets: joints that carry a couple in one sense and turn freely in the other.
 
 Mechanics: docs/theory.md 10.13.
 """
@@ -50,7 +50,7 @@ class Pawl(Part):
 
 
 class Clutch(JointPart):
-    """Common keys of joints that carry a couple one way."""
+    """Common keys of joints that carry a couple in one sense."""
 
     RELEASED: ClassVar[bool] = False
     """True of the same joint where drives move both of its links, so that it holds nothing."""

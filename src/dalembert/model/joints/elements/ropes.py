@@ -67,7 +67,7 @@ class RopePoint(Part):
         None, description="of the pulley: tension that runs on over tension that runs off; default the rope's"
     )
     pulley: StrictBool | None = Field(
-        None, description="true: a pulley of its own; false: the rope holds to the link, or slides on it"
+        None, description="true: a pulley without a link; false: the rope holds to the link, or slides on it"
     )
 
     @model_validator(mode="before")
@@ -176,7 +176,7 @@ class StrandJoint(JointPart):
     type: Literal["strand"] = "strand"
     rope: str = ""
     radii: tuple[float, float] = (0.0, 0.0)
-    """Of the wheels of i and j, metres, positive where the strand passes on their left."""
+    """Radii of the wheels of i and j, metres, positive where the strand passes on their left."""
     winds: tuple[float, float] = (0.0, 0.0)
     """Length of rope that a radian of i and of j winds: the radii, or any length of a point."""
     direction: float | None = None
@@ -201,7 +201,7 @@ class StrandJoint(JointPart):
 class Sheave(JointPart):
     """A pulley of a rope on a link, or a fixed wheel on which the rope slides: made from a rope, never written.
 
-    j is the rope there: a radian of it is ``lever`` of rope.
+    j is the rope on the wheel: a radian of it is ``lever`` of rope.
     """
 
     FREEDOMS: ClassVar = ("turn",)

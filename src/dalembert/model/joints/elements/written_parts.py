@@ -1,4 +1,4 @@
-"""Parts of its description that a mechanism keeps where parts of it stand for others: ropes for strands and pulleys."""
+"""Parts of its description that a mechanism keeps beside their substitutes: ropes beside strands and pulleys."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class WrittenParts(Part):
 
     @property
     def ropes(self) -> dict[str, Rope]:
-        """Its ropes by name, also where their strands and pulleys stand for them."""
+        """Its ropes by name, also if strands and pulleys replace them."""
         return {name: joint for name, joint in self.written.joints.items() if isinstance(joint, Rope)}  # type: ignore[attr-defined]
 
     @property
