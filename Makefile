@@ -3,6 +3,7 @@
 # make gallery    drawings and worked solutions of the bundled problems, in build/gallery
 # make test-browser  the live pages in a real Chromium, which it installs where there is none (Debian, as root)
 # make docs       the site, in build/site: every example and notebook run, every page opened in Chromium where there is one
+# make audit      known vulnerabilities of the packages that are used
 # make test-long  the long tests too, 15 minutes on two cores; make test-exhaustive all there are (over an hour)
 # Needs nothing but make and Python 3.11 or newer.
 
@@ -20,7 +21,7 @@ FIND_PYTHON = for p in $(PYTHON) python3 python3.14 python3.13 python3.12 python
   echo "dalembert needs Python 3.11 or newer with its venv module; none was found." \
        "Install it, or name it: make $(MAKECMDGOALS) PYTHON=/path/to/python3" >&2; exit 1
 
-.PHONY: run test test-browser test-long test-exhaustive web check-web docs style lint gallery clean
+.PHONY: run test test-browser test-long test-exhaustive web check-web docs audit style lint gallery clean
 
 run: $(VENV)/.run
 	@$(BIN)/dalembert solve examples/four_bar.yaml
@@ -56,6 +57,11 @@ web:
 
 check-web: web
 	@git diff --exit-code --stat src/dalembert/pages/bundle src/dalembert/studio/bundle
+
+# Known vulnerabilities of what is installed, and of the packages that the front end is built with; needs a network.
+audit: $(VENV)/.test
+	@$(PIP) install pip-audit && $(BIN)/pip-audit --skip-editable
+	@cd web && npm audit
 
 style: $(VENV)/.test
 	@$(BIN)/ruff check .

@@ -1,7 +1,10 @@
 import { defineConfig } from "vite";
 
+import { licences } from "./licences.ts";
+
 // One script for the page, which is inlined, and one module for notebooks; fixed names, so that two builds are equal.
 export default defineConfig({
+  plugins: [licences()],
   build: {
     lib: {
       entry: "src/main.ts",

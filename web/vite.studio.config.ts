@@ -1,6 +1,8 @@
 import { copyFileSync } from "node:fs";
 import { defineConfig } from "vite";
 
+import { licences } from "./licences.ts";
+
 // One script for the studio, served beside its page; fixed names, so that two builds are equal.
 export default defineConfig({
   build: {
@@ -11,6 +13,7 @@ export default defineConfig({
     minify: true,
   },
   plugins: [
+    licences(),
     {
       name: "page",
       closeBundle: () => copyFileSync("studio/index.html", "../src/dalembert/studio/bundle/index.html"),

@@ -42,7 +42,7 @@ SECTIONS = {
         "Reference",
         "What every key, option, name and status means.",
         "model-file model-keys command-line commands api quantities statuses conventions json-answer theory "
-        "architecture",
+        "architecture licences",
     ),
 }
 """Section page -> its title, its sentence and its pages, those that exist."""

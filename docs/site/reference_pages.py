@@ -6,10 +6,13 @@ import inspect
 import re
 from collections.abc import Iterator
 from functools import cache
+from importlib.metadata import PackageNotFoundError, metadata
+from pathlib import Path
 from typing import Any
 
 import dalembert as da
 from dalembert.cli import app
+from dalembert.cli.installation.installed_packages import packages
 
 GROUPS = {
     "Analyse": "analysis errors",
@@ -27,6 +30,7 @@ def pages() -> Iterator[tuple[str, str]]:
     yield "commands", commands()
     yield "model-keys", keys()
     yield "api", names()
+    yield "licences", licences()
 
 
 def commands() -> str:
@@ -59,6 +63,39 @@ def keys() -> str:
             head = f"{name} (`type: {kind}`)" if kind else name
             parts += [f"## {head}", plain(said), key_table(part)]
     return "\n\n".join(parts) + "\n"
+
+
+def licences() -> str:
+    """What a wheel contains and what it needs, with their licences: by its notices and packages' metadata."""
+    notices = (Path(da.__file__).parent / "studio" / "bundle" / "licences.txt").read_text(encoding="utf-8")
+    bundled = re.findall(r"^(\S+) (\d\S*) \((.+)\)$", notices, re.MULTILINE)
+    states = {state.name: state for state in reversed(packages())}.values()
+    parts = [
+        "# Licences",
+        "dalembert, its bundled problems and its front end are under the MIT licence. Of other packages "
+        "a wheel contains these, in the studio; their texts are in `dalembert/studio/bundle/licences.txt`.",
+        "| package | version | licence |\n| --- | --- | --- |\n"
+        + "\n".join(f"| {name} | {version} | {licence} |" for name, version, licence in bundled),
+        "These it only needs, and pip installs them; an extra's packages only with the extra.",
+        "| package | lowest version | extra | licence |\n| --- | --- | --- | --- |\n"
+        + "\n".join(
+            f"| {s.name} | {s.lowest} | {s.extra or '-'} | {licence_of(s.name)} |"
+            for s in sorted(states, key=lambda s: s.name.lower())
+        ),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def licence_of(package: str) -> str:
+    """Licence of an installed package by its metadata: the expression, else the classifier, else the first line."""
+    try:
+        about = metadata(package)
+    except PackageNotFoundError:
+        return "not installed where this page was made"
+    listed = [c.rsplit(" :: ", 1)[-1] for c in about.get_all("Classifier", []) if c.startswith("License ::")]
+    classifiers = [c for c in listed if c != "OSI Approved"]
+    first = str(about.get("License") or "").strip().partition("\n")[0]
+    return str(about.get("License-Expression") or ", ".join(classifiers) or first or "not stated")
 
 
 def key_table(part: dict[str, Any]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -204,3 +205,20 @@ def test_this_installation(run: Run) -> None:
     *_, where, verdict = ran.out.splitlines()
     assert where.startswith("dalembert 0.1.0, Python 3.")
     assert verdict.startswith("PASSED: ")
+
+
+def test_the_comparison_as_json(run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    right = folder / with_answers(folder, ANSWERS)
+    monkeypatch.setattr("dalembert.bundled.cases", lambda: {"right": right})
+    ran = run("validate", "--json", "-")
+    printed = json.loads(ran.out)
+    assert (ran.status, printed["passed"], printed["problems"], printed["not_read"]) == (0, True, 1, 0)
+    assert len(printed["answers"]) == 10
+    assert {"quantity", "published", "computed", "deviation", "ok"} <= printed["answers"][0].keys()
+    (folder / "wrong.yaml").write_text("links: {ground: {}", encoding="utf-8")
+    monkeypatch.setattr("dalembert.bundled.cases", lambda: {"right": right, "wrong": folder / "wrong.yaml"})
+    ran = run("validate", "--json", "all.json")
+    assert (ran.status, ran.out.splitlines()[-1][:18]) == (1, "FAILED: 2 problems")
+    written = json.loads((folder / "all.json").read_text(encoding="utf-8"))
+    assert (written["passed"], written["not_read"], written["answers"]) == (False, 1, printed["answers"])
+    assert run("validate", "--json", "all.json").status == 2

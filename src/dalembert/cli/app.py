@@ -42,7 +42,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         "solve_command": ("solve",),
         "documents.draw_command": ("draw",),
         "documents.report_command": ("report",),
-        "page_command": ("page",),
+        "documents.page_command": ("page",),
         "documents.studio_command": ("studio",),
         "wrench_command": ("wrench",),
     },
@@ -63,6 +63,10 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         "variants_command": ("variants",),
         "answers_commands": ("check-answers", "grade"),
     },
+    "This installation": {
+        "installation.doctor_command": ("doctor",),
+        "installation.completion_command": ("completion",),
+    },
 }
 """Heading in the help -> module of `dalembert.cli` -> its commands; the module's `COMMANDS` has their functions."""
 FIELD_WORDS = {
@@ -77,6 +81,7 @@ FIELD_WORDS = {
     "studio": "sketch editor mouse gui",
     "draw": "plot chart charts picture",
     "new": "template templates",
+    "doctor": "install installation extras packages diagnose",
 }
 """Command -> words of the field that its name does not resemble."""
 MODULES = {name: module for modules in GROUPS.values() for module, names in modules.items() for name in names}

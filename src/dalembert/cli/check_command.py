@@ -8,10 +8,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from dalembert.cli.options import AS_IN_FILE, Changes, flag, with_help
+from dalembert.cli.describe_commands import is_screen, write_or_print
+from dalembert.cli.options import AS_IN_FILE, Changes, Force, flag, target, with_help
 from dalembert.errors import DalembertError, ModelError
 from dalembert.printing import table, wrap
 from dalembert.progress import progress
+from dalembert.saving import check_new
 
 if TYPE_CHECKING:
     from dalembert.grading.file_answers import ComparedAnswer
@@ -40,21 +42,35 @@ def check(
     return 2 if wrong else 0 if all(row.ok for row in rows) else 1
 
 
-def validate() -> int:
+def validate(
+    *,
+    json: Annotated[Path | None, target("Write the comparison as JSON; `-` prints only the JSON.")] = None,
+    force: Force = False,
+) -> int:
     """Verify this installation: solve every bundled published problem and compare all answers."""
     from dalembert.bundled import cases
 
+    if json is not None and not is_screen(json):
+        check_new(json, force)
     started = time.perf_counter()
     problems = cases()
     rows, wrong = _compare(list(problems.values()))
-    failed = [row for row in rows if not row.ok]
-    print(_text(rows, every=True))
-    print(_installation())
     seconds = time.perf_counter() - started
-    good = bool(rows) and not failed and not wrong
-    counted = f"{len(problems)} problems, {f'{wrong} of them not read, ' if wrong else ''}{len(rows)} answers"
-    print(f"{'PASSED' if good else 'FAILED'}: {counted}, {seconds:.1f} s")
+    good = bool(rows) and all(row.ok for row in rows) and not wrong
+    if json is not None:
+        write_or_print(_json_text(rows, len(problems), wrong, seconds, good), json, force)
+    if json is None or not is_screen(json):
+        _print_verdict(rows, len(problems), wrong, seconds, good)
     return 0 if good else 1
+
+
+def _print_verdict(
+    rows: Sequence[ComparedAnswer], problems: int, unread: int, seconds: float, good: bool
+) -> None:
+    print(_text(rows, every=True))
+    print(installation())
+    counted = f"{problems} problems, {f'{unread} of them not read, ' if unread else ''}{len(rows)} answers"
+    print(f"{'PASSED' if good else 'FAILED'}: {counted}, {seconds:.1f} s")
 
 
 def _model_files(named: Iterable[Path]) -> Iterator[Path]:
@@ -147,7 +163,23 @@ def _failure(row: ComparedAnswer) -> str:
     return wrap(sentence + (f". {row.problem}" if row.problem else ""), "  ")
 
 
-def _installation() -> str:
+def _json_text(rows: Sequence[ComparedAnswer], problems: int, unread: int, seconds: float, good: bool) -> str:
+    """The comparison as JSON: the verdict, the installation, and every answer."""
+    import json
+
+    record = {
+        "dalembert_validation": 1,
+        "passed": good,
+        "installation": installation(),
+        "problems": problems,
+        "not_read": unread,
+        "seconds": round(seconds, 3),
+        "answers": [row._asdict() for row in rows],
+    }
+    return json.dumps(record, indent=2, ensure_ascii=False) + "\n"
+
+
+def installation() -> str:
     """Versions that the numbers were computed with."""
     import platform
 
@@ -163,6 +195,9 @@ COMMANDS: dict[Callable[..., int], str] = {
     check: """Examples:
   dalembert check four_bar.yaml
   dalembert check problems/ --all""",
-    validate: "Examples:\n  dalembert validate\n  dalembert validate > qualification.txt",
+    validate: """Examples:
+  dalembert validate
+  dalembert validate > qualification.txt
+  dalembert validate --json qualification.json""",
 }
 """Function of each command -> the examples under its help."""

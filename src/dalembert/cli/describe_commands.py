@@ -48,7 +48,7 @@ def examples(
     if not name:
         return write_or_print(example_list(), output, force)
     _model_file(example_text(name), output, force)
-    if output is not None and not _on_screen(output):
+    if output is not None and not is_screen(output):
         for beside in _files_beside(name):
             write_or_print(beside.read_text(encoding="utf-8"), output.parent / beside.name, force)
     return 0
@@ -64,7 +64,7 @@ def _files_beside(name: str) -> list[Path]:
 
 
 def _model_file(text: str, output: Path | None, force: bool) -> int:
-    if output is not None and not _on_screen(output) and output.suffix.lower() not in YAML:
+    if output is not None and not is_screen(output) and output.suffix.lower() not in YAML:
         raise ModelError(
             f"{output} is not named like YAML, which this is",
             "end its name with .yaml; `dalembert convert` writes JSON and TOML",
@@ -72,13 +72,14 @@ def _model_file(text: str, output: Path | None, force: bool) -> int:
     return write_or_print(text, output, force)
 
 
-def _on_screen(output: Path | None) -> bool:
+def is_screen(output: Path | None) -> bool:
+    """True if what a command writes is printed."""
     return output is None or str(output) in ("-", "/dev/stdout")
 
 
 def write_or_print(text: str, output: Path | None, force: bool) -> int:
     """Text to a new file, or printed."""
-    if _on_screen(output):
+    if is_screen(output):
         print(text.rstrip("\n"))
         return 0
     assert output is not None

@@ -238,7 +238,7 @@ def _scaling(r: Result, sources: Sequence[str], factor: float) -> Change | None:
             ("forces", {"value": loads[0][:, None]}),
             ("couples", {"value": loads[1][:, None]}),
         ):
-            c = change_numbers(f"forcing.{part}", **{name: times(f) for name, f in new.items()})(c)  # type: ignore
+            c = change_numbers(f"forcing.{part}", **{name: times(f) for name, f in new.items()})(c)  # type: ignore[arg-type, operator]
         return c
 
     return change
