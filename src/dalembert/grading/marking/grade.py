@@ -133,16 +133,22 @@ def grade(
 
 
 class _Taken(NamedTuple):
-    """A student's answer to a required figure: compared, or a sentence why it cannot be; part: not the complete
-    figure; notes: how it was read."""
+    """A student's answer to a required figure: compared, or a sentence why it cannot be; notes: how it was read."""
 
     asked: Asked
     given: StatedAnswer | None
     found: StudentValue | Verdict | None
     sentence: str
-    part: bool
     line: int
     notes: tuple[str, ...] = ()
+
+    @property
+    def part(self) -> bool:
+        """True if only the size of a required vector is given."""
+        known = self.asked.answer
+        vector = known.value in (None, "") or isinstance(known.value, tuple) or "@" in str(known.value)
+        size = self.given is not None and self.given.component == "magnitude"
+        return size and vector and known.component is None
 
 
 class _Marker:
@@ -207,11 +213,11 @@ class _Marker:
                 if (f := _fit(question.answer, g.keys)) is not None
             ]
             if not fits:
-                out.append(_Taken(question, None, None, "", False, 0))
+                out.append(_Taken(question, None, None, "", 0))
                 continue
-            fit, n = min(fits)
+            _, n = min(fits)
             used.add(n)
-            taken = self._best(variant, question, read[n], fit == 2, problems)
+            taken = self._best(variant, question, read[n], problems)
             if taken.sentence:
                 problems.append(taken.sentence)
             out.append(taken)
@@ -223,13 +229,11 @@ class _Marker:
                 unused.append(f"{sheet.file}:{one.line}: {one.name}")
         return out, unused
 
-    def _best(
-        self, variant: ExamVariant, question: Asked, read: ReadFigure, part: bool, problems: list[str]
-    ) -> _Taken:
+    def _best(self, variant: ExamVariant, question: Asked, read: ReadFigure, problems: list[str]) -> _Taken:
         """The reading of a figure that comes nearest to the right value; more than one is a sentence to the teacher."""
         if read.problem:
-            return _Taken(question, None, None, read.problem, part, read.where[1])
-        some = [self._one(variant, question, answer, part, read.where) for answer in read.answers]
+            return _Taken(question, None, None, read.problem, read.where[1])
+        some = [self._one(variant, question, answer, read.where) for answer in read.answers]
 
         def off(k: int) -> float:
             value = some[k].found
@@ -245,22 +249,19 @@ class _Marker:
         variant: ExamVariant,
         question: Asked,
         answer: StatedAnswer | None,
-        part: bool,
         where: tuple[str, int],
     ) -> _Taken:
         """An answer beside the computed value: keys that it leaves out are as required, and a student's tolerance is
         ignored."""
         if answer is None or answer.value in (None, ""):
-            return _Taken(question, answer, None, "", part, where[1])
+            return _Taken(question, answer, None, "", where[1])
         keys = ("on", "by") if not (answer.on or answer.by) else ()
         filled = {k: getattr(question.answer, k) for k in (*keys, "at", "extreme")}
         answer = answer.model_copy(update=filled | {"tolerance": question.answer.tolerance})
         try:
-            return _Taken(
-                question, answer, variant.compare(question, answer, self.tolerance), "", part, where[1]
-            )
+            return _Taken(question, answer, variant.compare(question, answer, self.tolerance), "", where[1])
         except ModelError as error:
-            return _Taken(question, answer, None, str(error.at_line(*where)), part, where[1])
+            return _Taken(question, answer, None, str(error.at_line(*where)), where[1])
 
     def _marks(self, variant: ExamVariant, taken: list[_Taken]) -> list[Mark]:
         figures = [t.found for t in taken if isinstance(t.found, StudentValue)]
