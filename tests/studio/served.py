@@ -13,15 +13,15 @@ import pytest
 
 from dalembert.studio.access import HOST, LARGEST, Access
 from dalembert.studio.session import Session
-from dalembert.studio.solver import Question, Solver, answered
+from dalembert.studio.solver import Question, Solver, answered, written
 from dalembert.studio.stored_file import StoredFile
 
 
 class Here(Solver):
     """Answers in this process."""
 
-    def ask(self, question: Question) -> dict[str, Any]:
-        return answered(question)
+    def ask(self, question: Question) -> str:
+        return written(answered(question))
 
 
 @contextmanager

@@ -7,6 +7,7 @@ couple is one row at a point. The page draws them to the scale printed beside th
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from copy import copy
 from dataclasses import replace
 from functools import cached_property
 
@@ -14,7 +15,7 @@ import numpy as np
 
 from dalembert.algebra import plane, space
 from dalembert.analysis.methods.applied_forces import Action, full_actions, joint_place, magnitude
-from dalembert.analysis.methods.members import members
+from dalembert.analysis.methods.members import Member, members
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Numeric, Tree
@@ -70,7 +71,13 @@ class Boards:
         self.frame = self.items.frame
         self.shown = Shown(known, Notation())
         self.numbered = _numbered(known, actions)
-        self.kinds = {link: member.kind for link, member in members(known).items()} if self.d == 2 else {}
+
+    def at_pose(self, rows: NodeRows, actions: Sequence[Action]) -> Boards:
+        """The same contents, of the same result, at another pose in nodes."""
+        other = copy(self)
+        other.rows, other.actions = rows, actions
+        other.items = replace(self.items, r=rows.r, rows=rows)
+        return other
 
     def mechanism(self) -> Tree:
         """The complete mechanism: loads, efforts, and the force of each joint on its j."""
@@ -117,31 +124,42 @@ class Boards:
             return a.link == self.known.mechanism.joints[a.of].links[1]
         return is_drawn(self.known, a)
 
-    def free_bodies(self) -> list[Tree]:
-        """Every link separately, with all actions on it and its three equations."""
-        return [self._free_body(link) for link in self.known.links]
+    def links_apart(self) -> list[Tree]:
+        """Every link separately as it is drawn, without forces."""
+        return [self._link_apart(link) for link in self.known.links]
 
-    def _free_body(self, link: str) -> Tree:
+    def _link_apart(self, link: str) -> Tree:
         d, m = self.items, self.known.mechanism
         parts, labels = of("link", link, d.link(link)), list[Tree]()
-        joints = [n for n in self.known.joints if link in m.joints[n].links]
+        joints = self._joints(link)
         for name in joints:
             parts += of("joint", name, d.joint(name, link))
             u = self.rows.r.mechanism.joint_points(name)[m.joints[name].links.index(link)]
             labels.append({"text": name, "p": self.rows.place(link, u), "role": "title", "kind": "joint"})
         parts += of("center", link, d.center(link)) + d.circles(joints)
+        return {"about": d.corners(link), "items": parts, "labels": labels}
+
+    def _joints(self, link: str) -> list[str]:
+        return [n for n in self.known.joints if link in self.known.mechanism.joints[n].links]
+
+    def free_bodies(self, drawn: Sequence[Tree]) -> list[Tree]:
+        """Every link separately, with all actions on it and its three equations; ``drawn``: its ``links_apart``."""
+        return [self._free_body(link) | body for link, body in zip(self.known.links, drawn, strict=True)]
+
+    @cached_property
+    def _members(self) -> dict[str, Member]:
+        return members(self.known) if self.d == 2 else {}
+
+    def _free_body(self, link: str) -> Tree:
         mine = [k for k, a in enumerate(self.actions) if a.link == link]
         return {
             "link": link,
             "title": f"Link {self.shown.heading(link)}",
-            "member": self.kinds.get(link, ""),
+            "member": self._members[link].kind if self._members else "",
             "per_mm": self._size(link),
-            "about": d.corners(link),
-            "items": parts,
-            "labels": labels,
             "arrows": [x for k in mine for x in self.arrows(k, tangent=True)],
             "force": self.scale(26.0),
-            "equations": self._equations(link, mine, joints),
+            "equations": self._equations(link, mine, self._joints(link)),
         }
 
     def _size(self, link: str) -> float:
@@ -216,7 +234,8 @@ class Boards:
             mine.sort(key=lambda k: self.numbered[k].kind == "joint")
             sides = [x for k in mine for x in self.arrows(k) if x["t"] == "force"]
             out.append({"link": link, "title": self.shown.heading(link), "sides": sides})
-        return {"links": out, "chain": [self.known.links.index(link) for link in chain_order(self.known)]}
+        order = chain_order(self.known, self._members)
+        return {"links": out, "chain": [self.known.links.index(link) for link in order]}
 
     def charts(self) -> list[Tree]:
         """Efforts and unknown loads, joint forces; each curve is a row, for a joint force in the plane with
@@ -248,6 +267,10 @@ class Boards:
         self.items.roles |= {c["role"] for chart in out for c in chart["curves"]}
         return out
 
+    def angles(self) -> list[list[int]]:
+        """Row of the angle of each link; in space none."""
+        return [self.rows.vector([x]) for x in self.rows.r.turn_array[0]] if self.d == 2 else []
+
     def table(self) -> list[Tree]:
         """Numbers of a position: drives, efforts, unknown loads, joint forces, motion of the links."""
         s, r, out = self.rows.r, self.known, list[Tree]()
@@ -267,7 +290,7 @@ class Boards:
         for k, link in enumerate(r.links):
             name = self.shown.heading(link)
             if self.d == 2:
-                add(f"angle of {name}", "angle", s.turn_array[0, k])
+                out.append({"name": f"angle of {name}", "kind": "angle", "rows": self.angles()[k]})
             if s.inertia:
                 add(f"speed of {name}", "angular_speed", s.twist_array[0, k, self.d :])
                 add(f"acceleration of {name}", "angular_acceleration", s.acceleration_array[0, k, self.d :])

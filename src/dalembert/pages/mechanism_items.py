@@ -49,6 +49,7 @@ class Items:
     rows: NodeRows
     frame: PaperFrame
     roles: set[str] = field(default_factory=set)
+    _corners: dict[str, list[list[int]]] = field(default_factory=dict, init=False)
 
     @property
     def mechanism(self) -> Mechanism:
@@ -75,8 +76,13 @@ class Items:
 
     def corners(self, link: str) -> list[list[int]]:
         """Rows of the points that a link's shape connects, each once."""
-        paths = [self.rows.vector(path[0]) for path in link_paths(self.r, link).values()]
-        return [list(p) for p in dict.fromkeys(map(tuple, paths))]
+        if link not in self._corners:
+            self._corners[link] = [list(p) for p in dict.fromkeys(map(tuple, self.outline(link)))]
+        return [*self._corners[link]]
+
+    def outline(self, link: str) -> list[list[int]]:
+        """Rows of the points that a link's shape connects."""
+        return [self.rows.vector(path[0]) for path in link_paths(self.r, link).values()]
 
     def link(self, link: str) -> list[Tree]:
         """A link's outline, or a line from its only joint to its mass centre; rails of blocks on it."""

@@ -35,7 +35,7 @@ from dalembert.pages.messages.position_sentences import position_sentences
 from dalembert.pages.modules import module
 from dalembert.pages.rows import NodeRows
 from dalembert.pages.saved_text import template
-from dalembert.pages.sketch_data import page_pose, pose_result, sketch_data
+from dalembert.pages.sketch_data import page_pose, pose_result, posed_rows, sketch_data
 from dalembert.pages.space_boards import SpaceBoards
 from dalembert.pages.sweep import with_cycle
 from dalembert.pages.symbolic_result import symbolic_actions, symbolic_result
@@ -82,8 +82,11 @@ def page_data(m: Mechanism, static: bool = False, quick: bool = False) -> Tree:
         NodeRows(k.trace.catalogue.graph, r),
         NodeRows(k.trace.catalogue.graph, pose_result(r, pose)),
     )
-    b, views, dragged, drives = _shown(known, rows, k)
-    _shown(known, shown, k)
+    b = _boards(known, rows, k)
+    views, dragged, drives = _posed(b, k)
+    _posed(b.at_pose(shown, symbolic_actions(shown.r, k)), k)
+    at_pose = posed_rows(rows, shown, pose)
+    views |= _solved(b, views["bodies"])
     names, channels = k.trace.catalogue.graph.names, []
     beside = NodeRows(rows.graph, r, rows.nodes, rows.places)  # the same rows, without drawings
     limited, sentences = limits(m, k, beside), position_sentences(known, k, beside)
@@ -113,7 +116,7 @@ def page_data(m: Mechanism, static: bool = False, quick: bool = False) -> Tree:
         data["gradient"] = gradient["fields"]
         channels = gradient["channels"]
     channels = list(dict.fromkeys([*program.inputs_in_use("channel"), *channels]))
-    data["sketch"] = sketch_data(k, rows, shown, pose, {names[n.index] for n in channels})
+    data["sketch"] = sketch_data(k, rows, shown, pose, at_pose, {names[n.index] for n in channels})
     inputs, more = k.trace.inputs.named, data["sketch"]["shown"]["channels"]
     channels = list(
         dict.fromkeys([*channels, *(inputs["channel", n] for n in more if ("channel", n) in inputs)])
@@ -123,19 +126,27 @@ def page_data(m: Mechanism, static: bool = False, quick: bool = False) -> Tree:
     return data
 
 
-def _shown(known: Result, rows: NodeRows, k: Kernel) -> tuple[Boards, Tree, list[Tree], list[Tree]]:
-    """Complete contents, with the handles and the drives."""
-    m = known.mechanism
-    b = (SpaceBoards if m.dimension == 3 else Boards)(known, rows, symbolic_actions(rows.r, k))
-    views: Tree = {
-        "mechanism": b.mechanism(),
-        "bodies": b.free_bodies(),
+def _boards(known: Result, rows: NodeRows, k: Kernel) -> Boards:
+    kind = SpaceBoards if known.mechanism.dimension == 3 else Boards
+    return kind(known, rows, symbolic_actions(rows.r, k))
+
+
+def _posed(b: Boards, k: Kernel) -> tuple[Tree, list[Tree], list[Tree]]:
+    """The drawings with handles and drives, which the page also shows at a pose that does not close."""
+    views: Tree = {"mechanism": b.mechanism(), "bodies": b.links_apart()}
+    b.angles()
+    return views, handles(b, k), drive_fields(b)
+
+
+def _solved(b: Boards, bodies: Sequence[Tree]) -> Tree:
+    """The contents that need a solved position."""
+    return {
+        "bodies": b.free_bodies(bodies),
         "polygons": b.polygons(),
         "charts": b.charts(),
         "table": b.table(),
         "rates": b.rates(),
     }
-    return b, views, handles(b, k), drive_fields(b)
 
 
 def _kernel(m: Mechanism, inertia: bool) -> Kernel:

@@ -22,6 +22,8 @@ class NodeRows:
     nodes: list[Node] = field(default_factory=list)
     places: dict[int, int] = field(default_factory=dict)
     requested: list[int] = field(default_factory=list)
+    _placed: dict[tuple[object, ...], list[int]] = field(default_factory=dict, init=False)
+    """Rows of the points of links that were requested before."""
 
     def of(self, x: Numeric) -> int:
         """The row of a number or node."""
@@ -38,9 +40,15 @@ class NodeRows:
 
     def place(self, link: str, u: Iterable[Numeric]) -> list[int]:
         """The rows of a point of a link, given in its axes."""
-        if link == GROUND:
-            return self.vector(u)
-        return self.vector(self.r._place(link, np.array([*u]))[0])
+        components = [*u]
+        key = (link, *(("node", x.index) if isinstance(x, Node) else float(x) for x in components))
+        if key in self._placed:
+            self.requested += self._placed[key]
+        elif link == GROUND:
+            self._placed[key] = self.vector(components)
+        else:
+            self._placed[key] = self.vector(self.r._place(link, np.array(components))[0])
+        return self._placed[key]
 
     def axis(self, link: str) -> list[int]:
         """The rows of the unit vector along a link's x axis."""

@@ -7,7 +7,7 @@ one, ``known`` are the kernel's inputs of the known motion, ``drawn`` is drawn w
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -48,10 +48,12 @@ def page_pose(k: Kernel) -> PoseInputs:
     return pose_inputs(graph, layout, motion.compiled.layout, motion.pose)
 
 
-def sketch_data(k: Kernel, rows: NodeRows, shown: NodeRows, pose: PoseInputs, used: set[str]) -> Tree:
-    """Programs and data; ``shown`` contains the same numbers as ``rows``, at the poses that are inputs.
+def sketch_data(
+    k: Kernel, rows: NodeRows, shown: NodeRows, pose: PoseInputs, drawn: Mapping[int, Node], used: set[str]
+) -> Tree:
+    """Programs and data; ``shown`` contains what is drawn of ``rows``, at the poses that are inputs.
 
-    used: names of the channels of the page's other programs.
+    drawn: that by its row; used: names of the channels of the page's other programs.
     """
     names, inputs = k.trace.catalogue.graph.names, k.trace.inputs
     layout, target, phased = _constraints(k)
@@ -61,7 +63,6 @@ def sketch_data(k: Kernel, rows: NodeRows, shown: NodeRows, pose: PoseInputs, us
         names[n.index] for n in plain(k, [*branches.values()], marked=False).inputs_in_use("channel")
     }
     known = {name: node for name, node in _known(k, layout, pose) if name in used}
-    drawn = _drawn(rows, shown, pose)
     ends = _ends(shown)
     nodes = [
         *branches.values(),
@@ -128,8 +129,8 @@ def _line_angle(k: Kernel, layout: Layout, pose: PoseInputs, row: int) -> Node:
     return angle
 
 
-def _drawn(rows: NodeRows, shown: NodeRows, pose: PoseInputs) -> dict[int, Node]:
-    """Rows that depend on the pose and the numbers alone, each at the external pose."""
+def posed_rows(rows: NodeRows, shown: NodeRows, pose: PoseInputs) -> dict[int, Node]:
+    """Rows requested so far that depend on the pose and the numbers alone, each at the external pose."""
     graph, pose_nodes = rows.graph, {n.index for n in pose.nodes}
     fit = dict[int, bool]()
     for n in graph.order(shown.nodes):

@@ -28,15 +28,14 @@ SHAPES = {
 class SpaceItems(Items):
     """Links as bars and plates between their points, pairs as cylinders, blocks and balls along their axes."""
 
-    def corners(self, link: str) -> list[list[int]]:
-        """Rows of a link's joints and of the points that carry loads, each once."""
+    def outline(self, link: str) -> list[list[int]]:
+        """Rows of a link's joints and of the points that carry loads."""
         m, points = self.mechanism, list[list[int]]()
         for name, joint in m.joints.items():
             for end, u in zip(joint.links, m.joint_points(name), strict=True):
                 if end == link:
                     points.append(self.rows.place(link, u))
-        points += [self.rows.place(link, u) for u in load_places(m, link).values()]
-        return [list(p) for p in dict.fromkeys(map(tuple, points))]
+        return points + [self.rows.place(link, u) for u in load_places(m, link).values()]
 
     def joint(self, name: str, link: str | None = None) -> list[Tree]:
         """A pair along its main axis."""

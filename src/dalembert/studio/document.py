@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,6 +13,8 @@ from dalembert.errors import DalembertError, ModelError
 from dalembert.model import GROUND, Mechanism
 from dalembert.model.description import mechanism
 from dalembert.model.files.model_files import read_text
+from dalembert.model.files.places import places
+from dalembert.model.files.source import FileSource
 from dalembert.model.files.splicing import Change, with_changes
 from dalembert.studio.drawing import drawing
 from dalembert.studio.editing.draft import Draft
@@ -46,6 +49,7 @@ class Reading:
     error: str = ""
     line: int = 0
     tree: Tree = field(default_factory=dict)
+    source: FileSource | None = None
     alone: bool = False
     """True where the file has no moving link yet."""
 
@@ -83,6 +87,11 @@ class Document:
             before = self._reading[1] if self._reading else None
             self._reading = self.text, read(self.text, self.form, self.name, before)
         return self._reading[1]
+
+    def prepare(self) -> None:
+        """Find every value in the text, which the next gesture then need not wait for."""
+        with contextlib.suppress(DalembertError):
+            places(self.text, self.form)
 
     def do(self, gesture: Gesture) -> None:
         """A gesture: one step. A text that can be read is never changed into one that cannot."""
@@ -166,10 +175,10 @@ def read(text: str, form: str, name: str, before: Reading | None) -> Reading:
             tree = {**tree, "links": {GROUND: links.get(GROUND) or {}, HIDDEN: {}}}
         m = mechanism(tree, source)
         if m.dimension == 3:
-            return Reading(m, None, {"space": True, "title": m.title}, tree=written)
+            return Reading(m, None, {"space": True, "title": m.title}, tree=written, source=source)
         sketch = None if alone else sketch_pose(m, known)
         drawn = drawing(m, sketch, written, HIDDEN if alone else "")
-        return Reading(m, sketch, drawn, tree=written, alone=alone)
+        return Reading(m, sketch, drawn, tree=written, source=source, alone=alone)
     except DalembertError as error:
         line = error.line if isinstance(error, ModelError) else 0
         return Reading(None, None, before.drawing if before else {}, _sentence(error), line or 1)

@@ -105,8 +105,8 @@ class StudioServer:
             message = read_message(text)
             n = message.get("n") if isinstance(message, dict) else None
             if isinstance(message, dict) and message.get("ask") in ("check", "report", "page"):
-                answer = await asyncio.to_thread(self.solver.ask, self.session.question(message["ask"]))
-                await self._send(ws, {"n": n, "ask": message["ask"], **answer})
+                text = await asyncio.to_thread(self.solver.ask, self.session.question(message["ask"]))
+                await self._send_text(ws, joined({"n": n, "ask": message["ask"]}, text))
                 return
             answer = self.session.handle(message)
         except DalembertError as error:
@@ -127,8 +127,11 @@ class StudioServer:
             self._wanted.set()
 
     async def _send(self, ws: WebSocket, message: Tree) -> None:
+        await self._send_text(ws, json.dumps(message, separators=(",", ":"), default=float))
+
+    async def _send_text(self, ws: WebSocket, text: str) -> None:
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-            await ws.send_text(json.dumps(message, separators=(",", ":"), default=float))
+            await ws.send_text(text)
 
     async def _solve(self) -> None:
         """Forces of the latest text; those of overtaken ones are not sent."""
@@ -138,15 +141,16 @@ class StudioServer:
             requested, session = self.changes, self.session
             reading = session.document.reading
             if reading.error or reading.alone or reading.mechanism is None:
-                answer: Tree = {"missing": "" if reading.error else "Draw a link: press B and drag."}
+                answer = json.dumps({"missing": "" if reading.error else "Draw a link: press B and drag."})
             else:
-                answer = await asyncio.to_thread(self.solver.ask, session.question("data"))
-                if "error" in answer:
-                    answer = {"missing": answer["error"], "path": answer["path"]}
+                answer, _ = await asyncio.gather(
+                    asyncio.to_thread(self.solver.ask, session.question("data")),
+                    asyncio.to_thread(session.document.prepare),
+                )
             if requested != self.changes:
                 continue
             for ws in list(self.tabs):
-                await self._send(ws, {"hash": session.document.hash, **answer})
+                await self._send_text(ws, joined({"hash": session.document.hash}, answer))
 
     async def _look(self) -> None:
         while True:
@@ -171,6 +175,11 @@ class StudioServer:
             with contextlib.suppress(DalembertError):
                 self.session.look()
             self.solver.close()
+
+
+def joined(head: Tree, answer: str) -> str:
+    """A message: its head, and an answer in JSON."""
+    return json.dumps(head, separators=(",", ":"))[:-1] + "," + answer[1:]
 
 
 async def _token(ws: WebSocket) -> object:

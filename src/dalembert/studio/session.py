@@ -66,8 +66,9 @@ class Session:
 
     def question(self, ask: str) -> Question:
         """A question about the present text."""
-        d = self.document
-        return Question(ask, d.text, d.form, d.name, self.static, self.friction)
+        d, reading = self.document, self.document.reading
+        read = None if reading.source is None else (reading.tree, reading.source)
+        return Question(ask, d.text, d.form, d.name, self.static, self.friction, read)
 
     def handle(self, message: Any) -> Tree:
         """Do what a message says; returns the reply to its sender. Raises ModelError where it cannot be done."""

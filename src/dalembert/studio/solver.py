@@ -6,6 +6,7 @@ import base64
 import json
 import multiprocessing
 import tempfile
+from collections.abc import Iterable
 from multiprocessing.connection import Connection
 from pathlib import Path
 from threading import Lock
@@ -13,6 +14,7 @@ from typing import Any, NamedTuple
 
 from dalembert.arrays import Tree
 from dalembert.errors import DalembertError
+from dalembert.model.files.source import FileSource
 
 SECONDS, REPORT_SECONDS = 5.0, 60.0
 """Longest solution, and longest report."""
@@ -29,6 +31,12 @@ class Question(NamedTuple):
     name: str
     static: bool = False
     friction: bool = True
+    read: tuple[Tree, FileSource] | None = None
+    """The text as it is read, where it is: parsing takes a quarter of a small answer."""
+
+    def refusal(self, sentence: str, path: Iterable[str | int] = ()) -> Tree:
+        """The answer where there is none: of page data what is missing, else an error."""
+        return {"missing" if self.ask == "data" else "error": sentence, "path": [*path]}
 
 
 class Solver:
@@ -44,21 +52,20 @@ class Solver:
         with self._lock:
             self._connection()
 
-    def ask(self, question: Question) -> Tree:
-        """The answer of one question; ``{"error": sentence, "path": ...}`` where there is none."""
+    def ask(self, question: Question) -> str:
+        """The answer of one question, in JSON; a ``refusal`` where there is none."""
         with self._lock:
             limit = self.seconds if question.ask in ("data", "check") else REPORT_SECONDS
             try:
                 pipe = self._connection()
                 pipe.send(question)
                 if pipe.poll(limit):
-                    answer: Tree = json.loads(pipe.recv_bytes())
-                    return answer
+                    return pipe.recv_bytes().decode()
                 reason = f"no answer within {limit:g} s"
             except (EOFError, OSError):
                 reason = "the solver ended: out of memory"
             self._end()
-            return {"error": f"{reason}; use fewer positions or a smaller mechanism", "path": []}
+            return written(question.refusal(f"{reason}; use fewer positions or a smaller mechanism"))
 
     def close(self) -> None:
         """End the process."""
@@ -93,7 +100,12 @@ def _serve(pipe: Connection) -> None:
             question = pipe.recv()
         except (EOFError, OSError, KeyboardInterrupt):
             return
-        pipe.send_bytes(json.dumps(answered(question), separators=(",", ":")).encode())
+        pipe.send_bytes(written(answered(question)).encode())
+
+
+def written(answer: Tree) -> str:
+    """An answer as text."""
+    return json.dumps(answer, separators=(",", ":"))
 
 
 def _warm_up() -> None:
@@ -114,20 +126,21 @@ def _limit_memory() -> None:
 
 def answered(question: Question) -> Tree:
     """The answer of a question, in this process."""
-    from dalembert.model.files.model_files import loads
+    from dalembert.model.description import mechanism
+    from dalembert.model.files.model_files import read_text
 
     try:
-        m = loads(question.text, question.form, question.name)
+        m = mechanism(*(question.read or read_text(question.text, question.form, question.name)))
         if not question.friction:
             m = m.with_values({"friction.enabled": False})
         return _ASKED[question.ask](m, question)
     except DalembertError as error:
         what, remedy = getattr(error, "what", str(error)), getattr(error, "remedy", "")
-        return {"error": f"{what}; {remedy}" if remedy else what, "path": list(getattr(error, "path", ()))}
+        return question.refusal(f"{what}; {remedy}" if remedy else what, getattr(error, "path", ()))
     except MemoryError:
-        return {"error": "too little memory; use fewer positions or a smaller mechanism", "path": []}
+        return question.refusal("too little memory; use fewer positions or a smaller mechanism")
     except Exception as error:  # a fault of the program ends no session
-        return {"error": f"the analysis failed ({type(error).__name__}); please report this file", "path": []}
+        return question.refusal(f"the analysis failed ({type(error).__name__}); please report this file")
 
 
 def _data(m: Any, question: Question) -> Tree:

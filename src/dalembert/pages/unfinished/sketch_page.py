@@ -66,10 +66,10 @@ def page_or_sketch(m: Mechanism, static: bool = False, inside: int = INSIDE) -> 
 class SketchItems(Items):
     """Links as bars and plates between all of their named points."""
 
-    def corners(self, link: str) -> list[list[int]]:
-        """Rows of a link's points, each once."""
+    def outline(self, link: str) -> list[list[int]]:
+        """Rows of a link's points."""
         named = [self.rows.place(link, u) for u in self.mechanism.points(link).values()]
-        return [list(p) for p in dict.fromkeys(map(tuple, [*super().corners(link), *named]))]
+        return [*super().outline(link), *named]
 
 
 def acting(d: SketchItems, name: str) -> Iterator[Tree]:

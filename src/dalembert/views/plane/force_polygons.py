@@ -19,7 +19,7 @@ from dalembert.analysis.methods.applied_forces import (
     known_actions,
     on_link,
 )
-from dalembert.analysis.methods.members import concurrency, members, order_of_solution
+from dalembert.analysis.methods.members import Member, concurrency, members, order_of_solution
 from dalembert.printing import remainder
 from dalembert.views.not_shown import doubts, has_reactions, on_one
 from dalembert.views.notation import Figures, Notation, Shown, load_sign
@@ -207,9 +207,12 @@ def _chain_scene(r: Result, k: int, notation: Notation | None, case: str | None,
     )
 
 
-def chain_order(r: Result) -> list[str]:
-    """Links in the order of solution, two-force members where their joints come up, connected ones next."""
-    by_link = members(r)
+def chain_order(r: Result, by_link: dict[str, Member] | None = None) -> list[str]:
+    """Links in the order of solution, two-force members where their joints come up, connected ones next.
+
+    by_link: the classes of the links, where they are known.
+    """
+    by_link = members(r) if by_link is None else by_link
     out = [link for step in order_of_solution(r, by_link) for link in step.links]
     for link in r.links:
         if link not in out:
