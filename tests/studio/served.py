@@ -32,7 +32,7 @@ def serving(file: Path, port: int = 0) -> Iterator[Any]:
 
     listening = socket.create_server((HOST, port))
     access = Access(listening.getsockname()[1])
-    served = StudioServer(Session(StoredFile(file)), access, Here())
+    served = StudioServer(lambda: Session(StoredFile(file)), access, Here())
     config = uvicorn.Config(
         served.app(),
         log_level="critical",

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from dalembert.errors import ModelError
 from dalembert.studio.access import LARGEST, TABS, Rate
 from dalembert.studio.document import EMPTY, text_hash
 from dalembert.studio.problems import problem_text, problems
@@ -181,3 +182,15 @@ def test_every_bundled_problem_can_be_opened() -> None:
     texts = [problem_text(p["kind"], p["name"]) for p in problems()]
     assert len(texts) > 150
     assert all("links" in text for text in texts)
+
+
+def test_a_file_that_cannot_be_read_ends_the_studio_with_the_reason(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from dalembert.studio.launch import run
+
+    wrong = tmp_path / "m.yaml"
+    wrong.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(ModelError, match=r"m.yaml is not UTF-8 text"):
+        run(wrong, browser=False)
+    assert "http://127.0.0.1:" in capsys.readouterr().out

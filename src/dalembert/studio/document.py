@@ -20,6 +20,7 @@ from dalembert.studio.drawing import drawing
 from dalembert.studio.editing.draft import Draft
 from dalembert.studio.editing.gesture import Gesture
 from dalembert.studio.editing.sketch_pose import SketchPose, sketch_pose
+from dalembert.studio.tab_messages import sentence
 
 STEPS = 100
 """Steps that can be undone."""
@@ -181,11 +182,4 @@ def read(text: str, form: str, name: str, before: Reading | None) -> Reading:
         return Reading(m, sketch, drawn, tree=written, source=source, alone=alone)
     except DalembertError as error:
         line = error.line if isinstance(error, ModelError) else 0
-        return Reading(None, None, before.drawing if before else {}, _sentence(error), line or 1)
-
-
-def _sentence(error: DalembertError) -> str:
-    """The sentence of an error, without the file's name."""
-    if isinstance(error, ModelError):
-        return f"{error.what}; {error.remedy}" if error.remedy else error.what
-    return str(error)
+        return Reading(None, None, before.drawing if before else {}, sentence(error), line or 1)

@@ -5,11 +5,9 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-import socket
-import webbrowser
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -18,11 +16,13 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from dalembert.arrays import Tree
-from dalembert.errors import DalembertError, ModelError
-from dalembert.studio.access import HOST, LARGEST, TABS, Access, Rate
-from dalembert.studio.session import Session, read_message, sentence
+from dalembert.errors import DalembertError
+from dalembert.studio.access import LARGEST, TABS, Access, Rate
 from dalembert.studio.solver import Solver
-from dalembert.studio.stored_file import StoredFile
+from dalembert.studio.tab_messages import read_message, sentence
+
+if TYPE_CHECKING:
+    from dalembert.studio.session import Session
 
 BUNDLE = Path(__file__).with_name("bundle")
 FILES = {"/": ("index.html", "text/html"), "/studio.js": ("studio.js", "text/javascript")}
@@ -33,13 +33,20 @@ REFUSED = 4403
 
 
 class StudioServer:
-    """One session, its tabs and its solver."""
+    """One session, its tabs and its solver.
 
-    def __init__(self, session: Session, access: Access, solver: Solver | None = None) -> None:
-        self.session, self.access, self.solver = session, access, solver or Solver()
+    begin: returns the session. It runs beside the server, so that the page is served while the model is imported.
+    """
+
+    session: Session
+    wrong: DalembertError | None = None
+    """The reason why there is no session."""
+
+    def __init__(self, begin: Callable[[], Session], access: Access, solver: Solver | None = None) -> None:
+        self.begin, self.access, self.solver = begin, access, solver or Solver()
         self.tabs: dict[WebSocket, int] = {}
         self.changes = 0
-        self._wanted = asyncio.Event()
+        self._begun, self._wanted = asyncio.Event(), asyncio.Event()
 
     def app(self) -> Starlette:
         """The application."""
@@ -73,6 +80,9 @@ class StudioServer:
             known = self.access.knows(await _token(ws))
             if not refused and not known:
                 refused = "this address has no token, or an old one; open the one that the command printed"
+            if not refused:
+                await self._begun.wait()
+                refused = sentence(self.wrong) if self.wrong else ""
             if refused:
                 await ws.send_text(json.dumps({"refused": refused}))
                 await ws.close(REFUSED)
@@ -133,6 +143,16 @@ class StudioServer:
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
             await ws.send_text(text)
 
+    async def _run(self) -> None:
+        """The session, from its beginning on."""
+        try:
+            self.session = await asyncio.to_thread(self.begin)
+        except DalembertError as error:
+            self.wrong = error
+        self._begun.set()
+        if self.wrong is None:
+            await asyncio.gather(self._solve(), self._look())
+
     async def _solve(self) -> None:
         """Forces of the latest text; those of overtaken ones are not sent."""
         while True:
@@ -166,13 +186,12 @@ class StudioServer:
 
     @contextlib.asynccontextmanager
     async def _lifespan(self, _: Any) -> AsyncIterator[None]:
-        tasks = [asyncio.create_task(self._solve()), asyncio.create_task(self._look())]
+        running = asyncio.create_task(self._run())
         try:
             yield
         finally:
-            for task in tasks:
-                task.cancel()
-            with contextlib.suppress(DalembertError):
+            running.cancel()
+            with contextlib.suppress(DalembertError, AttributeError):
                 self.session.look()
             self.solver.close()
 
@@ -189,36 +208,3 @@ async def _token(ws: WebSocket) -> object:
         return read_message(text[:1000]).get("token")
     except (TimeoutError, DalembertError, AttributeError):
         return None
-
-
-def run(path: Path | None, port: int = 0, browser: bool = True) -> None:
-    """Serve one file until Ctrl+C; prints the address and opens it."""
-    import uvicorn
-
-    session = Session(StoredFile(path or unused_name(Path.cwd())))
-    try:
-        listening = socket.create_server((HOST, port))
-    except (OSError, OverflowError):
-        raise ModelError(f"port {port} cannot be used", "choose another one, or leave --port out") from None
-    access = Access(listening.getsockname()[1])
-    solver = Solver()
-    studio = StudioServer(session, access, solver)
-    config = uvicorn.Config(
-        studio.app(),
-        log_level="error",
-        access_log=False,
-        ws="websockets-sansio",
-        ws_max_size=LARGEST,
-        timeout_graceful_shutdown=1,
-    )
-    print(f"Studio of {session.file.path.name}: {access.address}\nCtrl+C ends it.", flush=True)
-    solver.start()
-    if browser:
-        webbrowser.open(access.address)
-    uvicorn.Server(config).run(sockets=[listening])
-
-
-def unused_name(folder: Path) -> Path:
-    """The file of a new mechanism: a name that is free."""
-    names = (f"mechanism{'' if n == 1 else f'_{n}'}.yaml" for n in range(1, 10_000))
-    return next(p for name in names if not (p := folder / name).exists())

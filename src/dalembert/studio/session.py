@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from typing import Any
 
 from dalembert.arrays import Tree
-from dalembert.errors import DalembertError, ModelError
+from dalembert.errors import ModelError
 from dalembert.studio.document import EMPTY, Document
 from dalembert.studio.editing.gestures import gesture
 from dalembert.studio.problems import problem_text, problems
@@ -192,18 +191,3 @@ _DOES: dict[str, Any] = {
     "problems": Session._problems,
 }
 """Key of a message -> what it does."""
-
-
-def read_message(text: str) -> Any:
-    """The message of a text; raises ModelError for what is not JSON."""
-    try:
-        return json.loads(text)
-    except (ValueError, RecursionError):
-        raise ModelError("the message is not JSON", "reload the page") from None
-
-
-def sentence(error: DalembertError) -> str:
-    """The sentence of an error for a tab."""
-    if isinstance(error, ModelError):
-        return f"{error.what}; {error.remedy}" if error.remedy else error.what
-    return str(error)

@@ -10,11 +10,13 @@ from collections.abc import Iterable
 from multiprocessing.connection import Connection
 from pathlib import Path
 from threading import Lock
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dalembert.arrays import Tree
 from dalembert.errors import DalembertError
-from dalembert.model.files.source import FileSource
+
+if TYPE_CHECKING:
+    from dalembert.model.files.source import FileSource
 
 SECONDS, REPORT_SECONDS = 5.0, 60.0
 """Longest solution, and longest report."""
@@ -94,7 +96,7 @@ class Solver:
 def _serve(pipe: Connection) -> None:
     """Answers questions until the pipe is closed."""
     _limit_memory()
-    _warm_up()
+    _warm_up(pipe)
     while True:
         try:
             question = pipe.recv()
@@ -108,11 +110,12 @@ def written(answer: Tree) -> str:
     return json.dumps(answer, separators=(",", ":"))
 
 
-def _warm_up() -> None:
-    """Import and run what the first request needs, before it comes."""
+def _warm_up(pipe: Connection) -> None:
+    """Import what the first request needs, and run one unless it has come."""
     from dalembert.model.library import template_text
 
-    answered(Question("data", template_text("four_bar"), "yaml", "four_bar"))
+    if not pipe.poll():
+        answered(Question("data", template_text("four_bar"), "yaml", "four_bar"))
 
 
 def _limit_memory() -> None:

@@ -27,7 +27,7 @@ def studio(
     check_installed("starlette", "the studio", "studio")
     check_installed("uvicorn", "the studio", "studio")
     check_installed("websockets", "the studio", "studio")
-    from dalembert.studio.server import run
+    from dalembert.studio.launch import run
 
     run(file, port, not no_browser)
     return 0

@@ -13,7 +13,6 @@ from dalembert.model.files.model_files import loads
 from dalembert.model.files.rewriting import text_of
 from dalembert.model.files.source import Path
 from dalembert.model.files.splicing import REMOVED
-from dalembert.pages.saved_text import with_changed_numbers
 from dalembert.studio.editing.draft import Draft, End, Point
 from dalembert.studio.editing.drawing_gestures import snapped
 from dalembert.studio.editing.entries import remove
@@ -109,6 +108,8 @@ class PageChanges(Gesture):
     values: Annotated[dict[Text, float], Field(max_length=500)]
 
     def apply(self, d: Draft) -> None:
+        from dalembert.pages.saved_text import with_changed_numbers  # a tenth of the studio's start
+
         m = loads(d.text, d.form)
         values = {path: _short(d, path, x) for path, x in self.values.items()}
         d.text = text_of(with_changed_numbers(m, values), d.form)
