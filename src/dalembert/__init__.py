@@ -150,11 +150,15 @@ if TYPE_CHECKING:
     from dalembert.model import load as load
     from dalembert.model import loads as loads
     from dalembert.model import mechanism as mechanism
+    from dalembert.model.library import band_brake as band_brake
     from dalembert.model.library import belt_drive as belt_drive
     from dalembert.model.library import bennett as bennett
     from dalembert.model.library import bevel_differential as bevel_differential
+    from dalembert.model.library import block_brake as block_brake
     from dalembert.model.library import bucket as bucket
     from dalembert.model.library import crank_shaper as crank_shaper
+    from dalembert.model.library import cylinder_boom as cylinder_boom
+    from dalembert.model.library import disc_cam as disc_cam
     from dalembert.model.library import double_cardan as double_cardan
     from dalembert.model.library import five_bar as five_bar
     from dalembert.model.library import four_bar as four_bar
@@ -164,15 +168,18 @@ if TYPE_CHECKING:
     from dalembert.model.library import in_line_engine as in_line_engine
     from dalembert.model.library import inverted_slider_crank as inverted_slider_crank
     from dalembert.model.library import planetary_train as planetary_train
+    from dalembert.model.library import plate_clutch as plate_clutch
     from dalembert.model.library import porter_governor as porter_governor
     from dalembert.model.library import press_with_flywheel as press_with_flywheel
     from dalembert.model.library import radial_engine as radial_engine
+    from dalembert.model.library import ratchet as ratchet
     from dalembert.model.library import rccc as rccc
     from dalembert.model.library import rotating_shaft as rotating_shaft
     from dalembert.model.library import rssp as rssp
     from dalembert.model.library import rssr as rssr
     from dalembert.model.library import scissor as scissor
     from dalembert.model.library import scotch_yoke as scotch_yoke
+    from dalembert.model.library import screw_jack as screw_jack
     from dalembert.model.library import slider_crank as slider_crank
     from dalembert.model.library import spherical_four_bar as spherical_four_bar
     from dalembert.model.library import stephenson_1 as stephenson_1
@@ -183,6 +190,7 @@ if TYPE_CHECKING:
     from dalembert.model.library import watt_1 as watt_1
     from dalembert.model.library import watt_2 as watt_2
     from dalembert.model.library import whitworth as whitworth
+    from dalembert.model.library import worm_gear as worm_gear
     from dalembert.optimization.optimizing import optimize as optimize
     from dalembert.optimization.optimum import Optimum as Optimum
     from dalembert.optimization.pareto_front import Front as Front
@@ -253,10 +261,12 @@ _NAMES = {
     "machine.shafts.critical_speeds": "CriticalSpeeds critical_speeds",
     "machine.shaking": "shaking",
     "model.library": (
-        "belt_drive bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hartnell_governor "
-        "hoist hooke_joint in_line_engine inverted_slider_crank planetary_train porter_governor press_with_flywheel "
-        "radial_engine rccc rotating_shaft rssp rssr scissor scotch_yoke slider_crank spherical_four_bar stephenson_1 "
-        "stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 whitworth"
+        "band_brake belt_drive bennett bevel_differential block_brake bucket crank_shaper cylinder_boom "
+        "disc_cam double_cardan five_bar four_bar hartnell_governor hoist hooke_joint in_line_engine "
+        "inverted_slider_crank planetary_train plate_clutch porter_governor press_with_flywheel "
+        "radial_engine ratchet rccc rotating_shaft rssp rssr scissor scotch_yoke screw_jack slider_crank "
+        "spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 "
+        "whitworth worm_gear"
     ),
     "optimization.optimizing": "optimize",
     "optimization.optimum": "Optimum",

@@ -340,3 +340,26 @@ def test_a_band_is_not_copied() -> None:
     text = BAND + "copies:\n  - {of: [lever], mirror: {ground: 90 deg, drum: 90 deg}}\n"
     with pytest.raises(ModelError, match="'band' is a band, which is not copied; write the second one out"):
         da.loads(text)
+
+
+def test_a_band_with_a_given_wrap_holds_its_lever_over_whole_turns_of_the_drum() -> None:
+    """Its strands are taken across the line of its ends; the drum's turn does not move them."""
+    m = da.loads(
+        """units: {length: mm, mass: kg, force: N, moment: N*m, angle: deg}
+links:
+  ground: {points: {O: [0, 0], L: [-200, -300]}}
+  drum: {points: {O: [0, 0]}}
+  lever: {points: {L: [0, 0], B: [120, 0], F: [600, 0]}}
+joints:
+  O: {type: pin, links: [ground, drum]}
+  L: {type: pin, links: [ground, lever]}
+  S: {type: band, links: [drum, lever], around: O, radius: 200, wrap: 230, ends: [ground.L, lever.B],
+      friction: {coefficient: 0.3}}
+drives: {O: {position: {from: 0, to: 720, count: 37}, speed: 10 rad/s}}
+loads: {F: {type: force, on: lever, at: F, value: [0, -150]}}
+"""
+    )
+    r = da.statics(m)
+    assert set(r.status) == {"ok"}
+    assert r.angle("lever") == pytest.approx(np.zeros(37), abs=1e-12)
+    assert r.effort("O") == pytest.approx(np.full(37, 750 * 0.2 * (1 - np.exp(-0.3 * np.radians(230)))))

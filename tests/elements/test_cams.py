@@ -11,6 +11,7 @@ import pytest
 
 import dalembert as da
 from dalembert.errors import ModelError
+from dalembert.model.library import template_text
 from dalembert.views.paper.scene import Arrow, Circle, Polygon
 from tests.elements.test_cam_cases import sliding
 
@@ -277,3 +278,15 @@ def test_a_cam_is_drawn_to_scale() -> None:
     assert arrow.length * shown.scales["force"] == pytest.approx(arrow.value)
     assert len(c.drawings()) == 8
     assert "pressure angle, rising" in c.text()
+
+
+def test_sizes_of_a_cam_that_a_kernel_can_vary() -> None:
+    m = da.disc_cam(positions=3)
+    k = da.compile(m, vary=["joints.F.profile.base"], outputs=["effort.O"])
+    larger = m.with_values({"joints.F.profile.base": 0.05})
+    assert k([[0.05]]).effort("O")[0] == pytest.approx(da.dynamics(larger).effort("O"), rel=1e-9)
+    text = da.loads(template_text("disc_cam"))
+    with pytest.raises(ModelError) as caught:
+        da.compile(text, vary=["rise"])
+    assert "the curve of cam 'F' is computed from 'joints.F.profile.segments" in str(caught.value)
+    assert "vary its base or its roller, or solve each design by da.sweep" in str(caught.value)

@@ -138,3 +138,39 @@ def test_wrong_clutches_are_told(old: str, new: str, says: str) -> None:
         da.loads(FILE.replace(old, new), name="k.yaml")
     assert says in str(caught.value)
     assert str(caught.value).startswith("k.yaml:9: ")
+
+
+BESIDE = {  # what brakes the driven link, and the torque that it takes
+    "band": (
+        """  L: {type: pin, links: [ground, lever]}
+  S: {type: band, links: [two, lever], around: O, radius: 200, ends: [ground.L, lever.B], wrap: 180 deg,
+      friction: {coefficient: 0.3}}
+""",
+        100.0 * (1 - np.exp(-0.3 * np.pi)),
+    ),
+    "plates": (
+        """  L: {type: weld, links: [ground, lever]}
+  S: {type: disc, links: [ground, two], at: O, radii: [80, 120], force: 3000, friction: {coefficient: 0.3}}
+""",
+        0.3 * 3000 * 0.1,
+    ),
+    "rope": (
+        """  L: {type: slider, links: [ground, lever], direction: -90 deg, angle: 90 deg}
+  S: {type: rope, through: [{round: two.O, radius: 200, side: left}, lever.L]}
+""",
+        20.0,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BESIDE)
+def test_it_holds_beside_brakes_and_ropes(name: str) -> None:
+    joints, torque = BESIDE[name]
+    text = FILE.replace("{O: [0, 0]}}\n  one", "{O: [0, 0], L: [200, -300]}}\n  one")
+    text = text.replace("joints:\n", "  lever: {points: {L: [0, 0], B: [-200, 0], P: [-1000, 0]}}\njoints:\n")
+    text = text.replace("drives:", f"{joints}drives:")
+    r = da.statics(
+        da.loads(text.replace("loads: {", "loads: {P: {type: force, on: lever, at: P, value: [0, -100]}, "))
+    )
+    assert r.status == ("ok",)
+    assert r.effort("A")[0] == pytest.approx(120 + torque)

@@ -20,6 +20,8 @@ from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobilit
 from dalembert.analysis.status.closure_failure import drive_text
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
+from dalembert.core.elements.lining_rows import with_axis
+from dalembert.core.elements.linings import BandStrands
 from dalembert.core.elements.strand_rows import direction, strands, with_zero
 from dalembert.core.gear_rows import MeshMisfit, mesh_wheels
 from dalembert.core.layout import BeltMesh, Mesh, Pose
@@ -183,7 +185,7 @@ def _with_phase(c: Compiled, first: Pose) -> Compiled:
     if not rows.size:
         return c
     _check_meshes(c, first)
-    c = _with_strands(c, first)
+    c = _with_bands(_with_strands(c, first), first)
     layout, misfits = mesh_wheels(c.layout, first)
     for misfit in misfits:
         _check_misfit(c, misfit)
@@ -207,6 +209,13 @@ def _with_strands(c: Compiled, first: Pose) -> Compiled:
         raise ModelError(what, remedy, ("joints",))
     rows = c.layout.constraints
     families = tuple(with_zero(c.layout, x, first) if x is f else x for x in rows.families)
+    return replace(c, layout=replace(c.layout, constraints=replace(rows, families=families)))
+
+
+def _with_bands(c: Compiled, first: Pose) -> Compiled:
+    """Bands whose strands are parallel, with the direction that they have at the first pose."""
+    rows, g = c.layout.constraints, c.layout.algebra
+    families = tuple(with_axis(g, f, first) if isinstance(f, BandStrands) else f for f in rows.families)
     return replace(c, layout=replace(c.layout, constraints=replace(rows, families=families)))
 
 

@@ -27,7 +27,7 @@ from dalembert.views.formats.svg import Writer
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Polygon
 from dalembert.views.plane.elements.cam_symbol import resting_follower
-from dalembert.views.plane.joint_drawings import round_slot
+from dalembert.views.plane.joint_drawings import driving_screw, ratchet_pawl, ratchet_wheel, round_slot
 from dalembert.views.plane.outline import link_paths, wheel_paths
 from dalembert.views.symbols import plane_symbols
 
@@ -181,6 +181,8 @@ def _slider(d: Items, name: str, link: str | None) -> list[Tree]:
     e, at, out = d.rows.direction(name), d.at(name), []
     if link is None and GROUND in d.mechanism.joints[name].links:
         out.append(d.symbol(plane_symbols.guide((0, 0), 0.0, 13.0), at, e))
+    if screw := driving_screw(d.known, name, d.frame, (0, 0), 0.0):
+        out.insert(0, d.symbol(screw, at, e, sized=True))
     return [*out, d.symbol(plane_symbols.slider((0, 0), 0.0), at, e)]
 
 
@@ -302,8 +304,14 @@ def _brake(d: Items, name: str, link: str | None) -> list[Tree]:
 
 def _clutch(d: Items, name: str, link: str | None) -> list[Tree]:
     joint: Any = d.mechanism.joints[name]
-    symbol = plane_symbols.one_way((0, 0), joint.way, 0.0)
-    return [d.symbol(symbol, d.at(name), d.rows.axis(joint.links[1]))] if link is None else []
+    on_i, on_j = (d.rows.axis(one) for one in joint.links)
+    if link is not None:
+        return []
+    if not joint.pitch:
+        return [d.symbol(plane_symbols.one_way((0, 0), joint.way, 0.0), d.at(name), on_j)]
+    known: Any = d.known.mechanism.joints[name]
+    wheel, pawl = (draw(known, d.frame, (0, 0), 0.0) for draw in (ratchet_wheel, ratchet_pawl))
+    return [d.symbol(wheel, d.at(name), on_j, sized=True), d.symbol(pawl, d.at(name), on_i, sized=True)]
 
 
 SYMBOLS: dict[str, Callable[[Items, str, str | None], list[Tree]]] = {

@@ -133,7 +133,7 @@ def compile_mechanism(
     Its numbers may be symbols (one position then): scale and first guess are taken from ``like``, the mechanism with
     numbers in their places.
     """
-    m = with_unknown_clamps(with_rope_parts(with_clutches(m, len(schedule.names))))
+    m = with_unknown_clamps(with_clutches(with_rope_parts(m), len(schedule.names)))
     joined = _Joined(m, schedule.names, redundant)
     geometry = _geometry(joined) if like is None else _lay_out(joined, like)
     pose_names, standing = _without_pose_loads(m)

@@ -96,12 +96,20 @@ def _left(v: Array) -> Array:
 def strands_measure(g: Algebra, f: BandStrands, pose: Pose) -> Array:
     """Minus the length of the band, by its strands; across the line of its ends how far the ends are from the axis."""
     total = np.zeros(1)
+    first = np.array([[any(bool(x != 0) for x in axis)] for axis in f.axis.tolist()], bool)
     for _, _, tension, t, away, free, side in strands(g, f, pose):
         around = free + f.radius * side * np.arctan2(t[..., 1], t[..., 0])
-        length = np.where(f.parallel != 0, (t * away).sum(axis=-1), around)
+        straight = np.where(first, f.axis, t)
+        length = np.where(f.parallel != 0, (straight * away).sum(axis=-1), around)
         total = total - tension * length
     wound = (pose.turn[..., f.i]) * _turning(g, f, pose)
     return np.asarray(total + wound)
+
+
+def with_axis(g: Algebra, f: BandStrands, first: Pose) -> BandStrands:
+    """The strands of a band at the first pose, whose direction is kept where they are parallel."""
+    _, _, _, t, *_ = next(strands(g, f, first))
+    return BandStrands(**{**vars(f), "axis": np.where(f.parallel[:, None] != 0, t, 0.0)})
 
 
 def _turning(g: Algebra, f: BandStrands, pose: Pose) -> Array:

@@ -31,7 +31,8 @@ class BandStrands:
     """Tensions of the two strands of a band around a drum i about i's point: ``first`` and ``last`` a unit.
 
     The ends are on j or on ground, links ``end_a`` and ``end_b`` with arms ``ua`` and ``ub``. The strands pull along
-    the tangents of the drum, or, where ``parallel`` is 1, across the line of the ends.
+    the tangents of the drum, or, where ``parallel`` is 1, across the line of the ends: in their measure along ``axis``,
+    that direction at the first pose, so that its rate there is the power of the tensions.
     """
 
     row: Ints
@@ -47,3 +48,4 @@ class BandStrands:
     first: Array
     last: Array
     parallel: Array  # (k,) 1 or 0
+    axis: Array  # (k, d) 0 before the first pose is known

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.arrays import Array, Ints
+from dalembert.core.branchless import above, where
 from dalembert.core.constraints import measure, stack_rows
 from dalembert.core.elements import strand_rows
 from dalembert.core.elements.lining_rows import period_of_line
@@ -28,6 +29,9 @@ centre the gap vanishes long before the error of the pose, so the step decides."
 HELD = 1e3
 """Stiffness of drives over that of constraints in the search for the least gap."""
 
+ENDLESS = 1e300
+"""Period of a measure that does not repeat."""
+
 LONGEST_TURN = 0.5
 """No step turns a link further than this, radians, or moves it further than the characteristic length times this."""
 
@@ -43,7 +47,8 @@ def gap(layout: Layout, pose: Pose, target: Array) -> Array:
                 else strand_rows.period(family)
             )
             part = missing[..., family.row]
-            missing[..., family.row] = part - period * np.round(part / np.where(period == 0, np.inf, period))
+            whole = where(above(np.abs(period), 0.0), period, ENDLESS)
+            missing[..., family.row] = part - period * np.round(part / whole)
         elif isinstance(family, Lining):
             period = period_of_line(layout.algebra, family, pose)
             part = missing[..., family.row]

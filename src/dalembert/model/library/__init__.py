@@ -38,6 +38,14 @@ toggle_press = template_function("toggle_press")
 press_with_flywheel = template_function("press_with_flywheel")
 five_bar = template_function("five_bar")
 bucket = template_function("bucket")
+disc_cam = template_function("disc_cam")
+block_brake = template_function("block_brake")
+band_brake = template_function("band_brake")
+plate_clutch = template_function("plate_clutch")
+screw_jack = template_function("screw_jack")
+ratchet = template_function("ratchet")
+cylinder_boom = template_function("cylinder_boom")
+worm_gear = template_function("worm_gear")
 belt_drive = template_function("belt_drive")
 hoist = template_function("hoist")
 hooke_joint = template_function("hooke_joint")
@@ -51,12 +59,13 @@ rssr = template_function("rssr")
 rssp = template_function("rssp")
 
 __all__ = [
-    "TEMPLATES", "Template", "belt_drive", "bennett", "bevel_differential", "bucket", "crank_shaper", "double_cardan",
-    "five_bar", "four_bar", "hartnell_governor", "hoist", "hooke_joint", "in_line_engine",
-    "inverted_slider_crank", "planetary_train", "porter_governor", "press_with_flywheel",
-    "radial_engine", "rccc", "rotating_shaft", "rssp", "rssr", "scissor", "scotch_yoke", "slider_crank",
-    "spherical_four_bar", "stephenson_1", "stephenson_2", "stephenson_3", "template", "template_text",
-    "toggle_press", "v_engine", "watt_1", "watt_2", "whitworth",
+    "TEMPLATES", "Template", "band_brake", "belt_drive", "bennett", "bevel_differential", "block_brake",
+    "bucket", "crank_shaper", "cylinder_boom", "disc_cam", "double_cardan", "five_bar", "four_bar",
+    "hartnell_governor", "hoist", "hooke_joint", "in_line_engine", "inverted_slider_crank",
+    "planetary_train", "plate_clutch", "porter_governor", "press_with_flywheel", "radial_engine",
+    "ratchet", "rccc", "rotating_shaft", "rssp", "rssr", "scissor", "scotch_yoke", "screw_jack",
+    "slider_crank", "spherical_four_bar", "stephenson_1", "stephenson_2", "stephenson_3", "template",
+    "template_text", "toggle_press", "v_engine", "watt_1", "watt_2", "whitworth", "worm_gear",
 ]  # fmt: skip
 
 
@@ -85,6 +94,13 @@ DESCRIPTIONS = {
     "scissor": "scissor lift of any number of stages",
     "bucket": "excavator bucket moved by a hydraulic cylinder",
     "belt_drive": "two wheels on fixed axes and a belt, whose tensions and slip are computed",
+    "disc_cam": "cam with rise, dwell and return, roller follower and spring",
+    "block_brake": "a lever presses a pivoted shoe on a drum",
+    "band_brake": "a lever pulls a band tight round a drum",
+    "plate_clutch": "two shafts and the plates between them, which slip",
+    "screw_jack": "torque on a screw that lifts a load, with thread and collar friction",
+    "ratchet": "a motor's pawl takes a hoist's drum along, which may run ahead",
+    "cylinder_boom": "a hydraulic cylinder lifts a boom: force, pressure and flow",
     "hoist": "a drum winds a rope that runs over a fixed and a moving pulley",
     "in_line_engine": "cylinders in line that fire in an order; generated",
     "v_engine": "cylinders in two banks, two rods on each throw; generated",
@@ -100,6 +116,7 @@ DESCRIPTIONS = {
     "hooke_joint": "in space: a universal joint between two shafts at an angle",
     "double_cardan": "in space: two universal joints that turn evenly",
     "bevel_differential": "in space: a carrier turns by half the sum of two wheels' turns",
+    "worm_gear": "in space: a worm drives a wheel, with friction of the teeth",
     "rotating_shaft": "in space: a shaft with masses off its axis on two bearings",
 }
 TEMPLATES = {name: Template(globals()[name], description) for name, description in DESCRIPTIONS.items()}

@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
+RING, PAWL = 3.6, math.pi / 2
+"""Least radius of a clutch on paper, mm, and the angle of a pawl to the axes of its link."""
+
+
 class JointPlace(NamedTuple):
     """A joint to be drawn: its name, a position, a frame, and j's point in it."""
 
@@ -111,7 +115,18 @@ def _slider(s: JointPlace) -> list[Item]:
     angle = _along(s)
     side = -1.0 if math.cos(angle) > -1e-9 else 1.0
     ground = plane_symbols.guide(s.at, angle, 13.0, side) if _on_ground(s) else []
-    return [*ground, *plane_symbols.slider(s.at, angle)]
+    return [*driving_screw(s.r, s.name, s.frame, s.at, angle), *ground, *plane_symbols.slider(s.at, angle)]
+
+
+def driving_screw(r: Result, name: str, frame: PaperFrame, at: Point, angle: float) -> list[Item]:
+    """The screw that drives a slide, behind its nut, as long as the nut moves; nothing where none does."""
+    drives = r.mechanism.drives
+    screw = next((drives[d].screw for d in r.drives if (drives[d].joint or d) == name), None)
+    if screw is None:
+        return []
+    moved = r.freedom(name, "slide")[0]
+    length = max(frame.length(float(np.nanmax(moved) - np.nanmin(moved))), 10.0)
+    return plane_symbols.thread(at, angle, length, frame.length(screw.radius), frame.length(screw.advance))
 
 
 def _slot(s: JointPlace) -> list[Item]:
@@ -201,9 +216,24 @@ def _cam(s: JointPlace) -> list[Item]:
 
 
 def _clutch(s: JointPlace) -> list[Item]:
-    """A ring about the axis with wedges that point in the sense in which j cannot turn."""
+    """A ring about the axis with wedges that narrow in the sense in which j is free, or a wheel with teeth on j and a
+    pawl on i."""
     joint: Any = s.r.mechanism.joints[s.name]
-    return plane_symbols.one_way(s.at, joint.way, float(link_angle(s.r, joint.links[1])[s.k]))
+    on_i, on_j = (float(link_angle(s.r, link)[s.k]) for link in joint.links)
+    if not joint.pitch:
+        return plane_symbols.one_way(s.at, joint.way, on_j)
+    return [*ratchet_wheel(joint, s.frame, s.at, on_j), *ratchet_pawl(joint, s.frame, s.at, on_i)]
+
+
+def ratchet_wheel(joint: Any, frame: PaperFrame, at: Point, angle: float) -> list[Item]:
+    """The wheel of a ratchet on j at an angle of j: one of its flanks is at the pawl where it holds."""
+    radius, first = max(frame.length(joint.reach), RING), angle - joint.angle + PAWL
+    return plane_symbols.ratchet(at, radius, round(joint.teeth), joint.way, first)
+
+
+def ratchet_pawl(joint: Any, frame: PaperFrame, at: Point, angle: float) -> list[Item]:
+    """Its pawl on i."""
+    return plane_symbols.pawl(at, max(frame.length(joint.reach), RING), joint.way, angle + PAWL)
 
 
 def _clutch_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:

@@ -174,7 +174,7 @@ def draw_links(canvas: Canvas, r: Result, k: int, frame: PaperFrame) -> None:
         canvas.add(*plane_symbols.SPANS[load.type](a, b))
         for (end, _), at in zip(m.load_points(name), (a, b), strict=True):
             canvas.add(*(plane_symbols.fixed_pin(at) if end == GROUND else plane_symbols.pin(at)))
-    for name in sorted(r.joints, key=lambda n: m.joints[n].hinge):
+    for name in sorted(r.joints, key=lambda n: (m.joints[n].hinge, not m.joints[n].WRAPPED)):
         draw_joint(canvas, r, name, k, frame)
     for load in m.loads_on("turn").values():
         canvas.add(*plane_symbols.TURNS[load.type](frame(joint_place(r, load.joint)[k])))

@@ -94,6 +94,31 @@ def one_way(at: Point, way: float, angle: float) -> list[Item]:
     return out
 
 
+def ratchet(at: Point, radius: float, teeth: int, way: float, angle: float) -> list[Item]:
+    """A wheel with teeth whose steep flanks face against the sense ``way``; the first flank at ``angle``."""
+    low, pitch = 0.82 * radius, 2 * math.pi / teeth * way
+    places = [(r, angle + pitch * k) for k in range(teeth) for r in (low, radius)]
+    return [Polygon(tuple((at[0] + r * math.cos(t), at[1] + r * math.sin(t)) for r, t in places), "block")]
+
+
+def pawl(at: Point, radius: float, way: float, angle: float) -> list[Item]:
+    """The pawl of such a wheel: it pushes on the flank at ``angle``, and turns about a pin behind it."""
+    low, long = 0.82 * radius, max(0.7 * radius, 4.0)
+    end = (low + 0.6 * long, way * long)
+    shape = [(low, 0.0), (radius, 0.0), (end[0] + 0.7, end[1]), (end[0] - 0.7, end[1])]
+    pin_place = _rotate([end], at, angle)[0]
+    return [Polygon(_rotate(shape, at, angle), "block"), Circle(pin_place, 0.8, "pin")]
+
+
+def thread(at: Point, angle: float, length: float, radius: float, lead: float) -> list[Item]:
+    """A screw that ends at a point and comes from behind it, with a line for each turn of its thread."""
+    edge = _rotate([(-length, -radius), (0.0, -radius), (0.0, radius), (-length, radius)], at, angle)
+    turns = max(1, min(int(length / lead), int(length / 1.2)))
+    step = length / turns
+    lines = (_rotate([(-k * step, -radius), (-(k + 0.5) * step, radius)], at, angle) for k in range(turns))
+    return [Polygon(edge, "block"), *(Line(line, "hatch") for line in lines)]
+
+
 def spring(a: Point, b: Point) -> list[Item]:
     """A coil between two points, seen from the side."""
     length = math.dist(a, b)

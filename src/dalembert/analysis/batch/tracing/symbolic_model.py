@@ -28,6 +28,9 @@ DRIVEN = ("position", "law", "range")
 PLACING = ("period",)
 """Data that determine where the points of a table are."""
 
+SHAPES = ("segments", "tangent", "arcs", "points")
+"""Keys of a cam's profile from which its curve is computed before the kernel is compiled."""
+
 
 @dataclass(frozen=True)
 class VariedNumber:
@@ -106,11 +109,15 @@ def _refuse_law(m: Mechanism, path: str) -> None:
 
 
 def _refuse_followed(m: Mechanism, path: str) -> None:
-    """Refuse numbers from which others in the description were computed: of a cylinder, of guides of ropes."""
+    """Refuse numbers from which others in the description were computed: of a cam's curve, of a cylinder, of guides of
+    ropes."""
     keys = path.split(".")
     if leads_rope(m, path):
         what = f"the direction of the parallel strands of a rope follows from {path!r}, which cannot vary"
         raise ModelError(what, "leave it out, or write parallel: 90 deg of the rope", keys)
+    if keys[0] == "joints" and keys[2:3] == ["profile"] and keys[3] in SHAPES:
+        what = f"the curve of cam {keys[1]!r} is computed from {path!r} before the kernel, so that number cannot vary"
+        raise ModelError(what, "vary its base or its roller, or solve each design by da.sweep", keys)
     c = m.drives[keys[1]].cylinder if keys[2:3] == ["cylinder"] and keys[1] in m.drives else None
     if c is None:
         return

@@ -111,6 +111,7 @@ def brake_place(
         "ua": arms_[0],
         "ub": arms_[1],
         "radius": joint.radius,
+        "axis": np.zeros(2),
     }
     drawn["parallel"] = float(joint.wound is not None)
     normal, friction = {"first": 1.0, "last": 1.0} | drawn, {"first": 0.5, "last": -0.5} | drawn

@@ -6,7 +6,8 @@ import numpy as np
 
 from dalembert.analysis.compile import plane_rows
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism
+from dalembert.model import Joint, Mechanism
+from dalembert.model.joints.elements.clutches import Faces
 from dalembert.model.joints.elements.one_way_joints import Clutch, released
 
 
@@ -16,11 +17,8 @@ def with_clutches(m: Mechanism, drives: int) -> Mechanism:
     clutches = {n: j for n, j in m.joints.items() if isinstance(j, Clutch) and not j.RELEASED}
     if not clutches or m.dimension != 2:
         return m
-    rows = plane_rows.RowBuilder(len(m.links))
-    for joint in m.joints.values():
-        if not isinstance(joint, Clutch):
-            plane_rows.add_constraints(rows, 0, joint, (0, 1), np.zeros(2), np.zeros(2))
-    left = 3 * sum(name != "ground" for name in m.links) - len(rows.targets) - drives
+    held = sum(_constraint_count(joint) for joint in m.joints.values() if not isinstance(joint, Clutch))
+    left = 3 * sum(name != "ground" for name in m.links) - held - drives
     if left >= len(clutches):
         return m
     if left > 0:
@@ -32,3 +30,12 @@ def with_clutches(m: Mechanism, drives: int) -> Mechanism:
         )
     loose = {name: released(joint) for name, joint in clutches.items()}
     return m.model_copy(update={"joints": {**m.joints, **loose}})
+
+
+def _constraint_count(joint: Joint) -> int:
+    """Constraints of a joint; 0 of faces on an axis, which only rub."""
+    if joint.BRAKES or joint.outlined:
+        return int(not isinstance(joint, Faces) and not joint.gaps)
+    rows = plane_rows.RowBuilder(2)
+    plane_rows.add_constraints(rows, 0, joint, (0, 1), np.zeros(2), np.zeros(2))
+    return len(rows.targets)

@@ -102,6 +102,11 @@ class Ratchet(Clutch):
         """Angle from one tooth to the next."""
         return 2 * math.pi / self.teeth
 
+    @property
+    def reach(self) -> float:
+        """Radius of the wheel where it is known, m, else 0."""
+        return self.pawl.radius if self.pawl else 0.0
+
 
 class ReleasedOneWay(OneWay):
     """A one-way clutch whose links drives move: it has the turn as its freedom."""
