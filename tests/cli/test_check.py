@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 import dalembert as da
+from dalembert.analysis.result.quantity_catalogue import CATALOGUE
+from dalembert.model.stated_answers import StatedAnswer
 from tests.cli.conftest import Run
 
 ANSWERS = """
@@ -24,6 +26,19 @@ answers:
   - {quantity: status, at: 60 deg, value: ok}
   - {quantity: moment, of: A, at: 1, value: 0, tolerance: 1e-9}
 """.replace('"[2.5 in, 4.330127 in]"', "[2.5 in, 4.330127 in]")
+
+
+NAMES_OF_RESULTS = [
+    f"{word}{'.T' if word not in ('shaking_force', 'shaking_couple', 'residual', 'power_balance', 'time') else ''}{'.' * bool(rate)}{rate}"
+    for word, quantity in CATALOGUE.items()
+    for rate in quantity.rates
+    if quantity.of != "frames"
+]
+
+
+@pytest.mark.parametrize("name", NAMES_OF_RESULTS)
+def test_an_answer_takes_each_name_of_a_result(name: str) -> None:
+    assert StatedAnswer(quantity=name, value=0).name == name
 
 
 def with_answers(folder: Path, answers: str, name: str = "claims.yaml") -> str:

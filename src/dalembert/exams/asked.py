@@ -18,6 +18,7 @@ from dalembert.grading.file_answers import describe_answer, position_of, read, s
 from dalembert.grading.marking import table_files
 from dalembert.grading.quantities import QUANTITIES
 from dalembert.model import GROUND, StatedAnswer
+from dalembert.model.stated_answers import NAMES
 from dalembert.views.notation import Shown, pretty
 from dalembert.wording import closest
 
@@ -89,8 +90,9 @@ def _named(r: Result, one: object) -> list[StatedAnswer]:
     quantity, *words = str(one).split(".")
     if not words and quantity in ("efforts", "reactions"):
         return [a for a in _forces(r) if a.quantity.startswith(quantity[:-1])]
-    if quantity not in QUANTITIES:
-        raise ModelError(f"--ask {one}: unknown quantity {quantity!r}", closest(quantity, [*QUANTITIES]))
+    known = {*QUANTITIES, *(name.partition(".")[0] for name in NAMES.values())}
+    if quantity not in known:
+        raise ModelError(f"--ask {one}: unknown quantity {quantity!r}", closest(quantity, sorted(known)))
     if not words:
         raise ModelError(f"--ask {one} does not say of what", FORMS)
     return [StatedAnswer(**named_figure(str(one), None))]

@@ -160,6 +160,7 @@ def named_figure(name: str, value: object) -> dict[str, object]:
     if "." not in name:
         return {"quantity": name, "value": value}
     item: dict[str, object] = dict(parts_of_name(name))
-    of, _, on = str(item["of"]).partition(".")
+    thing = str(item.get("of", ""))
+    of, _, on = thing.partition(".")
     acts = {"of": of, "on": on} if on and item["quantity"] in ("reaction", "moment") else {}
-    return short_item(str(item["quantity"]), str(item["of"]), value) | item | acts
+    return short_item(str(item["quantity"]), thing, value) | item | acts

@@ -12,6 +12,9 @@ from dalembert.errors import ModelError
 from dalembert.model.part import Part
 from dalembert.wording import quote_value
 
+_WITHOUT_RATES = """friction_force friction_moment power_lost normal power transmission closure pressure flow screw_torque
+lower_face upper_face energy_fluctuation shaking_moment mass stress fatigue buckling deflection bearing_slope life
+pin_stress play"""
 NAMES = {
     "effort": "effort.{of}",
     "effort_low": "effort.{of}.low",
@@ -21,7 +24,14 @@ NAMES = {
     "unknown_load_high": "load.{of}.high",
     "reaction": "reaction.{of}",
     "moment": "reaction_moment.{of}",
+    **{
+        f"{word}_{end}": f"{word}.{{of}}.{end}"
+        for word in ("reaction", "reaction_moment")
+        for end in ("low", "high")
+    },
     "drive": "drive.{of}",
+    "drive_speed": "drive.{of}.speed",
+    "drive_acceleration": "drive.{of}.acceleration",
     "angle": "angle.{of}",
     "speed": "angle.{of}.speed",
     "acceleration": "angle.{of}.acceleration",
@@ -39,23 +49,12 @@ NAMES = {
         for freedom in ("slide", "slide1", "slide2", "turn", "turn1", "turn2")
         for rate in ("", "_speed", "_acceleration")
     },
-    **{word: f"{word}.{{of}}" for word in ("friction_force", "friction_moment", "power_lost")},
-    **{
-        word: f"{word}.{{of}}"
-        for word in (
-            "pressure",
-            "flow",
-            "screw_torque",
-            "lower_face",
-            "upper_face",
-            "energy_fluctuation",
-            "shaking_moment",
-        )
-    },
+    **{word: f"{word}.{{of}}" for word in _WITHOUT_RATES.split()},
+    "play_worst": "play.{of}.worst",
     "turning_speed_low": "turning_speed.low",
     "turning_speed_high": "turning_speed.high",
     **{word: word for word in ("turning_speed", "turning_torque")},
-    **{word: word for word in ("shaking_force", "shaking_couple", "residual", "power_balance")},
+    **{word: word for word in ("shaking_force", "shaking_couple", "residual", "power_balance", "time")},
 }
 """Words of format version 1 for quantities, with the names they mean (docs/quantities.md)."""
 
@@ -132,16 +131,18 @@ def parts_of_name(name: str) -> dict[str, str]:
 
     >>> parts_of_name("point.rod.center.velocity.x")
     {'quantity': 'center_velocity', 'of': 'rod', 'component': 'x'}
+    >>> parts_of_name("shaking_force.x")
+    {'quantity': 'shaking_force', 'component': 'x'}
     >>> parts_of_name("speed.rod") == parts_of_name("angle.rod.speed")
     True
     """
     stem, _, last = name.rpartition(".")
-    part = {"component": last} if last in _COMPONENTS and "." in stem else {}
+    part = {"component": last} if last in _COMPONENTS and ("." in stem or NAMES.get(stem) == stem) else {}
     fits = {
         word: re.fullmatch(re.escape(form).replace(r"\{of\}", "(.+)"), stem if part else name)
         for word, form in NAMES.items()
     }
-    keys = {word: match[1] for word, match in fits.items() if match and match.re.groups}
+    keys = {word: "".join(match.groups()) for word, match in fits.items() if match}
     word, _, of = (stem if part else name).partition(".")
     keys = keys or ({word: of} if word in NAMES and of else {})  # in the words of the first format
     if not keys:
@@ -150,7 +151,7 @@ def parts_of_name(name: str) -> dict[str, str]:
             "write effort.NAME, reaction.NAME.x or another of docs/quantities.md",
         )
     best = min(keys, key=lambda word: len(keys[word]))
-    return {"quantity": best, "of": keys[best], **part}
+    return {"quantity": best, **({"of": keys[best]} if keys[best] else {}), **part}
 
 
 def _frozen(value: object) -> object:

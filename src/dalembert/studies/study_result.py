@@ -135,7 +135,8 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
 
     def __getitem__(self, name: str) -> Array:
         if name not in self.arrays or name == "ledger":
-            raise ModelError(f"the study has not kept {name!r}", closest(name, list(self.study.outputs)))
+            what = f"{name!r} is not an output of this study"
+            raise ModelError(what, closest(name, list(self.study.outputs)))
         array = self.arrays[name]
         try:
             values = np.array(array[: self.study.count])

@@ -313,7 +313,8 @@ class Sweep(NamedAnswer, Labelled, Drawn):
         if name in kept:
             return kept[name]
         if vector not in kept:
-            raise ModelError(f"the sweep has not kept {name!r}", closest(name, list(kept)))
+            what = f"{name!r} is not an output of this sweep"
+            raise ModelError(what, f"name it in outputs=, or {closest(name, list(kept))}")
         return component(kept[vector], part, name, self.status.ndim)
 
     def keys(self) -> list[str]:
