@@ -35,7 +35,7 @@ def closest(word: str, choices: list[str], most: int = 12) -> str:
     if near:
         return f"did you mean {near!r}?"
     if len(choices) < 2:
-        return f"there is only {choices[0]!r}" if choices else "there is none"
+        return f"the only one is {choices[0]!r}" if choices else "there is none"
     return f"choose among {', '.join(choices[:most])}" + (", ..." if len(choices) > most else "")
 
 

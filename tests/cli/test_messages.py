@@ -78,11 +78,11 @@ from tests.cli.conftest import Run
         ),
         (
             ["slove", "four_bar.yaml"],
-            "dalembert: unknown command 'slove'; did you mean 'solve'?; see `dalembert --help`",
+            "dalembert: unknown command 'slove'; did you mean 'solve'? See `dalembert --help`",
         ),
         (
             ["Shaking", "four_bar.yaml"],
-            "dalembert: unknown command 'Shaking'; did you mean 'shake'?; see `dalembert --help`",
+            "dalembert: unknown command 'Shaking'; did you mean 'shake'? See `dalembert --help`",
         ),
         (
             ["draw", "four_bar.yaml"],
@@ -106,7 +106,7 @@ from tests.cli.conftest import Run
         ),
         (
             ["convert", "four_bar.yaml", "-o", "four_bar.txt"],
-            "four_bar.txt does not have the name of a model file; end its name with .yaml, .json or .toml",
+            "four_bar.txt: '.txt' is not an extension of model files; use .yaml, .json or .toml",
         ),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",

@@ -17,6 +17,10 @@ from tests.cli.conftest import Run
 @pytest.fixture(autouse=True)
 def _pump(folder: Path) -> None:
     shutil.copy(examples()["pump"], folder / "pump.yaml")
+    task = "model: pump.yaml\nvary: {bore: [40 mm, 60 mm]}\n"
+    (folder / "task.yaml").write_text(f"{task}least: peak effort.O\nstarts: 1\n", encoding="utf-8")
+    study = task.replace("[40 mm, 60 mm]", "± 1 %")
+    (folder / "study.yaml").write_text(f"{study}outputs: [effort.O]\ndesigns: 4\n", encoding="utf-8")
 
 
 def test_solve_with_other_values(run: Run) -> None:
@@ -54,6 +58,8 @@ def test_convert_keeps_parameters(run: Run, target: str) -> None:
         ["report", "pump.yaml", "-o", "pump.txt", "--at", "60deg"],
         ["check", "pump.yaml"],
         ["shake", "pump.yaml"],
+        ["optimize", "task.yaml"],
+        ["study", "run", "study.yaml"],
     ],
 )
 def test_every_command_that_reads_a_file(run: Run, command: list[str]) -> None:

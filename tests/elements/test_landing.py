@@ -244,7 +244,7 @@ def test_a_contact_lost_at_the_start_is_said() -> None:
 @pytest.mark.parametrize(
     ("until", "words"),
     [
-        ("normal.O = 0", "'normal.O' names no contact that only pushes or pulls; there is only 'dome'"),
+        ("normal.O = 0", "'normal.O' names no contact that only pushes or pulls; the only one is 'dome'"),
         ("reaction.dom.x = 4", "unknown quantity 'reaction.dom.x'; did you mean 'reaction.dome'"),
         ("reaction.dome = 3", "reaction.dome is a vector; a condition needs a number; write reaction.dome.x"),
         ("normal.dome = 3 mm", "'3 mm' is a length, and a force is needed"),

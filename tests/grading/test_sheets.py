@@ -208,7 +208,7 @@ def test_the_books_g_is_named() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("efforts:\n  Q: 3\n", ":2: unknown drive 'Q'; there is only 'O2'"),
+        ("efforts:\n  Q: 3\n", ":2: unknown drive 'Q'; the only one is 'O2'"),
         ("efforts:\n  O2: 1\nreactions:\n  A: =1+1\n", ":4: "),
         ("efforts:\n  O2: .nan\n", ":2: value: nan is not a finite number"),
         (

@@ -186,7 +186,7 @@ REFUSED = {
     "links.ground.angle": "load 'F' uses 'links.ground.angle', which does not turn; write joints.NAME.turn",
     "joints.guid.slide": "load 'F' uses the joint 'guid', which does not exist; did you mean 'guide'?",
     "joints.guide.turn": "load 'F' uses 'joints.guide.turn', and the freedoms of that joint are slide; name one",
-    "P.speed": "load 'F' uses 'P.speed', which is not a drive; there is only 'O'",
+    "P.speed": "load 'F' uses 'P.speed', which is not a drive; the only one is 'O'",
     "links.rod.speed": "uses 'links.rod.speed', which is not a drive; the speed of an angle is angle.rod.speed",
     "joints.A.speed": "load 'F' uses 'joints.A.speed', and the freedoms of that joint are turn; name one",
 }

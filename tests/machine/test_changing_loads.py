@@ -122,9 +122,9 @@ def test_other_analyses_have_time_at_a_constant_speed_and_refuse_others() -> Non
         (
             "{effort: 3*P.speed}",
             "0",
-            "the effort of drive 'O' uses 'P.speed', which is not a drive; there is only 'O'",
+            "the effort of drive 'O' uses 'P.speed', which is not a drive; the only one is 'O'",
         ),
-        ("{position: 0}", "3*P.speed", "load 'C' uses 'P.speed', which is not a drive; there is only 'O'"),
+        ("{position: 0}", "3*P.speed", "load 'C' uses 'P.speed', which is not a drive; the only one is 'O'"),
         (
             "{motor: {stall: 4 N*m, no_load: 9 rad/s}, effort: 3 N*m}",
             "0",

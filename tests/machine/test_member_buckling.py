@@ -476,7 +476,7 @@ def test_goodman_leaves_out_a_mean_in_compression() -> None:
         ("0", "0 is not positive"),
         ("[1, 2, 3]", "a list of 3 is not an effective length; write a factor, or [in the plane, across it]"),
         ("{}", "no member has an effective length; write effective_length: {A-B: 2}"),
-        ("{A-B: 1}", "'A-B' is not one of its members; there is only 'O-T'"),
+        ("{A-B: 1}", "'A-B' is not one of its members; the only one is 'O-T'"),
     ],
 )
 def test_a_wrong_factor_has_its_line_and_remedy(value: str, said: str, tmp_path: Path) -> None:

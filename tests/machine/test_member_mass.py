@@ -182,6 +182,6 @@ loads: {F: {type: force, on: arm, at: P, value: [0, 10 N]}}
         table = member_table(da.statics(da.loads(text.replace("OFF", off))))
         assert table.links["arm"].brackets == pytest.approx(beside)
         assert (
-            "Its bracket there is taken as rigid and is not analysed" in " ".join(str(table).split())
+            "Their brackets are assumed rigid and are not analysed" in " ".join(str(table).split())
         ) == bool(beside)
         assert ("brackets" in table.record(lambda kind, x: x)["members"]["arm"]) == bool(beside)

@@ -94,8 +94,8 @@ def test_an_answer_is_about_the_position_that_it_names(at: Any, place: int) -> N
 @pytest.mark.parametrize(
     ("at", "said"),
     [
-        (0, "position 0 does not exist; use 1 to 3"),
-        (4, "position 4 does not exist; use 1 to 3"),
+        (0, "position 0 does not exist; this result has 3 positions, numbered from 1"),
+        (4, "position 4 does not exist; this result has 3 positions, numbered from 1"),
         ("61 deg", "no position has O2 = 61 deg; number the position"),
         ("60 mm", "60 mm"),
     ],

@@ -324,5 +324,7 @@ def test_where_it_has_no_value() -> None:
 
 
 def test_an_unknown_drive() -> None:
-    with pytest.raises(ModelError, match="an expression uses 'O3', which is not a drive; there is only 'O2'"):
+    with pytest.raises(
+        ModelError, match="an expression uses 'O3', which is not a drive; the only one is 'O2'"
+    ):
         evaluate(NameNode("O3"), {"O2": 1.0}, {})

@@ -132,7 +132,7 @@ def test_what_cannot_be_written_is_said_and_leaves_no_file(tmp_path: Path) -> No
         "a.json": r"cannot write .*a\.json: a text in it has '\\ud800', half a character; write that text again",
         "none/a.yaml": r"cannot write .*a\.yaml: folder .*none does not exist; make it, or name another",
         "a\0.yaml": r"cannot write .*\.yaml: .*null byte; name a file that can be written",
-        "a.txt": "does not have the name of a model file; end its name with .yaml, .json or .toml",
+        "a.txt": "'.txt' is not an extension of model files; use .yaml, .json or .toml",
     }.items():
         with pytest.raises(ModelError, match=says):
             mechanism.save(tmp_path / name)

@@ -243,7 +243,10 @@ def test_curves_of_a_sweep() -> None:
             lambda: da.sweep(FOUR_BAR, COUPLER, [1]).plot("effort.O2", "peek"),
             "no curve is drawn of 'peek'; there are",
         ),
-        (lambda: da.sweep(FOUR_BAR, COUPLER, [1.0])["angle.rocker"], "'angle.rocker' is not an output of this sweep; name it in outputs="),
+        (
+            lambda: da.sweep(FOUR_BAR, COUPLER, [1.0])["angle.rocker"],
+            "'angle.rocker' is not an output of this sweep; name it in outputs=",
+        ),
     ],
 )
 def test_what_is_no_sweep_is_refused(ask: Any, said: str) -> None:

@@ -175,7 +175,7 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"simulate": "{until: 2 s, coutn: 5}"}, 3, "unknown key 'coutn'; did you mean 'count'?"),
     ({"simulate": "{until: 2 m}"}, 3, "'2 m' is a length, and a time is needed"),
     ({"simulate": "{until: O2.speed = 3 rad/s}"}, 3, "has no end; add a time: [5 s, ...]"),
-    ({"simulate": "{until: [2 s, O3.speed = 0]}"}, 3, "names no drive; there is only 'O2'"),
+    ({"simulate": "{until: [2 s, O3.speed = 0]}"}, 3, "names no drive; the only one is 'O2'"),
     (
         {"simulate": "{until: 2 s, count: 1}"},
         3,

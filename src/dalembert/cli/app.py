@@ -154,7 +154,8 @@ def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
     """The sentence for a wrong command line, and where to read more."""
     first = arguments[0] if arguments else ""
     command = f" {first}" if first in MODULES else ""
-    return f"dalembert: {_report_error(error, first)}; see `dalembert{command} --help`"
+    what = _report_error(error, first)
+    return f"dalembert: {what}{' See' if what.endswith('?') else '; see'} `dalembert{command} --help`"
 
 
 def _report_error(error: CycloptsError, first: str) -> str:

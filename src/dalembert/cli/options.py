@@ -189,6 +189,10 @@ class Changes:
         for name in unused_parameters(m):
             line = f":{m.source.line(('parameters', name))}" if m.source else ""
             print(f"{file}{line}: note: nothing in the file uses the parameter {name!r}", file=sys.stderr)
+        return self.changed(m)
+
+    def changed(self, m: Mechanism) -> Mechanism:
+        """A mechanism with what the command line says otherwise."""
         m = with_settings(m, self.set or ())
         return m.with_values({"friction.enabled": False}) if self.no_friction else m
 

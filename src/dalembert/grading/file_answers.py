@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.analysis.result.position_lookup import no_position
 from dalembert.arrays import Array
 from dalembert.errors import STATUSES, ModelError, errors_at
 from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS, Series, component, series_of, size
@@ -169,7 +170,7 @@ def position_of(result: Result, answer: StatedAnswer, series: Series | None = No
         raise ModelError(what, "say which: at: 1, or at: 60 deg", ("quantity",))
     if isinstance(answer.at, int):
         if not 1 <= answer.at <= count:
-            raise ModelError(f"position {answer.at} does not exist", f"use 1 to {count}", ("at",))
+            raise no_position(answer.at, count, "at")
         return answer.at - 1
     return _position_name(result, answer.at)
 

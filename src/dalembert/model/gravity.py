@@ -17,7 +17,7 @@ from dalembert.model.quantities.values import (
     vector_schema,
     vector_text,
 )
-from dalembert.wording import closest, quote_value
+from dalembert.wording import quote_value
 
 STANDARD = 9.80665
 """Standard acceleration of gravity, m/s2."""
@@ -38,9 +38,8 @@ class GravityValue(ValueField):
             return "standard"
         if isinstance(value, str) and "@" not in value:
             raise ModelError(
-                f"{quote_value(value)} has no direction",
-                closest(value, ["none", "standard"])
-                + "; or write a vector with its unit, gravity: [0, -9.81 m/s^2]",
+                f"{quote_value(value)} is not a vector",
+                "write none, standard, or a vector with its unit, gravity: [0, -9.81 m/s^2]",
             )
         return vector(value, "acceleration", reading(info))
 

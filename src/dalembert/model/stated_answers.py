@@ -12,9 +12,9 @@ from dalembert.errors import ModelError
 from dalembert.model.part import Part
 from dalembert.wording import quote_value
 
-_WITHOUT_RATES = """friction_force friction_moment power_lost normal power transmission closure pressure flow screw_torque
-lower_face upper_face energy_fluctuation shaking_moment mass stress fatigue buckling deflection bearing_slope life
-pin_stress play"""
+_WITHOUT_RATES = """friction_force friction_moment power_lost normal power transmission closure pressure flow
+screw_torque lower_face upper_face energy_fluctuation shaking_moment mass stress fatigue
+buckling deflection bearing_slope life pin_stress play"""
 NAMES = {
     "effort": "effort.{of}",
     "effort_low": "effort.{of}.low",

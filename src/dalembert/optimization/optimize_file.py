@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from dalembert.errors import ModelError
+from dalembert.model import Mechanism
 from dalembert.model.files.task_files import load_task, plain_options
 from dalembert.optimization.optimizing import optimize
 from dalembert.optimization.optimum import Optimum
@@ -27,9 +28,11 @@ KEYS = {
 }
 
 
-def optimize_file(path: str | os.PathLike[str]) -> Optimum:
-    """The optimum of a file; raises ModelError with file and line."""
-    return load_task(path, "optimize", KEYS, lambda tree, m, _: optimize(m, **_options(tree)))
+def optimize_file(
+    path: str | os.PathLike[str], changed: Callable[[Mechanism], Mechanism] = lambda m: m
+) -> Optimum:
+    """The optimum of a file, whose model is ``changed`` first; raises ModelError with file and line."""
+    return load_task(path, "optimize", KEYS, lambda tree, m, _: optimize(changed(m), **_options(tree)))
 
 
 def _options(tree: Mapping[str, Any]) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -41,9 +41,11 @@ LARGEST = 50_000_000
 """Bytes of a table of designs."""
 
 
-def load_study(path: str | os.PathLike[str]) -> Study:
-    """The study of a file; raises ModelError with file and line."""
-    return load_task(path, "study", KEYS, _study)
+def load_study(
+    path: str | os.PathLike[str], changed: Callable[[Mechanism], Mechanism] = lambda m: m
+) -> Study:
+    """The study of a file, whose model is ``changed`` first; raises ModelError with file and line."""
+    return load_task(path, "study", KEYS, lambda tree, m, folder: _study(tree, changed(m), folder))
 
 
 def _study(tree: Mapping[str, object], mechanism: Mechanism, folder: Path) -> Study:

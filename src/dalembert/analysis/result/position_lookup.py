@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.answer.named_answer import counted
 from dalembert.arrays import Array
 from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.units import file_units, quantity
@@ -117,6 +118,12 @@ def position_at(r: Result, at: PositionChoice = None) -> int:
     return k
 
 
+def no_position(n: int, count: int, *key: str) -> ModelError:
+    """The error of a number of a position that a result of ``count`` does not have."""
+    remedy = f"this result has {counted(count, 'position')}, numbered from 1"
+    return ModelError(f"position {n} does not exist", remedy, key)
+
+
 def _place(r: Result, at: PositionChoice) -> int:
     if at is None:
         posed = np.array([s != "not_assembled" for s in r.status])
@@ -125,7 +132,7 @@ def _place(r: Result, at: PositionChoice) -> int:
     if isinstance(at, int) or (isinstance(at, str) and at.strip().isdigit()):
         n = int(at)
         if not 1 <= n <= len(r.status):
-            raise ModelError(f"position {n} does not exist", f"use a number from 1 to {len(r.status)}")
+            raise no_position(n, len(r.status))
         return n - 1
     if isinstance(at, str) and (value := extreme(r, at)) is not None:
         return value.position

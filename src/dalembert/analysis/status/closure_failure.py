@@ -36,8 +36,8 @@ UNFOLLOWED = (
     "change a length."
 )
 ONE = "the {what} of joint {joint} stay {figure} {how}"
-SEVERAL = "the {what} of its joints stay {total} {how} in all, {where}"
-ALL_ALIKE, MOST = "alike at {joints}", "most at {joint} ({figure})"
+SEVERAL = "the {what} of its joints stay {how} by {total} in total, {where}"
+ALL_ALIKE, MOST = "equally at {joints}", "mostly at {joint} ({figure})"
 WORDS = {"length": {"what": "points", "how": "apart"}, "angle": {"what": "axes", "how": "out of line"}}
 """Words for a joint's gap, by its kind."""
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 from dalembert.cli.answer_files import NO_LABELLED, LabelledOutputs
-from dalembert.cli.options import with_help
+from dalembert.cli.options import AS_IN_FILE, Changes, with_help
 
 OPTIMIZE = """Examples:
   dalembert optimize optimize.yaml
@@ -27,13 +27,14 @@ def optimize(
     file: Annotated[Path, with_help("File with model, vary, least and where: YAML, JSON or TOML.")],
     /,
     *,
+    of: Changes = AS_IN_FILE,
     out: LabelledOutputs = NO_LABELLED,
 ) -> int:
     """Optimise numbers of a model file within bounds and constraints."""
     from dalembert.optimization.optimize_file import optimize_file
 
     out.check(file, ("model",))
-    best = optimize_file(file)
+    best = optimize_file(file, of.changed)
     out.deliver(best)
     return 0 if best.feasible else 1
 

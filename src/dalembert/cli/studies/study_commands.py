@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from cyclopts import App
 
 from dalembert.cli.answer_files import NO_LABELLED, LabelledOutputs
-from dalembert.cli.options import Force, flag, numeric, output, with_help
+from dalembert.cli.options import AS_IN_FILE, Changes, Force, flag, numeric, output, with_help
 from dalembert.errors import ModelError
 from dalembert.progress import progress
 
@@ -49,6 +49,7 @@ def run(
     /,
     *,
     output: Annotated[str | None, output("New store (default: FILE with extension .zarr).")] = None,
+    of: Changes = AS_IN_FILE,
     threads: Threads = None,
     scheduler: Scheduler = None,
 ) -> int:
@@ -61,7 +62,7 @@ def run(
         raise ModelError(
             f"{store} already exists", f"dalembert study resume {store}, or name another with -o"
         )
-    return _run(load_study(file), store, threads, scheduler)
+    return _run(load_study(file, of.changed), store, threads, scheduler)
 
 
 @study.command(help_epilogue="Examples:\n  dalembert study resume pump.zarr")

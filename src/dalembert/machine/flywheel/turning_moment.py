@@ -175,8 +175,8 @@ def _steady_speed(r: Result, drive: str) -> float:
     most = float(np.abs(speed).max())
     if not most or np.ptp(speed) > STEADY * most or np.abs(acceleration).max() > STEADY * most**2:
         raise ModelError(
-            f"drive {drive!r} does not turn at constant speed, at which a flywheel is sized",
-            "write one speed other than 0, and no acceleration",
+            f"drive {drive!r} does not turn at constant speed, which sizing a flywheel assumes",
+            "give it a speed other than 0, and no acceleration",
             ("drives", drive, "speed"),
         )
     return float(speed[0])

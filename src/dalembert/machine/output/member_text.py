@@ -72,7 +72,9 @@ def _closure(t: MemberTable) -> str:
 def _brackets(link: str, f: MemberForces, to: Printed) -> str:
     """Loads beside the members of a link, by a bracket that is not analysed."""
     some = ", ".join(f"{of} ({to.number('length', x)} {to.text('length')})" for of, x in f.brackets.items())
-    return f"Beside the members of {link}: {some}. Its bracket there is taken as rigid and is not analysed."
+    return (
+        f"Loads beside the members of {link}: {some}. Their brackets are assumed rigid and are not analysed."
+    )
 
 
 def _unknown(t: MemberTable, which: str, why: str) -> str:

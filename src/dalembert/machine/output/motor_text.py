@@ -66,4 +66,4 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
     by = {"its curve": c.curve, "its rated torque against the rms": c.rated}
     limits = " and ".join(what for what, value in by.items() if value is not None)
     judged = f"The column `enough` compares with {limits}."
-    yield judged if limits else "No curve or rated torque is given, so no ratio is rated."
+    yield judged if limits else "Ratios are not judged: neither a motor curve nor a rated torque is given."

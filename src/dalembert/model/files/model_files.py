@@ -169,8 +169,8 @@ def format_of(path: FilePath) -> str:
     """The format that the ending of a name says."""
     suffix = Path(path).suffix.lower()
     if suffix not in FORMATS:
-        what = f"{os.fspath(path)} does not have the name of a model file"
-        raise ModelError(what, "end its name with .yaml, .json or .toml")
+        what = f"{os.fspath(path)}: {suffix!r} is not an extension of model files"
+        raise ModelError(what, "use .yaml, .json or .toml")
     return FORMATS[suffix]
 
 

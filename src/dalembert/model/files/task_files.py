@@ -34,7 +34,7 @@ def load_task(
         if "links" in tree:
             raise ModelError(
                 "this is a model file",
-                "name it in a separate file: model: FILE",
+                f"write a separate file with the line model: {Path(path).name}",
                 ("links",),
             )
         check_keys(tree, list(keys))
