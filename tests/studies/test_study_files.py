@@ -35,7 +35,7 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     (
         {"links": "{a: {}}"},
         7,
-        "this is a model file; write a separate file with the line model: study.yaml",
+        "this is a model file; write a separate file with the line model: s.yaml",
     ),
     ({"vary": None}, 1, "the key 'vary' is missing; write vary: {stroke: ± 0.1 mm}"),
     ({"vary": "{}"}, 3, "vary is empty; write vary: {stroke: ± 0.1 mm}"),
