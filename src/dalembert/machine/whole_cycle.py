@@ -31,6 +31,17 @@ def over_a_turn(m: Mechanism, positions: AtPositions = None) -> AtPositions:
     return ENOUGH
 
 
+def solved_over_a_turn(m: Mechanism, static: bool = False, positions: AtPositions = None) -> Result:
+    """The answer at the file's positions, or over a full turn where it has one, a drive that moves, and all close."""
+    from dalembert.analysis import solve
+
+    result = solve(m, static=static, positions=positions)
+    if len(result.status) == 1 and result.schedule.speed.any():
+        turned = solve(m, static=static, positions=over_a_turn(m))
+        return turned if turned.ok.all() else result
+    return result
+
+
 def refuse_unknown(r: Result, what: str, *needed: Array) -> None:
     """Raise AnalysisError with the sentence of a position where a number (P, ...) that is needed is not known.
 

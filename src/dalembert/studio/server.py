@@ -18,7 +18,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from dalembert.arrays import Tree
 from dalembert.errors import DalembertError
 from dalembert.studio.access import LARGEST, TABS, Access, Rate
-from dalembert.studio.solver import Solver
+from dalembert.studio.solver import ASKED, Solver
 from dalembert.studio.tab_messages import read_message, sentence
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class StudioServer:
         try:
             message = read_message(text)
             n = message.get("n") if isinstance(message, dict) else None
-            if isinstance(message, dict) and message.get("ask") in ("check", "report", "page"):
+            if isinstance(message, dict) and message.get("ask") in ASKED:
                 text = await asyncio.to_thread(self.solver.ask, self.session.question(message["ask"]))
                 await self._send_text(ws, joined({"n": n, "ask": message["ask"]}, text))
                 return

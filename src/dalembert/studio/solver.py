@@ -171,14 +171,46 @@ def _check(m: Any, _: Question) -> Tree:
 
 
 def _report(m: Any, question: Question) -> Tree:
-    from dalembert.analysis.solution import solve, statics
+    from dalembert.analysis.solution import solve
     from dalembert.reports import report
 
-    written = report(statics(m) if question.static else solve(m))
+    return _saved(report(solve(m, static=question.static)))
+
+
+def _saved(written: Any) -> Tree:
+    """The HTML of a report as a download."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "report.html"
         written.save(path)
         return _download(path.read_bytes(), "html")
+
+
+def _design(m: Any, question: Question) -> Tree:
+    from dalembert.machine.whole_cycle import solved_over_a_turn
+    from dalembert.reports import report
+
+    return _saved(report(solved_over_a_turn(m, question.static), design=True))
+
+
+def _modes(m: Any, _: Question) -> Tree:
+    from dalembert.studio.side_answers import assembly_modes
+
+    return assembly_modes(m)
+
+
+def _equilibria(m: Any, question: Question) -> Tree:
+    from dalembert.model.files.model_files import read_text
+    from dalembert.studio.side_answers import resting_positions
+
+    tree, _ = question.read or read_text(question.text, question.form, question.name)
+    return resting_positions(m, tree)
+
+
+def _superposition(m: Any, question: Question) -> Tree:
+    from dalembert.analysis.solution import solve
+    from dalembert.studio.side_answers import shares
+
+    return shares(solve(m, static=question.static))
 
 
 def _page(m: Any, question: Question) -> Tree:
@@ -191,4 +223,15 @@ def _download(content: bytes, ending: str) -> Tree:
     return {"file": base64.b64encode(content).decode(), "ending": ending}
 
 
-_ASKED = {"data": _data, "check": _check, "report": _report, "page": _page}
+_ASKED = {
+    "data": _data,
+    "check": _check,
+    "report": _report,
+    "design": _design,
+    "page": _page,
+    "modes": _modes,
+    "equilibria": _equilibria,
+    "superposition": _superposition,
+}
+ASKED = frozenset(_ASKED) - {"data"}
+"""What a tab may ask for; the page's data come unasked."""

@@ -55,15 +55,10 @@ def report(
 
 def design_report(file: Path, output: Path, of: OfAt, style: Style, force: bool) -> int:
     """Write the design report, over a full turn where the file has one position of a drive that moves."""
-    from dalembert.analysis import solve
-    from dalembert.machine.whole_cycle import over_a_turn
+    from dalembert.machine.whole_cycle import solved_over_a_turn
     from dalembert.reports import report as written
 
-    m = of.load(file)
-    result = solve(m, static=of.static, positions=of.positions)
-    if len(result.status) == 1 and result.schedule.speed.any():
-        turned = solve(m, static=of.static, positions=over_a_turn(m))
-        result = turned if turned.ok.all() else result
+    result = solved_over_a_turn(of.load(file), of.static, of.positions)
     written(result, of.at, notation=style.notation(), design=True).save(output, force)
     return announce(result, output, of.at)
 
