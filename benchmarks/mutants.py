@@ -124,6 +124,7 @@ def collect(work: Callable[[Session, dict[str, Any]], None], *arguments: str) ->
         options = [
             *("-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:xdist", "-s"),
             *("-o", "tmp_path_retention_policy=none"),
+            *("-W", "ignore::pytest.PytestAssertRewriteWarning"),  # what the studio imports is a plugin too
         ]
         return int(pytest.main([*options, f"--basetemp={folder}/t", *arguments], plugins=[Session(work)]))
 

@@ -21,6 +21,7 @@ PACKAGES = {
         for p in (
             *("algebra", "core", "kernel", "model", "analysis", "wrench", "machine", "optimization"),
             *("views", "reports", "pages", "notebook", "exams", "studies", "cli"),
+            *("answer", "interchange", "studio"),
         )
     },
 }
