@@ -23,7 +23,7 @@ from tests.tiers import over, tiers
 
 REFUSED = re.compile(
     "not lifted|be lifted|of no solid|no equality|its wheels|axes are not parallel|blocked|closes a loop|second link"
-    "|drives the joint"
+    "|drives the joint|have no teeth"
 )
 """Reasons for which a mechanism has no MJCF file; a driven universal joint comes back as two revolutes."""
 
@@ -175,17 +175,33 @@ def test_drawings_in_comments_are_no_error() -> None:
     assert parse(b"<a>\n<!-- ---\n--- -->\n<b/></a>", "x").parts[0].line == 4
 
 
+NAMED = {
+    "MJCF": "x.xml",
+    "MuJoCo": "x.xml",
+    "SDF": "x.sdf",
+    "URDF": "x.urdf",
+    "asmt": "x.asmt",
+    "Ondsel": "x.asmt",
+}
+"""Words for formats in remedies."""
+
+
 @pytest.mark.long
 def test_every_bundled_problem_is_written_or_refused() -> None:
+    """A format that a remedy recommends writes the problem."""
     counts = {True: 0, False: 0}
     for path in list(examples().values()) + list(cases().values())[::6]:
         m = da.load(path)
-        try:
-            content, _ = foreign_bytes(m, "x.xml")
-            counts[True] += content.startswith(b"<?xml")
-        except ModelError as error:
-            counts[False] += bool(REFUSED.search(str(error)))
-    assert counts[True] > 20 > 15 > counts[False] > 2
+        for name in ("x.xml", "x.asmt"):
+            try:
+                content, _ = foreign_bytes(m, name)
+                counts[True] += content.startswith((b"<?xml", b"OndselSolver"))
+            except ModelError as error:
+                counts[False] += bool(REFUSED.search(str(error)))
+                for word in NAMED:
+                    if word in error.remedy:
+                        foreign_bytes(m, NAMED[word])
+    assert counts[True] > 40 > 30 > counts[False] > 4
 
 
 def test_positions_and_speeds_of_the_keyframe(tmp_path: Path) -> None:

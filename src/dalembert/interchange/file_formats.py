@@ -63,11 +63,15 @@ FILE_FORMATS: dict[str, FileFormat] = {
     ".mjcf": FileFormat("MJCF (MuJoCo)", "robots.mjcf_loops:read_mjcf", "robots.mjcf_writer:write_mjcf"),
     ".sdf": FileFormat("SDFormat", "robots.sdf_reader:read_sdf", "robots.sdf_writer:write_sdf"),
     ".urdf": FileFormat("URDF", "robots.urdf_reader:read_urdf", "robots.urdf_writer:write_urdf"),
-    ".pmks": FileFormat("PMKS and PMKS+", "sketches.pmks_links:read_pmks"),
+    ".asmt": FileFormat("OndselSolver (FreeCAD Assembly)", "", "assemblies.ondsel_writer:write_asmt"),
+    ".pmks": FileFormat("PMKS and PMKS+", "sketches.pmks_links:read_pmks", "sketches.pmks_writer:write_pmks"),
     ".txt": FileFormat("PMKS and PMKS+", "sketches.pmks_links:read_pmks"),
     ".dxf": FileFormat("DXF skeleton", "sketches.dxf_skeletons:read_dxf"),
     ".fcstd": FileFormat("FreeCAD sketches", "sketches.freecad_sketches:read_freecad"),
     PYLINKAGE: FileFormat("pylinkage", "sketches.pylinkage_files:read_pylinkage"),
+    ".pylinkage.json": FileFormat(
+        "pylinkage", "sketches.pylinkage_files:read_pylinkage", "sketches.pylinkage_writer:write_pylinkage"
+    ),
     ".fmu": FileFormat("FMI 2.0", "", "targets.source_fmu:write_fmu"),
     ".zip": FileFormat("C and WebAssembly", "", "targets.source_archive:write_sources"),
 }
@@ -76,14 +80,21 @@ FILE_FORMATS: dict[str, FileFormat] = {
 
 def is_foreign(path: str | os.PathLike[str]) -> bool:
     """True if the suffix is that of another program's file; a .json file if its links are a list."""
-    suffix = Path(path).suffix.lower()
+    suffix = _suffix(path)
     return suffix in FILE_FORMATS and (suffix != PYLINKAGE or _lists_links(Path(path)))
 
 
 def is_writable(path: str | os.PathLike[str]) -> bool:
     """True if the suffix is that of another program's file that is written."""
-    form = FILE_FORMATS.get(Path(path).suffix.lower())
+    form = FILE_FORMATS.get(_suffix(path))
     return form is not None and bool(form.writer)
+
+
+def _suffix(path: str | os.PathLike[str]) -> str:
+    """The suffix of a file's name, a double one where the table has it."""
+    name = Path(path)
+    double = "".join(name.suffixes[-2:]).lower()
+    return double if double in FILE_FORMATS else name.suffix.lower()
 
 
 def _lists_links(path: Path) -> bool:
@@ -178,7 +189,7 @@ def _beyond(m: Mechanism) -> list[str]:
 
 
 def _form(path: str | os.PathLike[str], what: str) -> FileFormat:
-    suffix = Path(path).suffix.lower()
+    suffix = _suffix(path)
     form = FILE_FORMATS.get(suffix)
     if form is None or not getattr(form, what):
         known = [s for s, f in FILE_FORMATS.items() if getattr(f, what)]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib.metadata import version
 
 import numpy as np
 
-from dalembert import __version__
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
@@ -93,7 +93,7 @@ def page_data(m: Mechanism, static: bool = False, quick: bool = False) -> Tree:
     program = plain(k, rows.nodes)
     data: Tree = {
         "format": FORMAT,
-        "version": __version__,
+        "version": version("dalembert"),
         "title": m.title or "A mechanism",
         "source": m.source_text,
         "units": _units(b, views),

@@ -214,7 +214,7 @@ class _MjcfText:
         hinges = [self._hinge(link) for link in joint.links]
         if None in hinges or hinges[0].links[0] != hinges[1].links[0]:  # type: ignore[union-attr]
             what = f"gear {joint.name!r}: its wheels do not turn in pins on one link"
-            raise ModelError(what, "write SDFormat, or let both wheels turn on one link")
+            raise ModelError(what, "let both wheels turn on one link, or leave the gear out")
         signs, at = [], []
         for hinge, place in zip(hinges, joint.places, strict=True):
             assert hinge is not None
@@ -239,7 +239,7 @@ class _MjcfText:
         a, b = (self.graph.place(link) @ place for link, place in zip(joint.links, joint.places, strict=True))
         cosine = float(a[:3, 2] @ b[:3, 2])
         if abs(abs(cosine) - 1) > 1e-9:
-            raise ModelError(f"gear {joint.name!r}: its axes are not parallel", "write SDFormat")
+            raise ModelError(f"gear {joint.name!r}: its axes are not parallel", "leave it out")
         return cosine
 
     def _hinge(self, link: str) -> Connection | None:

@@ -18,6 +18,12 @@ DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 SLIDER, INPUT, FIXED, WELDED = range(4)
 """Bits of a joint's flags."""
 
+UNITS = {"0": 0.0254, "1": 0.01, "2": 1.0}
+"""Unit of length of a link: inch, centimetre, metre."""
+
+FORCES = {"0": (4.4482216152605, 0.45359237), "1": (1.0, 1.0)}
+"""Unit of force of a link, and of mass: lbf and lbm, N and kg."""
+
 LONGEST = 20_000
 """Characters of a link."""
 
@@ -85,7 +91,8 @@ def _link(text: str) -> PlaneSketch:
     clockwise, has_gravity = bits(head[0][-1], 2)
     rpm = whole(head[2].split(",")[0])
     sketch = PlaneSketch("PMKS+ linkage", gravity=has_gravity)
-    sketch.lost.append("coordinates of a link are rounded to 0.001 of its unit, which is taken as 1 cm")
+    length, force, mass_unit = UNITS[head[3][0]], *FORCES[head[3][2:3] or "1"]
+    sketch.lost.append(f"coordinates of a link are rounded to 0.001 of its unit, {1e5 * length:.3g} um")
     members: dict[str, list[str]] = {}
     for part in links:
         key, name, mass, inertia, x, y, *rest = part[2:].split(",")
@@ -93,19 +100,23 @@ def _link(text: str) -> PlaneSketch:
         ends = rest[1:]
         members[link] = ends[: ends.index("")] if "" in ends else ends
         sketch.masses[link] = SketchMass(
-            decimal(mass), decimal(inertia) * 1e-4, decimal(x) / 100, decimal(y) / 100
+            decimal(mass) * mass_unit,
+            decimal(inertia) * mass_unit * length**2,
+            decimal(x) * length,
+            decimal(y) * length,
         )
-    if any(m.mass == 1.0 for m in sketch.masses.values()):
+    if any(m.mass == mass_unit for m in sketch.masses.values()):
         sketch.lost.append("masses and inertias of 1 may be ones that nobody set")
     for part in joints:
         flags = bits(part[0], 5)
         key, name, x, y, angle = part[1:].split(",")[:5]
         on = ([GROUND] if flags[FIXED] else []) + [link for link, ends in members.items() if key in ends]
-        joint = SketchJoint(plain_name(name or key, {}), decimal(x) / 100, decimal(y) / 100, on)
+        joint = SketchJoint(plain_name(name or key, {}), decimal(x) * length, decimal(y) * length, on)
         if flags[SLIDER]:
-            joint.slides_along = math.radians(decimal(angle))
+            joint.slides_along = decimal(angle)
         if flags[INPUT]:
-            joint.speed = (-1 if clockwise else 1) * rpm * math.pi / 30
+            unit = length if flags[SLIDER] else math.pi / 30
+            joint.speed = (-1 if clockwise else 1) * rpm * unit
         if flags[WELDED]:
             raise ModelError(f"joint {name!r} is welded", "join its links into one in PMKS+")
         sketch.joints.append(joint)
@@ -114,11 +125,11 @@ def _link(text: str) -> PlaneSketch:
         if len(rows) < 8:
             continue
         x0, y0, x1, y1, size = map(decimal, rows[3:8])
-        length = math.hypot(x1 - x0, y1 - y0)
+        arrow = math.hypot(x1 - x0, y1 - y0)
         keys = set(rows[1])
         on_link = rows[1] if rows[1] in members else next(n for n, its in members.items() if keys <= set(its))
-        force = [size * d / length if length else 0.0 for d in (x1 - x0, y1 - y0)]
-        sketch.forces[plain_name(rows[2], sketch.forces)] = (on_link, x0 / 100, y0 / 100, force[0], force[1])
+        fx, fy = (size * force * d / arrow if arrow else 0.0 for d in (x1 - x0, y1 - y0))
+        sketch.forces[plain_name(rows[2], sketch.forces)] = (on_link, x0 * length, y0 * length, fx, fy)
     return sketch
 
 

@@ -11,11 +11,11 @@ import math
 import zlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
+from importlib.metadata import version
 from typing import Any, TypeVar
 
 import numpy as np
 
-from dalembert import __version__
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.methods.applied_forces import link_place
@@ -128,7 +128,7 @@ class Unfinished:
         kinds = ("length", "angle", "force", "moment")
         return {
             "format": FORMAT,
-            "version": __version__,
+            "version": version("dalembert"),
             "title": m.title or "A mechanism",
             "units": {kind: {"unit": units.unit(kind), "size": units.size(kind)} for kind in kinds},
             "style": style(items.roles),

@@ -1,0 +1,111 @@
+"""PMKS+ links and pylinkage files that are written: read back, and by pylinkage, whose own motion is compared."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.errors import ModelError
+from dalembert.interchange.file_formats import foreign_bytes, read_foreign
+from dalembert.interchange.sketches.pmks_links import decimal
+from dalembert.interchange.sketches.pmks_writer import CHECKS, thousandths
+from tests.tiers import tiers
+
+FILES = cases() | examples()
+
+
+def back(m: da.Mechanism, path: Path) -> tuple[da.Mechanism, list[str]]:
+    """The mechanism that is read from the file that is written."""
+    content, lost = foreign_bytes(m, path)
+    path.write_bytes(content)
+    return read_foreign(path)[0], lost
+
+
+@pytest.mark.parametrize(
+    "name",
+    tiers(
+        ["sc-08-horizontal-engine-with-given-friction", "4b-06-bevan-four-bar"],
+        ["sc-12-vertical-steam-engine", "seed-002-3-four-link-three-forces", "seed-002-2-slider-crank-2kn"],
+    ),
+)
+def test_a_link_of_pmks_plus_gives_the_same_effort_within_its_rounding(name: str, tmp_path: Path) -> None:
+    """Also where the slide is vertical: angles of a link are in radians."""
+    m = da.load(FILES[name])
+    read, lost = back(m, tmp_path / "x.pmks")
+    ours, theirs = (float(x.effort(next(iter(x.drives)))[0]) for x in map(da.dynamics, (m, read)))
+    assert theirs == pytest.approx(ours, rel=1e-3)
+    assert theirs != ours
+    assert any("is rounded" in note for note in lost)
+
+
+def test_numbers_and_the_checksum_of_a_link(tmp_path: Path) -> None:
+    rng = np.random.default_rng(5)
+    for number in [0.0, -0.001, *rng.uniform(-900, 900, 20)]:
+        assert decimal(thousandths(number)) == pytest.approx(number, abs=5.0001e-4)
+    links = (Path(__file__).parent / "files" / "links.txt").read_text(encoding="utf-8").splitlines()[1:]
+    written = foreign_bytes(da.load(examples()["four_bar"]), "x.pmks")[0].decode()
+    for link in [*links, written]:
+        text = link.split("?")[1].strip()
+        assert text[-1] == CHECKS[(len(text) - 1) % 62]
+
+
+@pytest.mark.parametrize(("unit", "metres", "newtons"), [("0", 0.0254, 4.4482216152605), ("2", 1.0, 1.0)])
+def test_units_of_a_link(unit: str, metres: float, newtons: float, tmp_path: Path) -> None:
+    text = foreign_bytes(da.load(examples()["four_bar"]), "x.pmks")[0].decode()
+    (tmp_path / "x.pmks").write_text(text, encoding="utf-8")
+    changed = text.replace(".101.", f".{unit}0{'0' if unit == '0' else '1'}.")
+    (tmp_path / "y.pmks").write_text(changed, encoding="utf-8")
+    x, y = (read_foreign(tmp_path / f"{name}.pmks")[0] for name in "xy")
+    lengths = [math.hypot(*m.points("crank")["A"]) for m in (x, y)]
+    assert lengths[1] == pytest.approx(lengths[0] * metres / 0.01)
+    forces = [math.hypot(*m.loads["F_P"].value) for m in (x, y)]  # type: ignore[union-attr, misc]
+    assert forces[1] == pytest.approx(forces[0] * newtons)
+
+
+@pytest.mark.parametrize("name", tiers(["engine"], ["four_bar", "pump", "toggle_press"]))
+def test_pylinkage_files_keep_every_joint(name: str, tmp_path: Path) -> None:
+    m = da.load(examples()[name])
+    read, lost = back(m, tmp_path / "x.pylinkage.json")
+    ours, theirs = da.kinematics(m), da.kinematics(read)
+    for joint in json.loads((tmp_path / "x.pylinkage.json").read_text(encoding="utf-8"))["joints"]:
+        link = next(n for n in read.links if n != "ground" and joint["id"] in read.points(n))
+        j = m.joints[joint["id"]].links[1]
+        at = ours.point(j, m.joint_points(joint["id"])[1])[0]
+        assert theirs.point(link, joint["id"])[0] == pytest.approx(at, abs=1e-12)
+    assert any(note.startswith("masses, gravity and speeds") for note in lost)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["four_bar", "engine"])
+def test_pylinkage_moves_as_we_do(name: str) -> None:
+    serialization = pytest.importorskip("pylinkage.mechanism.serialization")
+    m = da.load(examples()[name])
+    text = foreign_bytes(m, "x.pylinkage.json")[0]
+    theirs = serialization.mechanism_from_dict(json.loads(text))
+    names = [joint.id for joint in theirs.joints]
+    start = float(da.kinematics(m).drive_position("O2")[0])
+    angles = [start + 2 * math.pi / 100 * k for k in range(1, 31)]
+    ours = da.kinematics(m, positions=angles)
+    steps = [step for _, step in zip(angles, theirs.step(), strict=False)]
+    for k, name_of in enumerate(names):
+        j = m.joints[name_of].links[1]
+        path = ours.point(j, m.joint_points(name_of)[1])
+        assert np.abs(np.array([step[k] for step in steps], float) - path).max() < 1e-9
+
+
+def test_what_a_sketch_cannot_have_is_refused() -> None:
+    for suffix, program in ((".pmks", "PMKS+"), (".pylinkage.json", "pylinkage")):
+        for name, words in {
+            "quick_return": "joint 'slide': .* has pins and sliders on the ground, not a slider between lever and",
+            "rssr": "has plane linkages, and this mechanism is in space",
+        }.items():
+            with pytest.raises(ModelError, match=words) as refused:
+                foreign_bytes(da.load(examples()[name]), f"x{suffix}")
+            assert re.search(re.escape(program), str(refused.value))
