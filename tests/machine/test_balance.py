@@ -156,6 +156,47 @@ def test_external_loads_are_no_part_of_what_is_balanced(least: Any, of: Any) -> 
     assert "external" not in str(free).replace("external loads.", "")
 
 
+BY_CENTRE = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0], S: [1, 0]}}
+  crank: {points: {O: [0, 0], A: [0.2, 0], P: {from: center, at: [0.01, 0.02]}, Q: {from: P, at: [0.1, 0]}}, MASS}
+  rod: {points: {C: [0, 0], R: [1, 0]}, mass: 0.4, center: [0.6, 0]}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  C: {type: pin, links: [crank, rod], at: [center, C]}
+  S: {type: slot, links: [ground, rod], at: [S, R]}
+drives: {O: {position: {from: 0, to: 360, count: 24}, speed: 10 rad/s}}
+assembly: {rod: 60}
+loads:
+  F: {type: force, on: crank, at: center, value: [3, 4]}
+  G: {type: force, on: crank, at: P, value: [3, 4]}
+  H: {type: force, on: crank, at: Q, value: [3, 4]}
+  K: {type: spring, between: [ground.S, crank.center], stiffness: 50, free_length: 0.2}
+"""
+
+
+@pytest.mark.parametrize("mass", ["mass: 1", "weight: 9", "shape"])
+def test_points_loads_and_joints_at_a_mass_centre_stay_where_they_are(mass: str, tmp_path: Path) -> None:
+    """A counterweight moves the mass centre of its link, not what the file places by it: also in the file written."""
+    text = BY_CENTRE.replace("MASS", f"{mass}, center: [0.1, 0.02], inertia: 0.01")
+    if mass == "shape":
+        bar = "shape: {type: bar, between: [O, A], density: 8000, area: 0.0005}, mass_along: shape, members: [[O, A]]"
+        text = BY_CENTRE.replace("MASS", bar).replace("{from: center, at: [0.01, 0.02]}", "[0.11, 0.02]")
+    m = da.loads(text)
+    b = da.balance(m, {"crank": {"radius": 0.1, "mass": 3.0}}, of={"force": 1, "torque": 1})
+    assert b.numbers[0, 0] > 0.5
+    assert b.residual < 1e-12
+    after = b.after.result.mechanism
+    assert after.center("crank") != m.center("crank")
+    assert [after.point("crank", p) for p in "PQ"] == [
+        pytest.approx(m.point("crank", p), abs=1e-15) for p in "PQ"
+    ]
+    after.save(tmp_path / "b.yaml")
+    again = da.dynamics(da.load(tmp_path / "b.yaml"), positions=24)
+    assert again.effort("O") == pytest.approx(b.after.result.effort("O"), abs=1e-9)
+
+
 def test_the_sentences_on_full_balance_are_those_of_the_inertia(four_bar: Any) -> None:
     pull = {"type": "force", "on": "rocker", "at": "B", "value": [1000.0, 0.0]}
     b = da.balance(four_bar.with_values({"loads": {"pull": pull}}), ["crank", "rocker"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from contextlib import suppress
 from copy import deepcopy
 from pathlib import Path
@@ -472,6 +473,46 @@ def has_free_reactions(seed: int) -> bool:
             tree
         )
     return False
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7, -39.36])
+def test_a_link_with_one_joint_has_no_member_of_rounding(turn: float) -> None:
+    """Two places of one joint, its force's and its couple's, differ by rounding: no line, whatever the direction."""
+    text = f"""
+gravity: standard
+links:
+  ground: {{points: {{O: [0, 0]}}}}
+  crank: {{points: {{O: [0, 0], A: [0.31, 0]}}}}
+  rod: {{points: {{A: [0.1, 0]}}, mass: 2, center: [0.4, 0.1]}}
+joints: {{O: {{type: pin, links: [ground, crank]}}, A: {{type: pin, links: [crank, rod]}}}}
+drives: {{O: {{position: [{turn}, {turn + 50}]}}, A: {{position: [1.3, 71]}}}}
+loads: {{C: {{type: couple, on: rod, value: 3}}}}
+"""
+    table = member_table(da.statics(da.loads(text)))
+    assert [*table.links] == ["crank"]
+    assert "link 'rod' has no length" in table.left_out["rod"]
+
+
+def test_a_compression_of_rounding_is_none() -> None:
+    """Across a lever pushed by a slide nothing presses along it: no safety of 1e19."""
+    text = """
+links:
+  ground: {points: {P: [0, 0], O: [0.9, 0.1]}}
+  lever: {points: {P: [0, 0], S: [0.8, 0]}, section: {rectangle: [20 mm, 10 mm], elasticity: 210 GPa}}
+  crank: {points: {O: [0, 0], S: [0.17, 0]}}
+joints:
+  P: {type: pin, links: [ground, lever]}
+  O: {type: pin, links: [ground, crank]}
+  S: {type: slot, links: [lever, crank], at: [P, S]}
+drives: {O: {position: {from: 0, to: 360, count: 16}}}
+loads: {F: {type: force, on: lever, at: S, axes: link, value: [0, 100]}}
+assembly: {lever: 5}
+"""
+    r = da.statics(da.loads(text))
+    b = member_table(r).links["lever"].buckling()
+    assert np.abs(r.reaction("S")).max() > 10
+    assert (b.compressions == 0).all()
+    assert b.safety == math.inf
 
 
 def test_the_hint_names_the_points_of_the_link() -> None:

@@ -16,7 +16,7 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.bands import BandedLU, Bands, bands_of
 from dalembert.core.constraints import dense
 from dalembert.core.layout import ConstraintRows, Layout
-from dalembert.core.linear import Factor, inverse, pseudo_inverse, solve_square
+from dalembert.core.linear import Factor, inverse, least_squares, pseudo_inverse, solve_square
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_array
@@ -49,12 +49,22 @@ def displacement(layout: Layout, rows: ConstraintRows, scaled_gap: Array) -> Arr
         j = dense(layout, rows)
         j *= row_scale(layout, rows.angular)[:, None]
         dq = solve_square(j, scaled_gap)
+    elif not _is_square(layout, rows) and layout.solver is None:
+        dq = _least_squares(layout, rows, scaled_gap)
     else:
         dq = _unconditioned(layout, rows, scaled_gap)
     bad = ~np.isfinite(dq)
     if bad.any():
         dq[bad] = 0.0
     return dq
+
+
+def _least_squares(layout: Layout, rows: ConstraintRows, scaled_gap: Array) -> Array:
+    """Least-norm least squares of J dq = gap (gap scaled), for J of any shape and rank."""
+    column = layout.column_scale
+    j = dense(layout, rows)
+    j *= row_scale(layout, rows.angular)[:, None] * column
+    return least_squares(j, scaled_gap) * column
 
 
 def _is_square(layout: Layout, rows: ConstraintRows) -> bool:

@@ -19,6 +19,8 @@ import numpy as np
 from dalembert.arrays import Array
 
 ROUNDS, ENOUGH = 100, 1e-13
+BROKEN = 1e-100
+"""Part of the largest number of the scaled equations below which one means that the scaling has broken down."""
 SHORT = 0.995
 """Part of the distance to the boundary of the cones that a step takes."""
 
@@ -62,7 +64,8 @@ def _minimise(c: Array, G: Array, h: Array) -> ConeSolution:
         lam = scaling.times(z)
         A = scaling.over(G)
         R: Array = np.asarray(np.linalg.qr(A.reshape(-1, len(x)), mode="r"))
-        if not np.abs(np.diag(R)).min() > 0:
+        size = np.abs(np.diag(R))
+        if not size.min() > BROKEN * size.max():
             break
         affine = _direction(scaling, A, R, rx, rz, lam, -_product(lam, lam))
         step = min(1.0, _reach(lam, affine[1]), _reach(lam, affine[2]))

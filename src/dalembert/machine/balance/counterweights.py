@@ -9,7 +9,7 @@ Mechanics: docs/theory.md 10.2.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +20,7 @@ from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
+from dalembert.model.links.link import CENTER, Offset
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
@@ -165,10 +166,49 @@ def with_masses(m: Mechanism, added: Mapping[str, Sequence[tuple[float, Array, f
         inertia = sum((i + w * _spread(c - center) for w, c, i in parts), np.zeros_like(own_inertia))
         if np.abs(inertia).max() < 1e-14 * sum(w * float(c @ c) for w, c, _ in parts):
             inertia = np.zeros_like(own_inertia)  # one mass, but for rounding
-        values |= {f"links.{link}.shape": None} if m.links[link].shapes else {}
+        if m.links[link].shapes:
+            values |= {f"links.{link}.mass_along": "lumped"} if m.links[link].mass_along == "shape" else {}
+            values |= {f"links.{link}.shape": None}
         values |= {f"links.{link}.mass": float(mass), f"links.{link}.center": center.tolist()}
         values[f"links.{link}.inertia"] = ((inertia + inertia.T) / 2).tolist()
+        values |= _kept_places(m, link)
     return m.with_values(values)
+
+
+BEFORE = "center_before"
+"""Point of a link where its mass centre is without counterweights."""
+
+
+def _kept_places(m: Mechanism, link: str) -> Tree:
+    """Values that keep the points, loads and joints that are placed by a link's mass centre where they are."""
+    points, centred = m.points(link), any(isinstance(p, Offset) for p in m.links[link].points.values())
+    name = BEFORE
+    while name in points:
+        name += "_"
+    values: Tree = {}
+    for path, ends in _named_points(m):
+        if (link, CENTER) in ends:
+            values[path] = [name if end == (link, CENTER) else end[1] for end in ends]
+            if not path.startswith("joints."):
+                values[path] = [f"{n}.{point}" for (n, _), point in zip(ends, values[path], strict=True)]
+    if values:
+        points[name] = m.center(link)
+    for n, load in m.loads.items():
+        if getattr(load, "on", None) == link and getattr(load, "at", None) == CENTER:
+            values[f"loads.{n}.at"] = list(m.center(link))
+    if centred or name in points:
+        values = {f"links.{link}.points": {n: list(p) for n, p in points.items()}} | values
+    return values
+
+
+def _named_points(m: Mechanism) -> Iterator[tuple[str, list[tuple[str, str]]]]:
+    """Paths of pairs of points of joints, springs, dampers and cylinders, and these as (link, point)."""
+    for name, joint in m.joints.items():
+        if joint.at is not None:
+            yield f"joints.{name}.at", [*zip(joint.links, joint.point_names(name), strict=True)]
+    spans = {f"loads.{n}.between": getattr(load, "between", ()) for n, load in m.loads.items()}
+    spans |= {f"drives.{n}.cylinder.between": d.cylinder.between for n, d in m.drives.items() if d.cylinder}
+    yield from ((path, [(str(n), str(point)) for n, point in ends]) for path, ends in spans.items())
 
 
 def _spread(arm: Array) -> Array:

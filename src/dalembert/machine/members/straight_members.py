@@ -15,6 +15,7 @@ import numpy as np
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.machine.link_axes import in_space
+from dalembert.model import GROUND
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
@@ -77,10 +78,14 @@ def _line(m: Mechanism, link: str, joints: Array) -> Straight:
     """The line through joints, as far as named points go that are on it; of one joint through all points."""
     points = {name: in_space(p) for name, p in m.points(link).items()}
     named = np.array([*points.values()]).reshape(-1, 3)
-    spread = joints if len(joints) and _size(joints) > 0 else np.concatenate([joints, named])
+    every = [x for name in m.links if name != GROUND for p in m.points(name).values() for x in p]
+    least = FLAT * float(
+        np.abs(every).max(initial=0.0)
+    )  # below that joints of one place differ by rounding alone
+    spread = joints if len(joints) and _size(joints) > least else np.concatenate([joints, named])
     listed = ", ".join(points) or "none"
     chain = ", ".join(f"[{a}, {b}]" for a, b in pairwise(points))
-    if not len(spread) or not _size(spread) > 0:
+    if not len(spread) or not _size(spread) > least:
         what = f"link {link!r} has no length: its points are {listed}"
         raise ModelError(what, "give it two points that are apart", ("links", link))
     middle = spread.mean(axis=0)

@@ -50,6 +50,10 @@ class PlacedMember:
                 self.joints[LOAD.format(load)] = np.tile(e.foot(place)[0], len(origin))
 
 
+NOISE = 1e-13
+"""Part of the machine's largest joint force that is rounding."""
+
+
 @dataclass(frozen=True)
 class Strut:
     """Members that are one column: one, or the barrel's and the rod's, which slide by the joint ``inside``."""
@@ -64,9 +68,11 @@ class Strut:
         return tuple(PlacedMember(*pair) for pair in zip(self.forces, self.curves, strict=True))
 
     def compression(self) -> Array:
-        """Greatest compression along it (P,), N, at least 0; NaN where unknown."""
+        """Greatest compression along it (P,), N, at least 0 and without rounding; NaN where unknown."""
         compressions = [np.maximum(0.0, -curve.extremes("axial")[0]) for curve in self.curves]
-        return np.asarray(np.maximum.reduce(compressions))
+        largest = np.abs(np.nan_to_num(self.forces[0].result.force_array)).max(axis=(1, 2), initial=0.0)
+        greatest = np.maximum.reduce(compressions)
+        return np.where(greatest <= NOISE * largest, 0.0, greatest)
 
     def is_bent(self, part: float) -> bool:
         """True if bending moments are more than this part of axial force times length, each the greatest."""
