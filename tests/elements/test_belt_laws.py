@@ -236,7 +236,6 @@ WRONG = [
     ("chain: true, groove: 38", "a chain holds by its teeth and has no groove"),
     ("tension: 300, groove: 200", "the groove is wider than 180 deg"),
     ("tension: -3", "-3 is negative"),
-    ("tension: 3, idlers: [{at: ground.A, radius: 0.01}]", "idlers of a belt are not analysed"),
     ("tension: 300, friction: {static: 0.3}", "the friction of joint 'belt' has no coefficient"),
 ]
 FILE = """

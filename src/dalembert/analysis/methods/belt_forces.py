@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.compile.elements.belt_arrays import SUMS, belts_of, grip, wedge
+from dalembert.analysis.methods.rope_forces import held_result
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.analysis.status.slipping_belts import Strands, limit_difference, strands
+from dalembert.analysis.status.slipping_ropes import rope_lines
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.joints.elements.belts import Belt
@@ -41,9 +43,11 @@ class BeltForces:
     """Belt or chain at every position (P,).
 
     length (m) and wrap (2,), radians on the wheels of i and j, at the first solved position; tight, slack: tensions
-    with the centrifugal one, N; centrifugal: T_c = m v^2; speed: m/s, positive with the turn of i; torque (P, 2): of
+    with the centrifugal one, N, with idlers the largest and the smallest of all strands; centrifugal: T_c = m v^2;
+    speed: m/s, positive with the turn of i; torque (P, 2): of
     the belt on both wheels; slip_coefficient: least coefficient of friction that holds, infinite where none does;
-    shaft_force: size of its force on the shaft of either wheel; coefficient: that it has, NaN without friction.
+    shaft_force: size of its force on the shaft of either wheel, with idlers of that of i; coefficient: that it has, NaN
+    without friction; limit: None with idlers.
     """
 
     joint: str
@@ -57,7 +61,7 @@ class BeltForces:
     slip_coefficient: Array = field(repr=False)
     shaft_force: Array = field(repr=False)
     coefficient: float
-    limit: BeltLimit = field(repr=False)
+    limit: BeltLimit | None = field(repr=False)
 
 
 def belt_forces(r: Result, joint: str) -> BeltForces:
@@ -70,12 +74,15 @@ def belt_forces(r: Result, joint: str) -> BeltForces:
     (391.67, 308.33)
     """
     belts = belts_of(r.mechanism)
+    rings = [name for name, rope in r.mechanism.ropes.items() if rope.RING]
+    if joint in rings:
+        return _with_idlers(r, joint)
     if joint not in belts:
-        known = list(belts)
+        known = [*belts, *rings]
         remedy = closest(joint, known) if known else "write a joint of type: belt"
         raise ModelError(f"{joint!r} is not a belt", remedy)
     k, belt = list(belts).index(joint), belts[joint]
-    held = _held(r)
+    held = held_result(r)
     s = Strands(
         *(a[..., k] for a in strands(held.compiled, full_pose(held), held.twist_array, held.moment_array))
     )
@@ -94,6 +101,38 @@ def belt_forces(r: Result, joint: str) -> BeltForces:
         shaft_force=np.hypot(*held.force_array[:, held.joints.index(joint)].T),
         coefficient=np.nan if mu is None else mu * wedge(belt),
         limit=_limit(belt, s, np.inf if mu is None else mu),
+    )
+
+
+def _with_idlers(r: Result, joint: str) -> BeltForces:
+    """The same of a belt with idlers, whose strands are those of a rope that meets itself."""
+    held, belt = held_result(r), r.mechanism.written.joints[joint]
+    assert isinstance(belt, Belt)
+    pose = full_pose(held)
+    lines = rope_lines(held.compiled, joint, pose, held.force_array)
+    own = [(belt.links[k], belt.point_names(joint)[k]) for k in (0, 1)]
+    first, last = ([(w.link, w.point) for w in lines.wheels].index(place) for place in own)
+    speed = belt.radii[0] * held.speed(belt.links[0])
+    centrifugal, mu = belt.mass_per_length * speed * speed, grip(r.mechanism, belt)
+    at = lines.wheels[last].place
+    torque = [lines.tension[:, k] - lines.tension[:, k - 1] for k in (0, at)]
+    pull = lines.tension[:, :1] * lines.direction[:, 0] - lines.tension[:, -1:] * lines.direction[:, -1]
+    solved = int(np.argmax(np.isfinite(lines.wrap[:, 0])))
+    places = [abs(p.radius) for p in r.mechanism.ropes[joint].through]
+    arcs = sum(places[w.place] * lines.wrap[solved, k] for k, w in enumerate(lines.wheels))
+    return BeltForces(
+        joint=joint,
+        length=float(lines.length[solved].sum() + arcs),
+        wrap=lines.wrap[solved, [first, last]],
+        tight=lines.tension.max(axis=1) + centrifugal,
+        slack=lines.tension.min(axis=1) + centrifugal,
+        centrifugal=centrifugal,
+        speed=speed,
+        torque=np.stack([-t * radius for t, radius in zip(torque, belt.radii, strict=True)], axis=-1),
+        slip_coefficient=r.rope(joint).slip_coefficient * wedge(belt),
+        shaft_force=np.hypot(*pull.T),
+        coefficient=np.nan if mu is None else mu * wedge(belt),
+        limit=None,
     )
 
 
@@ -124,12 +163,3 @@ def _limit(belt: Belt, s: Strands, mu: float) -> BeltLimit:
             limit_difference(np.asarray(2 / 3 * factor * value), np.asarray(share), ratio).max()
         )
     return BeltLimit(tight, slack, torque, difference * np.abs(s.speed), best, most)
-
-
-def _held(r: Result) -> Result:
-    """The result with belts that neither slip nor go slack, where one does."""
-    if not {"slips", "slack"} & {*r.status}:
-        return r
-    from dalembert.analysis.one_pass import at_schedule
-
-    return at_schedule(r.mechanism.without_limits, r.schedule, r.inertia)

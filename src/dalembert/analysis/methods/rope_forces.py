@@ -47,7 +47,7 @@ def rope_forces(r: Result, joint: str) -> RopeForces:
     if joint not in ropes:
         remedy = closest(joint, list(ropes)) if ropes else "write a joint of type: rope"
         raise ModelError(f"{joint!r} is not a rope", remedy)
-    held = _held(r)
+    held = held_result(r)
     lines = rope_lines(held.compiled, joint, full_pose(held), held.force_array)
     turned = [k for k, wheel in enumerate(lines.wheels) if wheel.drives]
     return RopeForces(
@@ -60,8 +60,8 @@ def rope_forces(r: Result, joint: str) -> RopeForces:
     )
 
 
-def _held(r: Result) -> Result:
-    """The result with ropes that may push and do not slip, where one would."""
+def held_result(r: Result) -> Result:
+    """The result with belts and ropes that neither slip nor go slack, where one does."""
     if not {"slips", "slack"} & {*r.status}:
         return r
     from dalembert.analysis.one_pass import at_schedule

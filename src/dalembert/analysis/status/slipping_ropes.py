@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.force_arrays import SolvedForces
 
 SLACK = (
-    "Rope {rope} would have to push with {force} in strand {strand}{arc}: it hangs slack. "
+    "{kind} {rope} would have to push with {force} in strand {strand}{arc}: it hangs slack. "
     "Load it, or move more slowly."
 )
 SLIPS = (
-    "Rope {rope} needs {needed:.4g}, has {has:.4g}: it slips on {wheel}{arc}. "
+    "{kind} {rope} needs {needed:.4g}, has {has:.4g}: it slips on {wheel}{arc}. "
     "Give it more turns or a greater coefficient, or lower the load."
 )
 ROUNDING = 1e-9
@@ -34,11 +34,12 @@ ROUNDING = 1e-9
 
 
 class RopeLines(NamedTuple):
-    """Strands of one rope: tension (P, S) and direction (P, S, 2); its wheels (W) with the wrap (P, W) and the least
-    coefficient (P, W) by which both strands hold on each."""
+    """Strands of one rope: tension (P, S), direction (P, S, 2) and length (P, S); its wheels (W) with the
+    wrap (P, W) and the least coefficient (P, W) by which both strands hold on each."""
 
     tension: Array
     direction: Array
+    length: Array
     wheels: tuple[RopeWheel, ...]
     wrap: Array
     needed: Array
@@ -50,7 +51,7 @@ def rope_lines(c: Compiled, name: str, pose: Pose, force: Array) -> RopeLines:
     assert f is not None
     joints = [c.joints[c.layout.constraints.joint[row]] for row in f.row]
     own = [joints.index(strand) for strand in strand_names(c.mechanism.written, name)]
-    unit, _ = strand_rows.direction(g, f, pose)
+    unit, length = strand_rows.direction(g, f, pose)
     pull = force[:, [c.joints.index(joints[k]) for k in own]]
     tension = -g.dot(unit[:, own], pull)
     wheels = rope_wheels(c.mechanism.written, name)
@@ -63,7 +64,7 @@ def rope_lines(c: Compiled, name: str, pose: Pose, force: Array) -> RopeLines:
     holds = (a > 0) & (b > 0)
     ratio = np.where(holds, np.maximum(a, b) / np.where(holds, np.minimum(a, b), 1.0), np.inf)
     needed = np.log(np.where(a == b, 1.0, ratio)) / wrap
-    return RopeLines(tension, unit[:, own], wheels, wrap, needed + 0 * a)
+    return RopeLines(tension, unit[:, own], length[:, own], wheels, wrap, needed + 0 * a)
 
 
 def rope_checks(c: Compiled, pose: Pose, f: SolvedForces) -> list[Check]:
@@ -84,9 +85,16 @@ def rope_checks(c: Compiled, pose: Pose, f: SolvedForces) -> list[Check]:
 def _slack_sentence(c: Compiled, name: str, lines: RopeLines, run: Ints) -> str:
     worst, strand = np.unravel_index(int(np.argmin(lines.tension[run])), lines.tension[run].shape)
     force = quantity_text(c, "force", float(-lines.tension[run][worst, strand]))
-    return SLACK.format(rope=name, force=force, strand=int(strand) + 1, arc=arc(c, run))
+    return SLACK.format(kind=_kind(c, name), rope=name, force=force, strand=int(strand) + 1, arc=arc(c, run))
 
 
 def _slip_sentence(c: Compiled, name: str, lines: RopeLines, k: int, run: Ints) -> str:
     wheel, needed = lines.wheels[k], float(lines.needed[run, k].max())
-    return SLIPS.format(rope=name, needed=needed, has=wheel.holds, wheel=wheel.link, arc=arc(c, run))
+    assert wheel.holds is not None
+    has, of_flat = wheel.holds * wheel.wedge, needed * wheel.wedge
+    kind, where = _kind(c, name), arc(c, run)
+    return SLIPS.format(kind=kind, rope=name, needed=of_flat, has=has, wheel=wheel.link, arc=where)
+
+
+def _kind(c: Compiled, name: str) -> str:
+    return "Belt" if c.mechanism.ropes[name].RING else "Rope"

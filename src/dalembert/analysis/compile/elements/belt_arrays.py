@@ -20,8 +20,8 @@ SUMS: dict[str, tuple[float, float, float]] = {
 
 
 def belts_of(m: Mechanism) -> dict[str, Belt]:
-    """The belts of a mechanism, in the order of their rows."""
-    return {name: joint for name, joint in m.joints.items() if isinstance(joint, Belt)}
+    """The belts of a mechanism without idlers, in the order of their rows."""
+    return {n: joint for n, joint in m.joints.items() if isinstance(joint, Belt) and not joint.idlers}
 
 
 def belt_pulls(m: Mechanism) -> BeltPulls | None:

@@ -19,6 +19,8 @@ from dalembert.core.elements.strand_limits import RopeGrips
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Link, Mechanism
 from dalembert.model.joints.elements.ropes import Rope, RopePoint, Sheave, StrandJoint
+from dalembert.model.joints.elements.written_parts import as_rope
+from dalembert.model.quantities.values import Vector
 
 LEVER = 0.1
 """Metres of rope to a radian of a pulley that is a point; no force depends on it."""
@@ -38,15 +40,17 @@ class _End(NamedTuple):
 
 
 def with_rope_parts(m: Mechanism) -> Mechanism:
-    """The mechanism with strands and pulleys for its ropes; itself without ropes."""
-    if not any(isinstance(joint, Rope) for joint in m.joints.values()):
+    """The mechanism with strands and pulleys for its ropes and belts with idlers; itself without."""
+    ropes = {name: as_rope(name, joint) for name, joint in m.joints.items()}
+    if not any(ropes.values()):
         return m
     links, joints = dict(m.links), dict[str, Any]()
     for name, joint in m.joints.items():
-        if not isinstance(joint, Rope):
+        rope = ropes[name]
+        if rope is None:
             joints[name] = joint
             continue
-        for part, made in _parts(m, name, joint):
+        for part, made in _parts(m, name, rope):
             if isinstance(made, Link):
                 links[part] = made
             else:
@@ -62,7 +66,8 @@ def strand_names(m: Mechanism, name: str) -> list[str]:
 class RopeWheel(NamedTuple):
     """A wheel between two strands of a rope.
 
-    place: among the points of the rope; way: 1 where the rope turns counter-clockwise; drives: True if the rope holds
+    place: among the points of the rope, 0 of the wheel on which its ends meet; wedge: by which friction is stronger in
+    a groove, the sine of half its angle; way: 1 where the rope turns counter-clockwise; drives: True if the rope holds
     to it; holds: the coefficient at rest by which it does, None without a coefficient or without slip.
     """
 
@@ -73,24 +78,30 @@ class RopeWheel(NamedTuple):
     turns: Numeric
     drives: bool
     holds: Numeric | None
+    wedge: Numeric
 
 
 def rope_wheels(m: Mechanism, name: str) -> tuple[RopeWheel, ...]:
-    """The wheels and eyes of a rope, without its ends."""
-    out = []
-    points = m.ropes[name].through
-    for k, point in enumerate(points[1:-1], 1):
-        drives, f = not is_pulley(m, point), point.friction
+    """The wheels and eyes of a rope, without its ends unless they meet on a wheel."""
+    out, rope = list[RopeWheel](), m.ropes[name]
+    points, wedge, grip = rope.through, getattr(rope, "wedge", 1.0), getattr(rope, "grip", None)
+    for k in [*range(1, len(points) - 1), *([0] if rope.RING else [])]:
+        point = points[k]
+        drives, f = not is_pulley(m, point), point.friction or grip
         holds = None
         if drives and f is not None and m.friction.enabled:
             parts = (f.static, f.coefficient, m.friction.static, m.friction.coefficient)
-            holds = next((mu for mu in parts if mu is not None), None)
+            mu = next((mu for mu in parts if mu is not None), None)
+            holds = None if mu is None else mu / wedge
         way = 1 if point.side == "right" else -1
-        out.append(RopeWheel(*point.round, k, way, point.turns, drives, holds))
+        link, at = point.round
+        out.append(RopeWheel(link, at, k, way, point.turns, drives, holds, wedge))
     return tuple(out)
 
 
 def _parts(m: Mechanism, name: str, rope: Rope) -> Iterator[tuple[str, Link | StrandJoint | Sheave]]:
+    if rope.RING:
+        _refuse_untensioned(m, name, rope)
     names = strand_names(m, name)
     directions = _directions(m, name, rope)
     ends: list[_End] = []
@@ -146,9 +157,29 @@ def is_pulley(m: Mechanism, point: RopePoint) -> bool:
     for name, joint in m.joints.items():
         if joint.hinge and link in joint.links and link != GROUND:
             pin = m.joint_points(name)[joint.links.index(link)]
-            if math.dist(pin, place) < SAME:
+            if _together(pin, place):
                 return False
     return True
+
+
+def _together(a: Vector, b: Vector) -> bool:
+    """True if two points of a link are one; of symbols, if they are the same ones."""
+    pairs = list(zip(a, b, strict=True))
+    if all(x is y for x, y in pairs):
+        return True
+    numeric = all(isinstance(x, (int, float)) for pair in pairs for x in pair)
+    return numeric and math.dist(a, b) < SAME
+
+
+def _refuse_untensioned(m: Mechanism, name: str, rope: Rope) -> None:
+    """Raise ModelError for a belt all of whose wheels keep their places: its tension follows from nothing."""
+    carried = (p.round[0] for p in rope.through if p.pulley is None and is_pulley(m, p))
+    if all(link == GROUND for link in carried):
+        what = (
+            f"belt {name!r}: none of its idlers is on a link that moves with it, so its tension is not known"
+        )
+        remedy = "put one on an arm or a slide, with a weight or a spring that presses it on the belt"
+        raise ModelError(what, remedy, ("joints", name, "idlers"))
 
 
 def _directions(m: Mechanism, name: str, rope: Rope) -> list[Numeric | None]:
@@ -193,12 +224,16 @@ def rope_grips(m: Mechanism) -> RopeGrips | None:
     """The wheels that ropes turn by friction, strands in their order; None without ropes, or without limits."""
     if not m.ropes or not m.has_limits:
         return None
-    wheels: list[tuple[int, RopeWheel]] = []
+    wheels: list[tuple[int, int, RopeWheel]] = []
     first = 0
     for name, rope in m.ropes.items():
-        wheels += [(first + w.place, w) for w in rope_wheels(m.written, name) if w.holds is not None]
-        first += len(rope.through) - 1
-    places = np.array([place for place, _ in wheels], np.intp)
-    way = np.array([w.way for _, w in wheels], np.intp)
-    turns, least = ([getattr(w, key) for _, w in wheels] for key in ("turns", "holds"))
-    return RopeGrips(places - 1, places, way, numbers(turns), numbers(least))
+        count = len(rope.through) - 1
+        held = (w for w in rope_wheels(m.written, name) if w.holds is not None)
+        wheels += [(first + (w.place - 1) % count, first + w.place, w) for w in held]
+        first += count
+    before, after, way = (
+        np.array(part, np.intp)
+        for part in ([w[0] for w in wheels], [w[1] for w in wheels], [w[2].way for w in wheels])
+    )
+    turns, least = ([getattr(w, key) for *_, w in wheels] for key in ("turns", "holds"))
+    return RopeGrips(before, after, way, numbers(turns), numbers(least))

@@ -2,20 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal, Self
 
+import numpy as np
 from pydantic import Field, StrictBool, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.joints.elements.ropes import ClosedRope, Efficiency, PlaceOnLink, RopePoint
 from dalembert.model.joints.friction_keys import FrictionPart
-from dalembert.model.joints.joint_part import JointPart, TwoNumbers
+from dalembert.model.joints.joint_part import JointPart, Path, TwoNumbers
+from dalembert.model.part import Part
 from dalembert.model.quantities.values import Scalar
 
 TENSIONS = ("tension", "tensioner", "tight", "slack")
 """Keys of which one gives what the torque leaves open: the sum of both tensions."""
 
 Pull = Annotated[float, Scalar("force", "not negative")]
+
+
+class Idler(Part):
+    """A further wheel of a belt: one that turns freely on a link, or that of a link which the belt turns."""
+
+    at: Annotated[tuple[str, str], PlaceOnLink()] = Field(description="link.point: its centre")
+    radius: Annotated[float, Scalar("length", "positive")] = Field(
+        description="to the belt's middle, a length"
+    )
+    strand: Literal["left", "right"] = Field(
+        description="on which strand it is, as seen from the wheel of i towards that of j"
+    )
+    side: Literal["back", "inside"] = Field(
+        "back", description="back: it presses on the belt's back; inside: it is within the belt"
+    )
+    efficiency: Efficiency | None = Field(
+        None, description="tension that runs on over tension that runs off; default 1"
+    )
+
+    def place(self) -> RopePoint:
+        """It as a wheel of a rope that runs clockwise."""
+        side: Literal["left", "right"] = "left" if self.side == "inside" else "right"
+        return RopePoint.model_construct(
+            round=self.at, radius=self.radius, side=side, efficiency=self.efficiency
+        )
 
 
 class Belt(JointPart):
@@ -50,7 +78,11 @@ class Belt(JointPart):
     mass_per_length: Annotated[float, Scalar("line_density", "not negative")] = Field(
         0.0, description="of the belt: it takes the centrifugal tension m v^2"
     )
-    idlers: None = Field(None, description="refused: not analysed")
+    idlers: tuple[Idler, ...] = Field(
+        (),
+        description="further wheels, those of a strand in their order from i to j: [{at: arm.I, radius: 30 mm, strand: "
+        "left, side: back}]; one on a link that moves, with a weight or a spring, gives the tension",
+    )
     chain: StrictBool = Field(
         False, description="true: a chain, which cannot slip; its slack strand may not push"
     )
@@ -90,10 +122,12 @@ class Belt(JointPart):
     def _one_tension(cls, keys: Any) -> Any:
         if not isinstance(keys, Mapping):
             return keys
-        if keys.get("idlers"):
-            what = "idlers of a belt are not analysed: they change its wrap and its force on the shafts"
-            raise ModelError(what, "leave them out, and give the strands by tight or slack", ("idlers",))
         known = [t for t in TENSIONS if keys.get(t) is not None]
+        if keys.get("idlers"):
+            if known:
+                what = f"{known[0]} is given beside idlers, of which one gives the tension by its weight or spring"
+                raise ModelError(what, f"leave {known[0]} out", (known[0],))
+            return keys
         if len(known) > 1:
             what = f"{known[0]} and {known[1]} are both given, and each gives the sum of the tensions"
             raise ModelError(what, "keep one of them", (known[1],))
@@ -103,6 +137,33 @@ class Belt(JointPart):
                 "write tension (of each strand at rest), tensioner (pull on the shaft), tight or slack",
             )
         return keys
+
+    def closed(self, joint: str) -> ClosedRope | None:
+        """It as a rope whose ends meet on the wheel of i, clockwise round both wheels; None without idlers."""
+        if not self.idlers:
+            return None
+        (i, j), (u, v) = self.links, self.point_names(joint)
+        ends = [
+            RopePoint.model_construct(round=place, radius=radius, side="left", pulley=False)
+            for place, radius in zip(((i, u), (j, v)), self.radii, strict=True)
+        ]
+        there, back = ([x.place() for x in self.idlers if x.strand == way] for way in ("left", "right"))
+        through = (ends[0], *there, ends[1], *reversed(back), ends[0])
+        wedge = 1.0 if self.groove is None else np.sin(self.groove / 2)
+        return ClosedRope.model_construct(links=self.links, through=through, wedge=wedge, grip=self.grip)
+
+    def places(self, joint: str) -> Iterator[tuple[str, str, Path, Path]]:
+        """Its idlers besides."""
+        yield from super().places(joint)
+        for k, idler in enumerate(self.idlers):
+            yield *idler.at, ("idlers", k, "at"), ("idlers", k, "at")
+
+    @model_validator(mode="after")
+    def _idlers(self) -> Self:
+        if self.idlers and self.crossed:
+            what = "a crossed belt has no idlers"
+            raise ModelError(what, "leave crossed or idlers out", ("idlers",))
+        return self
 
     @model_validator(mode="after")
     def _of_a_chain(self) -> Self:

@@ -117,6 +117,8 @@ class Rope(JointPart):
     ('load', 'ground')
     """
 
+    RING: ClassVar[bool] = False
+    """True if its ends meet on its first wheel."""
     type: Literal["rope"] = "rope"
     links: TwoNames = Field(("", ""), exclude=True, description="the first two links that it touches")
     at: tuple[str, str] | None = Field(None, exclude=True, description="its points on them")
@@ -167,6 +169,14 @@ class Rope(JointPart):
                 what = f"it goes from {'.'.join(a.round)} to the same point"
                 raise ModelError(what, "leave one out", ("through", k + 1))
         return self
+
+
+class ClosedRope(Rope):
+    """A belt with idlers as a rope whose ends meet on its first wheel: made from a belt, never written."""
+
+    RING: ClassVar = True
+    wedge: float = Field(1.0, exclude=True)
+    grip: FrictionPart | None = Field(None, exclude=True)
 
 
 class StrandJoint(JointPart):

@@ -6,8 +6,14 @@ from typing import Any, Self
 
 from pydantic import PrivateAttr
 
+from dalembert.model.joints.elements.belts import Belt
 from dalembert.model.joints.elements.ropes import Rope
 from dalembert.model.part import Part
+
+
+def as_rope(name: str, joint: object) -> Rope | None:
+    """A joint as a rope: a rope itself, a belt with idlers; None of others."""
+    return joint.closed(name) if isinstance(joint, Belt) else joint if isinstance(joint, Rope) else None
 
 
 class WrittenParts(Part):
@@ -28,8 +34,9 @@ class WrittenParts(Part):
 
     @property
     def ropes(self) -> dict[str, Rope]:
-        """Its ropes by name, also if strands and pulleys replace them."""
-        return {name: joint for name, joint in self.written.joints.items() if isinstance(joint, Rope)}  # type: ignore[attr-defined]
+        """Its ropes, and belts with idlers, by name, also if strands and pulleys replace them."""
+        joints = self.written.joints.items()  # type: ignore[attr-defined]
+        return {name: rope for name, joint in joints if (rope := as_rope(name, joint)) is not None}
 
     @property
     def has_limits(self) -> bool:

@@ -127,18 +127,21 @@ def rope_items(r: Result, name: str, k: int, frame: PaperFrame) -> list[Item]:
     if name != strands[0]:
         return []
     rope = r.rope(joint.rope)
-    points = r.mechanism.ropes[joint.rope].through
+    described = r.mechanism.ropes[joint.rope]
+    points = described.through
     at = [frame(link_place(r, link, r.mechanism.point(link, u))[k]) for link, u in (p.round for p in points)]
     radii = [frame.length(p.radius) * (-1 if p.side == "right" else 1) for p in points]
     largest = float(np.nanmax([0.0, *np.abs(rope.tension[k])]))
     widths = [0.6 * width_of(float(t), largest) for t in rope.tension[k]]
     out: list[Item] = []
-    for point, center, radius in zip(points, at, radii, strict=True):
+    for point, center, radius in list(zip(points, at, radii, strict=True))[int(described.RING) :]:
         if radius:
             out += disc(r, point.round[0], center, abs(radius), k)
     lines = [_strand_line(rope.direction[k, n], at[n : n + 2], radii[n : n + 2]) for n in range(len(strands))]
     out += [strand(*line, width) for line, width in zip(lines, widths, strict=True)]
-    for n in range(1, len(lines)):
+    for n in range(
+        int(not described.RING), len(lines)
+    ):  # the wheel at which the ends of a ring meet is its first
         if radii[n]:
             out.append(
                 arc(
