@@ -4,7 +4,6 @@ templates; the file is edited either way, and nothing is lost."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -14,120 +13,12 @@ import pytest
 import dalembert as da
 from dalembert.studio.document import EMPTY
 from dalembert.studio.problems import problem_text
+from tests.browser.studio_tab import Studio, tabs
 from tests.studio.served import serving
 
+__all__ = ["tabs"]
+
 FOUR_BAR = problem_text("example", "four_bar")
-
-
-class Studio:
-    """One tab of the studio."""
-
-    def __init__(self, context: Any, address: str) -> None:
-        self.page, self.complaints = context.new_page(), list[str]()
-        self.page.on("console", lambda m: self.complaints.append(m.text))
-        self.page.on("pageerror", lambda e: self.complaints.append(str(e)))
-        self.page.goto(address)
-        self.until("window.studio && studio.state()")
-
-    def until(self, holds: str) -> None:
-        """Wait for something; the page's policy forbids what Playwright would wait by."""
-        for _ in range(3000):
-            if self.page.evaluate(f"() => !!({holds})"):
-                return
-            self.page.wait_for_timeout(20)
-        raise AssertionError(f"never: {holds}; {self.text}; {self.page.inner_text('.banners')}")
-
-    @property
-    def text(self) -> str:
-        return str(self.page.evaluate("studio.state().text"))
-
-    def changes(self, act: Callable[[], object]) -> None:
-        """Do something, and wait until the text is another one."""
-        before = self.page.evaluate("studio.state().hash")
-        act()
-        self.until(f"studio.state().hash !== '{before}'")
-
-    def pixel(self, x: float, y: float) -> tuple[float, float]:
-        script = """p => { const b = studio.canvas.svg.getBoundingClientRect();
-            const q = studio.canvas.window.px(p); return [b.left + q[0], b.top + q[1]]; }"""
-        a, b = self.page.evaluate(script, [x, y])
-        return a, b
-
-    def see(self, x: float, y: float, scale: float) -> None:
-        """Look at a place, pixels per metre."""
-        self.page.evaluate(
-            "([x, y, s]) => { const w = studio.canvas.window; w.middle = [x, y]; w.scale = s; studio.hand.cancel(); }",
-            [x, y, scale],
-        )
-
-    def click(self, key: str, *at: float) -> None:
-        self.page.evaluate("document.activeElement?.blur()")
-        self.page.keyboard.press(key)
-        self.changes(lambda: self.page.mouse.click(*self.pixel(*at)))
-
-    def line(self, key: str, a: tuple[float, float], b: tuple[float, float], *typed: str) -> None:
-        """Drag from a to b; or, with typed values, click, type and press Enter."""
-        self.page.evaluate("document.activeElement?.blur()")
-        self.page.keyboard.press(key)
-        self.page.mouse.move(*self.pixel(*a))
-        if not typed:
-            self.page.mouse.down()
-            self.page.mouse.move(*self.pixel(*b), steps=5)
-            self.changes(self.page.mouse.up)
-            return
-        self.page.mouse.click(*self.pixel(*a))
-        self.page.mouse.move(*self.pixel(*b), steps=3)
-        for k, value in enumerate(typed):
-            if k:
-                self.page.keyboard.press("Tab")
-            self.page.keyboard.type(value)
-        self.changes(lambda: self.page.keyboard.press("Enter"))
-
-    def field(self, part: str, label: str, value: str) -> None:
-        """Choose a part in the list, or the last point of the ground, and type one of its values."""
-        self.page.click("[data-pane=Part]")
-        self.page.keyboard.press("v")
-        self.page.keyboard.press("Escape")
-        self.page.evaluate("studio.pick(null)")
-        if part in ("ground", ""):
-            name = self.page.evaluate("Object.keys(studio.state().drawing.links[0].points).at(-1)")
-            self.page.evaluate("name => studio.pick({ kind: 'points', link: 'ground', name })", name)
-        else:
-            self.page.click(f".parts button:text-is('{part}')")
-        box = self.page.get_by_label(label, exact=True)
-        box.fill(value)
-        self.changes(lambda: box.press("Enter"))
-
-    def point(self, link: str, name: str = "") -> tuple[float, float]:
-        """Place of a point of a link, by default its second one."""
-        script = """([l, p]) => { const q = studio.state().drawing.links.find(k => k.name === l).points;
-            return q[p] ?? Object.values(q)[1]; }"""
-        x, y = self.page.evaluate(script, [link, name])
-        return x, y
-
-    def effort(self) -> float:
-        """The effort of the drive that the page of forces computes, of the text as it is."""
-        self.until("studio.page() && studio.solved() === studio.state().hash")
-        script = """() => { const p = studio.page(), k = p.kernel;
-            const r = p.data.views.table.find(t => t.name.startsWith('effort')); return k.rows[r.rows[0] * k.row]; }"""
-        self.until(f"({script})()")  # the page computes in a frame of its own, later on a busy machine
-        return float(self.page.evaluate(script))
-
-
-@pytest.fixture
-def tabs(browser: Any) -> Iterator[Callable[[Any], Studio]]:
-    """Opens tabs of a served studio; none may complain."""
-    contexts, opened = list[Any](), list[Studio]()
-
-    def one(served: Any, **options: Any) -> Studio:
-        contexts.append(browser.new_context(**{"viewport": {"width": 1280, "height": 800}, **options}))
-        opened.append(Studio(contexts[-1], served.access.address))
-        return opened[-1]
-
-    yield one
-    for context in contexts:
-        context.close()
-    assert [s.complaints for s in opened if s.complaints] == []
 
 
 def polar(a: tuple[float, float], length: float, degrees: float) -> tuple[float, float]:
@@ -154,56 +45,10 @@ def draw_four_bar(s: Studio) -> da.Mechanism:
     )
 
 
-def draw_slider_crank(s: Studio) -> da.Mechanism:
-    s.see(0.1, 0.0, 2000)
-    s.click("x", 0, 0)
-    s.line("b", (0, 0), (0.03, 0.03), "50", "45")
-    s.line("b", polar((0, 0), 0.05, 45), (0.22, 0.03))
-    s.line("s", s.point("link3"), (0.25, 0.03), "0")
-    s.field("ground", "place", "[230, 0]")
-    s.field("link3", "length", "0,2 m")
-    s.click("d", 0, 0)
-    s.field("A", "position", "45 deg")
-    s.line("f", s.point("link3"), (0.25, 0.02), "1 kN", "180")
-    m = da.slider_crank(crank="50 mm", rod="200 mm", positions=1)
-    force = {"type": "force", "on": "piston", "at": "B", "value": [-1000.0, 0.0]}
-    tree = m.to_tree() | {"loads": {"F": force}, "gravity": "none"}
-    return da.Mechanism.model_validate(tree).with_values(
-        {"drives.O2.position": "45 deg", "drives.O2.speed": 0.0}
-    )
-
-
-def draw_toggle(s: Studio) -> da.Mechanism:
-    s.see(0.15, -0.2, 1000)
-    s.click("x", 0, 0)
-    s.click("x", 0.36, -0.18)
-    s.line("b", (0.36, -0.18), (0.4, -0.18), "48", "0")
-    s.line("b", (0, 0), (0.1, -0.2), "240", "-60")
-    s.line("b", (0.408, -0.18), polar((0, 0), 0.24, -60))
-    s.field("link4", "length", "300")
-    s.line("b", s.point("link3"), (0.02, -0.42))
-    s.line("s", s.point("link5"), (0.02, -0.5), "-90")
-    s.field("ground", "place", "[0, -420]")
-    s.field("link5", "length", "240")
-    s.click("d", 0.36, -0.18)
-    s.field("B", "position", "0")
-    s.line("f", s.point("link5"), (0.05, -0.4), "20000", "90")
-    tree = da.toggle_press(positions=1).to_tree() | {"gravity": "none"}
-    return da.Mechanism.model_validate(tree)
-
-
-@pytest.mark.parametrize(
-    "draw",
-    [
-        draw_four_bar,
-        pytest.param(draw_slider_crank, marks=pytest.mark.long),
-        pytest.param(draw_toggle, marks=pytest.mark.long),
-    ],
-)
-def test_drawn_from_nothing_it_has_the_numbers_of_the_template(draw: Any, tabs: Any, tmp_path: Path) -> None:
+def test_a_four_bar_dragged_and_typed_is_saved_and_undone_to_nothing(tabs: Any, tmp_path: Path) -> None:
     with serving(tmp_path / "m.yaml") as served:
         s = tabs(served)
-        like = draw(s)
+        like = draw_four_bar(s)
         expected = float(da.statics(like).effort("O2")[0])
         m = da.loads(s.text)
         assert float(da.statics(m).effort(next(iter(m.drives)))[0]) == pytest.approx(expected, rel=1e-9)
@@ -223,7 +68,7 @@ def test_the_file_beside_the_drawing_is_edited_either_way(tabs: Any, tmp_path: P
     path.write_text(FOUR_BAR, encoding="utf-8")
     with serving(path) as served:
         one, two = tabs(served), tabs(served)
-        one.page.click("[data-pane=File]")
+        one.page.click("[role=tab][data-pane=File]")
         one.page.click(".cm-line:has-text('coupler:') >> nth=0")
         one.page.keyboard.press("Home")
         one.changes(lambda: one.page.keyboard.type("  : wrong"))
@@ -252,7 +97,7 @@ def test_the_file_beside_the_drawing_is_edited_either_way(tabs: Any, tmp_path: P
         one.until("studio.state().text.startsWith('# theirs')")
         assert not one.page.evaluate("studio.state().dirty")
         said = "# typed while earlier letters are on their way "
-        one.page.click("[data-pane=File]")
+        one.page.click("[role=tab][data-pane=File]")
         one.page.click(".cm-line >> nth=0")
         one.page.keyboard.press("Home")
         one.page.keyboard.type(said, delay=45)
@@ -303,7 +148,7 @@ def test_esc_leaves_text_and_undo_as_they_were(tabs: Any, tmp_path: Path) -> Non
 def test_a_printed_problem_is_ticked(tabs: Any, tmp_path: Path) -> None:
     with serving(tmp_path / "m.yaml") as served:
         s = tabs(served)
-        s.page.click("[data-pane=Problems]")
+        s.page.click("[role=tab][data-pane=Problems]")
         s.changes(lambda: s.page.click(".list button[title='4b-06-bevan-four-bar']"))
         s.page.wait_for_selector(".answers .ok")
         assert s.page.locator(".answers .off").count() == 0

@@ -10,6 +10,7 @@ from dalembert.studio.document import Document
 OPS = (
     *("bar",) * 3,
     *("ground", "point", "merge", "slider", "slot", "gear", "drive", "force", "couple", "spring", "damper"),
+    *("slide", "weld", "circular_slot", "rolling", "belt", "cam"),
     *("cylinder", "pose", "set", "length", "changes"),
     *("move",) * 3,
     *("rename",) * 2,
@@ -48,6 +49,7 @@ def message(r: Random, d: Document) -> dict[str, Any]:
         "ground": {"where": one},
         "point": {"link": link["name"], "at": place(r)},
         "slider": {"where": one, "guide": r.choice(["ground", link["name"]]), "direction": r.uniform(-3, 3)},
+        "slide": {"where": one, "guide": link["name"], "direction": r.uniform(-3, 3)},
         "slot": {"where": one, "guide": r.choice(["ground", link["name"]]), "direction": r.uniform(-3, 3)},
         "drive": {"joint": joint, "here": r.uniform(-2, 2), "speed": r.choice(["", "10 rad/s"])},
         "force": {"where": one, "vector": [r.uniform(-9, 9), 3.0]},

@@ -86,6 +86,8 @@ export interface Data {
   units: Record<string, { unit: string; size: number }>;
   noise: { force: number; moment: number };
   kernel: Module; channels: Channel[]; only_at_positions: boolean;
+  /** Place of the cycle with which the file begins. */
+  start: number;
   gradient?: Module & { curves: number[]; numbers: number[] };
   numbers: NumberField[]; limits: { row: number; path: string; sign: Sign }[]; reading: Reading; template: (string | Place)[]; drives: Drive[]; handles: Handle[]; sketch: SketchData;
   views: {

@@ -37,7 +37,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
   if (options.address) restore(kernel, gate, view, location.hash);
   const placed = options.pose && kernel.motion.take(options.pose);
   if (placed !== undefined && placed !== null) view.t = placed;
-  view.t = Math.min(Math.max(view.t, 0), kernel.end);
+  view.t = Math.min(Math.max(Number.isFinite(view.t) ? view.t : data.start, 0), kernel.end);
   let asked = 0, whole = true, runs = 0;
   kernel.cycle();
   const history = new History(kernel, gate);

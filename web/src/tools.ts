@@ -148,8 +148,8 @@ export function restore(kernel: Kernel, gate: Gate, view: View, said: string): v
   readView(view, entries);
   for (const [path, x] of entries) if (path !== "t" && !path.startsWith("~")) numbers[path] = x.trim() ? Number(x) : NaN;
   gate.change(numbers);
-  const t = Number(entries.get("t") ?? 0);
-  view.t = Number.isFinite(t) ? Math.min(Math.max(t, 0), kernel.end) : 0;
+  const t = Number(entries.get("t") ?? NaN);
+  if (Number.isFinite(t)) view.t = Math.min(Math.max(t, 0), kernel.end);
 }
 
 /** The model file as its author wrote it, with the numbers as they are and, if any has changed, the assembly as it is. */

@@ -10,7 +10,7 @@ export type Layer = (typeof LAYERS)[number];
 export interface Tracer { link: string; u: number[] }
 
 export interface View {
-  /** Place of the cycle. */
+  /** Place of the cycle; NaN: where the file begins. */
   t: number;
   /** Switches that were set; a layer without an entry is as the mechanism suggests. */
   shown: Partial<Record<Layer, boolean>>;
@@ -31,7 +31,7 @@ export interface View {
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 export const firstView = (): View => ({
-  t: 0, shown: {}, window: null, camera: [-Math.PI / 3, 0.45], chosen: null, curve: "", body: "", tab: "", speed: 1, drag: "shape", tracers: [],
+  t: NaN, shown: {}, window: null, camera: [-Math.PI / 3, 0.45], chosen: null, curve: "", body: "", tab: "", speed: 1, drag: "shape", tracers: [],
 });
 
 /** What of a view differs from the first, as entries of an address; their names begin with "~", as no path does. */

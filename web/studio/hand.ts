@@ -1,6 +1,7 @@
 /** What the mouse, a finger and typed digits do to the drawing: one tool at a time. */
 
 import { Canvas, make } from "./canvas";
+import { Cursor, NEAR } from "./cursor";
 import type { Socket } from "./socket";
 import { dist, type DrawnJoint, type Drawing, ends, figures, type Picked, type Point, type Where } from "./state";
 
@@ -8,11 +9,18 @@ export interface Tool { key: string; name: string; title: string; shape: "select
 export const TOOLS: Tool[] = [
   { key: "v", name: "select", title: "Select, drag points, pull links", shape: "select" },
   { key: "b", name: "bar", title: "Link: drag from end to end, or type its length and angle", shape: "line", fields: ["length", "angle"] },
-  { key: "x", name: "ground", title: "Ground: a fixed point, or fix a point of a link", shape: "click" },
-  { key: "p", name: "point", title: "Point on a link", shape: "click" },
+  { key: "x", name: "ground", title: "Ground: click a place or a point of a link, or type x, Tab, y, Enter", shape: "click", fields: ["x", "y"] },
+  { key: "p", name: "point", title: "Point on a link: click it there, or type x, Tab, y in its axes and click the link", shape: "click", fields: ["x", "y"] },
   { key: "s", name: "slider", title: "Slider: drag from a point along the guide (over a link: the link guides it)", shape: "line", fields: ["angle"] },
+  { key: "l", name: "slide", title: "Sliding link: drag from its point along the guide; the whole link slides and does not turn", shape: "line", fields: ["angle"] },
   { key: "o", name: "slot", title: "Slot: drag from the pin along the slot (over a link: the slot is in it)", shape: "line", fields: ["angle"] },
+  { key: "a", name: "circular_slot", title: "Circular slot: drag from the pin to the slot's centre on another link", shape: "line" },
+  { key: "i", name: "pin", title: "Pin: click where points of two links lie, or drag from one to the other", shape: "line" },
+  { key: "w", name: "weld", title: "Weld: click a pin, or drag from a point to one of another link", shape: "line" },
   { key: "g", name: "gear", title: "Gears: drag from one axis to the other", shape: "line" },
+  { key: "r", name: "rolling", title: "Rolling wheel: drag from its axis to the point of the track below it", shape: "line" },
+  { key: "e", name: "belt", title: "Belt: drag from one axis to the other", shape: "line" },
+  { key: "j", name: "cam", title: "Cam: drag from its axis to the follower's roller", shape: "line" },
   { key: "d", name: "drive", title: "Drive: click a joint", shape: "click", fields: ["position"] },
   { key: "f", name: "force", title: "Force: drag from a point, or type its size and angle", shape: "line", fields: ["value", "angle"] },
   { key: "m", name: "couple", title: "Couple: click a link", shape: "click", fields: ["value"] },
@@ -20,12 +28,12 @@ export const TOOLS: Tool[] = [
   { key: "n", name: "damper", title: "Damper: drag from point to point", shape: "line", fields: ["value"] },
   { key: "c", name: "cylinder", title: "Cylinder: drag from point to point", shape: "line", fields: ["value"] },
 ];
-/** Pixels within which a place snaps to a point, and a press is a click. */
-const NEAR = 13, CLICK = 4;
+/** Pixels within which a press is a click. */
+const CLICK = 4;
 /** Degrees of the directions that bars snap to, and how near they have to be. */
 const DIRECTIONS = 15, TURN = 3;
 
-export interface Shown { drawing(): Drawing; pick(p: Picked | null): void; picked(): Picked | null; said(text: string): void; again(): void; tool(t: Tool): void; posed(d: Drawing): Drawing }
+export interface Shown { drawing(): Drawing; pick(p: Picked | null): void; picked(): Picked | null; said(text: string): void; again(): void; tool(t: Tool): void }
 
 export class Hand {
   tool = TOOLS[0];
@@ -37,11 +45,13 @@ export class Hand {
   private pointers = new Map<number, Point>();
   private pulling = false;
   private path: Point[] = [];
+  private readonly cursor: Cursor;
   /** The drawing while something is dragged. */
   shadow: Drawing | null = null;
 
   constructor(private readonly canvas: Canvas, private readonly socket: Socket, private readonly shown: Shown) {
     const { svg } = canvas;
+    this.cursor = new Cursor(canvas, (text) => shown.said(text));
     svg.addEventListener("pointerdown", (e) => this.down(e));
     svg.addEventListener("pointermove", (e) => this.move(e));
     svg.addEventListener("pointerup", (e) => this.up(e));
@@ -57,6 +67,7 @@ export class Hand {
   choose(tool: Tool): void {
     this.cancel();
     this.tool = tool;
+    this.canvas.svg.focus({ preventScroll: true }); // keys are now for the drawing
     this.shown.tool(tool);
   }
   cancel(): void {
@@ -77,8 +88,8 @@ export class Hand {
     return el ? { kind: el.dataset.kind as Picked["kind"], name: el.dataset.name!, link: el.dataset.link, point: el.dataset.point } : null;
   }
   private linkAt(e: { clientX: number; clientY: number }): string {
-    const el = document.elementsFromPoint(e.clientX, e.clientY).find((x) => (x as SVGElement).dataset?.kind === "links") as SVGElement | undefined;
-    return el?.dataset.name ?? "";
+    const at = document.elementsFromPoint(e.clientX, e.clientY).map((x) => (x as SVGElement).dataset ?? {}), block = at.find((x) => x.kind === "joints" && !x.point)?.name;
+    return at.find((x) => x.kind === "links")?.name ?? this.shown.drawing().joints.find((j) => j.name === block)?.links[1] ?? at.find((x) => x.point && x.link !== "ground")?.link ?? "";
   }
   /** The place of the pointer: on a point that is near, else on the grid. */
   private snap(e: PointerEvent): Where {
@@ -89,6 +100,8 @@ export class Hand {
       const far = dist(this.canvas.window.px(end.at), [x, y]);
       if (far < least - 0.01) [best, least] = [{ at: end.at, link: end.link, point: end.point }, far];
     }
+    const meant = best && [...ends(d)].find((one) => one.link === this.cursor.end?.link && one.point === this.cursor.end.point);
+    if (best && meant && dist(best.at, meant.at) * this.canvas.window.scale < 1) best = meant;
     if (best) return best;
     const a = this.from?.where.at;
     if (a && this.tool.name !== "gear") {
@@ -103,8 +116,8 @@ export class Hand {
   }
 
   private down(e: PointerEvent): void {
-    this.canvas.svg.setPointerCapture(e.pointerId);
-    (document.activeElement as HTMLElement | null)?.blur?.();
+    if (e.isTrusted) this.canvas.svg.setPointerCapture(e.pointerId);
+    this.canvas.svg.focus({ preventScroll: true });
     this.pointers.set(e.pointerId, this.xy(e));
     const [x, y] = this.xy(e);
     if (this.pointers.size === 2 || e.button === 1) {
@@ -177,7 +190,7 @@ export class Hand {
     const dx = g.at[0] - px, dy = g.at[1] - py, at = [dx * Math.cos(angle) + dy * Math.sin(angle), dy * Math.cos(angle) - dx * Math.sin(angle)];
     this.pulling = true;
     while (this.path.length && this.drag === g) {
-      const path = this.path.splice(0).slice(-4), a = await this.socket.send({ pull: { link: link.name, at, path: sampled(path) } });
+      const path = this.path.splice(0).slice(-4), a = await this.socket.send({ pull: { link: link.name, at, path } });
       if (!a.pose || this.drag !== g) break;
       g.pose = { links: a.pose, drives: a.drives };
       this.shadow = posed(d, a.pose);
@@ -189,7 +202,9 @@ export class Hand {
     this.pointers.delete(e.pointerId);
     const g = this.drag, [x, y] = this.xy(e);
     if (this.from) {
-      if (Math.hypot(x - this.from.x, y - this.from.y) >= CLICK) void this.finish(e);
+      const met = this.met(this.from.where);
+      if (met.length === 1 && Math.hypot(x - this.from.x, y - this.from.y) < CLICK) this.place = met[0];
+      if (Math.hypot(x - this.from.x, y - this.from.y) >= CLICK || (this.place.point && this.place.link !== this.from.where.link)) void this.finish(e);
       else this.show();
       return;
     }
@@ -215,16 +230,19 @@ export class Hand {
   }
 
   private clicked(e: PointerEvent): void {
-    const where = this.snap(e), link = this.linkAt(e), value = this.typed[0];
-    const joint = this.joint(where, this.part(e)?.kind === "joints" ? this.part(e)!.name : "");
+    this.placed(this.snap(e), this.linkAt(e), this.part(e)?.kind === "joints" ? this.part(e)!.name : "");
+  }
+  /** A click tool at a place, on a link or joint. */
+  private placed(where: Where, link: string, named: string): void {
+    const [value, second] = this.typed, joint = this.joint(where, named), typed = { ...(value && { x: value }), ...(second && { y: second }) };
     const asked =
-      this.tool.name === "ground" ? { op: "ground", where }
-      : this.tool.name === "point" ? link && { op: "point", link, at: where.at }
+      this.tool.name === "ground" ? { op: "ground", where: value || second ? { at: where.at } : where, ...typed }
+      : this.tool.name === "point" ? link && { op: "point", link, at: where.at, ...typed }
       : this.tool.name === "couple" ? link && { op: "couple", link, ...(value ? { value } : {}) }
       : joint && { op: "drive", joint: joint.name, ...(value ? { position: value } : { here: Object.values(joint.here ?? { turn: 0 })[0] ?? 0 }), freedom: joint.type === "slot" ? "turn" : "" };
     if (!asked) return this.shown.said(this.tool.title);
     void this.socket.gesture(asked).then((a) => {
-      this.typed = [];
+      [this.typed, this.field] = [[], 0];
       if (!a.refused && joint && this.tool.name === "drive") this.shown.pick({ kind: "joints", name: joint.name });
       if (!a.refused && this.tool.name !== "ground" && this.tool.name !== "point") this.choose(TOOLS[0]);
     });
@@ -271,12 +289,20 @@ export class Hand {
     const value = typed("value") ? { value: typed("value") } : {};
     const asked: Record<string, unknown> =
       this.tool.name === "bar" ? { op: "bar", ends: [first, second], length: typed("length"), angle: typed("angle") }
-      : this.tool.name === "slider" || this.tool.name === "slot" ? { op: this.tool.name, where: first, guide: over && over !== first.link ? over : "ground", direction: turn, angle: typed("angle") }
+      : ["slider", "slot", "slide"].includes(this.tool.name) ? { op: this.tool.name, where: first, guide: over && over !== first.link ? over : "ground", direction: turn, angle: typed("angle") }
       : this.tool.name === "force" ? { op: "force", where: first, vector: [size * Math.cos(turn), size * Math.sin(turn)], angle: typed("angle"), ...value }
-      : { op: this.tool.name, first, second, ...value };
+      : { op: this.tool.name === "pin" ? "merge" : this.tool.name, first, second, ...value };
     this.cancel();
     const a = await this.socket.gesture(asked);
     if (!a.refused && this.tool.name !== "bar") this.choose(TOOLS[0]);
+  }
+
+  /** Points of other links at a place, which a click of the pin or weld tool joins to its own. */
+  private met(w: Where): Where[] {
+    const d = this.shown.drawing(), type = this.tool.name;
+    if (!w.point || !/pin|weld/.test(type)) return [];
+    const joined = (link: string): boolean => d.joints.some((j) => j.type === type && j.links.includes(w.link!) && j.links.includes(link));
+    return [...ends(d)].filter((one) => one.link !== w.link && dist(one.at, w.at) * this.canvas.window.scale < 2 && !joined(one.link));
   }
 
   private key(e: KeyboardEvent): void {
@@ -298,27 +324,34 @@ export class Hand {
     } else if (e.key === "0") {
       this.canvas.window.fit(this.shown.drawing());
       this.shown.again();
-    } else {
+    } else if (e.target instanceof HTMLButtonElement && /^(Enter| )$/.test(e.key)) return;
+    else if (this.cursor.key(e, this.shown.drawing(), !!this.drag || !!this.from)) e.preventDefault();
+    else {
       const tool = TOOLS.find((t) => t.key === e.key.toLowerCase());
       if (tool) this.choose(tool);
     }
   }
   /** Digits, units, Tab and Enter while something is drawn; true if the key was one of them. */
   private type(e: KeyboardEvent): boolean {
-    const now = this.typed[this.field] ?? "";
-    if (e.key === "Enter" && this.from) void this.finish(null);
-    else if (e.key === "Tab" && this.from) this.field = (this.field + 1) % this.tool.fields!.length;
+    const now = this.typed[this.field] ?? "", fields = this.tool.fields!;
+    if (e.key === "Enter" && this.from) return void this.finish(null), true;
+    if (e.key === "Enter" && this.typed.filter(Boolean).length === fields.length && this.enter()) return true;
+    else if (e.key === "Tab" && (this.from || this.typed.length)) this.field = (this.field + 1) % fields.length;
     else if (e.key === "Backspace" && now) this.typed[this.field] = now.slice(0, -1);
     else if (/^[-\d.,]$/.test(e.key) || (now && /^[a-z*/^ °]$/i.test(e.key))) this.typed[this.field] = now + e.key;
     else return false;
     if (this.from) this.show();
-    else this.shown.said(`${this.tool.fields![0]} ${this.typed[0] ?? ""}: now click`);
+    else this.shown.said(`${fields.map((f, k) => `${f} ${k === this.field ? `[${this.typed[k] ?? ""}]` : this.typed[k] ?? "…"}`).join("   ")}: then ${this.tool.name === "ground" ? "Enter" : "click"}`);
+    return true;
+  }
+  /** Typed values of a click tool that need no click: a place, or a part that is chosen. */
+  private enter(): boolean {
+    const p = this.shown.picked(), name = this.tool.name;
+    if (name !== "ground" && p?.kind !== (name === "drive" ? "joints" : "links")) return false;
+    this.placed({ at: [0, 0] }, p?.name ?? "", p?.name ?? "");
     return true;
   }
 }
-
-/** At most four places of a path, the last one among them. */
-const sampled = (path: Point[]): Point[] => path.slice(-4);
 
 /** The drawing with all points at one place moved. */
 function moved(d: Drawing, p: Picked, to: Point): Drawing {

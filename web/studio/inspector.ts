@@ -4,15 +4,20 @@ import type { Socket } from "./socket";
 import { type Drawing, figures, type Picked } from "./state";
 import { html } from "../src/svg";
 
-/** Keys that a part may have beside those that are written, with what they mean. */
-const MORE: Record<string, string[]> = { links: ["mass", "center", "inertia"], drives: ["position", "speed", "acceleration"], loads: [] };
+/** Keys that are shown of every part, empty where the file has none; the others are offered. */
+const MORE: Record<string, string[]> = { links: ["mass", "center", "inertia"], drives: ["position", "speed", "acceleration"] };
+/** Keys that are changed by drawing. */
+const DRAWN = ["points", "type", "on", "at", "between", "links", "joint"];
 const ABOUT: Record<string, string> = {
   position: "position, such as 60, or {from: 0, to: 360, count: 72}", speed: "speed, such as 10 rad/s", mass: "mass, such as 2 kg", center: "centre, such as [20, 0] or 20 @ 0",
   inertia: "inertia about the centre, such as 2e-4 kg*m^2", value: "value, such as 100 N @ -90 or 12 N*m", stiffness: "stiffness, such as 2 N/mm", free_length: "length without load",
 };
+/** Section -> type of a part -> its keys -> what they mean. */
+type Keys = Record<string, Record<string, Record<string, string>>>;
 
 export class Inspector {
   private shownAs = "";
+  private keys: Promise<Keys> | null = null;
   constructor(private readonly el: HTMLElement, private readonly socket: Socket, private readonly pick: (p: Picked | null) => void) {}
 
   update(d: Drawing, picked: Picked | null, text: string): void {
@@ -34,7 +39,7 @@ export class Inspector {
     this.field("gravity", gravity, (value) => ({ op: "set", path: ["gravity"], value }), "none, standard, or [0, -9.81 m/s^2]");
     const list = html("div", this.el, { class: "parts" });
     const add = (kind: Picked["kind"], name: string, what: string): void => {
-      html("button", list, { type: "button", title: what }, name).addEventListener("click", () => this.pick({ kind, name }));
+      html("button", list, { type: "button", title: what, "data-kind": kind }, name).addEventListener("click", () => this.pick({ kind, name }));
     };
     for (const l of d.links) if (l.name !== "ground") add("links", l.name, "link");
     for (const j of d.joints) add("joints", j.name, j.type);
@@ -48,7 +53,7 @@ export class Inspector {
     const u = d.units.length, points = Object.values(l.points);
     this.head("links", name, "link");
     if (l.bar) this.field("length", figures(Math.hypot(points[1][0] - points[0][0], points[1][1] - points[0][1]) / u.size, 8), (value) => ({ op: "length", link: name, value }), `in ${u.unit}, or with a unit`);
-    this.values("links", name, l.written, MORE.links);
+    this.values("links", name, l.written);
     for (const point of Object.keys(l.points)) html("button", this.el, { type: "button" }, `point ${point}`).addEventListener("click", () => this.pick({ kind: "points", name: point, link: name }));
   }
   private joint(d: Drawing, name: string): void {
@@ -56,12 +61,17 @@ export class Inspector {
     if (!j) return;
     this.head("joints", name, j.type);
     html("p", this.el, { class: "hint" }, `${j.links[0]} and ${j.links[1]}`);
+    this.values("joints", name, j.written, j.type);
     if (drive) {
       html("h3", this.el, {}, "drive");
-      this.values("drives", drive.name, drive.written, MORE.drives);
+      this.values("drives", drive.name, drive.written);
       if (j.type !== "slider") this.button("Whole turn", { op: "drive", joint: name, whole_turn: true });
       this.button("No drive", { op: "delete", kind: "drives", name: drive.name });
-    } else if (j.freedoms.length) this.button("Drive it", { op: "drive", joint: name, here: Object.values(j.here ?? { turn: 0 })[0] ?? 0, freedom: j.type === "slot" ? "turn" : "" });
+    } else
+      for (const freedom of j.freedoms) {
+        const one = j.freedoms.length === 1;
+        this.button(one ? "Drive it" : `Drive its ${freedom}`, { op: "drive", joint: name, here: j.here?.[freedom] ?? 0, freedom: one ? "" : freedom });
+      }
   }
   private point(d: Drawing, p: Picked): void {
     const written = d.links.find((l) => l.name === p.link)?.written?.points?.[p.name];
@@ -71,7 +81,7 @@ export class Inspector {
   private part(kind: Picked["kind"], name: string, written: any, what: string): void {
     if (!written) return;
     this.head(kind, name, what);
-    this.values(kind, name, written, MORE[kind] ?? []);
+    this.values(kind, name, written, what);
   }
 
   private head(kind: Picked["kind"], name: string, what: string, link?: string): void {
@@ -82,17 +92,29 @@ export class Inspector {
       this.pick(null);
     });
   }
-  private values(kind: string, name: string, written: any, more: string[]): void {
-    const keys = [...Object.keys(written ?? {}), ...more.filter((k) => !(k in (written ?? {})) && !(k === "inertia" && !("mass" in written)) && !(k === "center" && !("mass" in written)))];
-    for (const key of keys) {
-      if (["points", "type", "on", "at", "between", "links"].includes(key)) continue;
-      const value = written?.[key];
-      this.field(key, value === undefined ? "" : text(value), (typed) => ({ op: "set", path: [kind, name, key], value: typed }), ABOUT[key]);
-    }
+  private values(kind: string, name: string, written: any, type = ""): void {
+    const has = written ?? {}, keys = [...new Set([...Object.keys(has), ...(MORE[kind] ?? []).filter((k) => !/inertia|center/.test(k) || "mass" in has || "weight" in has)])].filter((k) => !DRAWN.includes(k));
+    const line = (key: string, value: unknown, about = ABOUT[key]): HTMLInputElement =>
+      this.field(key, value === undefined ? "" : text(value), (typed) => ({ op: "set", path: [kind, name, key], value: typed }), about);
+    for (const key of keys) line(key, has[key]);
+    const more = html("select", this.el, { "aria-label": `another value of ${name}` });
+    html("option", more, { value: "" }, "another value …");
+    this.keys ??= this.socket.send({ keys: true }).then((a) => a.keys);
+    void this.keys.then((all) => {
+      const about = all[kind]?.[type] ?? all[kind]?.[""] ?? {};
+      for (const key of Object.keys(about)) if (!keys.includes(key)) html("option", more, { value: key, title: about[key] }, key.replaceAll("_", " "));
+      more.addEventListener("change", () => {
+        const input = line(more.value, undefined, about[more.value]);
+        more.before(input.parentElement!);
+        more.selectedOptions[0].remove();
+        more.value = "";
+        input.focus();
+      });
+    });
   }
-  private field(label: string, value: string, asked: (typed: string) => Record<string, unknown>, about = "", then?: (typed: string) => void): void {
+  private field(label: string, value: string, asked: (typed: string) => Record<string, unknown>, about = "", then?: (typed: string) => void): HTMLInputElement {
     const line = html("label", this.el, { title: about }), input = html("input", line, { value, placeholder: about, "aria-label": label, spellcheck: "false" });
-    line.prepend(html("span", line, {}, label.replace("_", " ")));
+    line.prepend(html("span", line, {}, label.replaceAll("_", " ")));
     const said = html("em", line, { class: "refused" });
     const give = async (): Promise<void> => {
       if (input.value === value) return;
@@ -107,6 +129,7 @@ export class Inspector {
       if (e.key === "Escape") [input.value = value, input.blur()];
       if (e.key === "Enter") input.blur();
     });
+    return input;
   }
   private button(said: string, asked: Record<string, unknown>): void {
     html("button", this.el, { type: "button" }, said).addEventListener("click", () => void this.socket.gesture(asked));

@@ -15,7 +15,7 @@ const root = document.getElementById("studio")!;
 html("style", document.head).textContent = style;
 const bar = html("header", root), banner = html("div", root, { class: "banners", role: "status" }), main = html("main", root);
 const rail = html("nav", main, { "aria-label": "tools" }), left = html("section", main, { class: "left" }), right = html("section", main, { class: "right" });
-const paper = html("div", left, { class: "paper" }), foot = html("div", left, { class: "foot" }), verdict = html("p", foot, { class: "verdict", role: "status" }), hint = html("p", foot, { class: "hint" });
+const paper = html("div", left, { class: "paper" }), hint = html("p", paper, { class: "hint", role: "status" }), foot = html("div", left, { class: "foot" }), verdict = html("p", foot, { class: "verdict", role: "status" });
 const tabs = html("div", right, { class: "tabs", role: "tablist" }), panes = new Map<string, HTMLElement>();
 
 let state: State | null = null, picked: Picked | null = null, page: Page | null = null, mounted = false, fitted = false;
@@ -24,7 +24,7 @@ let said = 0;
 const socket = new Socket({ state: update, forces, refused: say, ended });
 const canvas = new Canvas(paper);
 make(canvas.svg, "defs").innerHTML = ["driven", "acting"].map((id) => `<marker id="${id}" class="${id}" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="5" markerHeight="5" orient="auto-start-reverse"><path d="M0 0L10 5L0 10Z"/></marker>`).join("");
-const hand = new Hand(canvas, socket, { drawing, pick, picked: () => picked, said: (text) => (hint.textContent = text), again: draw, tool: chosen, posed: (d) => d });
+const hand = new Hand(canvas, socket, { drawing, pick, picked: () => picked, said: (text) => (hint.textContent = text), again: draw, tool: chosen });
 const pane = (name: string): HTMLElement => {
   const el = html("div", right, { class: `pane ${name.toLowerCase()}`, role: "tabpanel", "aria-label": name });
   html("button", tabs, { type: "button", role: "tab", "data-pane": name }, name).addEventListener("click", () => open(name));
@@ -57,7 +57,7 @@ for (const tool of TOOLS) {
   const b = button(rail, "", `${tool.title} (${tool.key.toUpperCase()})`, () => hand.choose(tool));
   b.dataset.tool = tool.name;
   b.setAttribute("aria-label", tool.name);
-  b.innerHTML = `<span class="${tool.name}">${tool.name}</span><kbd>${tool.key.toUpperCase()}</kbd>`;
+  b.innerHTML = `<span class="${tool.name}">${tool.name.replace("_", " ")}</span><kbd>${tool.key.toUpperCase()}</kbd>`;
 }
 button(rail, "fit", "Show everything (0)", () => (canvas.window.fit(drawing()), draw()));
 chosen(TOOLS[0]);
@@ -147,10 +147,11 @@ async function forces(a: Record<string, any>): Promise<void> {
     mounted = true;
     page = await mount(forcePane, a.data, { edited: (values) => void edited(values) });
   }
+  shownHash = a.hash;
   numbers();
 }
-/** Hash of the text of which the verdict speaks. */
-let solvedHash = "", last = "{}";
+/** Hash of the text of which the verdict speaks, and of that of which the forces are shown. */
+let solvedHash = "", shownHash = "", last = "{}";
 /** Numbers that were changed in the page go into the text. */
 async function edited(values: Record<string, number>): Promise<void> {
   const text = JSON.stringify(values);
@@ -159,13 +160,13 @@ async function edited(values: Record<string, number>): Promise<void> {
   await socket.gesture({ op: "changes", values });
   last = "{}";
 }
-/** The efforts of the drives at the position shown. */
+/** The efforts of the drives where the file begins, as it is drawn. */
 function numbers(): void {
   if (!page || page.sketch) return;
-  const { kernel, data } = page, efforts = data.views.table.filter((row) => row.name.startsWith("effort"));
-  const of = efforts.map((row) => `${row.name.replace(/[_{}]/g, "")} ${figures(kernel.rows[row.rows[0] * kernel.row] / data.units[row.kind].size, 5)} ${data.units[row.kind].unit}`);
-  const solved = kernel.good[0] === 1;
-  verdictIs(solved ? `${of.join("; ") || "In equilibrium"}${of.length ? " at the first position" : ""}. All forces: tab Forces.` : "No forces at the first position: see Forces", !solved);
+  const { kernel, data } = page, at = Math.round(data.start), efforts = data.views.table.filter((row) => row.name.startsWith("effort"));
+  const of = efforts.map((row) => `${row.name.replace(/[_{}]/g, "")} ${figures(kernel.rows[row.rows[0] * kernel.row + at] / data.units[row.kind].size, 5)} ${data.units[row.kind].unit}`);
+  const solved = kernel.good[at] === 1;
+  verdictIs(solved ? `${of.join("; ") || "In equilibrium"}${of.length ? " as drawn" : ""}. All forces: tab Forces.` : "No forces as drawn: see Forces", !solved);
 }
 function offers(missing: string): void {
   const d = drawing();
@@ -233,4 +234,4 @@ async function ticks(el: HTMLElement): Promise<void> {
   for (const row of a.rows ?? []) html("p", el, { class: row.ok ? "ok" : "off", title: row.why }, `${row.ok ? "✓" : "✗"} ${row.quantity}: printed ${row.published}, computed ${row.computed}`);
   if (a.error && /answers/.test(state?.text ?? "")) html("p", el, { class: "off" }, a.error);
 }
-Object.assign(window, { studio: { state: () => state, page: () => page, solved: () => solvedHash, pick, canvas, hand } });
+Object.assign(window, { studio: { state: () => state, page: () => page, solved: () => solvedHash, shown: () => shownHash, pick, canvas, hand } });

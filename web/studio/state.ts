@@ -5,7 +5,7 @@ export interface End { link: string; point: string }
 export interface Where { at: Point; link?: string; point?: string }
 export interface DrawnLink { name: string; points: Record<string, Point>; pose: [number, number, number]; bar?: boolean; center?: Point; written: any }
 export interface DrawnJoint {
-  name: string; type: string; links: [string, string]; at: [string, string]; p: Point; q: Point; freedoms: string[];
+  name: string; type: string; links: [string, string]; at: [string, string]; p: Point; q: Point; freedoms: string[]; written: any;
   direction?: number; radii?: [number, number]; radius?: number; here?: Record<string, number>;
 }
 export interface DrawnLoad { name: string; type: string; written: any; on?: string; p?: Point; vector?: Point | null; between?: [Point, Point]; links?: [string, string]; joint?: string }

@@ -37,7 +37,7 @@ from dalembert.pages.rows import NodeRows
 from dalembert.pages.saved_text import template
 from dalembert.pages.sketch_data import page_pose, pose_result, posed_rows, sketch_data
 from dalembert.pages.space_boards import SpaceBoards
-from dalembert.pages.sweep import with_cycle
+from dalembert.pages.sweep import file_place, with_cycle
 from dalembert.pages.symbolic_result import symbolic_actions, symbolic_result
 from dalembert.views.formats.svg import rule
 from dalembert.views.formats.themes import THEMES
@@ -72,7 +72,7 @@ def page_data(m: Mechanism, static: bool = False, quick: bool = False) -> Tree:
     static: leave inertia out. quick: without the derivatives that show what lowers a peak, and without the text to be
     saved, which a studio has itself: half of the work.
     """
-    m = with_cycle(m)
+    file, m = m, with_cycle(m)
     inertia = m.has_speeds and not static
     k = _kernel(m, inertia)
     r = symbolic_result(k)
@@ -104,6 +104,7 @@ def page_data(m: Mechanism, static: bool = False, quick: bool = False) -> Tree:
         "reading": reading() | {"signs": sign_sentences()},
         "template": [] if quick else template(m, k),
         "drives": drives,
+        "start": file_place(file, m),
         "handles": dragged,
         "views": views,
         "statuses": _statuses(),

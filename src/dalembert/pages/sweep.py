@@ -44,6 +44,15 @@ def with_cycle(m: Mechanism) -> Mechanism:
     return _over(m, name, values[low], values[high], high - low + 1) if high > low else m
 
 
+def file_place(m: Mechanism, cycle: Mechanism) -> float:
+    """The place of the file's own position in the cycle: its number, the first being 0."""
+    for name, d in m.drives.items():
+        over = cycle.drives[name].position
+        if isinstance(d.position, float) and isinstance(over, Range):
+            return (d.position - over.start) / (over.stop - over.start) * (over.count - 1)
+    return 0.0
+
+
 def _over(m: Mechanism, drive: str, low: float, high: float, count: int) -> Mechanism:
     return m.with_values({f"drives.{drive}.position": Range(float(low), float(high), count)})
 

@@ -35,7 +35,7 @@ def drawing(m: Mechanism, sketch: SketchPose | None, written: Tree, hidden: str 
         "closed": sketch.closed if sketch else True,
         "links": [_link(m, name, placed, place, written) for name in m.links if name != hidden],
         "joints": [
-            _joint(m, name, placed, place, sketch)
+            _joint(m, name, placed, place, sketch) | {"written": _of(written, "joints", name)}
             for name, joint in m.joints.items()
             if len(joint.links) == 2
         ],

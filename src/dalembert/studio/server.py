@@ -124,7 +124,7 @@ class StudioServer:
             await self._send(ws, self.session.state())
             return
         await self._send(ws, {"n": n, **answer})
-        if isinstance(message, dict) and not {"pull", "problems"} & set(message):
+        if isinstance(message, dict) and not {"pull", "problems", "keys"} & set(message):
             changed = before != (self.session.document.text, self.session.static, self.session.friction)
             await self._tell_all(changed)
 

@@ -9,6 +9,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.studio.document import EMPTY, Document
 from dalembert.studio.editing.gestures import gesture
+from dalembert.studio.part_keys import part_keys
 from dalembert.studio.problems import problem_text, problems
 from dalembert.studio.solver import Question
 from dalembert.studio.stored_file import StoredFile
@@ -168,6 +169,9 @@ class Session:
     def _problems(self, *_: Any) -> Tree:
         return {"problems": problems()}
 
+    def _keys(self, *_: Any) -> Tree:
+        return {"keys": part_keys()}
+
 
 def _driven(sketch: Any) -> list[tuple[str, tuple[str, str]]]:
     c = sketch.compiled
@@ -189,5 +193,6 @@ _DOES: dict[str, Any] = {
     "options": Session._options,
     "open": Session._open,
     "problems": Session._problems,
+    "keys": Session._keys,
 }
 """Key of a message -> what it does."""

@@ -1447,7 +1447,7 @@ var ze = [
 	2,
 	4
 ], Ve = () => ({
-	t: 0,
+	t: NaN,
 	shown: {},
 	window: null,
 	camera: [-Math.PI / 3, .45],
@@ -2079,8 +2079,8 @@ function Et(e, t, n, r) {
 	Ue(n, i);
 	for (let [e, t] of i) e !== "t" && !e.startsWith("~") && (a[e] = t.trim() ? Number(t) : NaN);
 	t.change(a);
-	let o = Number(i.get("t") ?? 0);
-	n.t = Number.isFinite(o) ? Math.min(Math.max(o, 0), e.end) : 0;
+	let o = Number(i.get("t") ?? NaN);
+	Number.isFinite(o) && (n.t = Math.min(Math.max(o, 0), e.end));
 }
 function Dt(e, t) {
 	let n = [...t.values, ...t.motion.assembly()], r = e.numbers.map((e, n) => e.value !== t.values[n]), i = r.includes(!0);
@@ -3617,7 +3617,7 @@ async function Mn(e, t, r, a) {
 	let o = await Zt.create(t), s = [], c = new Ht(t, o);
 	a.changes && c.change(a.changes), a.address && Et(o, c, r, location.hash);
 	let u = a.pose && o.motion.take(a.pose);
-	u != null && (r.t = u), r.t = Math.min(Math.max(r.t, 0), o.end);
+	u != null && (r.t = u), r.t = Math.min(Math.max(Number.isFinite(r.t) ? r.t : t.start, 0), o.end);
 	let d = 0, f = !0, p = 0;
 	o.cycle();
 	let m = new Ct(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({

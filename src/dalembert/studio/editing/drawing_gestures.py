@@ -8,6 +8,7 @@ from typing import Literal
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
 from dalembert.studio.editing.draft import Draft, End, Point
+from dalembert.studio.editing.entries import remove
 from dalembert.studio.editing.gesture import Gesture, Place, Text, Where
 
 
@@ -73,16 +74,24 @@ class GroundPoint(Gesture):
 
 
 class LinkPoint(Gesture):
-    """One more point of a link."""
+    """One more point of a link: at a place, or with typed coordinates in the link's axes."""
 
     op: Literal["point"]
     link: Text
     at: Place
+    x: Text = ""
+    y: Text = ""
 
     def apply(self, d: Draft) -> None:
         if self.link not in d.entries("links"):
             raise ModelError(f"links has no {self.link!r}", "choose a link of the drawing")
-        d.add_point(self.link, d.letter(), snapped(d, self.at))
+        name = d.letter()
+        d.add_point(self.link, name, snapped(d, self.at))
+        typed = {k: text for k, text in enumerate((self.x, self.y)) if text}
+        if typed:
+            drawn = d.vector(d.points[self.link, name])
+            value = [d.number(d.size(typed[k], "length")) if k in typed else drawn[k] for k in (0, 1)]
+            d.splice({("links", self.link, "points", name): value})
 
 
 class Merge(Gesture):
@@ -102,12 +111,13 @@ class Merge(Gesture):
 
 
 class Slide(Gesture):
-    """A point guided along a line: by a block that is pinned to it (``slider``), or as a pin in a slot (``slot``).
+    """A point guided along a line: by a block that is pinned to it (``slider``), as a pin in a slot (``slot``), or with
+    its whole link, which then cannot turn in the guide (``slide``).
 
     guide: the link with the line, which lies along ``direction``, in ground axes, or through two points of the link.
     """
 
-    op: Literal["slider", "slot"]
+    op: Literal["slider", "slot", "slide"]
     where: Where
     guide: Text = GROUND
     direction: float = 0.0
@@ -130,7 +140,7 @@ class Slide(Gesture):
         if path is None:
             path = d.letter()
             d.add_point(self.guide, path, at)
-        keys = (
+        keys: dict[str, object] = (
             {"direction": d.angle_text(direction)}
             if abs(math.remainder(direction, 2 * math.pi)) > 1e-9
             else {}
@@ -142,12 +152,15 @@ class Slide(Gesture):
                 {"type": "slot", "links": [self.guide, end[0]], "at": [path, end[1]], **keys},
             )
             return
-        block = d.numbered("links", "block", 2)
-        d.put("links", block, {"points": {end[1]: [0, 0]}})
-        d.points[block, end[1]] = (0.0, 0.0)
-        angle = d.placed.get(self.guide, (0.0, 0.0, 0.0))[2] + direction
-        d.placed[block] = (*at, angle)
-        pin(d, end, (block, end[1]))
+        block, angle = end[0], d.placed.get(self.guide, (0.0, 0.0, 0.0))[2] + direction
+        if self.op == "slider":
+            block = d.numbered("links", "block", 2)
+            d.put("links", block, {"points": {end[1]: [0, 0]}})
+            d.points[block, end[1]] = (0.0, 0.0)
+            d.placed[block] = (*at, angle)
+            pin(d, end, (block, end[1]))
+        else:
+            keys |= turned(d, end[0], angle)
         name = d.letter() if path in d.entries("joints") or path in d.entries("drives") else path
         d.put("joints", name, {"type": "slider", "links": [self.guide, block], "at": [path, end[1]], **keys})
         if rooted(d, end[0]):
@@ -186,6 +199,62 @@ class Wheels(Gesture):
         d.put(
             "joints", d.letter(), {"type": "gear", "links": [a[0], b[0]], "at": [a[1], b[1]], "radii": radii}
         )
+
+
+class Join(Gesture):
+    """Points of two links joined by something that needs no more than the points; its sizes are as drawn.
+
+    ``weld``: rigidly; a pin between the two links becomes the weld. ``circular_slot``: from the pin to the slot's
+    centre. ``rolling``: from the axis of a wheel to the point of its track below it. ``belt``: round wheels about both
+    points, each a third of their distance, with 100 N in each strand. ``cam``: from its axis to the roller of its
+    follower, which it lifts by a fifth of their distance.
+    """
+
+    op: Literal["weld", "circular_slot", "rolling", "belt", "cam"]
+    first: Where
+    second: Where
+
+    def apply(self, d: Draft) -> None:
+        a, b = self.first.end, self.second.end
+        if a is None or b is None or a[0] == b[0]:
+            raise ModelError("points of two links are joined", "drag from one point to the other")
+        (x, y), (u, v) = d.world(a), d.world(b)
+        apart, of, what = math.dist((x, y), (u, v)), (a, b), self.op.replace("_", " ")
+        keys: dict[str, object]
+        if self.op == "weld":
+            self._unpin(d, a, b)
+            keys = turned(d, b[0], d.placed.get(a[0], (0.0, 0.0, 0.0))[2])
+        elif not apart > 0:
+            raise ModelError(f"the points of a {what} are apart", "drag between two places")
+        elif self.op == "belt":
+            keys = {"radii": [d.number(apart / 3, "length", 4)] * 2, "tension": "100 N"}
+        elif self.op == "cam":
+            lift, half = (
+                d.number(apart / 5, "length", 4),
+                {"by": "cycloidal", "in": d.number(math.radians(120), "angle")},
+            )
+            segments = [half | {"to": lift}, half | {"to": 0}, {"dwell": "rest"}]
+            profile = {"prime": d.number(apart, "length", 8), "segments": segments}
+            keys = {"follower": {"roller": d.number(apart / 5, "length", 4)}, "profile": profile}
+        else:
+            of, keys = (b, a), {"radius": d.number(apart, "length", 8)}
+            if self.op == "rolling":
+                line = math.atan2(y - v, x - u) - math.pi / 2 - d.placed.get(b[0], (0.0, 0.0, 0.0))[2]
+                keys |= {"direction": d.angle_text(line)}
+        at = {"at": [of[0][1], of[1][1]]}
+        d.put("joints", d.letter(), {"type": self.op, "links": [of[0][0], of[1][0]], **at, **keys})
+
+    @staticmethod
+    def _unpin(d: Draft, a: End, b: End) -> None:
+        for name, joint in list(d.entries("joints").items()):
+            if joint.get("type") == "pin" and set(joint.get("links") or ()) == {a[0], b[0]}:
+                d.text = remove(d.text, d.form, d.tree, "joints", name)
+
+
+def turned(d: Draft, link: str, angle: float) -> dict[str, object]:
+    """The key ``angle`` of a joint that holds a link's axes at an angle: from a direction to the link's axes."""
+    off = math.remainder(d.placed.get(link, (0.0, 0.0, 0.0))[2] - angle, 2 * math.pi)
+    return {"angle": d.angle_text(off)} if abs(off) > 1e-9 else {}
 
 
 def snapped(d: Draft, at: Point) -> Point:

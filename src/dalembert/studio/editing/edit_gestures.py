@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -13,6 +14,7 @@ from dalembert.model.files.model_files import loads
 from dalembert.model.files.rewriting import text_of
 from dalembert.model.files.source import Path
 from dalembert.model.files.splicing import REMOVED
+from dalembert.model.files.yaml_text import read
 from dalembert.studio.editing.draft import Draft, End, Point
 from dalembert.studio.editing.drawing_gestures import snapped
 from dalembert.studio.editing.entries import remove
@@ -70,7 +72,7 @@ class SetValue(Gesture):
 
     op: Literal["set"]
     path: Annotated[tuple[Text | int, ...], Field(min_length=1, max_length=8)]
-    value: Text | float | bool | None
+    value: Annotated[str, Field(max_length=4000)] | float | bool | None
 
     def apply(self, d: Draft) -> None:
         value: object = self.value
@@ -259,16 +261,21 @@ def is_number(x: object) -> bool:
 
 
 def number_or_text(text: str) -> object:
-    """A typed value as a file says it: numbers bare, `1,5` as 1.5, vectors as lists."""
-    import re
+    """A typed value as a file says it: numbers bare, `1,5` as 1.5, vectors as lists, `{...}` as in the file.
 
-    text = re.sub(r"(?<=\d),(?=\d)", ".", text.strip())
+    >>> number_or_text("[1,5, 2 mm]"), number_or_text("{from: 0, to: 90, count: 10}")
+    ([1.5, '2 mm'], {'from': 0, 'to': 90, 'count': 10})
+    """
+    typed = text.strip()
+    text = re.sub(r"(?<=\d),(?=\d)", ".", typed)
     parts = re.fullmatch(r"\[\s*([^\[\],;]+)[,;]\s*([^\[\],;]+)\]", text)
     if parts:
         return [number_or_text(part) for part in parts.groups()]
+    if typed[:1] in ("{", "["):
+        return read(typed)[0]
     for kind in (int, float):
         try:
             return kind(text)
         except ValueError:
             continue
-    return text
+    return {"true": True, "false": False}.get(text, text)

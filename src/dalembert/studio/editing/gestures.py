@@ -7,7 +7,15 @@ from typing import Annotated
 from pydantic import Field, TypeAdapter, ValidationError
 
 from dalembert.errors import ModelError
-from dalembert.studio.editing.drawing_gestures import DrawnLink, GroundPoint, LinkPoint, Merge, Slide, Wheels
+from dalembert.studio.editing.drawing_gestures import (
+    DrawnLink,
+    GroundPoint,
+    Join,
+    LinkPoint,
+    Merge,
+    Slide,
+    Wheels,
+)
 from dalembert.studio.editing.edit_gestures import (
     Delete,
     Length,
@@ -27,6 +35,7 @@ AnyGesture = Annotated[
     | Merge
     | Slide
     | Wheels
+    | Join
     | DriveJoint
     | PointForce
     | LinkCouple
