@@ -203,3 +203,22 @@ def test_a_lifted_pair_keeps_its_efficiency() -> None:
     flat = da.mechanism({**PAIR, "joints": {**PAIR["joints"], "G": gear}, "loads": loads})
     assert da.statics(da.lifted(flat)).effort("A") == pytest.approx(da.statics(flat).effort("A"), rel=1e-9)
     assert da.statics(flat).effort("A")[0] == pytest.approx(-5 * 0.9, rel=1e-12)  # the load drives
+
+
+@pytest.mark.parametrize("lost", [{"efficiency": 0.9}, {"friction": {"coefficient": 0.1, "arm": 4}}])
+def test_worked_solutions_have_the_couple_of_lossy_teeth(lost: dict[str, Any]) -> None:
+    gear = {"type": "gear", "links": ["p", "w"], "at": ["A", "B"], "radii": [20, 40], **lost}
+    r = da.statics(in_space(gear, {"T": {"type": "couple", "on": "w", "value": 10}}))
+    couple = float(r.friction_moment("G")[0, 2])
+    said = str(da.report(r))
+    assert f"M_f23 = (0, 0, {couple:.4f}) N·m" in said
+    assert f"= {abs(couple):.4f} N·m" in said
+
+
+def test_worked_solutions_have_the_friction_of_a_worm() -> None:
+    r = da.statics(da.worm_gear())
+    force, said = r.friction_force("G")[0], str(da.report(r))
+    assert (
+        f"|F_f23| = μ_G S_G = 0.05 · {np.linalg.norm(force) / 0.05:.4g} = {np.linalg.norm(force):.4g} N"
+        in said
+    )

@@ -199,3 +199,8 @@ def test_every_term_of_a_loop_means_its_figure(name: str) -> None:
                 assert printed == pytest.approx(means, rel=1e-3, abs=1e-4 * max(map(abs, means)))
                 compared += len(means)
     assert compared >= 18
+
+
+def test_what_has_no_worked_solution_is_refused() -> None:
+    with pytest.raises(da.ModelError, match=r"no worked solution of dict .*give a result of da\.solve"):
+        da.report({"crank": 1})  # type: ignore[arg-type]

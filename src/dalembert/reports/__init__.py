@@ -71,7 +71,8 @@ def report(
     design: bool = False,
 ) -> Report:
     """The worked solution of one position of a result, of a force system of `da.wrench`, or of any other answer
-    that has one (`da.shaking`, `da.flywheel`, `da.optimize`, `da.study`), with ``notation`` alone.
+    that has one (`da.shaking`, `da.flywheel`, `da.optimize`, `da.study`), with ``notation`` alone; ModelError of
+    anything else.
 
     ``methods``: some of `steps`, `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
     ``about``: a joint, or a point (m), to take moments about where this is possible; an unknown one is a ModelError.
@@ -81,7 +82,10 @@ def report(
     ``design``: the design report of the machine instead, with a verdict and its margin for all that the file has data
     for; ``at`` is then the position that is drawn (default: that of the largest effort).
     """
+    import reprlib
+
     from dalembert.analysis.result.result import Result
+    from dalembert.errors import ModelError
     from dalembert.wrench import System
 
     if isinstance(r, System):
@@ -89,6 +93,11 @@ def report(
 
         return Report(force_system_sheet(r, r.about if at is None else at, notation))
     if not isinstance(r, Result):
+        if not hasattr(r, "sheet"):
+            raise ModelError(
+                f"there is no worked solution of {type(r).__name__} {reprlib.repr(r)}",
+                "give a result of da.solve, or another answer that has .report()",
+            )
         return Report(r.sheet(notation))
     if design:
         from dalembert.reports.design.design_report import design_sheet

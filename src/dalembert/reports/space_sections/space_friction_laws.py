@@ -26,6 +26,9 @@ LAWS = {
     "spherical": "the couple is the radius times the force S, against the relative angular velocity",
     "screw": "the coefficient times the thread's normal force, and times the force across the axis, lies along the "
     "helix at the mean radius",
+    "gear": "the coefficient times the normal force of the teeth lies against their sliding; teeth that roll on each "
+    "other at the pitch point rub at an arm from it, or lose a share of their tangential force: a couple between the "
+    "wheels",
 }
 """Law of the friction of a joint, by its type."""
 
@@ -173,9 +176,7 @@ class _Joint:
     def _spherical(self) -> list[Working]:
         contact = self.contacts[0]
         couple = self.c.r.friction_moment(self.joint)[self.c.k]
-        least = PART * float(np.abs(couple).max())
         size = self._text("moment", float(np.linalg.norm(couple)))
-        numbers = ", ".join(self.c.shown.number("moment", float(x), least) for x in couple)
         return [
             self._radius(contact),
             self._bearing(contact, 0, 1, "xyz"),
@@ -186,7 +187,7 @@ class _Joint:
                 ),
                 size,
             ),
-            Working(self.couple_sign, "", f'({numbers}) "{self.c.shown.unit("moment")}, ground axes"'),
+            self._vector(self.couple_sign, "moment", couple),
         ]
 
     def _screw(self) -> list[Working]:
@@ -234,6 +235,34 @@ class _Joint:
                 self._text("moment", couple),
             ),
         ]
+
+    def _gear(self) -> list[Working]:
+        """The teeth's force, the friction against their sliding, the couple where they roll or have an efficiency."""
+        name, teeth, rubs = self.joint, self.contacts[-1], self.described.friction is not None
+        letter, mu = (
+            (f"S_{{{name}}}", f"mu_{{{name}}}") if rubs else (f"F_{{t,{name}}}", f"(1 − eta_{{{name}}})")
+        )
+        lost, size = self._mu(teeth), self._number("force", teeth.bearing)
+        out = [Working(letter, "", self._text("force", teeth.bearing))]
+        force, couple = self._law()
+        if self.contacts[0].kind == "mesh" and rubs and self.contacts[0].strength:
+            amount = self._text("force", abs(self.contacts[0].amount))
+            out.append(Working(f"|{self.force_sign}| = {mu} {letter}", f"{lost} cdot {size}", amount))
+            out.append(self._vector(self.force_sign, "force", force))
+        if teeth.strength:
+            arm = self._number("length", teeth.strength / teeth.coefficient)
+            numbers, amount = f"{lost} cdot {arm} cdot {size}", self._text("moment", abs(teeth.amount))
+            out.append(
+                Working(f"|{self.couple_sign}| = {mu} e_{{{name}}} {letter}", self._couple(numbers), amount)
+            )
+            out.append(self._vector(self.couple_sign, "moment", couple))
+        return out
+
+    def _vector(self, sign: str, kind: str, v: Array) -> Working:
+        """A force or couple by its components in ground axes."""
+        least = PART * float(np.abs(v).max())
+        numbers = ", ".join(self.c.shown.number(kind, float(x), least) for x in v)
+        return Working(sign, "", f'({numbers}) "{self.c.shown.unit(kind)}, ground axes"')
 
     def _axis(self) -> Array:
         return np.asarray(self.c.r.joint_axes(self.joint)[self.c.k, 0])
