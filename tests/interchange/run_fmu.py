@@ -35,8 +35,17 @@ def run(folder: str, library: str, version: str, rows: list[dict[str, float]]) -
     unit.terminate()
     unit.freeInstance()
     units = {v.name: v.unit for v in described.modelVariables}
+    factors = {d.name: d.factor for unit in described.unitDefinitions for d in unit.displayUnits}
+    shown = {v.name: (v.displayUnit, factors.get(v.displayUnit)) for v in described.modelVariables}
     alone = not any(name.split(".")[0] == "dalembert" for name in sys.modules)
-    return {"outputs": outputs, "answers": answers, "status": states, "units": units, "alone": alone}
+    return {
+        "outputs": outputs,
+        "answers": answers,
+        "status": states,
+        "units": units,
+        "shown": shown,
+        "alone": alone,
+    }
 
 
 if __name__ == "__main__":

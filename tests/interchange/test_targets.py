@@ -17,6 +17,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
+from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.interchange.file_formats import foreign_bytes
 from dalembert.interchange.targets.source_archive import sources_bytes
@@ -94,6 +95,10 @@ def test_a_unit_gives_the_numbers_of_dynamics_at_the_same_instant(
         assert len(right.keys() & given.keys()) > 8
     assert found["units"][f"effort.{drive}"] == "N*m"
     assert found["units"][f"drive.{drive}.position"] == "rad"
+    if name == "four_bar":
+        unit, factor = found["shown"]["effort.O2"]
+        assert (unit, 27.482157605 * factor) == ("lbf*in", pytest.approx(243.2375907612))
+        assert found["shown"]["drive.O2.position"] == ["deg", pytest.approx(180 / math.pi)]
 
 
 @pytest.mark.long
@@ -117,6 +122,20 @@ def test_a_slide_is_a_length_and_its_effort_a_force() -> None:
     assert '<Real unit="N"/>' in text[effort : effort + 250]
     assert lost == ["the motion: position, speed and acceleration of the drives are inputs"]
     assert content == foreign_bytes(da.load(examples()["bucket"]), "x.fmu")[0]
+
+
+@pytest.mark.long
+def test_the_version_is_chosen_on_the_command_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for version, argument in (("2.0", []), ("3.0", ["--fmi", "3.0"])):
+        out = tmp_path / f"{version}.fmu"
+        assert main(["convert", str(examples()["four_bar"]), str(out), *argument]) == 0
+        with zipfile.ZipFile(out) as archive:
+            assert f'fmiVersion="{version}"' in archive.read("modelDescription.xml").decode()
+    assert main(["convert", str(examples()["four_bar"]), str(tmp_path / "x.sdf"), "--fmi", "3.0"]) == 2
+    assert "fmi 3.0 is for a file .fmu, not " in capsys.readouterr().err
+    assert not (tmp_path / "x.sdf").exists()
 
 
 @pytest.mark.long

@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from dalembert.cli.options import Force, ModelFile, NewFile, Seen, Set, Theme, flag, with_help
 from dalembert.cli.options import output as written
@@ -130,6 +130,7 @@ def convert(
     *,
     output: Annotated[Path | None, written("File to write; its extension selects the format.")] = None,
     set: Set = None,  # noqa: A002
+    fmi: Annotated[Literal["2.0", "3.0"] | None, with_help("Version of an .fmu file (default: 2.0).")] = None,
     strict: Annotated[bool, flag("Write nothing where something would not be kept.")] = False,
     force: Force = False,
 ) -> int:
@@ -143,7 +144,7 @@ def convert(
     assert out is not None
     check_new(out, force)
     change = (lambda m: with_settings(m, set)) if set else None
-    lost = convert_file(file, out, force, strict, change)
+    lost = convert_file(file, out, force, strict, change, fmi or "")
     for note in lost:
         print(f"not kept: {note}", file=sys.stderr)
     print(f"Written: {out}")

@@ -11,6 +11,7 @@ import os
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -72,7 +73,7 @@ FILE_FORMATS: dict[str, FileFormat] = {
     ".pylinkage.json": FileFormat(
         "pylinkage", "sketches.pylinkage_files:read_pylinkage", "sketches.pylinkage_writer:write_pylinkage"
     ),
-    ".fmu": FileFormat("FMI 2.0", "", "targets.source_fmu:write_fmu"),
+    ".fmu": FileFormat("FMI", "", "targets.source_fmu:write_fmu"),
     ".zip": FileFormat("C and WebAssembly", "", "targets.source_archive:write_sources"),
 }
 """Suffix -> format."""
@@ -154,10 +155,15 @@ def _warn(path: str | os.PathLike[str], lost: list[str]) -> None:
         warnings.warn(f"{os.fspath(path)}: not kept: {note}", NotKept, stacklevel=4)
 
 
-def foreign_bytes(m: Mechanism, path: str | os.PathLike[str]) -> tuple[bytes, list[str]]:
-    """Content of another program's file by the suffix of its name, and what of the mechanism is not in it."""
+def foreign_bytes(m: Mechanism, path: str | os.PathLike[str], version: str = "") -> tuple[bytes, list[str]]:
+    """Content of another program's file by the suffix of its name, and what of the mechanism is not in it.
+
+    version: of the Functional Mock-up Interface, "2.0" (default) or "3.0".
+    """
     form = _form(path, "writer")
     write = form.function(form.writer)
+    if version:
+        write = partial(write, version=version)
     if form.writer.startswith(("robots", "assemblies")):
         graph = graph_of(m)
         content = write(graph)

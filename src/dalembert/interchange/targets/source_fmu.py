@@ -22,7 +22,7 @@ from dalembert.interchange.targets.target_variables import (
     target_function,
 )
 from dalembert.interchange.xml_text import XmlText, digits
-from dalembert.units import KINDS
+from dalembert.units import KINDS, Units
 
 if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
@@ -37,9 +37,11 @@ STATUS = (
 )
 
 
-def write_fmu(m: Mechanism) -> tuple[bytes, list[str]]:
-    """A unit of FMI 2.0 whose inputs are position, speed and acceleration of the drives."""
-    return fmu_bytes(kernel_of(m)), ["the motion: position, speed and acceleration of the drives are inputs"]
+def write_fmu(m: Mechanism, version: str = VERSIONS[0]) -> tuple[bytes, list[str]]:
+    """A unit whose inputs are position, speed and acceleration of the drives."""
+    return fmu_bytes(kernel_of(m), version), [
+        "the motion: position, speed and acceleration of the drives are inputs"
+    ]
 
 
 def fmu_bytes(k: Kernel, version: str = "2.0") -> bytes:
@@ -114,16 +116,27 @@ def _is_number(f: TargetFunction, v: TargetVariable) -> bool:
     return v in f.parameters or v.place < 0
 
 
-def _units(text: XmlText, f: TargetFunction) -> None:
-    kinds = {v.kind for v in (*f.inputs, *f.parameters, *f.outputs)}
+def _units(text: XmlText, f: TargetFunction, units: Units) -> None:
+    """SI units with their dimensions, and the units of the file as those to display."""
+    kinds = sorted({v.kind for v in (*f.inputs, *f.parameters, *f.outputs)})
     text.begin("UnitDefinitions")
     for unit in sorted({KINDS[kind].si for kind in kinds} - {""}):
+        shown = {units.text(kind): 1 / units.unit(kind).si(1.0) for kind in kinds if KINDS[kind].si == unit}
         dimension = next(KINDS[kind].dimension for kind in KINDS if KINDS[kind].si == unit)
         exponents = dict(zip(("m", "kg", "s", "rad"), dimension, strict=True))
         text.begin("Unit", name=unit)
         text.add("BaseUnit", **{key: int(value) for key, value in exponents.items() if value})
+        for name, factor in shown.items():
+            if name != unit:
+                text.add("DisplayUnit", name=name, factor=digits(factor))
         text.end()
     text.end()
+
+
+def _shown(variable: TargetVariable, units: Units) -> str | None:
+    """The unit of the file, where it is not that of the variable."""
+    shown = units.text(variable.kind)
+    return shown if variable.unit and shown != variable.unit else None
 
 
 def _fmi2(k: Kernel, f: TargetFunction, name: str, token: str) -> str:
@@ -147,7 +160,7 @@ def _fmi2(k: Kernel, f: TargetFunction, name: str, token: str) -> str:
         text.add("File", name="fmi2.c")
         text.end()
         text.end()
-    _units(text, f)
+    _units(text, f, k.mechanism.units)
     text.begin("LogCategories")
     text.add("Category", name="logStatus")
     text.end()
@@ -163,7 +176,8 @@ def _fmi2(k: Kernel, f: TargetFunction, name: str, token: str) -> str:
                 "ScalarVariable", **keys, causality=causality, variability=variability, initial=initial
             )
             start = None if causality == "output" else digits(variable.start)
-            text.add("Real", unit=variable.unit or None, start=start)
+            shown = _shown(variable, k.mechanism.units)
+            text.add("Real", unit=variable.unit or None, displayUnit=shown, start=start)
             text.end()
     keys = {"name": "status", "valueReference": reference + 1, "description": STATUS}
     text.begin("ScalarVariable", **keys, causality="output", variability="discrete", initial="calculated")
@@ -198,7 +212,7 @@ def _fmi3(k: Kernel, f: TargetFunction, name: str, token: str) -> str:
     text.add("ModelExchange", modelIdentifier=name, canGetAndSetFMUState="true")
     steps = {"canHandleVariableCommunicationStepSize": "true"}
     text.add("CoSimulation", modelIdentifier=name, canGetAndSetFMUState="true", **steps)
-    _units(text, f)
+    _units(text, f, k.mechanism.units)
     text.begin("LogCategories")
     text.add("Category", name="logStatus")
     text.end()
@@ -215,6 +229,7 @@ def _fmi3(k: Kernel, f: TargetFunction, name: str, token: str) -> str:
                 causality=causality,
                 variability="tunable" if causality == "parameter" else "continuous",
                 unit=variable.unit or None,
+                displayUnit=_shown(variable, k.mechanism.units),
                 start=None if causality == "output" else digits(variable.start),
                 initial="calculated" if causality == "output" else None,
             )
