@@ -251,7 +251,12 @@ def _residual(layout: Layout, sources: list[WrenchSource], w: Array) -> tuple[Ar
     largest = np.abs(w * scale).max(axis=(-2, -1), initial=0.0)
     for source in sources:
         largest = np.maximum(largest, np.abs(source.wrench * scale).max(axis=(-2, -1), initial=0.0))
-    return out / np.where(largest > 0, largest, 1.0), largest
+    return relative(out, largest), largest
+
+
+def relative(amount: Array, size: Array) -> Array:
+    """An amount over a size; of a size 0 the amount itself."""
+    return np.asarray(amount / np.where(size > 0, size, 1.0))
 
 
 def _power(
@@ -268,8 +273,7 @@ def _power(
         return np.zeros_like(largest)
     power = virtual_power(layout, moving.virtual, unknown, x, w)
     fastest = np.abs(moving.virtual / layout.wrench_scale).max(axis=(-2, -1), initial=0.0)
-    reference = largest[..., None] * fastest
-    return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))
+    return np.asarray(np.abs(relative(power, largest[..., None] * fastest)).max(axis=-1))
 
 
 def virtual_power(layout: Layout, v: Array, unknown: ConstraintRows, x: Array, w: Array) -> Array:

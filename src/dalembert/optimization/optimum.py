@@ -16,7 +16,7 @@ from dalembert.answer.answer import Drawn, Labelled, Remade, Worked
 from dalembert.answer.column import Axes, Column, Scale, UnitChoice, parts
 from dalembert.arrays import Array, Tree
 from dalembert.model import Mechanism
-from dalembert.optimization.aims import Aim, Constraint, parse_aim
+from dalembert.optimization.aims import Aim, Constraint
 from dalembert.optimization.one_by_one import Function, value_of
 from dalembert.printing import TextTable
 
@@ -78,11 +78,6 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         if not (aim.word and len(values)):
             return float(values[0]) if len(values) else np.nan
         return float(reduce_positions(aim.word, values))
-
-    def aim_text(self, text: str) -> str:
-        """An aim of the best design as text, in the unit of the file."""
-        aim = Aim("", text) if text in self.functions else parse_aim(text)
-        return Printed(self.mechanism.units).quantity(self.kind_of(aim.of), self.size_of(aim))
 
     def _sizes(self, r: Result) -> list[float]:
         return [

@@ -17,6 +17,7 @@ import numpy as np
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.flat_numbers import Numbers, Symbols, with_nodes
 from dalembert.arrays import Array, Flags, Ints, Numeric
+from dalembert.core.equilibrium import relative
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.assembly_modes import counted_links
 from dalembert.kernel.emit.numpy_program import NumpyProgram
@@ -107,10 +108,9 @@ class TracedOutputs:
         forces[self.moments] /= layout.length
         largest = forces.max(axis=0, initial=0.0)
         left = self._sized("unbalanced", out) * per_length
-        residual = left.max(axis=(0, 1), initial=0.0) / np.where(largest > 0, largest, 1.0)
+        residual = relative(left.max(axis=(0, 1), initial=0.0), largest)
         speeds = self._sized("virtual", out) / per_length
-        reference = largest * speeds.max(axis=(1, 2), initial=0.0)
-        power = np.abs(out[self.rows["power"]]) / np.where(reference > 0, reference, 1.0)
+        power = relative(np.abs(out[self.rows["power"]]), largest * speeds.max(axis=(1, 2), initial=0.0))
         return residual, power.max(axis=0, initial=0.0)
 
     def _sized(self, name: str, out: Array) -> Array:

@@ -17,7 +17,7 @@ from dalembert.analysis.methods.belt_tensions import belt_tensions
 from dalembert.analysis.result.reaction_axes import force_and_moment
 from dalembert.arrays import Array
 from dalembert.core.elements.belt_pulls import BeltPulls
-from dalembert.core.equilibrium import balance, reactions
+from dalembert.core.equilibrium import balance, reactions, relative
 from dalembert.core.forcing import WrenchSource, total_wrench
 from dalembert.errors import ModelError
 
@@ -98,7 +98,7 @@ class Superposition:
             gap = np.abs(parts.sum(axis=0) - total).max(axis=rest, initial=0.0)
             biggest = np.abs(parts).max(axis=(0, *(k + 1 for k in rest)), initial=0.0)
             out, largest = np.maximum(out, gap * scale), np.maximum(largest, biggest * scale)
-        return np.asarray(out / np.where(largest > 0, largest, 1.0))
+        return relative(out, largest)
 
     def case(self, *sources: str) -> Result:
         """The answer to some sources alone, the others taken away: a sub-case."""

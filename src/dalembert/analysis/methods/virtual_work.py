@@ -24,7 +24,7 @@ from dalembert.analysis.methods.applied_forces import (
 from dalembert.analysis.methods.belt_tensions import tension_actions
 from dalembert.arrays import Array
 from dalembert.core.constraints import rates
-from dalembert.core.equilibrium import load_rows
+from dalembert.core.equilibrium import load_rows, relative
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class VirtualWork:
             most = magnitude(a.force)[:, None] * magnitude(self.velocity[k]) + turning
             largest = np.maximum(largest, most.max(axis=-1, initial=0.0))
         gap = np.abs(unknowns - other).max(axis=-1, initial=0.0)
-        return np.asarray(gap / np.where(largest > 0, largest, 1.0))
+        return relative(gap, largest)
 
     @property
     def answer(self) -> Result:

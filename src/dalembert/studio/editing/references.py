@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Literal
 
 from dalembert.errors import ModelError
 from dalembert.model.files.places import Places, TextSpan, places
 from dalembert.model.files.source import Path
 from dalembert.model.files.splicing import Change, value_text, with_changes
-
-PartKind = Literal["links", "joints", "loads", "drives", "points"]
 
 REFERENCES: dict[str, tuple[str, ...]] = {
     "links": (

@@ -19,6 +19,12 @@ from dalembert.model import GROUND
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
+RATES = (
+    (1, "v", "omega", "angular_speed", "speed"),
+    (2, "a", "alpha", "angular_acceleration", "acceleration"),
+)
+"""Order of a rate, symbols of a point's and a link's, kinds of a link's and a point's."""
+
 
 class ShownNumber(NamedTuple):
     """A number (SI) of a kind; an ``arm`` makes a speed or an acceleration of an angular one."""
@@ -131,13 +137,7 @@ class RelativeRates:
         (a, ja, p), (b, jb, q) = first, last
         mp, mq = self.moving(self.other(ja, a), p), self.moving(self.other(jb, b), q)
         ja, jb, jm = written(ja), written(jb), written(jm)
-        for rate in (1, 2):
-            if not self.moves(rate):
-                return
-            sign, symbol = ("v", "omega") if rate == 1 else ("a", "alpha")
-            kind, plain = (
-                ("angular_speed", "speed") if rate == 1 else ("angular_acceleration", "acceleration")
-            )
+        for rate, sign, symbol, kind, plain in self.rates():
             wa, wb = self.spin(a), self.spin(b)
             for link, joint, start, other, far in ((a, ja, p, jb, q), (b, jb, q, ja, p)):
                 e = (mid - far) / np.linalg.norm(mid - far)
@@ -185,13 +185,7 @@ class RelativeRates:
         if abs(arm) < 1e-9 * float(np.linalg.norm(mid - p)):
             return
         v = float((mp.velocity + w * turned(mid - p) - mq.velocity) @ e)
-        for rate in (1, 2):
-            if not self.moves(rate):
-                return
-            sign, symbol = ("v", "omega") if rate == 1 else ("a", "alpha")
-            kind, plain = (
-                ("angular_speed", "speed") if rate == 1 else ("angular_acceleration", "acceleration")
-            )
+        for rate, sign, symbol, kind, plain in self.rates():
             for unit, axis in ((n, "n"), (e, "t")):
                 at_pin = from_link != GROUND
                 terms = [(f"{sign}_{{{ja},{axis}}}", plain, float(mp[rate - 1] @ unit))] if at_pin else []
@@ -242,13 +236,7 @@ class RelativeRates:
         if abs(along) < 1e-9 * float(np.linalg.norm(d)):
             return
         v = float((mq.velocity - mp.velocity) @ e) + w * off
-        for rate in (1, 2):
-            if not self.moves(rate):
-                return
-            sign, symbol = ("v", "omega") if rate == 1 else ("a", "alpha")
-            kind, plain = (
-                ("angular_speed", "speed") if rate == 1 else ("angular_acceleration", "acceleration")
-            )
+        for rate, sign, symbol, kind, plain in self.rates():
             moved = float((mq[rate - 1] - mp[rate - 1]) @ n)
             pin = (
                 f"−({sign}_{{{jb}}} − {sign}_{{{ja}}})"
@@ -273,6 +261,13 @@ class RelativeRates:
                     else []
                 )
                 yield self._equation(f"v_{{{slide}}}", "speed", None, slid, f"v_{{{slide}}}", v)
+
+    def rates(self) -> Iterator[tuple[int, str, str, str, str]]:
+        """The rows of ``RATES`` that are not 0."""
+        for words in RATES:
+            if not self.moves(words[0]):
+                return
+            yield words
 
     def moves(self, rate: int) -> bool:
         """True if anything moves at this position."""
