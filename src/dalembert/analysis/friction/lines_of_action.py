@@ -20,10 +20,10 @@ from dalembert.analysis.friction.joint_friction import (
 )
 from dalembert.analysis.methods.applied_forces import (
     Action,
+    full_actions,
     joint_actions,
     joint_place,
     magnitude,
-    other_actions,
     slide_direction,
 )
 from dalembert.arrays import Array
@@ -64,10 +64,7 @@ def acting_lines(r: Result, k: int) -> tuple[Action, ...]:
     >>> [(a.of, float(abs(a.couple).max()) < 1e-9) for a in acting_lines(r, 0) if a.link == "rod"]
     [('A', True), ('B', True)]
     """
-    out: list[Action] = []
-    for a in joint_actions(r, split=False):
-        out += _acting(r, a, k)
-    return (*out, *other_actions(r))
+    return tuple(part for a in full_actions(r) for part in (_acting(r, a, k) if a.kind == "joint" else [a]))
 
 
 def _acting(r: Result, a: Action, k: int) -> list[Action]:

@@ -19,10 +19,10 @@ from dalembert.analysis.friction.friction_circles import NOTHING
 from dalembert.analysis.friction.joint_friction import friction_circle_radius
 from dalembert.analysis.methods.applied_forces import (
     Action,
-    joint_actions,
+    actions,
+    full_actions,
     magnitude,
     on_link,
-    other_actions,
 )
 from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.analysis.plane_only import refuse_space
@@ -141,8 +141,7 @@ def members(r: Result, limit: float = NOTHING) -> dict[str, Member]:
     >>> {name: member.kind for name, member in found.items()}
     {'crank': 'two-force with couple', 'coupler': 'two-force', 'rocker': 'three-force'}
     """
-    others = other_actions(r)
-    everything, split = (*joint_actions(r, split=False), *others), (*joint_actions(r), *others)
+    everything, split = full_actions(r), actions(r)
     largest = max((float(np.nanmax(magnitude(a.force), initial=0.0)) for a in everything), default=0.0)
     floor = limit * largest
     return {
@@ -358,11 +357,10 @@ def _parts_of_inertia(r: Result) -> tuple[Array, Array]:
 
         still = at_schedule(r.mechanism, r.schedule, inertia=False)
         return r.effort_array - still.effort_array, r.force_array - still.force_array
-    from dalembert.analysis.methods.superposition import superposition
+    from dalembert.analysis.methods.superposition import forces_of
 
-    parts = superposition(r)
-    which = [k for k, s in enumerate(parts.sources) if s.startswith("inertia")]
-    return parts.efforts[which].sum(axis=0), parts.force[which].sum(axis=0)
+    force, _, effort, _ = forces_of(r, "inertia")
+    return effort, force
 
 
 def _share(of: str, quantity: str, total: Array, part: Array) -> Share:

@@ -143,6 +143,13 @@ def superposition(r: Result) -> Superposition:
     return Superposition(r, sources, *(np.stack(p) for p in zip(*parts, strict=True)))
 
 
+def forces_of(r: Result, first: str) -> tuple[Array, Array, Array, Array]:
+    """Forces, moments, efforts and unknown loads of the sources whose names begin with a word, alone."""
+    refuse_nonlinear(r)
+    at = state(r)
+    return _solve_under(r, at, _total(r, [a for a in known_actions(r, at) if a.source.startswith(first)]))
+
+
 def refuse_nonlinear(r: Result) -> None:
     """Forces that depend on other forces' magnitudes do not add."""
     if not r.assumptions.get("friction", "off").startswith("off"):
