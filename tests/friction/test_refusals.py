@@ -22,7 +22,7 @@ def test_superposition() -> None:
     with pytest.raises(da.ModelError) as caught:
         da.superposition(da.statics(engine()))
     assert str(caught.value) == (
-        "superposition is refused: with dry friction the forces do not add, as its size goes with |F|; "
+        "superposition is refused: with dry friction the forces do not add, because it depends on |F|; "
         "leave friction out with --no-friction, or use --method matrix"
     )
 

@@ -270,9 +270,9 @@ def test_external_loads_are_named_and_those_by_the_ground_are_not() -> None:
 
 def test_a_machine_at_rest_without_loads_exerts_nothing() -> None:
     m = da.four_bar().with_values({"gravity": None, "loads": {}, "drives.O2.speed": 0.0})
-    assert "No force and no moment on the ground." in str(da.shaking(da.dynamics(m, positions=12)))
+    assert "Force and moment on the ground are zero." in str(da.shaking(da.dynamics(m, positions=12)))
     one = da.shaking(da.dynamics(m, positions=12), links=["crank"])
-    assert "No force and no moment on all else." in str(one)
+    assert "Force and moment on everything else are zero." in str(one)
 
 
 def test_its_drawing_in_space_has_three_components_of_force_and_moment() -> None:

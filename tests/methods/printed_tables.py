@@ -333,7 +333,7 @@ HEADS = {
     "α": "angular_acceleration",
     "a_G": "acceleration",
     "v_G": "speed",
-    "couple|F h |own |T ": "moment",
+    "couple|F h |direct |T ": "moment",
     "F ": "force",
     "Work": "force|moment",
     "Power": "power",

@@ -48,7 +48,7 @@ def test_everything_stands_in_the_report_of_norton() -> None:
         "4 Inertia forces",
         "5 Forces, one unknown after the other",
         "6 All equations at once",
-        "The 9 equations as one",
+        "The 9 equations in matrix form",
         "7 Joint forces and efforts",
         "8 Graphical solution",
         "9 Superposition",

@@ -73,7 +73,7 @@ def test_the_law_of_a_guide_and_what_friction_costs() -> None:
     assert letters == "μ_guide S_guide"
     assert figures(numbers) == pytest.approx([0.07, hand.lower + hand.upper], rel=1e-3)
     assert figures(result)[0] == pytest.approx(0.07 * (hand.lower + hand.upper), rel=1e-3)
-    lost = table(sheet, "of the power put in")
+    lost = table(sheet, "of the input power")
     assert lost.total
     assert lost.caption == "Power lost to friction at this position"
     power = {row[0]: float(row[1]) for row in lost.rows}
@@ -177,13 +177,13 @@ def test_a_joint_known_at_some_positions_is_in_the_cycle() -> None:
     assert [row[0] for row in table(sheet, "Largest").rows][1:] == [f"joint {n}" for n in r.joints]
 
 
-@pytest.mark.parametrize(("speed", "verdict"), [(25.0, "must not be left out"), (0.5, "could be left out")])
+@pytest.mark.parametrize(("speed", "verdict"), [(25.0, "must not be neglected"), (0.5, "could be neglected")])
 def test_whether_inertia_could_be_left_out(speed: float, verdict: str) -> None:
     m = da.load(examples()["four_bar"]).with_values({"drives.O2.speed": speed, "drives.O2.acceleration": 0.0})
     r = da.dynamics(m)
     sheet = working(r, methods=())
     (said,) = re.findall(
-        r"Inertia (must not be left out|could be left out): it makes up to (\S+) ?% of", words(sheet)
+        r"Inertia (must not be neglected|could be neglected): it accounts for up to (\S+) ?% of", words(sheet)
     )
     assert said[0] == verdict
     assert float(said[1]) == pytest.approx(100 * max(s.share for s in inertia_shares(r)), rel=0.05)
@@ -344,7 +344,7 @@ def test_joint_moments_in_space_are_split_too_and_gaps_are_of_solved_positions()
     assert {"mx", "my", "mz"} <= set(heads)
     m = da.load(examples()["four_bar"]).with_values({"links.coupler.points.B": [0.0, 0.14]})
     words = " ".join(virtual_work_answer(da.statics(m, positions=24), "SI")[1].split())
-    assert "The matrix answer agrees within " in words
+    assert "The solution of the equations agrees within " in words
 
 
 @pytest.mark.parametrize("without", [False, True])

@@ -122,7 +122,7 @@ def test_what_equilibrium_does_not_settle_is_said() -> None:
     assert [step.finds[0].value for step in s.steps] == pytest.approx([0.75 * across, 0.25 * across])
     assert [u.name for u in s.forces.open] == ["A", "B"]
     assert (
-        "Equilibrium does not settle what is left (A, B): it depends on the elasticity of the links."
+        "Equilibrium does not determine the forces A, B: they depend on the elasticity of the links."
         in str(s)
     )
 

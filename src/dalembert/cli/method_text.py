@@ -133,7 +133,7 @@ def _agreement(work: VirtualWork) -> list[str]:
     if np.isfinite(work.gap).any():
         gap = remainder(float(np.nanmax(work.gap)), 1)
         words.append(
-            f"No reaction appears. The matrix answer agrees within {gap}."
+            f"No reaction appears. The solution of the equations agrees within {gap}."
             if work.independent
             else f"They agree within {gap}."
         )

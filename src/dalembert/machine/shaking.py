@@ -53,7 +53,7 @@ Wrench = tuple[Array, Array]
 
 @dataclass(frozen=True, eq=False)
 class Shaking(MachineAnswer):
-    """Force (P, d) and moment (P,), in space (P, 3), that some links exert on all else, about a fixed point (d,).
+    """Force (P, d) and moment (P,), in space (P, 3), of some links on everything else, about a fixed point (d,).
 
     ``parts``: the same by cause: `inertia`, `weight`, `external`. ``residual`` (P,): difference to what the joints,
     drives, springs and dampers carry, over ``largest``, the largest single force of the cycle; NaN where unknown.

@@ -162,11 +162,11 @@ def _bodies(sheet: ReportSheet, c: ReportContext) -> None:
         return
     equation = matrix.matrix_equation(r, c.k, shown, c.about)
     if equation is not None:
-        sheet.heading(f"The {len(equation.unknowns)} equations as one", 2)
+        sheet.heading(f"The {len(equation.unknowns)} equations in matrix form", 2)
         units = (
             f"forces in {shown.unit('force')}, lengths in {shown.arm_unit}, moments in {shown.unit('moment')}"
         )
-        words = f"The knowns are on the right ({units}){in_ground(c)}, the solution after it."
+        words = f"Known terms are on the right ({units}){in_ground(c)}, followed by the solution."
         sheet.blocks.append(replace(equation, caption=words))
 
 
@@ -185,7 +185,8 @@ def _joint_forces(sheet: ReportSheet, c: ReportContext) -> None:
     sheet.table(
         [*heads, f"couple ({c.shown.unit('moment')})"],
         [_force_row(c, joint) for joint in c.r.joints],
-        f"Forces in {c.shown.unit('force')}{in_ground(c)}, on the link that the sign names; along and across that link",
+        f"Forces in {c.shown.unit('force')}{in_ground(c)}, on the link that the symbol names; "
+        "components along and across that link",
     )
     sheet.equations(_efforts(c))
 

@@ -154,7 +154,7 @@ def refuse_nonlinear(r: Result) -> None:
     """Forces that depend on other forces' magnitudes do not add."""
     if not r.assumptions.get("friction", "off").startswith("off"):
         raise ModelError(
-            "superposition is refused: with dry friction the forces do not add, as its size goes with |F|",
+            "superposition is refused: with dry friction the forces do not add, because it depends on |F|",
             "leave friction out with --no-friction, or use --method matrix",
         )
     if r.compiled.forcing.belts is not None and r.compiled.forcing.belts.share.any():
@@ -164,7 +164,7 @@ def refuse_nonlinear(r: Result) -> None:
         )
     if r.compiled.forcing.separation.any():
         raise ModelError(
-            "superposition is refused: the separating force of gear teeth goes with |F|, so the parts do not add",
+            "superposition is refused: the separating force of gear teeth depends on |F|, so the parts do not add",
             "use --method matrix, or set pressure_angle: 0 deg",
         )
 

@@ -67,12 +67,12 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     yield sampled(t.result, changes)
     thrust = [j for j, b in t.loads.items() if np.isfinite(b.radial).all() and not np.isfinite(b.load).all()]
     if thrust:
-        yield f"{', '.join(thrust)}: an axial force, and no axial_factor in the bearing to count it by."
+        yield f"{', '.join(thrust)}: an axial force, but the bearing has no axial_factor for it."
     tilted = [f"{joint} ({to.quantity('moment', b.tilting)})" for joint, b in t.loads.items() if b.tilting]
     if tilted:
         yield (
-            f"{', '.join(tilted)}: a couple across the axis, the largest in brackets, that load and life do not "
-            "count; describe two joints where two bearings take it."
+            f"{', '.join(tilted)}: a couple normal to the axis, the largest in brackets, that load and life do not "
+            "include; model two joints if two bearings carry it."
         )
 
 

@@ -31,7 +31,7 @@ def flywheel_parts(f: Flywheel, to: Printed) -> Iterator[Part]:
     mean = round_components([f.mean], float(np.abs(f.torque).max()))[0]
     yield (
         f"The effort of {f.drive} at steady speed has the mean {to.quantity('moment', mean)}; where it crosses "
-        "the mean, E is the energy asked for above it since the first position, the pulses are the areas between."
+        "the mean, E is the energy needed above it since the first position; pulses are the areas between crossings."
     )
     heads = [f"{f.drive}\n{angle}", f"energy\n{energy}", f"pulse after\n{energy}", "speed"]
     yield TextTable(heads, rows, 0) if rows else "It never differs from its mean: no flywheel is needed."

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def shaking_parts(s: Shaking, to: Printed, orders: int | Sequence[float] = 4) -> Iterator[Part]:
     """Greatest, mean and rms values, their parts, and the harmonics where the positions are a period."""
     whose = "The machine" if s.whole else f"{', '.join(s.links)}"
-    what = "on the ground" if s.whole else "on all else"
+    what = "on the ground" if s.whole else "on everything else"
     yield f"{whose} {what}: force, and moment about {s.about}, in ground axes."
     yield _values(s, to)
     if s.outside:
@@ -35,9 +35,9 @@ def shaking_parts(s: Shaking, to: Printed, orders: int | Sequence[float] = 4) ->
     yield from _engine(s, to)
     known = s.residual[np.isfinite(s.residual)]
     yield (
-        f"By momentum, without any reaction; by the reactions the same within {remainder(float(known.max()))}."
+        f"Computed from momentum; the sum of the reactions agrees to {remainder(float(known.max()))}."
         if len(known)
-        else "The reactions have no value here: the momentum alone says it."
+        else "Computed from momentum alone, as the reactions have no value here."
     )
 
 
@@ -63,7 +63,7 @@ def _values(s: Shaking, to: Printed) -> Part:
     return (
         TextTable(["", "unit", *heads], rows, 2)
         if rows
-        else f"No force and no moment {'on the ground' if s.whole else 'on all else'}."
+        else f"Force and moment on {'the ground' if s.whole else 'everything else'} are zero."
     )
 
 

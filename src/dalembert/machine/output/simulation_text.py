@@ -114,7 +114,7 @@ def _works(s: Simulation, to: Printed) -> TextTable:
 def _heat(name: str, h: StopHeat, to: Printed) -> str:
     """Rubbing work of a brake, on its lining and in what it warms."""
     area = "" if np.isnan(h.per_area) else f", {h.per_area / 1e6:.4g} J/mm^2 of its lining"
-    rise = "" if np.isnan(h.rise) else f"; it warms by {h.rise:.4g} K if all of it stays"
+    rise = "" if np.isnan(h.rise) else f"; its temperature rises by {h.rise:.4g} K if it keeps all the heat"
     return f"{name} turns {to.quantity('energy', h.energy)} into heat{area}{rise}."
 
 

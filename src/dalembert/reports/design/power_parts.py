@@ -68,7 +68,7 @@ def flywheel_part(c: DesignContext) -> Iterator[DesignPart]:
     """Fluctuation of energy, that of the speed with the links alone, and a flywheel for a usual Cs."""
     part, m = DesignPart("Flywheel"), c.r.mechanism
     f = flywheel(c.r, Cs=USUAL)
-    reason = "the file has no limit of the speed's fluctuation"
+    reason = "the file gives no limit of the speed fluctuation"
     part.verdicts.append(not_judged("fluctuation of energy", reason, c.text("energy", f.size.energy)))
     mass = sum(m.mass(link) for link in c.r.links) or 1.0
     alone = flywheel(c.r, inertia=LIGHT * mass * c.r.compiled.layout.length**2).exact

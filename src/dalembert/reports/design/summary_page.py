@@ -29,7 +29,7 @@ def summary(sheet: ReportSheet, c: DesignContext, parts: Sequence[DesignPart]) -
         for state in ("exceeded", "not judged"):
             sheet.text(_named(title, state, [v for part in some for v in part.verdicts if v.state == state]))
     value = worst_rows(c)
-    sheet.table(WORST_HEADS, value[:MOST], "Worst positions: of each kind the most extreme")
+    sheet.table(WORST_HEADS, value[:MOST], "Worst position of each kind of quantity")
     sheet.blocks.append(Blanks((("Checked by", (("name", ""), ("date", ""), ("signature", ""))),)))
 
 
@@ -43,7 +43,7 @@ def _in_one_sentence(parts: Sequence[DesignPart]) -> str:
     first = (
         f"{count['exceeded']} of {count['ok'] + count['exceeded']} limits are exceeded."
         if count["exceeded"]
-        else f"All {count['ok']} limits that can be checked are kept."
+        else f"All {count['ok']} limits that can be checked are met."
     )
     return f"{first} {count['not judged']} items are not judged; they are named with the reason."
 

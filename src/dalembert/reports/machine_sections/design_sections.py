@@ -26,19 +26,17 @@ def balance_section(sheet: ReportSheet, b: Balance, shown: Shown) -> None:
     if b.problem.dimension == 3:
         where = "at r from its base point A adds to the shaking force"
         letters = "m (alpha times r) - m (omega times (omega times r))"
-    sheet.text(f"A counterweight of mass m {where} a sum that is linear in its mass numbers:")
+    sheet.text(f"A counterweight of mass m {where} a term that is linear in its mass parameters:")
     sheet.equations([Working(f"F = -m a_{{A}} - {letters}")])
-    sheet.text(
-        "So the least squares, or the least greatest value, over all positions is a convex problem with one answer."
-    )
+    sheet.text("So minimising the mean square, or the largest value, over all positions is a convex problem.")
 
 
 def rotor_section(sheet: ReportSheet, b: RotorBalance, shown: Shown) -> None:
     """In letters the conditions that no force and no couple turns with the shaft, and what ends them."""
     sheet.heading("Rotor balanced in two planes")
     sheet.text(
-        "Every mass of the rotor has a moment u = m r as a complex number at its angle, in the plane z along the axis. "
-        "Nothing that turns with the shaft is left on its bearings if these sums vanish with the corrections a and b:"
+        "Each mass of the rotor has an unbalance u = m r, complex at its angle, in the plane z along the axis. "
+        "The rotating load on the bearings vanishes if these sums, with the corrections a and b, are zero:"
     )
     sums = Working("S = sum u_{i} quad T = sum z_{i} u_{i}")
     sheet.equations([sums, Working("u_{b} = -frac(T - z_{a} S; z_{b} - z_{a}) quad u_{a} = -S - u_{b}")])
@@ -48,8 +46,8 @@ def bearing_section(sheet: ReportSheet, t: BearingTable, shown: Shown) -> None:
     """Pressure, equivalent load and life of each joint that has a bearing."""
     sheet.heading("Bearings")
     sheet.text(
-        "The force of a joint bears on the projected area of its pin. A rolling bearing lives as long under the steady "
-        "load P as under the force over the cycle, weighted by how much the joint turns, $phi$."
+        "The force of a joint bears on the projected area of its pin. A rolling bearing has the same life under the "
+        "steady load P as under the force over the cycle, weighted by the rotation $phi$ of the joint."
     )
     sheet.equations([Working("P = (frac(∫ F^{e} |d phi|; ∫ |d phi|))^{1/e}")])
     for joint, b in t.loads.items():
@@ -86,8 +84,8 @@ def flywheel_section(sheet: ReportSheet, f: Flywheel, shown: Shown) -> None:
     """Mean torque, dE, I, limits of speed, beside the exact speed."""
     sheet.heading("Flywheel")
     sheet.text(
-        f"The effort T of {f.drive} at steady speed is what the machine asks for; its mean is what a steady supply "
-        "gives. Above the mean the flywheel gives, and slows down: where E is greatest the speed is least."
+        f"The effort T of {f.drive} at steady speed is what the machine needs; its mean is what a steady supply "
+        "delivers. Above the mean the flywheel delivers the rest and slows: where E is greatest, the speed is lowest."
     )
     size, cs = f.size, shown.notation.number(f.size.fluctuation)
     energies = max(f.energies, default=0), min(f.energies, default=0), size.energy

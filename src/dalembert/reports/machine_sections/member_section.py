@@ -26,8 +26,8 @@ def member_section(sheet: ReportSheet, t: MemberTable, shown: Shown) -> None:
     sheet.heading("Forces inside the links")
     space = t.result.mechanism.dimension == 3
     sheet.text(
-        "F and M are what the part of a link beyond a cut exerts on the part before it; t points along the member, "
-        f"{ACROSS[space]}. The distributed load is the weight and inertia of the member's mass."
+        "F and M are the force and couple of the part of a link beyond a cut on the part before it; t points along "
+        f"the member, {ACROSS[space]}. The distributed load is the weight and inertia of the member's mass."
     )
     sheet.equations([Working(line) for line in ("q = mu (g - a)", *LAWS[space])])
     for link, s in known_stresses(t).items():

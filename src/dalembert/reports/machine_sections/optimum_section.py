@@ -23,8 +23,12 @@ def optimum_sheet(o: Optimum, notation: Notation | None = None) -> ReportSheet:
     sheet.heading("Optimum")
     sheet.text(o.words)
     sheet.table(["number", "before", "after", "from", "to"], o.number_rows())
-    sheet.table(["", "before", "after"], o.aim_rows(), "Room is what is left until a condition is broken")
-    sheet.figure(*optimum_scenes(o, notation), caption="Before, then after, where what is least is largest.")
+    sheet.table(
+        ["", "before", "after"], o.aim_rows(), "The margin is the distance to the limit of a condition"
+    )
+    sheet.figure(
+        *optimum_scenes(o, notation), caption="Before, then after, at the position where the aim is largest."
+    )
     return sheet
 
 

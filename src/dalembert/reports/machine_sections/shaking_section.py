@@ -19,7 +19,9 @@ def shaking_section(sheet: ReportSheet, s: Shaking, shown: Shown) -> None:
     k = greatest(s.force)[1]
     shown = Shown(s.result, shown.notation, k)
     sheet.heading("Shaking force and moment")
-    whose = "The machine exerts on the ground" if s.whole else f"{', '.join(s.links)} exert on all else"
+    whose = (
+        "The machine exerts on the ground" if s.whole else f"{', '.join(s.links)} exert on everything else"
+    )
     sheet.text(
         f"{whose} what it takes from weights and loads less the rate of its momentum. Moments are about "
         f"{s.about}. Worked out at position {k + 1} of {len(s.force)}, where the force is greatest."

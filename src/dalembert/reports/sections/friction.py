@@ -43,7 +43,7 @@ def friction(sheet: ReportSheet, c: ReportContext) -> None:
     sheet.heading("Friction")
     sheet.text(
         "Signs follow the relative motion. The reaction of a pin touches its friction circle on the side that turns "
-        "the link against that motion; on a guide it leans from the normal by phi, against the sliding."
+        "the link against that motion; on a guide it is inclined to the normal by phi, against the sliding."
     )
     sheet.figure(*friction_pictures(c))
     for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
@@ -137,11 +137,11 @@ def tangent_lines(c: ReportContext, two: TwoPins) -> tuple[str, list[Working]]:
     sizes = [shown.number("length", x) for x in small]
     words = (
         f"Link {shown.heading(two.link)} carries the forces of {a} and {b} alone, so both lie on one line, a common "
-        f"tangent of the two friction circles{f', in {state}' if state else ''}. It takes "
+        f"tangent of the two friction circles{f', in {state}' if state else ''}. It is "
         + (
-            "an internal one, as friction turns the link in the same sense at both pins"
+            "an internal tangent, as friction turns the link in the same sense at both pins"
             if inner
-            else "an external one"
+            else "an external tangent"
         )
         + "; its inclination to the line of the pins:"
     )
@@ -218,7 +218,7 @@ def cost(sheet: ReportSheet, c: ReportContext) -> None:
         [n, shown.number("power", p), "–" if r.unknown_loads else c.notation.percent(p / put_in)]
         for n, p in [*lost.items(), ("sum", total)]
     ]
-    heads = ["Joint", f"Power lost ({shown.unit('power')})", "of the power put in"]
+    heads = ["Joint", f"Power lost ({shown.unit('power')})", "of the input power"]
     sheet.table(heads, rows, "Power lost to friction at this position", total=True)
     efficiencies = efficiency(r)
     senses = (

@@ -38,7 +38,7 @@ def motion(sheet: ReportSheet, c: ReportContext) -> None:
             sheet.text(words)
             sheet.equations(lines)
     heads, rows = _motion_table(c, moving)
-    sheet.table(heads, rows, "Solved for the motion of the links and of their mass centres")
+    sheet.table(heads, rows, "Motion of the links and of their mass centres")
     if not stands_still(r, c.k):
         sheet.figure(
             draw.velocity_polygon(r, c.k + 1, c.notation), draw.acceleration_polygon(r, c.k + 1, c.notation)
@@ -116,12 +116,12 @@ def shares(sheet: ReportSheet, c: ReportContext) -> None:
         return
     worst, many = parts[0], " over the cycle" if len(c.r.status) > 1 else ""
     if not worst.share > PART:
-        sheet.text(f"Inertia could be left out: no mass is accelerated{many}.")
+        sheet.text(f"Inertia could be neglected: no mass is accelerated{many}.")
         return
-    verdict = "could be left out" if worst.share < 0.05 else "must not be left out"
+    verdict = "could be neglected" if worst.share < 0.05 else "must not be neglected"
     share = Notation(figures=2).percent(worst.share)
     sheet.text(
-        f"Inertia {verdict}: it makes up to {share} of the largest {worst.quantity} of {worst.of}{many}."
+        f"Inertia {verdict}: it accounts for up to {share} of the largest {worst.quantity} of {worst.of}{many}."
     )
 
 

@@ -12,9 +12,7 @@ from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sheet import ReportSheet, Working
 from dalembert.views.notation import Shown
 
-AXES = (
-    "Parts across a line have the index n, along it t; the index AB is the part along the line from A to B."
-)
+AXES = "Components normal to a line have the index n, along it t; the index AB is the component from A towards B."
 
 
 def motion_steps(sheet: ReportSheet, c: ReportContext) -> None:

@@ -40,9 +40,9 @@ def solution_steps(sheet: ReportSheet, c: ReportContext, solved: ForceSteps, dra
     """All steps, those on one free body together and beside its figure where it comes first."""
     writer, shown_links = StepWriter(c, solved), set[str]()
     sheet.text(
-        "$h(F)$ is the distance of a force's line of action from the point of the moments; forces already solved are "
-        "taken with their sizes, and each term has the sign of its sense; $c$ is the cosine of an unknown's angle with "
-        "the direction of a sum."
+        "$h(F)$ is the distance of a force's line of action from the point of the moments; known forces enter "
+        "with their magnitudes, and the sign of a term is that of its sense; $c$ is the cosine of the angle between an "
+        "unknown force and the direction of a sum."
         if c.r.mechanism.dimension == 2
         else "$M(F)$ is the moment of a force about the line of the step, $h$ the arm of the unknown."
     )
@@ -58,7 +58,7 @@ def solution_steps(sheet: ReportSheet, c: ReportContext, solved: ForceSteps, dra
     if solved.open:
         names = ", ".join(u.name for u in solved.open)
         sheet.text(
-            f"Equilibrium does not settle what is left ({names}): it depends on the elasticity of the links."
+            f"Equilibrium does not determine the forces {names}: they depend on the elasticity of the links."
         )
 
 
@@ -76,7 +76,7 @@ def _rounds(solved: ForceSteps) -> str:
         )
     if leaning:
         parts.append(
-            f"The force in {', '.join(leaning)} leans from the normal, by friction or by the pressure angle."
+            f"The force in {', '.join(leaning)} is inclined to the normal, by friction or by the pressure angle."
         )
     return " ".join(parts)
 
@@ -119,7 +119,7 @@ class StepWriter:
         if q.kind == "forces":
             if q.name:
                 return f"forces along {q.name}"
-            return f"forces along the direction {self._direction(q)}, across what else is unknown"
+            return f"forces along the direction {self._direction(q)}, normal to the other unknown force"
         if q.kind == "screw":
             return f"forces and moments for a screw along {self._direction(q)}, without any other unknown"
         if not q.name:

@@ -101,8 +101,8 @@ def _arms(sheet: ReportSheet, c: ReportContext, parts: Superposition) -> None:
             continue
         link = shown.heading(crank.link)
         sheet.text(
-            f"The torque in {crank.joint} of each source: its force at {crank.pin} on link {link} times its arm h "
-            f"about {crank.joint}, and what balances the moment of a source on this link."
+            f"Torque at {crank.joint} due to each source: its force at {crank.pin} on link {link} times the arm h "
+            f"about {crank.joint}, and the couple that balances a source on this link itself."
         )
         every = effort_arms(parts, crank, c.k)
         rows = [row for a in every if (row := _arm_row(c, a)) is not None]
@@ -111,9 +111,9 @@ def _arms(sheet: ReportSheet, c: ReportContext, parts: Superposition) -> None:
         heads = [
             "Source",
             f"F ({shown.unit('force')})",
-            f"h in {shown.arm_unit}",
+            f"arm h, {shown.arm_unit}",
             f"F h ({unit})",
-            f"own ({unit})",
+            f"direct ({unit})",
         ]
         sheet.table([*heads, f"T ({unit})"], [*rows, ["sum", "", "", "", "", total]], total=True)
 
@@ -212,7 +212,7 @@ def virtual_work(sheet: ReportSheet, c: ReportContext) -> None:
             "solution but is not independent of it."
         )
     least = floors(r, k)
-    idle = "no reaction does work" if answer.independent else "of the reactions friction alone does work"
+    idle = "no reaction does work" if answer.independent else "among the reactions only friction does work"
     for n, drive in enumerate(r.drives):
         kind = drive_kinds(r, drive)["effort"]
         angular = kind == "moment"
@@ -248,7 +248,9 @@ def virtual_work(sheet: ReportSheet, c: ReportContext) -> None:
         sheet.equations(
             [Working(f"{sign} = −sum (F cdot delta r + T delta theta)", "", f'{effort} "{shown.unit(kind)}"')]
         )
-    sheet.text(f"The matrix answer agrees within {remainder(float(answer.gap[k]))} of the largest work.")
+    sheet.text(
+        f"The solution of the equations agrees within {remainder(float(answer.gap[k]))} of the largest work."
+    )
     if r.mechanism.dimension == 3:
         _powers(sheet, c, answer)
 
@@ -272,7 +274,7 @@ def _powers(sheet: ReportSheet, c: ReportContext, work: VirtualWork) -> None:
     total = sum(parts.values())
     rows.append(["sum", c.shown.number("power", total)])
     heads = ["Power put in by", f"Power ({c.shown.unit('power')})"]
-    idle = "no reaction has power" if work.independent else "of the reactions friction alone has power"
+    idle = "no reaction has power" if work.independent else "among the reactions only friction has power"
     sheet.table(heads, rows, f"At the speeds of this position; {idle}", total=True)
 
 

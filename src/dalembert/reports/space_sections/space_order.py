@@ -116,9 +116,9 @@ def _step(sheet: ReportSheet, c: ReportContext, step: SolutionStep, some: list[U
         for link, axis in spinning.items()
     )
     words = (
-        f"The {len(some)} equations of {links} as one; the knowns are on the right (forces in "
+        f"The {len(some)} equations of {links} in matrix form; known terms are on the right (forces in "
         f"{c.shown.unit('force')}, lengths in {c.shown.arm_unit}, moments in {c.shown.unit('moment')}), the "
-        f"solution after it{in_ground(c)}.{spins}"
+        f"solution follows them{in_ground(c)}.{spins}"
     )
     sheet.blocks.append(replace(matrix, caption=words))
 

@@ -23,7 +23,7 @@ def reaction_tables(sheet: ReportSheet, c: ReportContext) -> None:
         rows = [_row(c, joint, on[joint], axes, least) for joint in r.joints]
         caption = (
             f"In {words}; forces in {c.shown.unit('force')}, moments in {c.shown.unit('moment')} about the joint, "
-            f"on the link that the sign names{', friction in them' if r.friction is not None else ''}"
+            f"on the link that the symbol names{', friction in them' if r.friction is not None else ''}"
         )
         sheet.table(heads, rows, caption)
     sheet.text(uniqueness(c))

@@ -154,7 +154,7 @@ class Catalogue(LinkMotion):
 
 
 def _shaking(c: Catalogue, about: str) -> Array:
-    """Force and moment (n,) about a fixed point that the links exert on all else: what acts on them from outside."""
+    """Force and moment (n,) about a fixed point of the links on everything else, by what acts on them from outside."""
     m, t, g = c.mechanism, c.traced, c.algebra
     outside = [name for name, drive in m.drives.items() if drive.by == "outside"]
     if outside:

@@ -101,7 +101,7 @@ class ClosedMotion(RelativeRates):
                 found.append((f"omega_{{{self.tag(link)}}}", "angular_speed", self.spin(link)))
                 found.append((f"alpha_{{{self.tag(link)}}}", "angular_acceleration", self.spin(link, 2)))
             lines = [MotionLine("", "", (), name, ShownNumber(kind, v), v) for name, kind, v in found]
-            return MotionStep((link,), f"{self.tag(link)} is driven in {joint}:", lines)
+            return MotionStep((link,), f"{self.tag(link)} is driven at {joint}:", lines)
         return None
 
     def _welded(self) -> MotionStep | None:
