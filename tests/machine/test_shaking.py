@@ -211,7 +211,7 @@ def test_the_command_prints_and_writes(tmp_path: Path, capsys: pytest.CaptureFix
     )
     said = capsys.readouterr().out
     assert "moment about (0, 0.1) m" in said
-    assert "by the reactions the same within" in said
+    assert "Computed from momentum; the sum of the reactions agrees" in said
     rows = list(csv.DictReader(table.read_text().splitlines()))
     read = json.loads(record.read_text())
     s = da.shaking(da.dynamics(da.load(file)), about=(0, 0.1))

@@ -125,7 +125,7 @@ class Answer(Compared):
     def to_dataframe(
         self, units: UnitChoice = "SI", axes: Axes = "ground", index: Literal["rows", "drives"] = "rows"
     ) -> pandas.DataFrame:
-        """One row a row, one column a number; ``index="drives"``: rows by the values of the drives."""
+        """One row per row of the answer, one column per number; ``index="drives"``: by the values of the drives."""
         from dalembert.answer.table_rows import dataframe
 
         return dataframe(self, units, axes, index)
@@ -147,7 +147,7 @@ class Answer(Compared):
         axes: Axes = "ground",
         **choice: Any,
     ) -> None:
-        """Write everything as JSON, one row a line."""
+        """Write everything as JSON, one line per row."""
         from dalembert.answer.record import write_json
 
         with _opened(path, overwrite) as stream:

@@ -50,7 +50,7 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         "describe_commands": ("new", "examples", "convert", "schema", "joints"),
         "check_command": ("check", "validate"),
     },
-    "Choose the machine's parts": {
+    "Machine design": {
         "machine.machine_commands": ("simulate", "shake", "balance", "flywheel"),
         "machine.member_commands": ("members", "pins", "bearings", "shaft", "motor"),
         "machine.element_commands": ("cam",),

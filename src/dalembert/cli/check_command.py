@@ -106,7 +106,7 @@ def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list
 
 
 def _text(rows: Sequence[ComparedAnswer], every: bool) -> str:
-    """One line a case; with `every` one line an answer; then those that disagree, in full."""
+    """One line per case, with `every` one per answer; then those that disagree, in full."""
     if not rows:
         return "No answers to compare."
     failed = [row for row in rows if not row.ok]

@@ -1,4 +1,4 @@
-"""A sweep as printed text: a row a design, and the positions that are not solved."""
+"""A sweep as printed text: one row per design, and the positions that are not solved."""
 
 from __future__ import annotations
 

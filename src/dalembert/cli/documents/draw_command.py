@@ -75,7 +75,7 @@ def draw(
     names: Names = False,
     question: Annotated[bool, flag("Show only the given data; nothing computed.")] = False,
     skeleton: Annotated[
-        bool, flag("Write a .dxf for CAD at 1:1 in the file's unit of length, one layer a link.")
+        bool, flag("Write a .dxf for CAD at 1:1 in the file's unit of length, one layer per link.")
     ] = False,
     of: OfAt = AT_FIRST,
     force: Force = False,

@@ -16,7 +16,7 @@ NOT_INSTALLED = "dalembert runs from its sources and is not installed, so its pa
 
 
 def doctor() -> int:
-    """Report what is installed, which extras are missing and how to get them, and run a self-test of a second."""
+    """Report what is installed, which extras are missing and how to get them, and run a one-second self-test."""
     print(installation())
     print("\n".join(["", *(f"{what}: {where}" for what, where in folders().items())]))
     states = packages()

@@ -29,7 +29,7 @@ def cam(
     changes: Changes = AS_IN_FILE,
     out: LabelledOutputs = NO_LABELLED,
 ) -> int:
-    """Form of a cam of FILE: lift, pressure angle, curvature, least size, outline for manufacture."""
+    """Geometry of a cam of FILE: lift, pressure angle, curvature, least size, outline for manufacture."""
     from dalembert.machine.elements.cam_design import cam as cam_of
     from dalembert.model.joints.elements.cams import Cam
 

@@ -215,7 +215,7 @@ def simulate(
     ] = None,
     curves: Annotated[
         list[str] | None,
-        several("Quantities to draw over time besides: reaction.A, slide.guide, normal.wall."),
+        several("Further quantities to draw over time: reaction.A, slide.guide, normal.wall."),
     ] = None,
     count: Annotated[
         int, numeric("instants", "Number of equally spaced instants in the answer, besides the events.")

@@ -42,7 +42,7 @@ def marks_parts(students: Sequence[StudentMarks], most: int | None = None) -> It
 
 
 def _marks(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:
-    """A row a student, a column a figure."""
+    """One row per student, one column per figure."""
     names = list(dict.fromkeys(m.quantity for s in students for m in s.marks))
     yield ["student", "variant", "marks", "of", "percent", *names]
     for s in students:

@@ -34,7 +34,7 @@ def read_table(path: Path) -> list[TableRow]:
     """The rows of a CSV file (`,`, `;` or tabs between columns), or of the first sheet of a workbook."""
     rows = _rows(_of_workbook(path) if path.suffix.lower() == ".xlsx" else _of_csv(path), path)
     if not rows:
-        raise ModelError("the table has no rows", "write a heading and a row a figure", (), str(path), 1)
+        raise ModelError("the table has no rows", "write a heading and one row per figure", (), str(path), 1)
     return rows
 
 

@@ -97,7 +97,7 @@ def left_out(r: StudyResult) -> str:
 
 
 def output_rows(r: StudyResult) -> tuple[list[str], list[list[str]]]:
-    """Heads, and of each output of one number a design a row: mean, sigma, percentiles, least and greatest."""
+    """Heads, and a row for each output with one number per design: mean, sigma, percentiles, least and greatest."""
     to, rows = Scale(r.study.mechanism.units), []
     for name in r.study.outputs:
         if r.arrays[name].ndim > 1 or not len(values := r.values(name)):

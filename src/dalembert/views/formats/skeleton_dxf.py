@@ -1,4 +1,4 @@
-"""The skeleton of a mechanism at one position as DXF, 1:1 in the file's unit of length, one layer a link.
+"""The skeleton of a mechanism at one position as DXF, 1:1 in the file's unit of length, one layer per link.
 
 For sketches in CAD programs: lines between a link's points, its points, joints by name, slides as lines.
 """
