@@ -36,7 +36,7 @@ def write_csv(answer: Answer, stream: IO[str], units: UnitChoice, axes: Axes) ->
 def dataframe(
     answer: Answer, units: UnitChoice, axes: Axes, index: Literal["rows", "drives"]
 ) -> pandas.DataFrame:
-    """One line per row of the answer, one column per number, units in the names of the columns and in ``attrs["units"]``."""
+    """One line per row, one column per number, units in the names of the columns and in ``attrs["units"]``."""
     check_installed("pandas", "a DataFrame")
     import pandas
 
