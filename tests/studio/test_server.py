@@ -101,7 +101,7 @@ MALFORMED = [
 def test_malformed_messages_are_refused_and_change_nothing(studio: Any, tmp_path: Path) -> None:
     with tab(studio) as ws:
         until(ws, "text")
-        for message in MALFORMED:
+        for message in (*MALFORMED, b"\xff\x00", '{"ask": {}}', '{"edit": [[Infinity, 0, ""]]}'):
             ws.send(message)
             assert len(until(ws, "refused")["refused"]) > 15, message[:80]
             assert until(ws, "text")["text"] == EMPTY

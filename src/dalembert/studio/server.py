@@ -28,6 +28,8 @@ BUNDLE = Path(__file__).with_name("bundle")
 FILES = {"/": ("index.html", "text/html"), "/studio.js": ("studio.js", "text/javascript")}
 LOOK = 0.7
 """Seconds between looks at the disk: what was typed is on disk within two."""
+PATIENCE = 5.0
+"""Seconds in which a tab reads a message."""
 REFUSED = 4403
 """Code with which a socket is closed that may not speak."""
 
@@ -98,7 +100,7 @@ class StudioServer:
     async def _listen(self, ws: WebSocket) -> None:
         rate = Rate()
         while True:
-            text = await ws.receive_text()
+            text = await _received(ws)
             if len(text) > LARGEST:
                 await self._send(ws, {"refused": f"a message has more than {LARGEST} characters"})
                 continue
@@ -109,29 +111,30 @@ class StudioServer:
             await self._message(ws, text)
 
     async def _message(self, ws: WebSocket, text: str) -> None:
+        """Answers a message; a fault of the program refuses it, and ends no tab."""
         n: object = None
         before = self.session.document.text, self.session.static, self.session.friction
         try:
             message = read_message(text)
-            n = message.get("n") if isinstance(message, dict) else None
-            if isinstance(message, dict) and message.get("ask") in ASKED:
-                text = await asyncio.to_thread(self.solver.ask, self.session.question(message["ask"]))
-                await self._send_text(ws, joined({"n": n, "ask": message["ask"]}, text))
+            message = message if isinstance(message, dict) else {}
+            n, ask = message.get("n"), message.get("ask")
+            if isinstance(ask, str) and ask in ASKED:
+                answer = await asyncio.to_thread(self.solver.ask, self.session.question(ask))
+                await self._send_text(ws, joined({"n": n, "ask": ask}, answer))
                 return
-            answer = self.session.handle(message)
-        except DalembertError as error:
+            told = self.session.handle(message)
+        except Exception as error:
             await self._send(ws, {"n": n, "refused": sentence(error)})
             await self._send(ws, self.session.state())
             return
-        await self._send(ws, {"n": n, **answer})
-        if isinstance(message, dict) and not {"pull", "problems", "keys"} & set(message):
+        await self._send(ws, {"n": n, **told})
+        if not {"pull", "problems", "keys"} & set(message):
             changed = before != (self.session.document.text, self.session.static, self.session.friction)
             await self._tell_all(changed)
 
     async def _tell_all(self, changed: bool = True) -> None:
         state = self.session.state()
-        for ws in list(self.tabs):
-            await self._send(ws, state)
+        await asyncio.gather(*(self._send(ws, state) for ws in self.tabs))
         if changed:
             self.changes += 1
             self._wanted.set()
@@ -140,8 +143,13 @@ class StudioServer:
         await self._send_text(ws, json.dumps(message, separators=(",", ":"), default=float))
 
     async def _send_text(self, ws: WebSocket, text: str) -> None:
-        with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-            await ws.send_text(text)
+        """Sends to a tab; one that does not read in time is no longer told anything."""
+        try:
+            await asyncio.wait_for(ws.send_text(text), PATIENCE)
+        except TimeoutError:
+            self.tabs.pop(ws, None)
+        except (WebSocketDisconnect, RuntimeError):
+            pass  # the tab is closed
 
     async def _run(self) -> None:
         """The session, from its beginning on."""
@@ -169,8 +177,8 @@ class StudioServer:
                 )
             if requested != self.changes:
                 continue
-            for ws in list(self.tabs):
-                await self._send_text(ws, joined({"hash": session.document.hash}, answer))
+            solved = joined({"hash": session.document.hash}, answer)
+            await asyncio.gather(*(self._send_text(ws, solved) for ws in self.tabs))
 
     async def _look(self) -> None:
         while True:
@@ -178,8 +186,8 @@ class StudioServer:
             try:
                 data = self.session.look()
             except DalembertError as error:
-                for ws in list(self.tabs):
-                    await self._send(ws, {"refused": sentence(error)})
+                refused = {"refused": sentence(error)}
+                await asyncio.gather(*(self._send(ws, refused) for ws in self.tabs))
                 continue
             if data:
                 await self._tell_all()
@@ -201,10 +209,18 @@ def joined(head: Tree, answer: str) -> str:
     return json.dumps(head, separators=(",", ":"))[:-1] + "," + answer[1:]
 
 
+async def _received(ws: WebSocket) -> str:
+    """The next message of a tab; one of bytes as text too."""
+    message = await ws.receive()
+    if message["type"] == "websocket.disconnect":
+        raise WebSocketDisconnect(message.get("code", 1000))
+    return str(message.get("text") or (message.get("bytes") or b"").decode("utf-8", "replace"))
+
+
 async def _token(ws: WebSocket) -> object:
     """The first message, which has to come soon and be short."""
     try:
-        text = await asyncio.wait_for(ws.receive_text(), 5.0)
+        text = await asyncio.wait_for(_received(ws), 5.0)
         return read_message(text[:1000]).get("token")
     except (TimeoutError, DalembertError, AttributeError):
         return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -104,7 +105,7 @@ class Session:
             raise ModelError("the text has changed meanwhile", "type it again")
         try:
             edits = [(int(a), int(b), str(text)) for a, b, text in splices]
-        except (TypeError, ValueError):
+        except (OverflowError, TypeError, ValueError):
             raise ModelError("the edit cannot be read", "reload the page") from None
         self.document.edit(edits)
 
@@ -121,7 +122,9 @@ class Session:
             link, steps = str(asked["link"]), asked["path"][-8:]
             at = (float(asked["at"][0]), float(asked["at"][1]))
             path = [(float(x), float(y)) for x, y in steps]
-        except (KeyError, IndexError, TypeError, ValueError):
+            if not all(map(math.isfinite, [*at, *(x for place in path for x in place)])):
+                raise ValueError
+        except (KeyError, IndexError, OverflowError, TypeError, ValueError):
             raise ModelError("the pull cannot be read", "reload the page") from None
         if sketch is None or link not in sketch.compiled.links:
             raise ModelError("this link cannot be pulled", "choose a moving link")

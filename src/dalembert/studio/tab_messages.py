@@ -16,8 +16,10 @@ def read_message(text: str) -> Any:
         raise ModelError("the message is not JSON", "reload the page") from None
 
 
-def sentence(error: DalembertError) -> str:
-    """The sentence of an error, without the file's name."""
+def sentence(error: Exception) -> str:
+    """The sentence of an error, without the file's name; of a fault of the program, what to do."""
     if isinstance(error, ModelError):
         return f"{error.what}; {error.remedy}" if error.remedy else error.what
-    return str(error)
+    if isinstance(error, DalembertError):
+        return str(error)
+    return f"the studio failed ({type(error).__name__}); please report what you did"
