@@ -2,7 +2,7 @@
 
 import { bounds, canvas, roundUp, ScaleBar } from "./board";
 import type { Chart, Curve, Data, Polygon } from "./data";
-import { curve } from "./items";
+import { curve, draw } from "./items";
 import type { Kernel } from "./kernel";
 import { label, Placer } from "./labels";
 import { Arrow, figures, html, letters, make, path, type Point, pointer, set, short, width } from "./svg";
@@ -120,7 +120,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     update(cycle) {
       if (cycle) {
         if (rescale()) drawScale();
-        lines.forEach((line, n) => line.setAttribute("d", curve(kernel, (k) => [at(k), up(value(c.curves[n], k))])));
+        lines.forEach((line, n) => draw(line, curve(kernel, (k) => [at(k), up(value(c.curves[n], k))])));
       }
       const x = short(at(Math.min(cursor.time(), last)));
       now.setAttribute("d", `M${x} ${y0}v${h}`);
@@ -145,7 +145,7 @@ export function polar(parent: Element, kernel: Kernel, c: Curve, unit: { unit: s
       if (cycle) {
         const outer = roundUp(kernel.largest((k) => Math.hypot(kernel.value(fx, k), kernel.value(fy, k))) / unit.size);
         perMm = (outer / 30) * unit.size;
-        line.setAttribute("d", curve(kernel, (k) => [kernel.value(fx, k) / perMm, -kernel.value(fy, k) / perMm], true));
+        draw(line, curve(kernel, (k) => [kernel.value(fx, k) / perMm, -kernel.value(fy, k) / perMm], true));
         caption.textContent = `Joint ${c.name}: circles of ${figures(outer / 2)} and ${figures(outer)} ${unit.unit}`;
       }
       arrow.set([0, 0], kernel.solved ? [kernel.here[fx] / perMm, -kernel.here[fy] / perMm] : [0, 0]);

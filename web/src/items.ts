@@ -107,7 +107,7 @@ function drawn(parent: Element, i: Item, paper: Paper): Part {
   }
   if (i.t === "pair") return pair(parent, i, paper);
   const line = make("path", parent, { class: `l-${i.role}`, style: "fill:none" });
-  if (i.t === "trace") return { update: () => line.setAttribute("d", curve(paper.kernel, (k) => paper.pointAt(i.p[0], k), true)) };
+  if (i.t === "trace") return { update: () => draw(line, curve(paper.kernel, (k) => paper.pointAt(i.p[0], k), true)) };
   if (i.t === "hull") line.dataset.link = i.link;
   let corners: Point[] = [], area = false;
   return {
@@ -152,28 +152,45 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
   };
 }
 
-/** Positions beyond which points nearer than FINE mm to the last one are not drawn. */
-const DENSE = 240, FINE = 0.3;
+/** Positions beyond which points are left out that a line through others passes within THIN mm, MOST in a row at most. */
+const DENSE = 240, THIN = 0.04, MOST = 12;
+
+/** True if the points from one to another, without their ends, lie within THIN of the line between these. */
+function straight(points: Float64Array, from: number, to: number): boolean {
+  const x = points[2 * from], y = points[2 * from + 1], dx = points[2 * to] - x, dy = points[2 * to + 1] - y, long = dx * dx + dy * dy;
+  for (let n = from + 1; n < to; n++) {
+    const u = points[2 * n] - x, v = points[2 * n + 1] - y, along = u * dx + v * dy;
+    if ((u * dy - v * dx) ** 2 > THIN * THIN * long || along < 0 || along > long) return false;
+  }
+  return true;
+}
+
+/** A path with other points, where they differ. */
+export function draw(path: Element, d: string): void {
+  if (path.getAttribute("d") !== d) path.setAttribute("d", d);
+}
 
 /** A curve over the cycle, with gaps where no answer exists; ``closed`` if the cycle continues from its end. */
 export function curve(k: Source, at: (n: number) => Point, closed = false): string {
-  const last = closed && k.cyclic ? k.count : k.count - 1, least = k.count > DENSE ? FINE : 0;
-  let d = "", pen = false, drawn: Point = [NaN, NaN];
+  const last = closed && k.cyclic ? k.count : k.count - 1, dense = k.count > DENSE, points = new Float64Array(2 * last + 2);
+  let d = "", drawn = -1;
+  const put = (c: number, pen = "L"): void => {
+    d += `${pen}${short(points[2 * c])} ${short(points[2 * c + 1])}`;
+    drawn = c;
+  };
   for (let c = 0; c <= last; c++) {
     const n = c % k.count, good = !!k.good[n];
-    if (good) {
-      const [x, y] = at(n), skip = pen && c < last && !k.reverses(n) && Math.abs(x - drawn[0]) + Math.abs(y - drawn[1]) < least;
-      if (!skip) {
-        d += (pen ? "L" : "M") + short(x) + " " + short(y);
-        drawn = [x, y];
-      }
-      if (k.reverses(n)) {
-        const [ax, ay] = k.onceAfter(() => at(n));
-        d += "L" + short(ax) + " " + short(ay);
-      }
+    if (good) points.set(at(n), 2 * c);
+    if (good && drawn < 0) put(c, "M");
+    else if (drawn >= 0 && drawn < c - 1 && !(good && dense && c - drawn <= MOST && straight(points, drawn, c))) put(c - 1);
+    if (!good) drawn = -1;
+    else if (k.reverses(n)) {
+      if (drawn < c) put(c);
+      points.set(k.onceAfter(() => at(n)), 2 * c);
+      put(c);
     }
-    pen = good;
   }
+  if (drawn >= 0 && drawn < last) put(last);
   return d;
 }
 

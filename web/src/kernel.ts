@@ -140,8 +140,7 @@ export class Kernel implements Source {
 
   /** All positions with the present numbers; those that the motion does not reach are flagged. */
   cycle(): void {
-    this.motion.update();
-    this.closes();
+    if (!this.motion.update()) this.closes();
     if (this.side >= 0) this.bothSides();
     const last = this.rows.length - this.row;
     for (let k = 0; k < this.count; k++) {

@@ -113,14 +113,15 @@ export class Motion {
     return p.reduce((most, x, k) => Math.max(most, Math.abs(x - q[k])), 0);
   }
 
-  /** Closes the present pose for the present numbers, and follows the motion from it. */
-  update(): void {
-    if (this.seen?.every((x, k) => x === this.values[k])) return;
+  /** Closes the present pose for the present numbers, and follows the motion from it; false if that has been done. */
+  update(): boolean {
+    if (this.seen?.every((x, k) => x === this.values[k])) return false;
     this.seen = this.values.slice();
     const closed = this.reclose();
     this.poses.fill(null);
     if (closed) this.follow(this.held.t, this.held.pose);
     this.settle(closed);
+    return true;
   }
 
   /** The present pose for other numbers: at once, else in small steps of the change; false if it does not close. */
@@ -174,7 +175,7 @@ export class Motion {
     const drives = (k: number): number[] => this.kernel.drives(course[k]).map((x, d) => x + (more[d] ?? 0));
     const put = (k: number, pose: Pose): void => {
       if (!cycle) this.poses[course[k]] = pose;
-      else this.poses[course[k]] = { ...pose, turn: pose.turn.map((x, link) => x - turns[link]) };
+      else this.poses[course[k]] = { point: pose.point, rotation: pose.rotation, turn: pose.turn.map((x, link) => x - turns[link]) };
     };
     for (let k = from; k >= 0 && k < n; ) {
       if (cycle && this.poses[course[k]]) return null;
@@ -185,7 +186,7 @@ export class Motion {
         next = k;
       }
       if (next === k && !this.sketch.walk(trail, drives(k))) return null;
-      for (let m = k; m !== next; m += sign) put(m, between(before, trail.pose, had, trail.drives, drives(m)));
+      for (let m = k; m !== next; m += sign) put(m, new Between(before, trail.pose, had, trail.drives, drives(m)));
       put(next, trail.pose);
       k = next + sign;
     }
@@ -222,6 +223,10 @@ export class Motion {
     if (begin) {
       if (!this.poses[first]) this.follow(first, begin);
       this.base = { place: first, pose: this.exact(first) ?? begin };
+      if (this.poses.every((q) => q)) {
+        this.model = this.read(begin, first);
+        return; // nothing is left to which it would apply
+      }
       this.spread(this.read(begin, first));
       closes = this.kernel.closes();
       this.behind(closes);
@@ -322,18 +327,27 @@ export class Motion {
     const poses = this.poses.map((q) => q ?? spare), { path } = p;
     this.channels.forEach(({ kind, part, k: place, given }, at) => {
       const from = at * row;
-      if (kind === "pose") for (let k = 0; k < n; k++) path[from + k] = poses[k][part][place];
+      if (kind === "pose") for (let k = 0; k < n; k++) {
+        const q = poses[k];
+        path[from + k] = q instanceof Between ? q.value(part, place) : q[part][place];
+      }
       else if (kind === "position") for (let k = 0; k < n; k++) path[from + k] = this.driven[k][place];
       else if (kind === "given") path.set(given.subarray(0, n), from);
-      else path.fill(1, from, from + n);
     });
-    this.branches.forEach((of, b) => {
+    // Each branch depends on those before it only: once no sign changes, all are as if read one after the other.
+    for (let changed = true, left = this.branches.length + 1; changed && left; left--) {
+      this.channels.forEach((c, at) => c.kind === "branch" && p.path.set(this.branches[c.k], at * row));
       p.call(n);
-      for (let k = 0; k < n; k++) of[k] = !this.poses[k] ? model[b] : p.at(b, k) < 0 ? -1 : 1;
-      this.channels.forEach((c, at) => c.kind === "branch" && c.k === b && p.path.set(of, at * row));
-      this.inputs(this.data.branches[b]).set(of);
-    });
-    if (this.data.known.length) p.call(n);
+      changed = false;
+      this.branches.forEach((of, b) => {
+        for (let k = 0; k < n; k++) {
+          const sign = !this.poses[k] ? model[b] : p.at(b, k) < 0 ? -1 : 1;
+          changed ||= sign !== of[k];
+          of[k] = sign;
+        }
+      });
+    }
+    this.branches.forEach((of, b) => this.inputs(this.data.branches[b]).set(of));
     this.data.known.forEach((name, i) => {
       const of = this.inputs(name);
       for (let k = 0; k < n; k++) of[k] = this.poses[k] ? p.at(this.branches.length + i, k) : NaN;
@@ -458,13 +472,25 @@ export class Motion {
 
 const wrap = (x: number): number => x - 2 * Math.PI * Math.round(x / (2 * Math.PI));
 
-/** A pose between two others, in proportion to the drives; for planar links. */
-function between(a: Pose, b: Pose, from: number[], to: number[], at: number[]): Pose {
-  const d = to.findIndex((x, k) => x !== from[k]), part = d < 0 ? 1 : (at[d] - from[d]) / (to[d] - from[d]);
-  const mixed = (p: Float64Array, q: Float64Array) => p.map((x, k) => x + part * (q[k] - x));
-  const turn = mixed(a.turn, b.turn), rotation = a.rotation.slice();
-  turn.forEach((t, k) => ([rotation[2 * k], rotation[2 * k + 1]] = [Math.cos(t), Math.sin(t)]));
-  return { point: mixed(a.point, b.point), turn, rotation };
+/** A pose between two others, in proportion to the drives; for planar links. Its arrays are made when they are read. */
+class Between implements Pose {
+  private readonly part: number;
+  constructor(private readonly a: Pose, private readonly b: Pose, from: number[], to: number[], at: number[]) {
+    const d = to.findIndex((x, k) => x !== from[k]);
+    this.part = d < 0 ? 1 : (at[d] - from[d]) / (to[d] - from[d]);
+  }
+  /** One number of it. */
+  value(of: keyof Pose, k: number): number {
+    if (of !== "rotation") return this.a[of][k] + this.part * (this.b[of][k] - this.a[of][k]);
+    const turn = this.value("turn", k >> 1);
+    return k & 1 ? Math.sin(turn) : Math.cos(turn);
+  }
+  private all(of: keyof Pose): Float64Array {
+    return this.a[of].map((_, k) => this.value(of, k));
+  }
+  get point(): Float64Array { return this.all("point"); }
+  get rotation(): Float64Array { return this.all("rotation"); }
+  get turn(): Float64Array { return this.all("turn"); }
 }
 
 /** The joint that is opened if the linkage does not close: between two moving links, if possible not driven. */
