@@ -211,7 +211,9 @@ def _stated_pose(c: Compiled) -> Pose:
     point = guess.point.copy()
     point[-1] = 0.0
     if isinstance(guess, Guess):
+        unstated = [k for k, link in enumerate(c.links) if link not in c.mechanism.assembly]
         turn = guess.turn.copy()
+        turn[unstated] = point[unstated] = np.nan
         turn[-1] = 0.0
         return Pose(point, turn, g.rotation(turn))
     rotation = guess.rotation.copy()

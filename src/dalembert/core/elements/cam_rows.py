@@ -167,6 +167,7 @@ def wrench(g: Algebra, f: CamRow, pose: Pose, on_i: Array, on_j: Array) -> None:
         n = _normal(t, is_flat(part))
         ri, rj = arm(g, pose, part.i, part.ui), arm(g, pose, part.j, part.uj)
         if is_flat(part):  # about j's point: n x line from d(rho) by j's turn, and the lift's slope by beta
+            n = (t.by_rho / t.size)[..., None] * n if isinstance(f, CamGap) else n
             couple = g.cross(n, t.line) + (t.by_beta / t.size)[..., None]
             on_j[..., part.row, :2], on_j[..., part.row, 2:] = n, g.cross(rj, n) + couple
             on_i[..., part.row, :2], on_i[..., part.row, 2:] = -n, -g.cross(ri, n) - couple_on_i(t)

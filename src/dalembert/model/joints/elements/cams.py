@@ -58,10 +58,8 @@ class Cam(JointPart):
 
     @property
     def lifted(self) -> tuple[str, ...]:
-        """The gap along the follower's path; motions under forces keep one with friction, or a face that swings, on
-        its cam."""
-        swings = self.flat and self.profile.segments is not None and self.profile.segments.kind == "angle"
-        return () if swings or self.friction is not None else ("gap",)
+        """The gap along the follower's path; motions under forces keep one with friction on its cam."""
+        return () if self.friction is not None else ("gap",)
 
     @property
     def apart(self) -> bool:

@@ -1,0 +1,103 @@
+"""Followers that swing leave their cams, fly and land: against both motions written out and integrated by scipy."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import dalembert as da
+
+FILE = """units: {length: mm, force: N, mass: kg, time: s, angle: deg}
+links:
+  ground: {points: {O: [0, 0], P: [-120, 60]}}
+  cam: {points: {O: [0, 0]}, inertia: 0.004 kg*m^2}
+  lever: {points: {P: [0, 0], F: [110, -10]}, mass: 0.8, center: [60, 0], inertia: 0.002 kg*m^2}
+joints:
+  O: {type: pin, links: [ground, cam]}
+  P: {type: pin, links: [ground, lever]}
+  F: {type: cam, links: [cam, lever], at: [O, F], follower: FOLLOWER, contact: {pushes: true, restitution: 0.4},
+      profile: {base: 60, segments: [{to: 12 deg, in: 110, by: cycloidal}, {to: 0 deg, in: 120, by: cycloidal},
+      {dwell: rest}]}}
+drives: {O: {effort: 0}}
+loads: {S: {type: torsion_spring, joint: P, stiffness: 20 N*m/rad, free_angle: -10}}
+start: {O: {position: 0, speed: 130 rad/s}}
+"""
+CAM, LEVER, STIFFNESS, FREE, RESTITUTION = 0.004, 0.002 + 0.8 * 0.06**2, 20.0, math.radians(-10), 0.4
+
+
+def lift(turn: float) -> tuple[float, float, float]:
+    """Angle of the follower over its lowest one, and its two derivatives by the cam's turn."""
+    height, up, down = (math.radians(x) for x in (12, 110, 120))
+    turn %= 2 * math.pi
+    if turn > up + down:
+        return 0.0, 0.0, 0.0
+    length, sign = (up, 1.0) if turn <= up else (down, -1.0)
+    x = (turn if turn <= up else turn - up) / length
+    w = 2 * math.pi
+    value = x - math.sin(w * x) / w
+    first, second = (1 - math.cos(w * x)) / length, w * math.sin(w * x) / length**2
+    return height * (value if sign > 0 else 1 - value), sign * height * first, sign * height * second
+
+
+@pytest.mark.parametrize("follower", ["{roller: 10}", "flat", "knife"])
+def test_a_lever_jumps_off_its_cam_and_lands(follower: str) -> None:
+    m = da.loads(FILE.replace("FOLLOWER", follower))
+    s = da.simulate(m, until="0.04 s")
+    lowest = float(s.result.angle("lever")[0])
+
+    def moment(angle: float) -> float:
+        return -STIFFNESS * (lowest + angle - FREE)
+
+    def on(_: float, x: Any) -> list[float]:
+        value, first, second = lift(x[0])
+        push = (moment(value) - LEVER * second * x[1] ** 2) * first
+        return [x[1], push / (CAM + LEVER * first**2)]
+
+    def normal(t: float, x: Any) -> float:
+        value, first, second = lift(x[0])
+        return LEVER * (first * on(t, x)[1] + second * x[1] ** 2) - moment(value)
+
+    def off(_: float, x: Any) -> list[float]:
+        return [x[1], 0.0, x[3], moment(x[2]) / LEVER]
+
+    def gap(_: float, x: Any) -> float:
+        return float(x[2] - lift(x[0])[0])
+
+    normal.terminal = gap.terminal = True  # type: ignore[attr-defined]
+    gap.direction = -1  # type: ignore[attr-defined]
+    exact = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853", "max_step": 1e-4}
+    phase = solve_ivp(on, (0, 0.05), [0, 130], events=normal, **exact)
+    expected, when, x = [phase.t[-1]], phase.t[-1], phase.y[:, -1]
+    value, first, _ = lift(x[0])
+    x = np.array([x[0], x[1], value, first * x[1]])
+    phase = solve_ivp(off, (when, 0.2), x, events=gap, first_step=1e-6, **exact)
+    when, x = phase.t[-1], phase.y[:, -1]
+    first = lift(x[0])[1]
+    rate = x[3] - first * x[1]
+    impulse = -(1 + RESTITUTION) * rate / (1 / LEVER + first**2 / CAM)
+    expected += [when, x[1] - impulse * first / CAM]
+    landing = s.event("landing")[0]
+    after = int(np.searchsorted(s.time, landing.time, side="right"))
+    found = [s.event("lift-off")[0].time, landing.time, float(s.speed("O")[after])]
+    assert found == pytest.approx(expected, rel=1e-8)
+    assert s.energy_residual < 1e-9
+    pushed = np.hypot(*s.result.reaction("F").T)
+    assert s["normal.F"] == pytest.approx(pushed, abs=1e-9 * pushed.max())
+    held = da.simulate(m.with_values({"joints.F.contact": "holds"}), "0.004 s").result
+    on_cam = da.simulate(m, "0.004 s").result
+    assert on_cam.force_array == pytest.approx(held.force_array, abs=1e-8 * pushed.max())
+    assert on_cam.moment_array == pytest.approx(held.moment_array, abs=1e-8 * pushed.max())
+
+
+def test_turns_of_a_lever_are_counted_from_zero_also_on_a_cam() -> None:
+    """A torsion spring on a lever at almost half a turn, in an analysis as in a motion."""
+    text = FILE.replace("FOLLOWER", "{roller: 10}").replace("[110, -10]", "[-110, 0]").replace("[60, 0]", "[-60, 0]")
+    text = text.replace("base: 60", "base: 40")
+    s = da.simulate(da.loads(text.replace("free_angle: -10", "free_angle: 150")), until="0.001 s")
+    r = da.dynamics(da.loads(text.replace("{effort: 0}", "{position: 0, speed: 130 rad/s}")))
+    assert 3 < s["turn.P"][0] < math.pi
+    assert r["turn.P"][0] == pytest.approx(s["turn.P"][0], abs=1e-9)
