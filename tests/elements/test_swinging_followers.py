@@ -95,9 +95,96 @@ def test_a_lever_jumps_off_its_cam_and_lands(follower: str) -> None:
 
 def test_turns_of_a_lever_are_counted_from_zero_also_on_a_cam() -> None:
     """A torsion spring on a lever at almost half a turn, in an analysis as in a motion."""
-    text = FILE.replace("FOLLOWER", "{roller: 10}").replace("[110, -10]", "[-110, 0]").replace("[60, 0]", "[-60, 0]")
+    text = (
+        FILE.replace("FOLLOWER", "{roller: 10}")
+        .replace("[110, -10]", "[-110, 0]")
+        .replace("[60, 0]", "[-60, 0]")
+    )
     text = text.replace("base: 60", "base: 40")
     s = da.simulate(da.loads(text.replace("free_angle: -10", "free_angle: 150")), until="0.001 s")
     r = da.dynamics(da.loads(text.replace("{effort: 0}", "{position: 0, speed: 130 rad/s}")))
     assert 3 < s["turn.P"][0] < math.pi
     assert r["turn.P"][0] == pytest.approx(s["turn.P"][0], abs=1e-9)
+
+
+RUBBING = """gravity: none
+links:
+  ground: {points: {O: [0, 0], top: [0, 0.3]}}
+  cam: {points: {O: [0, 0]}, inertia: 0.05}
+  stem: {points: {F: [0, 0]}, mass: 1.2}
+joints:
+  O: {type: pin, links: [ground, cam]}
+  guide: {type: slider, links: [ground, stem], at: [O, F], direction: 90}
+  F: {type: cam, links: [cam, stem], at: [O, F], follower: FOLLOWER, friction: {coefficient: 0.15},
+      contact: {pushes: true, restitution: 0.4}, profile: {eccentric: 0.012, radius: 0.04}}
+drives: {O: {effort: 0}}
+loads: {S: {type: spring, between: [ground.top, stem.F], stiffness: 8000, free_length: 0.28}}
+start: {O: {position: 0, speed: 150 rad/s}}
+"""
+
+
+@pytest.mark.parametrize("follower", ["flat", "knife"])
+def test_a_follower_that_rubs_leaves_its_cam_and_lands(follower: str) -> None:
+    """On the cam the normal force and the friction by Newton and Euler on both links, off it freely."""
+    mass, inertia, e, radius, mu = 1.2, 0.05, 0.012, 0.04, 0.15
+
+    def on(_: float, x: Any) -> tuple[float, float]:
+        """Acceleration of the cam, and the normal force."""
+        turn, rate = x[0], x[1]
+        y, first, second = height(turn)
+        normal = np.array([0.0, 1.0])
+        if follower == "knife":
+            normal = (np.array([0.0, y]) - e * np.array([math.cos(turn), math.sin(turn)])) / radius
+        tangent = np.array([normal[1], -normal[0]])
+        sliding = np.sign(np.array([rate * y, first * rate]) @ tangent)
+        force = normal - mu * sliding * tangent  # of a unit normal force
+        at = e * math.cos(turn) if follower == "flat" else 0.0
+        moment = -(at * force[1] - y * force[0])
+        system = [[inertia, -moment], [mass * first, -force[1]]]
+        push = -8000 * (0.28 - (0.3 - y))
+        alpha, n = np.linalg.solve(system, [0.0, push - mass * second * rate**2])
+        return float(alpha), float(n)
+
+    def height(turn: float) -> tuple[float, float, float]:
+        s, c = e * math.sin(turn), e * math.cos(turn)
+        if follower == "flat":
+            return radius + s, c, -s
+        q = math.sqrt(radius**2 - c * c)
+        first = c * s / q
+        return s + q, c + first, -s + (c * c - s * s - first * first) / q
+
+    def normal(t: float, x: Any) -> float:
+        return on(t, x)[1]
+
+    def off(_: float, x: Any) -> list[float]:
+        return [x[1], 0.0, x[3], -8000 * (0.28 - (0.3 - x[2])) / mass]
+
+    def gap(_: float, x: Any) -> float:
+        return float(x[2] - height(x[0])[0])
+
+    normal.terminal = gap.terminal = True  # type: ignore[attr-defined]
+    gap.direction = -1  # type: ignore[attr-defined]
+    exact = {"rtol": 1e-12, "atol": 1e-14, "method": "DOP853"}
+    phase = solve_ivp(lambda t, x: [x[1], on(t, x)[0]], (0, 0.05), [0, 150], events=normal, **exact)
+    expected, when, x = [phase.t[-1]], phase.t[-1], phase.y[:, -1]
+    y, first, _ = height(x[0])
+    x = np.array([x[0], x[1], y, first * x[1]])
+    phase = solve_ivp(off, (when, 0.2), x, events=gap, first_step=1e-6, **exact)
+    expected += [phase.t[-1], height(phase.y[0, -1])[1] * phase.y[1, -1] - phase.y[3, -1]]
+    s = da.simulate(da.loads(RUBBING.replace("FOLLOWER", follower)), until=f"{phase.t[-1] * 1.02} s")
+    landing = s.event("landing")[0]
+    assert [s.event("lift-off")[0].time, landing.time, landing.speed] == pytest.approx(expected, rel=1e-8)
+    pushed = np.hypot(*s.result.reaction("F").T)
+    assert pushed == pytest.approx(s["normal.F"] * math.hypot(1, mu), abs=1e-9 * pushed.max())
+    assert s.energy_residual < 1e-9
+
+
+@pytest.mark.parametrize("follower", ["flat", "knife"])
+def test_a_lever_that_rubs_and_stays_is_as_if_it_were_held(follower: str) -> None:
+    text = FILE.replace("FOLLOWER", f"{follower}, friction: {{coefficient: 0.12}}")
+    pushes = da.simulate(da.loads(text), until="0.004 s").result
+    text = text.replace("contact: {pushes: true, restitution: 0.4}", "contact: holds")
+    holds = da.simulate(da.loads(text), until="0.004 s").result
+    largest = np.abs(holds.force_array).max()
+    assert pushes.force_array == pytest.approx(holds.force_array, abs=1e-8 * largest)
+    assert pushes.moment_array == pytest.approx(holds.moment_array, abs=1e-8 * largest)

@@ -136,6 +136,14 @@ def arm_of_swing(f: CamRow) -> Array:
     return np.asarray(lengths.get(int(f.form[0]), np.ones_like(f.a)))
 
 
+def normal_size(g: Algebra, f: CamRow, pose: Pose) -> Array:
+    """Normal force (..., k) of a unit effort along the gap, whose wrench is not of unit size."""
+    out = np.zeros((*pose.point.shape[:-2], len(f.i)), pose.point.dtype)
+    for part, which in _each(f):
+        out[..., which] = touch(g, part, pose).size * arm_of_swing(part)
+    return out
+
+
 def normal(g: Algebra, f: CamRow, pose: Pose) -> Array:
     """Unit normals (..., k, 2) from the cam to the follower."""
     out = np.zeros((*pose.point.shape[:-2], len(f.i), 2), pose.point.dtype)

@@ -28,6 +28,8 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import branchless
 from dalembert.core.branchless import above, hypot, larger, root, top, unit, where
 from dalembert.core.constraints import drift, measure, rates, system
+from dalembert.core.elements.cam_family import CamGap, CamSlip
+from dalembert.core.elements.cam_rows import normal_size
 from dalembert.core.elements.rope_bends import bend_factor
 from dalembert.core.forcing import Resistances, WrenchSource, total_wrench
 from dalembert.core.friction.capstan import capstan
@@ -301,7 +303,8 @@ def _multipliers(forces: Factor, wrench: Array) -> Array:
 
 
 def _near(layout: Layout, contacts: Contacts, pose: Pose, still: Flags) -> Array:
-    """Factor (..., E) on the forces of contacts that fall as the centres go apart, or follow a rope's angle of wrap."""
+    """Factor (..., E) on the forces of contacts that fall as the centres go apart, follow a rope's angle of wrap, or
+    are those of a follower whose gap is a freedom."""
     distance = measure(layout.algebra, contacts.rows, pose)
     near, falls = np.ones_like(distance), contacts.reach > 0
     near[..., falls] = contacts.reach[falls] / distance[..., falls]
@@ -310,7 +313,18 @@ def _near(layout: Layout, contacts: Contacts, pose: Pose, still: Flags) -> Array
         mu = where(still, contacts.resting, contacts.coefficient)[..., bent]
         at = contacts.bends[bent], contacts.way[bent], contacts.wrap[bent]
         near[..., bent] = bend_factor(layout, pose, mu, *at)
+    for f in contacts.rows.families:
+        if isinstance(f, CamSlip):
+            opened = np.isin(contacts.joint[f.row], _opened_cams(layout))
+            size = normal_size(layout.algebra, f, pose)
+            near[..., f.row[opened]] = size[..., opened]
     return near
+
+
+def _opened_cams(layout: Layout) -> list[int]:
+    """Joints of cams whose gaps are freedoms."""
+    freedoms = layout.freedoms
+    return [int(freedoms.joint[row]) for f in freedoms.families if isinstance(f, CamGap) for row in f.row]
 
 
 def _unit(layout: Layout, along: ConstraintRows, e: int) -> Array:

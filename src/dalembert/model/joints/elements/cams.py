@@ -58,8 +58,8 @@ class Cam(JointPart):
 
     @property
     def lifted(self) -> tuple[str, ...]:
-        """The gap along the follower's path; motions under forces keep one with friction on its cam."""
-        return () if self.friction is not None else ("gap",)
+        """The gap along the follower's path."""
+        return ("gap",)
 
     @property
     def apart(self) -> bool:
