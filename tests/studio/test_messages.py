@@ -62,7 +62,9 @@ async def flooded(file: Path, seed: int, count: int) -> Session:
         assert (reading.mechanism is None) == bool(reading.error), text[:300]
         assert reading.line >= bool(reading.error)
         if k % 10 == 0:
-            with contextlib.suppress(DalembertError):  # a text that cannot be written, such as half a character
+            with contextlib.suppress(
+                DalembertError
+            ):  # a text that cannot be written, such as half a character
                 session.look()
     return session
 

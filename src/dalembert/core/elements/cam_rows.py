@@ -17,12 +17,12 @@ import numpy as np
 
 from dalembert.algebra import plane
 from dalembert.algebra.protocol import Algebra
-from dalembert.arrays import Array, Flags, Numeric
+from dalembert.arrays import Array, Flags, Ints, Numeric
 from dalembert.core.branchless import larger, root
 from dalembert.core.elements.cam_curves import TURN, arctan2, lift, sine
-from dalembert.core.elements.cam_family import FLAT, FLAT_SWINGS, SLIDES, SWINGS, CamGap, CamRow
+from dalembert.core.elements.cam_family import FLAT, FLAT_SWINGS, SLIDES, SWINGS, CamGap, CamRow, CamSlip
 from dalembert.core.geometry import arm, span, span_motion
-from dalembert.core.layout import Layout, Pose
+from dalembert.core.layout import Layout, Pose, Rows
 
 NEAR, BESIDE = 1e-9, 4e-9
 """Turn of a cam within which a place is a joint of pieces, and by how much these are then moved."""
@@ -142,6 +142,17 @@ def normal_size(g: Algebra, f: CamRow, pose: Pose) -> Array:
     for part, which in _each(f):
         out[..., which] = touch(g, part, pose).size * arm_of_swing(part)
     return out
+
+
+def effort_sizes(layout: Layout, along: Rows, joints: Ints, pose: Pose) -> Iterator[tuple[Ints, Array]]:
+    """Rows of sliding on cams whose gaps are freedoms, with the normal force of a unit effort; ``joints`` of the rows."""
+    freedoms = layout.freedoms
+    gaps = [f.row for f in freedoms.families if isinstance(f, CamGap)]
+    opened = freedoms.joint[np.concatenate(gaps)] if gaps else np.zeros(0, np.intp)
+    for f in along.families:
+        if isinstance(f, CamSlip) and opened.size:
+            some = np.isin(joints[f.row], opened)
+            yield f.row[some], normal_size(layout.algebra, f, pose)[..., some]
 
 
 def normal(g: Algebra, f: CamRow, pose: Pose) -> Array:

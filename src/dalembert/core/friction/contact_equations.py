@@ -28,8 +28,7 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import branchless
 from dalembert.core.branchless import above, hypot, larger, root, top, unit, where
 from dalembert.core.constraints import drift, measure, rates, system
-from dalembert.core.elements.cam_family import CamGap, CamSlip
-from dalembert.core.elements.cam_rows import normal_size
+from dalembert.core.elements.cam_rows import effort_sizes
 from dalembert.core.elements.rope_bends import bend_factor
 from dalembert.core.forcing import Resistances, WrenchSource, total_wrench
 from dalembert.core.friction.capstan import capstan
@@ -313,18 +312,9 @@ def _near(layout: Layout, contacts: Contacts, pose: Pose, still: Flags) -> Array
         mu = where(still, contacts.resting, contacts.coefficient)[..., bent]
         at = contacts.bends[bent], contacts.way[bent], contacts.wrap[bent]
         near[..., bent] = bend_factor(layout, pose, mu, *at)
-    for f in contacts.rows.families:
-        if isinstance(f, CamSlip):
-            opened = np.isin(contacts.joint[f.row], _opened_cams(layout))
-            size = normal_size(layout.algebra, f, pose)
-            near[..., f.row[opened]] = size[..., opened]
+    for rows, size in effort_sizes(layout, contacts.rows, contacts.joint, pose):
+        near[..., rows] = size
     return near
-
-
-def _opened_cams(layout: Layout) -> list[int]:
-    """Joints of cams whose gaps are freedoms."""
-    freedoms = layout.freedoms
-    return [int(freedoms.joint[row]) for f in freedoms.families if isinstance(f, CamGap) for row in f.row]
 
 
 def _unit(layout: Layout, along: ConstraintRows, e: int) -> Array:
