@@ -70,6 +70,48 @@ def test_a_page_in_a_notebook_sends_each_drag_once(browser: Any) -> None:
     page.close()
 
 
+SKETCH = """
+units: {length: mm}
+links: {ground: {points: {A: [0, 0]}}, bar: {points: {A: [0, 0], B: [80, 0]}}}
+joints: {A: {type: pin, links: [ground, bar]}}
+"""
+
+
+def test_an_unfinished_mechanism_is_a_sketch_in_a_notebook() -> None:
+    w = da.widget(da.loads(SKETCH))
+    assert w.data["missing"]["offers"][0]["said"] == "drive the turn of A"
+    assert w.mechanism.assembly == {}
+    w.text = w.data["missing"]["offers"][0]["text"]
+    assert list(w.mechanism.drives) == ["A"]
+    w.mechanism = da.four_bar()
+    assert (w.text, list(w.mechanism.drives)) == ("", ["O2"])
+
+
+@pytest.mark.long
+def test_a_sketch_in_a_notebook_is_pulled_and_finished(browser: Any) -> None:
+    w, page = da.widget(da.loads(SKETCH)), browser.new_page()
+    code = base64.b64encode((BUNDLE / "widget.js").read_bytes()).decode()
+    page.evaluate(HOST, [code, json.loads(json.dumps(w.data))])
+    box = page.locator("svg .l-link, svg [data-item]").first.bounding_box()
+    x, y = box["x"] + 0.8 * box["width"], box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in range(1, 9):
+        page.mouse.move(x - 6 * k, y - 10 * k)
+        page.wait_for_timeout(30)
+    page.mouse.up()
+    page.wait_for_function("() => state.text")
+    w.text = page.evaluate("state.text")
+    turned = w.mechanism.assembly["bar"]
+    assert 0.1 < turned < 3.1
+    page.locator("button", has_text="drive the turn of A").click()
+    page.wait_for_function("() => state.text.includes('drives')")
+    w.text = page.evaluate("state.text")
+    assert list(w.mechanism.drives) == ["A"]
+    assert w.result.ok.all()
+    page.close()
+
+
 def test_a_mechanism_shows_itself_live_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
     shown = list[Any]()
     monkeypatch.setattr("IPython.display.display", lambda data, raw: shown.append(data))

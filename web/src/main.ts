@@ -1,6 +1,7 @@
 /** Entry points that a page and a notebook import. */
 
 import { mount, type Page } from "./page";
+import type { PageEvent } from "./stage";
 import { firstView } from "./view";
 import { inflate } from "./program";
 import { html } from "./svg";
@@ -30,8 +31,15 @@ export default {
       model.set("changes", changes);
       model.save_changes();
     };
+    // a sketch, and what it becomes by its offers, is told as the text of its file
+    const on = (e: PageEvent): void => {
+      if (e.type === "put" || e.type === "pose" || (e.type === "change" && model.get("text"))) {
+        model.set("text", page.text());
+        model.save_changes();
+      }
+    };
     const start = async () => {
-      const made = await mount(el, model.get("data"), { edited, changes: model.get("changes"), view });
+      const made = await mount(el, model.get("data"), { edited, on, changes: model.get("changes"), view });
       // the page that a notebook keeps for when it is opened without Python stands below; while this one lives it hides
       html("style", el, {}, `[data-dalembert="${model.get("frame")}"]{display:none}`);
       return made;

@@ -85,6 +85,7 @@ export async function mount(el: HTMLElement, data: AnyData, options: Options = {
     const old = inner;
     inner = await put(next, { ...options, changes: undefined, address: false, pose });
     old.remove();
+    options.on?.({ type: "put" });
   }
   return {
     get kernel() { return inner.kernel!; },

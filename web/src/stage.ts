@@ -16,7 +16,9 @@ export type PageEvent =
   | { type: "change"; changes: Record<string, number> }
   | { type: "pose"; pose: Record<string, number[]>; closed: boolean }
   | { type: "offer"; offer: { kind: string; said: string; text: string } }
-  | { type: "view"; view: View };
+  | { type: "view"; view: View }
+  /** Other data took the place of the page: an offer was taken, or taken back. */
+  | { type: "put" };
 export type Listener = (e: PageEvent) => boolean | void;
 
 export interface Stage {

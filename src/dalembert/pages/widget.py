@@ -11,11 +11,12 @@ from typing import Any
 from uuid import uuid4
 
 from dalembert.errors import DalembertError
-from dalembert.model import Mechanism, ModelOrPath, as_mechanism
+from dalembert.model import Mechanism, ModelOrPath, as_mechanism, loads
 from dalembert.pages.html_page import page
-from dalembert.pages.page_data import page_data
 from dalembert.pages.saved_text import with_changed_numbers
 from dalembert.pages.sweep import with_cycle
+from dalembert.pages.unfinished.sketch_page import FORMAT as SKETCH
+from dalembert.pages.unfinished.sketch_page import page_or_sketch
 from dalembert.saving import check_installed
 
 BUNDLE = Path(__file__).with_name("bundle")
@@ -26,7 +27,9 @@ def widget(m: ModelOrPath, static: bool = False) -> Any:
 
     ``w.mechanism`` is the mechanism as it has been dragged, ``w.result`` its answer, ``w.changes`` the numbers that
     were changed, by path, SI; ``w.observe(f, "changes")`` calls f after each change. Set ``w.mechanism`` to show
-    another one. static: leave inertia out. Raises ModelError for what only the analyses can do.
+    another one. A plane mechanism that is not finished is a sketch, whose links can be pulled and whose offers finish
+    it; ``w.text`` is its file as it was pulled. static: leave inertia out. Raises ModelError for what only the
+    analyses can do.
 
     >>> import dalembert as da
     >>> w = da.widget(da.four_bar())
@@ -77,10 +80,11 @@ def _kind() -> type:
         data = traitlets.Dict().tag(sync=True)
         changes = traitlets.Dict().tag(sync=True)
         frame = traitlets.Unicode().tag(sync=True)
+        text = traitlets.Unicode().tag(sync=True)
 
         def __init__(self, m: Mechanism, static: bool) -> None:
             self._first, self._static = m, static
-            super().__init__(data=page_data(m, static), frame=uuid4().hex)
+            super().__init__(data=page_or_sketch(m, static), frame=uuid4().hex)
 
         def _ipython_display_(self) -> None:
             """The widget, and below it the page as a file, hidden while the widget lives: for a saved notebook."""
@@ -92,7 +96,12 @@ def _kind() -> type:
 
         @property
         def mechanism(self) -> Mechanism:
-            """The mechanism with the numbers that were changed, its drive along the cycle that is shown."""
+            """The mechanism with the numbers that were changed, its drive along the cycle that is shown; a sketch as it
+            was pulled, with the offers that were taken."""
+            if self.text:
+                return loads(self.text)
+            if self.data["format"] == SKETCH:
+                return self._first
             shown = with_cycle(self._first)
             return with_changed_numbers(shown, dict(self.changes)) if self.changes else shown
 
@@ -100,7 +109,7 @@ def _kind() -> type:
         def mechanism(self, m: Mechanism) -> None:
             self._first = m
             with self.hold_sync():
-                self.changes, self.data = {}, page_data(m, self._static)
+                self.changes, self.text, self.data = {}, "", page_or_sketch(m, self._static)
 
         @property
         def result(self) -> Any:

@@ -3929,7 +3929,7 @@ async function In(e, t, r = {}) {
 			changes: void 0,
 			address: !1,
 			pose: t
-		}), n.remove();
+		}), n.remove(), r.on?.({ type: "put" });
 	}
 	return {
 		get kernel() {
@@ -3980,18 +3980,21 @@ async function Ln(e, t) {
 var Rn = { async render({ model: e, el: t }) {
 	let r = "", i = We(), a = (t) => {
 		r = JSON.stringify(t), e.set("changes", t), e.save_changes();
-	}, o = async () => {
+	}, o = (t) => {
+		(t.type === "put" || t.type === "pose" || t.type === "change" && e.get("text")) && (e.set("text", c.text()), e.save_changes());
+	}, s = async () => {
 		let r = await In(t, e.get("data"), {
 			edited: a,
+			on: o,
 			changes: e.get("changes"),
 			view: i
 		});
 		return n("style", t, {}, `[data-dalembert="${e.get("frame")}"]{display:none}`), r;
-	}, s = await o(), c = async () => {
-		i.window = null, s.remove(), s = await o();
-	}, l = () => JSON.stringify(e.get("changes")) !== r && s.set(e.get("changes"));
-	return e.on("change:data", c), e.on("change:changes", l), () => {
-		e.off("change:data", c), e.off("change:changes", l), s.remove();
+	}, c = await s(), l = async () => {
+		i.window = null, c.remove(), c = await s();
+	}, u = () => JSON.stringify(e.get("changes")) !== r && c.set(e.get("changes"));
+	return e.on("change:data", l), e.on("change:changes", u), () => {
+		e.off("change:data", l), e.off("change:changes", u), c.remove();
 	};
 } };
 export { Rn as default, In as mount, Ln as open };
