@@ -293,11 +293,17 @@ WEIGHTLESS = {
 """Of 200 seeds those with a drive whose links have no mass."""
 
 
-@pytest.mark.parametrize("seed", tiers([], [], sorted(set(range(200)) - WEIGHTLESS)))
+ENDS = ("dead centre or a change point", "the machine jams", "does not close")
+"""Where a motion with friction may end before its time."""
+
+
+@pytest.mark.parametrize("seed", tiers([], [196], sorted(set(range(200)) - WEIGHTLESS)))
 def test_of_200_with_friction_each_moves(seed: int) -> None:
-    s = simulated(rubbing(random_case(seed).tree), 1e-3, tolerance=1e-9)
-    assert s.ended == "at 0.001 s"
-    assert max(s.law_residual, s.energy_residual) < 1e-9
+    """Without chatter, where parts come to rest and start again too: in 100 and 196 all contacts of one freedom."""
+    s = simulated(rubbing(random_case(seed).tree), 0.3, tolerance=1e-9)
+    assert s.ended == "at 0.3 s" or any(why in s.ended for why in ENDS)
+    assert len(s.events) < 100
+    assert max(s.law_residual, s.energy_residual) < 1e-8 or s.status == "stopped" or s.doubt
 
 
 @pytest.mark.parametrize("seed", tiers([], [], sorted(WEIGHTLESS)))

@@ -209,3 +209,42 @@ def test_friction_is_sought_near_the_last_and_on_the_path_where_that_is_not_the_
         assert z is not None
         assert z.tolist() == found.tolist()
         assert dry.last is z
+
+
+PUSHED = """
+gravity: [0, -1]
+links:
+  ground: {points: {O: [0, 0], R: [1, 0]}}
+  crank: {points: {O: [0, 0], A: [0.05, 0]}, mass: 2, inertia: 0.01}
+  rod: {points: {A: [0, 0], B: [0.2, 0]}, mass: 1, center: [0.1, 0], inertia: 0.004}
+  ram: {points: {B: [0, 0]}, mass: 3}
+  rotor: {points: {R: [0, 0]}, mass: 1, inertia: 0.1}
+joints:
+  O: {type: pin, links: [ground, crank], friction: {coefficient: 0.2, radius: 12 mm}}
+  A: {type: pin, links: [crank, rod], friction: {coefficient: 0.2, radius: 10 mm}}
+  B: {type: pin, links: [rod, ram], friction: {coefficient: 0.2, radius: 8 mm}}
+  S: {type: slider, links: [ground, ram], at: [O, B], direction: 0 deg, friction: {coefficient: 0.15}}
+  R: {type: pin, links: [ground, rotor], at: R}
+loads: {work: {type: force, on: ram, at: B, value: 2 N, direction: 180 deg}}
+drives: {O: {effort: -20*time}, R: {effort: 0}}
+start: {O: {position: 60 deg, speed: 0}, R: {position: 0, speed: 5 rad/s}}
+assembly: {rod: -12}
+"""
+
+
+def test_contacts_that_slip_together_hold_while_the_range_of_the_effort_says_so() -> None:
+    """Beside a rotor that turns freely four contacts decide; without it a slider-crank has one freedom, and its effort
+    at rest a range. One contact after the other passes from one limit to the other before all slip."""
+    s = da.simulate(da.loads(PUSHED), "1 s", count=11)
+    tree = da.loads(PUSHED).model_dump(mode="json")
+    for part, name in (("links", "rotor"), ("joints", "R"), ("drives", "R"), ("start", "R")):
+        del tree[part][name]
+    alone = da.simulate(da.mechanism(tree), "1 s", count=11)
+    rest, start = (next(e.time for e in alone.events if e.name == name) for name in ("rest", "start"))
+    assert start - rest > 1e-3
+    assert next(e.time for e in s.events if "sticks" in e.sentence) == pytest.approx(rest, rel=1e-9)
+    slips = [(e.of, e.time) for e in s.events if "slips again" in e.sentence]
+    assert [name for name, _ in slips[:4]] == ["O", "A", "B", "S"]
+    assert [t for _, t in slips[:4]] == pytest.approx([start] * 4, rel=1e-7)
+    assert s.position("O")[-1] == pytest.approx(alone.position("O")[-1], rel=1e-8)
+    assert max(s.energy_residual, s.law_residual) < 1e-9

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from dalembert.arrays import Array, Flags
-from dalembert.machine.motion.actuation import Actuation, drive_lengths
+from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.coded.coded_motion import CodedState
 from dalembert.machine.motion.coded.steps import (
     Between,
@@ -26,6 +26,7 @@ from dalembert.machine.motion.coded.steps import (
 )
 from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.occurrences import ROUNDING, TURNING, EventCondition, Guard, Value, Words, less
+from dalembert.machine.motion.rest.standstill import EVEN
 from dalembert.machine.motion.stops.watched_quantities import watched
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
@@ -61,7 +62,7 @@ class StepState(CodedState):
         super().__init__(m, actuation)
         self.limits, self.taken, self.status = limits, 0, "ended"
         self.end, self.conditions, self.tolerance = end, conditions, tolerance
-        self.lengths, self.natural = drive_lengths(m), (np.ones((1, 1)), np.ones(1))
+        self.natural = (np.ones((1, 1)), np.ones(1))
         self.waiting = None if times is None else list(times)
         self.ended: Words = ()
         self.flickers, self.bears = 0, dict[int, float]()
@@ -217,7 +218,9 @@ class StepState(CodedState):
         slipping = [(c, float(s)) for c, s in enumerate(self.sense) if not self.tied[c]]
         out += [Guard("contact", c, rate(c), s, column=n + c) for c, s in slipping]
         sticking = np.flatnonzero(self.own(self.stuck)).tolist()
-        out += [Guard("slip", c, room(c), 1.0, column=n + own + 2 * sided + c) for c in sticking]
+        least = EVEN * np.abs(self.own(self.solved(t, y)[0].cz)) if sticking else self.sense
+        place = n + own + 2 * sided
+        out += [Guard("slip", c, room(c), 1.0, column=place + c, least=float(least[c])) for c in sticking]
         if not self.pressed and self.flickers < FLICKERS:
             new = self.bears
             out += [Guard("side", k, margin(k), new.get(k, 0.0), column=n + own + k) for k in self._sliding()]
@@ -283,8 +286,11 @@ class StepState(CodedState):
             when = self.strikes(g, dense, before, after)
             return np.inf if when is None else when
 
+        begins = g.kind == "slip" and g.value(before, dense(before)) <= g.least
+        rounding = g.least if begins else 0.0  # it begins at its limit, and leaves it first
+
         def value(t: float) -> float:
-            return g.value(t, dense(t)) * g.side
+            return g.value(t, dense(t)) * g.side + rounding
 
         after = min(after, g.turned)
         if value(before) <= 0:

@@ -18,6 +18,9 @@ from dalembert.machine.motion.coded.steps import Integrator
 from dalembert.machine.motion.coded.traced_friction import traced_motion, traced_senses
 from dalembert.machine.motion.rest.dry_friction import DryFriction
 
+MOST = 40_000
+"""Operations of a program with friction above which it takes longer to compile, some seconds, than most motions take
+without machine code."""
 Corners = Sequence[tuple[Any, Any]]
 """Corners of a drive's effort over its speed: speeds at which its slope changes, and by how much; numbers or nodes."""
 
@@ -50,8 +53,9 @@ class MasslessError(ArithmeticError):
 
 def rate_steps(
     equation: EquationNodes, free: Flags, lanes: int, works: bool, corners: Mapping[int, Corners]
-) -> Integrator:
-    """Steps of motions whose rates are those of an equation, as ``Equation.steps`` says."""
+) -> Integrator | None:
+    """Steps of motions whose rates are those of an equation, as ``Equation.steps`` says; None where friction makes
+    them too long a program."""
     d, graph, outputs = len(equation.names), equation.graph, equation.program.outputs
     n, own = 3 * d + 4 if works else 2 * d, len(equation.dry.own) if equation.dry else 0
     slots = [graph.input("channel", f"state {k}", 1.0) for k in range(n + 1)]
@@ -81,6 +85,8 @@ def rate_steps(
     if works:
         rate += [*np.where(free, applied, required) * u, (inputs[2] * u).sum(), *power, heat]
     program = Program(graph, tuple(trace_array(graph, [*rate, *watched])))
+    if equation.dry and len(program.order) > MOST:
+        return None
     first = len(equation.values)
     numbers = {x.index: first + k for k, x in enumerate(every)}
     # all stand where the state and the values have them, used or not

@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
-from dalembert.machine.motion.actuation import Actuation
+from dalembert.machine.motion.actuation import Actuation, drive_lengths
 from dalembert.machine.motion.equation import Equation, StoppedError, Terms, no_inertia
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event, Guard, Value, Words
@@ -30,6 +30,8 @@ WEIGHTLESS = 1e-12
 """Part of the greatest inertia that is rounding."""
 ROUNDING = 1e-9
 """Part of a motor's effort below which what its shaft gives to its gear has no sign."""
+EVEN = 1e-10
+"""Part of a limit of friction, or of what it accelerates, that is rounding."""
 INSTANTS = 400
 """Number of instants at which friction at rest is checked."""
 
@@ -58,7 +60,7 @@ class ContactState:
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         self.m, self.acting = m, actuation
         self.equation: Equation = actuation.equation or equation_of(m)
-        self.d = len(actuation.names)
+        self.d, self.lengths = len(actuation.names), drive_lengths(m)
         self.locked: Flags = np.zeros(self.d, bool)
         self.on_stop, self.resting = np.zeros(self.d), dict[int, str]()
         self.in_contact: set[str] = set()  # joints whose stops are contacts
@@ -235,7 +237,10 @@ class ContactState:
 
     def leaving(self, t: float, y: Array) -> list[int]:
         """Contacts that slip by themselves, and stick, and are no longer held."""
-        return np.flatnonzero(self.own(self.solved(t, y)[0].room) < 0).tolist() if self.stuck.any() else []
+        if not self.stuck.any():
+            return []
+        solved = self.solved(t, y)[0]
+        return np.flatnonzero(self.own(solved.room + EVEN * np.abs(solved.cz)) < 0).tolist()
 
     def _yields(self, t: float, y: Array) -> bool:
         """True if a part at rest is no longer held."""
