@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -194,3 +196,32 @@ def test_a_file_that_cannot_be_read_ends_the_studio_with_the_reason(
     with pytest.raises(ModelError, match=r"m.yaml is not UTF-8 text"):
         run(wrong, browser=False)
     assert "http://127.0.0.1:" in capsys.readouterr().out
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("typing", [0.1, 1.3])
+def test_killed_at_any_moment_the_file_is_intact_and_the_side_file_a_text_that_was_typed(
+    tmp_path: Path, typing: float
+) -> None:
+    path, side = tmp_path / "m.yaml", tmp_path / ".m.yaml.autosave"
+    path.write_text(FOUR_BAR, encoding="utf-8")
+    command = [sys.executable, "-m", "dalembert", "studio", str(path), "--no-browser"]
+    texts = [FOUR_BAR]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as served:
+        assert served.stdout is not None
+        own, token = served.stdout.readline().split(": ")[1].strip().split("/#")
+        with client.connect(own.replace("http", "ws") + "/tab", origin=own, max_size=2**22) as ws:
+            ws.send(json.dumps({"token": token}))
+            until(ws, "text")
+            end = time.monotonic() + typing
+            while time.monotonic() < end or (typing > 1 and not side.exists()):
+                now = texts[-1]
+                ws.send(json.dumps({"base": text_hash(now), "edit": [[len(now), len(now), "# more\n"]]}))
+                texts.append(until(ws, "text")["text"])
+                assert texts[-1] == now + "# more\n"
+            served.kill()
+    assert path.read_text(encoding="utf-8") == FOUR_BAR
+    again = Session(StoredFile(path))
+    assert again.document.text in texts
+    assert (again.kept is not None) == side.exists() >= (typing > 1)
+    assert {p.name for p in tmp_path.iterdir()} <= {path.name, side.name}

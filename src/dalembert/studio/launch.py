@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import warnings
 import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +22,7 @@ def run(path: Path | None, port: int = 0, browser: bool = True) -> None:
         listening = socket.create_server((HOST, port))
     except (OSError, OverflowError):
         raise ModelError(f"port {port} cannot be used", "choose another one, or leave --port out") from None
+    warnings.simplefilter("ignore", RuntimeWarning)  # of texts half typed; the page has the sentence
     solver = Solver()
     solver.start()
     access, file = Access(listening.getsockname()[1]), path or unused_name(Path.cwd())

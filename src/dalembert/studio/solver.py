@@ -5,7 +5,9 @@ from __future__ import annotations
 import base64
 import json
 import multiprocessing
+import signal
 import tempfile
+import warnings
 from collections.abc import Iterable
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -95,14 +97,16 @@ class Solver:
 
 def _serve(pipe: Connection) -> None:
     """Answers questions until the pipe is closed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C ends the server, which ends this process
+    warnings.simplefilter("ignore", RuntimeWarning)  # of texts half typed; the page has the sentence
     _limit_memory()
     _warm_up(pipe)
     while True:
         try:
             question = pipe.recv()
-        except (EOFError, OSError, KeyboardInterrupt):
+            pipe.send_bytes(written(answered(question)).encode())
+        except (EOFError, OSError):
             return
-        pipe.send_bytes(written(answered(question)).encode())
 
 
 def written(answer: Tree) -> str:
