@@ -86,6 +86,7 @@ MADE: dict[str, Callable[[], Answer]] = {
     "Balance": lambda: da.balance(da.load(examples()["four_bar"]), ["crank"], positions=12),
     "RotorBalance": lambda: da.balance_rotor(da.rotating_shaft(), (0.05, 0.45), (0.04, 0.06)),
     "Sweep": lambda: da.sweep(da.four_bar(), {"links.coupler.mass": [1.0, 2.0], ROCKER: ["0.2 m", "0.25 m"]}),
+    "BatchResult": lambda: da.compile(da.four_bar(), ["links.coupler.mass"])([[1.0], [2.0]]),
     "StudyResult": study,
     "Optimum": lambda: da.optimize(
         da.four_bar(), {ROCKER: (0.2, 0.28)}, "peak effort.O2", "transmission.B >= 20 deg", starts=2

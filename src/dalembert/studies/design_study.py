@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.batch import over_positions
+from dalembert.analysis.batch.batch_columns import output_kinds
 from dalembert.analysis.batch.tracing.symbolic_model import number_kinds, of_motion
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
@@ -31,7 +32,7 @@ from dalembert.studies.block_engines import (
     program_print,
     with_cycle_numbers,
 )
-from dalembert.studies.limits import Limit, output_kinds, read_limit
+from dalembert.studies.limits import Limit, read_limit
 from dalembert.studies.motion_engines import SimulationPlan, end_kinds, make_motion_engine, read_motion
 from dalembert.studies.sampling import DesignPlan, triangle_of
 from dalembert.studies.spreads import Spread

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.batch.over_positions import PLACES
-from dalembert.analysis.result.named_quantities import quantity
-from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
@@ -35,17 +32,6 @@ class Limit(NamedTuple):
         """True for each design (first axis) within the limit, in all components and positions; false for NaN."""
         good = (values >= self.low) & (values <= self.high)
         return np.asarray(good.reshape(len(values), -1).all(axis=1))
-
-
-def output_kinds(nominal: Result, outputs: Sequence[str], reduce: str | None) -> dict[str, str]:
-    """Kind of each output, from `units.KINDS`; those unknown to a result are numbers."""
-    kinds = {}
-    for name in outputs:
-        try:
-            kinds[name] = "number" if reduce in PLACES else quantity(nominal, name).kind
-        except ModelError:
-            kinds[name] = "number"
-    return kinds
 
 
 def read_limit(name: str, limit: object, kinds: Mapping[str, str], m: Mechanism) -> Limit:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -12,9 +12,12 @@ from numpy.typing import NDArray
 from dalembert import errors
 from dalembert.algebra import plane, space
 from dalembert.analysis.result.named_quantities import component
+from dalembert.answer.answer import Labelled
+from dalembert.answer.column import Axes, Column, Scale, UnitChoice
 from dalembert.answer.named_answer import NamedAnswer
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.errors import STATUSES, ModelError
+from dalembert.printing import Part
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
@@ -84,7 +87,7 @@ def mark_overflow(code: NDArray[np.uint8], arrays: dict[str, Array], rates: dict
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class BatchResult(NamedAnswer):
+class BatchResult(NamedAnswer, Labelled):
     """Answer for many designs: arrays (design, position), or (design,) where reduced over the positions.
 
     SI and radians, vectors in ground axes with their components last. NaN where unsolved; ``status`` gives the reason.
@@ -102,6 +105,29 @@ class BatchResult(NamedAnswer):
     after: BatchResult | None = None
 
     ROW = "design"
+    ROWS = "rows"
+
+    def columns(self, axes: Axes = "ground") -> Iterator[Column]:
+        """One row per position of each design, or per design where reduced: numbers, status, outputs."""
+        from dalembert.analysis.batch.batch_columns import batch_columns
+
+        return batch_columns(self)
+
+    def labelled(self, to: Scale, axes: Axes) -> tuple[Tree, Tree]:
+        """Outputs over designs, positions and components, and coordinates."""
+        from dalembert.analysis.batch.batch_columns import batch_arrays
+
+        return batch_arrays(self, to)
+
+    def record(self, to: Scale) -> Tree:
+        """Reduction over the positions, if any."""
+        return {"reduce": self.kernel.reduce}
+
+    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterator[Part]:
+        """Least and greatest value of each number; designs with a problem."""
+        from dalembert.analysis.batch.batch_columns import batch_parts
+
+        return batch_parts(self, units)
 
     def keys(self) -> list[str]:
         """Names of the outputs."""

@@ -70,8 +70,8 @@ class AsWritten:
 
     def by_letters(self) -> list[str]:
         """Loads whose values are expressions of parameters."""
-        found = self._at(["loads"])
-        names = list(found) if isinstance(found, Mapping) else []
+        loads = self._at(["loads"])
+        names = list(loads) if isinstance(loads, Mapping) else []
         return [
             name for name in names if any(map(_is_expression, _parts(self._at(["loads", name, "value"]))))
         ]
@@ -110,11 +110,11 @@ def _with_unit(raw: object, plain: str) -> str:
     if isinstance(raw, bool) or not isinstance(raw, (str, int, float)):
         return ""
     text = str(raw).strip()
-    found = re.fullmatch(rf"({NUMBER})\s*(.*)", text)
-    if found is None or (found[2] and not _is_unit(found[2])):
+    match = re.fullmatch(rf"({NUMBER})\s*(.*)", text)
+    if match is None or (match[2] and not _is_unit(match[2])):
         return _expression(text) if re.search("[A-Za-z]", text) else ""
-    name = found[2] or plain
-    number = found[1].replace("-", "−")
+    name = match[2] or plain
+    number = match[1].replace("-", "−")
     return number + ("°" if name == "deg" else f" {pretty(name)}" if name else "")
 
 
@@ -125,8 +125,8 @@ def _parts(raw: object) -> list[object]:
 def _is_expression(raw: object) -> bool:
     """True for letters that are not a unit behind a number."""
     text = str(raw).strip()
-    found = re.fullmatch(rf"({NUMBER})\s*(.*)", text)
-    return bool(re.search("[A-Za-z]", text)) and (found is None or not _is_unit(found[2]))
+    match = re.fullmatch(rf"({NUMBER})\s*(.*)", text)
+    return bool(re.search("[A-Za-z]", text)) and (match is None or not _is_unit(match[2]))
 
 
 def _expression(text: str) -> str:

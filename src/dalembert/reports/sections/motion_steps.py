@@ -38,9 +38,9 @@ def _named(text: str, shown: Shown, name: Callable[[str], str]) -> str:
 
 def _line(line: MotionLine, shown: Shown) -> Working:
     name = _named(line.name, shown, shown.link)
-    found = shown.number(line.found.kind, line.found.value)
-    angle = f"{shown.notation.degrees(line.found.value)} deg" if line.found.kind == "angle" else ""
-    result = f"{name} = {angle or shown.with_unit(found, line.found.kind)}"
+    value = shown.number(line.result.kind, line.result.value)
+    angle = f"{shown.notation.degrees(line.result.value)} deg" if line.result.kind == "angle" else ""
+    result = f"{name} = {angle or shown.with_unit(value, line.result.kind)}"
     if not line.letters:
         return Working(result)
     numbers = line.pattern

@@ -10,7 +10,7 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import other_actions
 from dalembert.analysis.methods.members import members
-from dalembert.analysis.methods.solved.carried_out import ForceSteps, FoundNumber, SolvedStep, StepTerm
+from dalembert.analysis.methods.solved.carried_out import ForceNumber, ForceSteps, SolvedStep, StepTerm
 from dalembert.analysis.methods.solved.paper_equations import PaperEquation
 from dalembert.analysis.methods.solved.relative_rates import distance
 from dalembert.analysis.methods.solved.unknown_forces import UnknownForce
@@ -86,7 +86,7 @@ class StepWriter:
 
     def __init__(self, c: ReportContext, solved: ForceSteps) -> None:
         self.c, self.shown, self.solved, self.e = c, c.shown, solved, solved.equations
-        self.found = {(f.of, f.step): f for s in solved.steps for f in s.finds}
+        self.by_step = {(f.of, f.step): f for s in solved.steps for f in s.finds}
 
     def together(self, steps: list[SolvedStep]) -> Iterator[list[Text]]:
         """Each step; the two directions of one two-force link in one sentence."""
@@ -104,7 +104,7 @@ class StepWriter:
     # sentences
 
     def _head(self, s: SolvedStep) -> str:
-        sources = sorted({f.step for t in s.terms if t.of is not None and not t.sought for f in t.found})
+        sources = sorted({f.step for t in s.terms if t.of is not None and not t.sought for f in t.numbers})
         known = f" (with step{'s' * (len(sources) > 1)} {_listed(sources)})" if sources else ""
         return f"{s.number}. {self._links(s.links)}, {self._said(s.equation)}{known}:"
 
@@ -191,7 +191,7 @@ class StepWriter:
         words = f'= 0 quad "which agrees within {remainder(left)} of the largest term"'
         return [Paragraph(head), Equations((Working(f"{letters} = 0", f"{numbers} {words}"),))]
 
-    def _result(self, f: FoundNumber, s: SolvedStep) -> str:
+    def _result(self, f: ForceNumber, s: SolvedStep) -> str:
         kind = self._kind(f)
         largest = self.e.largest_force * (1.0 if kind == "force" else self.e.length)
         value = 0.0 if abs(f.value) < 1e-10 * largest else f.value
@@ -214,7 +214,7 @@ class StepWriter:
         f, k = s.finds[0], s.finds[0].of
         marks = [
             self._sign(g, s)
-            for (of, _), g in self.found.items()
+            for (of, _), g in self.by_step.items()
             if of == k and not g.turning and g.step <= s.number and g.mark
         ]
         size = float(np.linalg.norm(s.whole))
@@ -225,12 +225,12 @@ class StepWriter:
         squares = " + ".join(f"{m}^{{2}}" for m in marks)
         return Working(f"{sign} = sqrt({squares})", "", result) if marks else Working(f"{sign} = {result}")
 
-    def _kind(self, f: FoundNumber) -> str:
+    def _kind(self, f: ForceNumber) -> str:
         return "moment" if f.turning else "force"
 
     # signs
 
-    def _sign(self, f: FoundNumber, s: SolvedStep) -> str:
+    def _sign(self, f: ForceNumber, s: SolvedStep) -> str:
         """Sign of a solved number, on the free body of a step."""
         u = self.e.unknowns[f.of]
         sign = self._of(u, self._on(u, s.links), f.turning)
@@ -256,7 +256,7 @@ class StepWriter:
             forced = turning and np.nan_to_num(t.action.force).any()
             return self.shown.turning_symbol(t.action) if forced else self.shown.symbol(t.action)
         assert t.of is not None
-        mine = [f for f in t.found if f.turning == turning]
+        mine = [f for f in t.numbers if f.turning == turning]
         sign = self._of(t.of, t.link, turning)
         return along(sign, mine[0].mark) if len(mine) == 1 and mine[0].mark else sign
 
@@ -287,7 +287,7 @@ class StepWriter:
     def _forced(self, t: StepTerm, q: PaperEquation, value: float) -> _Written:
         sign = self._named(t, False)
         if q.kind == "forces":
-            mark = t.found[0].mark if len(t.found) == 1 else ""
+            mark = t.numbers[0].mark if len(t.numbers) == 1 else ""
             if mark == q.name and mark:
                 return self._signed(sign, value, "force", False)
             return self._signed(
@@ -331,9 +331,9 @@ class StepWriter:
         return _Written((minus, f"{sign} {letters}"), (minus, f"{sign} cdot {self._arm(abs(c))}"))
 
 
-def replace_force(t: StepTerm, f: FoundNumber) -> StepTerm:
+def replace_force(t: StepTerm, f: ForceNumber) -> StepTerm:
     """The term with a force of size 1 where the solved number is zero."""
-    return StepTerm(t.link, f.direction, t.at, t.couple, t.value, None, t.of, t.found, True)
+    return StepTerm(t.link, f.direction, t.at, t.couple, t.value, None, t.of, t.numbers, True)
 
 
 def _listed(numbers: list[int]) -> str:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action
-from dalembert.analysis.methods.solved.order_of_steps import Found, Simultaneous, StepOrder
+from dalembert.analysis.methods.solved.order_of_steps import Simultaneous, SolvedNumber, StepOrder
 from dalembert.analysis.methods.solved.paper_equations import FLAT, PaperEquation, PaperTwists, about_line
 from dalembert.analysis.methods.solved.step_choice import Choice
 from dalembert.analysis.methods.solved.unknown_forces import (
@@ -33,7 +33,7 @@ NOTHING = 1e-10
 
 
 @dataclass(frozen=True)
-class FoundNumber:
+class ForceNumber:
     """A number of an unknown: the part of its force along ``direction`` (d,), or of its couple, on its last link.
 
     ``mark``: `x`, `y`, `t` across the line to the moment point, `n` the rest, `` for the vector; ``value`` in SI.
@@ -52,7 +52,7 @@ class FoundNumber:
 class StepTerm:
     """A term of an equation: what acts, on which link of the free body, and what it brings to the equation (SI).
 
-    An ``action`` is known from the start; else it is of unknown ``of``: the numbers ``found`` so far, the step's own
+    An ``action`` is known from the start; else it is of unknown ``of``: the numbers ``numbers`` so far, the step's own
     with ``sought``. Force (d,) at a place (d,) and couple (1,) or (3,) on ``link``.
     """
 
@@ -63,7 +63,7 @@ class StepTerm:
     value: float
     action: Action | None = None
     of: UnknownForce | None = None
-    found: tuple[FoundNumber, ...] = ()
+    numbers: tuple[ForceNumber, ...] = ()
     sought: bool = False
 
 
@@ -81,7 +81,7 @@ class SolvedStep:
     links: tuple[str, ...]
     equations: tuple[PaperEquation, ...]
     terms: tuple[StepTerm, ...] = ()
-    finds: tuple[FoundNumber, ...] = ()
+    finds: tuple[ForceNumber, ...] = ()
     unknowns: tuple[UnknownForce, ...] = ()
     coefficient: float = 0.0
     right: tuple[float, ...] = ()
@@ -124,7 +124,7 @@ def solved_forces(r: Result, k: int = 0, choice: Choice | None = None) -> ForceS
 class _Carrier:
     def __init__(self, e: ForceEquations, choice: Choice) -> None:
         self.e, self.choice = e, choice
-        self.found: list[list[FoundNumber]] = [[] for _ in e.unknowns]
+        self.numbers: list[list[ForceNumber]] = [[] for _ in e.unknowns]
         self.out = ForceSteps(e, choice)
 
     def run(self) -> ForceSteps:
@@ -138,42 +138,42 @@ class _Carrier:
 
     # one number
 
-    def _one(self, found: Found) -> SolvedStep:
-        q, k = found.equation, found.of
+    def _one(self, solved: SolvedNumber) -> SolvedStep:
+        q, k = solved.equation, solved.of
         columns, known = on_links(self.e, q.links)
-        coefficient = float(q.twist @ columns[k] @ found.vector)
+        coefficient = float(q.twist @ columns[k] @ solved.vector)
         rest = float(q.twist @ known) + self._known_part(q, columns)
-        value = 0.0 if found.rod else -rest / coefficient
-        number, factor, sign = self._named(found.of, found.vector, value, q, coefficient)
+        value = 0.0 if solved.rod else -rest / coefficient
+        number, factor, sign = self._named(solved.of, solved.vector, value, q, coefficient)
         least = NOTHING * self.e.largest_force * (self.e.length if number.turning else 1.0)
         number = replace(number, value=0.0) if abs(number.value) < least else number
-        terms = [] if found.rod else list(self._terms(q, k))
+        terms = [] if solved.rod else list(self._terms(q, k))
         own = self._own(number, q.links, coefficient / factor * sign)
-        self.found[k].append(number)
+        self.numbers[k].append(number)
         return SolvedStep(
             len(self.out.steps) + 1,
-            "rod" if found.rod else "single",
+            "rod" if solved.rod else "single",
             tuple(self.e.links[n] for n in q.links),
             (q,),
             (own, *terms),
             (number,),
             (self.e.unknowns[k],),
             coefficient / factor * sign,
-            (float(found.vector @ self.e.unknowns[k].value) * factor * sign,),
-            None if found.rod or number.turning else self._whole(k, q.links),
+            (float(solved.vector @ self.e.unknowns[k].value) * factor * sign,),
+            None if solved.rod or number.turning else self._whole(k, q.links),
         )
 
     def _known_part(self, q: PaperEquation, columns: list[Array]) -> float:
         """Contribution of the numbers known so far to an equation."""
         return sum(
             float(q.twist @ columns[n] @ f.vector) * f.value
-            for n, some in enumerate(self.found)
+            for n, some in enumerate(self.numbers)
             for f in some
         )
 
     def _named(
         self, k: int, vector: Array, value: float, q: PaperEquation, coefficient: float
-    ) -> tuple[FoundNumber, float, float]:
+    ) -> tuple[ForceNumber, float, float]:
         """A number as a force or couple along a direction, positive as it is counted in the equation."""
         u = self.e.unknowns[k]
         force, turning = u.force @ vector, False
@@ -190,7 +190,7 @@ class _Carrier:
             sign = sense
         elif mark in ("x", "y", "z"):
             sign = sense * float(np.sign(direction["xyz".index(mark)]))
-        shown = FoundNumber(
+        shown = ForceNumber(
             k,
             vector * sign / factor,
             len(self.out.steps) + 1,
@@ -203,7 +203,7 @@ class _Carrier:
 
     def _mark(self, k: int, direction: Array, turning: bool, q: PaperEquation) -> str:
         """The index of a component; empty for the vector."""
-        u, before = self.e.unknowns[k], [f for f in self.found[k] if f.turning == turning]
+        u, before = self.e.unknowns[k], [f for f in self.numbers[k] if f.turning == turning]
         rank = np.linalg.matrix_rank(u.force, FLAT) if not turning else self.e.n - self.e.d
         if (
             u.kind != "joint"
@@ -221,10 +221,10 @@ class _Carrier:
             return "t" if q.kind == "moments" else "u"
         return "n" if before[0].mark == "t" else "v"
 
-    def _rod(self, f: FoundNumber) -> bool:
+    def _rod(self, f: ForceNumber) -> bool:
         return f.step <= len(self.out.steps) and self.out.steps[f.step - 1].kind == "rod"
 
-    def _own(self, number: FoundNumber, links: tuple[int, ...], coefficient: float) -> StepTerm:
+    def _own(self, number: ForceNumber, links: tuple[int, ...], coefficient: float) -> StepTerm:
         u = self.e.unknowns[number.of]
         return replace(
             self._term(number.of, links, (number,), 0.0), value=coefficient * number.value, sought=True, of=u
@@ -232,7 +232,7 @@ class _Carrier:
 
     def _whole(self, k: int, links: tuple[int, ...]) -> Array | None:
         """The joint's force on the free body, if all its components are known and there are several."""
-        u, some = self.e.unknowns[k], tuple(f for f in self.found[k] if not f.turning)
+        u, some = self.e.unknowns[k], tuple(f for f in self.numbers[k] if not f.turning)
         if len(some) < 2 or len(some) < np.linalg.matrix_rank(u.force, FLAT):
             return None
         return self._term(k, links, some, 0.0).force
@@ -244,7 +244,7 @@ class _Carrier:
         columns, _ = on_links(self.e, q.links)
         names = {self.e.links[n] for n in q.links}
         out = [self._applied(a, q) for a in self.e.known if a.link in names]
-        for k, some in enumerate(self.found):
+        for k, some in enumerate(self.numbers):
             mine = [f for f in some if not (self._rod(f) and f.value == 0)]
             complete = k != sought and len(some) == self.e.unknowns[k].columns.shape[-1]
             for lot in [tuple(mine)] if complete and mine else [(f,) for f in mine]:
@@ -260,8 +260,8 @@ class _Carrier:
             a.link, a.force[k], a.at[k], np.atleast_1d(a.couple[k]), float(q.twist @ wrench_of(a, k)), a
         )
 
-    def _term(self, k: int, links: tuple[int, ...], some: tuple[FoundNumber, ...], value: float) -> StepTerm:
-        """Found numbers of an unknown as a force at its place and a couple, on the link of the free body."""
+    def _term(self, k: int, links: tuple[int, ...], some: tuple[ForceNumber, ...], value: float) -> StepTerm:
+        """Solved numbers of an unknown as a force at its place and a couple, on the link of the free body."""
         u = self.e.unknowns[k]
         ends = [n for n in u.links if n != GROUND and self.e.links.index(n) in links]
         on = ends[-1] if ends else u.links[-1]
@@ -270,7 +270,7 @@ class _Carrier:
         w = columns[k] @ x
         force = w[: self.e.d]
         return StepTerm(
-            on, force, u.at, w[self.e.d :] - cross(u.at, force[:, None])[:, 0], value, of=u, found=some
+            on, force, u.at, w[self.e.d :] - cross(u.at, force[:, None])[:, 0], value, of=u, numbers=some
         )
 
     # several numbers
@@ -290,7 +290,7 @@ class _Carrier:
             for x, true in self._split(k, bases[k], bases[k] @ numbers[place : place + size]):
                 finds.append(x)
                 answers.append(true)
-                self.found[k].append(x)
+                self.numbers[k].append(x)
             place += size
         links = tuple(dict.fromkeys(self.e.links[n] for q in block.equations for n in q.links))
         unknowns = tuple(self.e.unknowns[k] for k in block.unknowns)
@@ -308,13 +308,13 @@ class _Carrier:
 
     def _open_basis(self, k: int) -> Array:
         count = self.e.unknowns[k].columns.shape[-1]
-        known = np.array([f.vector for f in self.found[k]]).reshape(-1, count).T
+        known = np.array([f.vector for f in self.numbers[k]]).reshape(-1, count).T
         left, s, _ = (
             np.linalg.svd(known, full_matrices=True) if known.size else (np.eye(count), np.zeros(0), None)
         )
         return np.asarray(left[:, int((s > FLAT * s.max(initial=0.0)).sum()) :])
 
-    def _split(self, k: int, basis: Array, x: Array) -> Iterator[tuple[FoundNumber, float]]:
+    def _split(self, k: int, basis: Array, x: Array) -> Iterator[tuple[ForceNumber, float]]:
         """The open numbers of an unknown, those along x and y where all are open."""
         u = self.e.unknowns[k]
         vectors = list(basis.T)

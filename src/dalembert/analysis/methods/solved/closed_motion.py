@@ -93,14 +93,14 @@ class ClosedMotion(RelativeRates):
             if len(new) != 1 or joint not in self.joints or (self.r.schedule.unknown is not None):
                 continue
             link = new[0]
-            found = [(f"theta_{{{self.tag(link)}}}", "angle", float(link_angle(self.r, link)[self.k]))]
+            driven = [(f"theta_{{{self.tag(link)}}}", "angle", float(link_angle(self.r, link)[self.k]))]
             if self.kind(joint) == "P":
-                found = [(f"s_{{{written(joint)}}}", "length", float(self.r.drive_position(d)[self.k]))]
-                found.append((f"v_{{{written(joint)}}}", "speed", float(self.r.drive_speed(d)[self.k])))
+                driven = [(f"s_{{{written(joint)}}}", "length", float(self.r.drive_position(d)[self.k]))]
+                driven.append((f"v_{{{written(joint)}}}", "speed", float(self.r.drive_speed(d)[self.k])))
             else:
-                found.append((f"omega_{{{self.tag(link)}}}", "angular_speed", self.spin(link)))
-                found.append((f"alpha_{{{self.tag(link)}}}", "angular_acceleration", self.spin(link, 2)))
-            lines = [MotionLine("", "", (), name, ShownNumber(kind, v), v) for name, kind, v in found]
+                driven.append((f"omega_{{{self.tag(link)}}}", "angular_speed", self.spin(link)))
+                driven.append((f"alpha_{{{self.tag(link)}}}", "angular_acceleration", self.spin(link, 2)))
+            lines = [MotionLine("", "", (), name, ShownNumber(kind, v), v) for name, kind, v in driven]
             return MotionStep((link,), f"{self.tag(link)} is driven at {joint}:", lines)
         return None
 
@@ -188,22 +188,22 @@ class ClosedMotion(RelativeRates):
         )
         ja, jb = written(ja), written(jb)
         letters = f"sqrt((x_{{{jb}}} − x_{{{ja}}})^{{2}} + (y_{{{jb}}} − y_{{{ja}}})^{{2}})"
-        found = ShownNumber("length", size)
+        shown = ShownNumber("length", size)
         yield MotionLine(
-            f"d = {distance(ja, jb)} = {letters}", "sqrt((%0)^{2} + (%1)^{2})", (x, y), "d", found, size
+            f"d = {distance(ja, jb)} = {letters}", "sqrt((%0)^{2} + (%1)^{2})", (x, y), "d", shown, size
         )
-        found = ShownNumber("angle", direction(v))
+        shown = ShownNumber("angle", direction(v))
         tangent = f"tan delta = frac(y_{{{jb}}} − y_{{{ja}}}; x_{{{jb}}} − x_{{{ja}}})"
-        yield MotionLine(tangent, "frac(%0; %1)", (y, x), "delta", found, found.value)
+        yield MotionLine(tangent, "frac(%0; %1)", (y, x), "delta", shown, shown.value)
 
     def _sum(
         self, name: str, first: str, second: str, a: float, sign: int, b: float, right: float
     ) -> MotionLine:
         numbers = (ShownNumber("angle", a), ShownNumber("angle", b))
         plus = "+" if sign > 0 else "−"
-        found = ShownNumber("angle", math.remainder(a + sign * b, math.tau))
+        shown = ShownNumber("angle", math.remainder(a + sign * b, math.tau))
         return MotionLine(
-            f"{name} = {first} {plus} {second}", f"%0 deg {plus} %1 deg", numbers, name, found, right
+            f"{name} = {first} {plus} {second}", f"%0 deg {plus} %1 deg", numbers, name, shown, right
         )
 
     def _end(self, name: str, jm: str, jb: str, v: Array, right: float) -> MotionLine:
@@ -236,7 +236,7 @@ class ClosedMotion(RelativeRates):
         name = f"theta_{{{written(ja + jm)}}}"
         words = "gamma" if s >= 0 else "(gamma + 180°)"
         step.lines.append(self._sum(name, words, "beta", first, 1 if s >= 0 else -1, beta, theta))
-        found, sign = (
+        shown, sign = (
             ShownNumber("length", math.copysign(math.sqrt(max(u * u - h * h, 0.0)), s)),
             "−" if s < 0 else "",
         )
@@ -247,7 +247,7 @@ class ClosedMotion(RelativeRates):
                 sign + "sqrt(%0^{2} − (%1)^{2})",
                 squares,
                 "s",
-                found,
+                shown,
                 s,
             )
         )

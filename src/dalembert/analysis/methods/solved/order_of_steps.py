@@ -40,7 +40,7 @@ MOST_OPEN = 12
 
 
 @dataclass(frozen=True)
-class Found:
+class SolvedNumber:
     """One solved number: ``vector`` (c,) of unknown ``of`` by an equation; ``rod``: a two-force link's direction."""
 
     of: int
@@ -66,11 +66,11 @@ class StepOrder:
         self.columns = {some: on_links(e, some)[0] for some in self.free_bodies}
         self.largest = max((float(np.abs(u.columns).max(initial=0.0)) for u in e.unknowns), default=1.0)
 
-    def run(self) -> Iterator[Found | Simultaneous]:
+    def run(self) -> Iterator[SolvedNumber | Simultaneous]:
         """All steps; it ends early where what is left is not unique."""
-        for found in self._rods():
-            self._learn(found.of, found.vector)
-            yield found
+        for rod in self._rods():
+            self._learn(rod.of, rod.vector)
+            yield rod
         last: tuple[int, ...] = ()
         while self.open():
             next_one = self._next(last)
@@ -105,7 +105,7 @@ class StepOrder:
                     out[k] = part
         return out
 
-    def _rods(self) -> Iterator[Found]:
+    def _rods(self) -> Iterator[SolvedNumber]:
         """Links on which two pins act and nothing else: the moment about one gives the direction at the other."""
         e, kinds = self.e, members(self.e.r)
         if e.d == 3:
@@ -128,7 +128,7 @@ class StepOrder:
                 q = PaperEquation((n,), "moments", mine, about_line(at), at)
                 vector = q.twist @ e.unknowns[k].columns[n]
                 if np.linalg.norm(vector) > FLAT * e.length:
-                    yield Found(k, vector / np.linalg.norm(vector), q, rod=True)
+                    yield SolvedNumber(k, vector / np.linalg.norm(vector), q, rod=True)
 
     def _pure(self, k: int, vector: Array) -> bool:
         """True if a number of an unknown is of its force alone, or of its couple alone."""
@@ -139,7 +139,7 @@ class StepOrder:
         sizes = float(np.linalg.norm(w[: self.e.d])), float(np.linalg.norm(couple))
         return min(sizes) <= FLAT * max(sizes)
 
-    def _singles(self, some: tuple[int, ...]) -> Iterator[tuple[int, Found]]:
+    def _singles(self, some: tuple[int, ...]) -> Iterator[tuple[int, SolvedNumber]]:
         """Equations of a free body with one unknown number, the prettiest of each unknown with its rank."""
         parts = self._parts(some)
         for k, mine in parts.items():
@@ -159,45 +159,45 @@ class StepOrder:
                     continue
                 vector = self.sought[k] @ (c / np.linalg.norm(c))
                 if self._pure(k, vector):
-                    yield rank, Found(k, vector, q)
+                    yield rank, SolvedNumber(k, vector, q)
                     break
 
-    def _next(self, last: tuple[int, ...]) -> Found | None:
+    def _next(self, last: tuple[int, ...]) -> SolvedNumber | None:
         """The next step by the order of the top of this file."""
         begin = self.choice.begin
         first = [some for some in self.free_bodies if begin and self.e.links.index(begin) in some]
         first = [some for some in first if len(some) == 1] if last else first
         for lot in ([first] if first else []) + [self.free_bodies]:
             for size in range(1, MOST_LINKS + 1):
-                found = [
+                steps = [
                     (self.sought[f.of].shape[1] != 1, some != last, rank, number, f)
                     for some in lot
                     if len(some) == size
                     for number, (rank, f) in enumerate(self._singles(some))
                 ]
-                if not found:
+                if not steps:
                     continue
-                if all(f[0] for f in found):
-                    keyed = [(*f[:1], not self._completed(f[4]), *f[1:]) for f in found]
+                if all(f[0] for f in steps):
+                    keyed = [(*f[:1], not self._completed(f[4]), *f[1:]) for f in steps]
                     return min(keyed, key=lambda f: f[:-1])[-1]
-                return min(found, key=lambda f: f[:-1])[-1]
+                return min(steps, key=lambda f: f[:-1])[-1]
         return None
 
-    def _completed(self, found: Found) -> bool:
+    def _completed(self, number: SolvedNumber) -> bool:
         """True if after this step a neighbour can find the rest of the unknown."""
-        before = self.sought[found.of]
-        self._learn(found.of, found.vector)
-        links = {n for n, name in enumerate(self.e.links) if name in self.e.unknowns[found.of].links}
-        other = [(n,) for n in links if (n,) != found.equation.links]
-        can = any(f.of == found.of for some in other for _, f in self._singles(some))
-        self.sought[found.of] = before
+        before = self.sought[number.of]
+        self._learn(number.of, number.vector)
+        links = {n for n, name in enumerate(self.e.links) if name in self.e.unknowns[number.of].links}
+        other = [(n,) for n in links if (n,) != number.equation.links]
+        can = any(f.of == number.of for some in other for _, f in self._singles(some))
+        self.sought[number.of] = before
         return can
 
     def _block(self) -> Simultaneous | None:
         """The fewest numbers that simultaneous equations of free bodies determine."""
         left = self.open()
         sizes = {k: self.sought[k].shape[1] for k in left}
-        parts = [(some, found) for some in self.free_bodies if (found := self._parts(some))]
+        parts = [(some, part) for some in self.free_bodies if (part := self._parts(some))]
         few = range(2, min(MOST_JOINTS, len(left)) + 1) if len(left) <= MOST_OPEN else range(2, 3)
         sets = [some for count in few for some in combinations(left, count) if self._touching(some)]
         for which in [*sorted(sets, key=lambda some: sum(sizes[k] for k in some)), tuple(left)]:
@@ -219,15 +219,15 @@ class StepOrder:
         self, which: tuple[int, ...], parts: list[tuple[tuple[int, ...], dict[int, Array]]], count: int
     ) -> tuple[PaperEquation, ...]:
         """Equations without other unknowns that settle some; nothing where they are too few."""
-        found, matrix = list[PaperEquation](), np.zeros((0, count))
+        chosen, matrix = list[PaperEquation](), np.zeros((0, count))
         for some, part in parts:
-            if len(found) == count or not set(part) & set(which):
+            if len(chosen) == count or not set(part) & set(which):
                 continue
             space = null_space(joined([b for k, b in part.items() if k not in which], self.e.n), self.e.n)
             for _, q in self.twists.within(some, space):
                 t = q.twist / self.e.scale
                 row = [t @ part[k] if k in part else np.zeros(self.sought[k].shape[1]) for k in which]
                 new = np.concatenate([matrix, np.concatenate(row)[None]])
-                if len(found) < count and np.linalg.matrix_rank(new, FLAT) == len(new):
-                    matrix, found = new, [*found, q]
-        return tuple(found) if len(found) == count else ()
+                if len(chosen) < count and np.linalg.matrix_rank(new, FLAT) == len(new):
+                    matrix, chosen = new, [*chosen, q]
+        return tuple(chosen) if len(chosen) == count else ()

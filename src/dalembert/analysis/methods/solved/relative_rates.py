@@ -45,14 +45,14 @@ class MotionLine:
     pattern: str
     numbers: tuple[ShownNumber, ...]
     name: str
-    found: ShownNumber
+    result: ShownNumber
     right: float
 
     @property
     def gap(self) -> float:
         """Difference to the answer; of angles within half a turn."""
-        gap = self.found.value - self.right
-        return abs(math.remainder(gap, math.tau) if self.found.kind == "angle" else gap)
+        gap = self.result.value - self.right
+        return abs(math.remainder(gap, math.tau) if self.result.kind == "angle" else gap)
 
 
 class PointMotion(NamedTuple):
@@ -122,13 +122,13 @@ class RelativeRates:
         right: float,
     ) -> MotionLine:
         """Sum of terms and of an unknown with its coefficient (m; 1 without one): 0."""
-        found = -sum(value for *_, value in terms) / (1.0 if coefficient is None else coefficient)
+        value = -sum(value for *_, value in terms) / (1.0 if coefficient is None else coefficient)
         numbers = [ShownNumber(plain, value) for _, plain, value in terms]
         behind = "@" if coefficient is None else f"@ cdot %{len(numbers)}"
         pattern = " + ".join([*(f"%{n}" for n in range(len(numbers))), behind]) + " = 0"
         numbers += [] if coefficient is None else [ShownNumber(f"arm of {kind}", coefficient)]
         said = " + ".join([*(letter for letter, *_ in terms), letters]).replace("+ −", "− ")
-        return MotionLine(f"{said} = 0", pattern, tuple(numbers), unknown, ShownNumber(kind, found), right)
+        return MotionLine(f"{said} = 0", pattern, tuple(numbers), unknown, ShownNumber(kind, value), right)
 
     def two_links(
         self, first: tuple[str, str, Array], last: tuple[str, str, Array], jm: str, mid: Array
