@@ -95,6 +95,7 @@ FACADES = {
     "model.files.conversion",
     "model.files.model_files",
     "views.paper.scene",
+    "analysis.batch.batch_result",
     "analysis.batch.compiled_kernel",
     "machine.members.member_forces",
     "wrench.system",
