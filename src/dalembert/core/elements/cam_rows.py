@@ -145,7 +145,7 @@ def normal_size(g: Algebra, f: CamRow, pose: Pose) -> Array:
 
 
 def effort_sizes(layout: Layout, along: Rows, joints: Ints, pose: Pose) -> Iterator[tuple[Ints, Array]]:
-    """Rows of sliding on cams whose gaps are freedoms, with the normal force of a unit effort; ``joints`` of the rows."""
+    """Rows of sliding on cams whose gaps are freedoms, with the normal force of a unit effort; ``joints``: theirs."""
     freedoms = layout.freedoms
     gaps = [f.row for f in freedoms.families if isinstance(f, CamGap)]
     opened = freedoms.joint[np.concatenate(gaps)] if gaps else np.zeros(0, np.intp)
