@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.model.library import template_text
+from dalembert.pages.page_data import page_data
 from dalembert.views.paper.scene import Polygon
 
 CYLINDER = """units: {length: mm, mass: kg, force: N}
@@ -128,3 +130,14 @@ def test_a_lifted_cylinder_has_the_same_pressure() -> None:
     m = da.loads(CYLINDER.replace("loads:", "answers: []\n#"))
     plane, space = da.statics(m), da.statics(da.lifted(m))
     assert space.cylinder("C").pressure == pytest.approx(plane.cylinder("C").pressure, rel=1e-9)
+
+
+@pytest.mark.parametrize(("template", "shapes"), [("block_brake", 1), ("band_brake", 3), ("plate_clutch", 2)])
+def test_a_page_shows_what_is_pressed_on_a_drum(template: str, shapes: int) -> None:
+    """The lining, the band with both strands, the edges of the faces, as large as the drum that they are about."""
+    m = da.loads(template_text(template))
+    items = page_data(m)["views"]["mechanism"]["items"]
+    drawn = [item["svg"] for item in items if item["t"] == "symbol" and "per_mm" in item]
+    linings = [svg for svg in drawn if "journal" in svg or "block" in svg]
+    assert len(linings) == 1
+    assert linings[0].count("l-journal" if template == "plate_clutch" else "l-block") == shapes

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.compile.elements.brake_contacts import seat
 from dalembert.analysis.compile.elements.cam_motion import outline
 from dalembert.analysis.friction.joint_friction import bearing_contact, friction_circle_radius
 from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place
@@ -27,7 +28,14 @@ from dalembert.views.formats.svg import Writer
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Polygon
 from dalembert.views.plane.elements.cam_symbol import resting_follower
-from dalembert.views.plane.joint_drawings import driving_screw, ratchet_pawl, ratchet_wheel, round_slot
+from dalembert.views.plane.joint_drawings import (
+    DRAWINGS,
+    JointPlace,
+    driving_screw,
+    ratchet_pawl,
+    ratchet_wheel,
+    round_slot,
+)
 from dalembert.views.plane.outline import link_paths, wheel_paths
 from dalembert.views.symbols import plane_symbols
 
@@ -299,7 +307,23 @@ def _brake(d: Items, name: str, link: str | None) -> list[Tree]:
     at = d.rows.place(i, d.mechanism.joint_points(name)[0])
     turning = i if i != GROUND else j
     wheel = plane_symbols.wheel((0, 0), d.frame.length(float(d.known.mechanism.joints[name].reach)), 0.0)
-    return [d.symbol(wheel, at, d.rows.axis(turning), sized=True)]
+    shown = [d.symbol(wheel, at, d.rows.axis(turning), sized=True)]
+    linings = _linings(d, name) if link is None else []
+    return [*shown, d.symbol(linings, at, sized=True)] if linings else shown
+
+
+def _linings(d: Items, name: str) -> list[Item]:
+    """Lining, band or faces of a brake that the ground carries, about the drum's axis at the first solved position."""
+    m, closed = d.known.mechanism, seat(d.known.mechanism, name)
+    if closed is not None and closed.carrier != GROUND:
+        return []
+    k = int(np.argmax(np.isfinite(d.known.point_array).all(axis=(1, 2))))
+    (i, j), (u, v) = m.joints[name].links, m.joint_points(name)
+    x, y = link_place(d.known, i, u)[k].tolist()
+    frame = PaperFrame(d.frame.per_mm, (x, y))
+    place = JointPlace(d.known, name, k, frame, frame(link_place(d.known, j, v)[k]))
+    drawn = DRAWINGS[m.joints[name].type].full(place)
+    return [item for item in drawn if getattr(item, "role", "") in ("block", "journal", "hatch")]
 
 
 def _clutch(d: Items, name: str, link: str | None) -> list[Tree]:

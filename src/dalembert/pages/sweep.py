@@ -48,7 +48,7 @@ def file_place(m: Mechanism, cycle: Mechanism) -> float:
     """The place of the file's own position in the cycle: its number, the first being 0."""
     for name, d in m.drives.items():
         over = cycle.drives[name].position
-        if isinstance(d.position, float) and isinstance(over, Range):
+        if isinstance(d.position, float) and isinstance(over, Range) and over.stop != over.start:
             return (d.position - over.start) / (over.stop - over.start) * (over.count - 1)
     return 0.0
 

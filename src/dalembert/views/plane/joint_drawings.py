@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
+LONGEST_SCREW = 25.0
+"""Greatest length at which a screw is drawn behind its nut, mm."""
+
 RING, PAWL = 3.6, math.pi / 2
 """Least radius of a clutch on paper, mm, and the angle of a pawl to the axes of its link."""
 
@@ -119,13 +122,13 @@ def _slider(s: JointPlace) -> list[Item]:
 
 
 def driving_screw(r: Result, name: str, frame: PaperFrame, at: Point, angle: float) -> list[Item]:
-    """The screw that drives a slide, behind its nut, as long as the nut moves; nothing where none does."""
+    """The screw that drives a slide, behind its nut, about as long as the nut moves; nothing where none does."""
     drives = r.mechanism.drives
     screw = next((drives[d].screw for d in r.drives if (drives[d].joint or d) == name), None)
     if screw is None:
         return []
     moved = r.freedom(name, "slide")[0]
-    length = max(frame.length(float(np.nanmax(moved) - np.nanmin(moved))), 10.0)
+    length = min(max(frame.length(float(np.nanmax(moved) - np.nanmin(moved))), 10.0), LONGEST_SCREW)
     return plane_symbols.thread(at, angle, length, frame.length(screw.radius), frame.length(screw.advance))
 
 
