@@ -97,13 +97,10 @@ class Draughtsman:
 
     # what is there
 
-    def drawing(self) -> Any:
-        return self.s.page.evaluate("studio.state().drawing")
-
     def new(self, what: str, before: Any) -> list[str]:
         """Names of links, joints, loads or drives that were not there before."""
         known = {x["name"] for x in before[what]}
-        return [x["name"] for x in self.drawing()[what] if x["name"] not in known]
+        return [x["name"] for x in self.s.drawing()[what] if x["name"] not in known]
 
     def aim(self, end: End, button: bool = False) -> None:
         """The mouse at a point; of several at one place, Page Down goes on to the one that is meant."""
@@ -112,7 +109,7 @@ class Draughtsman:
         self.s.page.mouse.move(*self.s.pixel(*at))
         here = [
             (x["name"], p)
-            for x in self.drawing()["links"]
+            for x in self.s.drawing()["links"]
             for p, q in x["points"].items()
             if math.dist(q, at) * 330 / self.size < 1
         ]
@@ -164,13 +161,13 @@ class Draughtsman:
 
     def ground(self, end: End) -> None:
         self.tool("x")
-        before = set(self.drawing()["links"][0]["points"])
+        before = set(self.s.drawing()["links"][0]["points"])
         for k, x in enumerate(self.points[end]):
             if k:
                 self.s.page.keyboard.press("Tab")
             self.s.page.keyboard.type(typed(x, "length"))
         self.s.changes(lambda: self.s.page.keyboard.press("Enter"))
-        (name,) = set(self.drawing()["links"][0]["points"]) - before
+        (name,) = set(self.s.drawing()["links"][0]["points"]) - before
         self.ends[end] = GROUND, name
 
     def holds(self, link: str) -> list[tuple[End, End]]:
@@ -209,7 +206,7 @@ class Draughtsman:
 
     def bar(self, link: str, first: End, second: End | None, to: Any, long: float, angle: float) -> None:
         """A bar from what it is pinned to, or from a free place; its far end too may be pinned."""
-        s, before, (start, close) = self.s, self.drawing(), to
+        s, before, (start, close) = self.s, self.s.drawing(), to
         self.tool("b")
         if start:
             self.click(start)
@@ -228,11 +225,11 @@ class Draughtsman:
         s.changes(lambda: s.page.keyboard.press("Enter"))
         (name,) = self.new("links", before)
         self.links[link] = name
-        points = list(next(x for x in self.drawing()["links"] if x["name"] == name)["points"])
+        points = list(next(x for x in self.s.drawing()["links"] if x["name"] == name)["points"])
         self.ends[first] = name, points[0]
         if second:
             self.ends[second] = name, points[1]
-        at_links = {frozenset(x["links"]): x["name"] for x in self.drawing()["joints"]}
+        at_links = {frozenset(x["links"]): x["name"] for x in self.s.drawing()["joints"]}
         for own, other in ((first, start), (second, close)):
             if other and own:
                 self.joints[self.joint_of(own, other)] = at_links[frozenset((name, self.ends[other][0]))]
@@ -247,7 +244,7 @@ class Draughtsman:
     def point(self, end: End) -> None:
         """One more point of a link, by typed coordinates and a click on the link's first bar."""
         s, name = self.s, self.links[end[0]]
-        before = set(next(x for x in self.drawing()["links"] if x["name"] == name)["points"])
+        before = set(next(x for x in self.s.drawing()["links"] if x["name"] == name)["points"])
         s.choose("links", name)
         self.tool("p")
         for k, x in enumerate(self.frames[end[0]].point(self.points[end])):
@@ -255,7 +252,7 @@ class Draughtsman:
                 s.page.keyboard.press("Tab")
             s.page.keyboard.type(typed(x, "length"))
         s.changes(lambda: s.page.keyboard.press("Enter"))
-        (new,) = set(next(x for x in self.drawing()["links"] if x["name"] == name)["points"]) - before
+        (new,) = set(next(x for x in self.s.drawing()["links"] if x["name"] == name)["points"]) - before
         self.ends[end] = name, new
 
     def block(self, link: str, held: Any) -> bool:
@@ -273,12 +270,12 @@ class Draughtsman:
             or guide == link
         ):
             return False
-        before = self.drawing()
+        before = self.s.drawing()
         self.frames[link] = Frame()
         self.guided(slides[0], held[1], "s")
         (self.links[link],) = self.new("links", before)
         self.ends[own[0]] = self.links[link], self.ends[held[1]][1]
-        joints = {x["name"]: x["type"] for x in self.drawing()["joints"]}
+        joints = {x["name"]: x["type"] for x in self.s.drawing()["joints"]}
         for name in self.new("joints", before):
             self.joints[slides[0] if joints[name] == "slider" else self.joint_of(own[0], held[1])] = name
         return True
@@ -288,7 +285,7 @@ class Draughtsman:
     def joint(self, name: str) -> None:
         joint = self.m.joints[name]
         first, second = zip(joint.links, joint.point_names(name), strict=True)
-        before = self.drawing()
+        before = self.s.drawing()
         if joint.type in ("pin", "weld"):
             self.drag({"pin": "i", "weld": "w"}[joint.type], first, second)
         elif joint.type in ("slider", "slot"):
@@ -303,7 +300,7 @@ class Draughtsman:
         s, joint = self.s, self.m.joints[name]
         guide, path = joint.links[0], joint.point_names(name)[0]
         drawn = self.links[guide]
-        points = next(x for x in self.drawing()["links"] if x["name"] == drawn)["points"]
+        points = next(x for x in self.s.drawing()["links"] if x["name"] == drawn)["points"]
         if guide != GROUND and len(points) == 2 and not self.along(name):
             self.extra(guide)
         known = set(points)
@@ -317,11 +314,11 @@ class Draughtsman:
         s.changes(lambda: s.page.keyboard.press("Enter"))
         new = [
             p
-            for p in next(x for x in self.drawing()["links"] if x["name"] == drawn)["points"]
+            for p in next(x for x in self.s.drawing()["links"] if x["name"] == drawn)["points"]
             if p not in known
         ]
         for p in new:
-            self.values_of_point(drawn, p, vector(self.frames[guide].point(self.points[guide, path])))
+            s.place(drawn, p, vector(self.frames[guide].point(self.points[guide, path])))
 
     def along(self, name: str) -> bool:
         """True if a bar's own line is the guide: its first point and its own direction."""
@@ -342,14 +339,6 @@ class Draughtsman:
         s.page.keyboard.press("Tab")
         s.page.keyboard.type(typed(0.1 * self.size, "length"))
         s.changes(lambda: s.page.keyboard.press("Enter"))
-
-    def values_of_point(self, link: str, point: str, value: str) -> None:
-        s = self.s
-        s.choose("points", point, link)
-        box = s.page.locator(".pane.part input[aria-label=place]")
-        if box.input_value() != value:
-            box.fill(value)
-            s.changes(lambda: box.press("Enter"))
 
     def joint_values(self, name: str) -> None:
         joint, part = self.m.joints[name], self.tree["joints"][name]
@@ -374,7 +363,7 @@ class Draughtsman:
             if key in values:  # a parameter's number
                 values[key] = f"{float(getattr(joint, key))!r} {unit}".strip()
         zero = [key for key in ("direction", "angle") if values.get(key) in ("0.0 rad", "-0.0 rad")]
-        written = next(x for x in self.drawing()["joints"] if x["name"] == self.joints[name])["written"]
+        written = next(x for x in self.s.drawing()["joints"] if x["name"] == self.joints[name])["written"]
         self.values(
             "joints", self.joints[name], {k: x for k, x in values.items() if k not in zero or k in written}
         )
@@ -424,7 +413,7 @@ class Draughtsman:
 
     def load(self, name: str) -> None:
         s, load, part = self.s, self.m.loads[name], self.parts["loads"][name]
-        before, value = self.drawing(), part.get("value")
+        before, value = self.s.drawing(), part.get("value")
         values: dict[str, str] = {}
         if load.type == "couple":
             s.choose("links", self.links[load.on])

@@ -109,6 +109,39 @@ class Studio:
                 f".parts button[data-kind={'joints' if kind == 'drives' else kind}]:text-is('{name}')"
             )
 
+    def drawing(self) -> Any:
+        return self.page.evaluate("studio.state().drawing")
+
+    def send(self, message: object) -> None:
+        """A message as the page sends it."""
+        self.page.evaluate("m => void studio.socket.send(m)", message)
+
+    def gesture(self, asked: object) -> None:
+        self.send({"do": asked})
+
+    def open(self, kind: str, name: str) -> None:
+        """A bundled file, by the list of problems."""
+        self.page.click("[role=tab][data-pane=Problems]")
+        self.send({"open": {"kind": kind, "name": name}})
+        self.until(f"studio.state().drawing.title && studio.state().text.length > {len(EMPTY)}")
+
+    def type(self, label: str, value: str) -> None:
+        """A value of the part that is chosen."""
+        box = self.page.locator(f".pane.part input[aria-label='{label}']")
+        box.fill(value)
+        self.changes(lambda: box.press("Enter"))
+
+    def place(self, link: str, name: str, value: str) -> None:
+        """The place of a point, typed under Part."""
+        self.choose("points", name, link)
+        if self.page.locator(".pane.part input[aria-label=place]").input_value() != value:
+            self.type("place", value)
+
+    def second(self, link: str) -> str:
+        """Name of a link's second point."""
+        script = "l => Object.keys(studio.state().drawing.links.find(k => k.name === l).points)[1]"
+        return str(self.page.evaluate(script, link))
+
     def write(self, text: str) -> None:
         """Type at the end of the file."""
         self.page.click("[role=tab][data-pane=File]")

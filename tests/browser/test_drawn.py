@@ -17,6 +17,10 @@ from tests.studio.served import serving
 from tests.tiers import tiers
 
 TEXT_ALONE = {"hoist": "a rope", "porter_governor": "a turning plane", "hartnell_governor": "a turning plane"}
+TEXT_ALONE |= dict.fromkeys(
+    ("block_brake", "band_brake", "plate_clutch", "ratchet"), "a joint without a tool"
+)
+TEXT_ALONE |= {"disc_cam": "a programme of lifts"}
 """Templates with something that is written in the text, and not drawn."""
 KINDS = {p["name"]: p["kind"] for p in problems() if p["kind"] != "example"}
 PLANE = [

@@ -25,14 +25,14 @@ export interface Inner {
   kernel?: Kernel; sketch?: Pulled; data: AnyData; times: number[]; stage: Stage; observed: Element[];
   opened(): void; resize(): void; set(changes: Changes): void; show(t: number): void; text(): string; pose(): Placing; redraw(): void; remove(): void;
 }
-/** ``replace``: other data, seen and posed as the page is. ``hit``: parts at a place of the window, the nearest first.
+/** ``replace``: other data, seen as the page is, and posed so too unless ``pose`` is another one, or null: as its file. ``hit``: parts at a place of the window, the nearest first.
  * ``overlay``: a group above the drawing, mm of paper; ``metres``, ``paper`` take a place of the window there and a
  * place of the machine onto the paper. */
 export interface Page {
   readonly kernel: Kernel; readonly data: Data; readonly times: number[]; readonly view: View; readonly svg: SVGSVGElement; readonly overlay: SVGGElement;
   /** The solver of a sketch; undefined of a solved mechanism. */
   readonly sketch: Pulled | undefined;
-  set(changes: Changes): void; show(t: number): void; text(): string; remove(): void; replace(data: AnyData, pose?: Placing): Promise<void>;
+  set(changes: Changes): void; show(t: number): void; text(): string; remove(): void; replace(data: AnyData, pose?: Placing | null): Promise<void>;
   hit(x: number, y: number): Identity[]; metres(x: number, y: number): Point; paper(place: number[]): Point; choose(chosen: Identity | null): void; pose(): Placing; redraw(): void;
 }
 
@@ -77,13 +77,13 @@ export async function mount(el: HTMLElement, data: AnyData, options: Options = {
     const known = ["data-path", "data-item", "aria-label"].find((name) => on.hasAttribute(name));
     return known ? `${on.tagName.toLowerCase()}[${known}="${CSS.escape(on.getAttribute(known)!)}"]` : "";
   }
-  async function replace(next: AnyData, pose?: Placing): Promise<void> {
+  async function replace(next: AnyData, pose?: Placing | null): Promise<void> {
     before.length = 0;
     await swap(next, pose);
   }
-  async function swap(next: AnyData, pose: Placing = inner.pose()): Promise<void> {
+  async function swap(next: AnyData, pose: Placing | null = inner.pose()): Promise<void> {
     const old = inner;
-    inner = await put(next, { ...options, changes: undefined, address: false, pose });
+    inner = await put(next, { ...options, changes: undefined, address: false, pose: pose ?? undefined });
     old.remove();
     options.on?.({ type: "put" });
   }

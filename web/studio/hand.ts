@@ -283,7 +283,7 @@ export class Hand {
   }
   private async finish(e: { clientX: number; clientY: number } | null): Promise<void> {
     const first = this.from!.where, end = this.end(), fields = this.tool.fields ?? [], typed = (name: string): string => this.typed[fields.indexOf(name)] ?? "";
-    const any = this.typed.some(Boolean), second: Where = this.place.point || !any ? this.place : { at: end };
+    const any = this.typed.some(Boolean), there = this.place.point && dist(this.place.at, first.at) > 0, second: Where = there || !any ? this.place : { at: end };
     const turn = Math.atan2(end[1] - first.at[1], end[0] - first.at[0]), over = e && !this.place.point ? this.linkAt(e) : this.place.link ?? "";
     const unit = this.shown.drawing().units.force.size, size = this.force(end) * unit;
     const value = typed("value") ? { value: typed("value") } : {};

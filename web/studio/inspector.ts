@@ -21,8 +21,9 @@ export class Inspector {
   constructor(private readonly el: HTMLElement, private readonly socket: Socket, private readonly pick: (p: Picked | null) => void) {}
 
   update(d: Drawing, picked: Picked | null, text: string): void {
-    if (this.el.contains(document.activeElement) && document.activeElement instanceof HTMLInputElement && this.shownAs === JSON.stringify(picked)) return;
-    this.shownAs = JSON.stringify(picked);
+    const typing = this.el.contains(document.activeElement) && document.activeElement instanceof HTMLInputElement, now = JSON.stringify(picked);
+    if (this.shownAs === now + text || (typing && this.shownAs.startsWith(now))) return; // a refusal stays beside its value
+    this.shownAs = now + text;
     this.el.replaceChildren();
     if (d.space || !d.links) return;
     if (!picked) this.machine(d, text);

@@ -2,6 +2,7 @@
 
 import { mount, type Page } from "../src/page";
 import { html } from "../src/svg";
+import { Answers } from "./answers";
 import { Canvas, make } from "./canvas";
 import { Editor } from "./editor";
 import { Hand, type Tool, TOOLS } from "./hand";
@@ -31,9 +32,10 @@ const pane = (name: string): HTMLElement => {
   panes.set(name, el);
   return el;
 };
-const partPane = pane("Part"), forcePane = pane("Forces"), filePane = pane("File"), openPane = pane("Problems");
+const partPane = pane("Part"), forcePane = pane("Forces"), filePane = pane("File"), answerPane = pane("Answers"), openPane = pane("Problems");
 const inspector = new Inspector(partPane, socket, pick);
 const editor = new Editor(filePane, socket, (back) => void editor.flush().then(() => socket.send(back ? { undo: true } : { redo: true })));
+new Answers(answerPane, socket, () => editor.flush());
 open("Part");
 
 const button = (parent: HTMLElement, text: string, title: string, act: () => void): HTMLButtonElement => {
@@ -52,6 +54,7 @@ button(bar, "Save as", "Save under another name in the same folder", () => {
 const more = html("span", bar, { class: "more" });
 const dynamics = check(more, "dynamics", "with inertia, where a drive has a speed", (on) => ({ static: !on, friction: friction.checked })), friction = check(more, "friction", "with the friction that the file gives", (on) => ({ static: !dynamics.checked, friction: on }));
 button(more, "Report", "Worked solution as HTML", () => void download("report"));
+button(more, "Design", "Design report of the machine as HTML", () => void download("design"));
 button(more, "Page", "Live page as one HTML file", () => void download("page"));
 for (const tool of TOOLS) {
   const b = button(rail, "", `${tool.title} (${tool.key.toUpperCase()})`, () => hand.choose(tool));
@@ -142,7 +145,10 @@ async function forces(a: Record<string, any>): Promise<void> {
     return;
   }
   forcePane.classList.remove("stale");
-  if (mounted && page) await page.replace(a.data);
+  if (mounted && page) {
+    if (a.data.start !== page.data.start || a.data.kernel.count !== page.data.kernel.count) page.view.t = NaN;
+    await page.replace(a.data, null); // the text is the truth, also of the assembly
+  }
   else {
     mounted = true;
     page = await mount(forcePane, a.data, { edited: (values) => void edited(values) });
@@ -206,7 +212,7 @@ async function download(ask: string): Promise<void> {
   if (a.error) return say(a.error);
   const bytes = Uint8Array.from(atob(a.file), (c) => c.charCodeAt(0)), link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([bytes], { type: "text/html" }));
-  link.download = `${state!.file.replace(/\.\w+$/, "")}${ask === "report" ? "_report" : ""}.${a.ending}`;
+  link.download = `${state!.file.replace(/\.\w+$/, "")}${ask === "page" ? "" : `_${ask}`}.${a.ending}`;
   link.click();
   hint.textContent = `${link.download} is in your downloads`;
 }
@@ -234,4 +240,4 @@ async function ticks(el: HTMLElement): Promise<void> {
   for (const row of a.rows ?? []) html("p", el, { class: row.ok ? "ok" : "off", title: row.why }, `${row.ok ? "✓" : "✗"} ${row.quantity}: printed ${row.published}, computed ${row.computed}`);
   if (a.error && /answers/.test(state?.text ?? "")) html("p", el, { class: "off" }, a.error);
 }
-Object.assign(window, { studio: { state: () => state, page: () => page, solved: () => solvedHash, shown: () => shownHash, pick, canvas, hand } });
+Object.assign(window, { studio: { state: () => state, page: () => page, solved: () => solvedHash, shown: () => shownHash, pick, canvas, hand, socket } });

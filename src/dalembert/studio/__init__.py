@@ -5,10 +5,10 @@ what they import. Operations change characters of the text and nothing else; the
 
 Messages are JSON. A tab first sends ``{token}``. Then ``{n, do: {op, ...}}`` (a gesture of ``editing``), ``{n, edit:
 [[start, end, text], ...], base: hash}``, ``{n, undo}``, ``{n, redo}``, ``{n, pull}``, ``{n, save}``, ``{n, choose}``,
-``{n, options: {static, friction}}``, ``{n, open}``, ``{n, problems}`` or ``{n, ask}``; n comes back with the answer,
-and a refusal is ``{n, refused: sentence}``. Every tab is told the new state (``text``, ``hash``, ``drawing``)
-at once, and then ``{hash, data}`` of its page, or ``{hash, missing: sentence, path}``. An answer of ``ask`` may be
-``{error, path}``; the answers are:
+``{n, options: {static, friction}}``, ``{n, open}``, ``{n, problems}``, ``{n, keys}`` or ``{n, ask}``; n comes
+back with the answer, and a refusal is ``{n, refused: sentence}``. Every tab is told the new state (``text``, ``hash``,
+``drawing``) at once, and then ``{hash, data}`` of its page, or ``{hash, missing: sentence, path}``. An answer of
+``ask`` may be ``{error, path}``; the answers are:
 
 - ``modes``: ``modes``, each with ``svg: {light, dark}``, ``links`` and ``here``, true of the file's own. One is taken
   by ``do: {op: "pose", links, drives: {}}``.

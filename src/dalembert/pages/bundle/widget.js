@@ -3928,7 +3928,7 @@ async function In(e, t, r = {}) {
 			...r,
 			changes: void 0,
 			address: !1,
-			pose: t
+			pose: t ?? void 0
 		}), n.remove(), r.on?.({ type: "put" });
 	}
 	return {

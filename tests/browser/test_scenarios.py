@@ -1,0 +1,268 @@
+"""What a person does in the studio with mouse, fingers and keys, one scenario a row, all in one tab of one studio."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import dalembert as da
+from dalembert.studio.document import EMPTY
+from dalembert.studio.problems import problem_text
+from tests.browser.studio_tab import Studio
+from tests.studio.served import serving
+from tests.tiers import tiers
+
+FOUR_BAR = problem_text("example", "four_bar")
+
+
+@pytest.fixture(scope="module")
+def board(browser: Any, tmp_path_factory: Any) -> Iterator[Studio]:
+    """One studio in one tab for all scenarios."""
+    path: Path = tmp_path_factory.mktemp("board") / "m.yaml"
+    with serving(path) as served:
+        context = browser.new_context(viewport={"width": 1280, "height": 800}, has_touch=True)
+        studio = Studio(context, served.access.address)
+        yield studio
+        context.close()
+        assert studio.complaints == []
+
+
+def keys(s: Studio, said: str) -> None:
+    """Keys one after the other; what is no name of a key is typed."""
+    for key in said.split():
+        named = key in ("Enter", "Tab", "Escape", "Delete", "PageDown", "PageUp", "Space") or "+" in key
+        (s.page.keyboard.press if named else s.page.keyboard.type)(key)
+        s.page.wait_for_timeout(30)
+
+
+def bars(s: Studio) -> None:
+    """A crank and a coupler from a ground point, and a second ground point."""
+    s.see(0.05, 0.02, 3000)
+    for typed in ("0 Tab 0", "100 Tab 0"):
+        s.changes(lambda typed=typed: keys(s, f"Escape x {typed} Enter"))  # type: ignore[misc]
+    s.line("b", (0, 0), (0.02, 0.03), "40", "60")
+    s.line("b", s.point("link2"), (0.08, 0.05), "60", "0")
+
+
+def by_keys_alone(s: Studio) -> None:
+    """A slider-crank without a mouse: its torque is that of the template."""
+    s.see(0.1, 0.0, 2000)
+    s.changes(lambda: keys(s, "x 0 Tab 0 Enter"))
+    s.page.evaluate("studio.canvas.svg.focus()")
+    while s.page.evaluate("studio.hand.cursor.end?.link") != "ground":
+        keys(s, "PageDown")
+    s.changes(lambda: keys(s, "b Enter 50 Tab 45 Enter"))
+    aim(s, "link2", s.second("link2"))
+    s.changes(lambda: keys(s, "b Enter 200 Tab -10.182 Enter"))
+    aim(s, "link3", s.second("link3"))
+    s.changes(lambda: keys(s, "s Enter 0 Enter"))
+    s.place("ground", s.page.evaluate("Object.keys(studio.state().drawing.links[0].points).at(-1)"), "[0, 0]")
+    aim(s, "ground", "A")
+    s.changes(lambda: keys(s, "d 45 Enter"))
+    aim(s, "link3", s.second("link3"))
+    s.changes(lambda: keys(s, "f Enter 1000 Tab 180 Enter"))
+    m = da.slider_crank(crank="50 mm", rod="200 mm", positions=1)
+    force = {"type": "force", "on": "piston", "at": "B", "value": [-1000.0, 0.0]}
+    like = da.Mechanism.model_validate(m.to_tree() | {"loads": {"F": force}, "gravity": "none"})
+    like = like.with_values({"drives.O2.position": "45 deg", "drives.O2.speed": 0.0})
+    assert s.effort() == pytest.approx(float(da.statics(like).effort("O2")[0]), rel=1e-9)
+
+
+def aim(s: Studio, link: str, point: str) -> None:
+    """Page Down until the cross is on a point."""
+    for _ in range(40):
+        keys(s, "PageDown")
+        if s.page.evaluate("[studio.hand.cursor.end?.link, studio.hand.cursor.end?.point]") == [link, point]:
+            return
+    raise AssertionError((link, point))
+
+
+def by_touch_alone(s: Studio) -> None:
+    """A four-bar with taps: it closes, and a tap drives it."""
+    s.see(0.05, 0.02, 3000)
+
+    def tap(tool: str, *places: tuple[float, float]) -> None:
+        s.page.tap(f"[data-tool={tool}]")
+        s.changes(lambda: [s.page.touchscreen.tap(*s.pixel(*at)) for at in places])
+
+    tap("ground", (0, 0))
+    tap("ground", (0.1, 0))
+    tap("bar", (0, 0), (0.02, 0.035))
+    tap("bar", s.point("link2"), (0.12, 0.06))
+    tap("bar", s.point("link3"), (0.1, 0))
+    tap("drive", (0, 0))
+    assert s.drawing()["freedoms"] == 1
+    assert s.drawing()["closed"]
+    assert s.effort() == 0.0
+
+
+def a_hundred_steps(s: Studio) -> None:
+    """A hundred steps undone give the first text, and done again the last, byte for byte."""
+    first = s.text
+    for k in range(100):
+        s.changes(lambda k=k: s.gesture({"op": "ground", "where": {"at": [0.01 * k, 0.02]}}))  # type: ignore[misc]
+    last = s.text
+    s.page.evaluate("document.activeElement?.blur()")
+    for key in ("Control+z", "Control+Shift+Z"):
+        for _ in range(100):
+            s.changes(lambda key=key: s.page.keyboard.press(key))  # type: ignore[misc]
+        assert s.text == (first if key == "Control+z" else last)
+
+
+def a_name_everywhere(s: Studio) -> None:
+    """A new name of the crank changes all that refers to it, and no force."""
+    s.open("example", "four_bar")
+    before = s.effort()
+    s.choose("links", "crank")
+    s.type("name", "arm")
+    assert "crank" not in da.loads(s.text).links
+    assert s.text.splitlines()[0:3] == FOUR_BAR.splitlines()[0:3]
+    assert s.effort() == before
+
+
+def deleted_with_all_on_it(s: Studio) -> None:
+    """Del takes a link out with its joints, loads and its place in the assembly."""
+    s.open("example", "four_bar")
+    s.choose("links", "rocker")
+    s.page.evaluate("document.activeElement?.blur()")
+    s.changes(lambda: s.page.keyboard.press("Delete"))
+    m = da.loads(s.text)
+    assert (list(m.joints), list(m.loads), list(m.assembly)) == (["O2", "A"], ["F_P"], ["coupler"])
+
+
+def merged_by_dropping(s: Studio) -> None:
+    """A joint dropped on a ground point is pinned there."""
+    bars(s)
+    end = s.point("link3")
+    s.line("v", end, (0.1, 0.0))
+    assert any(x["links"] == ["ground", "link3"] for x in s.drawing()["joints"])
+
+
+def pin_to_weld(s: Studio) -> None:
+    """A click of the weld tool on a pin makes it rigid, at the angle that is drawn."""
+    bars(s)
+    s.click("w", *s.point("link2"))
+    (weld,) = (j for j in da.loads(s.text).joints.values() if j.type == "weld")
+    assert weld.angle == pytest.approx(-1.0471975511965976, abs=1e-5)
+    assert s.drawing()["freedoms"] == 1
+
+
+def refused_in_fields(s: Studio) -> None:
+    """`1,5` is 1.5, a unit is taken along, a negative mass and an overflow are refused at the field."""
+    bars(s)
+    s.choose("links", "link2")
+    s.type("mass", "1,5")
+    assert da.loads(s.text).mass("link2") == 1.5
+    s.type("mass", "2 lbm")
+    before = s.text
+    for wrong in ("-1", "1e999", "3 mm"):
+        box = s.page.locator(".pane.part input[aria-label=mass]")
+        box.fill(wrong)
+        box.press("Enter")
+        s.until("document.querySelector('.pane.part .refused:not(:empty)')")
+        assert s.text == before
+        box.fill("2 lbm")
+        box.press("Escape")
+
+
+def another_assembly_by_picture(s: Studio) -> None:
+    """The other assembly, chosen by its picture, is that of the file; its effort is computed anew."""
+    s.open("template", "four_bar")
+    before = s.effort()
+    s.page.click("[role=tab][data-pane=Answers]")
+    s.page.click("button:text-is('Other assemblies')")
+    s.page.wait_for_selector(".modes img")
+    assert s.page.locator(".modes button").count() == 2
+    assert s.page.evaluate("[...document.querySelectorAll('.modes img')].every(x => x.naturalWidth > 0)")
+    s.changes(lambda: s.page.click(".modes button:not([disabled])"))
+    assert s.effort() == pytest.approx(float(da.dynamics(da.loads(s.text)).effort("O2")[0]), rel=1e-9)
+    assert s.effort() != pytest.approx(before)
+
+
+def shares_of_loads(s: Studio) -> None:
+    """What each load adds to the effort is in a table, and adds up."""
+    s.open("example", "four_bar")
+    s.page.click("[role=tab][data-pane=Answers]")
+    s.page.click("button:text-is('Share of each load')")
+    s.page.wait_for_selector(".answer td")
+    row = s.page.inner_text(".answer tr >> nth=1").split("\t")
+    assert row[0] == "effort of O2"
+    assert sum(map(float, row[1:-2])) == pytest.approx(float(row[-2]), abs=2e-2)
+    assert float(row[-2]) == pytest.approx(243.24, abs=0.01)
+
+
+def reports_downloaded(s: Studio) -> None:
+    """Worked solution, design report and page are downloads."""
+    s.open("template", "four_bar")
+    for button, name in (("Report", "m_report.html"), ("Page", "m.html")):
+        with s.page.expect_download() as waiting:
+            s.page.click(f"header button:text-is('{button}')")
+        assert waiting.value.suggested_filename == name
+        assert "Four-bar linkage" in Path(waiting.value.path()).read_text(encoding="utf-8")
+
+
+def joints_of_each_kind(s: Studio) -> None:
+    """Each joint drawn once between two links, from point to point."""
+    for key, kind in (("a", "circular_slot"), ("r", "rolling"), ("e", "belt"), ("g", "gear")):
+        s.empty()
+        bars(s)
+        s.line(key, s.point("link3"), (0.1, 0.0))
+        assert [j.type for j in da.loads(s.text).joints.values()][-1] == kind
+
+
+def loads_of_each_kind(s: Studio) -> None:
+    """Each load drawn once, and a cylinder."""
+    bars(s)
+    s.line("k", s.point("link3"), (0.1, 0.0), "2 N/mm")
+    s.line("n", s.point("link3"), (0.1, 0.0), "40 N*s/m")
+    s.line("f", s.point("link3"), (0.12, 0.0), "100 N", "-90")
+    s.choose("links", "link2")
+    s.changes(lambda: keys(s, "m 3 Enter"))
+    s.line("c", s.point("link3"), (0.1, 0.0), "63 mm")
+    m = da.loads(s.text)
+    assert sorted(x.type for x in m.loads.values()) == ["couple", "damper", "force", "spring"]
+    assert m.drives["cylinder1"].cylinder is not None
+
+
+def crlf_is_kept(s: Studio) -> None:
+    """A file with CRLF keeps it through gestures."""
+    text = FOUR_BAR.replace("\n", "\r\n")
+    s.changes(
+        lambda: s.send({"edit": [[0, len(s.text), text]], "base": s.page.evaluate("studio.state().hash")})
+    )
+    s.choose("links", "crank")
+    s.type("weight", "1.6")
+    assert s.text.replace("\r\n", "").count("\n") == 0
+    assert "1.6" in s.text
+
+
+QUICK: list[Callable[[Studio], None]] = [by_keys_alone]
+LONG: list[Callable[[Studio], None]] = [
+    *(
+        by_touch_alone,
+        a_name_everywhere,
+        deleted_with_all_on_it,
+        merged_by_dropping,
+        pin_to_weld,
+        refused_in_fields,
+    ),
+    *(
+        another_assembly_by_picture,
+        shares_of_loads,
+        reports_downloaded,
+        joints_of_each_kind,
+        loads_of_each_kind,
+    ),
+    *(crlf_is_kept, a_hundred_steps),
+]
+
+
+@pytest.mark.parametrize("scenario", tiers(QUICK, LONG), ids=lambda f: f.__name__)
+def test_scenario(scenario: Callable[[Studio], None], board: Studio) -> None:
+    board.empty()
+    assert board.text == EMPTY
+    scenario(board)
+    assert not board.page.evaluate("studio.state().error")
