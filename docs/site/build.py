@@ -76,6 +76,7 @@ def main() -> int:
     shutil.rmtree(SITE, ignore_errors=True)
     settings = os.environ | {"SITE_NOTEBOOKS": "off" if options.no_notebooks else "force"}
     command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-n", "-c", str(HERE)]
+    command += ["-d", str(ROOT / "build" / "site-doctrees")]
     ended = subprocess.run([*command, str(SOURCE), str(SITE)], env=settings, check=False)
     for unused in SITE.rglob("*.map"):
         unused.unlink()

@@ -44,7 +44,7 @@ html_title = "dalembert"
 html_static_path = [str(ROOT / "build" / "site-source" / "_static")]
 html_css_files = ["site.css"]
 html_js_files = ["filter.js"]
-html_show_sourcelink = False
+html_show_sourcelink = html_copy_source = False
 html_sidebars = {name: [] for name in ("index", "gallery/**", "validation", "search", "genindex")}
 html_math_renderer = "mathml"
 html_theme_options = {

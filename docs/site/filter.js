@@ -11,3 +11,13 @@ document.addEventListener("DOMContentLoaded", () => {
   text.addEventListener("input", show);
   kind.addEventListener("input", show);
 });
+
+// Wide tables scroll by the keyboard too, and the search button is called what is written on it.
+document.addEventListener("DOMContentLoaded", () => {
+  for (const table of document.querySelectorAll(".pst-scrollable-table-container > table, .da-wide, .da-wide > table")) {
+    table.tabIndex = 0;
+  }
+  for (const button of document.querySelectorAll(".search-button-field")) {
+    button.setAttribute("aria-label", button.textContent.trim().replace(/\s+/g, " ") || "Search");
+  }
+});

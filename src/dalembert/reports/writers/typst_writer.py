@@ -130,5 +130,5 @@ def _pictures(scenes: tuple[Scene, ...], pictures: dict[str, bytes], columns: in
     for width, scene in (picture for row in rows for picture in row):
         name = f"figure-{len(pictures) + 1}.svg"
         pictures[name] = scene.to_svg().encode()
-        out.append({"name": name, "width": round(min(width, WIDTH), 2)})
+        out.append({"name": name, "width": round(min(width, WIDTH), 2), "title": scene.title or "drawing"})
     return out
