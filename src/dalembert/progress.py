@@ -24,25 +24,25 @@ Step = Callable[..., None]
 def progress(what: str, total: int | None = None) -> Iterator[Step]:
     """Progress on standard error: what is done, for how long, with a total how fast and how long it still takes.
 
-    What it gives is called with how much is done, and of what: ``step(3)``, ``step(3, "case.yaml")``. An interruption
-    passes through.
+    What it gives is called with how much is done, and of what: ``step(3)``, ``step(3, "case.yaml")``; a total that is
+    known only then follows, ``step(3, total=200)``. An interruption passes through.
 
     >>> with progress("Solving", 2) as step:      # short work shows nothing
     ...     step(1)
     """
     if sys.stderr is None:
-        yield lambda done, name="": None
+        yield lambda done, name="", total=None: None
         return
     import threading
 
-    state: dict[str, Any] = {"completed": 0, "description": what}
+    state: dict[str, Any] = {"completed": 0, "description": what, "total": total}
     finished = threading.Event()
 
-    def step(done: int, name: str = "") -> None:
-        state.update(completed=done, description=f"{what} {name}".strip())
+    def step(done: int, name: str = "", total: int | None = None) -> None:
+        state.update(completed=done, description=f"{what} {name}".strip(), total=total or state["total"])
 
     show = _show if sys.stderr.isatty() else _print_lines
-    shown = threading.Thread(target=show, args=(state, total, finished), daemon=True)
+    shown = threading.Thread(target=show, args=(state, finished), daemon=True)
     shown.start()
     try:
         yield step
@@ -78,16 +78,16 @@ def duration(seconds: float) -> str:
     return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60} min"
 
 
-def _print_lines(state: dict[str, Any], total: int | None, finished: Any) -> None:
+def _print_lines(state: dict[str, Any], finished: Any) -> None:
     """A line from time to time until the work is finished."""
     start, pause = monotonic(), FIRST
     while not finished.wait(pause):
-        text = line(state["description"], state["completed"], total, monotonic() - start)
+        text = line(state["description"], state["completed"], state["total"], monotonic() - start)
         print(text, file=sys.stderr, flush=True)
         pause = min(SLOWER * pause, LONGEST)
 
 
-def _show(state: dict[str, Any], total: int | None, finished: Any) -> None:
+def _show(state: dict[str, Any], finished: Any) -> None:
     """Draw the line until the work is finished, if it takes long; rich is imported only then."""
     if finished.wait(DELAY):
         return
@@ -95,6 +95,7 @@ def _show(state: dict[str, Any], total: int | None, finished: Any) -> None:
     from rich.markup import escape
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+    total = state["total"]
     start, more = monotonic() - DELAY, [BarColumn(), TextColumn("{task.fields[rate]}")] if total else []
     columns = [SpinnerColumn(), TextColumn("{task.description}"), *more]
     console = Console(stderr=True)  # standard output is left alone: it may be a file

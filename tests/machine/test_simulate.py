@@ -143,6 +143,22 @@ def test_a_change_point_ends_the_motion_with_a_sentence() -> None:
     assert s.energy_residual < 1e-5
 
 
+def test_a_motion_until_a_time_reports_the_instants_it_has_reached() -> None:
+    m, reports = (
+        rotor(0.8, "drives: {O: {effort: 2*time}}\nstart: {O: {position: 0}}"),
+        list[tuple[int, int]](),
+    )
+    da.simulate(m, "2 s", count=41, progress=lambda *report: reports.append(report))
+    assert reports[0] == (0, 40)
+    assert [count for _, count in reports] == [40] * len(reports)
+    reached = [done for done, _ in reports]
+    assert reached == sorted(reached)
+    assert 0 < reached[-1] <= 40
+    reports.clear()
+    da.simulate(m, "O.speed = 1 rad/s", progress=lambda *report: reports.append(report))
+    assert not reports
+
+
 def test_chosen_joint_forces_and_slides_are_drawn() -> None:
     m = da.slider_crank(crank=0.05, rod=0.2)
     s = da.simulate(m, "0.05 s", start={"O2": {"position": 0.5, "speed": 20.0}}, count=21)

@@ -239,8 +239,14 @@ def simulate(
 
     out.check(file)
     m, small = changes.load(file), tolerance or simulation.TOLERANCE
-    with progress(f"Simulating {file}"):
-        made = computed(lambda: simulation.simulate(m, until, None, event or (), count, small, steps), m)
+    with progress(f"Simulating {file}") as step:
+
+        def tell(done: int, instants: int) -> None:
+            step(done, total=instants)
+
+        made = computed(
+            lambda: simulation.simulate(m, until, None, event or (), count, small, steps, tell), m
+        )
     made = replace(made, curves=tuple(curves or ()))
     for name in made.curves:
         quantity(made.result, name)  # an unknown one is refused before anything is written

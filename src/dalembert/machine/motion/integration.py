@@ -131,6 +131,7 @@ class Integration(StepState):
                     break
             before, from_ = self.reached = solver.t, solver.y
             steps, self.taken = steps + 1, self.taken + 1
+            self.report_progress()
             self.equation.set_anchor()
             self.acting.set_anchor()
             if self.end == np.inf and self.taken > self.limits.steps:

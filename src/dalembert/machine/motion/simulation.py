@@ -5,7 +5,7 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -281,6 +281,7 @@ def simulate(
     count: int = 201,
     tolerance: float = TOLERANCE,
     steps: int = Limits.steps,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Simulation:
     """Motion under forces: motors, given efforts, loads, weights, springs, dampers and dry friction.
 
@@ -290,8 +291,9 @@ def simulate(
     integration (a radian at least counts as one), or 1e5 s: its ``status`` is ``not_met``. Ctrl-C ends it with the
     motion so far, ``interrupted``. ``start``: instead of the file's, ``{"O2": {"position": "60 deg", "speed": 0}}``.
     ``events``: conditions that are recorded. ``count``: instants in the answer, evenly in time, besides the events;
-    without a time the steps of the integration. Dry friction sticks and releases, without smoothing. Raises ModelError
-    for a model that forces cannot move. Hairer, Norsett, Wanner, Solving ODEs I, II.5 (DOP853).
+    without a time the steps of the integration. ``progress``: called with (instants reached, their count). Dry friction
+    sticks and releases, without smoothing. Raises ModelError for a model that forces cannot move. Hairer, Norsett,
+    Wanner, Solving ODEs I, II.5 (DOP853).
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2)
@@ -299,7 +301,7 @@ def simulate(
     >>> bool(s.energy_residual < 1e-9), bool(s.law_residual < 1e-9)
     (True, True)
     """
-    return motion_of(as_mechanism(m), until, start, events, count, tolerance, steps)
+    return motion_of(as_mechanism(m), until, start, events, count, tolerance, steps, progress=progress)
 
 
 def motion_of(
@@ -311,6 +313,7 @@ def motion_of(
     tolerance: float = TOLERANCE,
     steps: int = Limits.steps,
     shared: SharedMotion | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Simulation:
     """The motion of ``simulate``; of one design of many by the equation that they have ``shared``."""
     try:
@@ -324,6 +327,7 @@ def motion_of(
             raise ModelError(f"{steps!r} is not a number of steps", "ask for 1 or more")
         times = np.linspace(0.0, end, count)[1:] if np.isfinite(end) else None
         run = Integration(whole, acting, end, times, conditions, tolerance, Limits(steps))
+        run.progress = progress
         acting.equation = None  # the run has it; an answer can be pickled
         pieces = integrate(run)
     except ModelError as error:
@@ -334,13 +338,11 @@ def motion_of(
 def check_choices(count: int, tolerance: float) -> None:
     """Raise ModelError for a number of instants or a tolerance out of range."""
     if not BOUNDS["instants"].allows(count):
-        raise ArgumentError(
-            f"instants={text_of(count)} is out of range", f"use 2 to {BOUNDS['instants'].high}"
-        )
+        what = f"instants={text_of(count)} is out of range"
+        raise ArgumentError(what, f"use 2 to {BOUNDS['instants'].high}")
     if not BOUNDS["step error"].allows(tolerance):
-        raise ArgumentError(
-            f"the tolerance {text_of(tolerance)} is not between 1e-14 and 1e-3", "leave it out: 1e-12"
-        )
+        what = f"the tolerance {text_of(tolerance)} is not between 1e-14 and 1e-3"
+        raise ArgumentError(what, "leave it out: 1e-12")
 
 
 def read_start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]:

@@ -69,6 +69,13 @@ class StepState(CodedState):
         self.samples: list[tuple[float, Array]] = []
         self.parts: list[Array] = []
         self.ends: list[float] = []
+        self.progress: Callable[[int, int], None] | None = None
+        self.count = len(self.waiting or ())
+
+    def report_progress(self) -> None:
+        """Reports the instants that are reached, and their count."""
+        if self.progress is not None and self.waiting is not None:
+            self.progress(self.count - len(self.waiting), self.count)
 
     def keep(self, t: float, y: Array) -> None:
         """Keep an instant; in machine code together with those of its segment."""

@@ -42,6 +42,7 @@ def integrate(run: Integration) -> list[Integration]:
         followed = [LedCondition(**vars(c), leading=leading) for c in conditions]
         piece = Integration(m, leading, last.end, None, followed, last.tolerance, last.limits)
         piece.waiting, piece.events, piece.taken = last.waiting, last.events, last.taken
+        piece.progress, piece.count = last.progress, last.count
         near, ahead = " and ".join(last.acting.names), " and ".join(leading.names)
         piece.note(t, "coordinates", f"near a dead centre of {near}: the coordinate is {ahead} from here on")
         piece.run(t, y[2 * last.d :])
