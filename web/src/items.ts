@@ -154,6 +154,8 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
 
 /** Positions beyond which points are left out that a line through others passes within THIN mm, MOST in a row at most. */
 const DENSE = 240, THIN = 0.04, MOST = 12;
+/** While numbers are dragged, each of so many positions is drawn of a long curve. */
+const COARSE = 3;
 
 /** True if the points from one to another, without their ends, lie within THIN of the line between these. */
 function straight(points: Float64Array, from: number, to: number): boolean {
@@ -172,14 +174,15 @@ export function draw(path: Element, d: string): void {
 
 /** A curve over the cycle, with gaps where no answer exists; ``closed`` if the cycle continues from its end. */
 export function curve(k: Source, at: (n: number) => Point, closed = false): string {
-  const last = closed && k.cyclic ? k.count : k.count - 1, dense = k.count > DENSE, points = new Float64Array(2 * last + 2);
+  const last = closed && k.cyclic ? k.count : k.count - 1, dense = k.count > DENSE, step = dense && k.coarse ? COARSE : 1;
+  const ends = Math.ceil(last / step), points = new Float64Array(2 * ends + 2);
   let d = "", drawn = -1;
   const put = (c: number, pen = "L"): void => {
     d += `${pen}${short(points[2 * c])} ${short(points[2 * c + 1])}`;
     drawn = c;
   };
-  for (let c = 0; c <= last; c++) {
-    const n = c % k.count, good = !!k.good[n];
+  for (let c = 0; c <= ends; c++) {
+    const n = Math.min(c * step, last) % k.count, good = !!k.good[n];
     if (good) points.set(at(n), 2 * c);
     if (good && drawn < 0) put(c, "M");
     else if (drawn >= 0 && drawn < c - 1 && !(good && dense && c - drawn <= MOST && straight(points, drawn, c))) put(c - 1);
@@ -190,7 +193,7 @@ export function curve(k: Source, at: (n: number) => Point, closed = false): stri
       put(c);
     }
   }
-  if (drawn >= 0 && drawn < last) put(last);
+  if (drawn >= 0 && drawn < ends) put(ends);
   return d;
 }
 

@@ -50,6 +50,7 @@ export class Kernel implements Source {
   private readonly side: number;
   /** True if every output is a number at the place, right or not. */
   finite = true;
+  coarse = false;
   /** 1 at each position that has numbers. */
   readonly good: Uint8Array;
   /** Reason why the analyses refuse the mechanism with these numbers; then no position has numbers. */

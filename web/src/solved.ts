@@ -142,11 +142,13 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
     told();
   }
   function moved(): void {
+    kernel.coarse = true;
     gate.pass();
     request(true);
   }
   /** Updates after a change that can be undone. */
   function finished(): void {
+    kernel.coarse = false;
     const { sentence } = gate;
     if (gate.pass()) gate.sentence = sentence;
     history.note();

@@ -4,6 +4,8 @@ export interface Source {
   /** Outputs at the place that is shown, by row. */
   readonly here: Float64Array;
   readonly count: number;
+  /** True while numbers are dragged: long curves are then drawn with fewer points. */
+  readonly coarse?: boolean;
   /** 1 at each position that has numbers. */
   readonly good: Uint8Array;
   /** True if the cycle continues from its last position to its first. */

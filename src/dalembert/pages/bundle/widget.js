@@ -535,7 +535,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	}
 	assume(e) {
 		if (this.home(), !e) return;
-		let t = ee(this.data, this.held.pose, e), { sketch: n } = this;
+		let t = B(this.data, this.held.pose, e), { sketch: n } = this;
 		n.values = this.values, n.count(this.phases, !1);
 		for (let e of [...this.data.places, ...Array(this.count).keys()]) {
 			let r = this.wound(t, this.kernel.drives(e)), i = n.close(r, this.kernel.drives(e));
@@ -772,7 +772,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	assembly() {
 		this.update();
 		let { links: e, dimension: t, counted: n } = this.data, { pose: r } = this.base;
-		return e.flatMap((e, i) => t === 2 ? [r.turn[i] + (n[e] ?? 0)] : [...r.point.subarray(3 * i, 3 * i + 3), ...ne(r.rotation.subarray(9 * i, 9 * i + 9))]);
+		return e.flatMap((e, i) => t === 2 ? [r.turn[i] + (n[e] ?? 0)] : [...r.point.subarray(3 * i, 3 * i + 3), ...te(r.rotation.subarray(9 * i, 9 * i + 9))]);
 	}
 	placed() {
 		let { links: e, dimension: t } = this.data, { pose: n } = this.held;
@@ -783,7 +783,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		] : [...n.point.subarray(3 * r, 3 * r + 3), ...n.rotation.subarray(9 * r, 9 * r + 9)]]));
 	}
 	take(e) {
-		let { data: t, sketch: n, kernel: r } = this, i = B(t, this.first.pose, e);
+		let { data: t, sketch: n, kernel: r } = this, i = V(t, this.first.pose, e);
 		this.home(), n.values = this.values, n.count(this.phases, !1);
 		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, P), s = o && this.placeOf(a);
 		if (o && s !== null) {
@@ -869,7 +869,7 @@ function z(e) {
 	};
 	return e.gaps.map((e) => e.joint).reduce((e, t) => e && r(e) >= r(t) ? e : t, "");
 }
-function ee(e, t, n) {
+function B(e, t, n) {
 	let r = D(t);
 	return e.links.forEach((t, i) => {
 		if (e.dimension === 2) {
@@ -882,14 +882,14 @@ function ee(e, t, n) {
 			a,
 			o,
 			s
-		], 3 * i), r.rotation.set(te([
+		], 3 * i), r.rotation.set(ee([
 			c / f,
 			l / f,
 			u / f
 		], d), 9 * i);
 	}), r;
 }
-function B(e, t, n) {
+function V(e, t, n) {
 	let r = D(t);
 	return e.links.forEach((t, i) => {
 		let a = n[t], o = e.dimension;
@@ -899,7 +899,7 @@ function B(e, t, n) {
 		}
 	}), r;
 }
-function te([e, t, n], r) {
+function ee([e, t, n], r) {
 	let i = Math.cos(r), a = Math.sin(r), o = 1 - i;
 	return [
 		i + o * e * e,
@@ -913,7 +913,7 @@ function te([e, t, n], r) {
 		i + o * n * n
 	];
 }
-function ne(e) {
+function te(e) {
 	let t = [
 		e[7] - e[5],
 		e[2] - e[6],
@@ -938,19 +938,19 @@ function ne(e) {
 	return [...a.map((e) => e / o), Math.PI];
 }
 // src/program.ts
-function V(e) {
+function H(e) {
 	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
 }
-function H(e) {
-	if (typeof e == "string") return new Float64Array(V(e).buffer);
+function U(e) {
+	if (typeof e == "string") return new Float64Array(H(e).buffer);
 	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
 	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
 }
-async function re(e) {
-	let t = new Blob([V(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
+async function ne(e) {
+	let t = new Blob([H(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
 	return new Response(t).arrayBuffer();
 }
-var U = class e {
+var W = class e {
 	run;
 	module;
 	values;
@@ -969,7 +969,7 @@ var U = class e {
 		a > t.buffer.byteLength && t.grow(Math.ceil((a - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = i.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
 	}
 	static async create(t, n) {
-		let { instance: r } = await WebAssembly.instantiate(await re(t.wasm)), { memory: i, run: a } = r.exports;
+		let { instance: r } = await WebAssembly.instantiate(await ne(t.wasm)), { memory: i, run: a } = r.exports;
 		return new e(a, i, t, n);
 	}
 	call(e) {
@@ -981,7 +981,7 @@ var U = class e {
 	at(e, t = 0) {
 		return this.out[e * this.row + t];
 	}
-}, ie = {
+}, re = {
 	joint: 0,
 	point: 0,
 	tracer: 0,
@@ -990,14 +990,14 @@ var U = class e {
 	direction: 1,
 	link: 4,
 	trace: 5
-}, W = (e) => {
+}, G = (e) => {
 	let t = e.indexOf(":");
 	return {
 		kind: e.slice(0, t),
 		name: e.slice(t + 1)
 	};
-}, ae = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
-function G(e, t, n, r = 6) {
+}, ie = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
+function K(e, t, n, r = 6) {
 	let i = e.getRootNode(), a = /* @__PURE__ */ new Map();
 	return [
 		0,
@@ -1008,40 +1008,40 @@ function G(e, t, n, r = 6) {
 			let l = c * Math.PI / 4;
 			for (let c of i.elementsFromPoint(t + o * r * Math.cos(l), n + o * r * Math.sin(l))) {
 				let t = e.contains(c) && c.closest("[data-item]")?.dataset.item;
-				t && !a.has(t) && a.set(t, 2 * s + (ie[W(t).kind] ?? 2));
+				t && !a.has(t) && a.set(t, 2 * s + (re[G(t).kind] ?? 2));
 			}
 		}
-	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => W(e));
+	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => G(e));
 }
-function oe(e, t) {
+function ae(e, t) {
 	e.querySelectorAll(".chosen").forEach((e) => e.classList.remove("chosen")), t && e.querySelectorAll(`[data-item="${CSS.escape(`${t.kind}:${t.name}`)}"]`).forEach((e) => e.classList.add("chosen"));
 }
 // src/pull.ts
-var K = 1 / 10;
-function se(e, t) {
+var q = 1 / 10;
+function oe(e, t) {
 	if (!t) return -1;
-	let { kind: n, name: r } = W(t), { links: i, rows: a } = e.sketch;
+	let { kind: n, name: r } = G(t), { links: i, rows: a } = e.sketch;
 	return n === "link" || n === "center" ? i.indexOf(r) : (n === "joint" ? a.find((e) => e.joint === r)?.ends : void 0)?.find((e) => e < i.length) ?? -1;
 }
-function ce(e, t, n) {
-	for (let { kind: r, name: i } of G(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
+function se(e, t, n) {
+	for (let { kind: r, name: i } of K(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
 		let e = n(`${r}:${i}`);
 		if (e >= 0) return e;
 	}
 	return -1;
 }
-function le(e, t, n, r, i) {
+function ce(e, t, n, r, i) {
 	if (n.count < 2) return;
 	let a = -1, o = [];
 	e.svg.addEventListener("pointerdown", (n) => {
-		a = n.button === 0 ? ce(e.svg, n, (e) => se(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, s(e.svg, n)));
+		a = n.button === 0 ? se(e.svg, n, (e) => oe(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, s(e.svg, n)));
 	}), e.svg.addEventListener("pointermove", (t) => {
 		a >= 0 && e.svg.hasPointerCapture(t.pointerId) && i.seek(l(s(e.svg, t)));
 	});
 	let c = () => void (a = -1);
 	e.svg.addEventListener("pointerup", c), e.svg.addEventListener("pointercancel", c);
 	function l(t) {
-		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * K)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
+		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * q)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
 		for (let e = Math.floor(l) - u; e <= Math.floor(l) + u; e++) {
 			if (!c && (e < 0 || e + 1 >= s)) continue;
 			let [n, r] = [e, e + 1].map((e) => (e % s + s) % s), [i, a] = [m(n), m(r)];
@@ -1053,7 +1053,7 @@ function le(e, t, n, r, i) {
 	}
 }
 // src/pulling.ts
-var q = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, he = .2, ge = class extends O {
+var le = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, he = .2, ge = class extends O {
 	pose;
 	closed = !1;
 	away = 0;
@@ -1101,7 +1101,7 @@ var q = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, h
 		if (!this.closed) return this.gather(e, t);
 		if (!e) return "there";
 		this.away = this.far(e, t, this.pose);
-		for (let r = 0; r < q; r++) {
+		for (let r = 0; r < le; r++) {
 			if (this.away < n) return this.ended("there");
 			let r = this.step(e, t, n);
 			if (!r) return this.ended("nearest");
@@ -1130,7 +1130,7 @@ var q = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, h
 			let r = this.gap(n), i = this.missing.reduce((e, t, n) => e + (this.active[n] ? me * t * t : 0), 0);
 			return Number.isFinite(r) ? i + (e ? this.far(e, t, n) ** 2 : 0) : Infinity;
 		}, r = Math.max(this.damping, .01), i = n(this.pose);
-		for (let a = 0; a < q && r < 1e8; a++) {
+		for (let a = 0; a < le && r < 1e8; a++) {
 			this.gap(this.pose), this.weight.fill(me), this.fill(r), this.weight.fill(1), e && this.pull(e, this.pose, this.at(e).map((e, n) => (t[n] - e) / this.data.length));
 			let a = this.answer(), o = this.moved(this.pose, Math.min(1, b / a)), s = n(o);
 			if (!(s < i)) {
@@ -1341,7 +1341,7 @@ function De(n, i, o) {
 		class: `l-${i.role}`,
 		style: "fill:none"
 	});
-	if (i.t === "trace") return { update: () => Ne(c, Pe(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
+	if (i.t === "trace") return { update: () => Pe(c, Fe(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
 	i.t === "hull" && (c.dataset.link = i.link);
 	let l = [], u = !1;
 	return {
@@ -1369,8 +1369,8 @@ function Oe(e, n, i) {
 		}
 	};
 }
-var ke = 240, Ae = .04, je = 12;
-function Me(e, t, n) {
+var ke = 240, Ae = .04, je = 12, Me = 3;
+function Ne(e, t, n) {
 	let r = e[2 * t], i = e[2 * t + 1], a = e[2 * n] - r, o = e[2 * n + 1] - i, s = a * a + o * o;
 	for (let c = t + 1; c < n; c++) {
 		let t = e[2 * c] - r, n = e[2 * c + 1] - i, l = t * a + n * o;
@@ -1378,45 +1378,45 @@ function Me(e, t, n) {
 	}
 	return !0;
 }
-function Ne(e, t) {
+function Pe(e, t) {
 	e.getAttribute("d") !== t && e.setAttribute("d", t);
 }
-function Pe(e, t, n = !1) {
-	let i = n && e.cyclic ? e.count : e.count - 1, a = e.count > ke, o = new Float64Array(2 * i + 2), s = "", c = -1, l = (e, t = "L") => {
-		s += `${t}${r(o[2 * e])} ${r(o[2 * e + 1])}`, c = e;
+function Fe(e, t, n = !1) {
+	let i = n && e.cyclic ? e.count : e.count - 1, a = e.count > ke, o = a && e.coarse ? Me : 1, s = Math.ceil(i / o), c = new Float64Array(2 * s + 2), l = "", u = -1, d = (e, t = "L") => {
+		l += `${t}${r(c[2 * e])} ${r(c[2 * e + 1])}`, u = e;
 	};
-	for (let n = 0; n <= i; n++) {
-		let r = n % e.count, i = !!e.good[r];
-		i && o.set(t(r), 2 * n), i && c < 0 ? l(n, "M") : c >= 0 && c < n - 1 && !(i && a && n - c <= je && Me(o, c, n)) && l(n - 1), i ? e.reverses(r) && (c < n && l(n), o.set(e.onceAfter(() => t(r)), 2 * n), l(n)) : c = -1;
+	for (let n = 0; n <= s; n++) {
+		let r = Math.min(n * o, i) % e.count, s = !!e.good[r];
+		s && c.set(t(r), 2 * n), s && u < 0 ? d(n, "M") : u >= 0 && u < n - 1 && !(s && a && n - u <= je && Ne(c, u, n)) && d(n - 1), s ? e.reverses(r) && (u < n && d(n), c.set(e.onceAfter(() => t(r)), 2 * n), d(n)) : u = -1;
 	}
-	return c >= 0 && c < i && l(i), s;
+	return u >= 0 && u < s && d(s), l;
 }
-function Fe(e, t, n, r, a) {
+function Ie(e, t, n, r, a) {
 	let { unit: o, size: s } = a.units[r] ?? {
 		unit: "",
 		size: 1
 	};
 	be(e, a.values ? `${t} = ${i(n / s)} ${o}`.trim() : t);
 }
-function Ie(e, t, n, r, i, a = "force") {
-	return t.t === "couple" ? Ve(e, t, n) : ze(e, t, n, r, i, a);
+function Le(e, t, n, r, i, a = "force") {
+	return t.t === "couple" ? He(e, t, n) : Be(e, t, n, r, i, a);
 }
-var Le = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Re = 13;
-function ze(e, t, n, r, i, a) {
+var Re = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), ze = 13;
+function Be(e, t, n, r, i, a) {
 	let o = new m(e, t.role, t.name), s = t.t === "force" ? null : new m(e, t.role), c = t.t === "force" ? t.f : t.m, l = ye(e, t.role, t.name, 3.4), u = [0, 0], d = [0, 0], f = [0, 0], p = !1;
-	for (let e of [o, s]) e && Le(e.g, t);
+	for (let e of [o, s]) e && Re(e.g, t);
 	return {
 		label: l,
 		hide() {
 			p = o.set([0, 0], [0, 0]), s?.set([0, 0], [0, 0]), l.el.setAttribute("visibility", "hidden");
 		},
 		update() {
-			let e = n.point(t.p), [m, h] = n.here(c), g = s ? Math.hypot(...c.map((e) => n.kernel.here[e])) / Re || 1 : r(), _ = [m / g, -h / g], v = !1;
+			let e = n.point(t.p), [m, h] = n.here(c), g = s ? Math.hypot(...c.map((e) => n.kernel.here[e])) / ze || 1 : r(), _ = [m / g, -h / g], v = !1;
 			if (i && i.length > 1 && !s) {
 				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
 				v = _[0] * (r[0] - e[0]) + _[1] * (r[1] - e[1]) > 1e-9;
 			}
-			[u, d] = v ? [[e[0] - _[0], e[1] - _[1]], e] : [e, [e[0] + _[0], e[1] + _[1]]], f = v ? u : d, p = o.set(u, d), s?.set(u, [u[0] + .78 * (d[0] - u[0]), u[1] + .78 * (d[1] - u[1])]), l.el.setAttribute("visibility", p ? "visible" : "hidden"), p && Fe(l, t.name, Math.hypot(...c.map((e) => n.kernel.here[e])), s ? "moment" : a, n);
+			[u, d] = v ? [[e[0] - _[0], e[1] - _[1]], e] : [e, [e[0] + _[0], e[1] + _[1]]], f = v ? u : d, p = o.set(u, d), s?.set(u, [u[0] + .78 * (d[0] - u[0]), u[1] + .78 * (d[1] - u[1])]), l.el.setAttribute("visibility", p ? "visible" : "hidden"), p && Ie(l, t.name, Math.hypot(...c.map((e) => n.kernel.here[e])), s ? "moment" : a, n);
 		},
 		mark: (e) => p && e.line(u, d),
 		anchor() {
@@ -1430,8 +1430,8 @@ function ze(e, t, n, r, i, a) {
 		}
 	};
 }
-var Be = 4.6;
-function Ve(e, n, i) {
+var Ve = 4.6;
+function He(e, n, i) {
 	let a = i.kernel.here, o = t("g", e), s = ye(e, n.role, n.name, 3.4);
 	t("title", o).textContent = l(n.name), t("path", o, {
 		class: `l-${n.role}`,
@@ -1442,32 +1442,32 @@ function Ve(e, n, i) {
 		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
 	});
 	let c = !1;
-	return Le(o, n), {
+	return Re(o, n), {
 		label: s,
 		hide() {
 			c = !1, o.setAttribute("display", "none"), s.el.setAttribute("visibility", "hidden");
 		},
 		update() {
 			let [e, t] = i.point(n.p), l = a[n.m[0]];
-			c = Number.isFinite(l) && Math.abs(l) > 1e-9, o.setAttribute("display", c ? "inline" : "none"), s.el.setAttribute("visibility", c ? "visible" : "hidden"), o.setAttribute("transform", `translate(${r(e)} ${r(t)}) scale(${l < 0 ? -1 : 1} 1)`), c && Fe(s, n.name, Math.abs(l), "moment", i);
+			c = Number.isFinite(l) && Math.abs(l) > 1e-9, o.setAttribute("display", c ? "inline" : "none"), s.el.setAttribute("visibility", c ? "visible" : "hidden"), o.setAttribute("transform", `translate(${r(e)} ${r(t)}) scale(${l < 0 ? -1 : 1} 1)`), c && Ie(s, n.name, Math.abs(l), "moment", i);
 		},
 		mark(e) {
-			c && e.disc(i.point(n.p), Be);
+			c && e.disc(i.point(n.p), Ve);
 		},
 		anchor() {
 			let [e, t] = i.point(n.p);
 			return c ? [
-				[e, t - Be],
-				[e - Be, t],
-				[e + Be, t],
-				[e, t + Be],
+				[e, t - Ve],
+				[e - Ve, t],
+				[e + Ve, t],
+				[e, t + Ve],
 				[0, -1]
 			] : null;
 		}
 	};
 }
 // src/view.ts
-var He = [
+var Ue = [
 	"loads",
 	"reactions",
 	"inertia",
@@ -1477,14 +1477,14 @@ var He = [
 	"traces",
 	"values",
 	"digits"
-], Ue = [
+], We = [
 	.1,
 	.25,
 	.5,
 	1,
 	2,
 	4
-], We = () => ({
+], Ge = () => ({
 	t: NaN,
 	shown: {},
 	window: null,
@@ -1497,18 +1497,18 @@ var He = [
 	drag: "shape",
 	tracers: []
 });
-function Ge(e) {
-	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => He.filter((n) => e.shown[n] === t).join(" ");
+function Ke(e) {
+	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => Ue.filter((n) => e.shown[n] === t).join(" ");
 	return n("show", r(!0)), n("hide", r(!1)), e.window && n("window", [e.window.perMm, ...e.window.middle].map((e) => +e.toPrecision(6)).join(" ")), n("tab", e.tab), n("speed", String(e.speed), "1"), n("drag", e.drag, "shape"), n("trace", e.tracers.map((e) => [e.link, ...e.u.map((e) => +e.toPrecision(6))].join(" ")).join("; ")), t;
 }
-function Ke(e, t) {
+function qe(e, t) {
 	let n = (e) => t.get(`~${e}`) ?? "", r = (e) => e.split(" ").map(Number);
-	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of He) n(t).split(" ").includes(i) && (e.shown[i] = r);
+	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of Ue) n(t).split(" ").includes(i) && (e.shown[i] = r);
 	let [i, a, o] = r(n("window"));
 	i > 0 && Number.isFinite(i + a + o) && (e.window = {
 		perMm: i,
 		middle: [a, o]
-	}), e.tab = n("tab"), Ue.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
+	}), e.tab = n("tab"), We.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
 		let [t, ...n] = e.split(" "), r = n.map(Number);
 		return r.length > 1 && r.every(Number.isFinite) ? [{
 			link: t,
@@ -1516,7 +1516,7 @@ function Ke(e, t) {
 		}] : [];
 	});
 }
-function qe(e, t) {
+function Je(e, t) {
 	return {
 		loads: !0,
 		reactions: !0,
@@ -1530,7 +1530,7 @@ function qe(e, t) {
 	}[e];
 }
 // src/board.ts
-var Je = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", Ye = [
+var Ye = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", Xe = [
 	1,
 	1.25,
 	1.5,
@@ -1543,24 +1543,24 @@ var Je = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.ki
 	8,
 	10
 ];
-function Xe(e) {
+function Ze(e) {
 	if (!(e > 0) || !Number.isFinite(e)) return 1;
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (Ye.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+	return t * (Xe.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
 }
-function Ze(e) {
+function Qe(e) {
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
 	return t * ([5, 2].find((n) => n * t <= e * (1 + 1e-12)) ?? 1);
 }
-function Qe(e) {
+function $e(e) {
 	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
 	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
 		x: n,
 		y: r
 	} : null;
 }
-var $e = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function et(e) {
+var et = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function tt(e) {
 	return e.items.flatMap((e) => {
 		if (e.t === "circle") return [{
 			p: e.p,
@@ -1573,17 +1573,17 @@ function et(e) {
 		}] : [];
 	});
 }
-function tt(e, t, n) {
-	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap($e);
+function nt(e, t, n) {
+	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(et);
 	for (let t = 0; t < r.count; t += i) {
 		if (!r.good[t]) continue;
 		let i = (e) => r.value(e, t);
 		for (let t of o) a.push(e.seen(t, i));
-		a.push(...nt(e, n, i));
+		a.push(...rt(e, n, i));
 	}
-	return Qe(a);
+	return $e(a);
 }
-var nt = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), rt = (e) => e.items.some((e) => e.t === "pair"), it = class {
+var rt = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), it = (e) => e.items.some((e) => e.t === "pair"), at = class {
 	arrow;
 	line;
 	text;
@@ -1601,26 +1601,26 @@ var nt = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.see
 	set([t, n], o, s) {
 		let c = o / s.size, l = c > 0 && Number.isFinite(c);
 		if (this.line.setAttribute("visibility", l ? "visible" : "hidden"), this.text.textContent = "", !l) return t;
-		let u = Ze(26 * c), d = t + u / c, p = `${i(u)} ${s.unit}`, m = `M${r(t)} ${r(n - 1)}v2`, h = this.arrow ? `M${r(d - 2.4)} ${r(n - .8)}L${r(d)} ${r(n)}L${r(d - 2.4)} ${r(n + .8)}` : `M${r(d)} ${r(n - 1)}v2`;
+		let u = Qe(26 * c), d = t + u / c, p = `${i(u)} ${s.unit}`, m = `M${r(t)} ${r(n - 1)}v2`, h = this.arrow ? `M${r(d - 2.4)} ${r(n - .8)}L${r(d)} ${r(n)}L${r(d - 2.4)} ${r(n + .8)}` : `M${r(d)} ${r(n - 1)}v2`;
 		return this.line.setAttribute("d", m + a([[t, n], [d, n]]) + h), e(this.text, {
 			x: r(d + 1.4),
 			y: r(n + 1)
 		}).textContent = p, d + 1.4 + f(p, 2.8);
 	}
 };
-function at(e, n, r, i) {
+function ot(e, n, r, i) {
 	return t("svg", e, {
 		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
 		role: "group",
 		"aria-label": i
 	});
 }
-var ot = 8, st = 20;
-function ct(e, n, r, i, a, o, s, c, l, u = []) {
+var st = 8, ct = 20;
+function lt(e, n, r, i, a, o, s, c, l, u = []) {
 	let d = {
 		length: s.length.size,
 		force: s.force.size
-	}, f = at(e, a, o, c), p = new Te(n, r.per_mm, s, rt(r) ? l.camera : null), m = [], h = [], g = r.labels.filter((e) => e.kind === "joint").length > ot, _ = (e) => i && e !== "values" ? !0 : l.shown[e] ?? qe(e, g), v = r.force, y = {
+	}, f = ot(e, a, o, c), p = new Te(n, r.per_mm, s, it(r) ? l.camera : null), m = [], h = [], g = r.labels.filter((e) => e.kind === "joint").length > st, _ = (e) => i && e !== "values" ? !0 : l.shown[e] ?? Je(e, g), v = r.force, y = {
 		perMm: r.per_mm,
 		middle: r.middle ?? [0, 0]
 	};
@@ -1628,15 +1628,15 @@ function ct(e, n, r, i, a, o, s, c, l, u = []) {
 	let b = t("g", f), x = t("g", f), S = t("g", f), C = t("g", f);
 	for (let e of r.items) (e.t === "trace" ? m : h).push(Ee(e.t === "trace" ? b : x, e, p));
 	let w = r.arrows.map((e) => ({
-		a: Ie(S, e, p, () => v, i ?? void 0),
-		layer: Je(e)
-	})), T = new it(C), E = new it(C, !0), D = r.arrows.filter((e) => e.t === "force"), O = (u.length ? ["velocities", "accelerations"] : []).map((e) => {
+		a: Le(S, e, p, () => v, i ?? void 0),
+		layer: Ye(e)
+	})), T = new at(C), E = new at(C, !0), D = r.arrows.filter((e) => e.t === "force"), O = (u.length ? ["velocities", "accelerations"] : []).map((e) => {
 		let t = e === "velocities" ? "speed" : "acceleration", n = e === "velocities" ? "velocity" : "acceleration", r = n[0], i = {
 			layer: e,
 			unit: s[t],
 			rows: u.map((e) => r === "v" ? e.v : e.a),
 			perMm: NaN,
-			bar: new it(C, !0)
+			bar: new at(C, !0)
 		};
 		return u.forEach((a, o) => {
 			let s = {
@@ -1650,7 +1650,7 @@ function ct(e, n, r, i, a, o, s, c, l, u = []) {
 				f: i.rows[o]
 			};
 			w.push({
-				a: Ie(S, s, p, () => i.perMm, void 0, t),
+				a: Le(S, s, p, () => i.perMm, void 0, t),
 				layer: e
 			});
 		}), i;
@@ -1658,13 +1658,13 @@ function ct(e, n, r, i, a, o, s, c, l, u = []) {
 		l: ye(C, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
 		p: e.p,
 		q: e.q
-	})), A = et(r), j = Math.max(1, Math.floor(n.count / 72)), M = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], N = i ? [
+	})), A = tt(r), j = Math.max(1, Math.floor(n.count / 72)), M = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], N = i ? [
 		...i,
 		...r.arrows.map((e) => e.p),
 		...r.items.flatMap((e) => e.t === "symbol" ? [e.p] : [])
 	] : [];
 	function P(e) {
-		return Qe([...N.map((t) => p.seen(t, e)), ...nt(p, A, e)]);
+		return $e([...N.map((t) => p.seen(t, e)), ...rt(p, A, e)]);
 	}
 	function F() {
 		return Array.from({ length: Math.ceil(n.count / j) }, (e, t) => t * j).flatMap((e) => {
@@ -1684,14 +1684,14 @@ function ct(e, n, r, i, a, o, s, c, l, u = []) {
 				e = Math.max(e, Math.abs(l[n]) / Math.max(a, 4));
 			});
 		}
-		return e > 0 ? Xe(e / d.force) * d.force : v;
+		return e > 0 ? Ze(e / d.force) * d.force : v;
 	}
 	function L(e, t = !1) {
-		let s = i ? F().map(({ b: e }) => e) : [tt(p, r, A)].filter((e) => e !== null), c = i ? [46, 40] : [a - Math.max(.22 * a, 34), o - Math.max(.22 * o, 30)], l = Math.max(0, ...s.flatMap((e) => [(e.x[1] - e.x[0]) / c[0], (e.y[1] - e.y[0]) / c[1]]));
-		t && s.length && R(s[0], l) || (!i && s.length && (y.middle = M(s[0])), l > 0 && (y.perMm = Xe(l / d.length) * d.length)), v = e ?? I();
+		let s = i ? F().map(({ b: e }) => e) : [nt(p, r, A)].filter((e) => e !== null), c = i ? [46, 40] : [a - Math.max(.22 * a, 34), o - Math.max(.22 * o, 30)], l = Math.max(0, ...s.flatMap((e) => [(e.x[1] - e.x[0]) / c[0], (e.y[1] - e.y[0]) / c[1]]));
+		t && s.length && R(s[0], l) || (!i && s.length && (y.middle = M(s[0])), l > 0 && (y.perMm = Ze(l / d.length) * d.length)), v = e ?? I();
 		for (let e of O) {
 			let t = n.largest((t) => Math.max(0, ...e.rows.map((e) => Math.hypot(...e.map((e) => n.value(e, t))))));
-			e.perMm = t > 0 ? Xe(t / st / e.unit.size) * e.unit.size : NaN;
+			e.perMm = t > 0 ? Ze(t / ct / e.unit.size) * e.unit.size : NaN;
 		}
 		z();
 	}
@@ -1703,7 +1703,7 @@ function ct(e, n, r, i, a, o, s, c, l, u = []) {
 		let e = i ? y : l.window ?? y;
 		p.perMm = e.perMm, i || (p.middle = [...e.middle]);
 	}
-	function ee() {
+	function B() {
 		let e = [
 			[
 				T,
@@ -1727,7 +1727,7 @@ function ct(e, n, r, i, a, o, s, c, l, u = []) {
 			e > t && (t = e + 5);
 		}
 	}
-	function B() {
+	function V() {
 		let e = new xe([
 			-a / 2,
 			-o / 2,
@@ -1773,20 +1773,20 @@ function ct(e, n, r, i, a, o, s, c, l, u = []) {
 			[a, o] = [e, t], f.setAttribute("viewBox", `${-a / 2} ${-o / 2} ${a} ${o}`);
 		},
 		update(e) {
-			if (p.values = _("values"), b.setAttribute("display", _("traces") ? "inline" : "none"), e && m.forEach((e) => e.update()), S.setAttribute("visibility", n.solved ? "visible" : "hidden"), ee(), n.finite) {
+			if (p.values = _("values"), b.setAttribute("display", _("traces") ? "inline" : "none"), e && m.forEach((e) => e.update()), S.setAttribute("visibility", n.solved ? "visible" : "hidden"), B(), n.finite) {
 				i && (p.middle = M(P((e) => n.here[e]) ?? {
 					x: [0, 0],
 					y: [0, 0]
 				}));
 				for (let e of h) e.update();
 				for (let { a: e, layer: t } of w) _(t) ? e.update() : e.hide();
-				B();
+				V();
 			}
 		}
 	};
 }
 // src/menu.ts
-function lt(e, [t, r], i) {
+function ut(e, [t, r], i) {
 	if (e.querySelector(".menu")?.remove(), !i.length) return;
 	let a = document.activeElement, o = n("div", e, {
 		class: "menu",
@@ -1819,11 +1819,11 @@ function lt(e, [t, r], i) {
 	o.style.left = `${Math.max(4, Math.min(t, window.innerWidth - u - 4))}px`, o.style.top = `${Math.max(4, Math.min(r, window.innerHeight - d - 4))}px`, document.addEventListener("pointerdown", c, !0), l[0].focus({ preventScroll: !0 });
 }
 // src/viewport.ts
-var ut = 1e4, dt = 12, ft = 1.25;
-function pt(e, t, n, r, i, a) {
+var dt = 1e4, ft = 12, pt = 1.25;
+function mt(e, t, n, r, i, a) {
 	let { svg: o, paper: c } = e, l = /* @__PURE__ */ new Map(), u = !1, d = (n, r) => {
 		let i = e.fitted();
-		n > i / ut && n < i * ut && r.every(Number.isFinite) && (t.window = {
+		n > i / dt && n < i * dt && r.every(Number.isFinite) && (t.window = {
 			perMm: n,
 			middle: r
 		}, e.look(), a());
@@ -1857,14 +1857,14 @@ function pt(e, t, n, r, i, a) {
 	}), o.addEventListener("click", (e) => u && e.stopImmediatePropagation(), { capture: !0 }), o.tabIndex = 0, o.addEventListener("keydown", (e) => {
 		if (e.target !== o || e.ctrlKey || e.metaKey || e.altKey) return;
 		let t = {
-			ArrowLeft: [dt, 0],
+			ArrowLeft: [ft, 0],
 			ArrowRight: [-12, 0],
-			ArrowUp: [0, dt],
+			ArrowUp: [0, ft],
 			ArrowDown: [0, -12]
 		};
 		if (t[e.key]) f(t[e.key]);
-		else if (e.key === "+" || e.key === "=") p(ft);
-		else if (e.key === "-") p(1 / ft);
+		else if (e.key === "+" || e.key === "=") p(pt);
+		else if (e.key === "-") p(1 / pt);
 		else if (e.key === "0") m();
 		else return;
 		e.preventDefault(), e.stopPropagation();
@@ -1875,23 +1875,23 @@ function pt(e, t, n, r, i, a) {
 	};
 }
 // src/stage.ts
-var mt = 3.6, ht = 5.2, gt = 550, _t = 8;
-function vt(e, r, i, a, o, c) {
-	let l = n("div", e, { class: "paper" }), u = ct(l, r, i, null, 170, 119, a, "the mechanism", o, c.rates ?? []), { svg: d } = u, f = t("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
+var ht = 3.6, gt = 5.2, _t = 550, vt = 8;
+function yt(e, r, i, a, o, c) {
+	let l = n("div", e, { class: "paper" }), u = lt(l, r, i, null, 170, 119, a, "the mechanism", o, c.rates ?? []), { svg: d } = u, f = t("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
 		let t = e.target.closest("[data-item]")?.dataset.item;
-		return t ? W(t) : null;
+		return t ? G(t) : null;
 	}, h = (e) => !v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6).some(c.held), g = () => {
 		c.on?.({
 			type: "view",
 			view: o
 		}), c.again(!0);
-	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => G(d, e, t, n), y = pt(u, o, !!c.full, h, _, g);
+	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => K(d, e, t, n), y = mt(u, o, !!c.full, h, _, g);
 	p && (d.style.cursor = "move");
 	let b = (e, t) => u.paper.metres(s(d, {
 		clientX: e,
 		clientY: t
 	})), x = (e) => {
-		o.chosen = e, oe(d, e), c.chosen(e);
+		o.chosen = e, ae(d, e), c.chosen(e);
 	}, S = (e) => [e.clientX, e.clientY];
 	d.addEventListener("click", (e) => {
 		let t = v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6), n = t.length ? t : m(e) ? [m(e)] : [];
@@ -1900,7 +1900,7 @@ function vt(e, r, i, a, o, c) {
 			items: n,
 			at: S(e),
 			point: b(e.clientX, e.clientY)
-		}) || x(n[0] && !ae(n[0], o.chosen) ? n[0] : null);
+		}) || x(n[0] && !ie(n[0], o.chosen) ? n[0] : null);
 	});
 	let C = (t, n) => {
 		let r = b(...n);
@@ -1909,7 +1909,7 @@ function vt(e, r, i, a, o, c) {
 			items: t,
 			at: n,
 			point: r
-		}) || lt(e.closest(".dalembert") ?? document.body, n, c.entries(t, r));
+		}) || ut(e.closest(".dalembert") ?? document.body, n, c.entries(t, r));
 	};
 	d.addEventListener("contextmenu", (e) => {
 		e.preventDefault();
@@ -1925,10 +1925,10 @@ function vt(e, r, i, a, o, c) {
 	});
 	let w = 0, T = [0, 0];
 	d.addEventListener("pointerdown", (e) => {
-		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), gt));
+		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), _t));
 	}, { capture: !0 });
 	let E = () => clearTimeout(w);
-	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > _t && E(), { capture: !0 });
+	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > vt && E(), { capture: !0 });
 	for (let e of ["pointerup", "pointercancel"]) d.addEventListener(e, E, { capture: !0 });
 	return {
 		m: u,
@@ -1941,13 +1941,13 @@ function vt(e, r, i, a, o, c) {
 		resize() {
 			let { width: e, height: t } = l.getBoundingClientRect();
 			if (!(e > 0 && t > 0)) return;
-			let n = Math.min(Math.max(Math.min(e / 170, t / 105), mt), ht);
+			let n = Math.min(Math.max(Math.min(e / 170, t / 105), ht), gt);
 			u.resize(e / n, t / n);
 		}
 	};
 }
 // src/switches.ts
-var yt = {
+var bt = {
 	loads: ["loads", "loads, efforts of drives, weights, springs"],
 	reactions: ["reactions", "forces in the joints"],
 	inertia: ["inertia", "D'Alembert's inertia forces and couples"],
@@ -1958,22 +1958,22 @@ var yt = {
 	values: ["values", "the value beside each arrow"],
 	digits: ["large digits", "the chosen curve's value, to be read from the last row"]
 };
-function bt(e, t) {
+function xt(e, t) {
 	let r = n("label", e, { title: t.title }), i = n("input", r, { type: "checkbox" });
 	i.checked = t.on, r.append(t.said), i.addEventListener("change", () => t.act(i.checked));
 }
-function xt(e, t, n, r, i) {
+function St(e, t, n, r, i) {
 	for (let a of n) {
-		let [n, o] = yt[a];
-		bt(e, {
+		let [n, o] = bt[a];
+		xt(e, {
 			said: n,
 			title: o,
-			on: t.shown[a] ?? qe(a, r),
+			on: t.shown[a] ?? Je(a, r),
 			act: (e) => (t.shown[a] = e, i())
 		});
 	}
 }
-function St(e, t, r, i, a) {
+function Ct(e, t, r, i, a) {
 	let o = n("span", e, {
 		class: "group",
 		role: "group",
@@ -2006,7 +2006,7 @@ function St(e, t, r, i, a) {
 	u();
 }
 // src/tools.ts
-var Ct = class {
+var wt = class {
 	b;
 	data;
 	kernel;
@@ -2026,7 +2026,7 @@ var Ct = class {
 		return {
 			k: i,
 			size: r,
-			where: t.count > 1 ? ` at ${wt(this.data, t, i)}` : ""
+			where: t.count > 1 ? ` at ${Tt(this.data, t, i)}` : ""
 		};
 	}
 	update(e) {
@@ -2042,7 +2042,7 @@ var Ct = class {
 			t.set([r, i], [r + 14 * a / l, i - 14 * o / l], .5);
 		});
 	}
-}, wt = (e, t, n) => e.drives.map((e) => `${e.name} = ${i(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), Tt = class {
+}, Tt = (e, t, n) => e.drives.map((e) => `${e.name} = ${i(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), Et = class {
 	b;
 	kernel;
 	places;
@@ -2082,7 +2082,7 @@ var Ct = class {
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, Et = class {
+}, Dt = class {
 	kernel;
 	gate;
 	past = [];
@@ -2102,29 +2102,29 @@ var Ct = class {
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function Dt(e, t) {
+function Ot(e, t) {
 	let n = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]), r = n.length ? t.motion.assembly() : [];
 	return Object.fromEntries([...n, ...r.map((t, n) => [e.sketch.assembly[n], t])]);
 }
-function Ot(e, t, n) {
+function kt(e, t, n) {
 	let r = new URLSearchParams({ t: String(+n.t.toFixed(4)) });
-	for (let [e, t] of Ge(n)) r.set(e, t);
-	for (let [n, i] of Object.entries(Dt(e, t))) r.set(n, String(i));
+	for (let [e, t] of Ke(n)) r.set(e, t);
+	for (let [n, i] of Object.entries(Ot(e, t))) r.set(n, String(i));
 	return r.toString();
 }
-function kt(e, t, n, r) {
+function At(e, t, n, r) {
 	let i = new Map(new URLSearchParams(r.replace(/^#/, ""))), a = {};
-	Ke(n, i);
+	qe(n, i);
 	for (let [e, t] of i) e !== "t" && !e.startsWith("~") && (a[e] = t.trim() ? Number(t) : NaN);
 	t.change(a);
 	let o = Number(i.get("t") ?? NaN);
 	Number.isFinite(o) && (n.t = Math.min(Math.max(o, 0), e.end));
 }
-function At(e, t) {
+function jt(e, t) {
 	let n = [...t.values, ...t.motion.assembly()], r = e.numbers.map((e, n) => e.value !== t.values[n]), i = r.includes(!0);
 	return e.template.map((e) => typeof e == "string" ? e : e.was !== void 0 && !e.of?.some((e) => r[e] ?? i) ? e.was : e.now.map((e) => typeof e == "string" ? e : String(n[e[0]] / e[1])).join("")).join("");
 }
-function jt(e, t) {
+function Mt(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind]
@@ -2143,7 +2143,7 @@ function jt(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function Mt(n, r) {
+function Nt(n, r) {
 	let i = n.cloneNode(!0), { width: a, height: o } = n.viewBox.baseVal;
 	i.querySelectorAll(".handles, .overlay").forEach((e) => e.remove()), e(i, {
 		xmlns: "http://www.w3.org/2000/svg",
@@ -2154,13 +2154,13 @@ function Mt(n, r) {
 	let s = t("style", null);
 	return s.textContent = r, i.prepend(s), new XMLSerializer().serializeToString(i);
 }
-var Nt = 300 / 25.4;
-async function Pt(e, t) {
-	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Mt(e, t)], { type: "image/svg+xml" }));
+var Pt = 300 / 25.4;
+async function Ft(e, t) {
+	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Nt(e, t)], { type: "image/svg+xml" }));
 	try {
 		i.src = a, await i.decode();
 		let e = document.createElement("canvas"), t = e.getContext("2d");
-		return [e.width, e.height] = [Math.round(n * Nt), Math.round(r * Nt)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
+		return [e.width, e.height] = [Math.round(n * Pt), Math.round(r * Pt)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
 	} finally {
 		URL.revokeObjectURL(a);
 	}
@@ -2169,7 +2169,7 @@ function X(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var Ft = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", It = class {
+var It = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", Lt = class {
 	data;
 	program;
 	here;
@@ -2211,13 +2211,13 @@ var Ft = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g,
 	largest(e) {
 		return e(0);
 	}
-}, Lt = .02, Rt = 2, zt = 500;
-async function Bt(o, c, l, u) {
-	let [d, f] = await Promise.all([U.create(c.sketch.closure, 1), U.create(c.shown, 1)]), m = c.sketch, h = {
+}, Rt = .02, zt = 2, Bt = 500;
+async function Vt(o, c, l, u) {
+	let [d, f] = await Promise.all([W.create(c.sketch.closure, 1), W.create(c.shown, 1)]), m = c.sketch, h = {
 		point: Float64Array.from(m.pose.point),
 		rotation: Float64Array.from(m.pose.rotation),
 		turn: Float64Array.from(m.pose.turn)
-	}, v = new It(c, f), y = new ge(m, d, B(m, h, u.pose ?? {})), b = [], x = new _(m.links, c.poses, v), S = [], C = [], w = null, T = [], E = "there", O = 0, k = y.pose;
+	}, v = new Lt(c, f), y = new ge(m, d, V(m, h, u.pose ?? {})), b = [], x = new _(m.links, c.poses, v), S = [], C = [], w = null, T = [], E = "there", O = 0, k = y.pose;
 	v.show(y.pose);
 	let A = n("header", o);
 	n("h1", A, {}, c.title);
@@ -2235,22 +2235,22 @@ async function Bt(o, c, l, u) {
 	};
 	n("output", j, { class: "readout" }, "Sketch: drag the links.").style.flex = "1", u.back && M(j, "Back", "without the last thing added", u.back);
 	let N = M(j, "↶", "undo (Ctrl+Z)", () => J(S, C)), P = M(j, "↷", "redo (Ctrl+Y)", () => J(C, S));
-	M(j, "Reset", "as in the file", () => q(() => y.placed(D(h))));
+	M(j, "Reset", "as in the file", () => le(() => y.placed(D(h))));
 	let F = n("section", n("main", o, { class: "one" }), {
 		class: "stage",
 		"aria-label": "sketch"
-	}), I = vt(F, v, c.views.mechanism, c.units, l, {
+	}), I = yt(F, v, c.views.mechanism, c.units, l, {
 		full: u.full,
 		on: u.on,
-		entries: ae,
+		entries: ie,
 		chosen: () => Y(),
 		again: () => Y(),
-		held: (e) => H(`${e.kind}:${e.name}`) >= 0
-	}), { m: L, paper: R } = I, z = g(L, c, v), ee = t("g", L.svg, { class: "handles" }), te = t("g", L.svg, {
+		held: (e) => U(`${e.kind}:${e.name}`) >= 0
+	}), { m: L, paper: R } = I, z = g(L, c, v), B = t("g", L.svg, { class: "handles" }), ee = t("g", L.svg, {
 		class: "gaps",
 		"pointer-events": "none"
-	}), ne = ie().map(({ link: e, point: n, p: r }) => {
-		let i = t("circle", ee, {
+	}), te = re().map(({ link: e, point: n, p: r }) => {
+		let i = t("circle", B, {
 			class: "handle joint",
 			r: 2.2,
 			tabindex: 0,
@@ -2269,61 +2269,61 @@ async function Bt(o, c, l, u) {
 			}[t.key];
 			if (!n) return;
 			t.preventDefault(), t.stopPropagation();
-			let i = Rt * (t.shiftKey ? 5 : 1), a = L.paper.point(r);
-			q(() => {
+			let i = zt * (t.shiftKey ? 5 : 1), a = L.paper.point(r);
+			le(() => {
 				let t = {
 					link: m.links.indexOf(e),
 					u: x.local(L.paper, m.links.indexOf(e), a)
 				};
-				y.frame(t, L.paper.metres([a[0] + i * n[0], a[1] + i * n[1]]), le());
+				y.frame(t, L.paper.metres([a[0] + i * n[0], a[1] + i * n[1]]), ce());
 			});
 		}), {
 			knob: i,
 			p: r
 		};
-	}), V = n("div", null, {
+	}), H = n("div", null, {
 		class: "missing",
 		role: "status"
 	});
-	R.before(V), n("p", V, {}, c.missing.sentence[0].toUpperCase() + c.missing.sentence.slice(1) + ".");
-	for (let e of c.missing.offers) M(V, `+ ${e.said}`, e.page ? e.said : "saves the file with it", () => void G(e));
-	W();
-	function H(e) {
-		return e.startsWith("point:") ? m.links.indexOf(e.slice(6, e.lastIndexOf("."))) : se(c, e);
+	R.before(H), n("p", H, {}, c.missing.sentence[0].toUpperCase() + c.missing.sentence.slice(1) + ".");
+	for (let e of c.missing.offers) M(H, `+ ${e.said}`, e.page ? e.said : "saves the file with it", () => void K(e));
+	G();
+	function U(e) {
+		return e.startsWith("point:") ? m.links.indexOf(e.slice(6, e.lastIndexOf("."))) : oe(c, e);
 	}
-	function ie() {
+	function re() {
 		let e = /* @__PURE__ */ new Set();
 		return c.points.filter(({ p: t }) => {
 			let n = t.map((e) => v.here[e].toFixed(9)).join();
 			return !e.has(n) && e.add(n);
 		});
 	}
-	function W() {
-		let e = n("div", F, { class: "switches" }), t = Ft(c.title);
-		St(e, I.view, l, !1, () => Y()), xt(e, l, c.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => Y());
+	function G() {
+		let e = n("div", F, { class: "switches" }), t = It(c.title);
+		Ct(e, I.view, l, !1, () => Y()), St(e, l, c.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => Y());
 		let r = n("span", e, {
 			class: "group",
 			role: "group",
 			"aria-label": "save"
 		});
-		M(r, "Model file", "the file with the pose that is drawn", () => X(`${t}.yaml`, oe(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${t}.svg`, Mt(L.svg, c.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void Pt(L.svg, c.style.light).then((e) => X(`${t}.png`, e, "image/png")));
+		M(r, "Model file", "the file with the pose that is drawn", () => X(`${t}.yaml`, ae(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${t}.svg`, Nt(L.svg, c.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void Ft(L.svg, c.style.light).then((e) => X(`${t}.png`, e, "image/png")));
 	}
-	function ae(e) {
+	function ie(e) {
 		return e.flatMap(({ kind: e, name: t }) => m.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
 			said: `${y.locked(r) ? "Let go" : "Hold"} the ${n.angular ? "turn" : "slide"} of ${t}`,
 			act: () => y.lock(r, !y.locked(r))
 		}] : []));
 	}
-	async function G(e) {
+	async function K(e) {
 		if (!u.on?.({
 			type: "offer",
 			offer: e
 		})) {
-			if (!e.page) return X(`${Ft(c.title)}.yaml`, e.text, "text/yaml");
-			await u.taken(JSON.parse(new TextDecoder().decode(await re(e.page))), K());
+			if (!e.page) return X(`${It(c.title)}.yaml`, e.text, "text/yaml");
+			await u.taken(JSON.parse(new TextDecoder().decode(await ne(e.page))), q());
 		}
 	}
-	function oe() {
+	function ae() {
 		let e = m.links.flatMap((e, t) => [
 			y.pose.point[2 * t],
 			y.pose.point[2 * t + 1],
@@ -2331,21 +2331,21 @@ async function Bt(o, c, l, u) {
 		]);
 		return c.text.replace(/@@(\d+)@@/g, (t, n) => String(e[+n]));
 	}
-	function K() {
+	function q() {
 		return Object.fromEntries(m.links.map((e, t) => [e, [
 			y.pose.point[2 * t],
 			y.pose.point[2 * t + 1],
 			y.pose.turn[t]
 		]]));
 	}
-	let le = () => Lt * L.paper.perMm / m.length;
-	function q(e) {
+	let ce = () => Rt * L.paper.perMm / m.length;
+	function le(e) {
 		k = y.pose, e(), ue();
 	}
 	function ue() {
-		k !== y.pose && (S.push(k), S.length > zt && S.shift(), C.length = 0), u.on?.({
+		k !== y.pose && (S.push(k), S.length > Bt && S.shift(), C.length = 0), u.on?.({
 			type: "pose",
-			pose: K(),
+			pose: q(),
 			closed: y.closed
 		}), Y();
 	}
@@ -2354,7 +2354,7 @@ async function Bt(o, c, l, u) {
 		n && (t.push(y.pose), y.placed(n), Y());
 	}
 	L.svg.addEventListener("pointerdown", (e) => {
-		let t = e.button === 0 ? ce(L.svg, e, H) : -1;
+		let t = e.button === 0 ? se(L.svg, e, U) : -1;
 		if (t < 0) return;
 		L.svg.setPointerCapture(e.pointerId);
 		let n = s(L.svg, e);
@@ -2383,10 +2383,10 @@ async function Bt(o, c, l, u) {
 	function fe() {
 		if (w || !y.closed) {
 			let e = y.pose;
-			E !== "on the way" && y.closed || (E = y.frame(w, T, le())), (E === "on the way" || E === "apart" && e !== y.pose) && Y();
+			E !== "on the way" && y.closed || (E = y.frame(w, T, ce())), (E === "on the way" || E === "apart" && e !== y.pose) && Y();
 		}
 		v.show(y.pose), L.update(!0);
-		for (let { knob: t, p: n } of ne) {
+		for (let { knob: t, p: n } of te) {
 			let [i, a] = L.paper.point(n);
 			e(t, {
 				cx: r(i),
@@ -2396,13 +2396,13 @@ async function Bt(o, c, l, u) {
 		z(), pe(), [N.disabled, P.disabled] = [!S.length, !C.length];
 	}
 	function pe() {
-		if (te.replaceChildren(), !w || E !== "nearest" || y.away < 3 * le()) return;
+		if (ee.replaceChildren(), !w || E !== "nearest" || y.away < 3 * ce()) return;
 		let [n, o] = [y.at(w), T].map((e) => L.paper.of(...L.paper.project(e))), { unit: s, size: l } = c.units.length;
-		t("path", te, {
+		t("path", ee, {
 			class: "l-gap",
 			d: a([n, o]),
 			style: "fill:none"
-		}), e(p(te, "gap", `${i(y.away * m.length / l, 3)} ${s} too far`, 3.3, o[0] < n[0] == o[1] < n[1] ? "start" : "end"), {
+		}), e(p(ee, "gap", `${i(y.away * m.length / l, 3)} ${s} too far`, 3.3, o[0] < n[0] == o[1] < n[1] ? "start" : "end"), {
 			x: r((n[0] + o[0]) / 2 + (o[0] < n[0] == o[1] < n[1] ? 2.5 : -2.5)),
 			y: r((n[1] + o[1]) / 2 - 1.5)
 		});
@@ -2427,8 +2427,8 @@ async function Bt(o, c, l, u) {
 		},
 		set: () => void 0,
 		show: () => void 0,
-		text: oe,
-		pose: K,
+		text: ae,
+		pose: q,
 		sketch: y,
 		remove: () => me.removeEventListener("keydown", he)
 	};
@@ -2440,21 +2440,21 @@ function $(e) {
 	let t = e.includes("'") && !e.includes("\"") ? "\"" : "'", n = t + e.replace(/\\/g, "\\\\") + t;
 	return n.length <= 60 ? n : n.slice(0, 57) + "...";
 }
-var Vt = {
+var Ht = {
 	"²": "^2",
 	"³": "^3",
 	"·": "*",
 	"⋅": "*",
 	"×": "*",
 	"−": "-"
-}, Ht = class {
+}, Ut = class {
 	text;
 	reading;
 	units;
 	tokens;
 	constructor(e, t, n) {
 		this.text = e, this.reading = t, this.units = n;
-		let r = e.replace(/[²³·⋅×−]/g, (e) => Vt[e]).replaceAll("**", "^");
+		let r = e.replace(/[²³·⋅×−]/g, (e) => Ht[e]).replaceAll("**", "^");
 		r = r.replace(/\b(ft|in)-lb\b/g, "$1*lbf").replace(/\blb-(ft|in)\b/g, "lbf*$1").replace(/(?<=[a-zµμ])[-.](?=[a-zµμ])/gi, "*"), this.tokens = r.match(/\d+|[a-zµμ_]+|[°%]|[-*/^()]|\S/gi) ?? [];
 	}
 	read() {
@@ -2517,7 +2517,7 @@ var Vt = {
 		};
 	}
 };
-function Ut(e, t, n) {
+function Wt(e, t, n) {
 	let { kinds: r, sentences: i } = n, a = r[t.kind] ?? r.number, o = e.trim(), s = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/is.exec(o.replaceAll("−", "-")), c = {
 		text: $(o),
 		phrase: a.phrase,
@@ -2537,9 +2537,9 @@ function Ut(e, t, n) {
 	if (/^[\d/]/.test(d) && !/^1\/[^\W\d]/.test(d)) return l(i.several);
 	let f = (e) => Number.isFinite(e) ? e : l(i.finite);
 	if (!d || d === t.unit) return f(+u * t.size);
-	let p = new Ht(d, n, a.units).read(), m = [...p.dimension];
+	let p = new Ut(d, n, a.units).read(), m = [...p.dimension];
 	if (a.per_radian && m[3] === 0 && (m[3] = a.dimension[3]), m.some((e, t) => e !== a.dimension[t])) {
-		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? Wt(p.dimension);
+		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? Gt(p.dimension);
 		if (/\blb\b/.test(d) && a.force) return l(i.dimension, {
 			given: e,
 			remedy: Q(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
@@ -2552,7 +2552,7 @@ function Ut(e, t, n) {
 	}
 	return f(+u * p.up / p.down);
 }
-function Wt(e) {
+function Gt(e) {
 	return `in ${[
 		"m",
 		"kg",
@@ -2561,7 +2561,7 @@ function Wt(e) {
 	].flatMap((t, n) => e[n] ? [t + (e[n] === 1 ? "" : `^${e[n]}`)] : []).join("*")}`;
 }
 // src/gate.ts
-var Gt = class {
+var Kt = class {
 	data;
 	kernel;
 	sentence = "";
@@ -2573,7 +2573,7 @@ var Gt = class {
 	type(e, t) {
 		let n = this.data.numbers[e];
 		try {
-			let r = Ut(t, n, this.data.reading);
+			let r = Wt(t, n, this.data.reading);
 			this.check(n, r, $(t.trim())), this.kernel.values[e] = r;
 		} catch (e) {
 			if (!(e instanceof Z)) throw e;
@@ -2634,12 +2634,12 @@ var Gt = class {
 	}
 };
 // src/handles.ts
-function Kt(e, n, r, i) {
-	let a = t("g", e.svg, { class: "handles" }), o = n.handles.map((t) => Yt(a, e, t, r, i));
+function qt(e, n, r, i) {
+	let a = t("g", e.svg, { class: "handles" }), o = n.handles.map((t) => Xt(a, e, t, r, i));
 	return () => r.finite && o.forEach((e) => e());
 }
-var qt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function Jt(e, t, n, r, [i, a]) {
+var Jt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function Yt(e, t, n, r, [i, a]) {
 	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
 		e.other(c, s);
 		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
@@ -2667,7 +2667,7 @@ function Jt(e, t, n, r, [i, a]) {
 		}
 	}
 }
-function Yt(n, i, a, o, c) {
+function Xt(n, i, a, o, c) {
 	let l = `${{
 		joint: "joint",
 		point: "point",
@@ -2702,11 +2702,11 @@ function Yt(n, i, a, o, c) {
 			!0
 		], v = "about" in a && a.about ? p(a.about) : [];
 	}, C = (e) => d.vector([e[0] - g[0], e[1] - g[1]]), w = (e) => {
-		if ("by" in a && a.by) Jt(o, d, a.p, a.by, d.metres(e));
+		if ("by" in a && a.by) Yt(o, d, a.p, a.by, d.metres(e));
 		else if ("ends" in a) E(a.ends, T(C(e)));
 		else if (a.kind === "direction") {
-			let t = d.point(a.p), n = [e[0] - t[0], t[1] - e[1]], [r, i] = m[0].axes.map((e) => qt(e, n));
-			f[a.direction] = Xt(Math.atan2(i, r), f[a.direction]);
+			let t = d.point(a.p), n = [e[0] - t[0], t[1] - e[1]], [r, i] = m[0].axes.map((e) => Jt(e, n));
+			f[a.direction] = Zt(Math.atan2(i, r), f[a.direction]);
 		} else D(a, C(e).map((e, t) => _[t] + e / d.perMm * i.force()));
 		c.changed();
 	}, T = (e) => {
@@ -2715,12 +2715,12 @@ function Yt(n, i, a, o, c) {
 		return r.map((e, n) => t[n] + i * e - h[n]);
 	}, E = (e, t) => e.forEach((e, n) => {
 		let r = h.map((e, r) => e + t[r] - m[n].at[r]);
-		e.n.forEach((e, t) => f[e] = qt(m[n].axes[t], r));
+		e.n.forEach((e, t) => f[e] = Jt(m[n].axes[t], r));
 	}), D = (e, t) => {
-		let n = m[0].axes.map((e) => qt(e, t));
+		let n = m[0].axes.map((e) => Jt(e, t));
 		if (e.components) return e.components.forEach((e, t) => f[e] = n[t]);
 		let r = Math.sign(f[e.size]) || 1;
-		e.direction === void 0 ? f[e.size] = r * qt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = Xt(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
+		e.direction === void 0 ? f[e.size] = r * Jt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = Zt(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
 	}, O = () => {
 		b && c.finished(), b = !1;
 	};
@@ -2753,12 +2753,12 @@ function Yt(n, i, a, o, c) {
 		});
 	};
 }
-var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1, Qt = 1e60, $t = class {
+var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1, $t = 1e60, en = class {
 	table;
 	breaks;
 	pieces;
 	constructor(e) {
-		this.table = e, this.breaks = H(e.breaks), this.pieces = H(e.pieces);
+		this.table = e, this.breaks = U(e.breaks), this.pieces = U(e.pieces);
 	}
 	at(e) {
 		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
@@ -2770,7 +2770,7 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, en = class e {
+}, tn = class e {
 	data;
 	whole;
 	one;
@@ -2783,6 +2783,7 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 	after;
 	side;
 	finite = !0;
+	coarse = !1;
 	good;
 	refused = "";
 	cyclic;
@@ -2796,9 +2797,9 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 	followed;
 	known;
 	constructor(e, t, n, r, i, a) {
-		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, H(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
-			values: H(e.values),
-			pieces: e.table && new $t(e.table),
+		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, U(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: U(e.values),
+			pieces: e.table && new en(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}]));
 		let o = /* @__PURE__ */ new Set([...e.sketch.branches, ...e.sketch.known]);
@@ -2814,11 +2815,11 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 	}
 	static async create(t) {
 		let n = t.numbers.length, [r, i, a, o, s] = await Promise.all([
-			U.create(t.kernel, n),
-			U.create(t.kernel, n),
-			U.create(t.sketch.closure, n),
-			U.create(t.sketch.shown, n),
-			t.gradient ? U.create(t.gradient, n) : void 0
+			W.create(t.kernel, n),
+			W.create(t.kernel, n),
+			W.create(t.sketch.closure, n),
+			W.create(t.sketch.shown, n),
+			t.gradient ? W.create(t.gradient, n) : void 0
 		]);
 		return new e(t, r, i, a, o, s);
 	}
@@ -2851,11 +2852,11 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 	cycle() {
 		this.motion.update() || this.closes(), this.side >= 0 && this.bothSides();
 		let e = this.rows.length - this.row;
-		for (let t = 0; t < this.count; t++) this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], (e) => this.rows[e * this.row + t]) : Zt, this.good[t] = +this.numbered(this.markAt(t));
+		for (let t = 0; t < this.count; t++) this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], (e) => this.rows[e * this.row + t]) : Qt, this.good[t] = +this.numbered(this.markAt(t));
 	}
 	closes() {
 		for (let { name: e, channel: t } of this.followed) this.whole.path.set(this.channels.get(e).values, t * this.row);
-		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== Zt));
+		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== Qt));
 	}
 	bothSides() {
 		let { path: e, out: t } = this.whole, n = this.side * this.row, r = t.slice();
@@ -2867,8 +2868,8 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 		return e === t ? this.numbered(e) && !this.here.every((e, t) => t === this.here.length - 1 || n(t)) && e === 0 ? this.marked("reversal") : e : this.numbered(e) ? t : e;
 	}
 	judged(e, t) {
-		if (e === Zt || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
-		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > Qt);
+		if (e === Qt || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
+		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > $t);
 		for (let e = 0; n && e < this.here.length - 1; e++) if (!Number.isFinite(t(e))) return this.marked("overflow");
 		return e;
 	}
@@ -2876,7 +2877,7 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 		return this.data.statuses.findIndex((t) => t.status === e);
 	}
 	closesAt(e) {
-		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== Zt;
+		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== Qt;
 	}
 	posed(e) {
 		return this.data.sketch.poses.map((t) => t.map((t) => this.value(t, e)));
@@ -2892,7 +2893,7 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 		this.run(e, t, t ? this.motion.read(t, e) : this.motion.otherwise);
 		for (let e = 0; e < n.length; e++) [n[e], this.hereAfter[e]] = [this.one.at(e), this.one.at(e, 1)];
 		let r = n.length - 1, i = this.side >= 0 ? this.between(n[r], this.hereAfter[r], (e) => n[e] === this.hereAfter[e]) : n[r];
-		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = Zt), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
+		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = Qt), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
 	}
 	stretch(e, t) {
 		let { sketch: n } = this.data, r = this.motion.look(e, t, this.motion.otherwise), i = n.branches.length + n.known.length;
@@ -2965,7 +2966,7 @@ var Xt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Zt = 1
 	}
 };
 // src/panels.ts
-function tn(e, t, r, i, a) {
+function nn(e, t, r, i, a) {
 	let o = [], s = /* @__PURE__ */ new Map(), c = (t) => {
 		let r = s.get(t);
 		if (!r) {
@@ -2978,7 +2979,7 @@ function tn(e, t, r, i, a) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n: t } of l) {
-		let [s, l] = e.parameter ? ["Parameters", e.label] : nn(e.label), f = n("label", c(s), { title: e.about ?? e.path });
+		let [s, l] = e.parameter ? ["Parameters", e.label] : rn(e.label), f = n("label", c(s), { title: e.about ?? e.path });
 		n("span", f, {}, l);
 		let p = n("input", f, {
 			type: "text",
@@ -3006,7 +3007,7 @@ function tn(e, t, r, i, a) {
 		}), p.addEventListener("keydown", (e) => {
 			e.key === "Escape" && (g(""), p.value = u(h), p.blur());
 		}), e.parameter) {
-			let [i, o] = e.range ?? rn(e.value), s = n("input", f, {
+			let [i, o] = e.range ?? an(e.value), s = n("input", f, {
 				type: "range",
 				min: i / e.size,
 				max: o / e.size,
@@ -3030,15 +3031,15 @@ function tn(e, t, r, i, a) {
 		focus: (e) => o.find((t) => t.field.path === e)?.box.focus()
 	};
 }
-function nn(e) {
+function rn(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function rn(e) {
+function an(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function an(e, t, r) {
+function on(e, t, r) {
 	let a = n("tbody", n("table", e, { class: "answers" })), o = t.views.table.map((e) => {
 		let r = n("tr", a), i = t.units[e.kind];
 		return n("th", r, { scope: "row" }, l(e.name)), {
@@ -3054,7 +3055,7 @@ function an(e, t, r) {
 		}
 	} };
 }
-function on(e, t, r, a) {
+function sn(e, t, r, a) {
 	let { terms: o, about: s } = a.equations, { force: c, moment: u } = t.units, d = o[0]?.f.length ?? 2, f = [
 		"x",
 		"y",
@@ -3094,15 +3095,15 @@ function on(e, t, r, a) {
 		}
 	} };
 }
-function sn(e, t) {
+function cn(e, t) {
 	n("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
 	let r = n("dl", e);
 	for (let [e, i] of Object.entries(t.assumptions)) n("dt", r, {}, e), n("dd", r, {}, i);
 	t.source && n("p", e, {}, `Source: ${t.source}`), n("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/charts.ts
-var cn = 16, ln = 5, un = 8, dn = 4;
-function fn(e, t) {
+var ln = 16, un = 5, dn = 8, fn = 4;
+function pn(e, t) {
 	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
 	return r * ([
 		1,
@@ -3111,7 +3112,7 @@ function fn(e, t) {
 		10
 	].find((e) => e * r >= n) ?? 10);
 }
-function pn(e, t) {
+function mn(e, t) {
 	return [
 		1,
 		2,
@@ -3124,16 +3125,16 @@ function pn(e, t) {
 		90,
 		180,
 		360
-	].find((n) => n >= e / t) ?? 360 * fn(e / 360, t);
+	].find((n) => n >= e / t) ?? 360 * pn(e / 360, t);
 }
-function mn(e, t, n) {
+function hn(e, t, n) {
 	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
 	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
 }
-function hn(a, o, l, u, d, p) {
+function gn(a, o, l, u, d, p) {
 	let m = n("figure", a, { class: "chart" }), h = o.units[u.kind];
 	n("figcaption", m, {}, `${u.title}, ${h.unit}`);
-	let g = o.views.charts.flatMap((e) => e.curves.map((e) => f(e.name, 3))), _ = Math.max(44, 13 + dn * u.curves.length), v = at(m, p, _, u.title), y = _ - ln - un, b = -_ / 2 + ln, x = 0, S = 0, C = t("path", v, {
+	let g = o.views.charts.flatMap((e) => e.curves.map((e) => f(e.name, 3))), _ = Math.max(44, 13 + fn * u.curves.length), v = ot(m, p, _, u.title), y = _ - un - dn, b = -_ / 2 + un, x = 0, S = 0, C = t("path", v, {
 		class: "l-grid",
 		style: "fill:none"
 	}), w = t("path", v, {
@@ -3149,7 +3150,7 @@ function hn(a, o, l, u, d, p) {
 		let r = t("text", v, {
 			class: `l-${e.role}-t key`,
 			"font-size": 3,
-			y: b + 3 + dn * n,
+			y: b + 3 + fn * n,
 			tabindex: 0,
 			role: "button"
 		});
@@ -3164,7 +3165,7 @@ function hn(a, o, l, u, d, p) {
 			let i = M(n, r), a = l.reverses(r) ? l.onceAfter(() => M(n, r)) : i;
 			e = Math.min(e, i, a), t = Math.max(t, i, a);
 		}
-		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), F = fn(t - e, 4), [e, t] = [Math.floor(e / F + 1e-9) * F, Math.ceil(t / F - 1e-9) * F], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
+		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), F = pn(t - e, 4), [e, t] = [Math.floor(e / F + 1e-9) * F, Math.ceil(t / F - 1e-9) * F], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
 	}
 	function z() {
 		let e = o.drives[0], n = (e, n, r, i) => t("text", T, {
@@ -3176,10 +3177,10 @@ function hn(a, o, l, u, d, p) {
 		}).textContent = e;
 		T.replaceChildren();
 		let a = "";
-		for (let e of mn(N, P, F)) a += `M${S} ${r(L(e))}h${x}`, n(i(e, 5), S - 1.2, L(e) + .9, "end");
+		for (let e of hn(N, P, F)) a += `M${S} ${r(L(e))}h${x}`, n(i(e, 5), S - 1.2, L(e) + .9, "end");
 		if (e) {
 			let [t, o] = [0, k].map((t) => l.position(e.name, t) / e.size);
-			for (let s of mn(Math.min(t, o), Math.max(t, o), (e.unit === "°" ? pn : fn)(Math.abs(o - t), 6))) {
+			for (let s of hn(Math.min(t, o), Math.max(t, o), (e.unit === "°" ? mn : pn)(Math.abs(o - t), 6))) {
 				let c = S + (s - t) / (o - t || 1) * x;
 				a += `M${r(c)} ${b}v${y}`, n(i(s, 5) + (e.unit === "°" ? "°" : ""), c, b + y + 3.4, "middle");
 			}
@@ -3187,17 +3188,17 @@ function hn(a, o, l, u, d, p) {
 		}
 		C.setAttribute("d", a), w.setAttribute("d", `M${S} ${b}v${y}` + (N < 0 && P > 0 ? `M${S} ${r(L(0))}h${x}` : ""));
 	}
-	function ee(e) {
-		p = e, [x, S] = [p - cn - Math.min(Math.max(...g) + 4, .3 * p), -p / 2 + cn], v.setAttribute("viewBox", `${-p / 2} ${-_ / 2} ${p} ${_}`), j.forEach((e) => e.setAttribute("x", r(S + x + 2))), N = NaN;
+	function B(e) {
+		p = e, [x, S] = [p - ln - Math.min(Math.max(...g) + 4, .3 * p), -p / 2 + ln], v.setAttribute("viewBox", `${-p / 2} ${-_ / 2} ${p} ${_}`), j.forEach((e) => e.setAttribute("x", r(S + x + 2))), N = NaN;
 	}
-	ee(p);
-	let B = (e) => d.seek((s(v, e)[0] - S) / x * k);
+	B(p);
+	let V = (e) => d.seek((s(v, e)[0] - S) / x * k);
 	return v.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (v.setPointerCapture(e.pointerId), B(e));
-	}), v.addEventListener("pointermove", (e) => e.buttons && v.hasPointerCapture(e.pointerId) && B(e)), {
-		resize: ee,
+		e.target.closest(".key") || (v.setPointerCapture(e.pointerId), V(e));
+	}), v.addEventListener("pointermove", (e) => e.buttons && v.hasPointerCapture(e.pointerId) && V(e)), {
+		resize: B,
 		update(t) {
-			t && (R() && z(), E.forEach((e, t) => Ne(e, Pe(l, (e) => [I(e), L(M(u.curves[t], e))]))));
+			t && (R() && z(), E.forEach((e, t) => Pe(e, Fe(l, (e) => [I(e), L(M(u.curves[t], e))]))));
 			let n = r(I(Math.min(d.time(), k)));
 			D.setAttribute("d", `M${n} ${b}v${y}`), u.curves.forEach((t, i) => {
 				let a = l.solved ? {
@@ -3212,8 +3213,8 @@ function hn(a, o, l, u, d, p) {
 		}
 	};
 }
-function gn(e, r, a, o) {
-	let s = n("figure", e, { class: "polar" }), [c, l] = a.f, u = n("figcaption", s), d = at(s, 66, 66, `polar diagram of joint ${a.name}`);
+function _n(e, r, a, o) {
+	let s = n("figure", e, { class: "polar" }), [c, l] = a.f, u = n("figcaption", s), d = ot(s, 66, 66, `polar diagram of joint ${a.name}`);
 	t("path", d, {
 		class: "l-grid",
 		style: "fill:none",
@@ -3225,16 +3226,16 @@ function gn(e, r, a, o) {
 	}), p = new m(d, "joint-force", a.name), h = 1;
 	return { update(e) {
 		if (e) {
-			let e = Xe(r.largest((e) => Math.hypot(r.value(c, e), r.value(l, e))) / o.size);
-			h = e / 30 * o.size, Ne(f, Pe(r, (e) => [r.value(c, e) / h, -r.value(l, e) / h], !0)), u.textContent = `Joint ${a.name}: circles of ${i(e / 2)} and ${i(e)} ${o.unit}`;
+			let e = Ze(r.largest((e) => Math.hypot(r.value(c, e), r.value(l, e))) / o.size);
+			h = e / 30 * o.size, Pe(f, Fe(r, (e) => [r.value(c, e) / h, -r.value(l, e) / h], !0)), u.textContent = `Joint ${a.name}: circles of ${i(e / 2)} and ${i(e)} ${o.unit}`;
 		}
 		p.set([0, 0], r.solved ? [r.here[c] / h, -r.here[l] / h] : [0, 0]);
 	} };
 }
-function _n(e, r, i, o, s) {
+function vn(e, r, i, o, s) {
 	let c = n("figure", e, { class: "polygon" }), l = r.units.force;
 	n("figcaption", c, {}, o);
-	let u = at(c, 110, 80, o), d = t("g", u), f = /* @__PURE__ */ new Set(), p = s.map(({ sides: e }) => {
+	let u = ot(c, 110, 80, o), d = t("g", u), f = /* @__PURE__ */ new Set(), p = s.map(({ sides: e }) => {
 		let t = e.find((e) => e.kind === "joint" && f.has(e.of));
 		for (let t of e) t.kind === "joint" && f.add(t.of);
 		return {
@@ -3248,13 +3249,13 @@ function _n(e, r, i, o, s) {
 	}), h = t("path", u, {
 		class: "l-gap",
 		style: "fill:none"
-	}), g = new it(u, !0);
+	}), g = new at(u, !0);
 	return {
 		figure: c,
 		update() {
 			if (u.setAttribute("visibility", i.solved ? "visible" : "hidden"), !i.solved) return;
 			let e = i.here, t = /* @__PURE__ */ new Map(), n = [], r = [], o = p.flatMap(({ shared: i, drawn: a }) => {
-				let o = Qe(n)?.y[1] ?? 0, s = t.get(i?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
+				let o = $e(n)?.y[1] ?? 0, s = t.get(i?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
 				i && (s = c(i.f));
 				let u = a.map((e) => {
 					let r = s;
@@ -3265,10 +3266,10 @@ function _n(e, r, i, o, s) {
 					};
 				});
 				return r.push([l, s]), u;
-			}), s = Qe(n) ?? {
+			}), s = $e(n) ?? {
 				x: [0, 0],
 				y: [0, 0]
-			}, c = Xe(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / l.size) * l.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new xe([
+			}, c = Ze(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / l.size) * l.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new xe([
 				-55,
 				-40,
 				55,
@@ -3289,34 +3290,34 @@ function _n(e, r, i, o, s) {
 	};
 }
 // src/results.ts
-var vn = 4.6, yn = (e) => Math.min(Math.max(e / vn, 72), 140), bn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
-function xn(e, t, r, i, a, o) {
+var yn = 4.6, bn = (e) => Math.min(Math.max(e / yn, 72), 140), xn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
+function Sn(e, t, r, i, a, o) {
 	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = r.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
-	for (let e of f ? s : []) u.push(hn(f, t, r, e, i, 120));
+	for (let e of f ? s : []) u.push(gn(f, t, r, e, i, 120));
 	let p = r.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
 	if (f && p.length) {
 		n("h2", f, {}, "Polar diagrams");
 		for (let e of p) d.push({
 			box: f,
-			view: gn(f, r, e, t.units.force)
+			view: _n(f, r, e, t.units.force)
 		});
 	}
 	let m = e.add("Forces", "free bodies, their equations, and force polygons"), h = n("select", m, { "aria-label": "link" }), g = c.map((e, i) => {
 		n("option", h, { value: i }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let o = n("div", m, { class: "body" }), s = ct(o, r, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
+		let o = n("div", m, { class: "body" }), s = lt(o, r, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
 		return d.push({
 			box: o,
 			view: s,
 			link: i
 		}, {
 			box: o,
-			view: on(o, t, r, e),
+			view: sn(o, t, r, e),
 			link: i
 		}), s;
 	});
 	if (l.links.length) {
 		l.links.forEach((e, n) => {
-			let i = _n(m, t, r, `Force polygon of link ${e.title}`, [e]);
+			let i = vn(m, t, r, `Force polygon of link ${e.title}`, [e]);
 			d.push({
 				box: i.figure,
 				view: i,
@@ -3326,13 +3327,13 @@ function xn(e, t, r, i, a, o) {
 		let e = l.chain.map((e) => l.links[e]);
 		d.push({
 			box: m,
-			view: _n(m, t, r, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
+			view: vn(m, t, r, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
 		});
 	}
 	let _ = e.add("Numbers", "the numbers of this position");
 	d.push({
 		box: _,
-		view: an(_, t, r)
+		view: on(_, t, r)
 	});
 	let v = () => void (a.body = c[+h.value]?.link ?? ""), y = (e) => {
 		let t = c.findIndex((t) => t.link === e);
@@ -3348,20 +3349,20 @@ function xn(e, t, r, i, a, o) {
 		bodies: g,
 		fit: b,
 		choose: y,
-		resize: (e) => u.forEach((t) => t.resize(yn(e))),
+		resize: (e) => u.forEach((t) => t.resize(bn(e))),
 		update(e) {
-			for (let t of u) bn(f) && t.update(e);
-			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && bn(t) && n.update(e);
+			for (let t of u) xn(f) && t.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && xn(t) && n.update(e);
 		}
 	};
 }
 // src/sentences.ts
-function Sn(e, t = 6) {
+function Cn(e, t = 6) {
 	if (!Number.isFinite(e)) return Number.isNaN(e) ? "nan" : e > 0 ? "inf" : "-inf";
 	let [n, r] = e.toExponential(t - 1).split("e"), i = +r, a = (e) => e.includes(".") ? e.replace(/\.?0+$/, "") : e;
 	return i < -4 || i >= t ? `${a(n)}e${i < 0 ? "-" : "+"}${String(Math.abs(i)).padStart(2, "0")}` : a(e.toFixed(Math.max(t - 1 - i, 0)));
 }
-var Cn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, wn = class {
+var wn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, Tn = class {
 	data;
 	kernel;
 	s;
@@ -3376,10 +3377,10 @@ var Cn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		for (let { sentence: e, rows: t, error: n } of this.s.gears) {
 			let [r, i, a] = t.map((e) => this.kernel.here[e]), o = i + a;
 			if (Math.abs(r - o) > n * o) return Q(e, {
-				found: Sn(r),
-				ri: Sn(Math.abs(i)),
-				rj: Sn(Math.abs(a)),
-				wanted: Sn(o)
+				found: Cn(r),
+				ri: Cn(Math.abs(i)),
+				rj: Cn(Math.abs(a)),
+				wanted: Cn(o)
 			});
 		}
 		return "";
@@ -3433,11 +3434,11 @@ var Cn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
 		return {
 			...i,
-			joints: e === "reversal" ? Cn(l) : l.join(", "),
+			joints: e === "reversal" ? wn(l) : l.join(", "),
 			verb: d,
-			values: Cn(u),
+			values: wn(u),
 			name: s[0] ?? "",
-			names: Cn(s)
+			names: wn(s)
 		};
 	}
 	figures(e, t) {
@@ -3458,7 +3459,7 @@ var Cn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	}
 	quantity(e, t, n = 6) {
 		let { unit: r, size: i } = this.s.units[t];
-		return `${Sn(e / i, n)} ${r}`;
+		return `${Cn(e / i, n)} ${r}`;
 	}
 	drive(e, t) {
 		return this.quantity(this.kernel.position(e.name, t), e.turns ? "angle" : "length");
@@ -3521,8 +3522,8 @@ var Cn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		}
 		return r;
 	}
-}, Tn = 0;
-function En(e, t, r) {
+}, En = 0;
+function Dn(e, t, r) {
 	let i = n("div", e, {
 		class: "tabs",
 		role: "tablist",
@@ -3549,7 +3550,7 @@ function En(e, t, r) {
 		t < 0 || r === void 0 || (e.preventDefault(), e.stopPropagation(), c(o[r].name, !0));
 	}), {
 		add(e, r = e) {
-			let l = `dalembert-tab-${++Tn}`, u = n("button", i, {
+			let l = `dalembert-tab-${++En}`, u = n("button", i, {
 				type: "button",
 				role: "tab",
 				id: l,
@@ -3572,7 +3573,7 @@ function En(e, t, r) {
 	};
 }
 // src/toolbar.ts
-function Dn(e, t, r, i, a, o) {
+function On(e, t, r, i, a, o) {
 	let s = n("header", e);
 	n("h1", s, {}, t.title);
 	let c = n("div", s, {
@@ -3597,7 +3598,7 @@ function Dn(e, t, r, i, a, o) {
 		title: "speed of play; , and . step, with Shift by ten",
 		"aria-label": "speed of play"
 	});
-	for (let e of Ue) n("option", p, { value: e }, `${e}×`);
+	for (let e of We) n("option", p, { value: e }, `${e}×`);
 	p.value = String(a.speed), p.addEventListener("change", () => a.speed = +p.value);
 	let m = l("↶", "undo (Ctrl+Z)", () => o.go(!0)), h = l("↷", "redo (Ctrl+Y)", () => o.go(!1));
 	o.back && l("Back", "to the sketch, without the last thing added", o.back), l("Reset", "all numbers as in the file", o.reset);
@@ -3616,12 +3617,12 @@ function Dn(e, t, r, i, a, o) {
 		playing: (e) => u.textContent = e ? "❚❚" : "▶",
 		update(e, n, a) {
 			let o = [a, i.at(e)].filter(Boolean).join(" ");
-			g.textContent !== o && (g.textContent = o), d.value = String(e), f.textContent = wt(t, r, e), [m.disabled, h.disabled] = n.map((e) => !e);
+			g.textContent !== o && (g.textContent = o), d.value = String(e), f.textContent = Tt(t, r, e), [m.disabled, h.disabled] = n.map((e) => !e);
 		}
 	};
 }
 // src/tracers.ts
-function On(n, i, a, o) {
+function kn(n, i, a, o) {
 	let s = t("g", null, { class: "tracers" });
 	n.svg.querySelector("g").before(s);
 	let c = [];
@@ -3640,7 +3641,7 @@ function On(n, i, a, o) {
 					r: 1.1,
 					"data-item": `tracer:${u}`
 				})
-			}, (l || f) && c[u].line.setAttribute("d", Pe(a, (e) => i.on(n.paper, d, o.u, e), !0));
+			}, (l || f) && c[u].line.setAttribute("d", Fe(a, (e) => i.on(n.paper, d, o.u, e), !0));
 			let [p, m] = n.paper.of(...n.paper.project(i.place(d, o.u)));
 			e(c[u].dot, {
 				cx: r(p),
@@ -3650,58 +3651,58 @@ function On(n, i, a, o) {
 	};
 }
 // src/solved.ts
-var kn = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", An = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", jn = 6, Mn = 10, Nn = 8, Pn = 4;
-async function Fn(e, t, r, a) {
-	let o = await en.create(t), s = [], c = new Gt(t, o);
-	a.changes && c.change(a.changes), a.address && kt(o, c, r, location.hash);
+var An = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", jn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", Mn = 6, Nn = 10, Pn = 8, Fn = 4;
+async function In(e, t, r, a) {
+	let o = await tn.create(t), s = [], c = new Kt(t, o);
+	a.changes && c.change(a.changes), a.address && At(o, c, r, location.hash);
 	let u = a.pose && o.motion.take(a.pose);
 	u != null && (r.t = u), r.t = Math.min(Math.max(Number.isFinite(r.t) ? r.t : t.start, 0), o.end);
 	let d = 0, f = !0, p = 0;
 	o.cycle();
-	let m = new Et(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
+	let m = new Dt(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
 		curve: n,
 		unit: t.units[e.kind]
-	}))), v = h.find((e) => e.curve.of === r.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], y = new wn(t, o), b = Dn(e, t, o, y, r, {
-		play: q,
-		show: K,
-		go: ae,
-		reset: W,
+	}))), v = h.find((e) => e.curve.of === r.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], y = new Tn(t, o), b = On(e, t, o, y, r, {
+		play: le,
+		show: q,
+		go: ie,
+		reset: G,
 		back: a.back
 	}), x = n("main", e), S = n("section", x, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), C = new _(t.sketch.links, t.sketch.poses, o), w = vt(S, o, t.views.mechanism, t.units, r, {
+	}), C = new _(t.sketch.links, t.sketch.poses, o), w = yt(S, o, t.views.mechanism, t.units, r, {
 		full: a.full,
 		rates: t.views.rates,
 		on: a.on,
-		entries: te,
-		chosen: ne,
+		entries: ee,
+		chosen: te,
 		again: J,
-		held: (e) => o.count > 1 && se(t, `${e.kind}:${e.name}`) >= 0
+		held: (e) => o.count > 1 && oe(t, `${e.kind}:${e.name}`) >= 0
 	}), { m: T, paper: E } = w, D = n("output", E, {
 		class: "digits",
 		"aria-label": "value of the chosen curve"
-	}), O = new Ct(T, t, o), k = On(T, C, o, r), A = new Tt(E, T, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), j = Kt(T, t, o, {
-		changed: U,
-		finished: ie
+	}), O = new wt(T, t, o), k = kn(T, C, o, r), A = new Et(E, T, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), j = qt(T, t, o, {
+		changed: W,
+		finished: re
 	});
-	le(T, t, o, C, {
-		seek: K,
+	ce(T, t, o, C, {
+		seek: q,
 		time: () => r.t
 	});
 	let M = g(T, t, o), N = n("section", x, {
 		class: "side",
 		"aria-label": "results"
-	}), P = En(N, r, () => J(!0)), F = (e) => (v = h.find((t) => t.curve === e), r.curve = e.of, J(!0)), I = xn(P, t, o, {
+	}), P = Dn(N, r, () => J(!0)), F = (e) => (v = h.find((t) => t.curve === e), r.curve = e.of, J(!0)), I = Sn(P, t, o, {
 		time: () => r.t,
-		seek: K,
+		seek: q,
 		pick: F,
 		picked: () => v?.curve
-	}, r, () => J(!0)), L = z(), R = tn(P.add("Change", "every number of the file"), t, o, c, (e) => e ? ie() : U());
-	V(), sn(P.add("About", "method and assumptions"), t);
+	}, r, () => J(!0)), L = z(), R = nn(P.add("Change", "every number of the file"), t, o, c, (e) => e ? re() : W());
+	H(), cn(P.add("About", "method and assumptions"), t);
 	function z() {
 		let e = n("div", S, { class: "switches" }), { arrows: i, labels: a } = t.views.mechanism;
-		St(e, w.view, r, o.count > 1, () => J(!0));
+		Ct(e, w.view, r, o.count > 1, () => J(!0));
 		let s = (e) => i.some((t) => e.includes(t.kind)), c = t.views.rates.length > 0, l = [
 			["values", !0],
 			["digits", h.length > 0],
@@ -3719,29 +3720,29 @@ async function Fn(e, t, r, a) {
 			["names", !0],
 			["traces", t.views.mechanism.items.some((e) => e.t === "trace")]
 		];
-		return t.gradient && bt(e, {
+		return t.gradient && xt(e, {
 			said: "what lowers the peak",
 			title: "arrows: moving a joint in this direction lowers the peak of the chosen curve",
 			on: !1,
 			act: (e) => (O.on = e, J(!0))
-		}), xt(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Nn, () => (H(), J(!0))), t.handles.some((e) => e.kind === "joint") && bt(e, {
+		}), St(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Pn, () => (U(), J(!0))), t.handles.some((e) => e.kind === "joint") && xt(e, {
 			said: "tolerances",
 			title: "a thousand machines with points displaced by up to 0.5 % of the drawing's width",
 			on: !1,
 			act: (e) => (A.on = e, J(!0))
 		}), T.paper.axes.length > 2 && n("span", e, {}, "drag to rotate the view"), n("span", e, { class: "spread" });
 	}
-	function ee({ kind: e, name: n }) {
-		return t.sketch.links[se(t, `${e}:${n}`)] ?? t.views.mechanism.arrows.find((t) => t.of === n && t.kind === e)?.link;
-	}
 	function B({ kind: e, name: n }) {
+		return t.sketch.links[oe(t, `${e}:${n}`)] ?? t.views.mechanism.arrows.find((t) => t.of === n && t.kind === e)?.link;
+	}
+	function V({ kind: e, name: n }) {
 		let r = t.handles.find((t) => t.kind === e && (t.name === n || t.name.startsWith(`${n}:`)));
 		return r ? T.paper.point(r.p) : null;
 	}
-	function te(e, n) {
+	function ee(e, n) {
 		let i = [], a = /* @__PURE__ */ new Set();
-		for (let s of e.slice(0, Pn)) {
-			let { kind: e, name: c } = s, u = se(t, `${e}:${c}`), d = u < 0 ? void 0 : t.sketch.links[u], f = e === "joint" || e === "reaction" ? h.find((e) => e.curve.of === `reaction.${c}.magnitude`) : h.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
+		for (let s of e.slice(0, Fn)) {
+			let { kind: e, name: c } = s, u = oe(t, `${e}:${c}`), d = u < 0 ? void 0 : t.sketch.links[u], f = e === "joint" || e === "reaction" ? h.find((e) => e.curve.of === `reaction.${c}.magnitude`) : h.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
 			f && i.push({
 				said: `Curve of ${l(f.curve.name)}`,
 				act: () => (F(f.curve), P.show("Curves"))
@@ -3752,7 +3753,7 @@ async function Fn(e, t, r, a) {
 				act: () => (P.show("Change"), R.focus(p.path))
 			}), e === "tracer" && i.push({
 				said: "Remove this path",
-				act: () => (r.tracers.splice(+c, 1), H(), J(!0))
+				act: () => (r.tracers.splice(+c, 1), U(), J(!0))
 			}), d && !a.has(d) && (a.add(d), i.push({
 				said: `Free body of ${d}`,
 				act: () => (I.choose(d), P.show("Forces"))
@@ -3761,8 +3762,8 @@ async function Fn(e, t, r, a) {
 				act: () => {
 					r.tracers.push({
 						link: d,
-						u: C.local(T.paper, u, B(s) ?? T.paper.of(...n))
-					}), H(), J(!0);
+						u: C.local(T.paper, u, V(s) ?? T.paper.of(...n))
+					}), U(), J(!0);
 				}
 			}));
 		}
@@ -3771,61 +3772,62 @@ async function Fn(e, t, r, a) {
 			act: w.view.fit
 		}), i.filter((e, t) => i.findIndex((t) => t.said === e.said) === t);
 	}
-	function ne(e) {
-		e && e.kind !== "joint" && I.choose(ee(e)), J(!0);
-	}
-	function V() {
-		let e = P.add("Save", "files to save, print, share"), i = Ft(t.title), s = (t, r) => n("button", e, { type: "button" }, t).addEventListener("click", r);
-		t.template.length && s("Model file", () => X(`${i}.yaml`, At(t, o), "text/yaml")), s("Curves as CSV", () => X(`${i}.csv`, jt(t, o), "text/csv")), s("Drawing as SVG", () => X(`${i}.svg`, Mt(T.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void Pt(T.svg, t.style.light).then((e) => X(`${i}.png`, e, "image/png"))), s("Print", () => window.print()), a.address && s("Copy link", () => {
-			location.hash = Ot(t, o, r), navigator.clipboard?.writeText(location.href);
-		});
+	function te(e) {
+		e && e.kind !== "joint" && I.choose(B(e)), J(!0);
 	}
 	function H() {
-		a.address && window.history.replaceState(null, "", "#" + Ot(t, o, r)), a.on?.({
+		let e = P.add("Save", "files to save, print, share"), i = It(t.title), s = (t, r) => n("button", e, { type: "button" }, t).addEventListener("click", r);
+		t.template.length && s("Model file", () => X(`${i}.yaml`, jt(t, o), "text/yaml")), s("Curves as CSV", () => X(`${i}.csv`, Mt(t, o), "text/csv")), s("Drawing as SVG", () => X(`${i}.svg`, Nt(T.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void Ft(T.svg, t.style.light).then((e) => X(`${i}.png`, e, "image/png"))), s("Print", () => window.print()), a.address && s("Copy link", () => {
+			location.hash = kt(t, o, r), navigator.clipboard?.writeText(location.href);
+		});
+	}
+	function U() {
+		a.address && window.history.replaceState(null, "", "#" + kt(t, o, r)), a.on?.({
 			type: "view",
 			view: r
 		});
 	}
-	function re() {
+	function ne() {
 		J(!0), R.update();
-		let e = Dt(t, o);
+		let e = Ot(t, o);
 		a.edited?.(e), a.on?.({
 			type: "change",
 			changes: e
-		}), H();
-	}
-	function U() {
-		c.pass(), J(!0);
-	}
-	function ie() {
-		let { sentence: e } = c;
-		c.pass() && (c.sentence = e), m.note(), G(!0), re();
+		}), U();
 	}
 	function W() {
-		c.change({}), ie(), G();
+		o.coarse = !0, c.pass(), J(!0);
 	}
-	function ae(e) {
-		m.go(e) && (G(!0), re());
+	function re() {
+		o.coarse = !1;
+		let { sentence: e } = c;
+		c.pass() && (c.sentence = e), m.note(), K(!0), ne();
 	}
-	function G(e = !1) {
+	function G() {
+		c.change({}), re(), K();
+	}
+	function ie(e) {
+		m.go(e) && (K(!0), ne());
+	}
+	function K(e = !1) {
 		o.cycle(), T.fit(void 0, e), I.fit();
 	}
-	function oe() {
+	function ae() {
 		w.resize();
 		let e = N.querySelector(".panels").clientWidth;
 		e > 0 && I.resize(e - 12), T.fit(), J(!0);
 	}
-	function K(e) {
+	function q(e) {
 		r.t = Math.min(Math.max(e, 0), o.end), t.only_at_positions && (r.t = Math.round(r.t)), J(!1);
 	}
-	function ce(e) {
+	function se(e) {
 		let t = e > 0 ? Math.floor(r.t + 1e-9) + e : Math.ceil(r.t - 1e-9) + e;
-		K(o.cyclic ? (t % o.count + o.count) % o.count : t);
+		q(o.cyclic ? (t % o.count + o.count) % o.count : t);
 	}
-	function q() {
+	function le() {
 		if (b.playing(!p), p) return ue();
 		let e = performance.now(), t = r.t, n = (i) => {
-			t += (i - e) / 1e3 / jn * r.speed * o.end, e = i, t >= o.end && (t = 0), K(t), p = requestAnimationFrame(n);
+			t += (i - e) / 1e3 / Mn * r.speed * o.end, e = i, t >= o.end && (t = 0), q(t), p = requestAnimationFrame(n);
 		};
 		p = requestAnimationFrame(n);
 	}
@@ -3852,47 +3854,47 @@ async function Fn(e, t, r, a) {
 	Y.addEventListener("keydown", fe);
 	function pe(e) {
 		let t = e.target;
-		if (!(e.defaultPrevented || t.closest?.(kn))) {
-			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), ae(e.key.toLowerCase() === "z" && !e.shiftKey);
+		if (!(e.defaultPrevented || t.closest?.(An))) {
+			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), ie(e.key.toLowerCase() === "z" && !e.shiftKey);
 			else if (e.ctrlKey || e.metaKey || e.altKey || o.count < 2) return;
-			else e.key === " " && !t.closest?.(An) ? (e.preventDefault(), q()) : ".,><:;".includes(e.key) && ce((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Mn));
+			else e.key === " " && !t.closest?.(jn) ? (e.preventDefault(), le()) : ".,><:;".includes(e.key) && se((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Nn));
 		}
 	}
-	return o.at(r.t), G(), {
+	return o.at(r.t), K(), {
 		kernel: o,
 		data: t,
 		times: s,
-		show: K,
+		show: q,
 		stage: w,
 		opened() {
-			oe(), de(), R.update(), w.choose(r.chosen);
+			ae(), de(), R.update(), w.choose(r.chosen);
 		},
 		set(e) {
-			c.change(e), m.note(), G(!0), J(!0), R.update();
+			c.change(e), m.note(), K(!0), J(!0), R.update();
 		},
-		text: () => At(t, o),
+		text: () => jt(t, o),
 		pose: () => o.motion.placed(),
 		redraw: () => J(!0),
 		observed: [E, N],
-		resize: oe,
+		resize: ae,
 		remove() {
 			ue(), Y.removeEventListener("keydown", fe);
 		}
 	};
 }
 // src/page.ts
-async function In(e, t, r = {}) {
-	let i = r.view ?? We(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, r);
+async function Ln(e, t, r = {}) {
+	let i = r.view ?? Ge(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, r);
 	async function c(t, s) {
 		let c = document.createElement("div");
 		c.className = r.full ? "dalembert full" : "dalembert", c.tabIndex = -1;
 		let f = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
 		n("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{-webkit-user-select:none;user-select:none;flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert main.one{flex-direction:column;display:flex}.dalembert main.one .stage{flex:1}.dalembert.full main.one .paper{aspect-ratio:auto;min-height:20em;max-height:none}.dalembert .missing{flex-wrap:wrap;gap:.3em;padding:.1em 0 .4em;display:flex}.dalembert .missing p{color:var(--warn);flex-basis:100%;margin:0;font-size:.92em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);max-height:calc(100vh - 8px);padding:.25em;display:flex;position:fixed;overflow-y:auto;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + t.style.light + f;
-		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Bt(c, t, i, {
+		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Vt(c, t, i, {
 			...s,
 			taken: l,
 			back: p
-		}) : t.format === "dalembert-page/1" ? await Fn(c, t, i, {
+		}) : t.format === "dalembert-page/1" ? await In(c, t, i, {
 			...s,
 			back: p
 		}) : null;
@@ -3967,9 +3969,9 @@ async function In(e, t, r = {}) {
 	};
 }
 // src/main.ts
-async function Ln(e, t) {
+async function Rn(e, t) {
 	try {
-		return await In(e, JSON.parse(new TextDecoder().decode(await re(t))), {
+		return await Ln(e, JSON.parse(new TextDecoder().decode(await ne(t))), {
 			address: location.protocol !== "about:",
 			full: !0
 		});
@@ -3977,13 +3979,13 @@ async function Ln(e, t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var Rn = { async render({ model: e, el: t }) {
-	let r = "", i = We(), a = (t) => {
+var zn = { async render({ model: e, el: t }) {
+	let r = "", i = Ge(), a = (t) => {
 		r = JSON.stringify(t), e.set("changes", t), e.save_changes();
 	}, o = (t) => {
 		(t.type === "put" || t.type === "pose" || t.type === "change" && e.get("text")) && (e.set("text", c.text()), e.save_changes());
 	}, s = async () => {
-		let r = await In(t, e.get("data"), {
+		let r = await Ln(t, e.get("data"), {
 			edited: a,
 			on: o,
 			changes: e.get("changes"),
@@ -3997,4 +3999,4 @@ var Rn = { async render({ model: e, el: t }) {
 		e.off("change:data", l), e.off("change:changes", u), c.remove();
 	};
 } };
-export { Rn as default, In as mount, Ln as open };
+export { zn as default, Ln as mount, Rn as open };
