@@ -77,6 +77,7 @@ export class Hand {
     this.field = 0;
     this.pointers.clear();
     this.canvas.preview.replaceChildren();
+    this.shown.said(this.tool.title);
     this.shown.again();
   }
   private xy(e: { clientX: number; clientY: number }): Point {
@@ -98,7 +99,8 @@ export class Hand {
     let best: Where | null = null, least = NEAR;
     for (const end of ends(d)) {
       const far = dist(this.canvas.window.px(end.at), [x, y]);
-      if (far < least - 0.01) [best, least] = [{ at: end.at, link: end.link, point: end.point }, far];
+      const loaded = this.tool.name === "force" && best?.link === "ground" && far < least + 0.01; // the ground bears no load
+      if (far < least - 0.01 || loaded) [best, least] = [{ at: end.at, link: end.link, point: end.point }, far];
     }
     const meant = best && [...ends(d)].find((one) => one.link === this.cursor.end?.link && one.point === this.cursor.end.point);
     if (best && meant && dist(best.at, meant.at) * this.canvas.window.scale < 1) best = meant;
