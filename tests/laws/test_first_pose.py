@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from benchmarks.linkages import chain, pin
 
 import dalembert as da
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.positions import first_position
 from dalembert.arrays import Array
 from dalembert.bundled import cases, examples
 from dalembert.core.layout import Meet
@@ -327,3 +329,53 @@ def test_angles_do_not_follow_from_a_position_that_is_no_number(position: float)
 def test_links_whose_joints_coincide_have_a_status() -> None:
     m = da.load(cases()["seed-002-4a-four-link-couple-on-rocker"])
     assert da.solve(m.with_values({"links.coupler.points.C.0": 0.0})).status == ("not_assembled",)
+
+
+PISTON = """
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}}
+  rod: {points: {A: [0, 0], B: [0.25, 0]}}
+  piston: {points: {B: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  S: {type: slider, links: [ground, piston], at: [O, B]}
+drives: {S: {position: {from: 0.18 m, to: 0.34 m, count: 9}}}
+assembly: {STATED}
+"""
+
+
+def compiled(stated: str) -> Compiled:
+    m = da.loads(PISTON.replace("STATED", stated))
+    return compile_mechanism(m, m.schedule())
+
+
+@pytest.mark.parametrize("which", [0, 3, 8])
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_slide_is_sought_first_where_the_assembly_puts_it(which: int, side: int) -> None:
+    """Angles of crank and rod by the law of cosines: exact, those of one position; a thousandth off, of none."""
+    x = 0.18 + 0.02 * which
+    q = side * math.acos((x * x + 0.01 - 0.0625) / (2 * x * 0.1))
+    crank, rod = map(math.degrees, (q, math.atan2(-0.1 * math.sin(q), x - 0.1 * math.cos(q))))
+    for stated in (
+        f"crank: {crank!r}, rod: {rod!r}",
+        f"crank: {crank!r}, rod: {rod!r}, piston: [{x!r}, 0, 0]",
+    ):
+        found = first_position(compiled(stated))
+        assert found is not None
+        assert (found[0], found[1].chosen_by) == (which, "given")
+    for stated in (f"crank: {crank!r}, rod: {rod + 1e-3!r}", f"rod: {rod!r}", "piston: 0"):
+        c = compiled(stated)
+        assert np.isnan(first_pose_plane.stated_measures(c.layout, c.target, cast(Any, c.guess))).all()
+
+
+def test_angles_that_do_not_decide_the_assembly_mode_say_so() -> None:
+    """The crank's angle is its drive's, and the piston turns in no mode: both leave the rod open."""
+    for stated in ("piston: 0", "piston: 0, crank: 60"):
+        text = PISTON.replace("S: {position: {from: 0.18 m, to: 0.34 m, count: 9}}", "O: {position: 60}")
+        mode = da.kinematics(da.loads(text.replace("STATED", stated))).mode
+        assert mode is not None
+        assert "the angles in the file's assembly do not decide); other modes" in mode
+        assert da.kinematics(da.loads(text.replace("STATED", f"{stated}, rod: -20"))).mode is None

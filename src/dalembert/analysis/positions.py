@@ -28,7 +28,7 @@ from dalembert.core.layout import BeltMesh, Mesh, Pose
 from dalembert.core.position.assembly_modes import Wanted, closing, stated_sides, wrap_angle
 from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.dyads import sides
-from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows, without_phase
+from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows, stated_measures, without_phase
 from dalembert.core.position.first_pose_space import PoseGuess
 from dalembert.core.position.motion_path import BLOCK, Path, path
 from dalembert.core.position.newton import CLOSED, close_loops
@@ -40,7 +40,7 @@ SAMPLES = 12
 """Positions, spread over the course, at which a first pose is sought when the first of the list does not close."""
 
 STATED = 1e-9
-"""Angle, radians, up to which a drive agrees with its links in `assembly`."""
+"""Angle, radians, or characteristic length, up to which a drive agrees with its links in `assembly`."""
 
 NAMED = 8
 """Ranges behind gaps that are named, each by a position."""
@@ -139,14 +139,19 @@ def _places_to_try(c: Compiled) -> Iterator[int]:
 
 
 def _stated_places(c: Compiled) -> Ints:
-    """The position whose drives turn the links to the angles in `assembly`; none where it leaves one of them open."""
-    if not isinstance(c.guess, Guess) or not c.layout.freedoms.angular[c.layout.driven].all():
+    """The position whose drives are where the links have the angles and places in `assembly`; none where these leave
+    one of them open."""
+    angular = c.layout.freedoms.angular[c.layout.driven]
+    if not isinstance(c.guess, Guess) or not len(angular):
         return np.zeros(0, np.intp)
     turn = np.append(c.guess.turn[:-1], 0.0)
     pose = Pose(c.guess.point, turn, plane.rotation(turn))
     stands = measure(c.layout.algebra, c.layout.freedoms, pose)[c.layout.driven]
-    off = np.abs(wrap_angle(c.targets[:, c.layout.constraints.count :] - stands)).max(axis=1, initial=0.0)
-    return np.flatnonzero(off < STATED)[:1] if len(stands) else np.zeros(0, np.intp)
+    if not angular.all() and np.isnan(stands).any():
+        stands = np.where(np.isnan(stands), stated_measures(c.layout, c.target, c.guess), stands)
+    off = np.abs(c.targets[:, c.layout.constraints.count :] - stands)
+    off = np.where(angular, np.abs(wrap_angle(off)), off / c.layout.length)
+    return np.flatnonzero(off.max(axis=1) < STATED)[:1]
 
 
 def places_to_sample(places: Ints) -> Ints:
@@ -306,12 +311,20 @@ def _refuse_overdriven(c: Compiled) -> None:
         check_drives(c, free, Mobility(free.freedoms, len(c.schedule.names), free.redundant, ()))
 
 
+WHY = {
+    "nearest": "nearest to the file's assembly",
+    "open": "the angles in the file's assembly do not decide",
+    "search": "from a search",
+}
+"""Reasons for an assembly mode."""
+
+
 def mode_sentence(c: Compiled, modes: Modes) -> str | None:
     """Chosen assembly mode, and the others; None where the file chose it and it is the only one."""
     if modes.chosen_by in ("given", "drawn"):
         return None
     names = _mode_names(c, modes.pose)
-    why = "nearest to the file's assembly" if modes.chosen_by == "nearest" else "from a search"
+    why = WHY[modes.chosen_by]
     others = (
         f"; other modes (the file's `assembly` chooses): {' | '.join(names[1:5])}" if len(names) > 1 else ""
     )

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Ints
-from dalembert.core.constraints import dense, measure, stack_rows
+from dalembert.core.constraints import dense, measure, stack_rows, system
 from dalembert.core.elements.linings import BandStrands, Lining
 from dalembert.core.elements.strand_family import Strand
 from dalembert.core.layout import Along, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, select_rows
@@ -97,7 +97,7 @@ class Modes(NamedTuple):
     """Assembly modes at the first position: poses (M, L+1, ...), the chosen one first."""
 
     pose: Pose
-    chosen_by: str  # "given" | "drawn" | "search" | "nearest"
+    chosen_by: str  # "given" | "drawn" | "search" | "nearest" | "open": given angles do not decide
 
 
 def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
@@ -119,7 +119,7 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
     known, closes = np.isfinite(guess.turn[:-1]).any(), missing[0] <= CLOSED * layout.length
     off = np.abs(_off(pose, guess)).max(initial=0.0)
     if closes and known and off < EXACT:
-        return Modes(remove_whole_turns(layout, pose), "given")
+        return _also_agreeing(layout, free, target, remove_whole_turns(layout, pose), guess)
     if closes and not known and distance(layout, pose, drawn)[0] < SAME:
         return Modes(remove_whole_turns(layout, pose), "drawn")
     wanted = Wanted(guess.turn, guess.point, pose.at(0) if closes else None)
@@ -133,8 +133,26 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
     if result is None or not known:
         return result
     every = np.abs(_off(result.pose, guess)).max(axis=1)
+    if every[0] < EXACT:
+        return _agreeing(result.pose.at(np.flatnonzero(every < EXACT)))
     alone = every[0] < NEAR and (every[1:] > NEAR).all()
-    return result._replace(chosen_by="given") if alone or every[0] < EXACT else result
+    return result._replace(chosen_by="given") if alone else result
+
+
+def _agreeing(pose: Pose) -> Modes:
+    """Modes (M, L+1, ...) that all have the given angles: the first of them, which these do not decide if M > 1."""
+    return Modes(pose, "open" if len(pose.turn) > 1 else "given")
+
+
+def _also_agreeing(layout: Layout, free: Layout, target: Array, pose: Pose, guess: Guess) -> Modes:
+    """A pose (1, L+1, ...) with exactly the given angles, and the other modes that have them too."""
+    if np.isfinite(guess.angles(free, target)).all():
+        return Modes(pose, "given")
+    found = _search_modes(layout, free, target, Wanted(guess.turn, guess.point, pose.at(0)), guess)
+    if found is None:
+        return Modes(pose, "given")
+    alike = found.pose.at(np.flatnonzero(np.abs(_off(found.pose, guess)).max(axis=1) < EXACT))
+    return _agreeing(distinct(layout, Pose(*map(np.concatenate, zip(pose, alike, strict=True)))))
 
 
 def _nearer(layout: Layout, pose: Pose, found: Modes | None, guess: Guess) -> Modes:
@@ -150,6 +168,29 @@ def _nearer(layout: Layout, pose: Pose, found: Modes | None, guess: Guess) -> Mo
 def _off(pose: Pose, guess: Guess) -> Array:
     """Differences of the links' angles (P, ...) from the given ones, of the links that have one."""
     return np.asarray(wrap_angle(pose.turn - guess.turn)[:, :-1][:, np.isfinite(guess.turn[:-1])])
+
+
+def stated_measures(layout: Layout, target: Array, guess: Guess) -> Array:
+    """Measures of the drives (D,) where the links have the given angles and places; NaN where these leave the place of
+    a link open, or where the linkage does not close with them."""
+    none = np.full(len(layout.driven), np.nan)
+    free, wanted = without_phase(layout, target, guess, hold=False)
+    angles, count = guess.angles(free, wanted)[:-1], free.constraints.count
+    if not np.isfinite(angles).all():
+        return none
+    free = replace(with_rows(free, np.arange(count), [*range(layout.links)]), driven=np.zeros(0, np.intp))
+    wanted = np.concatenate([wanted[:count], angles])
+    pose, missing = close_loops(free, tree_pose(free, wanted, guess).at(None), wanted[None])
+    shift = np.nan_to_num(np.abs(pose.point[0] - guess.point)).max(initial=0.0)
+    if missing[0] > CLOSED * layout.length or shift > CLOSED * layout.length:
+        return none
+    held = np.isfinite(np.column_stack([guess.point, guess.turn])[:-1]).ravel()
+    scale = free.row_scale[:, None] * free.column_scale
+    rows = np.concatenate([dense(free, stack_rows(free, pose))[0] * scale, np.diag(1.0 * held)[held]])
+    idle = np.eye(layout.unknowns) - generalized_inverse(rows, rcond=1e-7) @ rows
+    moved = dense(layout, system(layout.algebra, layout.freedoms, pose))[0][layout.driven]
+    open_ = np.abs(moved * layout.column_scale @ idle).max(axis=1, initial=0.0) > LOOSE
+    return np.where(open_, np.nan, measure(layout.algebra, layout.freedoms, pose)[0, layout.driven])
 
 
 def tree_pose(layout: Layout, target: Array, guess: Guess) -> Pose:
