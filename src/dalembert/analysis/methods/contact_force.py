@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 SPEEDS = (0.5, 1.0, 2.0)
 """Parts of the given speeds at which the force is computed: it is a quadratic function of them."""
 
+ROUNDS, EXACT = 12, 1e-12
+"""Secants to the place where a force passes a limit, and the part of the force that ends them."""
+
 
 @dataclass(frozen=True)
 class ContactHistory:
@@ -115,16 +118,52 @@ def _held_follower(r: Result, joint: str) -> ContactHistory:
     state = np.where(alone, np.sign(force), 0.0)
     known = np.flatnonzero(np.isfinite(force) if preload else state != 0)
     pairs = [(a, b) for a, b in pairwise(known.tolist()) if state[a] != state[b]]
-    changes = [_crossing(r, force, a, b, preload) for a, b in pairs] if r.drives else []
+    changes = _crossings(r, joint, force, np.array(pairs), preload) if r.drives and pairs else np.zeros(0)
     none = (None, None, np.nan, np.nan, np.nan)
-    return ContactHistory(joint, force, *none, cam.place, cam.pressure_angle, walls, np.array(changes))
+    return ContactHistory(joint, force, *none, cam.place, cam.pressure_angle, walls, changes)
 
 
-def _crossing(r: Result, force: Array, a: int, b: int, preload: float) -> float:
-    """Position of the first drive between two positions where a force passes a limit, linearly between them."""
-    q, limits = r.schedule.position[:, 0], (0.0,) if not preload else (2 * preload, -2 * preload)
-    limit = min(limits, key=lambda x: abs(force[a] + force[b] - 2 * x))
-    return float(q[a] + (q[b] - q[a]) * (limit - force[a]) / (force[b] - force[a]))
+def _crossings(r: Result, joint: str, force: Array, pairs: Array, preload: float) -> Array:
+    """Positions (K,) of the first drive between ``pairs`` (K, 2) of positions where a force passes a limit: by secants
+    that keep the limit between them (Illinois), all at once."""
+    low, high = np.zeros(len(pairs)), np.ones(len(pairs))
+    at_low, at_high = force[pairs].T
+    limit = np.zeros(len(pairs))
+    if preload:
+        limit = 2 * preload * np.where(at_low + at_high < 0, -1.0, 1.0)
+    at_low, at_high = at_low - limit, at_high - limit
+    part = low - at_low * (high - low) / (at_high - at_low)
+    for _ in range(ROUNDS):
+        value = normal_force(_between(r, pairs, part), joint)[1:] - limit
+        if not np.isfinite(value).all() or np.abs(value).max() <= EXACT * np.abs(force[pairs]).max():
+            break
+        same = np.sign(value) == np.sign(at_high)
+        low, at_low = np.where(same, low, high), np.where(same, at_low / 2, at_high)
+        high, at_high = part, value
+        part = low - at_low * (high - low) / (at_high - at_low)
+    q = r.schedule.position[:, 0]
+    return np.asarray(q[pairs[:, 0]] + part * (q[pairs[:, 1]] - q[pairs[:, 0]]))
+
+
+def _between(r: Result, pairs: Array, part: Array) -> Result:
+    """The first position, and one at each ``part`` (K,) of the way between two."""
+    s = r.schedule
+
+    def rows(x: Array) -> Array:
+        first, last = x[pairs[:, 0]], x[pairs[:, 1]]
+        return np.concatenate([x[:1], first + (part[:, None] if x.ndim > 1 else part) * (last - first)])
+
+    time = None if s.time is None else rows(s.time)
+    moved = replace(
+        s,
+        position=rows(s.position),
+        speed=rows(s.speed),
+        acceleration=rows(s.acceleration),
+        time=time,
+        parts=None,
+        after=None,
+    )
+    return at_schedule(r.mechanism, moved, r.inertia)
 
 
 def _lift_acceleration(r: Result, holding: Mechanism, rows: Array, forces: Array) -> float:

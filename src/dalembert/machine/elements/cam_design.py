@@ -256,11 +256,11 @@ class CamDesign(Drawn, Labelled, Worked):
 
     @property
     def changes(self) -> Array:
-        """Positions (n,) of the first drive between which the normal force changes its sign: a follower in a groove
-        goes over to its other wall."""
-        k = np.flatnonzero(np.diff(np.sign(self.force)) != 0)
-        x, n = self.result.schedule.position[:, 0], self.force
-        return np.asarray(x[k] - n[k] * (x[k + 1] - x[k]) / (n[k + 1] - n[k]))
+        """Positions (n,) of the first drive at which the normal force changes its sign: a follower in a groove goes
+        over to its other wall."""
+        changes = self.result.contact(self.joint).changes
+        assert changes is not None
+        return changes
 
     @property
     def lift_speed(self) -> float:
