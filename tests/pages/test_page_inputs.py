@@ -271,7 +271,7 @@ def test_a_law_of_one_of_two_drives_is_computed_in_the_page() -> None:
         changed = m.with_values({"loads": {"M": {"type": "couple", "on": link, "value": law}}})
         data = page_data(changed)
         assert not [
-            c["name"] for c in data["channels"] if not c["name"].startswith(("position ", "known ", "way "))
+            c["name"] for c in data["channels"] if not c["name"].startswith(("position ", "known ", "sense "))
         ]
         out, exact = run_page(data), da.dynamics(changed)
         for curve in (c for chart in data["views"]["charts"] for c in chart["curves"]):
