@@ -14,6 +14,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.grading.marking import marks_tabs
+from dalembert.grading.marking.grade import ClassMarks
 from dalembert.grading.marking.rubric import read_rubric
 from tests.grading.made_class import named_rate, write_class, write_variants
 from tests.tiers import tiers
@@ -72,6 +73,16 @@ def key(tmp_path: Path) -> Path:
     path = tmp_path / "key.csv"
     path.write_text(KEY, encoding="utf-8")
     return path
+
+
+def test_what_one_mistake_costs_is_a_part_of_the_largest_sheet(tmp_path: Path, key: Path) -> None:
+    rubric = read_rubric({"cap": 0.25})
+    marked(tmp_path, "variant: 2\nefforts: {O2: -27.5}\n", key, "a.yaml")
+    marked(tmp_path, "variant: 1\nefforts: {O2: 3}\n", key, "b.yaml")
+    marks = da.grade(tmp_path / "answers", key, rubric)
+    assert [s.most for s in marks.students] == [1.0, 6.0]
+    assert marks.text().endswith("One mistake costs at most 1.5 of 6 marks.")
+    assert ClassMarks([], rubric).text().endswith("One mistake costs at most 0 of 0 marks.")
 
 
 def outcomes(student: Any) -> list[tuple[str, float]]:

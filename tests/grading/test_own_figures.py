@@ -161,6 +161,27 @@ def test_it_is_said_where_to_look_first() -> None:
     assert [v.kind for v in verdicts[1:]] == ["follow_through", "follow_through", "right"]
 
 
+def test_nothing_follows_where_a_position_has_no_single_number() -> None:
+    """At rest every effort of an interval is right: there is no equation that one figure leaves to another."""
+    problem = SolvedProblem(da.load(cases()["seed-002-7d-engine-at-rest"]))
+    wrong = da.Answer(quantity="effort", of="O", value="-9000 N*m")
+    force = da.Answer(quantity="reaction", of="A", value="1000 N @ 3 deg", on="crank")
+    some = [problem.compare(one) for one in (wrong, force)]
+    assert all(f.judged and not f.met for f in some)
+    assert problem.own_figures(some) == OwnFigures()
+
+
+def test_positions_of_a_sheet_are_solved_once_in_whatever_order_they_are_asked() -> None:
+    problem = SolvedProblem(da.slider_crank(speed=9.0, positions=12))
+    answers = [da.Answer(quantity="effort", of="O2", value="3 N*m", at=at) for at in (1, 9, 1)]
+    one, other, _ = figures = [problem.compare(a) for a in answers]
+    assert [f.position for f in figures] == [0, 8, 0]
+    made = problem.wrong_problems([one, other])
+    assert made.which.tolist() == [0, 8]
+    assert problem.wrong_problems([other, one, other]) is made
+    assert problem.wrong_problems([other]).which.tolist() == [8]
+
+
 @pytest.mark.parametrize(
     ("text", "found"),
     [
