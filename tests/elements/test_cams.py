@@ -11,6 +11,9 @@ import pytest
 
 import dalembert as da
 from dalembert.errors import ModelError
+from dalembert.machine.elements import cam_files
+from dalembert.machine.elements.cam_files import outline
+from dalembert.machine.elements.hertz_contact import LineContact
 from dalembert.model.library import template_text
 from dalembert.views.paper.scene import Arrow, Circle, Polygon
 from tests.elements.test_cam_cases import sliding
@@ -125,6 +128,65 @@ def test_the_outline_of_a_file_moves_the_follower_as_the_cam_does(tmp_path: Path
     tree["joints"]["F"]["profile"] = {"points": {"file": str(path)}}
     ours, theirs = (da.kinematics(x).freedom("guide", "slide")[0] for x in (m, da.mechanism(tree)))
     assert np.abs(ours - theirs).max() < 2e-6
+
+
+@pytest.mark.parametrize(("tolerance", "finer"), [(1e-4, False), (1e-6, True), (1e-7, True)])
+def test_no_chord_of_an_outline_is_farther_from_it_than_the_tolerance(tolerance: float, finer: bool) -> None:
+    c = da.cam(da.mechanism(machine({"roller": "8 mm"})), "F")
+    turns = outline(c, tolerance)
+    ends = np.append(turns, turns[0] + 2 * np.pi)
+    part = np.linspace(0, 1, 9)[1:-1, None]
+    between = c.profile(((1 - part) * ends[:-1] + part * ends[1:]).ravel()).reshape(7, -1, 2)
+    a, b = c.profile(turns), c.profile(np.mod(ends[1:], 2 * np.pi))
+    along = (b - a) / np.hypot(*(b - a).T)[:, None]
+    away = between - a
+    off = np.abs(away[..., 0] * along[:, 1] - away[..., 1] * along[:, 0]).max()
+    assert off <= tolerance
+    assert [len(turns) > 180, bool(off > tolerance / 5)] == [finer] * 2  # no more corners than it needs
+
+
+def test_an_outline_that_cannot_be_written_says_why(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cam_files, "MOST", 697)
+    c = da.cam(da.mechanism(machine({"roller": "8 mm"})), "F")
+    for options, said in (
+        ({"tolerance": 0.0}, "the tolerance 0 is not positive"),
+        ({"tolerance": -1e-6}, "the tolerance -1e-06 is not positive"),
+        ({"tolerance": float("nan")}, "the tolerance nan is not positive"),
+        ({"tolerance": 2e-7}, "a tolerance of 2e-07 m needs more than 697 points"),
+    ):
+        with pytest.raises(ModelError, match=said):
+            c.save(tmp_path / "cam.csv", **options)
+    assert not list(tmp_path.iterdir())
+
+
+STEEL, BRONZE = (206e9, 0.3), (110e9, 0.34)
+
+
+@pytest.mark.parametrize(("radii", "one", "two"), [
+    ((0.045, 0.012), STEEL, STEEL), ((0.045, 0.012), STEEL, BRONZE), ((0.012, 0.045), BRONZE, STEEL),
+    ((0.03, np.inf), STEEL, BRONZE), ((0.012, -0.045), STEEL, BRONZE),
+])  # fmt: skip
+def test_line_contact_is_that_of_hertz(radii: Any, one: Any, two: Any) -> None:
+    """The pressure, half an ellipse over the width, carries the force; the bodies meet where it ends."""
+    force, width = 1800.0, 0.016
+    x = da.hertz_line(force, width, radii, (one[0], two[0]), (one[1], two[1]))
+    assert x.pressure * np.pi / 2 * x.half_width * width == pytest.approx(force, rel=1e-12)
+    soft = (1 - one[1] ** 2) / one[0] + (1 - two[1] ** 2) / two[0]
+    flattened = 2 * x.pressure * soft / x.half_width  # change of curvature under half an ellipse of pressure
+    assert flattened == pytest.approx(1 / radii[0] + 1 / radii[1], rel=1e-12)
+
+
+@pytest.mark.parametrize("wrong", [
+    {"force": -1.0}, {"force": np.nan}, {"width": 0.0}, {"width": -1.0}, {"width": np.nan},
+    {"elasticity": 0.0}, {"elasticity": -1.0}, {"elasticity": (206e9, 0.0)}, {"elasticity": (-1.0, 206e9)},
+    {"radii": (0.02, -0.02)}, {"radii": (0.02, -0.01)}, {"radii": (np.inf, np.inf)},
+])  # fmt: skip
+def test_contacts_that_are_none_are_refused(wrong: dict[str, Any]) -> None:
+    right: dict[str, Any] = {"force": 0.0, "width": 0.016, "radii": (0.02, -0.0201)}
+    assert da.hertz_line(**right) == LineContact(0.0, 0.0)
+    said = "hollow and not wider" if "radii" in wrong else "must be positive"
+    with pytest.raises(ModelError, match=said):
+        da.hertz_line(**right | wrong)
 
 
 def test_points_are_met_by_a_face_and_by_a_roller_as_the_disc_they_are_from() -> None:

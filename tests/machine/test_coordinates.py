@@ -91,6 +91,17 @@ def test_the_motor_of_a_piston_gives_on_what_it_gives() -> None:
     assert s.kinetic[-1] - s.kinetic[0] == pytest.approx(CubicSpline(s.time, given).integrate(0, 1), rel=1e-5)
 
 
+def test_an_effort_with_corners_is_followed_while_its_drive_is_led() -> None:
+    """A spring that only pulls, on the piston: the energy gained is the loss of its own, at every instant."""
+    s = led_by_its_piston('{effort: "max(0, 2000*(0.21 - guide)) N"}')
+    x = s.position("guide")
+    stored = 1000 * np.maximum(0.0, 0.21 - x) ** 2
+    assert np.ptp(stored) > 1
+    assert s.applied[:, 0] == pytest.approx(np.maximum(0.0, 2000 * (0.21 - x)), abs=1e-9)
+    assert s.doubt == ""
+    assert s.kinetic + stored == pytest.approx(np.full(len(x), s.kinetic[0] + stored[0]), abs=1e-8)
+
+
 def test_a_condition_of_a_drive_that_is_led() -> None:
     start = "{guide: {position: 0.22, speed: 1 m/s}}"
     m = da.loads(SLIDER_CRANK % ("none", "{guide: {effort: 0 N}}", start))

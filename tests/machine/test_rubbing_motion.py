@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import simpson
 
 import dalembert as da
 from dalembert.arrays import Array
@@ -58,6 +59,36 @@ def test_none_of_200_ends_in_chatter(seed: int) -> None:
     assert s.status == "ended"
     assert len(s.events) < 30
     assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
+CART = """
+gravity: standard
+units: {length: m, force: N, mass: kg, angle: deg}
+links:
+  ground: {points: {O: [0, 0]}}
+  cart: {points: {A: [0, 0]}, mass: 5}
+  bob: {points: {A: [0, 0]}, mass: 2, center: [0.3, 0], inertia: 0.05}
+joints:
+  rail: {type: slider, links: [ground, cart], at: [O, A], direction: 0, friction: {coefficient: 0.1}}
+  A: {type: pin, links: [cart, bob], friction: {coefficient: 0.1, radius: 20 mm}}
+drives:
+  rail: {position: 0, speed: 0.5 m/s}
+  A: {effort: 1 N*m}
+start: {A: {position: -80 deg, speed: 2 rad/s}}
+"""
+
+
+def test_the_work_of_a_prescribed_drive_is_that_of_its_effort(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A cart at a steady speed with a bob on it, in machine code and without."""
+    m = da.loads(CART)
+    s, known = da.simulate(m, "0.9 s", count=1801), in_numpy(m, "0.9 s", monkeypatch)
+    power = {"rail": 0.5 * s["effort.rail"], "A": s.speed("A")}
+    assert known.works["friction"][-1] < 0
+    for name, works in known.works.items():
+        assert s.works[name][-1] == pytest.approx(works[-1], rel=1e-9)
+    for name, values in power.items():
+        assert s.works[name][-1] == pytest.approx(simpson(values, x=s.time), rel=1e-4)
+    assert s.energy_residual < 1e-9
 
 
 def test_what_is_not_sure_in_machine_code_goes_to_the_solution_in_numpy(
@@ -124,6 +155,18 @@ def test_a_step_ends_where_a_guide_bears_on_another_side(monkeypatch: pytest.Mon
     assert np.abs([margin for _, margin in found]).max() < 1e-6
     assert [t * 1e6 for t, _ in found[half:]] == pytest.approx([t for t, _ in found[:half]], abs=1e-9)
     assert other.position("O") == pytest.approx(one.position("O"), abs=1e-10)
+
+
+def test_sides_that_change_now_and_then_are_all_met(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are given up only where one follows another at once."""
+    found = sides(monkeypatch)
+    moved("friction", (1.0, 1.0, 1.0))
+    known = found.copy()
+    found.clear()
+    monkeypatch.setattr(stepping, "FLICKERS", 2)
+    moved("friction", (1.0, 1.0, 1.0))
+    assert len(known) > 1
+    assert [t for t, _ in found] == [t for t, _ in known]
 
 
 def test_sides_that_change_without_end_are_left_to_the_steps(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -82,7 +83,13 @@ def _of_drives(leading: Led, motion: Result, rows: Instants, before: Array) -> I
     q, u, a = np.moveaxis(moved, 1, 0).transpose(0, 2, 1)
     turns = np.array([d.turns for d in leading.own.drives])
     q = q + np.where(turns, 2 * np.pi * np.round((before - q[0]) / (2 * np.pi)), 0.0)
-    efforts = np.array([leading.own.effort(*at) for at in zip(rows[0], q, u, strict=True)])
+
+    def effort(*at: Any) -> Array:
+        for sided in leading.own.sided.values():
+            sided.sides.clear()  # those at the end of the motion; here the sides at this instant
+        return leading.own.effort(*at)
+
+    efforts = np.array([effort(*at) for at in zip(rows[0], q, u, strict=True)])
     return rows[0], q, u, a, np.where(leading.free, efforts, np.nan), *rows[5:]
 
 
