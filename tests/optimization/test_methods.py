@@ -276,6 +276,15 @@ def test_of_steps_the_neighbour_that_keeps_the_condition() -> None:
     assert optimizing._stepped(p, np.array([0.42]), np.array([0.1])) == pytest.approx([0.5])
 
 
+@pytest.mark.parametrize(("count", "kept"), [(10, 0.5), (11, 0.4)])
+def test_of_up_to_ten_steps_every_neighbour_is_looked_at(count: int, kept: float) -> None:
+    """Then, as above, one is found that keeps the condition; of more numbers only the nearest steps are."""
+    best = [0.42, *[0.25] * (count - 1)]
+    p: Any = Known(best, [1.0] * count, 0.45)
+    found = optimizing._stepped(p, np.array(best), np.array([0.1, *[0.25] * (count - 1)]))
+    assert found == pytest.approx([kept, *best[1:]])
+
+
 BOX = {"links.ground.points.O4.0": (0.28, 0.36), "links.rocker.points.B.0": (0.2, 0.29)}
 
 

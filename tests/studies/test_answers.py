@@ -127,6 +127,15 @@ def test_a_curved_answer_is_said_from_a_quarter_on(part: float, told: bool) -> N
     assert numbers == pytest.approx([(1 + 2 * part**2) ** 0.5] * told, rel=0.15)
 
 
+def test_an_answer_that_spreads_less_than_its_slope_says_is_told_too() -> None:
+    """sin x of x normal with 1: of variance (1 - exp(-2))/2, where the slope says 1."""
+    m = da.loads(ARM.replace("[0, -pull]", '[0, "-1 N*sin((pull - 5 N)/(1 N))"]'))
+    found = da.study(m, {"pull": "normal 1 N"}, ["effort.O"], seed=5).contributions("effort.O")
+    assert found.sigma == pytest.approx(1.0, rel=1e-6)
+    (sampled,) = [float(x) for x in re.findall(r"it is not linear: .*designs ([\d.]+)", found.note)]
+    assert sampled == pytest.approx(((1 - np.exp(-2)) / 2) ** 0.5, rel=0.15)
+
+
 def test_designs_that_keep_all_limits_keep_each() -> None:
     m = da.load(examples()["four_bar"])
     vary = {"loads.T_4.value": [f"{x} lbf*in" for x in (100, 110, 120, 130, 140)]}
@@ -311,6 +320,8 @@ def test_failures_that_no_number_tells_apart_name_none() -> None:
         failure.sentence
         == "The description refuses the values of these designs, or one of them is not finite."
     )
+    (whole,) = failures(r, np.full(400, CODES.index("failed"), np.uint8), 5)
+    assert (whole.designs, whole.share, whole.differs) == (400, 1.0, None)  # nothing to tell them apart from
     assert r.unsolved() == (400, 0)
     assert "biased" not in summary(r)
 

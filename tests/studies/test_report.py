@@ -158,6 +158,11 @@ def test_values_that_differ_by_rounding_stand_in_one_bar(level: float) -> None:
     counts, ends = StudyResult.histogram(few, "x", 5)
     assert counts.tolist() == [0, 0, 7, 0, 0]
     assert ends[[0, -1]] == pytest.approx([level - 0.5, level + 0.5])
+    for off in (
+        (-3e-12, 3e-12) if level else ()
+    ):  # one value alone, below or above the others by more than rounding
+        few.values = lambda name, off=off: np.append(np.full(9, level), level + off * abs(level))
+        assert sorted(StudyResult.histogram(few, "x", 5)[0].tolist()) == [0, 0, 0, 1, 9]
     few.values = lambda name: np.append(values, level + 1)
     assert StudyResult.histogram(few, "x", 5)[0].tolist() == [7, 0, 0, 0, 1]
 

@@ -278,6 +278,22 @@ def test_what_is_nothing_is_told_by_the_size_of_the_system(size: float, part: fl
             assert parallel_center(none_left)[0] == pytest.approx(size * (2 + part) / part)
 
 
+def test_a_system_seen_in_a_mirror_is_of_the_same_arrangement() -> None:
+    """However little the forces are off one plane; most of them lie on one side of their middle."""
+    places = [(-10.0, 0.0), *((1.0 + 0.1 * k, 0.3 * k * k) for k in range(5))]
+    found = []
+    for off in np.logspace(-13, -6, 29):
+        both = [
+            System(*(
+                Force([1, k * k - 3, 0], [sign * x, sign * y, off * (k == 2)]) for k, (x, y) in enumerate(places)
+            ))
+            for sign in (1, -1)
+        ]  # fmt: skip
+        assert arrangement(both[0]) == arrangement(both[1])
+        found.append(arrangement(both[0]))
+    assert list(dict.fromkeys(found)) == ["coplanar", "general"]
+
+
 @each
 def test_arrangements(seed: int) -> None:
     turn, shift = rotation(seed), point(seed, 3)
