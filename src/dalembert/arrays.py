@@ -30,6 +30,21 @@ Arrays = TypeVar("Arrays")
 """An array, or a NamedTuple of arrays and of such records over the same positions."""
 
 
+TIE = 1e-9
+"""Share of the largest within which values are equally large."""
+
+
+def first_largest(values: Array) -> int:
+    """The place of the largest of some numbers, NaN left out: of equally large ones the first, whatever their rounding.
+
+    >>> first_largest(np.array([1.0, 3 - 1e-13, np.nan, 3.0])), first_largest(np.array([1.0, np.inf]))
+    (1, 1)
+    """
+    each = np.ravel(values)
+    largest = np.abs(each[np.isfinite(each)]).max(initial=0.0)
+    return int(np.argmax(each >= np.nanmax(each) - TIE * largest))
+
+
 def at(arrays: Arrays, where: object) -> Arrays:
     """An array, or a record of arrays, at some positions."""
     record: Any = arrays

@@ -20,6 +20,8 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.machine.members.member_table import member_table
+from dalembert.model.joints.pairs import PAIRS
+from dalembert.model.library import TEMPLATES, template
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Item, Line, Polygon, Scene, Text
 from tests.friction.engines import engine
@@ -111,7 +113,20 @@ def machine_views() -> Iterator[tuple[str, Scene]]:
         yield f"members of a {name}", d.beside([drawn[0], drawn[-1]])
 
 
-DRAWN = {"plane": plane_views, "space": space_views, "machine": machine_views}
+def element_views() -> Iterator[tuple[str, Scene]]:
+    """Machines with elements, and the symbol of every pair."""
+    for name in TEMPLATES:
+        r = da.solve(template(name))
+        yield f"template {name}", da.draw.mechanism(r, at=len(r.status) // 3, forces=True)
+    for name in PAIRS:
+        if name != "universal":
+            yield f"pair {name}", da.draw.joint(name)
+    r = example("seed-002-3-four-link-three-forces")
+    yield "instant centers", da.draw.instant_centers(r)
+    yield "four-link linkage, motion", da.draw.motion(r)
+
+
+DRAWN = {"plane": plane_views, "space": space_views, "machine": machine_views, "elements": element_views}
 
 
 def digest(scene: Scene) -> Iterator[str]:

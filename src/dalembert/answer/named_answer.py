@@ -8,7 +8,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from dalembert.answer.equality import Compared
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.errors import DalembertError, ModelError
 
 
@@ -80,9 +80,9 @@ class NamedAnswer(Compared):
         sizes = np.fmax.reduce([_sizes(values, rank) for values in self.both_sides(name)])
         if not np.isfinite(sizes).any():
             raise ModelError(f"{name} has no value at any {self.ROW}", "see status")
-        place = np.unravel_index(np.nanargmax(sizes), sizes.shape)
+        place = np.unravel_index(first_largest(sizes), sizes.shape)
         where = tuple(map(int, place))
-        return Peak(float(sizes[place]), where[0] if len(where) == 1 else where)
+        return Peak(float(np.nanmax(sizes)), where[0] if len(where) == 1 else where)
 
     def _ipython_key_completions_(self) -> list[str]:
         return self.keys()

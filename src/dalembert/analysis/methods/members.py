@@ -347,7 +347,7 @@ def inertia_shares(r: Result) -> tuple[Share, ...]:
     for k, joint in enumerate(r.joints):
         share = _share(joint, "reaction", magnitude(r.force_array[:, k, :]), magnitude(forces[:, k, :]))
         out += [share] if share.whole > rounding["force"] else []
-    return tuple(sorted(out, key=lambda s: -s.share))
+    return tuple(sorted(out, key=lambda s: round(-s.share, 9)))
 
 
 def _parts_of_inertia(r: Result) -> tuple[Array, Array]:

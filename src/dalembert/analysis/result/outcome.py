@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.errors import SOLVED, STATUSES
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def worst(r: Result, quantity: str, of: str) -> tuple[float, int]:
     values = np.fmax.reduce([size(read[quantity](side)) for side in r.sides])
     if np.isnan(values).all():
         return float("nan"), -1
-    return float(np.nanmax(values)), int(np.nanargmax(values))
+    return float(np.nanmax(values)), first_largest(values)
 
 
 def size(values: Array) -> Array:

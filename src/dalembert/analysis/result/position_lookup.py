@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.answer.named_answer import counted
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.units import file_units, quantity
 
@@ -28,9 +28,6 @@ EXTREMES = {
     "peak": "largest in magnitude",
 }
 """Word before a quantity -> the extreme it asks for; ``greatest``, ``least`` and ``peak`` as in aims."""
-
-TIE = 1e-9
-"""Part of the largest magnitude within which values are equal: the first such position is meant."""
 
 
 class QuantityExtreme(NamedTuple):
@@ -73,8 +70,7 @@ def extreme(r: Result, text: str) -> QuantityExtreme | None:
     if not np.isfinite(values).any():
         raise ModelError(f"{of} has no value at any position", "see status")
     best = float(np.nanmin(values) if low else np.nanmax(values))
-    near = np.abs(values - best) <= TIE * float(np.nanmax(np.abs(values)))
-    return QuantityExtreme(word, of, kind, best, int(np.argmax(near)))
+    return QuantityExtreme(word, of, kind, best, first_largest(-values if low else values))
 
 
 def _without_brackets(text: str) -> str:

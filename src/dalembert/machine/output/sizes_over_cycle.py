@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 
 
 def rms(values: Array) -> float:
@@ -15,5 +15,5 @@ def rms(values: Array) -> float:
 def greatest(values: Array) -> tuple[float, int]:
     """Largest size of numbers (P,) or vectors (P, d), and the position (from 0) of it."""
     sizes = np.sqrt((np.reshape(values, (len(values), -1)) ** 2).sum(axis=1))
-    k = int(np.nanargmax(sizes)) if np.isfinite(sizes).any() else 0
+    k = first_largest(sizes) if np.isfinite(sizes).any() else 0
     return float(sizes[k]), k

@@ -11,7 +11,7 @@ import numpy as np
 
 from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.printing import number
 from dalembert.reports.machine_sections import neat
@@ -155,9 +155,9 @@ def together(names: Iterable[str]) -> str:
 
 def least_place(values: Array) -> int:
     """Position of the smallest of values (P,), the first where none is known."""
-    return int(np.nanargmin(values)) if np.isfinite(values).any() else 0
+    return first_largest(-values) if np.isfinite(values).any() else 0
 
 
 def most_place(values: Array) -> int:
     """Position of the largest of values (P,), the first where none is known."""
-    return int(np.nanargmax(values)) if np.isfinite(values).any() else 0
+    return first_largest(values) if np.isfinite(values).any() else 0

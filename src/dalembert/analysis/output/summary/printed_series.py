@@ -18,7 +18,7 @@ from dalembert.analysis.output.summary.printed_units import (
 )
 from dalembert.analysis.result.number_kinds import drive_kinds, in_plane, load_kind
 from dalembert.analysis.result.reaction_axes import Axes
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.printing import Part, TextTable, folded, number, wrap
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ def extremes(result: Result, to: Printed, axes: Axes = "ground") -> Iterator[Ext
     for head, *series in zip(heads[drives:], *(values[drives:] for values in sides), strict=True):
         low, high = np.fmin.reduce(series), np.fmax.reduce(series)
         if np.isfinite(low).any():
-            least, most = int(np.nanargmin(low)), int(np.nanargmax(high))
+            least, most = first_largest(-low), first_largest(high)
             name, unit = head.split("\n")
             yield Extreme(name, unit, float(high[most]), most, float(low[least]), least)
 
