@@ -310,23 +310,27 @@ def test_reactions_that_are_rounding_or_not_unique_are_not_asked() -> None:
             "ground": {"points": {"A": [0, 0], "B": [2, 0], "C": [0, 1]}},
             "bar": {"points": {"A": [0, 0], "B": [2, 0], "P": [0.7, 0]}},
             "arm": {"points": {"C": [0, 0], "Q": [1, 0.3]}},
+            "block": {"points": {"A": [0, 0]}},
         },
         "joints": {
             "A": {"type": "pin", "links": ["ground", "bar"]},
             "B": {"type": "pin", "links": ["bar", "ground"]},
             "C": {"type": "pin", "links": ["ground", "arm"]},
+            "D": {"type": "slider", "links": ["ground", "block"], "at": "A", "direction": 0},
         },
-        "drives": {"C": {"position": 0.3}},
+        "drives": {"C": {"position": 0.3}, "D": {"position": 0.1}},
         "loads": {
             "F": {"type": "force", "on": "bar", "at": "P", "value": [0, -100]},
             "G": {"type": "force", "on": "arm", "at": "Q", "value": [7, 0]},
             "H": {"type": "force", "on": "arm", "at": "Q", "value": [-7, 3e-12]},
+            "M": {"type": "couple", "on": "block", "value": 50},
         },
     }
     r = da.statics(da.mechanism(held))
     assert r.unique("A").any()
     assert not r.unique("A").all()
     assert 0 < float(np.hypot(*r.reaction("C")[0])) < 1e-10
-    assert [a.quantity for a in requested_quantities(r, [], None)] == ["effort"]
+    assert r.reaction_moment("D")[0] == pytest.approx(-50)  # and a guide that carries a couple alone no force
+    assert [a.quantity for a in requested_quantities(r, [], None)] == ["effort", "effort"]
     large = da.statics(r.mechanism.with_values({"loads.H.value": [-7, 0.01]}))
     assert [a.of for a in requested_quantities(large, ["reactions"], None)] == ["C"]

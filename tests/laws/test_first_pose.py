@@ -371,6 +371,23 @@ def test_a_slide_is_sought_first_where_the_assembly_puts_it(which: int, side: in
         assert np.isnan(first_pose_plane.stated_measures(c.layout, c.target, cast(Any, c.guess))).all()
 
 
+def test_a_slide_that_is_driven_beside_a_turn_is_placed_without_an_assembly() -> None:
+    """What the links leave open is sought without the drives, here beside a bar that is held at both ends."""
+    at = {"A": [0, 0], "B": [2, 0]}
+    pins = {n: {"type": "pin", "links": ["ground", k]} for n, k in (("A", "bar"), ("B", "bar"), ("C", "arm"))}
+    guide = {"type": "slider", "links": ["ground", "block"], "at": "A", "direction": 0}
+    m = da.mechanism({
+        "links": {
+            "ground": {"points": {**at, "C": [0, 1]}}, "bar": {"points": at},
+            "arm": {"points": {"C": [0, 0], "Q": [1, 0]}}, "block": {"points": {"A": [0, 0]}},
+        },
+        "joints": {**pins, "D": guide}, "drives": {"C": {"position": "0.3 rad"}, "D": {"position": 0.1}},
+    })  # fmt: skip
+    r = da.kinematics(m)
+    assert (r.angle("arm")[0], r.angle("bar")[0]) == pytest.approx((0.3, 0.0), abs=1e-12)
+    assert r.point("block", "A")[0] == pytest.approx([0.1, 0.0], abs=1e-12)
+
+
 def test_angles_that_do_not_decide_the_assembly_mode_say_so() -> None:
     """The crank's angle is its drive's, and the piston turns in no mode: both leave the rod open."""
     for stated in ("piston: 0", "piston: 0, crank: 60"):

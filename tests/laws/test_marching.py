@@ -12,6 +12,7 @@ from numpy.polynomial import Polynomial
 import dalembert as da
 from dalembert.algebra import plane
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.core.layout import Pose
 from dalembert.core.position import newton
 from dalembert.core.position.continuation import (
@@ -288,3 +289,18 @@ def test_no_step_of_newton_is_long() -> None:
     long, again = newton.step(layout, pose, 0.1 * one)
     assert again == pytest.approx(0.1 * size)
     assert long == pytest.approx(dq * 0.1 * size[0] / 0.5)
+
+
+@pytest.mark.parametrize("make", [da.four_bar, da.rssr])
+def test_the_distance_of_two_poses_is_that_of_the_link_that_moves_most(make: Any) -> None:
+    """A turn in radians, a shift in characteristic lengths; the links that stay do not matter."""
+    r = da.kinematics(make(positions=1))
+    layout, pose = r.compiled.layout, full_pose(r, slice(0, 1))
+    assert newton.distance(layout, pose, pose)[0] == 0
+    for link in range(layout.links):
+        for part in range(layout.algebra.n):
+            dq = np.zeros((1, layout.links, layout.algebra.n))
+            dq[0, link, part] = -1e-3 * (layout.length if part < layout.algebra.d else 1.0)
+            assert newton.distance(layout, pose, newton.displace(layout, pose, dq))[0] == pytest.approx(
+                1e-3, rel=1e-6
+            )

@@ -174,7 +174,8 @@ def stated_measures(layout: Layout, target: Array, guess: Guess) -> Array:
     """Measures of the drives (D,) where the links have the given angles and places; NaN where these leave the place of
     a link open, or where the linkage does not close with them."""
     none = np.full(len(layout.driven), np.nan)
-    free, wanted = without_phase(layout, target, guess, hold=False)
+    loose, constant = replace(layout, driven=np.zeros(0, np.intp)), target[: layout.constraints.count]
+    free, wanted = without_phase(loose, constant, guess, hold=False)
     angles, count = guess.angles(free, wanted)[:-1], free.constraints.count
     if not np.isfinite(angles).all():
         return none
