@@ -122,6 +122,7 @@ class Session:
 def collect(work: Callable[[Session, dict[str, Any]], None], *arguments: str) -> int:
     with tempfile.TemporaryDirectory() as folder:
         options = [
+            *("-o", "addopts=--doctest-modules --import-mode=importlib", "-m", "not long and not exhaustive"),
             *("-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:xdist", "-s"),
             *("-o", "tmp_path_retention_policy=none"),
             *("-W", "ignore::pytest.PytestAssertRewriteWarning"),  # what the studio imports is a plugin too

@@ -202,7 +202,7 @@ def test_the_books_g_is_named() -> None:
         quantity="effort", of="cylinder", value=f"{float(ten.effort('cylinder')[0]):.6g} N", at=1
     )
     (found,) = da.check_answers(m, [effort], static=True)
-    assert found.mistake == "may be: g is taken as 10 m/s^2, not 9806.6 mm/s^2"
+    assert found.mistake == "may be: g is taken as 10 m/s^2, not 9.80665 m/s^2"
 
 
 @pytest.mark.parametrize(

@@ -110,7 +110,7 @@ class ByHand:
         }.items():
             self.anew(f"the speed of drive O2{words}", {"drives.O2.speed": value})
         for g in (9.81, 9.8, 10.0) if gravity.any() else ():
-            words = f"g is taken as {g:g} m/s^2, not 9806.6 mm/s^2"
+            words = f"g is taken as {g:g} m/s^2, not 9.80665 m/s^2"
             self.anew(words, {"gravity": (gravity / np.hypot(*gravity) * g).tolist()})
         self.anew("this is the other assembly mode", {"assembly": {"coupler": -1.2, "rocker": -1.6}})
 

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 
 import dalembert as da
 from dalembert.errors import ModelError
-from dalembert.model.drives.curves import Curve, s_curve, trapezoid, unit_rise
+from dalembert.model.drives.curves import Curve, CurvePiece, s_curve, trapezoid, unit_rise
 from dalembert.model.drives.programmes import RISES
 
 PI = math.pi
@@ -296,3 +296,16 @@ def test_the_law_of_a_drive_has_its_coefficients_and_peaks() -> None:
 def test_a_programme_that_makes_no_sense_is_refused(law: dict[str, Any], words: str) -> None:
     with pytest.raises(ModelError, match=words):
         da.kinematics(da.mechanism(ram(law)))
+
+
+@pytest.mark.parametrize(("slope", "places"), [
+    ([1.25, -1, 1], []),  # (u - 0.5)^2 + 1: its roots are 0.5 + i and 0.5 - i
+    ([0.16, -1, 1], [0.2, 0.8]),
+    ([-0.24, -1, 1], []),  # -0.2 and 1.2 are outside of the piece
+])  # fmt: skip
+def test_a_polynomial_is_stationary_at_the_real_roots_of_its_slope(
+    slope: list[float], places: list[float]
+) -> None:
+    piece = CurvePiece(1.0, (3.0, *(c / (k + 1) for k, c in enumerate(slope))))
+    assert sorted(piece.extremes(0)) == pytest.approx(places)
+    assert piece.extremes(1) == pytest.approx([0.5])

@@ -18,6 +18,7 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import magnitude
 from dalembert.arrays import Array, Flags, Tree
+from dalembert.unit_names import unit
 from dalembert.units import file_units
 
 if TYPE_CHECKING:
@@ -170,12 +171,8 @@ def _gravity_changes(r: Result) -> Iterator[Mistake]:
         change: Tree = {"g": g} if weighed else {}
         if pull.any():
             change["gravity"] = (pull * g / in_file).tolist()
-        yield f"g is taken as {text}, not {_in_units(r, in_file)}", change
-
-
-def _in_units(r: Result, g: float) -> str:
-    units = file_units(r.mechanism.units)
-    return f"{units.unit('acceleration').of_si(g):.5g} {units.text('acceleration')}"
+        of_book = text.partition(" ")[2]
+        yield f"g is taken as {text}, not {unit(of_book).of_si(in_file):.6g} {of_book}", change
 
 
 # friction
