@@ -40,12 +40,12 @@ def gap(layout: Layout, pose: Pose, target: Array) -> Array:
     """Residual of the targets (..., K + D)."""
     missing: Array = target - measure(layout.algebra, layout.stack, pose)
     for family in layout.stack.families:
-        if isinstance(family, Mesh | Strand):  # an angle of a line is known but for whole turns
-            period = (
-                2 * np.pi * (family.ri + family.rj)
-                if isinstance(family, Mesh)
-                else strand_rows.period(family)
-            )
+        if isinstance(family, Mesh):  # an angle of a line is known but for whole turns
+            period = 2 * np.pi * (family.ri + family.rj)
+            part = missing[..., family.row]
+            missing[..., family.row] = part - period * np.round(part / period)
+        elif isinstance(family, Strand):
+            period = strand_rows.period(family)
             part = missing[..., family.row]
             whole = where(above(np.abs(period), 0.0), period, ENDLESS)
             missing[..., family.row] = part - period * np.round(part / whole)
