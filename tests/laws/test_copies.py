@@ -298,6 +298,7 @@ LET_GO = {
     "motor: {curve: {speed: [-5 rad/s, 3 rad/s, 300 rpm], torque: [3, 2, -1]}}, brake: 0.1 N*m": "",
     "effort: 0.5*cos(O) - 0.01*O.speed, stops: {from: -10 deg, to: 40 deg, restitution: 0.3}": "",
     "effort: 0.5 N*m": ", stops: {from: -10 deg, to: 40 deg}",
+    "effort: 0.6 N*m": ", stops: {from: -10 deg, to: 14 deg, stiffness: 50 N*m/rad, damping: 0.2}",
     "effort: 0.5": ", stops: {to: 30 deg, restitution: 0.5}",
 }
 

@@ -11,10 +11,11 @@ from dalembert.analysis.compile.elements.held_clutches import with_clutches
 from dalembert.analysis.compile.pose_loads import TIME
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
+from dalembert.machine.motion.corners.elastic_stops import ElasticStops, stop_forces
 from dalembert.machine.motion.corners.one_sided import Sided, has_corners
 from dalembert.machine.motion.corners.prescribed_laws import PrescribedLaw
 from dalembert.machine.motion.stops.gap_contacts import contact_stops
-from dalembert.model import Mechanism
+from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.end_stops import Stops
 from dalembert.model.drives.motors import Switch
@@ -82,6 +83,11 @@ class Actuation:
             for k, e in efforts.items()
             if isinstance(e, Expression | Table)
         }
+        elastic = {k: d for k, d in enumerate(self.drives) if d.stops is not None and d.stops.stiffness}
+        self.elastic = {
+            k: ElasticStops(None, f"the stop of drive {self.names[k]!r}", name=self.names[k], drive=d)
+            for k, d in elastic.items()
+        }
 
     def _begins(self, k: int) -> bool:
         motor = self.motors.get(k)
@@ -116,7 +122,7 @@ class Actuation:
         return {TIME: t, **dict(zip((*self.names, *self.speeds), (*q, *u), strict=True))}
 
     def effort(self, t: float, q: Array, u: Array) -> Array:
-        """Efforts (D,) of motors with those that are given, without brakes."""
+        """Efforts (D,) of motors and elastic stops with those that are given, without brakes."""
         out, known = np.zeros(len(q)), self.known(t, q, u)
         for k, drive in enumerate(self.drives):
             if drive.effort is not None:
@@ -124,7 +130,21 @@ class Actuation:
                 out[k] = effort.at(known) if hasattr(effort, "at") else effort
             if k in self.motors and self.on[k]:
                 out[k] += self.gain[k] * self.motors[k].at(u[k])
+            if k in self.elastic:
+                out[k] += self.elastic[k].at(known)
         return out
+
+    def elastic_forces(self, along: Schedule) -> Array:
+        """Forces (T, D) of elastic stops along a motion."""
+        out = np.zeros_like(along.position)
+        for k, elastic in self.elastic.items():
+            out[:, k] = stop_forces(elastic.stops, along.position[:, k], along.speed[:, k])
+        return out
+
+    @property
+    def switched_efforts(self) -> tuple[Sided, ...]:
+        """Efforts and elastic stops that have corners or jumps."""
+        return (*self.sided.values(), *self.elastic.values())
 
     def take_ways(self, toward: Array) -> Array:
         """Take the efficiencies of gears for senses of motion (D,); the inertias (D,) of their rotors at the drives."""
@@ -151,7 +171,7 @@ class Actuation:
         depends on positions, speeds or the time. ``ahead``: accelerations, which decide the side on which a motor
         leaves a corner."""
         first, slope = np.zeros((2, len(u)))
-        if self.gears:
+        if self.gears or self.elastic:
             return None
         for k, drive in enumerate(self.drives):
             if hasattr(drive.effort, "at"):
@@ -230,6 +250,14 @@ def _with_stops_of_drives(m: Mechanism, free: list[str]) -> tuple[Mechanism, dic
         if ends:
             drives[name] = drive.model_copy(update={"stops": ends})
             joints[joint] = joints[joint].model_copy(update={"stops": None})
+    for name, joint_ in joints.items():
+        left = getattr(joint_, "stops", None)
+        if left is not None and left.stiffness:
+            raise ModelError(
+                f"joint {name!r} has elastic stops, but no drive that forces move",
+                f"release a drive of {name!r}, leave the stiffness out, or write a spring by a table",
+                ("joints", name, "stops"),
+            )
     return m.model_copy(update={"drives": drives}), joints
 
 

@@ -60,8 +60,7 @@ class Simulation(BrakeHeat, WithMotors, MotionChecks, NamedAnswer, MachineAnswer
     stop on which it rests. ``works``: J since the start, (T,), by name. ``kinetic``, ``potential`` (T,). Checks:
     ``energy_residual``, the gap of the energy balance over the largest energy; ``law_gap`` (T,), of the efforts of the
     computed motion, prescribed, over the largest, ``law_residual`` its largest; and ``closure``, of the loops, m or
-    rad. Joint forces and checks take longer than the motion, and are computed when they are first needed: they are
-    always part of a printed or written answer.
+    rad. Joint forces and checks are computed when they are first needed; printed and written answers have them.
     """
 
     ROW = "instant"
@@ -148,8 +147,9 @@ class Simulation(BrakeHeat, WithMotors, MotionChecks, NamedAnswer, MachineAnswer
 
     @cached_property
     def stop_force(self) -> Array:
-        """Forces of stops (T, D) on drives that rest on them: the part that friction and brakes do not hold."""
-        return stop_effort(self.free_result, self.pushed, self.moves.brake)[:, : len(self.drives)]
+        """Forces of stops (T, D): of rigid ones the part that friction and brakes do not hold at rest."""
+        held = stop_effort(self.free_result, self.pushed, self.moves.brake)[:, : len(self.drives)]
+        return held + self.moves.elastic_forces(self.schedule)
 
     @property
     def ended(self) -> str:

@@ -1,4 +1,5 @@
-"""End stops: where a drive's or a joint's freedom strikes something, and how much of its speed comes back."""
+"""End stops: where a drive's or a joint's freedom strikes something, and how it comes back: restitution, or spring and
+damper."""
 
 from __future__ import annotations
 
@@ -15,28 +16,41 @@ from dalembert.model.quantities.values import (
     JsonSchema,
     ValueField,
     at_item,
+    check_sign,
     object_schema,
     value_text,
 )
 
 STOPS = "least and greatest position, where forces move the machine: used by simulate"
 EXAMPLE = "stops: {from: 0 mm, to: 80 mm, restitution: 0.4}"
+PUSH = {
+    "length": {"stiffness": "stiffness", "damping": "damping"},
+    "angle": {"stiffness": "torsion_stiffness", "damping": "torsion_damping"},
+}
+"""Kinds of the numbers of elastic stops, by the kind of the position."""
 
 
 @dataclass(frozen=True, slots=True)
 class Stops:
-    """Least and greatest position, rad or m, infinite without a stop; coefficient of restitution, 0 to 1."""
+    """Least and greatest position, rad or m, infinite without a stop; coefficient of restitution, 0 to 1.
+
+    Elastic where there is a ``stiffness``, N/m or N m/rad: beyond the position a spring and a ``damping`` push back.
+    """
 
     least: float = -inf
     greatest: float = inf
     restitution: float = 0.0
     kind: str = ""
     """Kind of the joint's freedom: angle or length."""
+    stiffness: float = 0.0
+    damping: float = 0.0
 
     def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
         ends = {"from": self.least, "to": self.greatest}
         out = {key: value_text(x, kind) for key, x in ends.items() if isfinite(x)}
+        pushes = {"stiffness": self.stiffness, "damping": self.damping}
+        out |= {key: value_text(x, PUSH[kind][key]) for key, x in pushes.items() if x}
         return out | ({"restitution": self.restitution} if self.restitution else {})
 
 
@@ -44,7 +58,7 @@ def end_stops(value: object, kind: str, rules: ReadingRules) -> Stops:
     """The stops that a mapping describes; ``kind`` is that of the drive's position."""
     if isinstance(value, Stops):
         return value
-    keys = mapping(value, ["from", "to", "restitution"], EXAMPLE)
+    keys = mapping(value, ["from", "to", "restitution", "stiffness", "damping"], EXAMPLE)
     least, greatest = (
         at_item(key, rules.quantity, keys[key], kind) if key in keys else none
         for key, none in (("from", -inf), ("to", inf))
@@ -60,7 +74,28 @@ def end_stops(value: object, kind: str, rules: ReadingRules) -> Stops:
         raise ModelError(
             problem, "write a number from 0 (no rebound) to 1 (no energy lost)", ("restitution",)
         )
-    return Stops(least, greatest, back)
+    stiffness, damping = (
+        at_item(key, _positive, keys[key], PUSH[kind][key], rules) if key in keys else 0.0
+        for key in PUSH[kind]
+    )
+    for key in ("restitution", "damping"):
+        if key in keys and (key == "restitution") == bool(stiffness):
+            raise ModelError(*AGAINST[key], (key,))
+    return Stops(least, greatest, back, stiffness=stiffness, damping=damping)
+
+
+AGAINST = {
+    "restitution": (
+        "the stops have a restitution and a stiffness",
+        "leave one out; what an elastic stop takes of the speed is its damping",
+    ),
+    "damping": ("the stops have a damping without a stiffness", "write stiffness: 2e5 N/m, or a damper load"),
+}
+"""Problem and remedy of keys that do not fit together."""
+
+
+def _positive(value: object, kind: str, rules: ReadingRules) -> float:
+    return check_sign(rules.quantity(value, kind), value, "positive")
 
 
 def stops_schema() -> JsonSchema:
@@ -75,6 +110,10 @@ def stops_schema() -> JsonSchema:
                 "maximum": 1,
                 "description": "speed after an impact over that before; default 0",
             },
+            "stiffness": NUMBER_OR_TEXT
+            | {"description": "of an elastic stop: force over the depth beyond it; it only pushes"},
+            "damping": NUMBER_OR_TEXT
+            | {"description": "of an elastic stop: force over the speed; default 0"},
         }
     )
 

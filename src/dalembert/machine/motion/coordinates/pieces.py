@@ -85,7 +85,7 @@ def _of_drives(leading: Led, motion: Result, rows: Instants, before: Array) -> I
     q = q + np.where(turns, 2 * np.pi * np.round((before - q[0]) / (2 * np.pi)), 0.0)
 
     def effort(*at: Any) -> Array:
-        for sided in leading.own.sided.values():
+        for sided in leading.own.switched_efforts:
             sided.sides.clear()  # those at the end of the motion; here the sides at this instant
         return leading.own.effort(*at)
 

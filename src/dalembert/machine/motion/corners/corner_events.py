@@ -15,7 +15,7 @@ from dalembert.arrays import Array
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.corners.one_sided import Sided, has_corners
 from dalembert.machine.motion.equation import LoadChannel, StoppedError
-from dalembert.machine.motion.occurrences import Guard, Value
+from dalembert.machine.motion.occurrences import Guard, Value, Words
 from dalembert.machine.motion.rest.standstill import ContactState
 from dalembert.model import Mechanism
 
@@ -34,13 +34,14 @@ DRY = (
 @dataclass
 class Switch:
     """Something of a load or effort (``what``) that switches where a value passes zero; ``beyond``: of a table, whether
-    it is past one of its ends."""
+    it is past one of its ends; ``words``: what an event says of it, once it has gone over."""
 
     what: str
     value: Value
     side: Callable[[], float]
     flip: Callable[[float], None]
     beyond: Callable[[], bool] = lambda: False
+    words: Callable[[float, Array], Words] = lambda t, y: ()
     passed: list[float] = field(default_factory=list)
 
 
@@ -59,7 +60,7 @@ class CornerState(ContactState):
         for channel in self.equation.channels:
             if isinstance(channel, LoadChannel) and channel.sided is not None:
                 yield channel.sided, partial(self._known_of, channel)
-        for sided in getattr(self.acting, "own", self.acting).sided.values():
+        for sided in getattr(self.acting, "own", self.acting).switched_efforts:
             yield sided, lambda t, y: self.acting.known(t, y[:d], y[d : 2 * d])
 
     def _known_of(self, channel: LoadChannel, t: float, y: Array) -> dict[str, float]:
@@ -85,10 +86,12 @@ class CornerState(ContactState):
         def value(k: int) -> Value:
             return lambda t, y: sided.switch(k, known(t, y))
 
+        def words(k: int) -> Callable[[float, Array], Words]:
+            return lambda t, y: sided.words(k, known(t, y))
+
         for k in range(len(sided.switches)):
-            yield Switch(
-                sided.what, value(k), partial(sided.side, k), partial(sided.flip, k), lambda: sided.beyond
-            )
+            side, flip = partial(sided.side, k), partial(sided.flip, k)
+            yield Switch(sided.what, value(k), side, flip, lambda: sided.beyond, words(k))
 
     def take_sides(self, t: float, y: Array) -> None:
         """The sides on which all switches are at a state."""
@@ -142,6 +145,8 @@ class CornerState(ContactState):
         faster[self.d : 2 * self.d] += AHEAD * self.pace(t, y)
         if switch.value(t, faster) != switch.value(t, y) and self._ahead(switch, t, y) * g.side > 0:
             raise StoppedError(f"{switch.what} {DRY}")
+        if words := switch.words(t, y):
+            self.note(t, "stop", *words)
         if switch.beyond():
             self.note(t, "table end", f"{switch.what} is beyond the end of its table from here on")
         switch.passed.append(t)

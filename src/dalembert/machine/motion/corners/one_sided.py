@@ -97,6 +97,10 @@ class Sided:
         """The side of one switch: 0 not known; in a table it is always within its piece."""
         return 1.0 if isinstance(self.value, Table) else self.sides[k]
 
+    def words(self, k: int, known: Mapping[str, Any]) -> tuple[str | tuple[str, float], ...]:
+        """Sentence of an event at which a switch has gone over; empty: no event."""
+        return ()
+
     @property
     def _functions(self) -> Functions:
         return {**numpy_functions(), **sided(self._switch)}

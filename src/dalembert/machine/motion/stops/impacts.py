@@ -82,7 +82,11 @@ class StopState(ClutchState):
         self.pressed: list[Stop] = []
         self.pushing = np.zeros(0)
         drives = enumerate(actuation.drives)
-        free = [(k, drive) for k, drive in drives if actuation.free[k] and drive.stops]
+        free = [
+            (k, drive)
+            for k, drive in drives
+            if actuation.free[k] and drive.stops and k not in actuation.elastic
+        ]
         self.stops = [Stop(actuation.names[k], str(d.freedom), d.stops, drive=k) for k, d in free if d.stops]
         joints = enumerate(joint_stops(m).items())
         for j, ((name, freedom), ends) in joints:

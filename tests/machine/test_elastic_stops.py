@@ -1,0 +1,168 @@
+"""Elastic and damped stops: a mass on a spring and damper in closed form, energy, mirror, scale, copies, messages."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.errors import ModelError
+
+CART = """
+gravity: none
+links:
+  ground: {{points: {{O: [0, 0]}}}}
+  cart: {{points: {{O: [0, 0]}}, mass: 2 kg}}
+joints: {{S: {{type: slider, links: [ground, cart], at: [O, O], direction: 0}}}}
+drives: {{S: {{effort: {effort}, stops: {{{end}, stiffness: 800 N/m, damping: {damping} N*s/m}}}}}}
+start: {{S: {{position: 0 m, speed: {speed}}}}}
+"""
+LEVER = """
+gravity: none
+links:
+  ground: {points: {O: [0, 0]}}
+  lever: {points: {O: [0, 0], P: [1 m, 0]}, inertia: 0.5}
+joints:
+  O: {type: pin, links: [ground, lever], stops: {from: -20 deg, to: 30 deg, stiffness: 90 N*m/rad, damping: 0.4}}
+drives: {O: {effort: 0}}
+start: {O: {position: 0, speed: 2 rad/s}}
+"""
+TWO = LEVER.replace(
+    "joints:\n",
+    "  slide: {points: {Q: [0, 0]}, mass: 1}\njoints:\n  P: {type: slider, links: [ground, slide], at: [O, Q]}\n",
+)
+TWO = TWO.replace(
+    "drives: {O: {effort: 0}}", "drives: {P: {effort: 1, freedom: slide}, O: {position: 0, speed: 1 rad/s}}"
+)
+TWO = TWO.replace("start: {O", "start: {P").replace("2 rad/s", "0 m/s")
+CRANK = """
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}, inertia: 0.2}
+  rod: {points: {A: [0, 0], B: [0.3, 0]}}
+  piston: {points: {B: [0, 0]}, mass: 4}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  S: {type: slider, links: [ground, piston], at: [O, B], direction: 0, stops: {from: 0.25, stiffness: 1e5}}
+drives: {O: {effort: 6}}
+assembly: {rod: -10}
+start: {O: {position: 60 deg, speed: 0}}
+"""
+OUT_AND_BACK = "1 s"
+
+
+def cart(damping: float, end: str = "to: 1 m", speed: str = "4 m/s", effort: str = "0 N") -> da.Simulation:
+    """A cart of 2 kg that meets a stop of 800 N/m."""
+    return da.simulate(
+        da.loads(CART.format(damping=damping, end=end, speed=speed, effort=effort)), OUT_AND_BACK
+    )
+
+
+def restitution(damping: float, mass: float = 2.0, stiffness: float = 800.0) -> tuple[float, float]:
+    """Time in contact, and speed after over speed before, of a mass that leaves where the force comes to zero.
+
+    Depth x = v exp(-a t) sin(b t)/b; k x + c x' = -m x'', so x'' = 0: tan(b t) = 2 a b/(a^2 - b^2).
+    """
+    a = damping / (2 * mass)
+    b = math.sqrt(stiffness / mass - a * a)
+    t = math.atan2(2 * a * b, a * a - b * b) / b
+    return t, math.exp(-a * t)  # at that instant x' = -v exp(-a t)
+
+
+@pytest.mark.parametrize("damping", [1e-3, 16.0, 60.0])
+def test_a_mass_leaves_a_damped_stop_as_in_closed_form(damping: float) -> None:
+    s, (contact, back) = cart(damping), restitution(damping)
+    met, left = s.event("stop")
+    assert met.time == pytest.approx(0.25, rel=1e-12)
+    assert left.time - met.time == pytest.approx(contact, rel=1e-9)
+    assert s.speed("S")[-1] == pytest.approx(-4 * back, rel=1e-9)
+    assert s.works["S"][-1] == pytest.approx(4**2 * (back**2 - 1), abs=1e-8)  # m v^2/2 lost in the damper
+    assert met.sentence == "S meets its elastic stop at 1 m with 4 m/s"
+    assert left.sentence == "S leaves its elastic stop at 1 m"
+    assert s.energy_residual < 1e-9
+    assert s.law_residual < 1e-9
+    assert (s.stop_force <= 0).all()  # it never pulls
+
+
+def test_an_undamped_stop_holds_half_a_period_and_gives_all_back() -> None:
+    s = da.simulate(
+        da.loads(CART.format(damping=1, end="to: 1 m", speed="4 m/s", effort="0 N")).with_values(
+            {"drives.S.stops": {"to": "1 m", "stiffness": "800 N/m"}}
+        ),
+        OUT_AND_BACK,
+        count=400,
+    )
+    met, left = s.event("stop")
+    assert left.time - met.time == pytest.approx(math.pi * math.sqrt(2 / 800), rel=1e-11)
+    assert s.speed("S")[-1] == pytest.approx(-4, rel=1e-11)
+    depth = np.maximum(s.position("S") - 1, 0)
+    np.testing.assert_allclose(s.kinetic + 800 * depth**2 / 2, 16, rtol=1e-10)
+    np.testing.assert_allclose(s.stop_force[:, 0], -800 * depth, atol=1e-9)
+
+
+def test_the_other_side_is_the_mirror_image_and_energies_scale() -> None:
+    s, mirrored = cart(16), cart(16, "from: -1 m", "-4 m/s")
+    np.testing.assert_allclose(mirrored.position("S"), -s.position("S"), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(mirrored.stop_force, -s.stop_force, rtol=0, atol=1e-9)
+    large = cart(16, "to: 10 m", "40 m/s")  # linear: ten times all
+    np.testing.assert_allclose(large.position("S"), 10 * s.position("S"), rtol=1e-9, atol=1e-9)
+
+
+def test_a_steady_push_comes_to_rest_at_its_static_depth() -> None:
+    s = da.simulate(
+        da.loads(CART.format(damping=30, end="to: 0.1 m", speed="0 m/s", effort="40 N")), "9 s", count=9
+    )
+    assert s.position("S")[-1] == pytest.approx(0.1 + 40 / 800, rel=1e-9)
+    assert s.stop_force[-1, 0] == pytest.approx(-40, rel=1e-8)
+    assert s.energy_residual < 1e-9
+
+
+def test_stops_of_a_turn_take_the_drive_from_side_to_side() -> None:
+    m = da.loads(LEVER)
+    s = da.simulate(m, "2 s")
+    back = restitution(0.4, 0.5, 90.0)[1]
+    speeds = [e.words[3][1] for e in s.event("stop") if "meets" in e.sentence]  # type: ignore[index]
+    assert len(speeds) > 2
+    assert speeds == pytest.approx([2 * back**n for n in range(len(speeds))], rel=1e-8)
+    stops = m.joints["O"].stops  # type: ignore[union-attr]
+    assert stops is not None
+    assert (stops.stiffness, stops.damping, stops.kind) == (90.0, 0.4, "angle")
+    assert da.loads(str(m)) == m
+    moved = m.with_values({"joints.O.stops.stiffness": 45.0})
+    assert "stiffness: 45" in str(moved)
+    assert da.loads(str(moved)) == moved
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "sentence"),
+    [
+        (", damping: 0.4", ", restitution: 0.4", 7, "the stops have a restitution and a stiffness"),
+        ("stiffness: 90 N*m/rad, ", "", 7, "the stops have a damping without a stiffness"),
+        ("90 N*m/rad", "90 N/m", 7, "stiffness of stops"),
+        ("stiffness: 90", "stiffness: -90", 7, "stiffness of stops"),
+        ("damping: 0.4", "damping: -0.4", 7, "damping of stops"),
+    ],
+)
+def test_wrong_stops_are_named_with_their_line(
+    old: str, new: str, line: int, sentence: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "lever.yaml"
+    file.write_text(LEVER.replace(old, new))
+    with pytest.raises(ModelError) as raised:
+        da.load(file)
+    assert f"lever.yaml:{line}: " in str(raised.value)
+    assert sentence in str(raised.value)
+
+
+def test_elastic_stops_of_what_no_free_drive_moves_are_refused() -> None:
+    prescribed = da.loads(LEVER).with_values({"drives.O.effort": "1 N*m"})
+    with pytest.raises(ModelError, match="drive 'O' is prescribed, and its stops would be gone through"):
+        da.simulate(da.loads(TWO), "1 s")
+    with pytest.raises(ModelError, match="joint 'S' has elastic stops, but no drive that forces move"):
+        da.simulate(da.loads(CRANK), "1 s")
+    assert da.simulate(prescribed, "0.1 s").status == "ended"
