@@ -10,6 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.errors import ModelError
+from tests.tiers import tiers
 
 CART = """
 gravity: none
@@ -166,3 +167,48 @@ def test_elastic_stops_of_what_no_free_drive_moves_are_refused() -> None:
     with pytest.raises(ModelError, match="joint 'S' has elastic stops, but no drive that forces move"):
         da.simulate(da.loads(CRANK), "1 s")
     assert da.simulate(prescribed, "0.1 s").status == "ended"
+
+
+RUBBING = """
+gravity: standard
+links:
+  ground: {points: {O: [0, 0], C: [0.3, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}, mass: 1, center: [0.05, 0], inertia: 0.01}
+  rod: {points: {A: [0, 0], B: [0.3, 0]}, mass: 1, center: [0.15, 0], inertia: 0.01}
+  rocker: {points: {C: [0, 0], B: [0.2, 0]}, mass: 2, center: [0.1, 0], inertia: 0.02}
+joints:
+  O: {type: pin, links: [ground, crank], friction: {coefficient: 0.2, radius: 20 mm}}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, rocker]}
+  C: {type: pin, links: [ground, rocker]}
+drives: {O: {effort: 3*cos(O) N*m, stops: {from: 20 deg, to: 140 deg, stiffness: 400 N*m/rad, damping: 0.5}}}
+assembly: {rod: 30, rocker: 90}
+start: {O: {position: 60 deg, speed: SPEED rad/s}}
+"""
+
+
+@pytest.mark.parametrize("speed", tiers([12], [-9]))
+def test_a_linkage_that_rubs_keeps_the_laws_on_its_stops(speed: int) -> None:
+    s = da.simulate(da.loads(RUBBING.replace("SPEED", str(speed))), "1 s")
+    assert [e for e in s.events if "meets" in e.sentence]
+    assert s.energy_residual < 1e-9
+    assert s.law_residual < 1e-9
+    assert not s.doubt
+    force, depth = (
+        s.stop_force[:, 0],
+        np.clip(s.position("O"), math.radians(20), math.radians(140)) - s.position("O"),
+    )
+    assert (force * depth >= 0).all()  # back towards the limits, and nothing between them
+
+
+def test_a_brake_holds_against_a_compressed_stop() -> None:
+    """At rest the stop gives k s; the brake takes it while its limit is above that, else the cart is let go."""
+    text = CART.format(damping=3, end="to: 1 m", speed="4 m/s", effort="0 N").replace(
+        "position: 0", "position: 0.9"
+    )
+    held = da.simulate(da.loads(text.replace("effort: 0 N", "effort: 0 N, brake: 60 N")), "3 s")
+    depth = held.position("S")[-1] - 1
+    assert 0 < 800 * depth < 60
+    assert held.stop_force[-1, 0] == pytest.approx(-800 * depth, rel=1e-12)
+    let_go = da.simulate(da.loads(text.replace("effort: 0 N", "effort: 0 N, brake: 20 N")), "3 s")
+    assert let_go.position("S")[-1] < 1

@@ -198,7 +198,7 @@ def _refuse(moves: Actuation) -> None:
         if drive.brake:
             raise ModelError(f"drive {name!r} has a brake, which holds at rest", REMEDY)
         if drive.stops:
-            raise ModelError(f"drive {name!r} has stops, which change its speed at once", REMEDY)
+            raise ModelError(f"drive {name!r} has stops, which are met as events", REMEDY)
         if drive.motor is not None and drive.motor.geared:
             raise ModelError(f"the motor of drive {name!r} has a gear, inertia or an efficiency", REMEDY)
         if motor is not None and (motor.on or motor.off):
