@@ -156,7 +156,7 @@ def test_where_nothing_closes_it_says_how_far_it_misses(opened: Any) -> None:
     page.drag('.handle[data-name="A"]', 250, 100)
     _, good = page.curve("effort.O2")
     page.run(f"page.show({good.index(False)})")
-    assert re.fullmatch(r"B misses by [\d.]+ in", page.page.locator(".gaps text").text_content())
+    assert re.fullmatch(r"B is open by [\d.]+ in", page.page.locator(".gaps text").text_content())
     page.drag('.stage .handle[data-name="B"]', 30, -30)
     assert page.run("page.kernel.solved")
     assert page.page.locator(".gaps text").count() == 0

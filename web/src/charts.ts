@@ -133,22 +133,29 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
   };
 }
 
+/** Share of the largest joint force below which another one is rounding. */
+const ROUNDING = 1e-11;
+
 /** The force in each joint as a curve about a pole: its tip over the cycle, and at the present position. */
-export function polar(parent: Element, kernel: Kernel, c: Curve, unit: { unit: string; size: number }): View {
+export function polar(parent: Element, kernel: Kernel, c: Curve, all: Curve[], unit: { unit: string; size: number }): View {
   const figure = html("figure", parent, { class: "polar" }), size = 66, [fx, fy] = c.f!;
   const caption = html("figcaption", figure), svg = canvas(figure, size, size, `polar diagram of joint ${c.name}`);
   make("path", svg, { class: "l-grid", style: "fill:none", d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0" });
   const line = make("path", svg, { class: `l-${c.role}`, style: "fill:none" }), arrow = new Arrow(svg, "joint-force", c.name);
-  let perMm = 1;
+  let perMm = 1, zero = false;
   return {
     update(cycle) {
       if (cycle) {
-        const outer = roundUp(kernel.largest((k) => Math.hypot(kernel.value(fx, k), kernel.value(fy, k))) / unit.size);
+        const largest = (some: Curve[]): number => kernel.largest((k) => Math.max(...some.map(({ f }) => Math.hypot(kernel.value(f![0], k), kernel.value(f![1], k)))));
+        zero = !(largest([c]) > ROUNDING * largest(all));
+        svg.setAttribute("display", zero ? "none" : "inline");
+        if (zero) return void (caption.textContent = `Joint ${c.name}: no force at any position`);
+        const outer = roundUp(largest([c]) / unit.size);
         perMm = (outer / 30) * unit.size;
         draw(line, curve(kernel, (k) => [kernel.value(fx, k) / perMm, -kernel.value(fy, k) / perMm], true));
         caption.textContent = `Joint ${c.name}: circles of ${figures(outer / 2)} and ${figures(outer)} ${unit.unit}`;
       }
-      arrow.set([0, 0], kernel.solved ? [kernel.here[fx] / perMm, -kernel.here[fy] / perMm] : [0, 0]);
+      arrow.set([0, 0], kernel.solved && !zero ? [kernel.here[fx] / perMm, -kernel.here[fy] / perMm] : [0, 0]);
     },
   };
 }

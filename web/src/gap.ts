@@ -13,7 +13,7 @@ export function gapMarks(b: Board, data: Pick<Data, "units">, kernel: Gaps): () 
   return () => {
     const open = kernel.open.map((g) => {
       const [p, q] = [g.p, g.q].map((x) => b.paper.of(...b.paper.project(x)));
-      return { p, q, said: `${g.joint} misses by ${figures(Math.hypot(...g.p.map((x, k) => x - g.q[k])) / size, 3)} ${unit}` };
+      return { p, q, said: `${g.joint} is open by ${figures(Math.hypot(...g.p.map((x, k) => x - g.q[k])) / size, 3)} ${unit}` };
     });
     const now = JSON.stringify(open);
     if (now === drawn) return;

@@ -25,7 +25,7 @@ export function results(tabs: Tabs, data: Data, kernel: Kernel, cursor: Cursor, 
   const polars = kernel.count > 2 ? charts.flatMap((c) => c.curves).filter((c) => c.f) : [];
   if (curves && polars.length) {
     html("h2", curves, {}, "Polar diagrams");
-    for (const c of polars) closable.push({ box: curves, view: polar(curves, kernel, c, data.units.force) });
+    for (const c of polars) closable.push({ box: curves, view: polar(curves, kernel, c, polars, data.units.force) });
   }
   const body = tabs.add("Forces", "free bodies, their equations, and force polygons"), select = html("select", body, { "aria-label": "link" });
   const boards = bodies.map((b, link) => {

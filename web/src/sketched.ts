@@ -79,7 +79,7 @@ export async function sketched(root: HTMLElement, data: SketchPageData, view: Vi
     return b;
   };
   html("output", bar, { class: "readout" }, "Sketch: drag the links.").style.flex = "1";
-  if (options.back) button(bar, "Back", "without the last thing added", options.back);
+  if (options.back) button(bar, "Back", "undo the last addition", options.back);
   const undo = button(bar, "↶", "undo (Ctrl+Z)", () => go(past, future)), redo = button(bar, "↷", "redo (Ctrl+Y)", () => go(future, past));
   button(bar, "Reset", "as in the file", () => moved(() => sketch.placed(copied(own))));
   const main = html("main", root, { class: "one" }), area = html("section", main, { class: "stage", "aria-label": "sketch" });
@@ -108,7 +108,7 @@ export async function sketched(root: HTMLElement, data: SketchPageData, view: Vi
   const missing = html("div", null, { class: "missing", role: "status" });
   paper.before(missing);
   html("p", missing, {}, data.missing.sentence[0].toUpperCase() + data.missing.sentence.slice(1) + ".");
-  for (const offer of data.missing.offers) button(missing, `+ ${offer.said}`, offer.page ? offer.said : "saves the file with it", () => void take(offer));
+  for (const offer of data.missing.offers) button(missing, `+ ${offer.said}`, offer.page ? offer.said : "add it and save the model file", () => void take(offer));
   switches();
 
   /** The moving link of a part, by number; -1 of the ground. */
@@ -134,7 +134,7 @@ export async function sketched(root: HTMLElement, data: SketchPageData, view: Vi
   }
   function entries(items: Identity[]): Entry[] {
     return items.flatMap(({ kind, name }) => s.rows.flatMap((r, row) => (kind === "joint" && r.joint === name && r.kind === "freedom"
-      ? [{ said: `${sketch.locked(row) ? "Let go" : "Hold"} the ${r.angular ? "turn" : "slide"} of ${name}`, act: () => sketch.lock(row, !sketch.locked(row)) }] : [])));
+      ? [{ said: `${sketch.locked(row) ? "Release" : "Lock"} the ${r.angular ? "turn" : "slide"} of ${name}`, act: () => sketch.lock(row, !sketch.locked(row)) }] : [])));
   }
   async function take(offer: Offer): Promise<void> {
     if (options.on?.({ type: "offer", offer })) return;

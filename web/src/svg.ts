@@ -24,9 +24,12 @@ export function html<K extends keyof HTMLElementTagNameMap>(name: K, parent: Ele
   return out;
 }
 
+/** Millimetres beyond which nothing is drawn farther out: SVG's numbers end long before those of a machine. */
+const FAR = 1e6;
+
 /** To a hundredth; by whole numbers, for toFixed takes twice as long. */
 export function short(x: number): string {
-  const n = Math.round(100 * Math.abs(x)), whole = Math.floor(n / 100), rest = n % 100, sign = x < 0 && n ? "-" : "";
+  const n = Math.round(100 * Math.min(Math.abs(x), FAR)), whole = Math.floor(n / 100), rest = n % 100, sign = x < 0 && n ? "-" : "";
   return sign + whole + (rest ? (rest < 10 ? ".0" : ".") + rest : "");
 }
 

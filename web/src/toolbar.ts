@@ -27,7 +27,7 @@ export function toolbar(parent: Element, data: Data, kernel: Kernel, reasons: Re
   speed.value = String(view.speed);
   speed.addEventListener("change", () => (view.speed = +speed.value));
   const undo = button("↶", "undo (Ctrl+Z)", () => acts.go(true)), redo = button("↷", "redo (Ctrl+Y)", () => acts.go(false));
-  if (acts.back) button("Back", "to the sketch, without the last thing added", acts.back);
+  if (acts.back) button("Back", "back to the sketch: undo the last addition", acts.back);
   button("Reset", "all numbers as in the file", acts.reset);
   const mark = html("p", header, { class: "mark", role: "status" });
   slider.addEventListener("input", () => acts.show(+slider.value));

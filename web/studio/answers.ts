@@ -20,11 +20,11 @@ export class Answers {
     ask("Other assemblies", "modes", (a) => this.modes(a.modes));
     ask("Equilibrium positions", "equilibria", (a) => this.rests(a.rows, a.drive, a.sentence));
     ask("Share of each load", "superposition", (a) => this.shares(a.rows, a.sources));
-    html("p", this.out, { class: "hint" }, "Ask for the other ways in which the links can be put together, for the positions in which the mechanism rests, or for what each load adds to each force.");
+    html("p", this.out, { class: "hint" }, "Other assemblies of the same links, equilibrium positions without a drive effort, and the share of each load in each force.");
   }
   private async ask(what: string, show: (a: any) => void): Promise<void> {
     await this.flushed();
-    this.out.replaceChildren(html("p", this.out, { class: "hint" }, "Working it out ..."));
+    this.out.replaceChildren(html("p", this.out, { class: "hint" }, "Computing …"));
     const a = await this.socket.send({ ask: what });
     this.out.replaceChildren();
     if (a.error) html("p", this.out, { class: "off" }, a.error);
@@ -36,18 +36,18 @@ export class Answers {
     return b;
   }
   private modes(modes: Mode[]): void {
-    html("p", this.out, { class: "hint" }, modes.length > 1 ? "At the first position the links can be put together so; click one to have it in the drawing." : "At the first position there is only this one.");
+    html("p", this.out, { class: "hint" }, modes.length > 1 ? "The links can be assembled in these ways at the first position; click one to use it." : "There is only this assembly at the first position.");
     const all = html("div", this.out, { class: "modes" }), theme = matchMedia("(prefers-color-scheme:dark)").matches ? "dark" : "light";
     modes.forEach((m, k) => {
-      const b = this.taken(all, m.here ? "as drawn" : "take this assembly", m.links);
+      const b = this.taken(all, m.here ? "as drawn" : "use this assembly", m.links);
       html("img", b, { src: `data:image/svg+xml,${encodeURIComponent(m.svg[theme])}`, alt: `assembly ${k + 1}` });
       html("span", b, {}, m.here ? "as drawn" : String(k + 1));
       (b as HTMLButtonElement).disabled = m.here;
     });
   }
   private rests(rows: Rest[], drive: string, sentence: string): void {
-    if (!rows.length) html("p", this.out, {}, sentence || "There is no such position.");
-    else html("p", this.out, { class: "hint" }, `Without an effort of ${drive} it rests at:`);
+    if (!rows.length) html("p", this.out, {}, sentence || "There is no equilibrium position.");
+    else html("p", this.out, { class: "hint" }, `Without an effort at ${drive} it is in equilibrium at:`);
     for (const r of rows) this.taken(html("p", this.out), "show it in the drawing", r.links, { [drive]: r.position }).textContent = `${drive} = ${r.shown}, ${r.stability}`;
   }
   private shares(rows: Share[], sources: string[]): void {

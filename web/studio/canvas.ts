@@ -91,8 +91,10 @@ export class Canvas {
     const { width, height } = this.svg.getBoundingClientRect(), unit = drawing.units.length, step = this.window.step(unit.size, 28);
     const [x0, y1] = this.window.metres(0, 0), [x1, y0] = this.window.metres(width, height);
     const lines: Point[][] = [];
-    for (let k = Math.ceil(x0 / step); k * step < x1; k++) lines.push([this.window.px([k * step, y0]), this.window.px([k * step, y1])]);
-    for (let k = Math.ceil(y0 / step); k * step < y1; k++) lines.push([this.window.px([x0, k * step]), this.window.px([x1, k * step])]);
+    // counted from the edge: so far out that a step is lost in rounding, the loop still ends
+    const across = (from: number, to: number): number[] => Array.from({ length: Math.min(Math.ceil((to - from) / step), 500) }, (_, n) => (Math.ceil(from / step) + n) * step).filter((x) => x < to);
+    for (const x of across(x0, x1)) lines.push([this.window.px([x, y0]), this.window.px([x, y1])]);
+    for (const y of across(y0, y1)) lines.push([this.window.px([x0, y]), this.window.px([x1, y])]);
     make(this.layer, "path", { class: "grid", d: lines.map((l) => d(l)).join("") });
     const bar = this.window.step(unit.size, 90), y = height - 14;
     make(this.layer, "path", { class: "scale", d: d([[14, y - 4], [14, y], [14 + bar * this.window.scale, y], [14 + bar * this.window.scale, y - 4]]) });
@@ -141,11 +143,11 @@ export class Canvas {
     const q = this.window.px(j.q), data = { "data-kind": "joints", "data-name": j.name };
     if (j.radii) for (const [at, r] of [[j.p, j.radii[0]], [j.q, j.radii[1]]] as const) {
       const [x, y] = this.window.px(at);
-      make(this.layer, "circle", { class: `wheel${picked}`, cx: x, cy: y, r: Math.abs(r) * this.window.scale, ...data });
+      make(this.layer, "circle", { class: `wheel${picked}`, cx: x, cy: y, r: this.window.long(r), ...data });
     }
     if (j.radius) {
       const [x, y] = this.window.px(j.type === "rolling" ? j.q : j.p);
-      make(this.layer, "circle", { class: `wheel${picked}`, cx: x, cy: y, r: j.radius * this.window.scale, ...data });
+      make(this.layer, "circle", { class: `wheel${picked}`, cx: x, cy: y, r: this.window.long(j.radius), ...data });
     }
     if (j.type === "slider") {
       const a = j.direction ?? 0, corners = ([[-13, -9], [13, -9], [13, 9], [-13, 9]] as Point[]).map(([u, v]) => along(q, a, u, v));

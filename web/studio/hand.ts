@@ -268,7 +268,7 @@ export class Hand {
     const now: Record<string, string> = { length: `${figures(long)} ${u.unit}`, angle: `${figures(turn)}°`, value: this.tool.name === "force" ? `${figures(this.force(end))} ${this.shown.drawing().units.force.unit}` : "" };
     const said = (this.tool.fields ?? []).map((f, k) => `${f} ${this.typed[k] ? `[${this.typed[k]}]` : now[f]}`).join("   ");
     make(preview, "text", { x: b[0] + 14, y: b[1] - 14, class: "label" }, said);
-    this.shown.said(this.tool.fields ? `Type ${this.tool.fields.join(", Tab, ")}, then Enter; Esc leaves` : "");
+    this.shown.said(this.tool.fields ? `Type ${this.tool.fields.join(", Tab, ")}, then Enter; Esc cancels` : "");
   }
   /** Newtons, or the file's unit of force: ten for each 12 pixels, rounded. */
   private force(end: Point): number {

@@ -172,7 +172,7 @@ function numbers(): void {
   const { kernel, data } = page, at = Math.round(data.start), efforts = data.views.table.filter((row) => row.name.startsWith("effort"));
   const of = efforts.map((row) => `${row.name.replace(/[_{}]/g, "")} ${figures(kernel.rows[row.rows[0] * kernel.row + at] / data.units[row.kind].size, 5)} ${data.units[row.kind].unit}`);
   const solved = kernel.good[at] === 1;
-  verdictIs(solved ? `${of.join("; ") || "In equilibrium"}${of.length ? " as drawn" : ""}. All forces: tab Forces.` : "No forces as drawn: see Forces", !solved);
+  verdictIs(solved ? `${of.join("; ") || "In equilibrium"}${of.length ? " as drawn" : ""}. All forces: tab Forces.` : "No forces at the drawn position: see tab Forces", !solved);
 }
 function offers(missing: string): void {
   const d = drawing();
@@ -207,7 +207,7 @@ async function save(as: string | true = true): Promise<void> {
 }
 async function download(ask: string): Promise<void> {
   await editor.flush();
-  hint.textContent = "Working it out ...";
+  hint.textContent = "Computing …";
   const a = await socket.send({ ask });
   if (a.error) return say(a.error);
   const bytes = Uint8Array.from(atob(a.file), (c) => c.charCodeAt(0)), link = document.createElement("a");

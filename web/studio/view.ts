@@ -3,6 +3,12 @@
 import type { Drawing, Point } from "./state";
 import { ends } from "./state";
 
+/** Pixels beyond which a place is drawn no farther out: far outside every window, and within what SVG can draw. */
+const FAR = 1e6;
+const near = (x: number): number => Math.min(Math.max(x, -FAR), FAR) || 0;
+/** Least scale of a drawing that is fitted, pixels per metre: lengths of the window stay finite. */
+const LEAST = 1e-100;
+
 export class Window {
   scale = 2000;
   middle: Point = [0.05, 0.03];
@@ -13,7 +19,11 @@ export class Window {
   }
   px(p: Point): Point {
     const [w, h] = this.size;
-    return [w / 2 + (p[0] - this.middle[0]) * this.scale, h / 2 - (p[1] - this.middle[1]) * this.scale];
+    return [near(w / 2 + (p[0] - this.middle[0]) * this.scale), near(h / 2 - (p[1] - this.middle[1]) * this.scale)];
+  }
+  /** Pixels of a length. */
+  long(metres: number): number {
+    return near(Math.abs(metres) * this.scale);
   }
   metres(x: number, y: number): Point {
     const [w, h] = this.size;
@@ -29,12 +39,12 @@ export class Window {
     this.middle = [this.middle[0] - dx / this.scale, this.middle[1] + dy / this.scale];
   }
   fit(d: Drawing): void {
-    const all = [...ends(d)].map((e) => e.at);
+    const all = [...ends(d)].map((e) => e.at).filter((at) => at.every(Number.isFinite));
     if (!all.length) return;
     const [x, y] = [0, 1].map((k) => [Math.min(...all.map((p) => p[k])), Math.max(...all.map((p) => p[k]))]);
     const [w, h] = this.size, span = Math.max((x[1] - x[0]) / (w - 130), (y[1] - y[0]) / (h - 130), 1e-6);
-    this.middle = [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];
-    this.scale = Math.min(1 / span, 0.3 / Math.max(1e-9, 0.15) * 1000);
+    this.middle = [x[0] / 2 + x[1] / 2, y[0] / 2 + y[1] / 2];
+    this.scale = Math.min(Math.max(1 / span, LEAST), 0.3 / Math.max(1e-9, 0.15) * 1000);
   }
   /** Round step of the grid, m, and the length of the scale bar: units of a power of ten, times 1, 2 or 5. */
   step(unit: number, pixels: number): number {

@@ -109,7 +109,15 @@ class Document:
             gesture.apply(d)
         except DalembertError:
             raise
-        except (AssertionError, AttributeError, KeyError, IndexError, TypeError, ValueError) as error:
+        except (
+            AssertionError,
+            AttributeError,
+            KeyError,
+            IndexError,
+            TypeError,
+            ValueError,
+            ArithmeticError,
+        ) as error:
             raise ModelError(
                 "the text is written in a form that this gesture cannot change", "edit the text"
             ) from error
@@ -183,3 +191,6 @@ def read(text: str, form: str, name: str, before: Reading | None) -> Reading:
     except DalembertError as error:
         line = error.line if isinstance(error, ModelError) else 0
         return Reading(None, None, before.drawing if before else {}, sentence(error), line or 1)
+    except OverflowError:
+        said = "a length or an angle of the file exceeds the range of numbers; correct it or its unit"
+        return Reading(None, None, before.drawing if before else {}, said, 1)

@@ -335,7 +335,10 @@ def characteristic_length(m: Mechanism, at: Places) -> float:
     if not spans:
         every = [_span(list(m.points(link).values())) for link in m.links]
         spans = [span for span in every if span > 0]
-    return math.fsum(spans) / len(spans) if spans else 1.0
+    try:
+        return math.fsum(spans) / len(spans) if spans else 1.0
+    except OverflowError:  # the sum has no number, the mean has one; a position of such lengths is refused
+        return math.fsum(x / len(spans) for x in spans)
 
 
 def link_spans(m: Mechanism, at: Places) -> dict[str, float]:

@@ -198,7 +198,7 @@ def _safe(recent: list[Station]) -> float:
         return np.inf
     before, last = recent[-2:]
     step, was, now = abs(last.s - before.s), before.clear, last.clear
-    if was * now <= 0 or abs(now) > abs(was):
+    if np.sign(was) * np.sign(now) <= 0 or abs(now) > abs(was):
         since = step * abs(now) / max(abs(now - was), 1e-300)
         return max(STEP.away_from_singular * since, STEP.through_singular)
     if abs(was) == abs(now):

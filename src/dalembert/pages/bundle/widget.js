@@ -11,7 +11,7 @@ function n(t, n, r = {}, i = "") {
 	return i && (a.textContent = i), n?.append(a), a;
 }
 function r(e) {
-	let t = Math.round(100 * Math.abs(e)), n = Math.floor(t / 100), r = t % 100;
+	let t = Math.round(100 * Math.min(Math.abs(e), 1e6)), n = Math.floor(t / 100), r = t % 100;
 	return (e < 0 && t ? "-" : "") + n + (r ? (r < 10 ? ".0" : ".") + r : "");
 }
 var i = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
@@ -99,7 +99,7 @@ function g(n, o, s) {
 			return {
 				p: t,
 				q: r,
-				said: `${e.joint} misses by ${i(Math.hypot(...e.p.map((t, n) => t - e.q[n])) / u, 3)} ${l}`
+				said: `${e.joint} is open by ${i(Math.hypot(...e.p.map((t, n) => t - e.q[n])) / u, 3)} ${l}`
 			};
 		}), f = JSON.stringify(o);
 		if (f !== d) {
@@ -2233,7 +2233,7 @@ async function Vt(o, c, l, u) {
 		}, t);
 		return a.addEventListener("click", i), a;
 	};
-	n("output", j, { class: "readout" }, "Sketch: drag the links.").style.flex = "1", u.back && M(j, "Back", "without the last thing added", u.back);
+	n("output", j, { class: "readout" }, "Sketch: drag the links.").style.flex = "1", u.back && M(j, "Back", "undo the last addition", u.back);
 	let N = M(j, "↶", "undo (Ctrl+Z)", () => J(S, C)), P = M(j, "↷", "redo (Ctrl+Y)", () => J(C, S));
 	M(j, "Reset", "as in the file", () => le(() => y.placed(D(h))));
 	let F = n("section", n("main", o, { class: "one" }), {
@@ -2286,7 +2286,7 @@ async function Vt(o, c, l, u) {
 		role: "status"
 	});
 	R.before(H), n("p", H, {}, c.missing.sentence[0].toUpperCase() + c.missing.sentence.slice(1) + ".");
-	for (let e of c.missing.offers) M(H, `+ ${e.said}`, e.page ? e.said : "saves the file with it", () => void K(e));
+	for (let e of c.missing.offers) M(H, `+ ${e.said}`, e.page ? e.said : "add it and save the model file", () => void K(e));
 	G();
 	function U(e) {
 		return e.startsWith("point:") ? m.links.indexOf(e.slice(6, e.lastIndexOf("."))) : oe(c, e);
@@ -2310,7 +2310,7 @@ async function Vt(o, c, l, u) {
 	}
 	function ie(e) {
 		return e.flatMap(({ kind: e, name: t }) => m.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
-			said: `${y.locked(r) ? "Let go" : "Hold"} the ${n.angular ? "turn" : "slide"} of ${t}`,
+			said: `${y.locked(r) ? "Release" : "Lock"} the ${n.angular ? "turn" : "slide"} of ${t}`,
 			act: () => y.lock(r, !y.locked(r))
 		}] : []));
 	}
@@ -3213,26 +3213,29 @@ function gn(a, o, l, u, d, p) {
 		}
 	};
 }
-function _n(e, r, a, o) {
-	let s = n("figure", e, { class: "polar" }), [c, l] = a.f, u = n("figcaption", s), d = ot(s, 66, 66, `polar diagram of joint ${a.name}`);
-	t("path", d, {
+var _n = 1e-11;
+function vn(e, r, a, o, s) {
+	let c = n("figure", e, { class: "polar" }), [l, u] = a.f, d = n("figcaption", c), f = ot(c, 66, 66, `polar diagram of joint ${a.name}`);
+	t("path", f, {
 		class: "l-grid",
 		style: "fill:none",
 		d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"
 	});
-	let f = t("path", d, {
+	let p = t("path", f, {
 		class: `l-${a.role}`,
 		style: "fill:none"
-	}), p = new m(d, "joint-force", a.name), h = 1;
+	}), h = new m(f, "joint-force", a.name), g = 1, _ = !1;
 	return { update(e) {
 		if (e) {
-			let e = Ze(r.largest((e) => Math.hypot(r.value(c, e), r.value(l, e))) / o.size);
-			h = e / 30 * o.size, Pe(f, Fe(r, (e) => [r.value(c, e) / h, -r.value(l, e) / h], !0)), u.textContent = `Joint ${a.name}: circles of ${i(e / 2)} and ${i(e)} ${o.unit}`;
+			let e = (e) => r.largest((t) => Math.max(...e.map(({ f: e }) => Math.hypot(r.value(e[0], t), r.value(e[1], t)))));
+			if (_ = !(e([a]) > _n * e(o)), f.setAttribute("display", _ ? "none" : "inline"), _) return void (d.textContent = `Joint ${a.name}: no force at any position`);
+			let t = Ze(e([a]) / s.size);
+			g = t / 30 * s.size, Pe(p, Fe(r, (e) => [r.value(l, e) / g, -r.value(u, e) / g], !0)), d.textContent = `Joint ${a.name}: circles of ${i(t / 2)} and ${i(t)} ${s.unit}`;
 		}
-		p.set([0, 0], r.solved ? [r.here[c] / h, -r.here[l] / h] : [0, 0]);
+		h.set([0, 0], r.solved && !_ ? [r.here[l] / g, -r.here[u] / g] : [0, 0]);
 	} };
 }
-function vn(e, r, i, o, s) {
+function yn(e, r, i, o, s) {
 	let c = n("figure", e, { class: "polygon" }), l = r.units.force;
 	n("figcaption", c, {}, o);
 	let u = ot(c, 110, 80, o), d = t("g", u), f = /* @__PURE__ */ new Set(), p = s.map(({ sides: e }) => {
@@ -3290,8 +3293,8 @@ function vn(e, r, i, o, s) {
 	};
 }
 // src/results.ts
-var yn = 4.6, bn = (e) => Math.min(Math.max(e / yn, 72), 140), xn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
-function Sn(e, t, r, i, a, o) {
+var bn = 4.6, xn = (e) => Math.min(Math.max(e / bn, 72), 140), Sn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
+function Cn(e, t, r, i, a, o) {
 	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = r.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
 	for (let e of f ? s : []) u.push(gn(f, t, r, e, i, 120));
 	let p = r.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
@@ -3299,7 +3302,7 @@ function Sn(e, t, r, i, a, o) {
 		n("h2", f, {}, "Polar diagrams");
 		for (let e of p) d.push({
 			box: f,
-			view: _n(f, r, e, t.units.force)
+			view: vn(f, r, e, p, t.units.force)
 		});
 	}
 	let m = e.add("Forces", "free bodies, their equations, and force polygons"), h = n("select", m, { "aria-label": "link" }), g = c.map((e, i) => {
@@ -3317,7 +3320,7 @@ function Sn(e, t, r, i, a, o) {
 	});
 	if (l.links.length) {
 		l.links.forEach((e, n) => {
-			let i = vn(m, t, r, `Force polygon of link ${e.title}`, [e]);
+			let i = yn(m, t, r, `Force polygon of link ${e.title}`, [e]);
 			d.push({
 				box: i.figure,
 				view: i,
@@ -3327,7 +3330,7 @@ function Sn(e, t, r, i, a, o) {
 		let e = l.chain.map((e) => l.links[e]);
 		d.push({
 			box: m,
-			view: vn(m, t, r, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
+			view: yn(m, t, r, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
 		});
 	}
 	let _ = e.add("Numbers", "the numbers of this position");
@@ -3349,20 +3352,20 @@ function Sn(e, t, r, i, a, o) {
 		bodies: g,
 		fit: b,
 		choose: y,
-		resize: (e) => u.forEach((t) => t.resize(bn(e))),
+		resize: (e) => u.forEach((t) => t.resize(xn(e))),
 		update(e) {
-			for (let t of u) xn(f) && t.update(e);
-			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && xn(t) && n.update(e);
+			for (let t of u) Sn(f) && t.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && Sn(t) && n.update(e);
 		}
 	};
 }
 // src/sentences.ts
-function Cn(e, t = 6) {
+function wn(e, t = 6) {
 	if (!Number.isFinite(e)) return Number.isNaN(e) ? "nan" : e > 0 ? "inf" : "-inf";
 	let [n, r] = e.toExponential(t - 1).split("e"), i = +r, a = (e) => e.includes(".") ? e.replace(/\.?0+$/, "") : e;
 	return i < -4 || i >= t ? `${a(n)}e${i < 0 ? "-" : "+"}${String(Math.abs(i)).padStart(2, "0")}` : a(e.toFixed(Math.max(t - 1 - i, 0)));
 }
-var wn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, Tn = class {
+var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, En = class {
 	data;
 	kernel;
 	s;
@@ -3377,10 +3380,10 @@ var wn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		for (let { sentence: e, rows: t, error: n } of this.s.gears) {
 			let [r, i, a] = t.map((e) => this.kernel.here[e]), o = i + a;
 			if (Math.abs(r - o) > n * o) return Q(e, {
-				found: Cn(r),
-				ri: Cn(Math.abs(i)),
-				rj: Cn(Math.abs(a)),
-				wanted: Cn(o)
+				found: wn(r),
+				ri: wn(Math.abs(i)),
+				rj: wn(Math.abs(a)),
+				wanted: wn(o)
 			});
 		}
 		return "";
@@ -3434,11 +3437,11 @@ var wn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
 		return {
 			...i,
-			joints: e === "reversal" ? wn(l) : l.join(", "),
+			joints: e === "reversal" ? Tn(l) : l.join(", "),
 			verb: d,
-			values: wn(u),
+			values: Tn(u),
 			name: s[0] ?? "",
-			names: wn(s)
+			names: Tn(s)
 		};
 	}
 	figures(e, t) {
@@ -3459,7 +3462,7 @@ var wn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	}
 	quantity(e, t, n = 6) {
 		let { unit: r, size: i } = this.s.units[t];
-		return `${Cn(e / i, n)} ${r}`;
+		return `${wn(e / i, n)} ${r}`;
 	}
 	drive(e, t) {
 		return this.quantity(this.kernel.position(e.name, t), e.turns ? "angle" : "length");
@@ -3522,8 +3525,8 @@ var wn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		}
 		return r;
 	}
-}, En = 0;
-function Dn(e, t, r) {
+}, Dn = 0;
+function On(e, t, r) {
 	let i = n("div", e, {
 		class: "tabs",
 		role: "tablist",
@@ -3550,7 +3553,7 @@ function Dn(e, t, r) {
 		t < 0 || r === void 0 || (e.preventDefault(), e.stopPropagation(), c(o[r].name, !0));
 	}), {
 		add(e, r = e) {
-			let l = `dalembert-tab-${++En}`, u = n("button", i, {
+			let l = `dalembert-tab-${++Dn}`, u = n("button", i, {
 				type: "button",
 				role: "tab",
 				id: l,
@@ -3573,7 +3576,7 @@ function Dn(e, t, r) {
 	};
 }
 // src/toolbar.ts
-function On(e, t, r, i, a, o) {
+function kn(e, t, r, i, a, o) {
 	let s = n("header", e);
 	n("h1", s, {}, t.title);
 	let c = n("div", s, {
@@ -3601,7 +3604,7 @@ function On(e, t, r, i, a, o) {
 	for (let e of We) n("option", p, { value: e }, `${e}×`);
 	p.value = String(a.speed), p.addEventListener("change", () => a.speed = +p.value);
 	let m = l("↶", "undo (Ctrl+Z)", () => o.go(!0)), h = l("↷", "redo (Ctrl+Y)", () => o.go(!1));
-	o.back && l("Back", "to the sketch, without the last thing added", o.back), l("Reset", "all numbers as in the file", o.reset);
+	o.back && l("Back", "back to the sketch: undo the last addition", o.back), l("Reset", "all numbers as in the file", o.reset);
 	let g = n("p", s, {
 		class: "mark",
 		role: "status"
@@ -3622,7 +3625,7 @@ function On(e, t, r, i, a, o) {
 	};
 }
 // src/tracers.ts
-function kn(n, i, a, o) {
+function An(n, i, a, o) {
 	let s = t("g", null, { class: "tracers" });
 	n.svg.querySelector("g").before(s);
 	let c = [];
@@ -3651,8 +3654,8 @@ function kn(n, i, a, o) {
 	};
 }
 // src/solved.ts
-var An = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", jn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", Mn = 6, Nn = 10, Pn = 8, Fn = 4;
-async function In(e, t, r, a) {
+var jn = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Mn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", Nn = 6, Pn = 10, Fn = 8, In = 4;
+async function Ln(e, t, r, a) {
 	let o = await tn.create(t), s = [], c = new Kt(t, o);
 	a.changes && c.change(a.changes), a.address && At(o, c, r, location.hash);
 	let u = a.pose && o.motion.take(a.pose);
@@ -3662,7 +3665,7 @@ async function In(e, t, r, a) {
 	let m = new Dt(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
 		curve: n,
 		unit: t.units[e.kind]
-	}))), v = h.find((e) => e.curve.of === r.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], y = new Tn(t, o), b = On(e, t, o, y, r, {
+	}))), v = h.find((e) => e.curve.of === r.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], y = new En(t, o), b = kn(e, t, o, y, r, {
 		play: le,
 		show: q,
 		go: ie,
@@ -3682,7 +3685,7 @@ async function In(e, t, r, a) {
 	}), { m: T, paper: E } = w, D = n("output", E, {
 		class: "digits",
 		"aria-label": "value of the chosen curve"
-	}), O = new wt(T, t, o), k = kn(T, C, o, r), A = new Et(E, T, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), j = qt(T, t, o, {
+	}), O = new wt(T, t, o), k = An(T, C, o, r), A = new Et(E, T, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), j = qt(T, t, o, {
 		changed: W,
 		finished: re
 	});
@@ -3693,7 +3696,7 @@ async function In(e, t, r, a) {
 	let M = g(T, t, o), N = n("section", x, {
 		class: "side",
 		"aria-label": "results"
-	}), P = Dn(N, r, () => J(!0)), F = (e) => (v = h.find((t) => t.curve === e), r.curve = e.of, J(!0)), I = Sn(P, t, o, {
+	}), P = On(N, r, () => J(!0)), F = (e) => (v = h.find((t) => t.curve === e), r.curve = e.of, J(!0)), I = Cn(P, t, o, {
 		time: () => r.t,
 		seek: q,
 		pick: F,
@@ -3725,7 +3728,7 @@ async function In(e, t, r, a) {
 			title: "arrows: moving a joint in this direction lowers the peak of the chosen curve",
 			on: !1,
 			act: (e) => (O.on = e, J(!0))
-		}), St(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Pn, () => (U(), J(!0))), t.handles.some((e) => e.kind === "joint") && xt(e, {
+		}), St(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Fn, () => (U(), J(!0))), t.handles.some((e) => e.kind === "joint") && xt(e, {
 			said: "tolerances",
 			title: "a thousand machines with points displaced by up to 0.5 % of the drawing's width",
 			on: !1,
@@ -3741,7 +3744,7 @@ async function In(e, t, r, a) {
 	}
 	function ee(e, n) {
 		let i = [], a = /* @__PURE__ */ new Set();
-		for (let s of e.slice(0, Fn)) {
+		for (let s of e.slice(0, In)) {
 			let { kind: e, name: c } = s, u = oe(t, `${e}:${c}`), d = u < 0 ? void 0 : t.sketch.links[u], f = e === "joint" || e === "reaction" ? h.find((e) => e.curve.of === `reaction.${c}.magnitude`) : h.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
 			f && i.push({
 				said: `Curve of ${l(f.curve.name)}`,
@@ -3827,7 +3830,7 @@ async function In(e, t, r, a) {
 	function le() {
 		if (b.playing(!p), p) return ue();
 		let e = performance.now(), t = r.t, n = (i) => {
-			t += (i - e) / 1e3 / Mn * r.speed * o.end, e = i, t >= o.end && (t = 0), q(t), p = requestAnimationFrame(n);
+			t += (i - e) / 1e3 / Nn * r.speed * o.end, e = i, t >= o.end && (t = 0), q(t), p = requestAnimationFrame(n);
 		};
 		p = requestAnimationFrame(n);
 	}
@@ -3854,10 +3857,10 @@ async function In(e, t, r, a) {
 	Y.addEventListener("keydown", fe);
 	function pe(e) {
 		let t = e.target;
-		if (!(e.defaultPrevented || t.closest?.(An))) {
+		if (!(e.defaultPrevented || t.closest?.(jn))) {
 			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), ie(e.key.toLowerCase() === "z" && !e.shiftKey);
 			else if (e.ctrlKey || e.metaKey || e.altKey || o.count < 2) return;
-			else e.key === " " && !t.closest?.(jn) ? (e.preventDefault(), le()) : ".,><:;".includes(e.key) && se((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Nn));
+			else e.key === " " && !t.closest?.(Mn) ? (e.preventDefault(), le()) : ".,><:;".includes(e.key) && se((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Pn));
 		}
 	}
 	return o.at(r.t), K(), {
@@ -3883,7 +3886,7 @@ async function In(e, t, r, a) {
 	};
 }
 // src/page.ts
-async function Ln(e, t, r = {}) {
+async function Rn(e, t, r = {}) {
 	let i = r.view ?? Ge(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, r);
 	async function c(t, s) {
 		let c = document.createElement("div");
@@ -3894,7 +3897,7 @@ async function Ln(e, t, r = {}) {
 			...s,
 			taken: l,
 			back: p
-		}) : t.format === "dalembert-page/1" ? await In(c, t, i, {
+		}) : t.format === "dalembert-page/1" ? await Ln(c, t, i, {
 			...s,
 			back: p
 		}) : null;
@@ -3969,9 +3972,9 @@ async function Ln(e, t, r = {}) {
 	};
 }
 // src/main.ts
-async function Rn(e, t) {
+async function zn(e, t) {
 	try {
-		return await Ln(e, JSON.parse(new TextDecoder().decode(await ne(t))), {
+		return await Rn(e, JSON.parse(new TextDecoder().decode(await ne(t))), {
 			address: location.protocol !== "about:",
 			full: !0
 		});
@@ -3979,13 +3982,13 @@ async function Rn(e, t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var zn = { async render({ model: e, el: t }) {
+var Bn = { async render({ model: e, el: t }) {
 	let r = "", i = Ge(), a = (t) => {
 		r = JSON.stringify(t), e.set("changes", t), e.save_changes();
 	}, o = (t) => {
 		(t.type === "put" || t.type === "pose" || t.type === "change" && e.get("text")) && (e.set("text", c.text()), e.save_changes());
 	}, s = async () => {
-		let r = await Ln(t, e.get("data"), {
+		let r = await Rn(t, e.get("data"), {
 			edited: a,
 			on: o,
 			changes: e.get("changes"),
@@ -3999,4 +4002,4 @@ var zn = { async render({ model: e, el: t }) {
 		e.off("change:data", l), e.off("change:changes", u), c.remove();
 	};
 } };
-export { zn as default, Ln as mount, Rn as open };
+export { Bn as default, Rn as mount, zn as open };
