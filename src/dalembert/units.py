@@ -273,7 +273,7 @@ def _bare(number: float, kind: str, units: Units | None, value: object) -> float
     if units.refuses_bare(kind):
         raise ModelError(
             f"{quote_value(value)} is {KINDS[kind].phrase} without a unit",
-            f"write which: {REFUSED_BARE[kind]}",
+            f"write {REFUSED_BARE[kind]}",
         )
     return units.unit(kind).si(number)
 
@@ -319,7 +319,7 @@ def _check_dimension(unit_text: str, named: Unit, value: object, kind: str) -> N
     if kind in PER_RADIAN and dimension == (*wanted.dimension[:3], 0):
         return
     raise ModelError(
-        f"{quote_value(value)} is {_phrase(dimension)}, and {wanted.phrase} is needed",
+        f"{quote_value(value)} is {_phrase(dimension)}, but {wanted.phrase} is needed",
         _remedy(unit_text, dimension, kind),
     )
 

@@ -155,7 +155,7 @@ OPTIONS = [
     ("motor", "ratio", "1e99", "'1e99' is not allowed; give a number above 0, of a size from 1e-60 to 1e+60"),
     ("motor", "inertia", "-3kg*m^2", "--inertia is -3kg*m^2; give 0 or a number above 0"),
     ("motor", "rated", "0", "--rated is 0; give a number above 0"),
-    ("motor", "rated", "3kg", "--rated: '3kg' is a mass, and a moment is needed"),
+    ("motor", "rated", "3kg", "--rated: '3kg' is a mass, but a moment is needed"),
     ("flywheel", "Cs", "3", "invalid value for --Cs: '3' is not allowed; give a number above 0 and below 2"),
     ("flywheel", "inertia", "-3kg*m^2", "--inertia is -3kg*m^2; give a number above 0"),
     ("shake", "orders", "-3", "--orders: '-3' is not allowed; give a whole number from 0 to 1000000"),

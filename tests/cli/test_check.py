@@ -100,7 +100,7 @@ def test_an_exact_value_that_is_missed(run: Run, folder: Path) -> None:
         ("{quantity: effort, value: 1}", "claims.yaml:33: effort needs `of`; the only one is 'O2'"),
         (
             "{quantity: effort, of: O2, value: 1 lbf}",
-            "claims.yaml:33: '1 lbf' is a force, and a moment is needed",
+            "claims.yaml:33: '1 lbf' is a force, but a moment is needed",
         ),
         (
             "{quantity: speed, of: crank, at: 70 deg, value: 1 rad/s}",

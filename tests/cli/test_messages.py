@@ -135,7 +135,7 @@ def test_virtual_work_needs_something_that_moves(run: Run) -> None:
         (
             "A: [5, 0]",
             "A: [5 lbf, 0]",
-            "10: item 1 of point 'A' of link 'crank': '5 lbf' is a force, and a length is needed; write one, for "
+            "10: item 1 of point 'A' of link 'crank': '5 lbf' is a force, but a length is needed; write one, for "
             "example '127 mm'",
         ),
         (
@@ -146,7 +146,7 @@ def test_virtual_work_needs_something_that_moves(run: Run) -> None:
         (
             "speed: 25 rad/s",
             "speed: 25",
-            "25: speed of drive 'O2': 25 is an angular speed without a unit; write which: rad/s, deg/s or rpm",
+            "25: speed of drive 'O2': 25 is an angular speed without a unit; write rad/s, deg/s or rpm",
         ),
         (
             "  O2: {position: 60 deg",

@@ -83,7 +83,7 @@ def test_the_report_gives_the_parameters(run: Run, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("setting", "says"),
     [
-        ("stroke=2 kg", "--set stroke=2 kg: parameter 'stroke': '2 kg' is a mass, and a length is needed"),
+        ("stroke=2 kg", "--set stroke=2 kg: parameter 'stroke': '2 kg' is a mass, but a length is needed"),
         ("stroke", "--set stroke has no value; write NAME=VALUE, for example --set r=50mm"),
         ("links.rod.mas=2", "--set links.rod.mas=2: path 'links.rod.mas': 'mas' does not exist in links.rod"),
         ("density=-1", "--set density=-1: links.rod: mass: "),

@@ -122,7 +122,7 @@ def test_a_ball_bounces_to_rest(e: float) -> None:
     s = da.simulate(da.loads(BALL % e), "10 s", count=21)
     first = math.sqrt(2 * 1.5 / G)
     assert s.event("rest")[0].time == pytest.approx(first * (1 + e) / (1 - e), rel=1e-12)
-    assert s.event("landing")[0].sentence.startswith("floor lands with 5.42402 m/s and goes back with ")
+    assert s.event("landing")[0].sentence.startswith("floor lands with 5.42402 m/s and rebounds at ")
     assert s["normal.floor"][-1] == s.result.reaction("floor")[-1, 1] == pytest.approx(G)
     signs(s)
 
@@ -247,7 +247,7 @@ def test_a_contact_lost_at_the_start_is_said() -> None:
         ("normal.O = 0", "'normal.O' names no contact that only pushes or pulls; the only one is 'dome'"),
         ("reaction.dom.x = 4", "unknown quantity 'reaction.dom.x'; did you mean 'reaction.dome'"),
         ("reaction.dome = 3", "reaction.dome is a vector; a condition needs a number; write reaction.dome.x"),
-        ("normal.dome = 3 mm", "'3 mm' is a length, and a force is needed"),
+        ("normal.dome = 3 mm", "'3 mm' is a length, but a force is needed"),
     ],
 )
 def test_conditions_that_make_no_sense(until: str, words: str) -> None:

@@ -392,7 +392,7 @@ def test_errors_of_the_original_are_said_once_and_those_of_a_copy_at_its_line() 
     with pytest.raises(da.ModelError) as caught:
         da.loads((ENGINE + FOUR).replace("mass: 0.6", "mass: 0.6 m"), name="four.yaml")
     assert str(caught.value).splitlines() == [
-        f"four.yaml:{line}: mass of link 'rod': '0.6 m' is a length, and a mass is needed; "
+        f"four.yaml:{line}: mass of link 'rod': '0.6 m' is a length, but a mass is needed; "
         "write one, for example '1.5 kg'"
     ]
 

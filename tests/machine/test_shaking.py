@@ -143,7 +143,7 @@ WRONG = [
     (turn(8) / 3, 1, "the positions cover 120 deg, which is not a whole number of turns"),
     (turn(8), 4, "order 4 needs more than 8 positions, and there are 8"),
     (turn(8), [0.5], r"a period of 1 turn has no harmonic of each order in \[0.5\]"),
-    (turn(2), 1, "a period needs more than 2 known positions"),
+    (turn(2), 1, "a period needs at least 3 positions, all of them solved"),
 ]
 
 

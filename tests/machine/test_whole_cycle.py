@@ -83,8 +83,8 @@ def test_turns_of_a_period(angle: Any, turns: int) -> None:
 @pytest.mark.parametrize(
     ("angle", "said"),
     [
-        (np.arange(2) * np.pi, "a period needs more than 2 known positions"),
-        ([0.0, np.nan, 1.0], "a period needs more than 3 known positions"),
+        (np.arange(2) * np.pi, "a period needs at least 3 positions, all of them solved"),
+        ([0.0, np.nan, 1.0], "a period needs at least 3 positions, all of them solved"),
         (np.arange(12) * np.pi / 6 + 3 * EVEN * (np.arange(12) == 5), "the positions are not even"),
         (np.zeros(5), "the positions are not even: steps of 0 to 0 deg"),
         (np.arange(13) * np.pi / 6, "the positions cover 390 deg, which is not a whole number of turns"),

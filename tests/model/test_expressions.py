@@ -117,7 +117,7 @@ def test_any_number_may_have_a_unit(text: str) -> None:
 
 
 PARTLY = {
-    "40 N*S": "'40 N*S' is a moment, and a force is needed; check it, and the units of its parameters",
+    "40 N*S": "'40 N*S' is a moment, but a force is needed; check it, and the units of its parameters",
     "40 N*(S > 90)": "'(S > 90)' cannot be evaluated: S is a length, and 90 is a plain number; only quantities "
     "of one kind are compared",
     "40 N*sin(O) + 2": "'40 N*sin(O) + 2' cannot be evaluated: 40 N*sin(O) is a force, and 2 is a plain number; "
@@ -142,7 +142,7 @@ def test_an_expression_with_its_unit_as_a_key_sees_parameters_and_units() -> Non
     rules = ReadingRules(inches, freedoms={"O": "turn"}, parameters=parameters)
     found = varying({"expression": "cut*(1+sign(r - 12 in*sin(O)))/2", "unit": "N"}, "force", rules)
     assert [float(value_at(found, {"O": angle})) for angle in (0.25, 0.26)] == pytest.approx([50, 0])
-    with pytest.raises(ModelError, match="'in' is a length, and a force is needed"):
+    with pytest.raises(ModelError, match="'in' is a length, but a force is needed"):
         varying({"expression": "cut*sin(O)", "unit": "in"}, "force", rules)
 
 

@@ -414,7 +414,7 @@ def test_bad_dimensions_are_refused_with_names_numbers_and_a_remedy(
 def test_unknown_template() -> None:
     with pytest.raises(ModelError, match=r"unknown template 'fourbar'; did you mean 'four_bar'\?"):
         template("fourbar")
-    with pytest.raises(ModelError, match="unknown template 'zzz'; they are four_bar, slider_crank"):
+    with pytest.raises(ModelError, match="unknown template 'zzz'; choose among four_bar, slider_crank"):
         template_text("zzz")
 
 

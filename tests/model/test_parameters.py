@@ -130,7 +130,7 @@ def test_in_python() -> None:
 WRONG = {
     "r: 45 mm|q: r + p|mass: q": "engine.yaml:5: parameter 'q': 'r + p' cannot be evaluated: r is a length, and p is a "
     "pressure; only quantities of one kind are added",
-    "p: 1 N|mass: r": "engine.yaml:16: mass of link 'crank': 'r' is a length, and a mass is needed; check it, and the "
+    "p: 1 N|mass: r": "engine.yaml:16: mass of link 'crank': 'r' is a length, but a mass is needed; check it, and the "
     "units of its parameters",
     "a: 2*b|b: a/2|mass: a": "engine.yaml:5: parameter 'a': it follows from itself: a from b from a; give one of them "
     "a value",
@@ -176,7 +176,7 @@ def test_a_wrong_file_is_told_where_and_what(case: str) -> None:
 @pytest.mark.parametrize(
     ("values", "says"),
     [
-        ({"r": "3 kg"}, "'3 kg' is a mass, and a length is needed"),
+        ({"r": "3 kg"}, "'3 kg' is a mass, but a length is needed"),
         ({"rr": 3}, "unknown parameter 'rr'; choose among r, "),
         ({"parameters.x": 3}, "names no parameter's value"),
         ({"rho": -1.0}, "links.crank: mass: -0.045 is negative"),

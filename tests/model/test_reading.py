@@ -179,13 +179,13 @@ def test_in_python_a_drives_unit_says_its_freedom() -> None:
 @pytest.mark.parametrize(
     ("part", "keys", "says"),
     [
-        (Link, {"mass": "3 N"}, "mass: '3 N' is a force, and a mass is needed; write one, for example '1.5 kg'"),
+        (Link, {"mass": "3 N"}, "mass: '3 N' is a force, but a mass is needed; write one, for example '1.5 kg'"),
         (Link, {"mas": 3}, "unknown key 'mas'; did you mean 'mass'?"),
         (Pin, {}, "the key 'links' is missing; name the two links it connects, links: [ground, crank]"),
         (Slider, {"links": ("a", "a")}, "it connects link 'a' with itself; name two different links"),
         (Drive, {}, "its position is missing; write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law"),
         (ForceLoad, {"on": "a", "at": "A", "value": Expression("A", "m"), "direction": 0},
-         "value: 'm' is a length, and a force is needed; write one, for example '80 N'"),
+         "value: 'm' is a length, but a force is needed; write one, for example '80 N'"),
     ],
 )  # fmt: skip
 def test_a_wrong_part_in_python(part: Any, keys: dict[str, Any], says: str) -> None:

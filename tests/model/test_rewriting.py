@@ -241,12 +241,12 @@ def test_anchors_aliases_and_merged_keys() -> None:
         ("{<<: *bar, inertia: 0.2}", '{"<<": *bar}', "x:7: unknown key '<<' in link 'second'"),
         (
             "    inertia: 0.1\n", "    inertia: 1 kg\n",
-            "x:6: inertia of link 'first': '1 kg' is a mass, and a moment of inertia is needed; write one, for example "
+            "x:6: inertia of link 'first': '1 kg' is a mass, but a moment of inertia is needed; write one, for example "
             "'0.02 kg*m^2'\nx:8: inertia of link 'third'",
         ),
         (
             "mass: &m 2 kg", "mass: &m 2 m",
-            "x:5: mass of link 'first': '2 m' is a length, and a mass is needed; write one, for example '1.5 kg'\n"
+            "x:5: mass of link 'first': '2 m' is a length, but a mass is needed; write one, for example '1.5 kg'\n"
             "x:7: mass of link 'second'",
         ),
     ],

@@ -120,7 +120,7 @@ def test_convert_keeps_units_and_texts(tmp_path: Path) -> None:
 def test_convert_refuses_what_is_wrong(tmp_path: Path) -> None:
     (tmp_path / "a.yaml").write_text("links: {bar: {mass: 3 N}}")
     with pytest.raises(
-        ModelError, match=r"a.yaml:1: mass of link 'bar': '3 N' is a force, and a mass is needed"
+        ModelError, match=r"a.yaml:1: mass of link 'bar': '3 N' is a force, but a mass is needed"
     ):
         convert(tmp_path / "a.yaml", tmp_path / "a.json")
     assert not (tmp_path / "a.json").exists()

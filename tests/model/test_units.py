@@ -96,7 +96,7 @@ def test_a_text_is_worth(value: str, kind: str) -> None:
         (
             "1.5 lb",
             "force",
-            "'1.5 lb' is a mass, and a force is needed; lb is a mass: write lbf (lbf is the force, lbm the mass)",
+            "'1.5 lb' is a mass, but a force is needed; lb is a mass: write lbf (lbf is the force, lbm the mass)",
         ),
         ("3 degC", "length", "unknown unit 'degC'; did you mean 'deg'?"),
         ("3 V", "length", "unknown unit 'V'; units of length: m, meter, metre, mm, cm, dm, um, µm, ..."),
@@ -146,7 +146,7 @@ def test_units_left_out_are_si_and_degrees() -> None:
 @pytest.mark.parametrize("kind", ["angular_speed", "angular_acceleration"])
 def test_a_bare_angular_speed_is_refused_in_a_file_only(kind: str) -> None:
     assert quantity(3, kind) == 3.0
-    with pytest.raises(ModelError, match="without a unit; write which: rad/s"):
+    with pytest.raises(ModelError, match="without a unit; write rad/s"):
         quantity(3, kind, Units())
 
 

@@ -75,7 +75,7 @@ def test_a_mass_takes_the_place_of_a_weight() -> None:
         (
             "links.crank.mass",
             "3 N",
-            "links.crank: mass: '3 N' is a force, and a mass is needed; write one, for example '1.5 kg'",
+            "links.crank: mass: '3 N' is a force, but a mass is needed; write one, for example '1.5 kg'",
         ),
         (
             "joints.A.links",

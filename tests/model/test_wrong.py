@@ -53,7 +53,7 @@ def test_all_errors_of_a_file_are_listed_the_most_useful_first() -> None:
         loads(text, name="four.yaml")
     assert str(caught.value).splitlines() == [
         "four.yaml:25: unknown key 'sped' in drive 'O2'; did you mean 'speed'?",
-        "four.yaml:10: weight of link 'crank': '1.5 kg' is a mass, and a force is needed; "
+        "four.yaml:10: weight of link 'crank': '1.5 kg' is a mass, but a force is needed; "
         "write one, for example '80 N'",
     ]
 

@@ -187,7 +187,7 @@ def test_conditions_that_no_design_keeps() -> None:
         ({"vary": {}}, "no number varies"),
         ({"vary": {"links.crank.mas": (1, 2)}}, "mas"),
         ({"vary": {"links.crank.mass": (2, 1)}}, "the bounds of 'links.crank.mass' go from 2 to 1"),
-        ({"vary": {"links.crank.mass": (1, "2 in")}}, "'2 in' is a length, and a mass is needed"),
+        ({"vary": {"links.crank.mass": (1, "2 in")}}, "'2 in' is a length, but a mass is needed"),
         ({"vary": {"links.crank.mass": (1, 2, 0)}}, "step > 0"),
         ({"vary": {"links.crank.mass": 3}}, "give (low, high) or (low, high, step)"),
         ({"least": "peek effort.O2"}, "'peek', which is not an aim; did you mean 'peak'?"),
@@ -252,7 +252,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         ("starts: 5", "starts: many", "optimize.yaml:8: starts is 'many'"),
         ("optimize: 1", "optimize: 2", "optimize.yaml:1: unknown format version 2"),
         ("effort.O2", "efort.O2", "optimize.yaml:6: unknown output 'efort.O2'"),
-        ("280 mm,", "280 kg,", "'280 kg' is a mass, and a length is needed"),
+        ("280 mm,", "280 kg,", "'280 kg' is a mass, but a length is needed"),
     ],
 )
 def test_wrong_files(tmp_path: Path, old: str, new: str, message: str) -> None:

@@ -92,4 +92,4 @@ def test_a_drive_too_many_is_named() -> None:
     tree["drives"]["C"] = {"position": "100 deg"}
     with pytest.raises(da.ModelError) as caught:
         da.solve(da.mechanism(tree), positions=2)
-    assert str(caught.value) == "the mechanism has 1 freedom and 2 drives; leave out 1 drive of O, C"
+    assert str(caught.value) == "the mechanism has 1 freedom and 2 drives; remove 1 drive of O, C"

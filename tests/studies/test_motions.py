@@ -173,7 +173,7 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"simulate": "2 s"}, 3, "simulate is '2 s', not a mapping; write simulate: {until: 2 s}"),
     ({"simulate": "{count: 5}"}, 3, "the motion does not say until when; write simulate: {until: 2 s}"),
     ({"simulate": "{until: 2 s, coutn: 5}"}, 3, "unknown key 'coutn'; did you mean 'count'?"),
-    ({"simulate": "{until: 2 m}"}, 3, "'2 m' is a length, and a time is needed"),
+    ({"simulate": "{until: 2 m}"}, 3, "'2 m' is a length, but a time is needed"),
     ({"simulate": "{until: O2.speed = 3 rad/s}"}, 3, "has no end; add a time: [5 s, ...]"),
     ({"simulate": "{until: [2 s, O3.speed = 0]}"}, 3, "names no drive; the only one is 'O2'"),
     (
@@ -192,7 +192,7 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"simulate": "{until: 2 s, start: {O2: {speed: 0}}}"}, 3, "its position is missing"),
     ({"vary": "{start.O3.speed: 1..2 rad/s}"}, 4, "'O3' does not exist in start"),
     ({"vary": "{drives.O2.motor.stal: ± 5 %}"}, 4, "did you mean 'stall'?"),
-    ({"vary": "{drives.O2.motor.stall: ± 5 mm}"}, 4, "'5 mm' is a length, and a moment is needed"),
+    ({"vary": "{drives.O2.motor.stall: ± 5 mm}"}, 4, "'5 mm' is a length, but a moment is needed"),
     ({"vary": "{drives.O2.effort: ± 5 %}"}, 4, "drives.O2.effort"),
     (
         {"simulate": None, "vary": "{start.O2.speed: 1..2 rad/s}"},

@@ -168,7 +168,7 @@ def test_a_lease_is_renewed_taken_over_when_it_has_ended_and_then_lost(
         ("zz://a/s.zarr", "zz://a/s.zarr: protocol not known: zz; fsspec knows memory://, file://, s3://"),
         (
             "memory://none/s.zarr",
-            "memory://none/s.zarr: file not found; dalembert study run FILE makes one",
+            "memory://none/s.zarr: file not found; dalembert study run FILE creates one",
         ),
     ],
 )

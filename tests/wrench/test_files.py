@@ -71,7 +71,7 @@ WRONG = [
     (("F1: {value: [40, 0], at: A}", "F1: {value: [40, 0], at: B}"),
      "plate.yaml:7: force 'F1' names the point 'B'; choose among O, A"),
     (("F2: {size: 50, direction: 90,", "F2: {size: 50 kg, direction: 90,"),
-     "plate.yaml:8: size of force 'F2': '50 kg' is a mass, and a force is needed; write one, for example '80 N'"),
+     "plate.yaml:8: size of force 'F2': '50 kg' is a mass, but a force is needed; write one, for example '80 N'"),
     (("F2: {size: 50, direction: 90,", "F2: {size: 50, direktion: 90,"),
      "plate.yaml:8: unknown key 'direktion' in force 'F2'; did you mean 'direction'?"),
     (("F2: {size: 50, direction: 90,", "F2: {size: 50,"),

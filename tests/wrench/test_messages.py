@@ -22,7 +22,7 @@ WRONG: list[tuple[Callable[[], Any], str]] = [
         "the system has parts in the plane and parts in space; give all vectors 2 components, or all 3",
     ),
     (lambda: System(), "the system has no force and no couple; give it at least one"),
-    (lambda: Force("80 lb @ 30 deg"), "'80 lb' is a mass, and a force is needed; "
+    (lambda: Force("80 lb @ 30 deg"), "'80 lb' is a mass, but a force is needed; "
      "lb is a mass: write lbf (lbf is the force, lbm the mass)"),
     (lambda: Force([float("nan"), 0]), "nan is not a finite number; write a finite one"),
     (lambda: Force([1e61, 0]), "1e+61 is too large; write a number below 1e+60"),

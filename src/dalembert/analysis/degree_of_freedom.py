@@ -77,7 +77,7 @@ def check_drives(c: Compiled, ranked: Rank, mobility: Mobility) -> None:
     )
     if missing < 0:
         names = ", ".join(c.schedule.names)
-        raise ModelError(counts, f"leave out {_count(-missing, 'drive')} of {names}", path)
+        raise ModelError(counts, f"remove {_count(-missing, 'drive')} of {names}", path)
     if missing > 0 or ranked.loose.any():
         loose = ", ".join(name for name, moves in zip(c.links, ranked.loose, strict=True) if moves)
         free = [f"{j} ({kind})" for (j, kind), moves in zip(c.freedoms, ranked.free, strict=True) if moves]

@@ -49,17 +49,18 @@ class Outputs:
 
     KINDS: ClassVar[tuple[str, ...]] = ("json", "csv", "xlsx", "report")
 
-    json: Annotated[Path | None, target("Write everything as JSON; - prints only the JSON.")] = None
-    csv: Annotated[Path | None, target("Write a table (CSV), one line per row; - prints only the table.")] = (
-        None
-    )
+    json: Annotated[Path | None, target("Write the answer as JSON; - prints only the JSON.")] = None
+    csv: Annotated[
+        Path | None,
+        target("Write a table (CSV), one row per position, design or part; - prints only the table."),
+    ] = None
     xlsx: Annotated[Path | None, target("Write a workbook (Excel) with the table and charts.")] = None
     report: Report = None
     output: Annotated[
         Path | None,
         output_to(
-            "Write the format of the extension: .json, .csv, .xlsx, .nc, a drawing, a report, or the new model file "
-            "(.yaml, .toml)."
+            "Write this file in the format of its extension: .json, .csv, .xlsx, .nc, a drawing, a report, or the "
+            "new model file (.yaml, .toml)."
         ),
     ] = None
     units: Units = None

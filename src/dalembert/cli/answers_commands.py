@@ -116,7 +116,7 @@ def grade(
     columns: Annotated[
         list[str] | None,
         with_help(
-            "Meaning of a heading that is not understood: HEADING=effort.O2, or HEADING=- to pass over it."
+            "Meaning of a heading that is not understood: HEADING=effort.O2, or HEADING=- to ignore it."
         ),
     ] = None,
     decide: Annotated[

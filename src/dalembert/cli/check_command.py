@@ -44,7 +44,7 @@ def check(
 
 def validate(
     *,
-    json: Annotated[Path | None, target("Write everything as JSON; - prints only the JSON.")] = None,
+    json: Annotated[Path | None, target("Write the answer as JSON; - prints only the JSON.")] = None,
     force: Force = False,
 ) -> int:
     """Verify this installation: solve every bundled published problem and compare all answers."""

@@ -109,7 +109,7 @@ Seen = Annotated[
 ]
 Drawing = Annotated[Path | None, with_help("Write a drawing: .svg, .pdf, .png or .dxf.")]
 Report = Annotated[
-    Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
+    Path | None, with_help("Write the report or worked solution to this file: .pdf, .html, .tex or .txt.")
 ]
 Units = Annotated[
     Literal["si", "file"] | None,

@@ -98,7 +98,7 @@ def whole_turns(angle: Array) -> int:
     """Turns of one period that even positions (P,) cover, each position once; raises ModelError where they do not."""
     q, remedy = np.asarray(angle, float), "write position: {from: 0 deg, to: 360 deg, count: 72}"
     if len(q) < 3 or not np.isfinite(q).all():
-        raise ModelError(f"a period needs more than {len(q)} known positions", remedy)
+        raise ModelError("a period needs at least 3 positions, all of them solved", remedy)
     steps = np.diff(q)
     step = float(q[-1] - q[0]) / (len(q) - 1)
     if not np.allclose(steps, step, rtol=0.0, atol=EVEN * max(1.0, abs(step))) or step == 0:

@@ -83,7 +83,7 @@ class Store:
         import zarr
 
         if not self.exists():
-            raise MissingFileError(str(self), "dalembert study run FILE makes one")
+            raise MissingFileError(str(self), "dalembert study run FILE creates one")
         try:
             self.group = zarr.open_group(self.place.group(), mode=mode, zarr_format=3)
             attributes = dict(self.group.attrs)

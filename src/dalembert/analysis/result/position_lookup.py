@@ -137,7 +137,11 @@ def _place(r: Result, at: PositionChoice) -> int:
             "the mechanism has no drive to name a position by", "give the number of the position"
         )
     kind = drive_kinds(r, r.drives[0])["position"]
-    wanted = quantity(at, kind, file_units(r.mechanism.units))
+    try:
+        wanted = quantity(at, kind, file_units(r.mechanism.units))
+    except ModelError as error:
+        remedy = f'{error.remedy}, the number of a position, or an extreme such as "max effort.{r.drives[0]}"'
+        raise ModelError(f"position: {error.what}", remedy) from None
     values = r.drive_position(r.drives[0])
     k, near = _nearest(values, wanted, kind == "angle")
     if not near:

@@ -6,7 +6,7 @@ A wrench is (force, moment about j's point of the joint): three numbers in the p
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, get_args
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from dalembert.core.equilibrium import shifts, unique
 from dalembert.core.gear_rows import gearings, wheel_axes
 from dalembert.core.layout import ConstraintRows, Pose
 from dalembert.errors import ModelError
+from dalembert.wording import closest, quote_value
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
@@ -107,7 +108,9 @@ def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool =
 
 
 def _place(axes: Axes, by: str, on: str | None) -> str:
-    """The place that axes are of: the ground, the joint, its link i or its link j."""
+    """The place that axes are of: the ground, the joint, its link i or its link j; ModelError for other words."""
+    if axes not in get_args(Axes):
+        raise ModelError(f"unknown axes {quote_value(axes)}", closest(axes, list(get_args(Axes))))
     return axes if axes != "link" else "i" if on == by else "j"
 
 

@@ -20,7 +20,7 @@ optimize.yaml:
   least: peak effort.O2
   where: [transmission.B >= 40 deg]
 
-Exit status: 0 optimum computed; 1 no design meets every condition; 2 the file is wrong."""
+Exit status: 0 optimum computed; 1 no design meets every condition; 2 error in the file."""
 
 
 def optimize(

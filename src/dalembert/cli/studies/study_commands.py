@@ -53,7 +53,7 @@ def run(
     threads: Threads = None,
     scheduler: Scheduler = None,
 ) -> int:
-    """Run the study of FILE into a new store, and print its summary."""
+    """Run the study in FILE, write its designs to a new store, and print a summary."""
     from dalembert.studies.store import Store
     from dalembert.studies.study_file import load_study
 

@@ -237,4 +237,4 @@ def _unknown(unknown: list[str], heads: list[str], names: FigureNames) -> tuple[
     target = wanted[0] if wanted else "effort.NAME"
     requested = f"; asked are {', '.join(wanted)}" if wanted else ""
     each = ", --columns once for each heading" if len(unknown) > 1 else ""
-    return what + requested, f'write --columns "{example}={target}", or "{example}=-" to pass over it{each}'
+    return what + requested, f'write --columns "{example}={target}", or "{example}=-" to ignore it{each}'

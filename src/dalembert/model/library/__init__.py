@@ -153,6 +153,6 @@ def _require_known(name: str) -> Template:
         from difflib import get_close_matches
 
         near = get_close_matches(name, TEMPLATES, 1, 0.4)
-        hint = f"did you mean {near[0]!r}?" if near else "they are " + ", ".join(TEMPLATES)
+        hint = f"did you mean {near[0]!r}?" if near else "choose among " + ", ".join(TEMPLATES)
         raise ModelError(f"unknown template {name!r}", hint)
     return TEMPLATES[name]

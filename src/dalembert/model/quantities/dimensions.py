@@ -151,7 +151,7 @@ def _unfit(powers: Powers, kind: str, text: str) -> ModelError:
     remedy = "check it, and the units of its parameters"
     if powers[:3] == wanted.dimension[:3] and kind in REFUSED_BARE:
         remedy = "say radians or turns: multiply by 1 rad, or by 1 rev"
-    return ModelError(f"{quote_value(text)} is {phrase(powers)}, and {wanted.phrase} is needed", remedy)
+    return ModelError(f"{quote_value(text)} is {phrase(powers)}, but {wanted.phrase} is needed", remedy)
 
 
 def kind_of_dimension(powers: Powers | None) -> str | None:

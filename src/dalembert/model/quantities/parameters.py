@@ -312,7 +312,7 @@ def _like(new: Parameter, value: object, of: Parameter, units: Units | None) -> 
         return new
     if not any(a) and of.kind and not isinstance(new.value, Dependent):
         return replace(of, value=quantity(value, of.kind, units))
-    what = f"{quote_value(value)} is {phrase(a)}, and {phrase(b)} is needed"
+    what = f"{quote_value(value)} is {phrase(a)}, but {phrase(b)} is needed"
     raise ModelError(what, f"write for example {of._text(of.value)}")
 
 

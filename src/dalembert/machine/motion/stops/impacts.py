@@ -360,7 +360,7 @@ class StopState(ClutchState):
         before, after, lost = of
         self.losses.append((t, lost))
         kind, rate = kind_of(stop.freedom, ""), kind_of(stop.freedom, "speed")
-        back: Words = ("goes back with ", (rate, after)) if after else ("does not go back",)
+        back: Words = ("rebounds at ", (rate, after)) if after else ("does not rebound",)
         place: Words = (f"{stop.name} strikes its stop at ", (kind, stop.end(side)))
         if stop.contact:
             place = (f"{stop.contact.joint} lands{stop.contact.where}",)
