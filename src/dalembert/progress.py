@@ -25,21 +25,24 @@ def progress(what: str, total: int | None = None) -> Iterator[Step]:
     """Progress on standard error: what is done, for how long, with a total how fast and how long it still takes.
 
     What it gives is called with how much is done, and of what: ``step(3)``, ``step(3, "case.yaml")``; a total that is
-    known only then follows, ``step(3, total=200)``. An interruption passes through.
+    known only then follows, ``step(3, total=200)``; work that was resumed had ``start`` done before. An interruption
+    passes through.
 
     >>> with progress("Solving", 2) as step:      # short work shows nothing
     ...     step(1)
     """
     if sys.stderr is None:
-        yield lambda done, name="", total=None: None
+        yield lambda done, name="", total=None, start=0: None
         return
     import threading
 
-    state: dict[str, Any] = {"completed": 0, "description": what, "total": total}
+    state: dict[str, Any] = {"completed": 0, "description": what, "total": total, "start": 0}
     finished = threading.Event()
 
-    def step(done: int, name: str = "", total: int | None = None) -> None:
-        state.update(completed=done, description=f"{what} {name}".strip(), total=total or state["total"])
+    def step(done: int, name: str = "", total: int | None = None, start: int = 0) -> None:
+        state.update(
+            completed=done, description=f"{what} {name}".strip(), total=total or state["total"], start=start
+        )
 
     show = _show if sys.stderr.isatty() else _print_lines
     shown = threading.Thread(target=show, args=(state, finished), daemon=True)
@@ -51,17 +54,19 @@ def progress(what: str, total: int | None = None) -> Iterator[Step]:
         shown.join()
 
 
-def line(what: str, done: int, total: int | None, seconds: float) -> str:
-    """One line: done of total, rate and time left; without a total the time so far.
+def line(what: str, done: int, total: int | None, seconds: float, start: int = 0) -> str:
+    """One line: done of total, rate and time left; without a total the time so far. ``start`` were done before.
 
     >>> line("Studying", 300, 1200, 60.0)
     'Studying: 300 of 1,200, 5.0 per second, 3 min left'
+    >>> line("Studying", 900, 1200, 60.0, start=600)
+    'Studying: 900 of 1,200, 5.0 per second, 60 s left'
     >>> line("Solving press.yaml", 0, None, 42.0)
     'Solving press.yaml: 42 s so far'
     """
-    if not total or not done:
+    if not total or done <= start:
         return f"{what}: {duration(seconds)} so far"
-    rate = done / seconds
+    rate = (done - start) / seconds
     speed = f"{rate:,.{0 if rate >= 100 else 1}f} per second" if rate >= 1 else f"{60 * rate:.1f} per minute"
     return f"{what}: {done:,} of {total:,}, {speed}, {duration((total - done) / rate)} left"
 
@@ -82,7 +87,9 @@ def _print_lines(state: dict[str, Any], finished: Any) -> None:
     """A line from time to time until the work is finished."""
     start, pause = monotonic(), FIRST
     while not finished.wait(pause):
-        text = line(state["description"], state["completed"], state["total"], monotonic() - start)
+        text = line(
+            state["description"], state["completed"], state["total"], monotonic() - start, state["start"]
+        )
         print(text, file=sys.stderr, flush=True)
         pause = min(SLOWER * pause, LONGEST)
 
@@ -105,7 +112,7 @@ def _show(state: dict[str, Any], finished: Any) -> None:
         task = bar.add_task("", total=total, rate="")
         while True:
             done, seconds = state["completed"], monotonic() - start
-            rate = line("", done, total, seconds).partition(", ")[2]
+            rate = line("", done, total, seconds, state["start"]).partition(", ")[2]
             bar.update(task, completed=done, description=escape(state["description"]), rate=rate)
             if finished.wait(0.1):
                 return

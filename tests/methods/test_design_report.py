@@ -11,8 +11,11 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
+from dalembert.errors import ModelError
 from dalembert.machine.members.member_table import member_table
+from dalembert.machine.output.sizes_over_cycle import rms
 from dalembert.reports.design.design_report import PARTS, design_sheet, parts_of
+from dalembert.reports.design.power_parts import balance_part, motor_part
 from dalembert.reports.design.strength_parts import member_part
 from dalembert.reports.design.verdict import DesignContext, DesignVerdict, judged
 from dalembert.reports.sheet import Heading, SheetTable
@@ -79,6 +82,26 @@ def test_the_summary_counts_what_is_exceeded() -> None:
     )  # the worst position of a joint is that of its largest force
     at = f"{math.degrees(r.drive_position('O2')[k]):.0f}° (no. {k + 1})"
     assert at in next(line for line in text.splitlines() if line.startswith("reaction.B "))
+
+
+def test_the_motor_is_judged_where_its_torque_is_nearest_to_its_limit() -> None:
+    # dwells need torques of rounding alone there, whose margins of 1e16 are no scale for those of the strokes
+    r = da.solve(da.load(BUNDLED["carton_pusher"]))
+    (part,) = motor_part(DesignContext(r, 0, da.Notation()))
+    line = 2 * (1 - 30 * 60 / 2850)  # stall 2 N m, no load 2850 rpm, ratio 30, 60 rpm
+    effort = r.effort("O")
+    torque = effort / 30 / np.where(effort > 0, 0.94, 1 / 0.94)
+    assert part.verdicts[0].margin == pytest.approx(line / np.abs(torque).max(), rel=1e-6)
+    assert part.verdicts[0].at == DesignContext(r, 0, da.Notation()).at(int(np.abs(torque).argmax()))
+
+
+def test_counterweights_are_for_whole_turns_and_a_sliding_drive_has_a_force() -> None:
+    r = da.solve(da.load(BUNDLED["excavator"]))
+    with pytest.raises(ModelError, match="'boom_cylinder' slides"):
+        list(balance_part(DesignContext(r, 0, da.Notation())))
+    b = da.balance(r, ["boom"])
+    assert {c.name: c.kind for c in b.columns()}["before.effort.boom_cylinder"] == "force"
+    assert f"rms drive force {rms(r.effort('boom_cylinder')):.6g} N" in " ".join(str(b).split())
 
 
 def test_a_limit_without_a_number_is_not_judged() -> None:

@@ -58,9 +58,7 @@ def _left_to_forces(r: Result) -> dict[str, str]:
                 f"gives {drive.brake:.6g} {unit} more in the direction of motion, at rest the brake takes up to as much"
             )
         if drive.motor is not None:
-            notes[f"motor of {name}"] = (
-                "its curve is not used: the effort is what the prescribed motion needs"
-            )
+            notes[f"motor of {name}"] = "not used: the effort is what the prescribed motion needs"
         if name in m.start:
             notes[f"start of {name}"] = "not used: the drive is prescribed (simulate starts from it)"
         if drive.stops is not None and name in r.schedule.names:

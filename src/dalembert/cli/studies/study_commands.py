@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import App
 
@@ -179,23 +177,15 @@ def _run(study: Study, store: str, threads: int | None, scheduler: str | None) -
         print(f"Changes no output: {', '.join(unused)}.", file=sys.stderr)
     try:
         with progress("Studying", study.count) as step:
-            result = study.run(store, threads=threads, scheduler=scheduler, progress=_rate(step))
+            before: list[int] = []
+
+            def tell(done: int, _: int) -> None:
+                before[:] = before or [done]
+                step(done, start=before[0])
+
+            result = study.run(store, threads=threads, scheduler=scheduler, progress=tell)
     except KeyboardInterrupt:
         print(f"Stopped. Finished blocks are kept: dalembert study resume {store}", file=sys.stderr)
         raise
     print(summary(result))
     return 0
-
-
-def _rate(step: Callable[..., Any]) -> Callable[[int, int], None]:
-    """Tells the bar the rate and the time left."""
-    begun, first = time.perf_counter(), [-1]
-
-    def tell(done: int, count: int) -> None:
-        if first[0] < 0:
-            first[0] = done
-        rate = (done - first[0]) / (time.perf_counter() - begun)
-        left = f", {(count - done) / rate:.0f} s left" if rate > 0 else ""
-        step(done, f"{done:,} of {count:,} designs, {rate:,.0f} a second{left}")
-
-    return tell

@@ -27,6 +27,12 @@ class Comparison(MachineAnswer, Remade):
         """The description with the added masses in its links' masses, centres and inertias."""
         return self.after.result.mechanism
 
+    def kind(self, name: str) -> str:
+        """Kind of a quantity: the torque of a drive that slides is a force."""
+        drives, m = self.before.result.drives, self.before.result.mechanism
+        slides = name == "torque" and bool(drives) and not m.drives[drives[0]].turns
+        return "force" if name == "force" or slides else "moment"
+
     def sizes(self, after: bool = True) -> dict[str, tuple[float, float]]:
         """Rms and greatest value of force, moment and torque, before or after."""
         values = values_of(self.after if after else self.before)
@@ -37,7 +43,7 @@ class Comparison(MachineAnswer, Remade):
         out: Tree = {"before": {}, "after": {}}
         for side, by_name in out.items():
             for name, both in self.sizes(side == "after").items():
-                sizes = (to("force" if name == "force" else "moment", size) for size in both)
+                sizes = (to(self.kind(name), size) for size in both)
                 by_name[name] = dict(zip(("rms", "max"), sizes, strict=True))
         return out
 
@@ -48,7 +54,11 @@ class Comparison(MachineAnswer, Remade):
             shaking = (c for c in s.columns() if c.name.startswith(("shaking", "inertia")))
             yield from (c._replace(name=f"{name}.{c.name}") for c in shaking)
             for drive in s.result.drives:
-                yield Column(f"{name}.effort.{drive}", "moment", s.result.effort(drive))
+                yield Column(
+                    f"{name}.effort.{drive}",
+                    "moment" if s.result.mechanism.drives[drive].turns else "force",
+                    s.result.effort(drive),
+                )
 
 
 def values_of(s: Shaking) -> dict[str, Array]:

@@ -45,12 +45,13 @@ def comparison_table(b: Comparison, to: Printed) -> TextTable:
     """Rms and greatest value of each quantity before and after, and their ratio."""
     after, rows = b.sizes(), []
     for name, sizes in b.sizes(after=False).items():
-        kind = "force" if name == "force" else "moment"
+        kind = b.kind(name)
+        called = "drive force" if name == "torque" and kind == "force" else name
         for what, was, left in zip(("rms", "greatest"), sizes, after[name], strict=True):
             old = was if was > b.before.floor(kind) else 0.0
             new = left if left > max(1e-12 * was, b.before.floor(kind)) else 0.0
             share = number(100 * new / old, 4) + " %" if old else "-"
-            rows.append([f"{what} {name}", to.quantity(kind, old), to.quantity(kind, new), share])
+            rows.append([f"{what} {called}", to.quantity(kind, old), to.quantity(kind, new), share])
     note = f"Moment about {b.before.about}. Force and moment are those of inertia, without weights and external loads."
     if b.before.outside:
         most = to.quantity("force", greatest(b.before.parts["external"][0])[0])

@@ -25,7 +25,11 @@ STATED = re.compile(rf"({NUMBER}) (\S+)")
 
 
 def given_parts(sheet: ReportSheet, c: DesignContext) -> None:
-    """A table of these data, in the reader's units."""
+    """The position that is drawn, and a table of these data, in the reader's units."""
+    if len(c.r.status) > 1:
+        sheet.text(
+            f"Motion of the drives, loads and drawing: at {c.at(c.k)}, of {len(c.r.status)} positions."
+        )
     tree = c.r.mechanism.to_tree()
     rows = [
         (name, key.replace("_", " "), stated(c, value[key]))

@@ -9,6 +9,7 @@ import numpy as np
 from dalembert.errors import ModelError
 from dalembert.machine.balance.balancing import balance
 from dalembert.machine.flywheel.flywheels import flywheel
+from dalembert.machine.harmonics import whole_turns
 from dalembert.machine.motors.motor_choice import MotorChoice, motor
 from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.machine.shaking import shaking
@@ -19,8 +20,8 @@ from dalembert.reports.design.verdict import (
     DesignPart,
     DesignVerdict,
     judged,
-    least_place,
     not_judged,
+    tightest_place,
 )
 
 USUAL = 0.05
@@ -54,7 +55,7 @@ def _motor(c: DesignContext, choice: MotorChoice) -> Iterator[DesignVerdict]:
     allowed = np.abs(np.asarray(curve.at(speed)))
     with np.errstate(divide="ignore", invalid="ignore"):
         margin = np.where(speed <= curve.fastest, allowed / torque, 0.0)
-    k = least_place(margin)
+    k = tightest_place(margin)
     value = c.text("moment", float(torque[k]))
     remark = "" if margin[k] >= 1 else "at the prescribed motion; see the start-up for that of the motor"
     yield judged(
@@ -95,7 +96,7 @@ def shaking_part(c: DesignContext) -> Iterator[DesignPart]:
 
 
 def balance_part(c: DesignContext) -> Iterator[DesignPart]:
-    """Counterweights on the links that turn about the ground, and what they leave of the force of inertia."""
+    """Counterweights over whole turns, on links that turn about the ground, and what they leave of inertia."""
     r, m = c.r, c.r.mechanism
     if not r.inertia or not np.nan_to_num(shaking(r).parts["inertia"][0]).any():
         return
@@ -105,6 +106,10 @@ def balance_part(c: DesignContext) -> Iterator[DesignPart]:
     some = [link for link in r.links if link in links and m.mass(link)]
     if not some:
         raise ModelError("no link with a mass turns about the ground, where a counterweight is put", "")
+    if not m.drives[r.drives[0]].turns:
+        raise ModelError(f"counterweights are for a machine that turns, and drive '{r.drives[0]}' slides", "")
+    if len(r.status) > 1:
+        whole_turns(r.drive_position(r.drives[0]))
     b = balance(m, some, positions=len(r.status) if len(r.status) > 1 else None)
     part = DesignPart("Balance")
     value = f"{100 * b.value:.3g} % of the rms force"

@@ -19,9 +19,9 @@ from dalembert.reports.design.verdict import (
     DesignPart,
     DesignVerdict,
     judged,
-    least_place,
     most_place,
     not_judged,
+    tightest_place,
     together,
 )
 from dalembert.reports.machine_sections import put_parts
@@ -48,7 +48,7 @@ def _bolt(c: DesignContext, p: PinStresses) -> DesignVerdict:
     value = c.text("pressure", float(stress[k]))
     if not np.isfinite(p.safety).any():
         return not_judged(f"bolt of {p.joint}", "its pin has no yield_stress", value, c.at(k))
-    k = least_place(p.safety)
+    k = tightest_place(p.safety)
     return judged(f"yield of the bolt of {p.joint}", float(p.safety[k]), value, c.at(k))
 
 

@@ -158,6 +158,16 @@ def least_place(values: Array) -> int:
     return first_largest(-values) if np.isfinite(values).any() else 0
 
 
+def tightest_place(margins: Array) -> int:
+    """Position of the smallest margin, by value over limit: margins without a load are huge or infinite.
+
+    >>> tightest_place(np.array([30.9, 1.6, 3e17, np.inf]))
+    1
+    """
+    with np.errstate(divide="ignore"):
+        return most_place(1 / margins)
+
+
 def most_place(values: Array) -> int:
     """Position of the largest of values (P,), the first where none is known."""
     return first_largest(values) if np.isfinite(values).any() else 0

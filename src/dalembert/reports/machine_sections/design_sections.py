@@ -22,7 +22,7 @@ def balance_section(sheet: ReportSheet, b: Balance, shown: Shown) -> None:
     """In letters the columns of a counterweight."""
     sheet.heading("Balance")
     where = "with m x and m y about its base point A, on a link at the angle $theta$, adds to the shaking force, in "
-    where, letters = where + "complex numbers,", "(i alpha - omega^{2}) e^{i theta} (m x + i m y)"
+    where, letters = where + "complex numbers,", "(i alpha - omega^{2}) e^{iθ} (m x + i m y)"
     if b.problem.dimension == 3:
         where = "at r from its base point A adds to the shaking force"
         letters = "m (alpha times r) - m (omega times (omega times r))"

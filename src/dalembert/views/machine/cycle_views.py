@@ -82,9 +82,9 @@ def comparison_scenes(b: Comparison, axis: ChartAxis) -> list[Scene]:
         return out
     titles = {"force": "shaking force", "moment": f"shaking moment about {b.before.about}"}
     for name, both in by_name.items():
-        kind = "force" if name == "force" else "moment"
+        kind = b.kind(name)
         sizes = {side: v if v.ndim == 1 else magnitude(v) for side, v in both.items()}
-        title = titles.get(name, f"torque of {b.result.drives[0]}")
+        title = titles.get(name, f"{'force' if kind == 'force' else 'torque'} of {b.result.drives[0]}")
         title = f"Magnitude of the {title}" if not plane and name in titles else title[0].upper() + title[1:]
         if max(np.abs(v).max() for v in sizes.values()) > b.before.floor(kind):
             out.append(axis.chart(kind, sizes, title))
