@@ -30,8 +30,8 @@ Arrays = TypeVar("Arrays")
 """An array, or a NamedTuple of arrays and of such records over the same positions."""
 
 
-TIE = 1e-9
-"""Share of the largest within which values are equally large."""
+TIE, ROUNDING = 1e-9, 1e-13
+"""Share of an extreme, and of the largest size, within which values are equally large."""
 
 
 def first_largest(values: Array) -> int:
@@ -39,10 +39,14 @@ def first_largest(values: Array) -> int:
 
     >>> first_largest(np.array([1.0, 3 - 1e-13, np.nan, 3.0])), first_largest(np.array([1.0, np.inf]))
     (1, 1)
+    >>> first_largest(-np.array([3.0, 2.0, 1e10]))
+    1
     """
     each = np.ravel(values)
     largest = np.abs(each[np.isfinite(each)]).max(initial=0.0)
-    return int(np.argmax(each >= np.nanmax(each) - TIE * largest))
+    extreme = np.nanmax(each)
+    near = ROUNDING * largest + (TIE * abs(extreme) if np.isfinite(extreme) else 0.0)
+    return int(np.argmax(each >= extreme - near))
 
 
 def at(arrays: Arrays, where: object) -> Arrays:

@@ -60,7 +60,9 @@ def test_notebooks_run_in_jupyter(path: Path, tmp_path: Path, monkeypatch: pytes
     client.execute()
     outputs = [o for cell in book.cells if cell.cell_type == "code" for o in cell.outputs]
     said = [o.text for o in outputs if o.output_type == "stream" and o.name == "stderr"]
-    assert not [text for text in said if not re.fullmatch(r"(.* per second, .* left\n?)+", text)]  # progress, if slow
+    assert not [
+        text for text in said if not re.fullmatch(r"(.* per second, .* left\n?)+", text)
+    ]  # progress, if slow
     kinds = {"text/html", "image/svg+xml", "image/png"}
     assert sum(1 for o in outputs if kinds & set(o.get("data", ()))) >= SHOWN[path.stem]
     assert list(work.iterdir()) == []
