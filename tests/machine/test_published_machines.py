@@ -10,7 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.grading.file_answers import check_file
-from tests.cases.test_coverage import CASES, waiting
+from tests.cases.test_coverage import CASES, without_file
 from tests.machine.published_calls import CALLS, CAR, MODELS
 
 PROBLEMS = {p["id"]: p for p in json.loads(Path(__file__).with_name("machine_cases.json").read_text("utf-8"))}
@@ -49,7 +49,7 @@ def test_they_are_what_the_books_print(name: str) -> None:
 def test_every_problem_has_a_call_or_waits() -> None:
     assert set(CALLS) <= set(PROBLEMS)
     files = {name for name in PROBLEMS if any(CASES.glob(f"{name.lower()}-*.yaml"))}
-    assert set(PROBLEMS) - set(CALLS) <= {row[0] for row in waiting()} | files
+    assert set(PROBLEMS) - set(CALLS) <= {row[0] for row in without_file()} | files
     assert {name for name in CALLS if None in found(name)} == set(PARTLY)
 
 
