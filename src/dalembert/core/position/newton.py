@@ -16,7 +16,7 @@ from dalembert.core.elements.lining_rows import period_of_line
 from dalembert.core.elements.linings import Lining
 from dalembert.core.elements.strand_family import Strand
 from dalembert.core.factor import damped_step, displacement
-from dalembert.core.layout import Layout, Mesh, Pose
+from dalembert.core.layout import BeltMesh, Layout, Mesh, Pose
 from dalembert.core.rotation_rows import recount_turns
 
 CLOSED = 1e-9
@@ -40,14 +40,15 @@ def gap(layout: Layout, pose: Pose, target: Array) -> Array:
     """Residual of the targets (..., K + D)."""
     missing: Array = target - measure(layout.algebra, layout.stack, pose)
     for family in layout.stack.families:
-        if isinstance(family, Mesh):  # an angle of a line is known but for whole turns
-            period = 2 * np.pi * (family.ri + family.rj)
-            part = missing[..., family.row]
-            missing[..., family.row] = part - period * np.round(part / period)
-        elif isinstance(family, Strand):
-            period = strand_rows.period(family)
-            part = missing[..., family.row]
-            whole = where(above(np.abs(period), 0.0), period, ENDLESS)
+        if isinstance(family, Mesh | Strand):  # an angle of a line is known but for whole turns
+            period = (
+                2 * np.pi * (family.ri + family.rj)
+                if isinstance(family, Mesh)
+                else strand_rows.period(family)
+            )
+            part, whole = missing[..., family.row], period
+            if isinstance(family, BeltMesh | Strand):  # wheels of a belt may be equal
+                whole = where(above(np.abs(period), 0.0), period, ENDLESS)
             missing[..., family.row] = part - period * np.round(part / whole)
         elif isinstance(family, Lining):
             period = period_of_line(layout.algebra, family, pose)
