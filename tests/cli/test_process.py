@@ -214,7 +214,9 @@ def test_slow_work_says_in_a_pipe_how_fast_it_is_and_what_is_left(
     clock = iter([0.0, 10.0, 40.0])
     monkeypatch.setattr(dalembert.progress, "monotonic", lambda: next(clock))
     work = Waits(2)
-    dalembert.progress._print_lines({"completed": 300, "description": "Studying", "total": 1200, "start": 0}, work)
+    dalembert.progress._print_lines(
+        {"completed": 300, "description": "Studying", "total": 1200, "start": 0}, work
+    )
     lines = capsys.readouterr().err.splitlines()
     assert lines == [
         "Studying: 300 of 1,200, 30.0 per second, 30 s left",
