@@ -26,10 +26,11 @@ from dalembert.model.library import TEMPLATES
 TEXTS = Path(__file__).with_name("texts")
 ROUNDING = re.compile(
     r"\b\d(?:\.\d+)?e[-−](?:1[0-9]|[23]\d)(?!\d)|(?<=within )0(?![\d.])|\b0 [N·m]+ +\d+$"
+    r"|(?<=Date)[ ]+\d{4}-\d\d-\d\d"
     r"|Out-of-balance force.*?(?=\n\n|\Z)",
     re.M | re.S,
 )
-"""What only rounding makes, which is another on another processor: the checks, places of what is zero throughout."""
+"""What only rounding or the day makes: the checks, places of what is zero throughout, the date of a design report."""
 NUMBER = re.compile(r"(?<![\w.])[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
 
 

@@ -7,6 +7,7 @@ import math
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import dalembert as da
@@ -92,3 +93,23 @@ def test_the_report_gives_the_parameters(run: Run, folder: Path) -> None:
 def test_a_wrong_setting_is_told(run: Run, setting: str, says: str) -> None:
     ran = run("solve", "pump.yaml", "--set", setting)
     assert (ran.status, ran.err[: len(says)]) == (2, says)
+
+
+def test_a_force_system_and_a_key_with_other_values(run: Run, folder: Path) -> None:
+    plate = "forces: {F: {value: 600 @ 90, at: A}}\npoints: {A: [1, 0]}\n"
+    (folder / "plate.yaml").write_text(plate, encoding="utf-8")
+    ran = run(
+        "wrench", "plate.yaml", "--set", "forces.F.value=800 @ 90", "--set", "points.A.0=2", "--json", "-"
+    )
+    assert json.loads(ran.out)["system"]["moment_at_origin"] == pytest.approx(1600.0)
+    assert "the file has no 'forces.G'" in run("wrench", "plate.yaml", "--set", "forces.G=3").err
+    (folder / "class").mkdir()
+    m = da.load(examples()["pump"]).with_values({"stroke": 0.08})
+    r = da.solve(m)
+    effort = float(np.interp(math.radians(60), r.drive_position("O"), r.effort("O")))
+    (folder / "class" / "ann.yaml").write_text(f"efforts: {{O: {effort} N*m}}", encoding="utf-8")
+    for options, right in ((["--set", "stroke=80mm"], True), ([], False)):
+        marks = json.loads(run("grade", "class", "--key", "pump.yaml", *options, "--json", "-").out)
+        assert (marks["rows"][0]["outcome"] == "right") == right
+    (folder / "key.csv").write_text("quantity,of,value\n", encoding="utf-8")
+    assert "key.csv is a table" in run("grade", "class", "--key", "key.csv", "--no-friction").err

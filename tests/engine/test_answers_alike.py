@@ -184,3 +184,42 @@ def test_a_kernel_takes_values_by_name() -> None:
         da.ModelError, match=r"values do not fit each other: .*give one value, or one for each design"
     ):
         k({COUPLER: [1.0, 2.0], "links.rocker.mass": [1.0, 2.0, 3.0]})
+
+
+def test_given_loads_have_names_in_a_result_and_in_a_kernel() -> None:
+    """An arm with every kind of given load, by its closed form."""
+    m = da.loads("""
+units: {angle: rad}
+links:
+  ground: {points: {O: [0, 0], S: [0, 3]}}
+  arm: {points: {O: [0, 0], P: [2, 0]}}
+joints: {O: {type: pin, links: [ground, arm]}}
+drives: {O: {position: [0.3, 1.1, 2.0], speed: 2 rad/s, acceleration: 0 rad/s^2}}
+loads:
+  F: {type: force, on: arm, at: P, value: [5, "3*O"]}
+  G: {type: force, on: arm, at: P, value: 7 @ 0.5, axes: link}
+  M: {type: couple, on: arm, value: "-4*O"}
+  K: {type: spring, between: [arm.P, ground.S], stiffness: 100, free_length: 1}
+  T: {type: torsion_spring, joint: O, stiffness: 6, free_angle: 0.2}
+  D: {type: torsion_damper, joint: O, damping: 0.5}
+""")
+    r = da.dynamics(m)
+    turn = np.array([0.3, 1.1, 2.0])
+    line = np.array([0, 3]) - 2 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    length = np.linalg.norm(line, axis=1)
+    want = {
+        "load.F": np.stack([np.full(3, 5.0), 3 * turn], axis=1),
+        "load.G": 7 * np.stack([np.cos(turn + 0.5), np.sin(turn + 0.5)], axis=1),
+        "load.M": -4 * turn,
+        "load.K": (100 * (length - 1) / length)[:, None] * line,
+        "load.T": -6 * (turn - 0.2),
+        "load.D": np.full(3, -1.0),
+    }
+    assert [name for name in r.keys() if name.startswith("load.")] == list(want)  # noqa: SIM118
+    kernel = da.compile(m, outputs=[*want, "load.K.magnitude"])()
+    for name, values in want.items():
+        assert r[name] == pytest.approx(values, rel=1e-12, abs=1e-12), name
+        assert kernel[name].reshape(values.shape) == pytest.approx(values, rel=1e-12, abs=1e-12), name
+    assert kernel["load.K.magnitude"].ravel() == pytest.approx(100 * np.abs(length - 1), rel=1e-12)
+    assert r.peak("load.K").value == pytest.approx(100 * np.abs(length - 1).max())
+    assert not any("load." in column.name for column in r.columns())

@@ -240,6 +240,15 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(da.ModelError, match=r"is there already|exists"):
         optimize(file, out=LabelledOutputs(output=best))
     assert optimize(written(tmp_path, FILE.replace("33", "89"))) == 1
+    two = FILE.replace(
+        "least: peak effort.O2", "least: [peak effort.O2, peak reaction.B.magnitude]\npoints: 2"
+    )
+    assert optimize(written(tmp_path, two), out=LabelledOutputs(csv=tmp_path / "front.csv")) == 0
+    front = da.pareto(da.four_bar(), BOX, ["peak effort.O2", "peak reaction.B.magnitude"], WHERE, 2, starts=5)
+    rows = (tmp_path / "front.csv").read_text(encoding="utf-8").splitlines()[1:]
+    assert [[*map(float, row.split(",")[1:3])] for row in rows] == front.values.tolist()
+    with pytest.raises(da.ModelError, match=r"yaml:6: two aims give several designs"):
+        optimize(file, out=LabelledOutputs(output=tmp_path / "front.yaml"))
 
 
 @pytest.mark.parametrize(
@@ -247,6 +256,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     [
         ("four_bar.yaml", "none.yaml", "optimize.yaml:2: model file"),
         ("least: peak effort.O2", "least: 3", "optimize.yaml:6: no aim to minimize"),
+        ("starts: 5", "points: 5", "optimize.yaml:8: points are those of a front"),
         ("least:", "last:", "optimize.yaml:6: unknown key 'last'; did you mean 'least'?"),
         ("[280 mm, 360 mm]", "280 mm", "optimize.yaml:4: the bounds of 'links.ground.points.O4.0'"),
         ("starts: 5", "starts: many", "optimize.yaml:8: starts is 'many'"),

@@ -128,6 +128,12 @@ class Outputs:
         return kind
 
     @property
+    def writes_model(self) -> bool:
+        """True if the answer's description is written as a model file."""
+        path = self.targets.get("output")
+        return path is not None and path.suffix.lower() in ENDINGS["model"]
+
+    @property
     def printed_units(self) -> Literal["SI", "file"]:
         """Units of what a person reads and opens: the file's unless SI is requested."""
         return "SI" if self.units == "si" else "file"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from dalembert.cli.answer_files import NO_OUTPUTS, Outputs
-from dalembert.cli.options import AS_STATED, ModelFile, Static, Steady, flag, with_help
+from dalembert.cli.options import AS_STATED, ModelFile, Steady, flag, with_help
 from dalembert.errors import ModelError
 from dalembert.printing import table
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
     from dalembert.arrays import Tree
     from dalembert.grading.mistakes import Verdict
+    from dalembert.model import Mechanism
 
 
 def check_answers(
@@ -122,7 +123,7 @@ def grade(
     decide: Annotated[
         Path | None, with_help("Table (.csv, .xlsx) of student, figure and value for cells read by hand.")
     ] = None,
-    static: Static = False,
+    of: Steady = AS_STATED,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
     """Grade a class's ANSWERS by a key: mistakes named, partial credit, carried-forward errors not penalised twice."""
@@ -132,7 +133,15 @@ def grade(
     out.check(answers)
     if feedback is not None:
         check_new_folder(feedback, out.force)
-    results = graded(answers, key, rubric, tolerance, static, _column_meanings(columns or []), decide)
+    source: Path | Mechanism = key
+    if of.set or of.no_friction:
+        if key.suffix.lower() == ".csv":
+            raise ModelError(
+                "--set and --no-friction change a model file", f"name one as --key; {key} is a table"
+            )
+        source = of.load(key)
+    meanings = _column_meanings(columns or [])
+    results = graded(answers, source, rubric, tolerance, of.static, meanings, decide)
     if feedback is not None:
         results.save_feedback(feedback, out.force)
     out.deliver(results)

@@ -199,6 +199,14 @@ class Changes:
 
 def with_settings(m: Mechanism, settings: Sequence[str]) -> Mechanism:
     """The mechanism with the values of options `--set NAME=VALUE`; raises ModelError that names the option."""
+    try:
+        return m.with_values(values) if (values := set_values(settings)) else m
+    except ModelError as error:
+        raise ModelError(f"--set {' --set '.join(settings)}: {error.what}", error.remedy) from None
+
+
+def set_values(settings: Sequence[str]) -> dict[str, object]:
+    """The values of options `--set NAME=VALUE` by name."""
     values: dict[str, object] = {}
     for setting in settings:
         path, equals, value = (part.strip() for part in setting.partition("="))
@@ -207,10 +215,7 @@ def with_settings(m: Mechanism, settings: Sequence[str]) -> Mechanism:
         if path in values:
             raise ModelError(f"--set gives {path!r} twice", "leave one of them out")
         values[path] = {"true": True, "false": False}.get(value, value)
-    try:
-        return m.with_values(values) if values else m
-    except ModelError as error:
-        raise ModelError(f"--set {' --set '.join(settings)}: {error.what}", error.remedy) from None
+    return values
 
 
 @Parameter(name="*")

@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from dalembert.cli.answer_files import NO_DRAWN, DrawnOutputs
-from dalembert.cli.options import target, with_help
+from dalembert.cli.options import Set, set_values, target, with_help
 
 EXAMPLES = """Examples:
   dalembert wrench plate.yaml
   dalembert wrench plate.yaml --about A --drawing plate.svg
   dalembert wrench box.yaml --camera front --report box.pdf
+  dalembert wrench plate.yaml --set "forces.F.value=800 @ 60"
 
 A file:
   units: {length: mm}
@@ -33,13 +34,14 @@ def wrench(
     camera: Annotated[
         Literal["isometric", "front", "side", "top"], with_help("View direction of a spatial system.")
     ] = "isometric",
+    set: Set = None,  # noqa: A002
     out: DrawnOutputs = NO_DRAWN,
 ) -> int:
     """Reduce the force system of FILE: resultant, moments, central axis, equilibrium."""
     from dalembert.wrench import load
 
     out.check(file)
-    out.deliver(load(file).seen(about, camera), figures=out.figures)
+    out.deliver(load(file, set_values(set or ())).seen(about, camera), figures=out.figures)
     return 0
 
 

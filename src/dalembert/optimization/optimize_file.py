@@ -11,6 +11,7 @@ from dalembert.model import Mechanism
 from dalembert.model.files.task_files import load_task, plain_options
 from dalembert.optimization.optimizing import optimize
 from dalembert.optimization.optimum import Optimum
+from dalembert.optimization.pareto_front import Front, pareto
 from dalembert.wording import quote_value
 
 KEYS = {
@@ -18,7 +19,8 @@ KEYS = {
     "model": "the model file, beside this file",
     "title": "what it is about",
     "vary": "path or parameter -> [low, high], [low, high, step], or range",
-    "least": "the aim, such as peak effort.O2",
+    "least": "the aim, such as peak effort.O2; or two, in a list, of a Pareto front",
+    "points": "number of designs of a front, such as 7",
     "where": "conditions at every position, such as transmission.B >= 33 deg",
     "starts": "number of random designs, such as 1000",
     "seed": "an integer; repeats the same random designs",
@@ -29,10 +31,24 @@ KEYS = {
 
 
 def optimize_file(
-    path: str | os.PathLike[str], changed: Callable[[Mechanism], Mechanism] = lambda m: m
-) -> Optimum:
-    """The optimum of a file, whose model is ``changed`` first; raises ModelError with file and line."""
-    return load_task(path, "optimize", KEYS, lambda tree, m, _: optimize(changed(m), **_options(tree)))
+    path: str | os.PathLike[str],
+    changed: Callable[[Mechanism], Mechanism] = lambda m: m,
+    single: bool = False,
+) -> Optimum | Front:
+    """The optimum of a file, whose model is ``changed`` first, of two aims the front unless ``single``; raises
+    ModelError with file and line."""
+
+    def best(tree: Mapping[str, Any], m: Mechanism, _: object) -> Optimum | Front:
+        options = _options(tree)
+        if isinstance(options["least"], str):
+            return optimize(changed(m), **options)
+        if single:
+            what = "two aims give several designs, and a model file has one"
+            raise ModelError(what, "write .csv, .xlsx, .json or a report, or give one aim", ("least",))
+        points: Any = plain_options(tree, {"points": 2}, ())
+        return pareto(changed(m), **options, **points)
+
+    return load_task(path, "optimize", KEYS, best)
 
 
 def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
@@ -42,8 +58,12 @@ def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
         raise ModelError(
             "no number varies", "write vary: {stroke: [80 mm, 120 mm]}", ("vary",) * ("vary" in tree)
         )
-    if not isinstance(least, str):
-        raise ModelError("no aim to minimize", "write least: peak effort.O2", ("least",) * ("least" in tree))
+    two = isinstance(least, list) and len(least) == 2 and all(isinstance(aim, str) for aim in least)
+    if not (two or isinstance(least, str)):
+        remedy = "write least: peak effort.O2, or two aims in a list"
+        raise ModelError("no aim to minimize", remedy, ("least",) * ("least" in tree))
+    if "points" in tree and not two:
+        raise ModelError("points are those of a front", "give least two aims in a list", ("points",))
     where = tree.get("where", [])
     where = [where] if isinstance(where, str) else where
     if not isinstance(where, list):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
@@ -157,14 +157,33 @@ class GivenSystem(Part):
         return System(*forces, *couples, units=self.units, points=self.points, **about)
 
 
-def load(path: FilePath) -> System:
+def load(path: FilePath, values: Mapping[str, object] | None = None) -> System:
     """The force system of a .yaml, .json or .toml file; raises ModelError with file and line.
+
+    ``values`` replaces values of the file by their paths, written as in it: ``{"forces.F.value": "800 @ 60"}``.
 
     Keys: `title, source, space, units, points, forces, couples`. A force has `value` (components or polar text), or
     `size` with `direction` (an angle or a vector), `angles` to the axes, or `from` and `to`; and `at`, a point's name
     or its place.
     """
-    return _system(*read_file(path))
+    tree, source = read_file(path)
+    for name, value in (values or {}).items():
+        tree = _replaced(tree, name.split("."), value, name)
+    return _system(tree, source)
+
+
+def _replaced(tree: Any, keys: Sequence[str], value: object, name: str) -> Any:
+    """A tree with the value at a path that exists."""
+    if not keys:
+        return value
+    branches = (
+        dict(tree) if isinstance(tree, Mapping) else dict(enumerate(tree)) if isinstance(tree, list) else {}
+    )
+    key = next((k for k in branches if str(k) == keys[0]), None)
+    if key is None:
+        raise ModelError(f"the file has no {name!r}", closest(keys[0], [str(k) for k in branches]))
+    branches[key] = _replaced(branches[key], keys[1:], value, name)
+    return branches if isinstance(tree, Mapping) else list(branches.values())
 
 
 def loads(text: str, form: str = "yaml", name: str = "text") -> System:

@@ -14,7 +14,7 @@ from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, number_kinds
-from dalembert.analysis.result.named_quantities import Quantity, component, names_of, quantity
+from dalembert.analysis.result.named_quantities import Quantity, component, quantity, solved_names
 from dalembert.analysis.result.number_kinds import in_plane
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
@@ -163,7 +163,7 @@ def _all_numbers(varied: Values) -> bool:
 
 def _kept(r: Result) -> list[str]:
     """Every effort, unknown load and reaction; of a pin in the plane that turns freely no moment."""
-    names = names_of(r, compiled=True, words=KEPT)
+    names = solved_names(r, KEPT, compiled=True)
     free = [j for j in r.joints if in_plane(r) and r.friction is None and r.mechanism.joints[j].hinge]
     return [n for n in names if n not in {f"reaction_moment.{j}" for j in free}]
 

@@ -64,7 +64,10 @@ class Entry(NamedTuple):
 
 
 UNKNOWN = ("effort", "load")
-BY_FRICTION = (*UNKNOWN, "reaction", "reaction_moment", "friction_force", "friction_moment", "power_lost")
+BY_FRICTION = (
+    *UNKNOWN,
+    *("reaction", "reaction_moment", "friction_force", "friction_moment", "power", "power_lost"),
+)
 """Quantities that jump where contacts reverse; of efforts and loads friction may leave an interval open."""
 MOTION = (*FREEDOMS, "angle", "rotation", "point")
 CHECKS = ("residual", "power_balance")
@@ -96,6 +99,8 @@ def entries(
 def _written_things(result: Result, word: str, rubbing: Sequence[str]) -> Sequence[str]:
     if word == "point":
         return [f"{link}.{point}" for link in result.links for point in (ORIGIN, CENTER)]
+    if word == "load":
+        return result.unknown_loads
     if word == "rotation" and in_plane(result):
         return ()
     if word in ELEMENTS:

@@ -57,7 +57,7 @@ DIMENSIONS = {
     "pressed": "cylinder",
     "cylinders": "cylinder",
     "screws": "screw",
-    "unknown_loads": "load_name",
+    "loads": "load_name",
     "joints": "joint",
     "links": "link",
     "points": "link_point",

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints, Tree, at
+from dalembert.core.equilibrium import known_sources
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.reaction_axes import Uniqueness
@@ -130,3 +131,37 @@ def at_places(f: SolvedForces, where: Ints) -> SolvedForces:
 def _concatenate(arrays: list[Array | None]) -> Array | None:
     some = [a for a in arrays if a is not None]
     return np.concatenate(some) if some else None
+
+
+_SOURCES = {"point": "force", "link": "couple", "span": "spring", "turn": "resistance"}
+
+
+def given_load(r: Any, name: str) -> Array:
+    """Force (P, d) of a given load on its link, or its couple (P,), in space (P, 3), in ground axes; traced, nodes.
+
+    A spring or damper between two points has the force on the link of the first, one in a turn the moment on j.
+    """
+    m, c, on = r.mechanism, r.compiled, r.mechanism.loads[name].ON
+    alike = [n for n, load in m.loads_on(on).items() if not getattr(load, "unknown", False)]
+    place, d = alike.index(name), c.layout.algebra.d
+    wrenches = _known_wrenches(r, _SOURCES[on])
+    if on == "turn":  # those on all links i precede those on j
+        place += wrenches.shape[-2] // 2
+    wrench = wrenches[..., place, :]
+    if on in ("point", "span"):
+        return np.asarray(wrench[..., :d])
+    return np.asarray(wrench[..., d] if d == 2 else wrench[..., d:])
+
+
+def _known_wrenches(r: Any, kind: str) -> Array:
+    """Wrenches of one kind of known loads: numbers of a result (P, k, n), nodes of a trace (k, n)."""
+    if hasattr(r, "traced"):
+        return np.reshape(r.traced.sources[kind].wrench, (-1, r.compiled.layout.algebra.n))
+    from dalembert.analysis.methods.applied_forces import state
+
+    s = state(r)
+    with np.errstate(all="ignore"):
+        wrench = known_sources(r.compiled.layout, r.compiled.forcing, s.pose, s.moving, r.inertia)[
+            kind
+        ].wrench
+    return np.broadcast_to(wrench, (len(r.status), *wrench.shape[-2:]))

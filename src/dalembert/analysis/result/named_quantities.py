@@ -66,6 +66,8 @@ def things(r: HasQuantities, of: str) -> list[str]:
         ]
     if of in FREEDOMS:
         return [joint for joint, freedom in r.compiled.freedoms if freedom == of]
+    if of == "loads":
+        return [*r.unknown_loads, *(n for n in m.loads if n not in r.unknown_loads)]
     if of == "placed":
         return [""] if any(m.links[link].place for link in r.links) else []
     if of == "times":
@@ -102,6 +104,14 @@ def names_of(r: HasQuantities, compiled: bool = False, words: Iterable[str] = CA
         for rate in CATALOGUE[word].rates
         if not (rate in BOUNDS and compiled)
         and not (r.mechanism.dimension == 3 and (word, rate) == ("angle", ""))
+    ]
+
+
+def solved_names(r: HasQuantities, words: Iterable[str], compiled: bool = False) -> list[str]:
+    """The names of some words, of the loads those that are solved for."""
+    given = {f"load.{load}" for load in r.mechanism.loads if load not in r.unknown_loads}
+    return [
+        n for n in names_of(r, compiled, words) if n.removesuffix(".low").removesuffix(".high") not in given
     ]
 
 

@@ -47,8 +47,8 @@ def drive_kinds(result: Result, drive: str) -> dict[str, str]:
 
 
 def load_kind(result: Result, load: str) -> str:
-    """Kind of an unknown load: force, or moment of a couple."""
-    return "force" if result.mechanism.loads[load].ON == "point" else "moment"
+    """Kind of a load: force, or moment of a couple or of a spring or damper in a turn."""
+    return "force" if result.mechanism.loads[load].ON in ("point", "span") else "moment"
 
 
 def in_plane(result: Result) -> bool:

@@ -212,13 +212,22 @@ def _requested(r: Result) -> list[str]:
 
 
 _TURNING = ("angle", "angular_speed", "angular_acceleration")
-_EFFORT, _LOAD = _method("effort"), _method("unknown_load")
+
+
+def _load(r: Any, name: str) -> Numeric:
+    """Value of an unknown load; of a given one the force, or the couple."""
+    from dalembert.analysis.result.force_arrays import given_load
+
+    return r.unknown_load(name) if name in r.unknown_loads else given_load(r, name)
+
+
+_EFFORT, _LOAD = _method("effort"), _load
 FREEDOMS = ("slide", "slide1", "slide2", "turn", "turn1", "turn2")
 """Words of the freedoms of joints; those with numbers are of pairs in space with two slides or turns."""
 
 CATALOGUE: dict[str, QuantityWord] = {
     "effort": QuantityWord("drives", _bounded(_drive_kind("effort"), _EFFORT)),
-    "load": QuantityWord("unknown_loads", _bounded(load_kind, _LOAD)),
+    "load": QuantityWord("loads", _bounded(load_kind, _LOAD)),
     "reaction": QuantityWord("joints", _bounded("force", _method("reaction"))),
     "reaction_moment": QuantityWord("joints", _bounded("moment", _method("reaction_moment"))),
     "normal": QuantityWord("contacts", {"": QuantityReading("force", _normal)}, False, False),
@@ -242,9 +251,7 @@ CATALOGUE: dict[str, QuantityWord] = {
             for rate in ("", "speed", "acceleration")
         },
     ),
-    "power": QuantityWord(
-        "drives", {"": QuantityReading("power", lambda r, of: r.effort(of) * r.drive_speed(of))}
-    ),
+    "power": QuantityWord("drives", _bounded("power", lambda r, of: r.effort(of) * r.drive_speed(of))),
     "turning_speed": QuantityWord("frames", _bounded("angular_speed", _value("turning_speed"))),
     "turning_torque": QuantityWord(
         "frames", {"": QuantityReading("moment", _value("turning_torque"))}, False

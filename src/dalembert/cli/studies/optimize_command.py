@@ -20,6 +20,8 @@ optimize.yaml:
   least: peak effort.O2
   where: [transmission.B >= 40 deg]
 
+least: [peak effort.O2, mass] of two aims gives their Pareto front.
+
 Exit status: 0 optimum computed; 1 no design meets every condition; 2 error in the file."""
 
 
@@ -34,9 +36,9 @@ def optimize(
     from dalembert.optimization.optimize_file import optimize_file
 
     out.check(file, ("model",))
-    best = optimize_file(file, of.changed)
+    best = optimize_file(file, of.changed, single=out.writes_model)
     out.deliver(best)
-    return 0 if best.feasible else 1
+    return 0 if getattr(best, "feasible", True) else 1
 
 
 COMMANDS = {optimize: OPTIMIZE}

@@ -8,7 +8,7 @@ from itertools import groupby
 import numpy as np
 
 from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
-from dalembert.analysis.result.named_quantities import names_of, quantity
+from dalembert.analysis.result.named_quantities import quantity, solved_names
 from dalembert.analysis.result.position_lookup import QuantityExtreme, extreme
 from dalembert.errors import ModelError
 from dalembert.reports.design.verdict import DesignContext
@@ -29,7 +29,7 @@ def sought(c: DesignContext) -> Iterator[QuantityExtreme]:
     words = [*LARGEST, *SMALLEST, *SINGLE]
     joints, names = r.mechanism.joints, cylinders(r.mechanism)
     ends = {joint for name in names for joint in joints if joint.startswith(f"{name}_")}
-    for name in names_of(r, words=words):
+    for name in solved_names(r, words):
         word, *rest = name.split(".")
         if name.endswith((".low", ".high")) or (word == "transmission" and ".".join(rest) not in joints):
             continue
