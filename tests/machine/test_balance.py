@@ -380,7 +380,27 @@ WRONG = [
     ({"crank": {"x": (1.0, 0.0)}}, {}, "the range of x is empty"),
     ({"crank": {"place": (1.0, 0.0, 0.0)}}, {}, "a place has 2 coordinates"),
     ({}, {}, "no link is to have a counterweight"),
+    ({"crank": {}}, {"least": "least"}, "least is 'least'"),
+    ({"crank": {}}, {"least": "rms effort.B"}, "'effort.B' cannot be balanced; choose among shaking_force"),
 ]
+
+
+@pytest.mark.parametrize("quantity", ["shaking_force", "shaking_moment", "effort"])
+@pytest.mark.parametrize("word", ["rms", "peak"])
+def test_an_aim_is_named_as_in_every_other_place(four_bar: Any, word: str, quantity: str) -> None:
+    (drive,) = four_bar.drives
+    name = f"effort.{drive}" if quantity == "effort" else quantity
+    b = da.balance(four_bar, {"crank": {"mass": 3}}, least=f"{word} {name}")
+    short = {"shaking_force": "force", "shaking_moment": "moment", "effort": "torque"}[quantity]
+    assert (
+        b.value
+        == da.balance(four_bar, {"crank": {"mass": 3}}, "rms" if word == "rms" else "max", short).value
+    )
+    if quantity != "shaking_moment":
+        left, before = (da.dynamics(m, positions=72)[name] for m in (b.mechanism, four_bar))
+        size = (lambda v: np.sqrt((v**2).mean())) if word == "rms" else (lambda v: np.abs(v).max())
+        sizes = [size(np.linalg.norm(v.reshape(len(v), -1), axis=1)) for v in (left, before)]
+        assert sizes[0] / sizes[1] == pytest.approx(b.value, rel=1e-9)
 
 
 @pytest.mark.parametrize(("weights", "options", "sentence"), WRONG)

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
@@ -157,7 +157,11 @@ def balance(
         str | None, target("Radii of the masses in these planes: 40mm,60mm, or one radius for both.")
     ] = None,
     least: Annotated[
-        Literal["rms", "max"], with_help("Minimise the rms (default) or the largest value.")
+        str,
+        with_help(
+            'Aim: "rms shaking_force" (default), "peak shaking_moment" (largest value), "rms effort.O2"; or rms or '
+            "peak alone, with --of."
+        ),
     ] = "rms",
     of: Annotated[
         str,
@@ -192,7 +196,7 @@ def balance(
 
 BALANCE = """Examples:
   dalembert balance four_bar.yaml --on crank rocker
-  dalembert balance four_bar.yaml --on crank:radius=60mm,mass=3kg rocker --least max --of force=1,torque=0.5
+  dalembert balance four_bar.yaml --on crank:radius=60mm,mass=3kg rocker --least peak --of force=1,torque=0.5
   dalembert balance engine.yaml --on crank --output balanced.yaml --drawing balance.svg
   dalembert balance shaft.yaml --planes 50mm,450mm --radii 40mm"""
 

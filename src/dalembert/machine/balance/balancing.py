@@ -172,18 +172,20 @@ class Balance(Comparison):
 def balance(
     m: ModelOrPath | Result,
     weights: Wanted,
-    least: Least = "rms",
+    least: str = "rms",
     of: Of = "force",
     about: About = None,
     positions: AtPositions = None,
 ) -> Balance:
     """Counterweights on links that leave least of the shaking force, moment, torque, or a weighted sum, over the cycle.
 
-    ``weights``: links, or by link the bounds of a `Counterweight`. ``least``: the root mean square over the positions
-    or the greatest value. ``of``: `force`, `moment` (about ``about``) or `torque` (of the first drive), or weights of
-    these, {"force": 1, "torque": 0.5}, each as a part of what it was before; rms values add up by their squares,
-    greatest values as they are. Force and moment are those of inertia: weights and loads from outside do not count in
-    them, as no counterweight balances a load, but in the torque. What was 0 before has no part and does not count.
+    ``weights``: links, or by link the bounds of a `Counterweight`. ``least``: the aim, ``rms shaking_force``, or
+    ``peak`` (or ``max``) for the greatest value over the positions, of ``shaking_force``, ``shaking_moment`` (about
+    ``about``) or the effort of the first drive, ``effort.O2``. ``of``: the same quantities in short, `force`, `moment`
+    or `torque`, where ``least`` is its first word alone; or weights of these, {"force": 1, "torque": 0.5}, each as a
+    part of what it was before; rms values add up by their squares, greatest values as they are. Force and moment are
+    those of inertia: weights and loads from outside do not count in them, as no counterweight balances a load, but in
+    the torque. What was 0 before has no part and does not count.
     Convex and exact for all harmonics; a weight not needed is 0. Raises ModelError for bounds that mean nothing.
     Berkof and Lowen, J. Eng. Ind. 91 (1969); Demeulenaere, Verschuure et al. (2004) for the convex form.
 
@@ -193,9 +195,8 @@ def balance(
     >>> found.complete, bool(found.gap < 1e-9)
     (True, True)
     """
-    if least not in ("rms", "max"):
-        raise ModelError(f"least is {quote_value(least)}", "write rms or max")
     r = m if isinstance(m, Result) else _over_a_cycle(as_mechanism(m), positions)
+    least, of = _aim(least, of, r)
     wanted, allowed, before = _wanted(of, r), counterweights(r.mechanism, weights), shaking(r, about)
     base = {name: v.reshape(len(v), -1) for name, v in values_of(before).items()}
     refuse_unknown(r, "balancing needs every position", *base.values())
@@ -211,6 +212,22 @@ def balance(
     off = _difference(after, solved, problem)
     proof = solved.value, solved.bound, before, after, off
     return Balance(r, allowed, least, wanted, placed, numbers, *proof, problem)
+
+
+def _aim(least: str, of: Of, r: Result) -> tuple[Least, Of]:
+    """Reduction and quantities of an aim such as `rms shaking_force`."""
+    word, _, quantity = str(least).strip().partition(" ")
+    if word not in ("rms", "max", "peak"):
+        raise ModelError(
+            f"least is {quote_value(least)}", "write rms or peak and a quantity: rms shaking_force"
+        )
+    short = {"shaking_force": "force", "shaking_moment": "moment"} | {
+        f"effort.{d}": "torque" for d in r.drives[:1]
+    }
+    if quantity and quantity not in short:
+        raise ModelError(f"{quantity!r} cannot be balanced", f"choose among {', '.join(short)}")
+    reduction: Least = "rms" if word == "rms" else "max"
+    return reduction, short[quantity] if quantity else of
 
 
 def _over_a_cycle(m: Mechanism, positions: AtPositions) -> Result:
