@@ -10,7 +10,7 @@ programs have the coarse steps too that reach an accuracy soonest. Medians of ru
 
 At the end machines whose joints rub, with friction in machine code and without.
 
-    python benchmarks/simulate.py [seconds simulated, or "rubbing"]
+    python benchmarks/simulate.py [seconds simulated, "rubbing" or "designs"]
 """
 
 from __future__ import annotations
@@ -30,8 +30,7 @@ from scipy.integrate import solve_ivp
 import dalembert as da
 from dalembert.bundled import examples
 from dalembert.machine.motion.coded.coded_motion import CodedState
-from dalembert.machine.motion.coded.shared_motion import SharedMotion
-from dalembert.machine.motion.simulation import motion_of
+from dalembert.studies.motion_engines import SimulationEngine, SimulationPlan, make_motion_engine
 
 SECONDS, G, TORQUE, BEGIN, SPEED, REPEAT, TURN = 1.0, 9.80665, 0.4, pi / 3, 30.0, 5, 0.03
 A, B, C, D = 0.05, 0.15, 0.12, 0.2
@@ -304,8 +303,8 @@ def measured(ways: dict[str, Callable[[], float]], known: float) -> dict[str, tu
 
 
 def main() -> None:
-    if sys.argv[1:] == ["rubbing"]:
-        rubbing()
+    if sys.argv[1:] in (["rubbing"], ["designs"]):
+        {"rubbing": rubbing, "designs": designs}[sys.argv[1]]()
         return
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else SECONDS
     for four_bar in (True, False):
@@ -358,17 +357,33 @@ def rubbing() -> None:
             f"{name:22} | {1e3 * coded[0]:10.1f} ms {1e3 * solved[0]:7.0f} ms {solved[0] / coded[0]:6.0f}x | "
             f"{1e3 * bare[0]:9.1f} ms | {len(coded[1].events)}, {gap:.0e} s"
         )
-    shared = SharedMotion(press, ("parameters.mu", "links.ram.mass"))
-    numbers = [{"parameters.mu": 0.06 + 0.0025 * k, "links.ram.mass": 50.0 + k} for k in range(16)]
-    designs = [press.with_values(values) for values in numbers]
-    motion_of(designs[0], 2.0, shared=shared)
-    start = process_time()
-    found = [float(motion_of(m, 2.0, shared=shared).speed("O")[-1]) for m in designs]
-    each = (process_time() - start) / len(designs)
-    taken, other = _seconds(lambda: da.simulate(designs[-1], 2.0), False)
-    gap, ratio = abs(float(other.speed("O")[-1]) - found[-1]), taken / each
+    designs()
+
+
+def designs() -> None:
+    """Designs of the press as a study takes them, 2 s each, with the peak of a joint force over instants and events:
+    side by side in machine code, and one after the other by da.simulate with one equation; one thread."""
+    press = da.load(Path(__file__).parents[1] / "docs" / "press.yaml")
+    paths, names = ("mu", "links.ram.mass"), ("time", "O.speed", "reaction.A.magnitude")
+    plan = SimulationPlan((2.0,))
+    many = make_motion_engine(press, paths, names, "peak", plan)
+    alone = SimulationEngine(press, paths, names, "peak", False, None, "", plan)
+    values = np.random.default_rng(1).uniform(0.9, 1.1, (256, 2)) * [0.08, 60.0]
+    few, ratios, times = values[:4], [], []
+    many.block(few), alone.block(few)
+    for _ in range(REPEAT):
+        start = process_time()
+        found = many.block(values)
+        middle = process_time()
+        known = alone.block(few)
+        each = (middle - start) / len(values), (process_time() - middle) / len(few)
+        ratios.append(each[1] / each[0])
+        times.append(each)
+    gaps = [np.abs(found[n][: len(few)] / known[n] - 1).max() for n in names]
+    side, one = (1e3 * median(x) for x in zip(*times, strict=True))
     print(
-        f"a design of a study of the press, 2 s: {1e3 * each:.0f} ms, {ratio:.0f}x; speeds within {gap:.0e} rad/s"
+        f"a design of the press, 2 s: {side:.2f} ms of {len(values)} side by side, {one:.0f} ms alone, "
+        f"{median(ratios):.0f}x; largest difference {max(gaps):.0e}; status {set(found['status'].tolist())}"
     )
 
 

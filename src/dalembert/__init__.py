@@ -85,9 +85,9 @@ if TYPE_CHECKING:
     from dalembert.machine.harmonics import harmonics as harmonics
     from dalembert.machine.members.member_forces import MemberForces as MemberForces
     from dalembert.machine.members.member_forces import member_forces as member_forces
-    from dalembert.machine.motion.compiled_motion import MotionBatch as MotionBatch
-    from dalembert.machine.motion.compiled_motion import MotionKernel as MotionKernel
     from dalembert.machine.motion.compiled_motion import compile_motion as compile_motion
+    from dalembert.machine.motion.many.motion_kernel import MotionBatch as MotionBatch
+    from dalembert.machine.motion.many.motion_kernel import MotionKernel as MotionKernel
     from dalembert.machine.motion.simulation import Simulation as Simulation
     from dalembert.machine.motion.simulation import simulate as simulate
     from dalembert.machine.motion_law import MotionLaw as MotionLaw
@@ -252,7 +252,8 @@ _NAMES = {
     "machine.gyroscopes": "Gyroscopic gyroscopic",
     "machine.harmonics": "harmonics",
     "machine.motors.motor_choice": "MotorChoice motor",
-    "machine.motion.compiled_motion": "MotionBatch MotionKernel compile_motion",
+    "machine.motion.compiled_motion": "compile_motion",
+    "machine.motion.many.motion_kernel": "MotionBatch MotionKernel",
     "machine.motion.simulation": "Simulation simulate",
     "machine.elements.cam_design": "CamDesign cam",
     "machine.elements.hertz_contact": "hertz_line",

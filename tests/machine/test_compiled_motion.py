@@ -138,13 +138,15 @@ def test_a_motion_that_cannot_go_on_is_undecided() -> None:
 @pytest.mark.parametrize(
     ("change", "vary", "sentence"),
     [
-        (("effort: 0", "effort: 0, brake: 1 N*m"), [], "has a brake, which holds at rest"),
         (
-            ("O4: {type: pin, ", "O4: {type: pin, friction: {coefficient: 0.1, radius: 5 mm}, "),
+            (
+                "effort: 0",
+                "motor: {curve: {speed: [0 rad/s, 9 rad/s], torque: [4 N*m, 1 N*m]}, off: 1 s}",
+            ),
             [],
-            "is not smooth",
+            "has a curve, and switches",
         ),
-        (("effort: 0", "motor: {stall: 4 N*m, no_load: 9 rad/s, off: 1 s}"), [], "has switches"),
+        (("effort: 0", "effort: 0, stops: {to: 500 deg}"), [], "has stops, which are met as events"),
         (("effort: 0", "effort: 2*cos(O2)"), [], "depends on positions or time"),
         (("", ""), ["start.O4.speed"], "is not a number of a drive that forces move"),
         (("", ""), ["drives.O2.position"], "vary 'start.O2.position'"),

@@ -144,18 +144,33 @@ def test_undecided_motions_are_no_numbers() -> None:
     assert "First: design" in text
 
 
-def test_what_is_not_compiled_is_simulated_one_by_one() -> None:
-    """Dry friction in a pin; mean and peak over the same instants as compiled motions without it."""
+def test_a_study_of_machines_that_rub_is_compiled(tmp_path: Path) -> None:
+    """Dry friction in a pin; peaks over the same instants and events as a motion alone; none is computed one by one."""
     rough = MODEL.replace("A: {type: pin, ", "A: {type: pin, friction: {coefficient: 0.1, radius: 9 mm}, ")
-    given: dict[str, Any] = {"designs": 3, "reduce": "peak", "simulate": {"until": ["0.1 s"]}}
+    given: dict[str, Any] = {
+        "designs": 3,
+        "reduce": "peak",
+        "simulate": {"until": ["0.1 s"], "tolerance": 1e-11},
+    }
     s = da.study(da.loads(rough), VARY, OUTPUTS, **given)
     r = s.run()
-    assert s.why_slow.startswith("joint 'A' has dry friction")
+    assert not s.why_slow
+    assert (s.run(tmp_path / "s.zarr")["time"] == r["time"]).all()
     for n in range(3):
-        own = da.simulate(s.mechanism_of(n), "0.1 s", tolerance=1e-9)
+        own = da.simulate(s.mechanism_of(n), "0.1 s", tolerance=1e-11)
         peak = np.nanmax(np.abs(own.result["reaction.A.magnitude"]))
-        assert r["reaction.A.magnitude"][n] == pytest.approx(peak, rel=1e-10)
-        assert r["O2.speed"][n] == pytest.approx(own.speed("O2")[-1], rel=1e-10)
+        assert r["reaction.A.magnitude"][n] == pytest.approx(peak, rel=1e-7)
+        assert r["O2.speed"][n] == pytest.approx(own.speed("O2")[-1], rel=1e-8)
+
+
+def test_what_is_not_compiled_is_simulated_one_by_one() -> None:
+    """A crank that strikes its stop."""
+    stopped = MODEL.replace("no_load: 60 rad/s}", "no_load: 60 rad/s}, stops: {to: 100 deg}")
+    s = da.study(da.loads(stopped), VARY, OUTPUTS, designs=1, simulate={"until": ["0.1 s"]})
+    r = s.run()
+    assert s.why_slow.startswith("drive 'O2' has stops")
+    own = da.simulate(s.mechanism_of(0), "0.1 s", tolerance=1e-9)
+    assert r["O2.position"][0] == pytest.approx(own.position("O2")[-1], rel=1e-10)
 
 
 @pytest.mark.parametrize("reduce", ["peak", "mean", "final", None])

@@ -12,12 +12,12 @@ from functools import cached_property
 import numpy as np
 
 from dalembert.analysis.batch.batch_result import CODES
-from dalembert.analysis.batch.over_positions import reduce_positions
-from dalembert.analysis.result.named_quantities import quantity
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError, errors_at
 from dalembert.machine.motion.coded.shared_motion import SharedMotion
-from dalembert.machine.motion.compiled_motion import MotionKernel, compile_motion
+from dalembert.machine.motion.compiled_motion import compile_motion
+from dalembert.machine.motion.many.motion_kernel import MotionKernel
+from dalembert.machine.motion.many.one_design import alone
 from dalembert.machine.motion.occurrences import read_end
 from dalembert.machine.motion.simulation import (
     Simulation,
@@ -122,13 +122,16 @@ class MotionEngine:
 
     @property
     def text(self) -> str:
-        block = self.kernel.block
-        return f"{block.code.machine.text}{block.machine.text}{block.conditions}{block.end}{block.tolerance}"
+        return self.kernel.block.text
 
     def block(self, values: Array) -> Block:
         answer = self.kernel(values, threads=1)
         parts = ends(self.kernel.mechanism, answer.time, answer.position, answer.speed) | answer.arrays
-        statuses = np.where(answer.ok, 0, CODES.index("undecided")).astype(np.uint8)
+        stopped = np.array([text.startswith(("stopped", "failed")) for text in answer.ended], bool)
+        known = [np.isfinite(parts[n]).reshape(len(values), -1).all(axis=1) for n in self.outputs]
+        marks = ("failed", "undecided", "at_rest")
+        given = np.select([stopped, ~answer.ok, ~np.all(known, axis=0)], [CODES.index(x) for x in marks], 0)
+        statuses = given.astype(np.uint8)
         return {name: np.ascontiguousarray(parts[name]) for name in self.outputs} | {"status": statuses}
 
 
@@ -155,28 +158,14 @@ class SimulationEngine(AnalysisEngine):
         return SharedMotion(self.mechanism, self.numbers)
 
     def one(self, m: Mechanism) -> tuple[Block, Array]:
-        s = self.motion.of(m, self._shared)
-        last = (x[-1:] for x in (s.time, s.result.schedule.position, s.result.schedule.speed))
-        parts = {name: x[0] for name, x in ends(m, *last).items()}
-        parts |= {name: self._over_time(s, name) for name in self.outputs if name not in parts}
+        plan, along = self.motion, [name for name in self.outputs if name not in end_kinds(m)]
+        found = alone(m, plan.until, along, self.reduce, plan.count, plan.tolerance, self._shared)
+        last = (np.array([x]) for x in (found.time, found.position, found.speed))
+        parts = {name: x[0] for name, x in ends(m, *last).items()} | found.outputs
         outputs = {name: np.asarray(parts[name]) for name in self.outputs}
         known = all(np.isfinite(x).all() for x in outputs.values())
-        mark = "failed" if s.ended.startswith("stopped") else "ok" if known else "at_rest"
+        mark = "failed" if not found.known else "ok" if known else "at_rest"
         return outputs, np.array(CODES.index(mark), np.uint8)
-
-    def _over_time(self, s: Simulation, name: str) -> Array:
-        """An output reduced over the instants: greatest values with those of events, else evenly from start to end;
-        but for those at rest, where dry friction leaves it open."""
-        values = quantity(s.result, name).values
-        known = np.isfinite(values).reshape(len(values), -1).all(axis=1)
-        if self.reduce == "final" or not known.any():
-            return np.asarray(values[-1])
-        values, time = values[known], s.time[known]
-        if self.reduce not in ("peak", "envelope"):
-            at, shape = np.linspace(0.0, s.time[-1], self.motion.count), values.shape[1:]
-            columns = [np.interp(at, time, x) for x in values.reshape(len(values), -1).T]
-            values = np.stack(columns, axis=-1).reshape(-1, *shape)
-        return values if self.reduce is None else reduce_positions(self.reduce, values)
 
 
 def make_motion_engine(

@@ -7,68 +7,33 @@ Mechanics: docs/theory.md 10.6.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch import over_positions
-from dalembert.analysis.batch.checked_input import numbers
 from dalembert.analysis.batch.compiled_kernel import lanes_here
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, with_numbers
 from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
-from dalembert.arrays import Array, Flags
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
-from dalembert.kernel.memory import available
 from dalembert.machine.motion.actuation import Actuation, actuation, drive_lengths, joint_stops
 from dalembert.machine.motion.coded.rate_program import Corners
 from dalembert.machine.motion.equation import Equation, StoppedError
 from dalembert.machine.motion.equation_trace import trace_equation
-from dalembert.machine.motion.motion_block import MotionBlock, Motions
+from dalembert.machine.motion.many.event_kernel import EventKernel
+from dalembert.machine.motion.many.event_machine import event_block, refuse_events
+from dalembert.machine.motion.many.motion_block import MotionBlock
+from dalembert.machine.motion.many.motion_kernel import ROWS, MotionKernel
 from dalembert.machine.motion.occurrences import read_end
 from dalembert.machine.motion.simulation import check_choices, read_start
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.drives.starting import Start
 
-AT_ONCE = 16_384
-"""Instants of the designs computed at once."""
 CORNERED = 0.01
 """Part of the tolerance for motors with corners: a step that goes over one errs by more than it says."""
 REMEDY = "use da.simulate for such a machine"
-UNDECIDED = "undecided: its steps became too small, or it comes near a dead centre; da.simulate says why"
-ROWS = {"effort": 0, "motor.stall": 0, "motor.no_load": 1, "position": 3, "speed": 4}
-"""Numbers of a drive that may vary outside the equation, as rows: effort at speed 0, speed without effort, acceleration
-of a prescribed drive, position and speed at time 0."""
-
-
-@dataclass(frozen=True)
-class MotionBatch:
-    """Motions of many designs: ``arrays`` by output, (design, instant[, component]), or without instants if reduced.
-
-    ``time`` (design,): when each ended, s; ``ended``: by which condition; ``position``, ``speed`` (design, drive) at
-    the end. NaN where the continuation of a motion is undecided: not ``ok``.
-    """
-
-    values: Array = field(repr=False)
-    time: Array = field(repr=False)
-    position: Array = field(repr=False)
-    speed: Array = field(repr=False)
-    ended: tuple[str, ...] = field(repr=False)
-    arrays: dict[str, Array] = field(repr=False)
-
-    @property
-    def ok(self) -> Flags:
-        """True for designs that have numbers."""
-        return np.isfinite(self.time)
-
-    def value(self, output: str) -> Array:
-        """An output by the name it was compiled with."""
-        if output not in self.arrays:
-            raise ModelError(f"{output!r} was not compiled", f"compile with outputs=[..., {output!r}]")
-        return self.arrays[output]
 
 
 def compile_motion(
@@ -88,8 +53,9 @@ def compile_motion(
     in `da.compile`, and ``drives.NAME.effort``, ``drives.NAME.motor.stall`` and ``.no_load``, ``start.NAME.position``
     and ``.speed``. outputs: names as in `da.compile`, at ``count`` instants evenly from a design's start to its end;
     reduce: over these instants, as in `da.compile`, or ``final``. tolerance: of each step, relative; the error of the
-    motion grows beyond it with the steps: compare with a tenth of it. Raises ModelError for what is not smooth: dry
-    friction, brakes, stops, motors with switches, efforts that depend on positions or time.
+    motion grows beyond it with the steps: compare with a tenth of it. Dry friction and brakes of one drive that forces
+    move, switches of motors, and corners and tables of loads are events of each design; outputs have values at these
+    instants too. Raises ModelError for stops, laws, and efforts that depend on positions or time.
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2)
@@ -135,26 +101,37 @@ def _compile(
         raise ModelError(f"{placed!r} moves along the motion", f"vary 'start{placed[6:]}'")
     lanes = lanes_here()
     rubs = [name for name, joint in m.joints.items() if getattr(joint, "friction", None) is not None]
-    why = f"joint {rubs[0]!r} has dry friction" if rubs else "the motion has loads that no formula gives"
+    rough = bool(rubs) or any(path.endswith(".brake") for path in driven)
+    events = refuse_events(m, prescribed, moves, rough)
+    inside = [path for path in vary if path not in driven]
     try:
-        equation = trace_equation(prescribed, [path for path in vary if path not in driven], outputs)
+        equation = trace_equation(prescribed, inside, outputs, events=events)
     except ModelError as error:
-        raise ModelError(f"{why}: {error.what}", REMEDY, error.path) if rubs else error from None
+        why = f"joint {rubs[0]!r} has dry friction: " if rubs else ""
+        raise ModelError(f"{why}{error.what}", REMEDY if rubs else error.remedy, error.path) from None
     traced = equation.kernel.trace.numbers[: -2 * len(moves.names)]
     _refuse_counts(equation)
     symbols = _symbols(m, equation, traced)
-    corners = _corners(symbols)
-    code = None if equation.dry else equation.steps(moves.free, lanes, works=False, corners=corners)
-    if code is None:
-        raise ModelError(f"{why}, so that it is not smooth", REMEDY)
-    lines = _lines(m, moves).astype(float)
+    corners, lines = _corners(symbols), _lines(m, moves).astype(float)
     formulas = {at: x for at, x in np.ndenumerate(_lines(symbols, moves)) if isinstance(x, Node)}
     where = (*traced, *(_number(moves, lines, path) for path in driven))
-    places = [k for path in vary for k, n in enumerate(where) if f"{n.path}.".startswith(f"{path}.")]
+    places = tuple(k for path in vary for k, n in enumerate(where) if f"{n.path}.".startswith(f"{path}."))
     instants = 1 if reduce == "final" or not outputs else count
+    parts = (m, lines, formulas, where, places, reduce)
+    if events or equation.bends:
+        block = event_block(equation, moves, conditions, corners, (end, tolerance, instants), lanes, reduce)
+        return EventKernel(block, *parts, several(until), count, moves)
+    code = equation.steps(moves.free, lanes, works=False, corners=corners)
+    if code is None:
+        raise ModelError("the motion has loads that no formula gives, so that it is not smooth", REMEDY)
     small = max(tolerance * CORNERED, 1e-14) if corners else tolerance
-    block = MotionBlock(equation, code, tuple(conditions), end, small, instants, drive_lengths(prescribed))
-    return MotionKernel(m, block, lines, formulas, where, tuple(places), reduce)
+    smooth = MotionBlock(equation, code, tuple(conditions), end, small, instants, drive_lengths(prescribed))
+    return MotionKernel(smooth, *parts)
+
+
+def several(until: str | float | Sequence[str | float]) -> tuple[str | float, ...]:
+    """Ends as given, one or several."""
+    return (until,) if isinstance(until, (str, int, float)) else tuple(until)
 
 
 def _refuse_counts(equation: Equation) -> None:
@@ -186,35 +163,30 @@ def _corners(m: Mechanism) -> dict[int, Corners]:
 
 
 def _refuse(moves: Actuation) -> None:
-    """Refuses efforts that the steps do not support: they must be functions of the drive's speed."""
+    """Refuses stops, laws and efforts that the steps do not support: they must be functions of the drive's speed."""
     for joint, _ in joint_stops(moves.m):
         raise ModelError(f"joint {joint!r} has stops, which change speeds at once", REMEDY)
     for k, (name, drive) in enumerate(moves.m.drives.items()):
-        motor = moves.motors.get(k)
         if k in moves.laws:
             raise ModelError(f"drive {name!r} has a law of motion, whose acceleration changes", REMEDY)
         if hasattr(drive.effort, "at"):
             raise ModelError(f"the effort of drive {name!r} depends on positions or time", REMEDY)
-        if drive.brake:
-            raise ModelError(f"drive {name!r} has a brake, which holds at rest", REMEDY)
         if drive.stops:
             raise ModelError(f"drive {name!r} has stops, which are met as events", REMEDY)
         if drive.motor is not None and drive.motor.geared:
             raise ModelError(f"the motor of drive {name!r} has a gear, inertia or an efficiency", REMEDY)
-        if motor is not None and (motor.on or motor.off):
-            raise ModelError(f"the motor of drive {name!r} has switches", REMEDY)
 
 
 def _lines(m: Mechanism, moves: Actuation) -> Array:
-    """``ROWS`` (5, D) of the drives: numbers, or symbols."""
-    lines = np.zeros((5, len(moves.names)), object)
+    """``ROWS`` (6, D) of the drives: numbers, or symbols."""
+    lines = np.zeros((6, len(moves.names)), object)
     for k, (name, drive) in enumerate(m.drives.items()):
         start, line = m.start.get(name), (0.0 if drive.effort is None else drive.effort, np.inf)
         if drive.motor is not None and drive.effort is None:
             line = drive.motor.effort[0], drive.motor.speed[1] if drive.motor.straight else np.inf
         rate, speed = (np.ravel(np.array(x, object))[0] for x in (drive.acceleration, drive.speed))
         begin = (moves.position[k], speed) if start is None else (start.position, start.speed)
-        lines[:, k] = *line, 0.0 if moves.free[k] else rate, *begin
+        lines[:, k] = *line, 0.0 if moves.free[k] else rate, *begin, drive.brake or 0.0
     return lines
 
 
@@ -223,6 +195,7 @@ def _of_drive(path: str) -> bool:
     return path.startswith("start.") or path.partition(".")[2].partition(".")[2].split(".")[0] in (
         "effort",
         "motor",
+        "brake",
     )
 
 
@@ -234,7 +207,7 @@ def _varying(moves: Actuation, k: int) -> list[tuple[str, str]]:
     efforts = (
         ["effort"] if motor is None else [f"motor.{key}" for key in ("stall", "no_load") if motor.straight]
     )
-    return [("start", "position"), ("start", "speed"), *(("drives", each) for each in efforts)]
+    return [("start", "position"), ("start", "speed"), *(("drives", each) for each in (*efforts, "brake"))]
 
 
 def _number(moves: Actuation, lines: Array, path: str) -> VariedNumber:
@@ -244,126 +217,3 @@ def _number(moves: Actuation, lines: Array, path: str) -> VariedNumber:
         known = ", ".join(f"{of}.{name}.{each}" for of, each in allowed)
         raise ModelError(f"{path!r} is not a number of a drive that forces move", f"use {known or 'none'}")
     return VariedNumber(path, float(lines[ROWS[what], k]))
-
-
-@dataclass(frozen=True)
-class MotionKernel:
-    """Compiled motions; call it with values (design, number) in SI, in the order of ``numbers``."""
-
-    mechanism: Mechanism = field(repr=False)
-    block: MotionBlock = field(repr=False)
-    lines: Array = field(repr=False)
-    formulas: dict[tuple[int, int], Node] = field(repr=False)
-    where: tuple[VariedNumber, ...] = field(repr=False)
-    places: tuple[int, ...] = field(repr=False)
-    reduce: str | None
-
-    @property
-    def equation(self) -> Equation:
-        """That of the drives."""
-        return self.block.equation
-
-    @property
-    def numbers(self) -> tuple[str, ...]:
-        """Paths of the numbers, one a column of the values."""
-        return tuple(self.where[k].path for k in self.places)
-
-    @property
-    def nominal(self) -> Array:
-        """Values of the numbers in the description."""
-        return np.array([self.where[k].value for k in self.places])
-
-    @property
-    def outputs(self) -> tuple[str, ...]:
-        """Names of the outputs."""
-        return tuple(self.equation.kernel.outputs)
-
-    def __call__(self, values: ArrayLike | None = None, threads: int | None = None) -> MotionBatch:
-        """Motions of many designs: values (design, number), default those of the description; ``threads``: number of
-        threads, default one per core."""
-        designs = self._values(values)
-        if (
-            8 * len(designs) * self.block.output_count * (1 if self.reduce else self.block.instants)
-            > available()
-        ):
-            raise ModelError(
-                "the results are too large for memory", "reduce them, or take fewer designs at once"
-            )
-        each = max(self.block.code.lanes, AT_ONCE // self.block.instants)
-        self.block.machine  # noqa: B018  # compiled once, not by each thread
-        with ThreadPoolExecutor(threads) as pool:
-            chunks = list(
-                pool.map(self._reduced, (designs[k : k + each] for k in range(0, len(designs), each)))
-            )
-        return self._answer(designs, Motions(*(np.concatenate(x) for x in zip(*chunks, strict=True))))
-
-    def _values(self, values: ArrayLike | None) -> Array:
-        count = len(self.where)
-        designs = numbers("values", self.nominal if values is None else values)
-        if designs.ndim < 2 and not designs.size % max(count, 1):
-            designs = designs.reshape(-1, count) if count else np.zeros((1, 0))
-        if (
-            designs.ndim != 2
-            or designs.shape[1] != count
-            or not len(designs)
-            or not np.isfinite(designs).all()
-        ):
-            raise ModelError(
-                f"values of shape {designs.shape} do not fit {count} numbers, or are not all finite",
-                "give (design, number) in the order of .numbers",
-            )
-        return designs
-
-    def _reduced(self, values: Array) -> Motions:
-        """Motions of some designs, their outputs reduced; each design's instants side by side, so that none depends on
-        what others there are."""
-        ordered = values[:, np.argsort(self.places)] if self.places else values
-        with np.errstate(all="ignore"):
-            motions = self.block(*self._begin(ordered))
-            out = motions.out[:, -1] if self.reduce == "final" else motions.out
-            if self.reduce not in (None, "final") and self.block.output_count:
-                one = np.ascontiguousarray(np.moveaxis(out, 1, -1))
-                out = over_positions.reduce_positions(self.reduce, np.moveaxis(one, -1, 0))
-        return motions._replace(out=out, sure=motions.sure & ~self._other_branch(ordered))
-
-    def _other_branch(self, values: Array) -> Flags:
-        """Designs whose assembly mode may be another than the file's."""
-        kernel = self.equation.kernel
-        designs = np.tile(kernel.nominal, (len(values), 1))
-        designs[:, : -2 * self.lines.shape[1]] = values[:, : designs.shape[1] - 2 * self.lines.shape[1]]
-        changed = kernel.may_change_branch(designs)
-        return np.zeros(len(values), bool) if changed is None else np.asarray(changed)
-
-    def _begin(self, values: Array) -> tuple[Array, Array]:
-        """States (M, n) at time 0, and values (M, ...) of the steps."""
-        names, many = self.equation.names, (len(values), 1)
-        count = len(self.equation.values) - 1 - 2 * len(names)
-        base, parts = np.tile(self.equation.values, many), np.tile(self.lines, (len(values), 1, 1))
-        base[:, :count] = values[:, :count]
-        kernel, nodes = self.equation.kernel, list(self.formulas.values())
-        along = {n.index: column for n, column in zip(kernel.number_nodes, values.T, strict=False)}
-        for place, column in zip(
-            self.formulas, kernel.trace.catalogue.graph.evaluate(nodes, along), strict=True
-        ):
-            parts[:, *place] = column
-        for column, n in enumerate(self.where[count:], count):
-            _, name, what = n.path.split(".", 2)
-            parts[:, ROWS[what], names.index(name)] = values[:, column]
-        first, ends, ahead, q, u = parts.swapaxes(0, 1)
-        return np.concatenate([q, u], axis=1), np.concatenate(
-            [base, first, -first / ends, 0 * first, ahead], axis=1
-        )
-
-    def _answer(self, designs: Array, motions: Motions) -> MotionBatch:
-        d, axis, place, arrays = self.lines.shape[1], 1 if self.reduce else 2, 0, {}
-        texts = [*(c.text for c in self.block.conditions), "time"]
-        ended = [texts[k] if sure else UNDECIDED for k, sure in zip(motions.met, motions.sure, strict=True)]
-        for x in (motions.out, motions.time, motions.state):
-            x[~motions.sure] = np.nan
-        for name, nodes in self.equation.kernel.nodes.items():
-            part = np.take(motions.out, range(place, place + len(nodes)), axis=axis)
-            arrays[name] = part if len(nodes) > 1 else part.squeeze(axis)
-            place += len(nodes)
-        return MotionBatch(
-            designs, motions.time, motions.state[:, :d], motions.state[:, d:], tuple(ended), arrays
-        )

@@ -139,7 +139,8 @@ class Equation:
     all numbers, those of nodes where ``places`` says; ``channels``: index of an input in positions, senses and time, or
     its function of time and positions; ``sides``: places of the values for sides of loads computed in machine code.
     ``known``: the pose, where states are followed one by one; ``dry``: the contacts, where there is friction, with the
-    names of the joints of its ``own`` ones (those that slip independently); ``contacts``: the same as nodes.
+    names of the joints of its ``own`` ones (those that slip independently); ``contacts``: the same as nodes;
+    ``friction``: inputs of what is ``asked``, c z of each contact.
     """
 
     def __init__(
@@ -167,6 +168,7 @@ class Equation:
         self.asked, self.asked_channels = program, channels
         self.sides: list[int] = []
         self.contacts: Contacts | None = None
+        self.friction: list[Node] = []
 
     @property
     def bends(self) -> int:

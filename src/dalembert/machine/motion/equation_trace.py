@@ -80,12 +80,14 @@ def trace_equation(
     vary: Sequence[str] = (),
     outputs: tuple[str, ...] | None = None,
     freedoms: Freedoms = (),
+    events: bool = False,
 ) -> Equation:
     """The equation of one mechanism, for any numbers at the paths ``vary``; with what is ``asked`` of a state: outputs,
-    then what is below zero where it is in doubt; and with the ``freedoms`` of joints that are watched."""
+    then what is below zero where it is in doubt; and with the ``freedoms`` of joints that are watched. ``events``:
+    corners of loads are on one side each also where there are outputs."""
     names = tuple(m.drives)
     moving = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
-    full, varied = outputs is None, [*vary, *moving]
+    full, varied = outputs is None or events, [*vary, *moving]
     switches: dict[Node, Node] = {}
     of: Callable[[Graph], Tree] = partial(_sided_functions, switches) if full else functions
     trace = trace_analysis(m, varied, True, moves=True, redundant=True, unsplit=full, functions_of=of)
@@ -124,16 +126,26 @@ def trace_equation(
     out.sides = [places[side.index] for side in met.values()]
     out.kernel = kernel
     if outputs is not None:
-        out.asked = plain(
-            kernel, [*kernel.flat, *traced.closure, *traced.open], marked=False, without=OUTSIDE
-        )
-        out.asked.__dict__["places"] = out.asked.places | places
-        out.asked_channels = [_channel(trace, names, n) for n in out.asked.inputs_in_use("channel")]
+        _ask(out, trace, events, known_functions if events else None)
     followed = trace.course.followed
     _set_contacts(out, trace)
     out.known = LastPose(trace.course.pose, followed, followed.compiled.layout) if known else None
     out.by_newton = any(not name.startswith("known turn") for name in known)
     return out
+
+
+def _ask(out: Equation, trace: Trace, events: bool, known: Functions | None) -> None:
+    """Give an equation what is asked of its states; with ``events`` its friction is an input."""
+    graph, traced, kernel = out.graph, trace.catalogue.traced, out.kernel
+    asked, slip = [*kernel.flat, *traced.closure, *traced.open], traced.friction.slip
+    if events and slip is not None:
+        out.friction = [graph.input("number", f"friction {e}", 0.0) for e in range(len(slip.cz))]
+        found = zip(trace_array(graph, slip.cz), out.friction, strict=True)
+        asked = graph.substitute(asked, {n.index: x for n, x in found})
+    out.asked = plain(kernel, asked, marked=False, without=OUTSIDE, known=known)
+    out.asked.__dict__["places"] = out.asked.places | out.places
+    names = tuple(out.names)
+    out.asked_channels = [_channel(trace, names, n) for n in out.asked.inputs_in_use("channel")]
 
 
 def _set_contacts(out: Equation, trace: Trace) -> None:

@@ -65,10 +65,11 @@ def traced_motion(
     sense: Array,
     stuck: Array | None,
     solve: Solve,
+    still: Node | None = None,
 ) -> TracedMotion:
     """The motion from what is ``known``: accelerations (D,) of the prescribed drives, 0 of the ``free`` ones, efforts
     less those that no acceleration needs (D,), inertia (D, D), and which are free; ``stuck`` (O,): 1 of own contacts
-    that stick, None where none may."""
+    that stick, None where none may; ``still``: 1 where all take their coefficients at rest."""
     a, less, mass, free = known
     a = np.array(a, object)
     right = np.column_stack([less - mass @ a, -f.push])[free]
@@ -82,6 +83,8 @@ def traced_motion(
         held[own] = stuck
         part, sense = _sticking(r, held, own, solve), (1.0 - held) * sense
     c = trace_array(graph, strength(contacts, 1.0, sense=sense))
+    if still is not None:
+        c = c + still * (strength(contacts, 1.0, True, sense) - c)
     z, _, flags = trace_slip(graph, contacts, with_strength(part, c), trace_array(graph, sense), fixed=True)
     cz = (1.0 - held) * c * z
     if stuck is not None:  # the force that keeps the rate of its rate at 0

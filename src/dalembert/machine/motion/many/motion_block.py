@@ -50,6 +50,11 @@ class MotionBlock:
         """Number of values of all outputs."""
         return sum(map(len, self.equation.kernel.nodes.values()))
 
+    @property
+    def text(self) -> str:
+        """All that decides the bits of an answer."""
+        return f"{self.code.machine.text}{self.machine.text}{self.conditions}{self.end}{self.tolerance}"
+
     @cached_property
     def machine(self) -> Any:
         """The outputs, then what is below zero where a state is in doubt."""

@@ -1,0 +1,128 @@
+"""Motions of many designs with events: each is that of da.simulate, whatever stands beside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.errors import ModelError
+from tests.machine.rubbing_machines import machine
+from tests.machine.test_simulate import FOUR_BAR
+from tests.tiers import tiers
+
+pytest.importorskip("llvmlite")
+CRANKS = [seed for seed in range(200) if seed % 6 in (0, 1, 5)]
+PRESS = Path(__file__).parents[2] / "docs" / "press.yaml"
+
+
+def check(
+    m: da.Mechanism, vary: list[str], outputs: list[str], until: Any, values: Any, most: int = 0
+) -> Any:
+    """Designs, each against its own simulation: the end, and the largest outputs over instants and events."""
+    k = da.compile_motion(m, until, vary, outputs, "peak", tolerance=1e-11)
+    r = k(values)
+    assert r.redone <= most
+    for d, design in enumerate(np.asarray(values)):
+        own = m.with_values(dict(zip(k.numbers, design.tolist(), strict=True)))
+        s = da.simulate(own, until, tolerance=1e-11)
+        assert r.time[d] == pytest.approx(s.time[-1], rel=1e-9)
+        assert r.position[d] == pytest.approx(s.schedule.position[-1], rel=1e-8, abs=1e-9)
+        assert r.speed[d] == pytest.approx(s.schedule.speed[-1], rel=1e-8, abs=1e-9)
+        for name in outputs:
+            along = np.abs(s.result[name])
+            known = np.isfinite(along).reshape(len(along), -1).all(axis=1)
+            assert r.value(name)[d] == pytest.approx(along[known].max(axis=0), rel=1e-6, abs=1e-7)
+        assert r.ended[d].startswith("at rest") == s.ended.startswith("at rest")
+    return r
+
+
+@pytest.mark.parametrize("seed", tiers([24], CRANKS[:6], CRANKS[6:]))
+def test_random_machines_that_rub(seed: int) -> None:
+    """Slider-cranks, four-bars and six-bars; in 24 the crank comes to rest."""
+    m = da.mechanism(machine(seed))
+    vary, outputs = ["links.rod.mass", "links.crank.inertia"], ["reaction.A.magnitude", "effort.O"]
+    nominal = np.array([m.links["rod"].mass, m.links["crank"].inertia], float)
+    check(m, vary, outputs, "0.3 s", nominal * [[0.8, 1.1]])
+
+
+def test_a_press_from_rest() -> None:
+    """It starts against friction; its load follows from the crank, and it ends at a speed."""
+    until = ["0.4 s", "O.speed = 9 rad/s"]
+    outputs = ["reaction.A.magnitude", "point.ram.B.velocity"]
+    r = check(da.load(PRESS), ["mu", "links.ram.mass"], outputs, until, [[0.08, 60.0], [0.2, 80.0]])
+    whole = da.compile_motion(
+        da.load(PRESS), until, ["mu", "links.ram.mass"], outputs, "peak", tolerance=1e-11
+    )
+    assert (whole([[0.2, 80.0]]).time == r.time[1]).all()
+
+
+STOPS = [
+    (("effort: 0", "effort: -1 N*m, brake: 4 N*m"), ["drives.O2.brake"], [[4.0], [0.5], [9.0]]),
+    (
+        ("effort: 0", "motor: {stall: 6 N*m, no_load: 60 rad/s, off: 30 rad/s}"),
+        ["links.coupler.mass"],
+        [[1.0]],
+    ),
+    (
+        ("effort: 0", "motor: {stall: 6 N*m, no_load: 60 rad/s, on: 0.05 s, off: 0.2 s}"),
+        ["links.coupler.mass"],
+        [[1.0]],
+    ),
+]
+
+
+@pytest.mark.parametrize(("change", "vary", "values"), STOPS)
+def test_brakes_and_switches(change: tuple[str, str], vary: list[str], values: Any) -> None:
+    """A brake holds the crank where it comes to rest; motors are switched at a speed, and by time."""
+    m = da.loads(FOUR_BAR.replace(*change))
+    assert change[1] in FOUR_BAR.replace(*change)
+    check(m, vary, ["reaction.A.magnitude"], "0.3 s", values)
+
+
+TABLE = """
+gravity: standard
+links: {ground: {points: {O: [0, 0], W: [1, 0]}}, block: {points: {B: [0, 0]}, mass: 2}}
+joints: {S: {type: slider, links: [ground, block], at: [O, B], direction: 0, friction: {coefficient: 0.1}}}
+drives: {S: {effort: 0}}
+start: {S: {position: 0.3 m, speed: 0}}
+parameters: {push: 4 N}
+loads:
+  work: {type: force, on: block, at: B, value: push*sign(0.4 m - S), direction: 0 deg}
+  spring:
+    type: spring
+    between: [ground.W, block.B]
+    force: {x: [-0.2 m, 0 m, 0.1 m], y: [-40 N, 0 N, 30 N]}
+    free_length: 0.6 m
+"""
+
+
+def test_corners_of_loads_and_tables_of_springs() -> None:
+    """A block that swings over the jump of a force and the bends of a spring until friction holds it."""
+    m = da.loads(TABLE)
+    r = check(m, ["push", "links.block.mass"], ["reaction.S"], "2 s", [[4.0, 2.0], [1.0, 3.0]])
+    assert all(text.startswith("at rest from") for text in r.ended) or (r.time == 2.0).all()
+
+
+def test_what_is_in_doubt_is_simulated_alone() -> None:
+    """A design that comes to a dead centre beside one that does not says why it stops."""
+    m = da.loads(FOUR_BAR.replace("effort: 0", "effort: 0, brake: 0.1 N*m"))
+    k = da.compile_motion(m, "0.3 s", ["links.coupler.points.B.0"], ["reaction.A.magnitude"], "peak")
+    r = k([0.15, 0.1])
+    s = da.simulate(m.with_values({"links.coupler.points.B.0": 0.1}), "0.3 s", tolerance=1e-9)
+    assert r.redone == 1
+    assert r.ok.tolist() == [True, False]
+    assert (
+        r.ended[1].partition(":")[2] == s.ended.partition(":")[2]
+    )  # when its steps become too small is rounding
+
+
+@pytest.mark.parametrize(
+    ("seed", "sentence"), [(2, "several drives that forces move"), (4, "several drives that forces move")]
+)
+def test_what_may_stick_several_ways_is_refused(seed: int, sentence: str) -> None:
+    with pytest.raises(ModelError, match=sentence):
+        da.compile_motion(da.mechanism(machine(seed)), "0.1 s")
