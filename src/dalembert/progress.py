@@ -1,7 +1,7 @@
 """Progress of long work on standard error: a line that redraws itself on a terminal, single lines in a pipe.
 
 Nothing in the first half second on a terminal, or in the first seconds in a pipe. With a total there are rate and time
-left.
+left; in a pipe, work that will be long begins with an estimate, measured on what is done in its first second.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ DELAY = 0.5
 """Seconds of silence on a terminal: shorter work shows nothing."""
 FIRST, SLOWER, LONGEST = 5.0, 2.0, 60.0
 """In a pipe: seconds until the first line, the factor from one pause to the next, and the longest pause."""
+MEASURED, LONG = 1.0, 10.0
+"""In a pipe: seconds until work is estimated, and the estimate from which on it is printed."""
 
 Step = Callable[..., None]
 
@@ -71,6 +73,22 @@ def line(what: str, done: int, total: int | None, seconds: float, start: int = 0
     return f"{what}: {done:,} of {total:,}, {speed}, {duration((total - done) / rate)} left"
 
 
+def estimate(what: str, done: int, total: int | None, seconds: float, start: int = 0) -> str:
+    """One line with the time that all of it will take, measured so far; empty where that is short or not known yet.
+
+    >>> estimate("Studying", 40, 1200, 8.0)
+    'Studying: 1,200 take about 4 min, by the first 40'
+    >>> estimate("Studying", 640, 1200, 8.0, start=600)
+    'Studying: 600 more take about 2 min, by the first 40'
+    """
+    if not total or done <= start or done >= total:
+        return ""
+    takes = (total - start) * seconds / (done - start)
+    count = f"{total - start:,} more" if start else f"{total:,}"
+    about = f"{what}: {count} take about {duration(takes)}, by the first {done - start:,}"
+    return about if takes >= LONG else ""
+
+
 def duration(seconds: float) -> str:
     """A time as a person says it.
 
@@ -84,14 +102,24 @@ def duration(seconds: float) -> str:
 
 
 def _print_lines(state: dict[str, Any], finished: Any) -> None:
-    """A line from time to time until the work is finished."""
+    """An estimate of long work as soon as it can be measured, then a line from time to time until it is finished."""
     start, pause = monotonic(), FIRST
+
+    def words(of: Callable[..., str]) -> str:
+        seconds = monotonic() - start
+        return of(state["description"], state["completed"], state["total"], seconds, state["start"])
+
+    for _ in range(int(FIRST / MEASURED) - 1):
+        if finished.wait(MEASURED):
+            return
+        if text := words(estimate):
+            print(text, file=sys.stderr, flush=True)
+            break
+    else:
+        pause = MEASURED
     while not finished.wait(pause):
-        text = line(
-            state["description"], state["completed"], state["total"], monotonic() - start, state["start"]
-        )
-        print(text, file=sys.stderr, flush=True)
-        pause = min(SLOWER * pause, LONGEST)
+        print(words(line), file=sys.stderr, flush=True)
+        pause = min(SLOWER * max(pause, FIRST), LONGEST)
 
 
 def _show(state: dict[str, Any], finished: Any) -> None:

@@ -211,18 +211,24 @@ class Waits:
 def test_slow_work_says_in_a_pipe_how_fast_it_is_and_what_is_left(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    clock = iter([0.0, 10.0, 40.0])
-    monkeypatch.setattr(dalembert.progress, "monotonic", lambda: next(clock))
-    work = Waits(2)
-    dalembert.progress._print_lines(
-        {"completed": 300, "description": "Studying", "total": 1200, "start": 0}, work
-    )
+    clock = iter([0.0, 1.0, 2.0, 10.0, 40.0])
+    state = {"completed": 0, "description": "Studying", "total": 1200, "start": 0}
+
+    def now() -> float:
+        seconds = next(clock)
+        state["completed"] = 0 if seconds < 2 else 40 if seconds == 2 else 300
+        return seconds
+
+    monkeypatch.setattr(dalembert.progress, "monotonic", now)
+    work = Waits(4)
+    dalembert.progress._print_lines(state, work)
     lines = capsys.readouterr().err.splitlines()
     assert lines == [
+        "Studying: 1,200 take about 60 s, by the first 40",
         "Studying: 300 of 1,200, 30.0 per second, 30 s left",
         "Studying: 300 of 1,200, 7.5 per second, 2 min left",
     ]
-    assert work.pauses[0] < work.pauses[1] < work.pauses[2]
+    assert work.pauses[1] < work.pauses[2] < work.pauses[3] < work.pauses[4]
 
 
 def test_short_work_in_a_pipe_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:

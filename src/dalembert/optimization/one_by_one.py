@@ -20,6 +20,7 @@ from dalembert.analysis.solution import solve
 from dalembert.arrays import Array
 from dalembert.errors import DalembertError, ModelError
 from dalembert.model import AtPositions, Mechanism
+from dalembert.progress import progress
 
 Function = Callable[[Result], Any]
 """A number, or one for each position (P,), of a result."""
@@ -57,18 +58,24 @@ class OneByOne:
         """One block of all designs (design, number)."""
         count = self._count
         value, slope = np.empty((len(values), len(self.outputs), count)), []
-        for d, design in enumerate(np.asarray(values, float)):
-            value[d] = here = self.at(design)
-            steps = STEP * (self.high - self.low) * np.where(design > (self.low + self.high) / 2, -1.0, 1.0)
-            slope.append([
-                (self.at(design + steps * one) - here) / steps[k] if steps[k] else 0.0 * here
-                for k, one in enumerate(np.eye(len(design)))
-            ])  # fmt: skip
+        with progress("Analysing designs", len(values)) as step:
+            for d, design in enumerate(np.asarray(values, float)):
+                value[d] = here = self.at(design)
+                slope.append(self._slope(design, here))
+                step(d + 1)
         slopes = np.moveaxis(np.array(slope).reshape(len(values), -1, len(self.outputs), count), 1, -1)
         place = {name: k for k, name in enumerate(self.outputs)}
         yield SimpleNamespace(
             value=lambda name: value[:, place[name]], gradient=lambda name: slopes[:, place[name]]
         )
+
+    def _slope(self, design: Array, here: Array) -> list[Array]:
+        """Differences over the steps of each number, of one design with the outputs ``here``."""
+        steps = STEP * (self.high - self.low) * np.where(design > (self.low + self.high) / 2, -1.0, 1.0)
+        return [
+            (self.at(design + steps * one) - here) / steps[k] if steps[k] else 0.0 * here
+            for k, one in enumerate(np.eye(len(design)))
+        ]
 
     @property
     def _count(self) -> int:

@@ -25,7 +25,7 @@ from dalembert.optimization.one_by_one import Function, named
 from dalembert.optimization.optimizers import DEFAULT, METHODS, find_method, search_by
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.polishing import polish
-from dalembert.optimization.side_by_side import minimize
+from dalembert.optimization.side_by_side import STEPS, minimize
 from dalembert.progress import progress
 from dalembert.wording import quote_value
 
@@ -42,6 +42,9 @@ CORNERS = 10
 
 STARTS, STARTS_ANALYSED = 1000, 20
 """Random designs by default, of compiled analyses and where designs are analysed one by one."""
+
+BLOCK = 64
+"""Random designs that are solved side by side, at least."""
 
 Bounds = Mapping[str, Sequence[object]]
 Rule = str | Function
@@ -191,7 +194,7 @@ def _best(
     elif p.one_by_one:
         values = p(places).value
     else:
-        with progress("Improving designs") as step:
+        with progress("Improving designs, steps at most", STEPS) as step:
             places, values = minimize(p, places, progress=lambda done: step(done))
     order = np.argsort(values)[: POLISHED_ANALYSED if p.one_by_one else POLISHED]
     with progress("Polishing designs", len(order)) as step:
@@ -208,17 +211,20 @@ def _best(
 
 def starts_of(p: DesignProblem, count: int, seed: int) -> Array:
     """Solvable points: the description's, then random ones."""
-    return random_places(lambda u: np.isfinite(p(u).value), p.nominal, count, seed)
+    block = 1 if p.one_by_one else BLOCK
+    return random_places(lambda u: np.isfinite(p(u).value), p.nominal, count, seed, block)
 
 
-def random_places(answers: Callable[[Array], Flags], nominal: Array, count: int, seed: int) -> Array:
-    """Solvable points (start, number) in the unit box: a given one, then random ones."""
+def random_places(
+    answers: Callable[[Array], Flags], nominal: Array, count: int, seed: int, block: int = BLOCK
+) -> Array:
+    """Solvable points (start, number) in the unit box: a given one, then random ones, ``block`` or more at once."""
     require("starts", count, path=("starts",))
     require("seed", seed, path=("seed",))
     draw, got, drawn = np.random.default_rng(seed), 0, 0
     accepted = [nominal[None][answers(nominal[None])]]
     while got < count and drawn < MOST_DRAWN * count:
-        u = draw.random((max(count, 64), len(nominal)))
+        u = draw.random((max(count - got, block), len(nominal)))
         drawn += len(u)
         u = u[answers(u)][: count - got]
         got += len(u)

@@ -14,6 +14,8 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.optimization.design_problem import AimValue
 
+STEPS = 150
+"""Most steps of a start."""
 ENOUGH = 1e-4
 """Fraction of the decrease predicted by the slope that a step must achieve."""
 FIRST = 0.1
@@ -25,7 +27,7 @@ SMALLEST = 1e-9
 def minimize(
     of: Callable[[Array], AimValue],
     u: Array,
-    steps: int = 150,
+    steps: int = STEPS,
     progress: Callable[[int], object] | None = None,
 ) -> tuple[Array, Array]:
     """Points (start, number) and values, from solvable starts in the unit box."""

@@ -44,10 +44,10 @@ def report(
     """Write the worked solution of FILE, step by step, with its drawings; or its design report."""
     from dalembert.reports import report as worked_out
 
+    check_new(output, force)
+    if design:
+        return design_report(file, output, of, style, force)
     with progress(f"Working out {file}"):
-        check_new(output, force)
-        if design:
-            return design_report(file, output, of, style, force)
         result, at = solve_at(of.load(file), of.at, of.static, of.positions)
         worked_out(result, at, method, style.notation(), about, begin, along).save(output, force)
         return announce(result, output, at)
@@ -58,8 +58,11 @@ def design_report(file: Path, output: Path, of: OfAt, style: Style, force: bool)
     from dalembert.machine.whole_cycle import solved_over_a_turn
     from dalembert.reports import report as written
 
-    result = solved_over_a_turn(of.load(file), of.static, of.positions)
-    written(result, of.at, notation=style.notation(), design=True).save(output, force)
+    with progress(f"Solving {file}"):
+        result = solved_over_a_turn(of.load(file), of.static, of.positions)
+    made = written(result, of.at, notation=style.notation(), design=True)
+    with progress(f"Writing {output}"):
+        made.save(output, force)
     return announce(result, output, of.at)
 
 

@@ -7,6 +7,8 @@ polynomials and sine waves of motion laws, circles and straight lines in polar c
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from dalembert.arrays import Array, Numeric
@@ -102,8 +104,7 @@ def _some(column: Array) -> bool:
 def _polynomial(c: Array, u: Array, order: int) -> Array:
     out = np.zeros_like(u)
     for k in range(POWERS - 1, order - 1, -1):
-        factor = float(np.prod(np.arange(k - order + 1, k + 1))) if order else 1.0
-        out = out * u + factor * c[k]
+        out = out * u + float(math.perm(k, order)) * c[k]
     return out
 
 

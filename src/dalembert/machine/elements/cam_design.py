@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from dalembert.algebra import plane
+from dalembert.algebra.extremes import least_within
 from dalembert.analysis.compile.elements.cam_limits import least_size
 from dalembert.analysis.compile.elements.cam_motion import CamMotion, CamPlace, cam_motion, lift_sign
 from dalembert.answer.answer import Drawn, Labelled, Worked
@@ -124,25 +125,18 @@ class CamDesign(Drawn, Labelled, Worked):
 
     def _extreme(self, of: Of) -> tuple[float, float]:
         """Largest value of a function of turns, and its place."""
-        from scipy.optimize import minimize_scalar
-
         values = of(self.turn)
         if not np.isfinite(values).any():
             return np.nan, np.nan
         top = float(np.nanmax(values))
         k = int(np.argmax(values >= top - 1e-9 * abs(top)))  # the first of equal ones
         best, at = float(values[k]), float(self.turn[k])
-        for low, high in ((k - 1, k), (k, k + 1)):
-            if low >= 0 and high < len(self.turn):
-                ends = self.turn[low] + 1e-9, self.turn[high] - 1e-9
-                value = minimize_scalar(
-                    lambda x: -float(of(np.array([x]))[0]),
-                    bounds=ends,
-                    method="bounded",
-                    options={"xatol": 1e-12},
-                )
-                if -value.fun > best:
-                    best, at = float(-value.fun), float(value.x)
+        first = np.arange(
+            max(k - 1, 0), min(k + 1, len(self.turn) - 1)
+        )  # beside the joints of pieces, not on them
+        lower, place = least_within(lambda t: -of(t), self.turn[first] + 1e-9, self.turn[first + 1] - 1e-9)
+        if len(first) and -lower.min() > best + 1e-12 * abs(best):
+            best, at = float(-lower.min()), float(place[int(np.argmin(lower))])
         return best, at
 
     @cached_property

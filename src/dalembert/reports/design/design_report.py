@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.result.position_lookup import PositionChoice, position_at
+from dalembert.progress import progress
 from dalembert.reports.design.element_parts import element_parts
 from dalembert.reports.design.force_part import force_part
 from dalembert.reports.design.given_parts import given_parts
@@ -48,7 +49,11 @@ def design_sheet(
     notation = notation or Notation()
     k = position_at(r, at if at is not None else worst_position(r))
     c = DesignContext(r, k, notation)
-    parts = [part for title, find in PARTS for part in attempted(c, title, find)]
+    parts = list[DesignPart]()
+    with progress("Design report,", len(PARTS)) as step:
+        for k, (title, find) in enumerate(PARTS):
+            step(k, title)
+            parts += attempted(c, title, find)
     m = r.mechanism
     sheet = ReportSheet(m.title or "Machine", m.source_text, "Design report")
     summary(sheet, c, parts)

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from dalembert.algebra.extremes import least_within
 from dalembert.analysis.compile.elements.cam_motion import CamMotion, cam_motion
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
@@ -15,6 +16,8 @@ PLACES = 721
 """Turns at which a profile is looked at."""
 FEW = 4
 """Places that are looked at more closely."""
+NEAR = 1e-3
+"""Part of the base radius below which the least radius is looked at between places."""
 ENOUGH = 1e-9
 """Part of a radius that two may differ by."""
 
@@ -67,35 +70,36 @@ def _base(c: CamMotion) -> float:
 
 def least_size(m: Mechanism, name: str, c: CamMotion) -> tuple[float, float]:
     """Base radius from which on the cam is not undercut, m, and the turn (rad) at which a smaller one is first."""
-    from scipy.optimize import brentq, minimize_scalar
+    from scipy.optimize import brentq
 
     if c.joint.profile.segments is None:
         return math.nan, math.nan
     turns = np.sort([*c.turns(PLACES), *(c.joins - 1e-8)])
 
-    def worst(base: float) -> tuple[float, float]:
+    def worst(base: float, sign_only: bool = False) -> tuple[float, float]:
         other = _with_base(m, name, base)
         values = worst_radius(other, turns)
-        close = float(values.min()) + 1e-3 * base
-        left, right = np.roll(values, 1), np.roll(values, -1)
+        left, right, k = np.roll(values, 1), np.roll(values, -1), int(np.argmin(values))
+        out = [(float(values[k]), float(turns[k]))]
+        near = max(NEAR * base, float(max(left[k], right[k]) - values[k]))
+        if sign_only and abs(out[0][0]) > near:
+            return out[0]
         bends = np.maximum(left, right) > values + ENOUGH * base  # not within a dwell
-        low = np.flatnonzero((values <= left) & (values <= right) & (values <= close) & bends)[:FEW]
-        out = [(float(values.min()), float(turns[int(np.argmin(values))]))]
-        for k in low:
-            ends = turns[max(int(k) - 1, 0)], turns[min(int(k) + 1, len(turns) - 1)]
-            x = minimize_scalar(
-                lambda t: float(worst_radius(other, np.array([t]))[0]),
-                bounds=ends,
-                method="bounded",
-                options={"xatol": 1e-11},
-            )
-            out.append((float(x.fun), float(x.x)))
-        least = min(value for value, _ in out)
-        return least, min(at for value, at in out if value <= least + ENOUGH * base)
+        low = np.flatnonzero((values <= left) & (values <= right) & (values <= values[k] + near) & bends)[
+            :FEW
+        ]
+        least, at = least_within(
+            lambda t: worst_radius(other, t),
+            turns[np.maximum(low - 1, 0)],
+            turns[np.minimum(low + 1, len(turns) - 1)],
+        )
+        out += zip(least.tolist(), at.tolist(), strict=True)
+        smallest = min(value for value, _ in out)
+        return smallest, min(at for value, at in out if value <= smallest + ENOUGH * base)
 
     def margin(base: float) -> float:
         try:
-            return worst(base)[0]
+            return worst(base, sign_only=True)[0]
         except ModelError:  # too small for the offset or the arm
             return -base
 
