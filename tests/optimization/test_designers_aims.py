@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,11 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.machine.design_numbers import not_compiled
 from dalembert.optimization.one_by_one import value_of
+from dalembert.optimization.optimizing import problem_of
+from tests.random_mechanisms import random_case
+from tests.tiers import tiers
 
 DOCS = Path(__file__).parents[2] / "docs"
 CANTILEVER = """
@@ -101,8 +106,53 @@ def test_the_words_are_the_numbers_of_the_tables() -> None:
     assert da.compile(m, ["web"], ["mass"])([[0.05]]).value("mass").max() == pytest.approx(
         m.with_values({"web": 0.05}).mass("crank") + m.mass("rod") + 30
     )
-    with pytest.raises(da.ModelError, match=r"stress\.rod is not compiled; use da\.dynamics"):
-        da.compile(m, outputs=["stress.rod"])
+    with pytest.raises(da.ModelError, match=r"deflection\.rod is not compiled; use da\.dynamics"):
+        da.compile(m, outputs=["deflection.rod"])
+    spread = m.with_values({"links.rod.mass_along": "uniform"})
+    with pytest.raises(
+        da.ModelError, match="forces inside 'rod' are not compiled: the mass of 'rod' lies along it"
+    ):
+        da.compile(spread, outputs=["stress.rod"])
+
+
+@pytest.mark.parametrize("seed", tiers([4, 9], range(10, 18), range(18, 60)))
+def test_compiled_stress_and_buckling_are_those_of_the_tables(seed: int) -> None:
+    """On random mechanisms, at another design than the one that was compiled; which links are compiled is stated."""
+    tree = deepcopy(random_case(seed).tree)
+    for link in tree["links"].keys() - {"ground"}:
+        tree["links"][link]["section"] = {"rectangle": [0.02, 0.03], "elasticity": 2e11, "yield_stress": 3e8}
+    m = da.mechanism(tree)
+    r = da.dynamics(m)
+    names = [f"{w}.{n}" for n in r.links for w in ("stress", "buckling") if not not_compiled(r, w, n)]
+    path = "links.{}.section.rectangle.1"
+    links = sorted({n.partition(".")[2] for n in names})
+    if not (links and r.ok.all()):
+        pytest.skip("no link of one member between two joints")
+    k = da.compile(m, [path.format(n) for n in links], names)
+    b = k([[0.05] * len(links)])
+    other = da.dynamics(m.with_values({path.format(n): 0.05 for n in links}))
+    for name in names:
+        np.testing.assert_allclose(
+            b.value(name)[0], other[name], rtol=1e-9, atol=1e-12 * np.abs(other[name]).max() + 1e-15
+        )
+
+
+def test_designs_by_compiled_numbers_are_those_one_by_one() -> None:
+    """Aims and conditions with stress, buckling and life, of a design and their derivatives by differences."""
+    m = da.load(DOCS / "lightest-press.yaml").with_values(
+        {"joints.A.bearing": {"rating": "60 kN", "kind": "roller"}}
+    )
+    vary = {"rod": (0.2, 0.5), "diameter": (0.02, 0.06), "crank": (0.04, 0.08)}
+    rules = ["peak stress.rod <= 90 MPa", "buckling.rod <= 1/5", "life.A >= 2000 h"]
+    fast, *_ = problem_of(m, vary, "mass", rules, 24, False)
+    slow, *_ = problem_of(m, vary, "mass", [*rules, lambda r: 1.0], 24, False)
+    assert (fast.one_by_one, slow.one_by_one) == (False, True)
+    u = np.array([0.3, 0.6, 0.4])
+    a, b = fast.at(u), slow.at(u)
+    np.testing.assert_allclose(a.margin, b.margin[:3], rtol=1e-9)
+    np.testing.assert_allclose(
+        a.margin_slope, b.margin_slope[:3], rtol=1e-4, atol=1e-5 * np.abs(a.margin_slope).max()
+    )
 
 
 def test_a_study_has_a_limit_of_stress() -> None:

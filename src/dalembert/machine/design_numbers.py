@@ -1,6 +1,7 @@
 """Numbers of machine design by name, in aims, conditions, limits and answers: `mass`, `stress.rod`, `life.A`.
 
-One function for each word, of a result and a name: a value at every position. Mass alone is also compiled.
+One function for each word, of a result and a name: a value at every position. Masses are compiled too, and stress and
+buckling of links for which `not_compiled` gives no reason.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.arrays import Array, Numeric
+from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -42,10 +44,13 @@ def mass(r: Any, link: str) -> Numeric:
     return np.full(len(r.status), total) if hasattr(r, "status") else total
 
 
-def _stress(r: Result, link: str) -> Array:
-    """Greatest von Mises stress of a link, Pa."""
+def _stress(r: Any, link: str) -> Numeric:
+    """Greatest von Mises stress of a link, Pa; a node where ``r`` is a compiled analysis."""
+    from dalembert.machine.members.compiled_members import compiled_stress
     from dalembert.machine.members.member_forces import member_forces
 
+    if not hasattr(r, "status"):
+        return compiled_stress(r, r.like, link)
     return member_forces(r, link).stress().equivalent
 
 
@@ -57,11 +62,14 @@ def _fatigue(r: Result, link: str) -> Array:
     return np.full(len(r.status), np.nan if safety is None else 1 / safety)
 
 
-def _buckling(r: Result, link: str) -> Array:
-    """Compression of a link over its critical load: 1 where it buckles."""
+def _buckling(r: Any, link: str) -> Numeric:
+    """Compression of a link over its critical load: 1 where it buckles; a node where ``r`` is a compiled analysis."""
     from dalembert.machine.members.buckling import utilisation
+    from dalembert.machine.members.compiled_members import compiled_buckling
     from dalembert.machine.members.member_forces import member_forces
 
+    if not hasattr(r, "status"):
+        return compiled_buckling(r, r.like, link)
     return utilisation(member_forces(r, link))
 
 
@@ -103,7 +111,22 @@ def _play(part: str) -> Callable[[Result, str], Array]:
     return read
 
 
-READ: dict[str, Callable[[Result, str], Array]] = {
+def not_compiled(r: Result, word: str, of: str) -> str:
+    """Why a number of machine design is not compiled; empty where it is, as all other quantities."""
+    from dalembert.machine.members.compiled_members import factors, lacks
+
+    if word not in ("stress", "buckling"):
+        return "" if word not in READ else f"{word} is not compiled"
+    why = lacks(r, of)
+    if not why and word == "buckling":
+        try:
+            factors(r, of)
+        except ModelError as error:
+            return error.what
+    return why
+
+
+READ: dict[str, Callable[[Any, str], Numeric]] = {
     "stress": _stress,
     "fatigue": _fatigue,
     "buckling": _buckling,

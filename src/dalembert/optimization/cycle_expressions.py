@@ -25,6 +25,7 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.quantities.expression_trees import (
     REDUCTIONS,
+    Apply,
     Functions,
     NameNode,
     Tree,
@@ -192,6 +193,15 @@ def cycle_tree(text: str, r: Result) -> Tree:
     return tree
 
 
+def _with(tree: Tree, parts: Mapping[str, Tree]) -> Tree:
+    """A tree with others in the place of names."""
+    if isinstance(tree, NameNode):
+        return parts.get(tree.name, tree)
+    if isinstance(tree, Apply):
+        return Apply(tree.function, tuple(_with(x, parts) for x in tree.arguments))
+    return tree
+
+
 @dataclass(frozen=True)
 class CycleExpressions:
     """Expressions by their texts, and the kernel of the quantities in them at every position.
@@ -209,10 +219,14 @@ class CycleExpressions:
         r: Result,
         compiled: Callable[[Sequence[str]], Kernel | OneByOne],
         functions: Collection[str] = (),
+        written: Mapping[str, str] | None = None,
     ) -> CycleExpressions:
         """Expressions of the quantities, parameters and numbers of the file of an analysed mechanism, or the names of
-        ``functions`` of it."""
-        trees = {text: NameNode(text) if text in functions else cycle_tree(text, r) for text in texts}
+        ``functions`` of it; ``written``: quantities that are expressions of others here."""
+        parts = {name: cycle_tree(text, r) for name, text in (written or {}).items()}
+        trees = {
+            text: NameNode(text) if text in functions else _with(cycle_tree(text, r), parts) for text in texts
+        }
         return cls(trees, compiled(sorted({name for tree in trees.values() for name in names_in(tree)})))
 
     def names(self, text: str) -> list[str]:

@@ -16,10 +16,12 @@ from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError, errors_at
+from dalembert.machine.bearings.compiled_life import life_expression
 from dalembert.model import AtPositions, Mechanism
+from dalembert.model.paths import reached
 from dalembert.optimization.aims import Aim, Constraint
 from dalembert.optimization.cycle_expressions import CycleExpressions, cycle_tree, has_reductions, is_single
-from dalembert.optimization.one_by_one import Function, OneByOne, is_analysed, value_of
+from dalembert.optimization.one_by_one import Function, OneByOne, analysed_names, value_of
 from dalembert.optimization.optimizers import DEFAULT
 
 WEIGHT = 100.0
@@ -94,11 +96,36 @@ class DesignProblem:
     @cached_property
     def one_by_one(self) -> bool:
         """True if designs are analysed one by one, as some quantity is not compiled, or is a Python function."""
-        return bool(self.functions) or any(map(is_analysed, (self.aim.of, *self.margins)))
+        named = {x for text in (self.aim.of, *self.margins) for x in analysed_names(text)}
+        lives = {of for word, of in named if word == "life"}
+        if self.functions or self.lives.keys() != lives:
+            return True
+        sized = sorted(f"{word}.{of}" for word, of in named if word != "life")
+        try:
+            if sized:
+                self.kernel(sized, None)
+        except ModelError:
+            return True
+        return False
+
+    @cached_property
+    def lives(self) -> dict[str, str]:
+        """Joint -> the life of its bearing as an expression of compiled quantities, of those named that have one."""
+        joints = {
+            of for t in (self.aim.of, *self.margins) for word, of in analysed_names(t) if word == "life"
+        }
+        paths = [
+            place for n in numbers(self.mechanism, self.vary) for place in reached(self.mechanism, n.path)
+        ]
+        if not joints or any(place.startswith("drives.") for place in paths):
+            return {}
+        known = {n: life_expression(self.nominal_answer, n) for n in joints & self.mechanism.joints.keys()}
+        return {n: text for n, text in known.items() if text}
 
     def is_plain(self, of: Aim | Constraint) -> bool:
         """True if the kernel computes an aim or a condition itself."""
-        return of.plain and not self.one_by_one
+        text = of.of if isinstance(of, Aim) else of.margin
+        return of.plain and not self.one_by_one and all(word != "life" for word, _ in analysed_names(text))
 
     def _check_kinds(self, text: str) -> None:
         """Raises ModelError for unknown names and unlike quantities, where a kernel does not know all kinds."""
@@ -142,7 +169,8 @@ class DesignProblem:
         of, number = self.aim.of, self.aim.of if self.aim.of in self.functions else self.aim.number
         texts = [] if self.is_plain(self.aim) else [of, number]
         texts += [c.margin for c in self.conditions if not self.is_plain(c)]
-        return CycleExpressions.of(texts, self.nominal_answer, self._leaves, self.functions)
+        lives = {} if self.one_by_one else {f"life.{n}": text for n, text in self.lives.items()}
+        return CycleExpressions.of(texts, self.nominal_answer, self._leaves, self.functions, lives)
 
     def _leaves(self, names: Sequence[str]) -> Kernel | OneByOne:
         """Quantities at every position."""

@@ -19,6 +19,7 @@ from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array
 from dalembert.errors import DalembertError, ModelError
+from dalembert.machine.design_numbers import READ
 from dalembert.model import AtPositions, Mechanism
 from dalembert.progress import progress
 
@@ -27,17 +28,19 @@ Function = Callable[[Result], Any]
 STEP = 1e-6
 """Difference of neighbouring designs, as a fraction of the bounds."""
 ANALYSED = re.compile(
-    rf"(?<![\w.])(?:{'|'.join(word for word, row in CATALOGUE.items() if not row.compiled)})\.\w"
+    rf"(?<![\w.])({'|'.join(word for word, row in CATALOGUE.items() if not row.compiled or word in READ)})"
+    r"\.(\w[\w.-]*)"
 )
+"""Word and thing of quantities that are not compiled, or not of every machine."""
 
 
-def is_analysed(text: str) -> bool:
-    """True if an expression names a quantity that is not compiled.
+def analysed_names(text: str) -> list[tuple[str, str]]:
+    """Word and thing of the quantities in an expression that a kernel may not have.
 
-    >>> is_analysed("stress.rod <= 90 MPa"), is_analysed("effort.O2")
-    (True, False)
+    >>> analysed_names("stress.rod <= 90 MPa"), analysed_names("effort.O2")
+    ([('stress', 'rod')], [])
     """
-    return bool(ANALYSED.search(text))
+    return ANALYSED.findall(text)
 
 
 @dataclass(frozen=True)
@@ -57,7 +60,7 @@ class OneByOne:
     def blocks(self, values: Array, **options: Any) -> Iterator[Any]:
         """One block of all designs (design, number)."""
         count = self._count
-        value, slope = np.empty((len(values), len(self.outputs), count)), []
+        value, slope = np.empty((len(values), len(self.outputs), count)), list[list[Array]]()
         with progress("Analysing designs", len(values)) as step:
             for d, design in enumerate(np.asarray(values, float)):
                 value[d] = here = self.at(design)

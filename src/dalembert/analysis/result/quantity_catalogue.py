@@ -286,7 +286,7 @@ CATALOGUE: dict[str, QuantityWord] = {
     ),
     "mass": QuantityWord("masses", {"": QuantityReading("mass", _mass)}),
     **{
-        word: QuantityWord(of, {"": QuantityReading(kind, _sized(word))}, False)
+        word: QuantityWord(of, {"": QuantityReading(kind, _sized(word))}, word in ("stress", "buckling"))
         for word, of, kind in (
             ("stress", "sections", "pressure"),
             ("fatigue", "fatigued", "number"),

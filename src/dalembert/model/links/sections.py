@@ -100,7 +100,6 @@ class Measures(NamedTuple):
     second_moments: tuple[float, float]
     reach: tuple[float, float]
     shear: tuple[float, float]
-    torsion: float | None = None
 
 
 Stress = Annotated[float, Scalar("pressure", "positive")]
@@ -171,23 +170,19 @@ class Section(Part):
     def _measures(self) -> Measures:
         if self.rectangle:
             b, h = self.rectangle
-            short, long = sorted(self.rectangle)
-            k = short / long
-            roark = 1 + 0.6095 * k + 0.8865 * k**2 - 1.8023 * k**3 + 0.91 * k**4
             second = h * b**3 / 12, b * h**3 / 12
-            return Measures(b * h, second, (h / 2, b / 2), (1.5 / (b * h),) * 2, long * short**2 / 3 / roark)
+            return Measures(b * h, second, (h / 2, b / 2), (1.5 / (b * h),) * 2)
         if self.I:
             h, b, web, flange = self.I
             clear = h - 2 * flange
             second = (2 * flange * b**3 + clear * web**3) / 12, (b * h**3 - (b - web) * clear**3) / 12
-            torsion = (2 * b * flange**3 + clear * web**3) / 3 / max(web, flange)
             shears = 1 / (web * clear), 0.75 / (b * flange)
-            return Measures(2 * b * flange + clear * web, second, (h / 2, b / 2), shears, torsion)
+            return Measures(2 * b * flange + clear * web, second, (h / 2, b / 2), shears)
         if self.round:
             r, R = (d / 2 for d in self.tube or (0.0, self.circle or 0.0))
             area, second_moment = math.pi * (R**2 - r**2), math.pi / 4 * (R**4 - r**4)
             shear = 4 / 3 / area * (R**2 + R * r + r**2) / (R**2 + r**2)
-            return Measures(area, (second_moment,) * 2, (R, R), (shear,) * 2, 2 * second_moment / R)
+            return Measures(area, (second_moment,) * 2, (R, R), (shear,) * 2)
         assert self.area is not None
         assert self.inertia is not None
         assert self.modulus is not None
@@ -220,8 +215,16 @@ class Section(Part):
     @property
     def torsion(self) -> float:
         """Torque over its greatest shear stress, m3: 2 I / r, rectangles within 0.2 % (Roark), an I as thin strips."""
-        if self._measures.torsion is None:
-            remedy = "give a rectangle, a circle, a tube or an I"
-            what = "a section given by its numbers has no torsion or biaxial bending properties"
-            raise ModelError(what, remedy)
-        return self._measures.torsion
+        if self.rectangle:
+            short, long = sorted(self.rectangle)
+            k = short / long
+            roark = 1 + 0.6095 * k + 0.8865 * k**2 - 1.8023 * k**3 + 0.91 * k**4
+            return long * short**2 / 3 / roark
+        if self.I:
+            h, b, web, flange = self.I
+            return (2 * b * flange**3 + (h - 2 * flange) * web**3) / 3 / max(web, flange)
+        if self.round:
+            return 2 * self._measures.second_moments[0] / self._measures.reach[0]
+        remedy = "give a rectangle, a circle, a tube or an I"
+        what = "a section given by its numbers has no torsion or biaxial bending properties"
+        raise ModelError(what, remedy)

@@ -12,9 +12,11 @@ from dalembert.algebra.protocol import Algebra
 from dalembert.analysis.batch.tracing.kernel_inputs import Inputs
 from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.joint_freedoms import freedom_rates
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
 from dalembert.analysis.result.named_quantities import evaluated, names_of, read
+from dalembert.analysis.result.result import Result
 from dalembert.analysis.result.transmission_lines import ground_points
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
@@ -40,6 +42,7 @@ class Catalogue(LinkMotion):
     motion: tuple[Array, Array, Array]
     """Positions, speeds and accelerations of the drives, each (D,)."""
     inputs: Inputs
+    inertia: bool
 
     def nodes(self, name: str) -> list[Node]:
         """The components of one output."""
@@ -58,6 +61,11 @@ class Catalogue(LinkMotion):
     def names(self) -> list[str]:
         """Every output, without components."""
         return names_of(self, compiled=True)
+
+    @cached_property
+    def like(self) -> Result:
+        """The general analysis of the file's numbers."""
+        return at_schedule(self.inputs.course.mechanism, self.inputs.course.schedule, self.inertia)
 
     @property
     def point_array(self) -> Array:  # type: ignore[override]

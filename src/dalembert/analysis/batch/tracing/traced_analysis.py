@@ -149,7 +149,7 @@ def trace_analysis(
     motion = drives.position, drives.speed, drives.acceleration
     traced = _run(problem, c)
     catalogue = Catalogue(
-        graph, replace(c, forcing=traced.forcing, contacts=problem.contacts), traced, motion, inputs
+        graph, replace(c, forcing=traced.forcing, contacts=problem.contacts), traced, motion, inputs, inertia
     )
     return Trace(course, inputs, where, catalogue, inertia, repeated)
 
