@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any
@@ -61,7 +62,8 @@ class OneByOne:
         """One block of all designs (design, number)."""
         count = self._count
         value, slope = np.empty((len(values), len(self.outputs), count)), list[list[Array]]()
-        with progress("Analysing designs", len(values)) as step:
+        many = progress("Analysing designs", len(values)) if len(values) > 1 else nullcontext(_silent)
+        with many as step:
             for d, design in enumerate(np.asarray(values, float)):
                 value[d] = here = self.at(design)
                 slope.append(self._slope(design, here))
@@ -105,6 +107,10 @@ class OneByOne:
             for k, name in enumerate(self.outputs):
                 out[k] = value_of(r, name, self.functions)
         return out
+
+
+def _silent(done: int) -> None:
+    """Progress of a single design: that of the search it belongs to says more."""
 
 
 def value_of(r: Result, name: str, functions: Mapping[str, Function]) -> Array:

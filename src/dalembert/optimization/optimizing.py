@@ -73,7 +73,7 @@ def optimize(
     method: another local or global optimizer (``METHODS``), such as ``nlopt.slsqp`` or ``pymoo.de``, if installed.
 
     An aim may be a Python function of a result that returns a number; a condition one whose numbers, one or one a
-    position, must not be negative. With these, and with quantities that are not compiled (``stress.rod``, ``life.A``),
+    position, must not be negative. With these, and with quantities that are not compiled (``deflection.rod``),
     designs are analysed one by one with gradients by differences: by default 20 starts, the best five polished.
     Raises ModelError for unknown names, empty bounds, and where no design within the bounds can be solved.
 
