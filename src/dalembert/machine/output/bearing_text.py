@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -14,10 +15,17 @@ from dalembert.machine.whole_cycle import sampled
 from dalembert.printing import Part, TextTable, number
 
 if TYPE_CHECKING:
+    from dalembert.machine.bearings.bearing_load import BearingLoad
     from dalembert.machine.bearings.bearing_table import BearingTable
 
 PV_UNITS = (("MPa*m/s", 1e6), ("lbf/in^2*ft/min", 4.4482216152605 / 0.0254**2 * 0.3048 / 60))
 """In which makers give the limit of PV, with metres and with inches, and what one of it is in W/m^2."""
+
+
+def _one_way(b: BearingLoad) -> str:
+    """How a joint turns that never turns back: all round, or not over these positions."""
+    swept = float((np.abs(b.rate) * b.time).sum())
+    return "continuous" if len(b.rate) == 1 or swept > 2 * math.pi * (1 - 1e-6) else "one way"
 
 
 def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
@@ -30,7 +38,7 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
         most, *others = (to.number("force", x) for x in (size, b.axial.max(), b.equivalent))
         turning = [
             to.number("angular_speed", b.speed),
-            "oscillating" if b.swings else "continuous" if b.speed > 0 else "-",
+            "oscillating" if b.swings else _one_way(b) if b.speed > 0 else "-",
         ]
         loads.append([joint, most, where(t.result, to, k), *others, *turning])
         if b.sized:

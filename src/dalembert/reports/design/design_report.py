@@ -51,8 +51,8 @@ def design_sheet(
     c = DesignContext(r, k, notation)
     parts = list[DesignPart]()
     with progress("Design report,", len(PARTS)) as step:
-        for k, (title, find) in enumerate(PARTS):
-            step(k, title)
+        for done, (title, find) in enumerate(PARTS):
+            step(done, title)
             parts += attempted(c, title, find)
     m = r.mechanism
     sheet = ReportSheet(m.title or "Machine", m.source_text, "Design report")

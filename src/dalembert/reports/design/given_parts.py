@@ -48,6 +48,8 @@ def stated(c: DesignContext, value: object) -> str:
     if isinstance(value, (list, tuple)):
         inner = "; " if any(isinstance(v, Mapping) for v in value) else ", "
         return f"[{inner.join(stated(c, v) for v in value)}]"
+    if (parameter := c.r.mechanism.parameters.get(str(value))) and parameter.kind:
+        return c.text(parameter.kind, float(parameter.value))
     matched = STATED.fullmatch(str(value))
     if matched is None or matched[2] not in OF_UNIT:
         return str(value)
