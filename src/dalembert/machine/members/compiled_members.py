@@ -89,7 +89,7 @@ def _place(m: Any, joint: str, link: str) -> Array:
     return np.array(m.joint_points(joint)[m.joints[joint].links.index(link)])
 
 
-class Action(NamedTuple):
+class LocalForce(NamedTuple):
     """A force at a place of a link, in its axes, and a couple."""
 
     place: Array
@@ -121,24 +121,24 @@ class CompiledMember:
     def _to_link(self, v: Array) -> Array:
         return np.asarray(plane.rotate(self.c.rotation_array[self.k] * np.array([1.0, -1.0]), v))
 
-    def _joints(self) -> Iterator[Action]:
+    def _joints(self) -> Iterator[LocalForce]:
         for name, joint in self.c.mechanism.joints.items():
             if self.link in joint.links:
                 sense = 1.0 if joint.links[1] == self.link else -1.0
                 place = _place(self.c.mechanism, name, self.link)
                 force = self._to_link(sense * self.c.reaction(name))
-                yield Action(place, force, sense * self.c.reaction_moment(name))
+                yield LocalForce(place, force, sense * self.c.reaction_moment(name))
 
-    def _efforts(self) -> Iterator[Action]:
+    def _efforts(self) -> Iterator[LocalForce]:
         m = self.c.mechanism
         for drive in self.c.drives:
             joint = m.drive_joint(drive)
             if self.link in m.joints[joint].links:
                 sense = 1.0 if m.joints[joint].links[1] == self.link else -1.0
                 place = _place(m, joint, self.link)
-                yield Action(place, np.zeros(2), sense * self.c.effort(drive))
+                yield LocalForce(place, np.zeros(2), sense * self.c.effort(drive))
 
-    def _loads(self) -> Iterator[Action]:
+    def _loads(self) -> Iterator[LocalForce]:
         """Weight and inertia at the mass centre, forces at their points, couples at theirs or the centre."""
         m = self.c.mechanism
         at: dict[str, list[Any]] = {
@@ -158,7 +158,7 @@ class CompiledMember:
                 place = point_of(m, self.link, at[kind][n] if kind in at else "center")
                 w = source.wrench.reshape(-1, 3)[n]
                 force = self._to_link(w[:2])
-                yield Action(place, force, w[2] - plane.cross(place - reference, force)[..., 0])
+                yield LocalForce(place, force, w[2] - plane.cross(place - reference, force)[..., 0])
 
     def cuts(self) -> Iterator[Cut]:
         """The forces on both sides of each foot."""
