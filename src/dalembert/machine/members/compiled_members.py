@@ -21,12 +21,13 @@ from dalembert.core.branchless import above, larger, where
 from dalembert.errors import ModelError
 from dalembert.machine.link_axes import in_space
 from dalembert.machine.members.straight_members import FLAT, members_of
+from dalembert.model import Pin, Slider, Slot, Weld
 
 if TYPE_CHECKING:
     from dalembert.analysis.batch.tracing.outputs import Catalogue
     from dalembert.analysis.result.result import Result
 
-FIXED, ON_J = ("pin", "weld"), ("slider", "slot")
+FIXED, ON_J = (Pin, Weld), (Slider, Slot)
 """Joints whose reaction acts at one place of both links, and of j alone."""
 BESIDE = 1e-9
 """Part of a member's length within which two feet are one."""
@@ -44,7 +45,7 @@ def lacks(r: Result, link: str) -> str:
         return "it has friction or a plane that turns"
     if part.mass_along != "lumped":
         return f"the mass of {link!r} lies along it"
-    others = [n for n, j in mine.items() if j.type not in FIXED + ON_J * (j.links[1] == link)]
+    others = [n for n, j in mine.items() if not isinstance(j, FIXED + ON_J * (j.links[1] == link))]
     others += [n for n, j in mine.items() if np.any(getattr(j, "damping", 0.0))]
     others += [n for n, load in m.loads.items() if link in _carriers(m, load) and not _plain(load)]
     others += [n for n, d in m.drives.items() if m.drive_joint(n) in mine and d.freedom == "slide"]
