@@ -98,6 +98,8 @@ def _evaluate(row: Array, x: Array) -> tuple[Array, Array, Array]:
 
 
 def _some(column: Array) -> bool:
+    if not any_traced(column):
+        return bool(np.any(column))
     return any(not isinstance(x, float) or x != 0 for x in np.ravel(column))
 
 
