@@ -68,7 +68,7 @@ class OneByOne:
                 value[d] = here = self.at(design)
                 slope.append(self._slope(design, here))
                 step(d + 1)
-        slopes = np.moveaxis(np.array(slope).reshape(len(values), -1, len(self.outputs), count), 1, -1)
+        slopes: Array = np.moveaxis(np.array(slope).reshape(len(values), -1, len(self.outputs), count), 1, -1)
         place = {name: k for k, name in enumerate(self.outputs)}
         yield SimpleNamespace(
             value=lambda name: value[:, place[name]], gradient=lambda name: slopes[:, place[name]]

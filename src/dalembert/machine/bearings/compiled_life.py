@@ -32,8 +32,8 @@ def life_expression(r: Result, joint: str) -> str:
         time = durations(r)
     except ModelError:
         return ""
-    turning = [0.0 if n == GROUND else r.speed(n) for n in described.links]
-    moves = np.any(np.abs(np.subtract(*turning)) > EVEN * max(np.abs(w).max() for w in turning))
+    i, j = (np.zeros(1) if n == GROUND else r.speed(n) for n in described.links)
+    moves = np.any(np.abs(j - i) > EVEN * max(np.abs(i).max(), np.abs(j).max()))
     if r.mechanism.dimension == 3 or not moves or np.ptp(time) > EVEN * time.max():
         return ""
     speeds = ["0" if n == GROUND else f"angle.{n}.speed" for n in described.links]

@@ -142,12 +142,10 @@ class CompiledMember:
     def _loads(self) -> Iterator[LocalForce]:
         """Weight and inertia at the mass centre, forces at their points, couples at theirs or the centre."""
         m = self.c.mechanism
+        known = {"force": m.loads_on("point"), "couple": m.loads_on("link")}
         at: dict[str, list[Any]] = {
-            kind: [x.at or "center" if kind == "force" else getattr(x, "at", None) or "center" for x in some]
-            for kind, some in (
-                (kind, [load for load in m.loads_on(on).values() if not load.unknown])
-                for kind, on in (("force", "point"), ("couple", "link"))
-            )
+            kind: [getattr(load, "at", None) or "center" for load in some.values() if not load.unknown]
+            for kind, some in known.items()
         }
         reference = self.c.compiled.layout.reference[self.k]
         for kind, source in self.c.traced.sources.items():
