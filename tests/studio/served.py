@@ -25,14 +25,14 @@ class Here(Solver):
 
 
 @contextmanager
-def serving(file: Path, port: int = 0) -> Iterator[Any]:
-    """The studio of a file on a port of this machine."""
+def serving(file: Path, port: int = 0, solver: Solver | None = None) -> Iterator[Any]:
+    """The studio of a file on a port of this machine; by default it solves in this process."""
     uvicorn = pytest.importorskip("uvicorn")
     from dalembert.studio.server import StudioServer
 
     listening = socket.create_server((HOST, port))
     access = Access(listening.getsockname()[1])
-    served = StudioServer(lambda: Session(StoredFile(file)), access, Here())
+    served = StudioServer(lambda: Session(StoredFile(file)), access, solver or Here())
     config = uvicorn.Config(
         served.app(),
         log_level="critical",

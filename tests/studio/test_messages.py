@@ -95,6 +95,60 @@ def test_a_tab_that_does_not_read_keeps_no_other_from_its_answers(
     assert left == 1
 
 
+class Faulty(Solver):
+    """A solver with a fault at its first question."""
+
+    asked = 0
+
+    def ask(self, question: Question) -> str:
+        self.asked += 1
+        if self.asked == 1:
+            raise RuntimeError("a fault")
+        return '{"missing": "solved again"}'
+
+
+async def told_of_faults(file: Path) -> list[str]:
+    """What is said of a solver with a fault and of a look at the disk with one, and what of the next text."""
+    from dalembert.studio.server import StudioServer
+
+    studio, tab = StudioServer(lambda: Session(StoredFile(file)), Access(1), Faulty()), Tab()
+    ws: Any = tab
+    studio.tabs[ws] = 0
+    running = asyncio.create_task(studio._run())
+    await studio._begun.wait()
+    said = list[str]()
+    for key, change in (
+        ("missing", {"open": {"kind": "template", "name": "four_bar"}}),
+        ("missing", {"options": {"static": True}}),
+        ("refused", {"open": {"kind": "template", "name": "slider_crank"}}),
+    ):
+        tab.told.clear()
+        if key == "refused":
+            look, studio.session.look = studio.session.look, lambda: 1 // 0  # type: ignore[method-assign]
+        await studio._message(ws, json.dumps({"n": 1, **change}))
+        while not (found := [x[key] for x in tab.told if key in x]):
+            await asyncio.sleep(0.01)
+        said.append(found[0])
+    studio.session.look = look  # type: ignore[method-assign]
+    while studio.session.file.side.read_text(encoding="utf-8") != studio.session.document.text:
+        await asyncio.sleep(0.01)
+    assert not running.done()
+    running.cancel()
+    return said
+
+
+def test_a_fault_of_the_program_is_a_sentence_and_the_next_text_is_solved(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("dalembert.studio.server.LOOK", 0.01)
+    report = "the studio failed ({}); please report what you did"
+    assert asyncio.run(asyncio.wait_for(told_of_faults(tmp_path / "m.yaml"), 30)) == [
+        report.format("RuntimeError"),
+        "solved again",
+        report.format("ZeroDivisionError"),
+    ]
+
+
 @pytest.mark.parametrize("count", tiers([120], [1000], [10_000]))
 def test_no_message_ends_the_server_or_leaves_its_folder(tmp_path: Path, count: int) -> None:
     folder = tmp_path / "mine"

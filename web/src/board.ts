@@ -3,16 +3,17 @@
 import type { Action, Data, Drawing, FreeBody, Item, Pair, Rate, Rows } from "./data";
 import { action, item, Paper, type Part, type Shown } from "./items";
 import { label, type Placed, Placer } from "./labels";
+import { whole } from "./motion";
 import type { Source } from "./source";
-import { figures, make, path, type Point, set, short, width } from "./svg";
+import { attr, figures, make, path, type Point, say, set, short, width } from "./svg";
 import { type Layer, usually, type View } from "./view";
 
-/** ``need``: newtons per mm at which every force fits; ``fit``: new scales, with forces to that scale or another, and
+/** ``update``: the present place, with ``cycle`` the paths of points too; ``parts``: these alone, one at a time. ``need``: newtons per mm at which every force fits; ``fit``: new scales, with forces to that scale or another, and
  * with ``keep`` only where the drawing has left its paper. ``look``: the window of the view, else the fitted one, with
  * ``fitted`` metres per mm. ``on``: is a layer shown. */
 export interface Board {
   svg: SVGSVGElement; paper: Paper;
-  update(cycle: boolean): void; fit(force?: number, keep?: boolean): void; need(): number; force(): number; resize(w: number, h: number): void;
+  update(cycle: boolean): void; parts(): Generator<void>; fit(force?: number, keep?: boolean): void; need(): number; force(): number; resize(w: number, h: number): void;
   look(): void; fitted(): number; on(layer: Layer): boolean;
 }
 
@@ -84,14 +85,13 @@ export class ScaleBar {
   /** Draws from the left end at a place: ``size`` of SI per mm, in a unit; returns the right end. */
   set([x, y]: Point, size: number, unit: { unit: string; size: number }): number {
     const perMm = size / unit.size, known = perMm > 0 && Number.isFinite(perMm);
-    this.line.setAttribute("visibility", known ? "visible" : "hidden");
-    this.text.textContent = "";
-    if (!known) return x;
+    attr(this.line, "visibility", known ? "visible" : "hidden");
+    if (!known) return say(this.text, ""), x;
     const value = roundDown(26 * perMm), long = value / perMm, end = x + long, said = `${figures(value)} ${unit.unit}`;
     const tick = `M${short(x)} ${short(y - 1)}v2`;
     const close = this.arrow ? `M${short(end - 2.4)} ${short(y - 0.8)}L${short(end)} ${short(y)}L${short(end - 2.4)} ${short(y + 0.8)}` : `M${short(end)} ${short(y - 1)}v2`;
-    this.line.setAttribute("d", tick + path([[x, y], [end, y]]) + close);
-    set(this.text, { x: short(end + 1.4), y: short(y + 1) }).textContent = said;
+    attr(this.line, "d", tick + path([[x, y], [end, y]]) + close);
+    say(set(this.text, { x: short(end + 1.4), y: short(y + 1) }), said);
     return end + 1.4 + width(said, 2.8);
   }
 }
@@ -209,29 +209,36 @@ export function board(parent: Element, kernel: Source, d: Drawing & { middle?: P
     for (const { l, p, q } of names) {
       const a = paper.point(p), b = q ? paper.point(q) : a;
       const seen = (on("names") || (!!q && view.shown.names === undefined)) && inside([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]);
-      l.el.setAttribute("visibility", seen ? "visible" : "hidden");
+      attr(l.el, "visibility", seen ? "visible" : "hidden");
       if (!seen) continue;
       const anchors = (q ? [0.5, 0.35, 0.65] : [0]).map((t) => [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])] as Point);
       placer.put({ label: l, anchors, away: q ? undefined : a, leave: q ? 0.8 : 1.3 });
     }
     for (const { a } of arrows) {
       const at = kernel.solved ? a.anchor() : null;
-      if (!at || !inside(at[0])) a.label.el.setAttribute("visibility", "hidden");
+      if (!at || !inside(at[0])) attr(a.label.el, "visibility", "hidden");
       else placer.put({ label: a.label, anchors: at.slice(0, -1), away: at[at.length - 1], leave: 0.9 });
     }
   }
 
+  function* parts(): Generator<void> {
+    for (const p of cyclic) {
+      p.update();
+      yield;
+    }
+  }
+
   return {
-    svg, paper, fit, need, look, on, force: () => perMm, fitted: () => fitted.perMm,
+    svg, paper, parts, fit, need, look, on, force: () => perMm, fitted: () => fitted.perMm,
     resize(wide, high) {
       [w, h] = [wide, high];
       svg.setAttribute("viewBox", `${-w / 2} ${-h / 2} ${w} ${h}`);
     },
     update(cycle) {
       paper.values = on("values");
-      traced.setAttribute("display", on("traces") ? "inline" : "none");
-      if (cycle) cyclic.forEach((p) => p.update());
-      acting.setAttribute("visibility", kernel.solved ? "visible" : "hidden");
+      set(traced, { display: on("traces") ? "inline" : "none" });
+      if (cycle) whole(parts());
+      set(acting, { visibility: kernel.solved ? "visible" : "hidden" });
       scales();
       if (!kernel.finite) return; // the last pose stays, greyed
       if (about) paper.middle = centre(extent((r) => kernel.here[r]) ?? { x: [0, 0], y: [0, 0] });

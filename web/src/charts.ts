@@ -2,10 +2,11 @@
 
 import { bounds, canvas, roundUp, ScaleBar } from "./board";
 import type { Chart, Curve, Data, Polygon } from "./data";
-import { curve, draw } from "./items";
+import { curve } from "./items";
 import type { Kernel } from "./kernel";
 import { label, Placer } from "./labels";
-import { Arrow, figures, html, letters, make, path, type Point, pointer, set, short, width } from "./svg";
+import { whole } from "./motion";
+import { Arrow, attr, figures, html, letters, make, path, type Point, pointer, say, set, short, width } from "./svg";
 
 const LEFT = 16, TOP = 5, LOW = 8, LINE = 4;
 
@@ -26,12 +27,14 @@ function ticks(low: number, high: number, by: number): number[] {
   return Array.from({ length: Math.max(count, 0) }, (_, k) => (first + k) * by);
 }
 
-export interface View { update(cycle: boolean): void }
+/** ``update``: the present place, with ``cycle`` all that is drawn of the cycle too; ``parts``: that alone, a part at a
+ * time. */
+export interface View { update(cycle: boolean): void; parts?(): Generator<void> }
 
 export interface Cursor { time(): number; seek(t: number): void; pick(curve: Curve): void; picked(): Curve | undefined }
 
 /** ``W``: width in mm. */
-export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cursor: Cursor, W: number): View & { resize(W: number): void } {
+export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cursor: Cursor, W: number): View & { figure: Element; parts(): Generator<void>; resize(W: number): void } {
   const figure = html("figure", parent, { class: "chart" }), unit = data.units[c.kind];
   html("figcaption", figure, {}, `${c.title}, ${unit.unit}`);
   const names = data.views.charts.flatMap((x) => x.curves.map((one) => width(one.name, 3)));
@@ -57,15 +60,17 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
   const at = (k: number): number => x0 + (k / last) * w, up = (v: number): number => y0 + h - ((v - low) / (high - low)) * h;
 
   /** From tick to tick, so that the scale is constant while curves move a little; true if it has changed. */
-  function rescale(): boolean {
+  function* rescale(): Generator<void, boolean> {
     let [l, u] = [Infinity, -Infinity];
-    for (const x of c.curves)
+    for (const x of c.curves) {
       for (let k = 0; k < kernel.count; k++)
         if (kernel.good[k]) {
           const v = value(x, k), w = kernel.reverses(k) ? kernel.onceAfter(() => value(x, k)) : v;
           l = Math.min(l, v, w);
           u = Math.max(u, v, w);
         }
+      yield;
+    }
     if (!(l <= u)) [l, u] = [0, 1];
     if (l > 0 && l < 0.4 * u) l = 0;
     if (u < 0 && u > 0.4 * l) u = 0;
@@ -96,8 +101,8 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
       }
       say(`${drive.name}, ${drive.unit}`, x0 + w, y0 + h + 6.6, "end");
     }
-    grid.setAttribute("d", lattice);
-    axis.setAttribute("d", `M${x0} ${y0}v${h}` + (low < 0 && high > 0 ? `M${x0} ${short(up(0))}h${w}` : ""));
+    attr(grid, "d", lattice);
+    attr(axis, "d", `M${x0} ${y0}v${h}` + (low < 0 && high > 0 ? `M${x0} ${short(up(0))}h${w}` : ""));
   }
 
   function resize(wide: number): void {
@@ -115,15 +120,19 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
     move(e);
   });
   svg.addEventListener("pointermove", (e) => e.buttons && svg.hasPointerCapture(e.pointerId) && move(e));
+  function* parts(): Generator<void> {
+    if (yield* rescale()) drawScale();
+    for (const [n, line] of lines.entries()) {
+      yield;
+      attr(line, "d", curve(kernel, (k) => [at(k), up(value(c.curves[n], k))]));
+    }
+  }
   return {
-    resize,
+    figure, resize, parts,
     update(cycle) {
-      if (cycle) {
-        if (rescale()) drawScale();
-        lines.forEach((line, n) => draw(line, curve(kernel, (k) => [at(k), up(value(c.curves[n], k))])));
-      }
+      if (cycle) whole(parts());
       const x = short(at(Math.min(cursor.time(), last)));
-      now.setAttribute("d", `M${x} ${y0}v${h}`);
+      attr(now, "d", `M${x} ${y0}v${h}`);
       c.curves.forEach((one, n) => {
         const place: Record<string, string> = kernel.solved ? { cx: x, cy: short(up(kernel.here[one.row] / unit.size)) } : {};
         set(dots[n], { visibility: kernel.solved ? "visible" : "hidden", ...place });
@@ -133,28 +142,43 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
   };
 }
 
+const largestForce = (kernel: Kernel, { f }: Curve): number => kernel.largest((k) => Math.hypot(kernel.value(f![0], k), kernel.value(f![1], k)));
+
+/** The largest force of some joints, computed once for each cycle. */
+export function largestOf(kernel: Kernel, some: Curve[]): () => number {
+  let cycle = -1, most = 0;
+  return () => {
+    if (cycle !== kernel.cycles) [cycle, most] = [kernel.cycles, Math.max(...some.map((c) => largestForce(kernel, c)))];
+    return most;
+  };
+}
+
 /** Share of the largest joint force below which another one is rounding. */
 const ROUNDING = 1e-11;
 
 /** The force in each joint as a curve about a pole: its tip over the cycle, and at the present position. */
-export function polar(parent: Element, kernel: Kernel, c: Curve, all: Curve[], unit: { unit: string; size: number }): View {
+export function polar(parent: Element, kernel: Kernel, c: Curve, most: () => number, unit: { unit: string; size: number }): View & { figure: Element; parts(): Generator<void> } {
   const figure = html("figure", parent, { class: "polar" }), size = 66, [fx, fy] = c.f!;
   const caption = html("figcaption", figure), svg = canvas(figure, size, size, `polar diagram of joint ${c.name}`);
   make("path", svg, { class: "l-grid", style: "fill:none", d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0" });
   const line = make("path", svg, { class: `l-${c.role}`, style: "fill:none" }), arrow = new Arrow(svg, "joint-force", c.name);
   let perMm = 1, zero = false;
+  function* parts(): Generator<void> {
+    const all = most();
+    yield;
+    const largest = largestForce(kernel, c);
+    zero = !(largest > ROUNDING * all);
+    set(svg, { display: zero ? "none" : "inline" });
+    const outer = roundUp(largest / unit.size), said = `Joint ${c.name}: ${zero ? "no force at any position" : `circles of ${figures(outer / 2)} and ${figures(outer)} ${unit.unit}`}`;
+    say(caption, said);
+    if (zero) return;
+    perMm = (outer / 30) * unit.size;
+    attr(line, "d", curve(kernel, (k) => [kernel.value(fx, k) / perMm, -kernel.value(fy, k) / perMm], true));
+  }
   return {
+    figure, parts,
     update(cycle) {
-      if (cycle) {
-        const largest = (some: Curve[]): number => kernel.largest((k) => Math.max(...some.map(({ f }) => Math.hypot(kernel.value(f![0], k), kernel.value(f![1], k)))));
-        zero = !(largest([c]) > ROUNDING * largest(all));
-        svg.setAttribute("display", zero ? "none" : "inline");
-        if (zero) return void (caption.textContent = `Joint ${c.name}: no force at any position`);
-        const outer = roundUp(largest([c]) / unit.size);
-        perMm = (outer / 30) * unit.size;
-        draw(line, curve(kernel, (k) => [kernel.value(fx, k) / perMm, -kernel.value(fy, k) / perMm], true));
-        caption.textContent = `Joint ${c.name}: circles of ${figures(outer / 2)} and ${figures(outer)} ${unit.unit}`;
-      }
+      if (cycle) whole(parts());
       arrow.set([0, 0], kernel.solved && !zero ? [kernel.here[fx] / perMm, -kernel.here[fy] / perMm] : [0, 0]);
     },
   };
@@ -175,7 +199,7 @@ export function polygon(parent: Element, data: Data, kernel: Kernel, title: stri
   return {
     figure,
     update() {
-      svg.setAttribute("visibility", kernel.solved ? "visible" : "hidden");
+      attr(svg, "visibility", kernel.solved ? "visible" : "hidden");
       if (!kernel.solved) return;
       const v = kernel.here, heads = new Map<string, Point>(), all: Point[] = [], gaps: [Point, Point][] = [];
       const placed = chains.flatMap(({ shared, drawn }) => {
@@ -201,10 +225,10 @@ export function polygon(parent: Element, data: Data, kernel: Kernel, title: stri
       for (const { from, to } of placed) placer.line(on(from), on(to));
       for (const { arrow, name, from, to } of placed) {
         const [p, q] = [on(from), on(to)], shown = arrow.set(p, q), mid: Point = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-        name.el.setAttribute("visibility", shown ? "visible" : "hidden");
+        attr(name.el, "visibility", shown ? "visible" : "hidden");
         if (shown) placer.put({ label: name, anchors: [mid], away: mid, leave: 0.9 });
       }
-      gap.setAttribute("d", gaps.map(([p, q]) => path([on(p), on(q)])).join(""));
+      attr(gap, "d", gaps.map(([p, q]) => path([on(p), on(q)])).join(""));
       bar.set([-w / 2 + 2, h / 2 - 2.6], perMm, unit);
     },
   };

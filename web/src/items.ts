@@ -3,7 +3,7 @@
 import type { Action, Couple, Data, Item, Rows } from "./data";
 import { label, type Placed, type Placer, say } from "./labels";
 import type { Source } from "./source";
-import { Arrow, figures, hull, make, path, plain, type Point, set, short } from "./svg";
+import { Arrow, attr, figures, hull, make, path, plain, type Point, set, short } from "./svg";
 
 const along = (axis: number[], rows: Rows, value: (row: number) => number): number => rows.reduce((t, r, k) => t + axis[k] * value(r), 0);
 
@@ -79,7 +79,7 @@ function drawn(parent: Element, i: Item, paper: Paper): Part {
         const [x, y] = paper.point(i.p);
         const size = i.per_mm ? ` scale(${(i.per_mm / paper.perMm).toFixed(4)})` : "";
         const turn = i.e ? ` rotate(${short((-Math.atan2(v[i.e[1]], v[i.e[0]]) * 180) / Math.PI)})` : "";
-        g.setAttribute("transform", `translate(${short(x)} ${short(y)})${turn}${size}`);
+        attr(g, "transform", `translate(${short(x)} ${short(y)})${turn}${size}`);
       },
       mark: (placer) => placer.disc(paper.point(i.p), 1.6),
     };
@@ -91,7 +91,7 @@ function drawn(parent: Element, i: Item, paper: Paper): Part {
       update() {
         const [[ax, ay], [bx, by]] = i.p.map((p) => paper.point(p));
         const long = Math.hypot(bx - ax, by - ay), turn = (Math.atan2(by - ay, bx - ax) * 180) / Math.PI;
-        g.setAttribute("transform", `translate(${short(ax)} ${short(ay)}) rotate(${short(turn)}) scale(${(long / i.length).toFixed(4)} 1)`);
+        attr(g, "transform", `translate(${short(ax)} ${short(ay)}) rotate(${short(turn)}) scale(${(long / i.length).toFixed(4)} 1)`);
       },
       mark: (placer) => placer.line(paper.point(i.p[0]), paper.point(i.p[1])),
     };
@@ -107,7 +107,7 @@ function drawn(parent: Element, i: Item, paper: Paper): Part {
   }
   if (i.t === "pair") return pair(parent, i, paper);
   const line = make("path", parent, { class: `l-${i.role}`, style: "fill:none" });
-  if (i.t === "trace") return { update: () => draw(line, curve(paper.kernel, (k) => paper.pointAt(i.p[0], k), true)) };
+  if (i.t === "trace") return { update: () => attr(line, "d", curve(paper.kernel, (k) => paper.pointAt(i.p[0], k), true)) };
   if (i.t === "hull") line.dataset.link = i.link;
   let corners: Point[] = [], area = false;
   return {
@@ -115,9 +115,8 @@ function drawn(parent: Element, i: Item, paper: Paper): Part {
       const points = i.p.map((p) => paper.point(p)), round = i.t === "hull" ? hull(points) : points;
       area = i.t === "hull" && round.length > 2;
       corners = area ? round : points;
-      if (i.t === "hull") line.setAttribute("class", area ? "l-link-area" : "l-link");
-      line.style.fill = area ? "" : "none";
-      line.setAttribute("d", path(corners, area));
+      if (i.t === "hull") set(line, { class: area ? "l-link-area" : "l-link", style: area ? "" : "fill:none" });
+      attr(line, "d", path(corners, area));
     },
     mark(placer) {
       corners.forEach((c, n) => (n || area) && placer.line(corners.at(n - 1)!, c));
@@ -133,15 +132,15 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
   return {
     update() {
       const [x, y] = paper.point(i.p), [ex, ey] = paper.here(i.e), away = paper.depth(i.e);
-      g.setAttribute("transform", `translate(${short(x)} ${short(y)}) rotate(${short((-Math.atan2(ey, ex) * 180) / Math.PI)})`);
-      if (i.shape === "ball") return side.setAttribute("d", `M${r} 0A${r} ${r} 0 1 0 ${-r} 0A${r} ${r} 0 1 0 ${r} 0Z`);
+      attr(g, "transform", `translate(${short(x)} ${short(y)}) rotate(${short((-Math.atan2(ey, ex) * 180) / Math.PI)})`);
+      if (i.shape === "ball") return attr(side, "d", `M${r} 0A${r} ${r} 0 1 0 ${-r} 0A${r} ${r} 0 1 0 ${r} 0Z`);
       const long = half * Math.hypot(ex, ey), wide = r * Math.abs(away), near = away >= 0 ? long : -long;
       if (i.shape === "round") {
-        side.setAttribute("d", `M${short(-long)} ${-r}L${short(long)} ${-r}A${short(wide)} ${r} 0 0 1 ${short(long)} ${r}L${short(-long)} ${r}A${short(wide)} ${r} 0 0 1 ${short(-long)} ${-r}Z`);
-        end.setAttribute("d", `M${short(near + wide)} 0A${short(wide)} ${r} 0 1 0 ${short(near - wide)} 0A${short(wide)} ${r} 0 1 0 ${short(near + wide)} 0Z`);
+        attr(side, "d", `M${short(-long)} ${-r}L${short(long)} ${-r}A${short(wide)} ${r} 0 0 1 ${short(long)} ${r}L${short(-long)} ${r}A${short(wide)} ${r} 0 0 1 ${short(-long)} ${-r}Z`);
+        attr(end, "d", `M${short(near + wide)} 0A${short(wide)} ${r} 0 1 0 ${short(near - wide)} 0A${short(wide)} ${r} 0 1 0 ${short(near + wide)} 0Z`);
       } else {
-        side.setAttribute("d", `M${short(-long - wide)} ${-r}H${short(long + wide)}V${r}H${short(-long - wide)}Z`);
-        end.setAttribute("d", `M${short(near - wide)} ${-r}H${short(near + wide)}V${r}H${short(near - wide)}Z`);
+        attr(side, "d", `M${short(-long - wide)} ${-r}H${short(long + wide)}V${r}H${short(-long - wide)}Z`);
+        attr(end, "d", `M${short(near - wide)} ${-r}H${short(near + wide)}V${r}H${short(near - wide)}Z`);
       }
     },
     mark(placer) {
@@ -165,11 +164,6 @@ function straight(points: Float64Array, from: number, to: number): boolean {
     if ((u * dy - v * dx) ** 2 > THIN * THIN * long || along < 0 || along > long) return false;
   }
   return true;
-}
-
-/** A path with other points, where they differ. */
-export function draw(path: Element, d: string): void {
-  if (path.getAttribute("d") !== d) path.setAttribute("d", d);
 }
 
 /** A curve over the cycle, with gaps where no answer exists; ``closed`` if the cycle continues from its end. */
@@ -228,7 +222,7 @@ function arrow(parent: Element, a: Action, paper: Paper, perMm: () => number, ab
     hide() {
       shown = first.set([0, 0], [0, 0]);
       second?.set([0, 0], [0, 0]);
-      l.el.setAttribute("visibility", "hidden");
+      attr(l.el, "visibility", "hidden");
     },
     update() {
       const p = paper.point(a.p), [fx, fy] = paper.here(rows);
@@ -244,7 +238,7 @@ function arrow(parent: Element, a: Action, paper: Paper, perMm: () => number, ab
       free = inward ? tail : tip;
       shown = first.set(tail, tip);
       second?.set(tail, [tail[0] + 0.78 * (tip[0] - tail[0]), tail[1] + 0.78 * (tip[1] - tail[1])]);
-      l.el.setAttribute("visibility", shown ? "visible" : "hidden");
+      attr(l.el, "visibility", shown ? "visible" : "hidden");
       if (shown) named(l, a.name, Math.hypot(...rows.map((r) => paper.kernel.here[r])), second ? "moment" : unit, paper);
     },
     mark: (placer) => shown && placer.line(tail, tip),
@@ -269,15 +263,15 @@ function couple(parent: Element, a: Couple, paper: Paper): Shown {
     label: l,
     hide() {
       shown = false;
-      g.setAttribute("display", "none");
-      l.el.setAttribute("visibility", "hidden");
+      attr(g, "display", "none");
+      attr(l.el, "visibility", "hidden");
     },
     update() {
       const [x, y] = paper.point(a.p), m = v[a.m[0]];
       shown = Number.isFinite(m) && Math.abs(m) > 1e-9;
-      g.setAttribute("display", shown ? "inline" : "none");
-      l.el.setAttribute("visibility", shown ? "visible" : "hidden");
-      g.setAttribute("transform", `translate(${short(x)} ${short(y)}) scale(${m < 0 ? -1 : 1} 1)`);
+      attr(g, "display", shown ? "inline" : "none");
+      attr(l.el, "visibility", shown ? "visible" : "hidden");
+      attr(g, "transform", `translate(${short(x)} ${short(y)}) scale(${m < 0 ? -1 : 1} 1)`);
       if (shown) named(l, a.name, Math.abs(m), "moment", paper);
     },
     mark(placer) {

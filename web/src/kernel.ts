@@ -1,13 +1,15 @@
 /** The compiled analysis of the page: rows of numbers over the cycle and at one place of it. */
 
 import type { Channel, Data, Pair, Table } from "./data";
-import { Motion } from "./motion";
+import { Motion, whole } from "./motion";
 import { Program, series } from "./program";
 import type { Pose } from "./sketch";
 import type { Source } from "./source";
 
 /** Status code of a position that does not close, or that the motion does not reach. */
 const OPEN = 1;
+/** Positions that are judged in one part of a cycle. */
+const SOME = 90;
 /** Numbers beyond this, SI, are reported as the cause of an overflow. */
 const ABSURD = 1e60;
 
@@ -51,6 +53,8 @@ export class Kernel implements Source {
   /** True if every output is a number at the place, right or not. */
   finite = true;
   coarse = false;
+  /** How many cycles were computed. */
+  cycles = 0;
   /** 1 at each position that has numbers. */
   readonly good: Uint8Array;
   /** Reason why the analyses refuse the mechanism with these numbers; then no position has numbers. */
@@ -141,13 +145,34 @@ export class Kernel implements Source {
 
   /** All positions with the present numbers; those that the motion does not reach are flagged. */
   cycle(): void {
-    if (!this.motion.update()) this.closes();
+    whole(this.cycling());
+  }
+
+  /** The same a part at a time, of the numbers of the first part, while the present ones may change. */
+  *parts(): Generator<void> {
+    const { values } = this, mine = values.slice(), now = values.slice(), steps = this.cycling();
+    for (let done = false; !done; ) {
+      now.set(values);
+      values.set(mine);
+      done = !!steps.next().done;
+      values.set(now);
+      yield;
+    }
+  }
+
+  private *cycling(): Generator<void> {
+    if (this.motion.current) this.closes();
+    else yield* this.motion.updating();
     if (this.side >= 0) this.bothSides();
     const last = this.rows.length - this.row;
-    for (let k = 0; k < this.count; k++) {
-      this.rows[last + k] = this.motion.poses[k] ? this.judged(this.rows[last + k], (r) => this.rows[r * this.row + k]) : OPEN;
+    let k = 0;
+    const value = (r: number): number => this.rows[r * this.row + k];
+    for (; k < this.count; k++) {
+      if (k % SOME === 0) yield;
+      this.rows[last + k] = this.motion.poses[k] ? this.judged(this.rows[last + k], value) : OPEN;
       this.good[k] = +this.numbered(this.markAt(k));
     }
+    this.cycles++;
   }
 
   /** Evaluates all positions with the inputs of the motion; true where it closes. */
@@ -208,7 +233,7 @@ export class Kernel implements Source {
   /** One place t of the cycle, 0 to `end`; if the linkage does not close, the present pose is drawn, open at a
    * joint. */
   at(t: number): void {
-    const pose = this.motion.at(t), { here } = this;
+    const pose = this.coarse ? this.motion.near(t) : this.motion.at(t), { here } = this;
     this.run(t, pose, pose ? this.motion.read(pose, t) : this.motion.otherwise);
     for (let r = 0; r < here.length; r++) [here[r], this.hereAfter[r]] = [this.one.at(r), this.one.at(r, 1)];
     const last = here.length - 1, reverses = this.side >= 0 ? this.between(here[last], this.hereAfter[last], (r) => here[r] === this.hereAfter[r]) : here[last];

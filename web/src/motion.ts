@@ -113,15 +113,24 @@ export class Motion {
     return p.reduce((most, x, k) => Math.max(most, Math.abs(x - q[k])), 0);
   }
 
-  /** Closes the present pose for the present numbers, and follows the motion from it; false if that has been done. */
-  update(): boolean {
-    if (this.seen?.every((x, k) => x === this.values[k])) return false;
-    this.seen = this.values.slice();
-    const closed = this.reclose();
+  /** True if the motion of the present numbers is known. */
+  get current(): boolean {
+    return !!this.seen?.every((x, k) => x === this.values[k]);
+  }
+
+  /** Closes the present pose for the present numbers, and follows the motion from it, unless that has been done. */
+  private update(): void {
+    if (!this.current) whole(this.updating());
+  }
+
+  /** The same a part at a time; the numbers are those of the first part in all. */
+  *updating(): Generator<void> {
+    this.seen = null;
+    const { t, pose } = this.reclose() ? this.held : { t: this.base.place, pose: null };
     this.poses.fill(null);
-    if (closed) this.follow(this.held.t, this.held.pose);
-    this.settle(closed);
-    return true;
+    if (pose) yield* this.follow(t, pose);
+    yield* this.settle(pose ?? this.base.pose, t);
+    this.seen = this.values.slice();
   }
 
   /** The present pose for other numbers: at once, else in small steps of the change; false if it does not close. */
@@ -150,14 +159,13 @@ export class Motion {
 
   /** Fills in the positions that the motion from a pose reaches, in both directions, and around if the list is a
    * cycle. */
-  private follow(t: number, pose: Pose): void {
-    const { course, cycle } = this.data, n = this.count;
-    this.sketch.values = this.values;
-    const start = this.along(t), from = this.kernel.drives(t);
-    const [up, down] = [Math.ceil(start), Math.floor(start)].map((k, i) => this.march(new Trail(pose, from), k, i ? -1 : 1, null));
+  private *follow(t: number, pose: Pose): Generator<void> {
+    const { course, cycle } = this.data, n = this.count, start = this.along(t), from = this.kernel.drives(t);
+    const up = yield* this.march(new Trail(pose, from), Math.ceil(start), 1, null);
+    const down = yield* this.march(new Trail(pose, from), Math.floor(start), -1, null);
     if (!cycle || this.phases.length) return;
-    if (up && this.poses[course[n - 1]]) this.march(up, 0, 1, cycle);
-    if (down && this.poses[course[0]]) this.march(down, n - 1, -1, cycle);
+    if (up && this.poses[course[n - 1]]) yield* this.march(up, 0, 1, cycle);
+    if (down && this.poses[course[0]]) yield* this.march(down, n - 1, -1, cycle);
   }
 
   /** Place of the cycle along the course: an integer at a listed position, else halfway between two. */
@@ -169,7 +177,7 @@ export class Motion {
   }
 
   /** From position to position of the course; the trail at its end, null at a dead centre. */
-  private march(trail: Trail, from: number, sign: number, cycle: number[] | null): Trail | null {
+  private *march(trail: Trail, from: number, sign: number, cycle: number[] | null): Generator<void, Trail | null> {
     const { course } = this.data, n = this.count, skip = this.data.dimension === 2 ? Math.ceil(n / STATIONS) : 1;
     const more = (cycle ?? []).map((c) => sign * (cycle!.length > 1 ? c : Math.abs(c))), turns = this.counts((row) => more[this.data.drives.indexOf(row)] ?? 0);
     const drives = (k: number): number[] => this.kernel.drives(course[k]).map((x, d) => x + (more[d] ?? 0));
@@ -180,6 +188,7 @@ export class Motion {
     for (let k = from; k >= 0 && k < n; ) {
       if (cycle && this.poses[course[k]]) return null;
       const before = trail.pose, had = trail.drives;
+      this.sketch.values = this.values;
       let next = Math.min(Math.max(k + sign * (skip - 1), 0), n - 1);
       if (next !== k && !this.sketch.walk(trail, drives(next))) {
         trail = new Trail(before, had);
@@ -189,6 +198,7 @@ export class Motion {
       for (let m = k; m !== next; m += sign) put(m, new Between(before, trail.pose, had, trail.drives, drives(m)));
       put(next, trail.pose);
       k = next + sign;
+      yield;
     }
     return trail;
   }
@@ -215,13 +225,14 @@ export class Motion {
   }
 
   /** Branches at all positions, the first pose of the file, and the positions behind gaps. */
-  private settle(closed: boolean): void {
-    const { t, pose } = closed ? this.held : { t: this.base.place, pose: this.base.pose };
+  private *settle(pose: Pose, t: number): Generator<void> {
     this.spread(this.read(pose, t));
+    yield;
     let closes = this.kernel.closes();
+    yield;
     const first = this.firstOf(closes), begin = first < 0 ? null : this.poses[first] ?? this.enter(first, pose);
     if (begin) {
-      if (!this.poses[first]) this.follow(first, begin);
+      if (!this.poses[first]) yield* this.follow(first, begin);
       this.base = { place: first, pose: this.exact(first) ?? begin };
       if (this.poses.every((q) => q)) {
         this.model = this.read(begin, first);
@@ -229,9 +240,11 @@ export class Motion {
       }
       this.spread(this.read(begin, first));
       closes = this.kernel.closes();
-      this.behind(closes);
+      yield;
+      yield* this.behind(closes);
     }
     this.spread(this.model);
+    yield;
     this.kernel.closes();
   }
 
@@ -275,7 +288,7 @@ export class Motion {
   }
 
   /** Ranges behind a gap that no motion reaches, where every group of links closes on its former branch. */
-  private behind(closes: Uint8Array): void {
+  private *behind(closes: Uint8Array): Generator<void> {
     const { course } = this.data, reached = (k: number): boolean => this.poses[course[k]] !== null;
     for (let k = 0; k < this.count; k++) {
       if (reached(k) || !closes[course[k]]) continue;
@@ -285,9 +298,10 @@ export class Motion {
       const high = end === this.count - 1 || !reached(end + 1) || this.gapBetween(end);
       if (low && high) {
         const middle = course[(k + end) >> 1], pose = this.enter(middle, this.base.pose);
-        if (pose) this.follow(middle, pose);
+        if (pose) yield* this.follow(middle, pose);
       }
       k = end;
+      yield;
     }
   }
 
@@ -369,6 +383,16 @@ export class Motion {
       pose = near && this.sketch.walk(new Trail(near, this.kernel.drives(k)), drives);
     }
     if (pose) [this.held, this.loose] = [{ values: this.values.slice(), t, pose }, null];
+    return pose;
+  }
+
+  /** The same from the present pose alone, while the motion may still be that of other numbers. */
+  near(t: number): Pose | null {
+    if (!this.reclose()) return null;
+    if (this.held.t === t) return this.held.pose;
+    this.sketch.values = this.values;
+    const pose = this.sketch.walk(new Trail(this.held.pose, this.kernel.drives(this.held.t)), this.nearDrives(this.held.t, t));
+    if (pose) this.held = { values: this.values.slice(), t, pose };
     return pose;
   }
 
@@ -468,6 +492,11 @@ export class Motion {
     this.held = { values: this.values.slice(), t, pose };
     [this.seen, this.loose] = [null, null];
   }
+}
+
+/** All parts of something. */
+export function whole(parts: Generator<void>): void {
+  while (!parts.next().done);
 }
 
 const wrap = (x: number): number => x - 2 * Math.PI * Math.round(x / (2 * Math.PI));

@@ -3,7 +3,7 @@
 import type { Data, FreeBody, NumberField, Term } from "./data";
 import type { Gate } from "./gate";
 import type { Kernel } from "./kernel";
-import { figures, html, plain } from "./svg";
+import { figures, html, plain, say } from "./svg";
 
 export interface Numbers { update(): void }
 
@@ -93,8 +93,8 @@ export function answersPanel(parent: Element, data: Data, kernel: Kernel): Numbe
       for (const { r, unit, cell } of rows) {
         const v = r.rows.map((n) => kernel.here[n] / unit.size);
         const one = (x: number) => (unit.unit === "°" ? `${figures(x, 5)}°` : `${figures(x)} ${unit.unit}`);
-        cell.textContent = !kernel.solved ? "–" : v.length === 1 ? one(v[0])
-          : `${one(Math.hypot(...v))}${v.length === 2 ? ` at ${figures((Math.atan2(v[1], v[0]) * 180) / Math.PI)}°` : ""}  (${v.map((x) => figures(x)).join(", ")})`;
+        say(cell, !kernel.solved ? "–" : v.length === 1 ? one(v[0])
+          : `${one(Math.hypot(...v))}${v.length === 2 ? ` at ${figures((Math.atan2(v[1], v[0]) * 180) / Math.PI)}°` : ""}  (${v.map((x) => figures(x)).join(", ")})`);
       }
     },
   };

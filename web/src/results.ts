@@ -1,7 +1,7 @@
 /** Beside the drawing: curves, polar diagrams, the free body and polygons of a chosen link, numbers. */
 
 import { type Board, board } from "./board";
-import { chart, type Cursor, polar, polygon, type View as Drawn } from "./charts";
+import { chart, type Cursor, largestOf, polar, polygon, type View as Drawn } from "./charts";
 import type { Data } from "./data";
 import type { Kernel } from "./kernel";
 import { answersPanel, equations, type Numbers } from "./panels";
@@ -10,7 +10,7 @@ import type { Tabs } from "./tabs";
 import type { View } from "./view";
 
 /** ``fit``: new scales for the free bodies; ``resize``: the charts to a column width in pixels. */
-export interface Results extends Drawn { bodies: Board[]; choose(link: string | undefined): boolean; fit(): void; resize(pixels: number): void }
+export interface Results extends Drawn { parts(): Generator<void>; bodies: Board[]; choose(link: string | undefined): boolean; fit(): void; resize(pixels: number): void }
 
 /** Pixels per mm of a chart: letters stay readable at any width of the column. */
 const PIXELS = 4.6;
@@ -20,12 +20,21 @@ const open = (e: Element): boolean => !e.closest<HTMLElement>("[role=tabpanel]")
 
 export function results(tabs: Tabs, data: Data, kernel: Kernel, cursor: Cursor, view: View, again: () => void): Results {
   const { charts, bodies, polygons } = data.views, always: ReturnType<typeof chart>[] = [], closable: { box: Element; view: Drawn | Numbers; link?: number }[] = [];
+  /** What is drawn of the cycle, and the figures that are in sight. */
+  const cyclic: { figure: Element; parts(): Generator<void> }[] = [], seen = new Set<Element>();
+  const sight = new IntersectionObserver((all) => all.forEach((e) => (e.isIntersecting ? seen.add(e.target) : seen.delete(e.target))));
+  function followed<V extends (typeof cyclic)[number]>(view: V): V {
+    cyclic.push(view);
+    sight.observe(view.figure);
+    return view;
+  }
   const curves = kernel.count > 1 ? tabs.add("Curves", "forces and efforts over the cycle") : null;
-  for (const c of curves ? charts : []) always.push(chart(curves!, data, kernel, c, cursor, 120));
+  for (const c of curves ? charts : []) always.push(followed(chart(curves!, data, kernel, c, cursor, 120)));
   const polars = kernel.count > 2 ? charts.flatMap((c) => c.curves).filter((c) => c.f) : [];
   if (curves && polars.length) {
     html("h2", curves, {}, "Polar diagrams");
-    for (const c of polars) closable.push({ box: curves, view: polar(curves, kernel, c, polars, data.units.force) });
+    const most = largestOf(kernel, polars);
+    for (const c of polars) closable.push({ box: curves, view: followed(polar(curves, kernel, c, most, data.units.force)) });
   }
   const body = tabs.add("Forces", "free bodies, their equations, and force polygons"), select = html("select", body, { "aria-label": "link" });
   const boards = bodies.map((b, link) => {
@@ -60,6 +69,9 @@ export function results(tabs: Tabs, data: Data, kernel: Kernel, cursor: Cursor, 
   }
   return {
     bodies: boards, fit, choose,
+    *parts() {
+      for (const view of cyclic) if (seen.has(view.figure)) yield* view.parts();
+    },
     resize: (pixels) => always.forEach((c) => c.resize(chartWidth(pixels))),
     update(cycle) {
       for (const v of always) if (open(curves!)) v.update(cycle);

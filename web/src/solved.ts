@@ -13,7 +13,7 @@ import { linkOf, pull } from "./pull";
 import { results } from "./results";
 import { Reasons } from "./sentences";
 import { stage } from "./stage";
-import { figures, html, plain, type Point } from "./svg";
+import { figures, html, plain, type Point, say } from "./svg";
 import { layers, toggle, viewButtons } from "./switches";
 import { tabs } from "./tabs";
 import { toolbar } from "./toolbar";
@@ -26,6 +26,8 @@ const TYPED = "input:not([type=range],[type=checkbox]),textarea,[contenteditable
 const PRESSED = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]";
 /** Seconds per cycle of the animation, and positions that a step with Shift passes. */
 const CYCLE = 6, STRIDE = 10;
+/** Milliseconds of a frame in which numbers are dragged for the cycle and its curves. */
+const SHARE = 1;
 /** Joints of which all names would hide the drawing. */
 const MANY = 8;
 /** Parts of a place that its menu names. */
@@ -38,7 +40,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
   const placed = options.pose && kernel.motion.take(options.pose);
   if (placed !== undefined && placed !== null) view.t = placed;
   view.t = Math.min(Math.max(Number.isFinite(view.t) ? view.t : data.start, 0), kernel.end);
-  let asked = 0, whole = true, runs = 0;
+  let asked = 0, whole = true, runs = 0, stale = false, later: Generator<void> | null = null;
   kernel.cycle();
   const history = new History(kernel, gate);
   const curves = data.views.charts.flatMap((c) => c.curves.map((curve) => ({ curve, unit: data.units[c.kind] })));
@@ -52,7 +54,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
     held: (item) => kernel.count > 1 && linkOf(data, `${item.kind}:${item.name}`) >= 0,
   });
   const { m, paper } = s, digits = html("output", paper, { class: "digits", "aria-label": "value of the chosen curve" });
-  const gradients = new Gradients(m, data, kernel), drawTracers = tracers(m, material, kernel, view);
+  const gradients = new Gradients(m, data, kernel), traced = tracers(m, material, kernel, view);
   const cloud = new Cloud(paper, m, data, kernel, data.handles.flatMap((h) => (h.kind === "joint" || h.kind === "point" ? [h.p] : [])));
   const updateHandles = handles(m, data, kernel, { changed: moved, finished });
   pull(m, data, kernel, material, { seek: show, time: () => view.t });
@@ -217,9 +219,13 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
     });
   }
   function frame(): void {
-    const all = whole;
+    const dragged = kernel.coarse && !gradients.on, all = whole && !dragged;
+    stale = whole && dragged || stale && !all;
+    if (all) {
+      later = null;
+      kernel.cycle();
+    }
     whole = false;
-    if (all) kernel.cycle();
     kernel.at(view.t);
     const refused = reasons.refusal();
     if (refused !== kernel.refused) {
@@ -229,18 +235,36 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
     root.classList.toggle("unsolved", !kernel.solved);
     root.classList.toggle("turning", view.drag === "turn");
     m.update(all);
-    drawTracers(all);
+    traced.update(all);
     updateHandles();
     updateGaps();
     gradients.update(picked?.curve);
     const spreads = cloud.update(picked?.curve.row);
     const peak = gradients.on && picked && gradients.peak(picked.curve);
     const lowers = peak && picked ? `arrows lower the peak of ${plain(picked.curve.name)}, now ${figures(peak.size / picked.unit.size)} ${picked.unit.unit}${peak.where}` : "";
-    spread.textContent = [lowers, spreads && picked ? `${plain(picked.curve.name)}: ${figures(spreads.mean / picked.unit.size)} ± ${figures(spreads.sigma / picked.unit.size, 2)} ${picked.unit.unit} (1 σ)` : ""].filter(Boolean).join("; ");
+    say(spread, [lowers, spreads && picked ? `${plain(picked.curve.name)}: ${figures(spreads.mean / picked.unit.size)} ± ${figures(spreads.sigma / picked.unit.size, 2)} ${picked.unit.unit} (1 σ)` : ""].filter(Boolean).join("; "));
     digits.hidden = !picked || !m.on("digits");
-    if (picked && !digits.hidden) digits.textContent = `${plain(picked.curve.name)} ${kernel.solved ? figures(kernel.here[picked.curve.row] / picked.unit.size) : "–"} ${picked.unit.unit}`;
+    if (picked && !digits.hidden) say(digits, `${plain(picked.curve.name)} ${kernel.solved ? figures(kernel.here[picked.curve.row] / picked.unit.size) : "–"} ${picked.unit.unit}`);
     shown.update(all);
     bar.update(view.t, history.can, gate.sentence);
+    if (dragged) follow();
+  }
+  /** The cycle of numbers that are dragged and its curves, a part at a time. */
+  function* cycle(): Generator<void> {
+    yield* kernel.parts();
+    yield* m.parts();
+    yield* traced.parts();
+    yield* shown.parts();
+  }
+  /** As many parts as a frame has time for; the rest in the next ones. */
+  function follow(): void {
+    const end = performance.now() + SHARE;
+    do {
+      if (!later && !stale) return;
+      if (!later) [later, stale] = [cycle(), false];
+      if (later.next().done) later = null;
+    } while (performance.now() < end);
+    request(false);
   }
   root.querySelectorAll("details").forEach((d) => d.addEventListener("toggle", () => request(true)));
   const keys: Document | HTMLElement = options.full ? document : root;

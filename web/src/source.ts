@@ -4,7 +4,8 @@ export interface Source {
   /** Outputs at the place that is shown, by row. */
   readonly here: Float64Array;
   readonly count: number;
-  /** True while numbers are dragged: long curves are then drawn with fewer points. */
+  /** True while numbers are dragged: the place that is shown is of the present ones, the cycle follows some frames later,
+   * and long curves are drawn with fewer points. */
   readonly coarse?: boolean;
   /** 1 at each position that has numbers. */
   readonly good: Uint8Array;

@@ -5,9 +5,19 @@ const SVG = "http://www.w3.org/2000/svg";
 
 type Attributes = Record<string, string | number>;
 
-/** Give an element attributes, and itself. */
+/** Gives an element an attribute; one that it has is left alone, for the browser would draw it anew. */
+export function attr(el: Element, name: string, value: string): void {
+  if (el.getAttribute(name) !== value) el.setAttribute(name, value);
+}
+
+/** Gives an element its text, if it has another one. */
+export function say(el: Element, text: string): void {
+  if (el.textContent !== text) el.textContent = text;
+}
+
+/** Gives an element attributes, and returns it. */
 export function set<E extends Element>(el: E, attributes: Attributes): E {
-  for (const [k, v] of Object.entries(attributes)) el.setAttribute(k, String(v));
+  for (const name in attributes) attr(el, name, String(attributes[name]));
   return el;
 }
 
@@ -41,7 +51,7 @@ export function path(points: Point[], closed = false): string {
 }
 
 export function place(el: Element, x: number, y: number): void {
-  el.setAttribute("transform", `translate(${short(x)} ${short(y)})`);
+  attr(el, "transform", `translate(${short(x)} ${short(y)})`);
 }
 
 /** Where a pointer is, in the units of a drawing. */
@@ -107,12 +117,12 @@ export class Arrow {
   set(tail: Point, tip: Point, least = 0.3): boolean {
     const dx = tip[0] - tail[0], dy = tip[1] - tail[1], length = Math.hypot(dx, dy);
     const shown = length > least && Number.isFinite(length);
-    this.g.setAttribute("display", shown ? "inline" : "none");
+    attr(this.g, "display", shown ? "inline" : "none");
     if (!shown) return false;
     const ux = dx / length, uy = dy / length, size = Math.min(3, 0.75 * length), side = 0.3 * size;
     const base: Point = [tip[0] - size * ux, tip[1] - size * uy];
-    this.shaft.setAttribute("d", path([tail, [tip[0] - 0.8 * size * ux, tip[1] - 0.8 * size * uy]]));
-    this.head.setAttribute("d", path([tip, [base[0] - side * uy, base[1] + side * ux], [base[0] + side * uy, base[1] - side * ux]], true));
+    attr(this.shaft, "d", path([tail, [tip[0] - 0.8 * size * ux, tip[1] - 0.8 * size * uy]]));
+    attr(this.head, "d", path([tip, [base[0] - side * uy, base[1] + side * ux], [base[0] + side * uy, base[1] - side * ux]], true));
     return true;
   }
 }

@@ -3,7 +3,7 @@
 import type { Data } from "./data";
 import type { Kernel } from "./kernel";
 import type { Reasons } from "./sentences";
-import { html } from "./svg";
+import { html, say } from "./svg";
 import { standing } from "./tools";
 import { SPEEDS, type View } from "./view";
 
@@ -36,9 +36,9 @@ export function toolbar(parent: Element, data: Data, kernel: Kernel, reasons: Re
     playing: (on) => (play.textContent = on ? "❚❚" : "▶"),
     update(t, can, refused) {
       const sentence = [refused, reasons.at(t)].filter(Boolean).join(" ");
-      if (mark.textContent !== sentence) mark.textContent = sentence;
+      say(mark, sentence);
       slider.value = String(t);
-      readout.textContent = standing(data, kernel, t);
+      say(readout, standing(data, kernel, t));
       [undo.disabled, redo.disabled] = can.map((x) => !x);
     },
   };

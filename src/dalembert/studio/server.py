@@ -41,7 +41,7 @@ class StudioServer:
     """
 
     session: Session
-    wrong: DalembertError | None = None
+    wrong: Exception | None = None
     """The reason why there is no session."""
 
     def __init__(self, begin: Callable[[], Session], access: Access, solver: Solver | None = None) -> None:
@@ -155,42 +155,47 @@ class StudioServer:
         """The session, from its beginning on."""
         try:
             self.session = await asyncio.to_thread(self.begin)
-        except DalembertError as error:
+        except Exception as error:  # a fault of the program too is told to the tabs
             self.wrong = error
         self._begun.set()
         if self.wrong is None:
             await asyncio.gather(self._solve(), self._look())
 
     async def _solve(self) -> None:
-        """Forces of the latest text; those of overtaken ones are not sent."""
+        """Forces of the latest text; those of overtaken ones are not sent. A fault of the program is the answer."""
         while True:
             await self._wanted.wait()
             self._wanted.clear()
             requested, session = self.changes, self.session
-            reading = session.document.reading
-            if reading.error or reading.alone or reading.mechanism is None:
-                answer = json.dumps({"missing": "" if reading.error else "Draw a link: press B and drag."})
-            else:
-                answer, _ = await asyncio.gather(
-                    asyncio.to_thread(self.solver.ask, session.question("data")),
-                    asyncio.to_thread(session.document.prepare),
-                )
-            if requested != self.changes:
-                continue
-            solved = joined({"hash": session.document.hash}, answer)
-            await asyncio.gather(*(self._send_text(ws, solved) for ws in self.tabs))
+            try:
+                answer = await self._answer(session)
+            except Exception as error:
+                answer = json.dumps({"missing": sentence(error)})
+            if requested == self.changes:
+                solved = joined({"hash": session.document.hash}, answer)
+                await asyncio.gather(*(self._send_text(ws, solved) for ws in self.tabs))
+
+    async def _answer(self, session: Session) -> str:
+        """Forces of the present text in JSON, or what is missing."""
+        reading = session.document.reading
+        if reading.error or reading.alone or reading.mechanism is None:
+            return json.dumps({"missing": "" if reading.error else "Draw a link: press B and drag."})
+        answer, _ = await asyncio.gather(
+            asyncio.to_thread(self.solver.ask, session.question("data")),
+            asyncio.to_thread(session.document.prepare),
+        )
+        return answer
 
     async def _look(self) -> None:
+        """Look at the disk from time to time; why that fails is said as long as it does."""
         while True:
             await asyncio.sleep(LOOK)
             try:
-                data = self.session.look()
-            except DalembertError as error:
+                if self.session.look():
+                    await self._tell_all()
+            except Exception as error:
                 refused = {"refused": sentence(error)}
                 await asyncio.gather(*(self._send(ws, refused) for ws in self.tabs))
-                continue
-            if data:
-                await self._tell_all()
 
     @contextlib.asynccontextmanager
     async def _lifespan(self, _: Any) -> AsyncIterator[None]:

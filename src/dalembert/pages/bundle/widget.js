@@ -1,82 +1,88 @@
-function e(e, t) {
-	for (let [n, r] of Object.entries(t)) e.setAttribute(n, String(r));
-	return e;
+function e(e, t, n) {
+	e.getAttribute(t) !== n && e.setAttribute(t, n);
 }
-function t(t, n, r = {}) {
-	let i = e(document.createElementNS("http://www.w3.org/2000/svg", t), r);
-	return n?.append(i), i;
+function t(e, t) {
+	e.textContent !== t && (e.textContent = t);
 }
-function n(t, n, r = {}, i = "") {
-	let a = e(document.createElement(t), r);
-	return i && (a.textContent = i), n?.append(a), a;
+function n(t, n) {
+	for (let r in n) e(t, r, String(n[r]));
+	return t;
 }
-function r(e) {
+function r(e, t, r = {}) {
+	let i = n(document.createElementNS("http://www.w3.org/2000/svg", e), r);
+	return t?.append(i), i;
+}
+function i(e, t, r = {}, i = "") {
+	let a = n(document.createElement(e), r);
+	return i && (a.textContent = i), t?.append(a), a;
+}
+function a(e) {
 	let t = Math.round(100 * Math.min(Math.abs(e), 1e6)), n = Math.floor(t / 100), r = t % 100;
 	return (e < 0 && t ? "-" : "") + n + (r ? (r < 10 ? ".0" : ".") + r : "");
 }
-var i = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
-function a(e, t = !1) {
-	return e.length ? "M" + e.map(([e, t]) => r(e) + " " + r(t)).join("L") + (t ? "Z" : "") : "";
+var o = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
+function s(e, t = !1) {
+	return e.length ? "M" + e.map(([e, t]) => a(e) + " " + a(t)).join("L") + (t ? "Z" : "") : "";
 }
-function o(e, t, n) {
-	e.setAttribute("transform", `translate(${r(t)} ${r(n)})`);
+function c(t, n, r) {
+	e(t, "transform", `translate(${a(n)} ${a(r)})`);
 }
-function s(e, t) {
+function l(e, t) {
 	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.getScreenCTM().inverse());
 	return [n.x, n.y];
 }
-function c(e, n, r) {
+function u(e, t, n) {
 	e.replaceChildren();
 	let i = !1;
-	for (let a of n.split(/(_\{[^}]*\})/)) {
+	for (let a of t.split(/(_\{[^}]*\})/)) {
 		if (!a) continue;
-		let n = a.startsWith("_{"), o = t("tspan", e, n ? { "font-size": .7 * r } : {});
-		o.textContent = n ? a.slice(2, -1) : a, n !== i && o.setAttribute("dy", String((n ? .25 : -.25) * r)), i = n;
+		let t = a.startsWith("_{"), o = r("tspan", e, t ? { "font-size": .7 * n } : {});
+		o.textContent = t ? a.slice(2, -1) : a, t !== i && o.setAttribute("dy", String((t ? .25 : -.25) * n)), i = t;
 	}
 }
-var l = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), u = null, d = /* @__PURE__ */ new Map();
-function f(e, t, n = !1) {
-	let r = `${n}${e}`, i = d.get(r);
+var d = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), f = null, p = /* @__PURE__ */ new Map();
+function m(e, t, n = !1) {
+	let r = `${n}${e}`, i = p.get(r);
 	if (i === void 0) {
-		u ??= document.createElement("canvas").getContext("2d"), u.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
+		f ??= document.createElement("canvas").getContext("2d"), f.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
 		for (let t of e.split(/(_\{[^}]*\})/)) {
 			let e = t.startsWith("_{");
-			i += u.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
+			i += f.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
 		}
-		d.set(r, i);
+		p.set(r, i);
 	}
 	return i * t;
 }
-function p(e, n, r, i, a = "middle") {
-	let o = t("text", e, {
-		class: `l-${n}-t`,
+function h(e, t, n, i, a = "middle") {
+	let o = r("text", e, {
+		class: `l-${t}-t`,
 		"font-size": i,
 		"text-anchor": a
 	});
-	return c(o, r, i), o;
+	return u(o, n, i), o;
 }
-var m = class {
+var g = class {
 	g;
 	shaft;
 	head;
-	constructor(e, n, r = "") {
-		this.g = t("g", e), r && (t("title", this.g).textContent = l(r)), this.shaft = t("path", this.g, {
-			class: `l-${n}`,
+	constructor(e, t, n = "") {
+		this.g = r("g", e), n && (r("title", this.g).textContent = d(n)), this.shaft = r("path", this.g, {
+			class: `l-${t}`,
 			style: "fill:none"
-		}), this.head = t("path", this.g, { class: `l-${n}-h` });
+		}), this.head = r("path", this.g, { class: `l-${t}-h` });
 	}
-	set(e, t, n = .3) {
-		let r = t[0] - e[0], i = t[1] - e[1], o = Math.hypot(r, i), s = o > n && Number.isFinite(o);
-		if (this.g.setAttribute("display", s ? "inline" : "none"), !s) return !1;
-		let c = r / o, l = i / o, u = Math.min(3, .75 * o), d = .3 * u, f = [t[0] - u * c, t[1] - u * l];
-		return this.shaft.setAttribute("d", a([e, [t[0] - .8 * u * c, t[1] - .8 * u * l]])), this.head.setAttribute("d", a([
-			t,
-			[f[0] - d * l, f[1] + d * c],
-			[f[0] + d * l, f[1] - d * c]
+	set(t, n, r = .3) {
+		let i = n[0] - t[0], a = n[1] - t[1], o = Math.hypot(i, a), c = o > r && Number.isFinite(o);
+		if (e(this.g, "display", c ? "inline" : "none"), !c) return !1;
+		let l = i / o, u = a / o, d = Math.min(3, .75 * o), f = .3 * d, p = [n[0] - d * l, n[1] - d * u];
+		return e(this.shaft, "d", s([t, [n[0] - .8 * d * l, n[1] - .8 * d * u]])), e(this.head, "d", s([
+			n,
+			[p[0] - f * u, p[1] + f * l],
+			[p[0] + f * u, p[1] - f * l]
 		], !0)), !0;
 	}
 };
-function h(e) {
+function _(e) {
 	let t = [...e].sort((e, t) => e[0] - t[0] || e[1] - t[1]), n = (e, t, n) => (t[0] - e[0]) * (n[1] - e[1]) - (t[1] - e[1]) * (n[0] - e[0]), r = (e) => {
 		let t = [];
 		for (let r of e) {
@@ -88,39 +94,39 @@ function h(e) {
 	return [...r(t).slice(0, -1), ...r(t.reverse()).slice(0, -1)];
 }
 // src/gap.ts
-function g(n, o, s) {
-	let c = t("g", n.svg, {
+function v(e, t, i) {
+	let c = r("g", e.svg, {
 		class: "gaps",
 		"pointer-events": "none"
-	}), { unit: l, size: u } = o.units.length, d = "";
+	}), { unit: l, size: u } = t.units.length, d = "";
 	return () => {
-		let o = s.open.map((e) => {
-			let [t, r] = [e.p, e.q].map((e) => n.paper.of(...n.paper.project(e)));
+		let t = i.open.map((t) => {
+			let [n, r] = [t.p, t.q].map((t) => e.paper.of(...e.paper.project(t)));
 			return {
-				p: t,
+				p: n,
 				q: r,
-				said: `${e.joint} is open by ${i(Math.hypot(...e.p.map((t, n) => t - e.q[n])) / u, 3)} ${l}`
+				said: `${t.joint} is open by ${o(Math.hypot(...t.p.map((e, n) => e - t.q[n])) / u, 3)} ${l}`
 			};
-		}), f = JSON.stringify(o);
+		}), f = JSON.stringify(t);
 		if (f !== d) {
 			d = f, c.replaceChildren();
-			for (let { p: n, q: i, said: s } of o) {
-				t("path", c, {
+			for (let { p: e, q: i, said: o } of t) {
+				r("path", c, {
 					class: "l-gap",
-					d: a([n, i]),
+					d: s([e, i]),
 					style: "fill:none"
 				});
-				let [o, l] = [i[0] - n[0], i[1] - n[1]], u = Math.hypot(o, l) || 1, d = l < 0 ? -1 : 1;
-				e(p(c, "gap", s, 3.3, "start"), {
-					x: r((n[0] + i[0]) / 2 + d * 4 * l / u + 2),
-					y: r((n[1] + i[1]) / 2 - d * 4 * o / u + 1)
+				let [t, l] = [i[0] - e[0], i[1] - e[1]], u = Math.hypot(t, l) || 1, d = l < 0 ? -1 : 1;
+				n(h(c, "gap", o, 3.3, "start"), {
+					x: a((e[0] + i[0]) / 2 + d * 4 * l / u + 2),
+					y: a((e[1] + i[1]) / 2 - d * 4 * t / u + 1)
 				});
 			}
 		}
 	};
 }
 // src/material.ts
-var _ = class {
+var y = class {
 	links;
 	poses;
 	source;
@@ -145,11 +151,11 @@ var _ = class {
 		let { at: i, axes: a } = this.axes(t, (e) => this.source.here[e]), [o, s] = e.of(...e.project(i)), c = e.vector([n - o, r - s]);
 		return a.map((e) => e.reduce((e, t, n) => e + t * c[n], 0));
 	}
-}, v = 1e-9, y = 1e-12, b = .25, x = 1e-13, S = 1e-9, C = 1e5, w = 1e3, T = .05, E = 1e-5, D = (e) => ({
+}, b = 1e-9, x = 1e-12, S = .25, C = 1e-13, w = 1e-9, T = 1e5, E = 1e3, D = .05, O = 1e-5, k = (e) => ({
 	point: e.point.slice(),
 	rotation: e.rotation.slice(),
 	turn: e.turn.slice()
-}), O = class {
+}), A = class {
 	data;
 	program;
 	hold;
@@ -260,17 +266,17 @@ var _ = class {
 		}
 	}
 	moved(e, t) {
-		let { n, data: r, right: i } = this, a = r.dimension, o = D(e);
+		let { n, data: r, right: i } = this, a = r.dimension, o = k(e);
 		return r.links.forEach((e, s) => {
 			let c = n * this.place[s];
 			for (let e = 0; e < a; e++) o.point[a * s + e] += t * r.length * i[c + e];
-			a === 2 ? (o.turn[s] += t * i[c + 2], o.rotation[2 * s] = Math.cos(o.turn[s]), o.rotation[2 * s + 1] = Math.sin(o.turn[s])) : j(o.rotation, 9 * s, t * i[c + 3], t * i[c + 4], t * i[c + 5]);
+			a === 2 ? (o.turn[s] += t * i[c + 2], o.rotation[2 * s] = Math.cos(o.turn[s]), o.rotation[2 * s + 1] = Math.sin(o.turn[s])) : N(o.rotation, 9 * s, t * i[c + 3], t * i[c + 4], t * i[c + 5]);
 		}), r.turns.length && (this.evaluate(o), r.turns.forEach((e, t) => o.turn[t] = this.program.at(e))), o;
 	}
-	correct(e, t = Infinity, n = 12, r = S) {
+	correct(e, t = Infinity, n = 12, r = w) {
 		let i = this.gap(e), a = 0, o = 0;
 		for (let s = 0; s < n; s++) {
-			if (i <= y) return {
+			if (i <= x) return {
 				pose: e,
 				first: a,
 				rest: o
@@ -278,7 +284,7 @@ var _ = class {
 			if (!Number.isFinite(i)) return null;
 			let n = this.solve(r);
 			if (s ? o += n : a = n, !(a + o <= t)) return null;
-			let c = this.moved(e, Math.min(1, b / n)), l = this.gap(c);
+			let c = this.moved(e, Math.min(1, S / n)), l = this.gap(c);
 			if (l <= 1e-9 && l > .5 * i) return {
 				pose: l < i ? c : e,
 				first: a,
@@ -319,21 +325,21 @@ var _ = class {
 		this.drive(t);
 		let r = this.data.dimension === 2 ? e.ahead(n) : null;
 		if (r) {
-			let t = this.correct(r, .5, 12, x), n = this.apart(r, e.pose);
+			let t = this.correct(r, .5, 12, C), n = this.apart(r, e.pose);
 			if (t && t.first + t.rest <= .1 * n + 1e-7) return t.pose;
 		}
-		let i = this.correct(e.pose, .6, 10, e.stations > 1 ? x : S);
+		let i = this.correct(e.pose, .6, 10, e.stations > 1 ? C : w);
 		return i && i.first <= .5 && i.rest <= .15 * i.first + 1e-9 && !(r && i.first > 3 * this.apart(r, e.pose) + 1e-6) ? i.pose : null;
 	}
 	loosen(e, t, n) {
-		return this.least(e, t, (e) => e.joint === n && e.kind === "constraint" ? 1 : C, 60);
+		return this.least(e, t, (e) => e.joint === n && e.kind === "constraint" ? 1 : T, 60);
 	}
 	open(e, t) {
 		let { n, right: r, data: i } = this, a = i.dimension, o = /* @__PURE__ */ new Map();
 		r.fill(0), i.links.forEach((e, t) => {
-			for (let e = a; e < n; e++) r[n * this.place[t] + e] = T * Math.cos(t * (n - a) + e - a);
+			for (let e = a; e < n; e++) r[n * this.place[t] + e] = D * Math.cos(t * (n - a) + e - a);
 		});
-		let s = this.least(this.moved(e, 1), t, (e) => e.kind === "freedom" ? w * w : 1, 300, Infinity, 1);
+		let s = this.least(this.moved(e, 1), t, (e) => e.kind === "freedom" ? E * E : 1, 300, Infinity, 1);
 		return this.gap(s), i.rows.forEach((e, t) => {
 			if (e.kind === "freedom" || !e.joint) return;
 			let [n, r] = o.get(e.joint) ?? [0, 0], a = this.missing[t];
@@ -358,14 +364,14 @@ var _ = class {
 			r: e,
 			k: t,
 			j: i(t)
-		})), o = a.filter(({ r: e }) => e.kind !== "freedom"), s = a.filter(({ k: e }) => t.drives.includes(e)), c = k([...o, ...s].map(({ j: e }) => [...e]), n), l = (e) => c.some((t) => Math.abs(t.reduce((t, n, r) => t + n * e[r], 0)) > 1e-6);
+		})), o = a.filter(({ r: e }) => e.kind !== "freedom"), s = a.filter(({ k: e }) => t.drives.includes(e)), c = j([...o, ...s].map(({ j: e }) => [...e]), n), l = (e) => c.some((t) => Math.abs(t.reduce((t, n, r) => t + n * e[r], 0)) > 1e-6);
 		return {
-			freedoms: k(o.map(({ j: e }) => [...e]), n).length,
+			freedoms: j(o.map(({ j: e }) => [...e]), n).length,
 			links: t.links.filter((e, t) => c.some((e) => e.slice(r * this.place[t], r * this.place[t] + r).some((e) => Math.abs(e) > 1e-6))),
 			joints: a.flatMap(({ r: e, j: t }) => e.kind === "freedom" && l(t) ? [e] : [])
 		};
 	}
-	least(e, t, n, r, i = b, a = .001) {
+	least(e, t, n, r, i = S, a = .001) {
 		this.drive(t), this.data.rows.forEach((e, t) => this.weight[t] = n(e));
 		let o = () => this.missing.reduce((e, t, n) => e + (this.active[n] ? this.weight[n] * t * t : 0), 0), s = (this.gap(e), o());
 		for (let t = 0; t < r && a < 1e8; t++) {
@@ -382,7 +388,7 @@ var _ = class {
 		return this.weight.fill(1), e;
 	}
 };
-function k(e, t) {
+function j(e, t) {
 	let n = Array.from({ length: t }, (e, t) => t), r = [], i = Math.max(0, ...e.flat().map(Math.abs));
 	for (let a = 0; a < Math.min(e.length, t); a++) {
 		let o = 0, s = a, c = a;
@@ -391,7 +397,7 @@ function k(e, t) {
 			r,
 			i
 		]);
-		if (!(o > E * i)) break;
+		if (!(o > O * i)) break;
 		[e[a], e[s]] = [e[s], e[a]], [n[a], n[c]] = [n[c], n[a]];
 		let l = n[a], u = e[a][l];
 		e[a] = e[a].map((e) => e / u);
@@ -408,7 +414,7 @@ function k(e, t) {
 		return i.map((e) => e / a);
 	});
 }
-var A = class {
+var M = class {
 	pose;
 	drives;
 	past = [];
@@ -444,7 +450,7 @@ var A = class {
 		return d.turn.forEach((e, t) => [d.rotation[2 * t], d.rotation[2 * t + 1]] = [Math.cos(e), Math.sin(e)]), d;
 	}
 };
-function j(e, t, n, r, i) {
+function N(e, t, n, r, i) {
 	let a = Math.hypot(n, r, i);
 	if (a < 1e-300) return;
 	let o = Math.sin(a) / a, s = (1 - Math.cos(a)) / (a * a), c = e.slice(t, t + 9), l = [
@@ -461,7 +467,7 @@ function j(e, t, n, r, i) {
 	for (let n = 0; n < 3; n++) for (let r = 0; r < 3; r++) e[t + 3 * n + r] = l[3 * n] * c[r] + l[3 * n + 1] * c[3 + r] + l[3 * n + 2] * c[6 + r];
 }
 // src/motion.ts
-var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
+var P = 8, F = 120, I = .3, L = 2 ** -7, R = class {
 	kernel;
 	shown;
 	values;
@@ -485,7 +491,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	constructor(e, t, n, r, i, a) {
 		this.kernel = t, this.shown = r, this.values = i, this.inputs = a;
 		let o = this.data = e.sketch;
-		this.sketch = new O(o, n), this.count = e.kernel.count, this.driven = Array.from({ length: this.count }, (e, n) => t.drives(n)), this.poses = Array(this.count).fill(null), this.branches = o.branches.map(() => new Float64Array(this.count).fill(1)), this.model = new Float64Array(o.branches.length).fill(1), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
+		this.sketch = new A(o, n), this.count = e.kernel.count, this.driven = Array.from({ length: this.count }, (e, n) => t.drives(n)), this.poses = Array(this.count).fill(null), this.branches = o.branches.map(() => new Float64Array(this.count).fill(1)), this.model = new Float64Array(o.branches.length).fill(1), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
 		let [s, c, l] = [
 			o.pose.point,
 			o.pose.rotation,
@@ -502,7 +508,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		}, this.sketch.values = this.first.values, this.phasesAtFirst = this.phases.map((e) => this.sketch.measure(e, this.first.pose)), this.held = this.first, this.base = {
 			place: o.place,
 			pose: this.first.pose
-		}, this.weakest = z(o);
+		}, this.weakest = H(o);
 		let u = e.drives.map((e) => e.name);
 		this.channels = r.module.channels.map((e) => {
 			let [t, n, r] = e.split(" "), i = o.branches.indexOf(e);
@@ -535,7 +541,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	}
 	assume(e) {
 		if (this.home(), !e) return;
-		let t = B(this.data, this.held.pose, e), { sketch: n } = this;
+		let t = U(this.data, this.held.pose, e), { sketch: n } = this;
 		n.values = this.values, n.count(this.phases, !1);
 		for (let e of [...this.data.places, ...Array(this.count).keys()]) {
 			let r = this.wound(t, this.kernel.drives(e)), i = n.close(r, this.kernel.drives(e));
@@ -554,17 +560,25 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		let [n, r] = this.data.dimension === 2 ? [e.turn, t.turn] : [e.rotation, t.rotation];
 		return n.reduce((e, t, n) => Math.max(e, Math.abs(t - r[n])), 0);
 	}
+	get current() {
+		return !!this.seen?.every((e, t) => e === this.values[t]);
+	}
 	update() {
-		if (this.seen?.every((e, t) => e === this.values[t])) return !1;
-		this.seen = this.values.slice();
-		let e = this.reclose();
-		return this.poses.fill(null), e && this.follow(this.held.t, this.held.pose), this.settle(e), !0;
+		this.current || z(this.updating());
+	}
+	*updating() {
+		this.seen = null;
+		let { t: e, pose: t } = this.reclose() ? this.held : {
+			t: this.base.place,
+			pose: null
+		};
+		this.poses.fill(null), t && (yield* this.follow(e, t)), yield* this.settle(t ?? this.base.pose, e), this.seen = this.values.slice();
 	}
 	reclose() {
 		let e = this.values, t = this.kernel.drives(this.held.t), { sketch: n } = this;
 		if (this.loose) {
 			n.values = e;
-			let t = n.close(this.loose.pose, this.kernel.drives(this.loose.t), P);
+			let t = n.close(this.loose.pose, this.kernel.drives(this.loose.t), I);
 			if (t && (this.held = {
 				values: e.slice(),
 				t: this.loose.t,
@@ -575,21 +589,19 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		for (; a < 1;) {
 			let o = Math.min(1, a + i), s = e.map((e, t) => o === 1 ? e : r[t] + o * (e - r[t]));
 			n.values = s;
-			let c = n.close(this.held.pose, t, P);
+			let c = n.close(this.held.pose, t, I);
 			if (c) this.held = {
 				values: s,
 				t: this.held.t,
 				pose: c
 			}, [a, i] = [o, Math.min(1, 2 * i)];
-			else if ((i /= 2) < F) return !1;
+			else if ((i /= 2) < L) return !1;
 		}
 		return !0;
 	}
-	follow(e, t) {
-		let { course: n, cycle: r } = this.data, i = this.count;
-		this.sketch.values = this.values;
-		let a = this.along(e), o = this.kernel.drives(e), [s, c] = [Math.ceil(a), Math.floor(a)].map((e, n) => this.march(new A(t, o), e, n ? -1 : 1, null));
-		r && !this.phases.length && (s && this.poses[n[i - 1]] && this.march(s, 0, 1, r), c && this.poses[n[0]] && this.march(c, i - 1, -1, r));
+	*follow(e, t) {
+		let { course: n, cycle: r } = this.data, i = this.count, a = this.along(e), o = this.kernel.drives(e), s = yield* this.march(new M(t, o), Math.ceil(a), 1, null), c = yield* this.march(new M(t, o), Math.floor(a), -1, null);
+		r && !this.phases.length && (s && this.poses[n[i - 1]] && (yield* this.march(s, 0, 1, r)), c && this.poses[n[0]] && (yield* this.march(c, i - 1, -1, r)));
 	}
 	along(e) {
 		let { course: t } = this.data;
@@ -597,8 +609,8 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		let n = t.every((e, t) => e === t), r = this.kernel.drives(e)[0];
 		return (n ? Math.ceil(e) : t.findIndex((e) => this.kernel.drives(e)[0] > r)) - .5;
 	}
-	march(e, t, n, r) {
-		let { course: i } = this.data, a = this.count, o = this.data.dimension === 2 ? Math.ceil(a / N) : 1, s = (r ?? []).map((e) => n * (r.length > 1 ? e : Math.abs(e))), c = this.counts((e) => s[this.data.drives.indexOf(e)] ?? 0), l = (e) => this.kernel.drives(i[e]).map((e, t) => e + (s[t] ?? 0)), u = (e, t) => {
+	*march(e, t, n, r) {
+		let { course: i } = this.data, a = this.count, o = this.data.dimension === 2 ? Math.ceil(a / F) : 1, s = (r ?? []).map((e) => n * (r.length > 1 ? e : Math.abs(e))), c = this.counts((e) => s[this.data.drives.indexOf(e)] ?? 0), l = (e) => this.kernel.drives(i[e]).map((e, t) => e + (s[t] ?? 0)), u = (e, t) => {
 			r ? this.poses[i[e]] = {
 				point: t.point,
 				rotation: t.rotation,
@@ -607,10 +619,12 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		};
 		for (let s = t; s >= 0 && s < a;) {
 			if (r && this.poses[i[s]]) return null;
-			let t = e.pose, c = e.drives, d = Math.min(Math.max(s + n * (o - 1), 0), a - 1);
-			if (d !== s && !this.sketch.walk(e, l(d)) && (e = new A(t, c), d = s), d === s && !this.sketch.walk(e, l(s))) return null;
-			for (let r = s; r !== d; r += n) u(r, new R(t, e.pose, c, e.drives, l(r)));
-			u(d, e.pose), s = d + n;
+			let t = e.pose, c = e.drives;
+			this.sketch.values = this.values;
+			let d = Math.min(Math.max(s + n * (o - 1), 0), a - 1);
+			if (d !== s && !this.sketch.walk(e, l(d)) && (e = new M(t, c), d = s), d === s && !this.sketch.walk(e, l(s))) return null;
+			for (let r = s; r !== d; r += n) u(r, new V(t, e.pose, c, e.drives, l(r)));
+			u(d, e.pose), s = d + n, yield;
 		}
 		return e;
 	}
@@ -629,24 +643,22 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		}
 		return n;
 	}
-	settle(e) {
-		let { t, pose: n } = e ? this.held : {
-			t: this.base.place,
-			pose: this.base.pose
-		};
-		this.spread(this.read(n, t));
-		let r = this.kernel.closes(), i = this.firstOf(r), a = i < 0 ? null : this.poses[i] ?? this.enter(i, n);
-		if (a) {
-			if (this.poses[i] || this.follow(i, a), this.base = {
-				place: i,
-				pose: this.exact(i) ?? a
+	*settle(e, t) {
+		this.spread(this.read(e, t)), yield;
+		let n = this.kernel.closes();
+		yield;
+		let r = this.firstOf(n), i = r < 0 ? null : this.poses[r] ?? this.enter(r, e);
+		if (i) {
+			if (this.poses[r] || (yield* this.follow(r, i)), this.base = {
+				place: r,
+				pose: this.exact(r) ?? i
 			}, this.poses.every((e) => e)) {
-				this.model = this.read(a, i);
+				this.model = this.read(i, r);
 				return;
 			}
-			this.spread(this.read(a, i)), r = this.kernel.closes(), this.behind(r);
+			this.spread(this.read(i, r)), n = this.kernel.closes(), yield, yield* this.behind(n);
 		}
-		this.spread(this.model), this.kernel.closes();
+		this.spread(this.model), yield, this.kernel.closes();
 	}
 	exact(e) {
 		return this.sketch.values = this.values, this.poses[e] && this.sketch.close(this.poses[e], this.kernel.drives(e), .05);
@@ -656,12 +668,12 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		return this.data.places.find(t) ?? e.findIndex((e, n) => t(n));
 	}
 	enter(e, t) {
-		let n = this.data.dimension, r = D(t), i = .1;
+		let n = this.data.dimension, r = k(t), i = .1;
 		return this.kernel.posed(e).forEach((e, t) => {
 			if (!e.every(Number.isFinite)) i = Infinity;
 			else {
 				for (let i = 0; i < n; i++) r.point[n * t + i] = e[i];
-				if (n === 2) r.turn[t] += L(Math.atan2(e[3], e[2]) - r.turn[t]), [r.rotation[2 * t], r.rotation[2 * t + 1]] = [e[2], e[3]];
+				if (n === 2) r.turn[t] += B(Math.atan2(e[3], e[2]) - r.turn[t]), [r.rotation[2 * t], r.rotation[2 * t + 1]] = [e[2], e[3]];
 				else for (let n = 0; n < 3; n++) for (let i = 0; i < 3; i++) r.rotation[9 * t + 3 * n + i] = e[3 + 3 * i + n];
 			}
 		}), [
@@ -677,7 +689,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 			turn: e.turn.map((e, t) => e + o[t])
 		};
 	}
-	behind(e) {
+	*behind(e) {
 		let { course: t } = this.data, n = (e) => this.poses[t[e]] !== null;
 		for (let r = 0; r < this.count; r++) {
 			if (n(r) || !e[t[r]]) continue;
@@ -686,14 +698,14 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 			let a = r === 0 || !e[t[r - 1]] && !n(r - 1) || this.gapBetween(r - 1), o = i === this.count - 1 || !n(i + 1) || this.gapBetween(i);
 			if (a && o) {
 				let e = t[r + i >> 1], n = this.enter(e, this.base.pose);
-				n && this.follow(e, n);
+				n && (yield* this.follow(e, n));
 			}
-			r = i;
+			r = i, yield;
 		}
 	}
 	gapBetween(e) {
 		let [t, n] = [this.data.course[e], this.data.course[e + 1]];
-		for (let e = 1; e < M; e++) if (!this.kernel.closesAt(t + e / M * (n - t))) return !0;
+		for (let e = 1; e < P; e++) if (!this.kernel.closesAt(t + e / P * (n - t))) return !0;
 		return !1;
 	}
 	read(e, t) {
@@ -716,7 +728,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 			let l = c * n;
 			if (e === "pose") for (let e = 0; e < r; e++) {
 				let n = a[e];
-				o[l + e] = n instanceof R ? n.value(t, i) : n[t][i];
+				o[l + e] = n instanceof V ? n.value(t, i) : n[t][i];
 			}
 			else if (e === "position") for (let e = 0; e < r; e++) o[l + e] = this.driven[e][i];
 			else e === "given" && o.set(s.subarray(0, r), l);
@@ -734,13 +746,13 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	}
 	at(e) {
 		this.update();
-		let t = Math.floor(e) % this.count, n = e - Math.floor(e) === 0 && this.count <= N ? this.poses[t] : null;
+		let t = Math.floor(e) % this.count, n = e - Math.floor(e) === 0 && this.count <= F ? this.poses[t] : null;
 		this.sketch.values = this.values;
 		for (let r of [t, (t + 1) % this.count]) {
 			let t = this.poses[r];
 			if (n || !t) continue;
 			let i = this.sketch.close(t, this.kernel.drives(r), .05), a = this.nearDrives(r, e);
-			n = i && this.sketch.walk(new A(i, this.kernel.drives(r)), a);
+			n = i && this.sketch.walk(new M(i, this.kernel.drives(r)), a);
 		}
 		return n && ([this.held, this.loose] = [{
 			values: this.values.slice(),
@@ -748,9 +760,20 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 			pose: n
 		}, null]), n;
 	}
+	near(e) {
+		if (!this.reclose()) return null;
+		if (this.held.t === e) return this.held.pose;
+		this.sketch.values = this.values;
+		let t = this.sketch.walk(new M(this.held.pose, this.kernel.drives(this.held.t)), this.nearDrives(this.held.t, e));
+		return t && (this.held = {
+			values: this.values.slice(),
+			t: e,
+			pose: t
+		}), t;
+	}
 	nearDrives(e, t) {
 		let n = this.kernel.drives(t), r = this.kernel.drives(e);
-		return n.map((e, t) => this.data.cycle?.[t] ? r[t] + L(e - r[t]) : e);
+		return n.map((e, t) => this.data.cycle?.[t] ? r[t] + B(e - r[t]) : e);
 	}
 	stretched(e) {
 		this.sketch.values = this.values;
@@ -772,7 +795,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 	assembly() {
 		this.update();
 		let { links: e, dimension: t, counted: n } = this.data, { pose: r } = this.base;
-		return e.flatMap((e, i) => t === 2 ? [r.turn[i] + (n[e] ?? 0)] : [...r.point.subarray(3 * i, 3 * i + 3), ...te(r.rotation.subarray(9 * i, 9 * i + 9))]);
+		return e.flatMap((e, i) => t === 2 ? [r.turn[i] + (n[e] ?? 0)] : [...r.point.subarray(3 * i, 3 * i + 3), ...ne(r.rotation.subarray(9 * i, 9 * i + 9))]);
 	}
 	placed() {
 		let { links: e, dimension: t } = this.data, { pose: n } = this.held;
@@ -783,12 +806,12 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		] : [...n.point.subarray(3 * r, 3 * r + 3), ...n.rotation.subarray(9 * r, 9 * r + 9)]]));
 	}
 	take(e) {
-		let { data: t, sketch: n, kernel: r } = this, i = V(t, this.first.pose, e);
+		let { data: t, sketch: n, kernel: r } = this, i = ee(t, this.first.pose, e);
 		this.home(), n.values = this.values, n.count(this.phases, !1);
-		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, P), s = o && this.placeOf(a);
+		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, I), s = o && this.placeOf(a);
 		if (o && s !== null) {
-			let e = r.drives(s).map((e, n) => t.rows[t.drives[n]].angular ? a[n] + L(e - a[n]) : e);
-			o = n.walk(new A(o, a), e), o &&= this.wound(o, r.drives(s));
+			let e = r.drives(s).map((e, n) => t.rows[t.drives[n]].angular ? a[n] + B(e - a[n]) : e);
+			o = n.walk(new M(o, a), e), o &&= this.wound(o, r.drives(s));
 		}
 		return o && s !== null && (this.held = {
 			values: this.values.slice(),
@@ -797,7 +820,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		}, this.hold(this.phases.map((e) => n.measure(e, o)))), n.count(this.phases, !0), o && s !== null ? s : null;
 	}
 	placeOf(e) {
-		let { kernel: t, data: n, count: r } = this, i = n.drives.map((e) => n.rows[e].angular), a = (r) => Math.hypot(...t.drives(r).map((t, r) => i[r] ? L(t - e[r]) : (t - e[r]) / n.length)), o = 0, s = Infinity;
+		let { kernel: t, data: n, count: r } = this, i = n.drives.map((e) => n.rows[e].angular), a = (r) => Math.hypot(...t.drives(r).map((t, r) => i[r] ? B(t - e[r]) : (t - e[r]) / n.length)), o = 0, s = Infinity;
 		for (let e = 0; e < r; e++) a(e) < s && ([o, s] = [e, a(e)]);
 		if (e.length !== 1 || s < 1e-12 || t.stepped) return o;
 		for (let [n, a] of [
@@ -806,7 +829,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 			...o === 0 ? [[r - 1, r]] : []
 		]) {
 			if (n < 0 || a > t.end) continue;
-			let [r, o] = [n, a].map((e) => t.drives(e)[0]), s = i[0] ? L : (e) => e, c = s(e[0] - r) / s(o - r);
+			let [r, o] = [n, a].map((e) => t.drives(e)[0]), s = i[0] ? B : (e) => e, c = s(e[0] - r) / s(o - r);
 			if (c >= 0 && c <= 1) return n + c;
 		}
 		return o;
@@ -823,7 +846,7 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		];
 	}
 	restore(e) {
-		let [t, ...n] = e, r = D(this.held.pose);
+		let [t, ...n] = e, r = k(this.held.pose);
 		for (let e of [
 			"point",
 			"rotation",
@@ -835,7 +858,11 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 			pose: r
 		}, [this.seen, this.loose] = [null, null];
 	}
-}, L = (e) => e - 2 * Math.PI * Math.round(e / (2 * Math.PI)), R = class {
+};
+function z(e) {
+	for (; !e.next().done;);
+}
+var B = (e) => e - 2 * Math.PI * Math.round(e / (2 * Math.PI)), V = class {
 	a;
 	b;
 	part;
@@ -862,15 +889,15 @@ var M = 8, N = 120, P = .3, F = 2 ** -7, I = class {
 		return this.all("turn");
 	}
 };
-function z(e) {
+function H(e) {
 	let t = (t) => t.ends.filter((t) => t < e.links.length), n = new Set(e.drives.flatMap((n) => t(e.rows[n]))), r = (r) => {
 		let i = t(e.rows.find((e) => e.kind === "constraint" && e.joint === r) ?? { ends: [] });
 		return i.length - (i.some((e) => n.has(e)) ? .5 : 0);
 	};
 	return e.gaps.map((e) => e.joint).reduce((e, t) => e && r(e) >= r(t) ? e : t, "");
 }
-function B(e, t, n) {
-	let r = D(t);
+function U(e, t, n) {
+	let r = k(t);
 	return e.links.forEach((t, i) => {
 		if (e.dimension === 2) {
 			let a = r.turn[i] = n[i] - (e.counted[t] ?? 0);
@@ -882,15 +909,15 @@ function B(e, t, n) {
 			a,
 			o,
 			s
-		], 3 * i), r.rotation.set(ee([
+		], 3 * i), r.rotation.set(te([
 			c / f,
 			l / f,
 			u / f
 		], d), 9 * i);
 	}), r;
 }
-function V(e, t, n) {
-	let r = D(t);
+function ee(e, t, n) {
+	let r = k(t);
 	return e.links.forEach((t, i) => {
 		let a = n[t], o = e.dimension;
 		if (a?.length === (o === 2 ? 3 : 12) && a.every(Number.isFinite)) {
@@ -899,7 +926,7 @@ function V(e, t, n) {
 		}
 	}), r;
 }
-function ee([e, t, n], r) {
+function te([e, t, n], r) {
 	let i = Math.cos(r), a = Math.sin(r), o = 1 - i;
 	return [
 		i + o * e * e,
@@ -913,7 +940,7 @@ function ee([e, t, n], r) {
 		i + o * n * n
 	];
 }
-function te(e) {
+function ne(e) {
 	let t = [
 		e[7] - e[5],
 		e[2] - e[6],
@@ -938,19 +965,19 @@ function te(e) {
 	return [...a.map((e) => e / o), Math.PI];
 }
 // src/program.ts
-function H(e) {
+function re(e) {
 	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
 }
-function U(e) {
-	if (typeof e == "string") return new Float64Array(H(e).buffer);
+function W(e) {
+	if (typeof e == "string") return new Float64Array(re(e).buffer);
 	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
 	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
 }
-async function ne(e) {
-	let t = new Blob([H(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
+async function ie(e) {
+	let t = new Blob([re(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
 	return new Response(t).arrayBuffer();
 }
-var W = class e {
+var G = class e {
 	run;
 	module;
 	values;
@@ -969,7 +996,7 @@ var W = class e {
 		a > t.buffer.byteLength && t.grow(Math.ceil((a - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = i.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
 	}
 	static async create(t, n) {
-		let { instance: r } = await WebAssembly.instantiate(await ne(t.wasm)), { memory: i, run: a } = r.exports;
+		let { instance: r } = await WebAssembly.instantiate(await ie(t.wasm)), { memory: i, run: a } = r.exports;
 		return new e(a, i, t, n);
 	}
 	call(e) {
@@ -981,7 +1008,7 @@ var W = class e {
 	at(e, t = 0) {
 		return this.out[e * this.row + t];
 	}
-}, re = {
+}, ae = {
 	joint: 0,
 	point: 0,
 	tracer: 0,
@@ -990,14 +1017,14 @@ var W = class e {
 	direction: 1,
 	link: 4,
 	trace: 5
-}, G = (e) => {
+}, K = (e) => {
 	let t = e.indexOf(":");
 	return {
 		kind: e.slice(0, t),
 		name: e.slice(t + 1)
 	};
-}, ie = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
-function K(e, t, n, r = 6) {
+}, oe = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
+function q(e, t, n, r = 6) {
 	let i = e.getRootNode(), a = /* @__PURE__ */ new Map();
 	return [
 		0,
@@ -1008,40 +1035,40 @@ function K(e, t, n, r = 6) {
 			let l = c * Math.PI / 4;
 			for (let c of i.elementsFromPoint(t + o * r * Math.cos(l), n + o * r * Math.sin(l))) {
 				let t = e.contains(c) && c.closest("[data-item]")?.dataset.item;
-				t && !a.has(t) && a.set(t, 2 * s + (re[G(t).kind] ?? 2));
+				t && !a.has(t) && a.set(t, 2 * s + (ae[K(t).kind] ?? 2));
 			}
 		}
-	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => G(e));
+	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => K(e));
 }
-function ae(e, t) {
+function se(e, t) {
 	e.querySelectorAll(".chosen").forEach((e) => e.classList.remove("chosen")), t && e.querySelectorAll(`[data-item="${CSS.escape(`${t.kind}:${t.name}`)}"]`).forEach((e) => e.classList.add("chosen"));
 }
 // src/pull.ts
-var q = 1 / 10;
-function oe(e, t) {
+var J = 1 / 10;
+function ce(e, t) {
 	if (!t) return -1;
-	let { kind: n, name: r } = G(t), { links: i, rows: a } = e.sketch;
+	let { kind: n, name: r } = K(t), { links: i, rows: a } = e.sketch;
 	return n === "link" || n === "center" ? i.indexOf(r) : (n === "joint" ? a.find((e) => e.joint === r)?.ends : void 0)?.find((e) => e < i.length) ?? -1;
 }
-function se(e, t, n) {
-	for (let { kind: r, name: i } of K(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
+function le(e, t, n) {
+	for (let { kind: r, name: i } of q(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
 		let e = n(`${r}:${i}`);
 		if (e >= 0) return e;
 	}
 	return -1;
 }
-function ce(e, t, n, r, i) {
+function ue(e, t, n, r, i) {
 	if (n.count < 2) return;
 	let a = -1, o = [];
 	e.svg.addEventListener("pointerdown", (n) => {
-		a = n.button === 0 ? se(e.svg, n, (e) => oe(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, s(e.svg, n)));
+		a = n.button === 0 ? le(e.svg, n, (e) => ce(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, l(e.svg, n)));
 	}), e.svg.addEventListener("pointermove", (t) => {
-		a >= 0 && e.svg.hasPointerCapture(t.pointerId) && i.seek(l(s(e.svg, t)));
+		a >= 0 && e.svg.hasPointerCapture(t.pointerId) && i.seek(c(l(e.svg, t)));
 	});
-	let c = () => void (a = -1);
-	e.svg.addEventListener("pointerup", c), e.svg.addEventListener("pointercancel", c);
-	function l(t) {
-		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * q)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
+	let s = () => void (a = -1);
+	e.svg.addEventListener("pointerup", s), e.svg.addEventListener("pointercancel", s);
+	function c(t) {
+		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * J)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
 		for (let e = Math.floor(l) - u; e <= Math.floor(l) + u; e++) {
 			if (!c && (e < 0 || e + 1 >= s)) continue;
 			let [n, r] = [e, e + 1].map((e) => (e % s + s) % s), [i, a] = [m(n), m(r)];
@@ -1053,16 +1080,16 @@ function ce(e, t, n, r, i) {
 	}
 }
 // src/pulling.ts
-var le = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, he = .2, ge = class extends O {
+var de = 12, Y = 1e6, X = .001, fe = 1e-5, pe = 1e6, me = .5, he = 6, ge = 100, _e = .2, ve = class extends A {
 	pose;
 	closed = !1;
 	away = 0;
-	damping = J;
+	damping = X;
 	constructor(e, t, n) {
 		super(e, t), this.pose = n, this.placed(n);
 	}
 	placed(e) {
-		this.data.rows.forEach((t, n) => t.kind === "phase" && (this.hold[n] = this.measure(n, e))), this.pose = e, this.damping = J, this.closed = this.gap(e) <= v;
+		this.data.rows.forEach((t, n) => t.kind === "phase" && (this.hold[n] = this.measure(n, e))), this.pose = e, this.damping = X, this.closed = this.gap(e) <= b;
 	}
 	lock(e, t) {
 		this.active[e] = +t, this.hold[e] = this.measure(e, this.pose);
@@ -1101,7 +1128,7 @@ var le = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, 
 		if (!this.closed) return this.gather(e, t);
 		if (!e) return "there";
 		this.away = this.far(e, t, this.pose);
-		for (let r = 0; r < le; r++) {
+		for (let r = 0; r < de; r++) {
 			if (this.away < n) return this.ended("there");
 			let r = this.step(e, t, n);
 			if (!r) return this.ended("nearest");
@@ -1111,28 +1138,28 @@ var le = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, 
 		return "on the way";
 	}
 	ended(e) {
-		return this.damping = J, e;
+		return this.damping = X, e;
 	}
 	step(e, t, n) {
-		let { pose: r, data: i } = this, a = Math.min(1, fe / this.away), o = this.at(e).map((e, n) => a * (t[n] - e) / i.length);
-		for (let i = 0; i < pe; i++) {
-			this.gap(r), this.weight.fill(ue), this.fill(this.damping), this.weight.fill(1), this.pull(e, r, o);
+		let { pose: r, data: i } = this, a = Math.min(1, me / this.away), o = this.at(e).map((e, n) => a * (t[n] - e) / i.length);
+		for (let i = 0; i < he; i++) {
+			this.gap(r), this.weight.fill(Y), this.fill(this.damping), this.weight.fill(1), this.pull(e, r, o);
 			let i = this.answer();
 			if (!(i >= n / 10)) return null;
-			let a = this.correct(this.moved(r, Math.min(1, b / i)), .5 * Math.min(i, b) + 1e-9, 8)?.pose;
-			if (a && this.far(e, t, a) < this.away) return this.damping = Math.max(this.damping / 4, de), a;
-			this.damping = Math.min(this.damping * 8, Y);
+			let a = this.correct(this.moved(r, Math.min(1, S / i)), .5 * Math.min(i, S) + 1e-9, 8)?.pose;
+			if (a && this.far(e, t, a) < this.away) return this.damping = Math.max(this.damping / 4, fe), a;
+			this.damping = Math.min(this.damping * 8, pe);
 		}
 		return null;
 	}
 	gather(e, t) {
 		let n = (n) => {
-			let r = this.gap(n), i = this.missing.reduce((e, t, n) => e + (this.active[n] ? me * t * t : 0), 0);
+			let r = this.gap(n), i = this.missing.reduce((e, t, n) => e + (this.active[n] ? ge * t * t : 0), 0);
 			return Number.isFinite(r) ? i + (e ? this.far(e, t, n) ** 2 : 0) : Infinity;
 		}, r = Math.max(this.damping, .01), i = n(this.pose);
-		for (let a = 0; a < le && r < 1e8; a++) {
-			this.gap(this.pose), this.weight.fill(me), this.fill(r), this.weight.fill(1), e && this.pull(e, this.pose, this.at(e).map((e, n) => (t[n] - e) / this.data.length));
-			let a = this.answer(), o = this.moved(this.pose, Math.min(1, b / a)), s = n(o);
+		for (let a = 0; a < de && r < 1e8; a++) {
+			this.gap(this.pose), this.weight.fill(ge), this.fill(r), this.weight.fill(1), e && this.pull(e, this.pose, this.at(e).map((e, n) => (t[n] - e) / this.data.length));
+			let a = this.answer(), o = this.moved(this.pose, Math.min(1, S / a)), s = n(o);
 			if (!(s < i)) {
 				r *= 4;
 				continue;
@@ -1145,10 +1172,10 @@ var le = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, 
 			], c) break;
 		}
 		this.damping = r;
-		let a = this.correct(D(this.pose), he)?.pose;
+		let a = this.correct(k(this.pose), _e)?.pose;
 		return a ? (this.placed(a), "on the way") : "apart";
 	}
-}, _e = [
+}, ye = [
 	[1, -1],
 	[-1, -1],
 	[1, 1],
@@ -1157,25 +1184,25 @@ var le = 12, ue = 1e6, J = .001, de = 1e-5, Y = 1e6, fe = .5, pe = 6, me = 100, 
 	[1, 0],
 	[-1, 0],
 	[0, 1]
-], ve = [
+], be = [
 	1,
 	1.9,
 	3,
 	4.5
 ];
-function ye(e, t, n, r) {
+function xe(e, t, n, r) {
 	return {
-		el: p(e, t, n, r),
+		el: h(e, t, n, r),
 		text: n,
 		size: r,
 		bold: t === "title",
 		choice: -1
 	};
 }
-function be(e, t) {
-	e.text !== t && (e.text = t, c(e.el, t, e.size));
+function Se(e, t) {
+	e.text !== t && (e.text = t, u(e.el, t, e.size));
 }
-var xe = class {
+var Ce = class {
 	bounds;
 	texts = [];
 	discs = [];
@@ -1195,37 +1222,49 @@ var xe = class {
 		]);
 	}
 	put(e) {
-		let t = e.label, n = f(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), i = e.leave ?? 1.2, a = e.away && Math.hypot(...e.away) || 1, s = Infinity, c = 0, l = [
+		let t = e.label, n = m(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), i = e.leave ?? 1.2, a = e.away && Math.hypot(...e.away) || 1, o = Infinity, s = 0, l = [
 			0,
 			0,
 			0,
 			0
-		], u = 0;
-		for (let [o, d] of e.anchors) for (let f of ve) for (let [p, m] of _e) {
-			let h = i * f, g = o + p * (h + n / 2), _ = d + m * (h + r / 2), v = [
-				g - n / 2,
-				_ - r / 2,
-				g + n / 2,
-				_ + r / 2
-			], y = u % 32 * .12 + .2 * Math.floor(u / 32) - (u === t.choice ? .4 : 0);
-			e.away && (y += 1.2 * (1 - (p * e.away[0] + m * e.away[1]) / (Math.hypot(p, m) * a))), y < s && (y += this.cost(v)) < s && (s = y, c = u, l = v), u++;
-		}
-		t.choice = c, this.texts.push(l), o(t.el, (l[0] + l[2]) / 2, l[1] + .91 * t.size);
+		], u = ye.length * be.length, d = (c) => {
+			let [d, f] = e.anchors[Math.floor(c / u)], [p, m] = ye[c % ye.length], h = c % u * .12 + .2 * Math.floor(c / u) - (c === t.choice ? .4 : 0);
+			if (e.away && (h += 1.2 * (1 - (p * e.away[0] + m * e.away[1]) / (Math.hypot(p, m) * a))), h >= o) return;
+			let g = i * be[Math.floor(c % u / ye.length)], _ = d + p * (g + n / 2), v = f + m * (g + r / 2), y = [
+				_ - n / 2,
+				v - r / 2,
+				_ + n / 2,
+				v + r / 2
+			];
+			(h += this.cost(y, o - h)) < o && (o = h, s = c, l = y);
+		}, f = e.anchors.length * u;
+		t.choice >= 0 && t.choice < f && d(t.choice);
+		for (let e = 0; e < f; e++) e !== t.choice && d(e);
+		t.choice = s, this.texts.push(l), c(t.el, (l[0] + l[2]) / 2, l[1] + .91 * t.size);
 	}
-	cost(e) {
-		let t = 0;
-		for (let n of this.texts) Se(e, n) > 0 && (t += 60 + 5 * Se(e, n));
-		for (let n of this.discs) Se(e, n) > 0 && (t += 8 + Se(e, n));
-		for (let [n, r] of this.lines) Ce(e, n, r) && (t += 6);
-		let [n, r, i, a] = this.bounds;
-		return (e[0] < n || e[1] < r || e[2] > i || e[3] > a) && (t += 60), t;
+	cost(e, t) {
+		let [n, r, i, a] = this.bounds, o = e[0] < n || e[1] < r || e[2] > i || e[3] > a ? 60 : 0;
+		for (let t of this.texts) {
+			let n = we(e, t);
+			n > 0 && (o += 60 + 5 * n);
+		}
+		for (let t of this.discs) {
+			let n = we(e, t);
+			n > 0 && (o += 8 + n);
+		}
+		for (let [n, r] of this.lines) {
+			if (o >= t) return o;
+			Te(e, n, r) && (o += 6);
+		}
+		return o;
 	}
 };
-function Se(e, t) {
+function we(e, t) {
 	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
 	return n > 0 && r > 0 ? n * r : 0;
 }
-function Ce(e, t, n) {
+function Te(e, t, n) {
+	if (Math.max(t[0], n[0]) < e[0] || Math.min(t[0], n[0]) > e[2] || Math.max(t[1], n[1]) < e[1] || Math.min(t[1], n[1]) > e[3]) return !1;
 	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
 	for (let n = 0; n < 2; n++) {
 		if (Math.abs(a[n]) < 1e-9) {
@@ -1238,7 +1277,7 @@ function Ce(e, t, n) {
 	return r < i;
 }
 // src/items.ts
-var we = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), Te = class {
+var Ee = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), De = class {
 	kernel;
 	perMm;
 	units;
@@ -1272,10 +1311,10 @@ var we = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), Te = class {
 		];
 	}
 	seen(e, t) {
-		return e.length < 3 ? [t(e[0]), t(e[1])] : [we(this.axes[0], e, t), we(this.axes[1], e, t)];
+		return e.length < 3 ? [t(e[0]), t(e[1])] : [Ee(this.axes[0], e, t), Ee(this.axes[1], e, t)];
 	}
 	depth(e) {
-		return we(this.axes[2], e, (e) => this.kernel.here[e]);
+		return Ee(this.axes[2], e, (e) => this.kernel.here[e]);
 	}
 	here(e) {
 		return this.seen(e, (e) => this.kernel.here[e]);
@@ -1299,175 +1338,175 @@ var we = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), Te = class {
 		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
 	}
 };
-function Ee(e, t, n) {
-	let r = De(e, t, n);
+function Oe(e, t, n) {
+	let r = ke(e, t, n);
 	return t.of && (e.lastElementChild.dataset.item = t.of.join(":")), r;
 }
-function De(n, i, o) {
-	let s = o.kernel.here;
+function ke(t, i, o) {
+	let c = o.kernel.here;
 	if (i.t === "symbol") {
-		let e = t("g", n, i.per_mm ? { class: "span" } : {});
-		return e.innerHTML = i.svg, {
+		let n = r("g", t, i.per_mm ? { class: "span" } : {});
+		return n.innerHTML = i.svg, {
 			update() {
-				let [t, n] = o.point(i.p), a = i.per_mm ? ` scale(${(i.per_mm / o.perMm).toFixed(4)})` : "", c = i.e ? ` rotate(${r(-Math.atan2(s[i.e[1]], s[i.e[0]]) * 180 / Math.PI)})` : "";
-				e.setAttribute("transform", `translate(${r(t)} ${r(n)})${c}${a}`);
+				let [t, r] = o.point(i.p), s = i.per_mm ? ` scale(${(i.per_mm / o.perMm).toFixed(4)})` : "", l = i.e ? ` rotate(${a(-Math.atan2(c[i.e[1]], c[i.e[0]]) * 180 / Math.PI)})` : "";
+				e(n, "transform", `translate(${a(t)} ${a(r)})${l}${s}`);
 			},
 			mark: (e) => e.disc(o.point(i.p), 1.6)
 		};
 	}
 	if (i.t === "span") {
-		let e = t("g", n, { class: "span" });
-		return e.innerHTML = i.svg, {
+		let n = r("g", t, { class: "span" });
+		return n.innerHTML = i.svg, {
 			update() {
-				let [[t, n], [a, s]] = i.p.map((e) => o.point(e)), c = Math.hypot(a - t, s - n), l = Math.atan2(s - n, a - t) * 180 / Math.PI;
-				e.setAttribute("transform", `translate(${r(t)} ${r(n)}) rotate(${r(l)}) scale(${(c / i.length).toFixed(4)} 1)`);
+				let [[t, r], [s, c]] = i.p.map((e) => o.point(e)), l = Math.hypot(s - t, c - r), u = Math.atan2(c - r, s - t) * 180 / Math.PI;
+				e(n, "transform", `translate(${a(t)} ${a(r)}) rotate(${a(u)}) scale(${(l / i.length).toFixed(4)} 1)`);
 			},
 			mark: (e) => e.line(o.point(i.p[0]), o.point(i.p[1]))
 		};
 	}
 	if (i.t === "circle") {
-		let a = t("circle", n, { class: `l-${i.role}` });
+		let e = r("circle", t, { class: `l-${i.role}` });
 		return { update() {
-			let [t, n] = o.point(i.p);
-			e(a, {
-				cx: r(t),
-				cy: r(n),
-				r: r(Math.abs(s[i.r]) / o.perMm)
+			let [t, r] = o.point(i.p);
+			n(e, {
+				cx: a(t),
+				cy: a(r),
+				r: a(Math.abs(c[i.r]) / o.perMm)
 			});
 		} };
 	}
-	if (i.t === "pair") return Oe(n, i, o);
-	let c = t("path", n, {
+	if (i.t === "pair") return Ae(t, i, o);
+	let l = r("path", t, {
 		class: `l-${i.role}`,
 		style: "fill:none"
 	});
-	if (i.t === "trace") return { update: () => Pe(c, Fe(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
-	i.t === "hull" && (c.dataset.link = i.link);
-	let l = [], u = !1;
+	if (i.t === "trace") return { update: () => e(l, "d", Ie(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
+	i.t === "hull" && (l.dataset.link = i.link);
+	let u = [], d = !1;
 	return {
 		update() {
-			let e = i.p.map((e) => o.point(e)), t = i.t === "hull" ? h(e) : e;
-			u = i.t === "hull" && t.length > 2, l = u ? t : e, i.t === "hull" && c.setAttribute("class", u ? "l-link-area" : "l-link"), c.style.fill = u ? "" : "none", c.setAttribute("d", a(l, u));
+			let t = i.p.map((e) => o.point(e)), r = i.t === "hull" ? _(t) : t;
+			d = i.t === "hull" && r.length > 2, u = d ? r : t, i.t === "hull" && n(l, {
+				class: d ? "l-link-area" : "l-link",
+				style: d ? "" : "fill:none"
+			}), e(l, "d", s(u, d));
 		},
 		mark(e) {
-			l.forEach((t, n) => (n || u) && e.line(l.at(n - 1), t));
+			u.forEach((t, n) => (n || d) && e.line(u.at(n - 1), t));
 		}
 	};
 }
-function Oe(e, n, i) {
-	let a = t("g", e), o = n.fixed ? "support" : "block", s = t("path", a, { class: `l-${o}` }), c = t("path", a, { class: `l-${n.shape === "ball" ? o : "pin"}` }), l = n.shape === "block" ? 4.2 : 3.4, u = n.shape === "block" ? 2.2 : 1.7;
+function Ae(t, n, i) {
+	let o = r("g", t), s = n.fixed ? "support" : "block", c = r("path", o, { class: `l-${s}` }), l = r("path", o, { class: `l-${n.shape === "ball" ? s : "pin"}` }), u = n.shape === "block" ? 4.2 : 3.4, d = n.shape === "block" ? 2.2 : 1.7;
 	return {
 		update() {
-			let [e, t] = i.point(n.p), [o, d] = i.here(n.e), f = i.depth(n.e);
-			if (a.setAttribute("transform", `translate(${r(e)} ${r(t)}) rotate(${r(-Math.atan2(d, o) * 180 / Math.PI)})`), n.shape === "ball") return s.setAttribute("d", `M${u} 0A${u} ${u} 0 1 0 ${-u} 0A${u} ${u} 0 1 0 ${u} 0Z`);
-			let p = l * Math.hypot(o, d), m = u * Math.abs(f), h = f >= 0 ? p : -p;
-			n.shape === "round" ? (s.setAttribute("d", `M${r(-p)} ${-u}L${r(p)} ${-u}A${r(m)} ${u} 0 0 1 ${r(p)} ${u}L${r(-p)} ${u}A${r(m)} ${u} 0 0 1 ${r(-p)} ${-u}Z`), c.setAttribute("d", `M${r(h + m)} 0A${r(m)} ${u} 0 1 0 ${r(h - m)} 0A${r(m)} ${u} 0 1 0 ${r(h + m)} 0Z`)) : (s.setAttribute("d", `M${r(-p - m)} ${-u}H${r(p + m)}V${u}H${r(-p - m)}Z`), c.setAttribute("d", `M${r(h - m)} ${-u}H${r(h + m)}V${u}H${r(h - m)}Z`));
+			let [t, r] = i.point(n.p), [s, f] = i.here(n.e), p = i.depth(n.e);
+			if (e(o, "transform", `translate(${a(t)} ${a(r)}) rotate(${a(-Math.atan2(f, s) * 180 / Math.PI)})`), n.shape === "ball") return e(c, "d", `M${d} 0A${d} ${d} 0 1 0 ${-d} 0A${d} ${d} 0 1 0 ${d} 0Z`);
+			let m = u * Math.hypot(s, f), h = d * Math.abs(p), g = p >= 0 ? m : -m;
+			n.shape === "round" ? (e(c, "d", `M${a(-m)} ${-d}L${a(m)} ${-d}A${a(h)} ${d} 0 0 1 ${a(m)} ${d}L${a(-m)} ${d}A${a(h)} ${d} 0 0 1 ${a(-m)} ${-d}Z`), e(l, "d", `M${a(g + h)} 0A${a(h)} ${d} 0 1 0 ${a(g - h)} 0A${a(h)} ${d} 0 1 0 ${a(g + h)} 0Z`)) : (e(c, "d", `M${a(-m - h)} ${-d}H${a(m + h)}V${d}H${a(-m - h)}Z`), e(l, "d", `M${a(g - h)} ${-d}H${a(g + h)}V${d}H${a(g - h)}Z`));
 		},
 		mark(e) {
-			let [t, r] = i.point(n.p), [a, o] = i.here(n.e), s = n.shape === "ball" ? 0 : l;
+			let [t, r] = i.point(n.p), [a, o] = i.here(n.e), s = n.shape === "ball" ? 0 : u;
 			e.disc([t, r], 2.4), e.line([t - s * a, r + s * o], [t + s * a, r - s * o]);
 		}
 	};
 }
-var ke = 240, Ae = .04, je = 12, Me = 3;
-function Ne(e, t, n) {
+var je = 240, Me = .04, Ne = 12, Pe = 3;
+function Fe(e, t, n) {
 	let r = e[2 * t], i = e[2 * t + 1], a = e[2 * n] - r, o = e[2 * n + 1] - i, s = a * a + o * o;
 	for (let c = t + 1; c < n; c++) {
 		let t = e[2 * c] - r, n = e[2 * c + 1] - i, l = t * a + n * o;
-		if ((t * o - n * a) ** 2 > Ae * Ae * s || l < 0 || l > s) return !1;
+		if ((t * o - n * a) ** 2 > Me * Me * s || l < 0 || l > s) return !1;
 	}
 	return !0;
 }
-function Pe(e, t) {
-	e.getAttribute("d") !== t && e.setAttribute("d", t);
-}
-function Fe(e, t, n = !1) {
-	let i = n && e.cyclic ? e.count : e.count - 1, a = e.count > ke, o = a && e.coarse ? Me : 1, s = Math.ceil(i / o), c = new Float64Array(2 * s + 2), l = "", u = -1, d = (e, t = "L") => {
-		l += `${t}${r(c[2 * e])} ${r(c[2 * e + 1])}`, u = e;
+function Ie(e, t, n = !1) {
+	let r = n && e.cyclic ? e.count : e.count - 1, i = e.count > je, o = i && e.coarse ? Pe : 1, s = Math.ceil(r / o), c = new Float64Array(2 * s + 2), l = "", u = -1, d = (e, t = "L") => {
+		l += `${t}${a(c[2 * e])} ${a(c[2 * e + 1])}`, u = e;
 	};
 	for (let n = 0; n <= s; n++) {
-		let r = Math.min(n * o, i) % e.count, s = !!e.good[r];
-		s && c.set(t(r), 2 * n), s && u < 0 ? d(n, "M") : u >= 0 && u < n - 1 && !(s && a && n - u <= je && Ne(c, u, n)) && d(n - 1), s ? e.reverses(r) && (u < n && d(n), c.set(e.onceAfter(() => t(r)), 2 * n), d(n)) : u = -1;
+		let a = Math.min(n * o, r) % e.count, s = !!e.good[a];
+		s && c.set(t(a), 2 * n), s && u < 0 ? d(n, "M") : u >= 0 && u < n - 1 && !(s && i && n - u <= Ne && Fe(c, u, n)) && d(n - 1), s ? e.reverses(a) && (u < n && d(n), c.set(e.onceAfter(() => t(a)), 2 * n), d(n)) : u = -1;
 	}
 	return u >= 0 && u < s && d(s), l;
 }
-function Ie(e, t, n, r, a) {
-	let { unit: o, size: s } = a.units[r] ?? {
+function Le(e, t, n, r, i) {
+	let { unit: a, size: s } = i.units[r] ?? {
 		unit: "",
 		size: 1
 	};
-	be(e, a.values ? `${t} = ${i(n / s)} ${o}`.trim() : t);
+	Se(e, i.values ? `${t} = ${o(n / s)} ${a}`.trim() : t);
 }
-function Le(e, t, n, r, i, a = "force") {
-	return t.t === "couple" ? He(e, t, n) : Be(e, t, n, r, i, a);
+function Re(e, t, n, r, i, a = "force") {
+	return t.t === "couple" ? Ue(e, t, n) : Ve(e, t, n, r, i, a);
 }
-var Re = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), ze = 13;
-function Be(e, t, n, r, i, a) {
-	let o = new m(e, t.role, t.name), s = t.t === "force" ? null : new m(e, t.role), c = t.t === "force" ? t.f : t.m, l = ye(e, t.role, t.name, 3.4), u = [0, 0], d = [0, 0], f = [0, 0], p = !1;
-	for (let e of [o, s]) e && Re(e.g, t);
+var ze = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Be = 13;
+function Ve(t, n, r, i, a, o) {
+	let s = new g(t, n.role, n.name), c = n.t === "force" ? null : new g(t, n.role), l = n.t === "force" ? n.f : n.m, u = xe(t, n.role, n.name, 3.4), d = [0, 0], f = [0, 0], p = [0, 0], m = !1;
+	for (let e of [s, c]) e && ze(e.g, n);
 	return {
-		label: l,
+		label: u,
 		hide() {
-			p = o.set([0, 0], [0, 0]), s?.set([0, 0], [0, 0]), l.el.setAttribute("visibility", "hidden");
+			m = s.set([0, 0], [0, 0]), c?.set([0, 0], [0, 0]), e(u.el, "visibility", "hidden");
 		},
 		update() {
-			let e = n.point(t.p), [m, h] = n.here(c), g = s ? Math.hypot(...c.map((e) => n.kernel.here[e])) / ze || 1 : r(), _ = [m / g, -h / g], v = !1;
-			if (i && i.length > 1 && !s) {
-				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
-				v = _[0] * (r[0] - e[0]) + _[1] * (r[1] - e[1]) > 1e-9;
+			let t = r.point(n.p), [h, g] = r.here(l), _ = c ? Math.hypot(...l.map((e) => r.kernel.here[e])) / Be || 1 : i(), v = [h / _, -g / _], y = !1;
+			if (a && a.length > 1 && !c) {
+				let e = a.map((e) => r.point(e)), n = [0, 1].map((t) => e.reduce((e, n) => e + n[t], 0) / e.length);
+				y = v[0] * (n[0] - t[0]) + v[1] * (n[1] - t[1]) > 1e-9;
 			}
-			[u, d] = v ? [[e[0] - _[0], e[1] - _[1]], e] : [e, [e[0] + _[0], e[1] + _[1]]], f = v ? u : d, p = o.set(u, d), s?.set(u, [u[0] + .78 * (d[0] - u[0]), u[1] + .78 * (d[1] - u[1])]), l.el.setAttribute("visibility", p ? "visible" : "hidden"), p && Ie(l, t.name, Math.hypot(...c.map((e) => n.kernel.here[e])), s ? "moment" : a, n);
+			[d, f] = y ? [[t[0] - v[0], t[1] - v[1]], t] : [t, [t[0] + v[0], t[1] + v[1]]], p = y ? d : f, m = s.set(d, f), c?.set(d, [d[0] + .78 * (f[0] - d[0]), d[1] + .78 * (f[1] - d[1])]), e(u.el, "visibility", m ? "visible" : "hidden"), m && Le(u, n.name, Math.hypot(...l.map((e) => r.kernel.here[e])), c ? "moment" : o, r);
 		},
-		mark: (e) => p && e.line(u, d),
+		mark: (e) => m && e.line(d, f),
 		anchor() {
-			if (!p) return null;
-			let e = f === u ? d : u, t = [f[0] - e[0], f[1] - e[1]];
+			if (!m) return null;
+			let e = p === d ? f : d, t = [p[0] - e[0], p[1] - e[1]];
 			return [
-				f,
-				[f[0] - .35 * t[0], f[1] - .35 * t[1]],
+				p,
+				[p[0] - .35 * t[0], p[1] - .35 * t[1]],
 				t
 			];
 		}
 	};
 }
-var Ve = 4.6;
-function He(e, n, i) {
-	let a = i.kernel.here, o = t("g", e), s = ye(e, n.role, n.name, 3.4);
-	t("title", o).textContent = l(n.name), t("path", o, {
+var He = 4.6;
+function Ue(t, n, i) {
+	let o = i.kernel.here, s = r("g", t), c = xe(t, n.role, n.name, 3.4);
+	r("title", s).textContent = d(n.name), r("path", s, {
 		class: `l-${n.role}`,
 		style: "fill:none",
 		d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94"
-	}), t("path", o, {
+	}), r("path", s, {
 		class: `l-${n.role}-h`,
 		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
 	});
-	let c = !1;
-	return Re(o, n), {
-		label: s,
+	let l = !1;
+	return ze(s, n), {
+		label: c,
 		hide() {
-			c = !1, o.setAttribute("display", "none"), s.el.setAttribute("visibility", "hidden");
+			l = !1, e(s, "display", "none"), e(c.el, "visibility", "hidden");
 		},
 		update() {
-			let [e, t] = i.point(n.p), l = a[n.m[0]];
-			c = Number.isFinite(l) && Math.abs(l) > 1e-9, o.setAttribute("display", c ? "inline" : "none"), s.el.setAttribute("visibility", c ? "visible" : "hidden"), o.setAttribute("transform", `translate(${r(e)} ${r(t)}) scale(${l < 0 ? -1 : 1} 1)`), c && Ie(s, n.name, Math.abs(l), "moment", i);
+			let [t, r] = i.point(n.p), u = o[n.m[0]];
+			l = Number.isFinite(u) && Math.abs(u) > 1e-9, e(s, "display", l ? "inline" : "none"), e(c.el, "visibility", l ? "visible" : "hidden"), e(s, "transform", `translate(${a(t)} ${a(r)}) scale(${u < 0 ? -1 : 1} 1)`), l && Le(c, n.name, Math.abs(u), "moment", i);
 		},
 		mark(e) {
-			c && e.disc(i.point(n.p), Ve);
+			l && e.disc(i.point(n.p), He);
 		},
 		anchor() {
 			let [e, t] = i.point(n.p);
-			return c ? [
-				[e, t - Ve],
-				[e - Ve, t],
-				[e + Ve, t],
-				[e, t + Ve],
+			return l ? [
+				[e, t - He],
+				[e - He, t],
+				[e + He, t],
+				[e, t + He],
 				[0, -1]
 			] : null;
 		}
 	};
 }
 // src/view.ts
-var Ue = [
+var We = [
 	"loads",
 	"reactions",
 	"inertia",
@@ -1477,14 +1516,14 @@ var Ue = [
 	"traces",
 	"values",
 	"digits"
-], We = [
+], Ge = [
 	.1,
 	.25,
 	.5,
 	1,
 	2,
 	4
-], Ge = () => ({
+], Ke = () => ({
 	t: NaN,
 	shown: {},
 	window: null,
@@ -1497,18 +1536,18 @@ var Ue = [
 	drag: "shape",
 	tracers: []
 });
-function Ke(e) {
-	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => Ue.filter((n) => e.shown[n] === t).join(" ");
+function qe(e) {
+	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => We.filter((n) => e.shown[n] === t).join(" ");
 	return n("show", r(!0)), n("hide", r(!1)), e.window && n("window", [e.window.perMm, ...e.window.middle].map((e) => +e.toPrecision(6)).join(" ")), n("tab", e.tab), n("speed", String(e.speed), "1"), n("drag", e.drag, "shape"), n("trace", e.tracers.map((e) => [e.link, ...e.u.map((e) => +e.toPrecision(6))].join(" ")).join("; ")), t;
 }
-function qe(e, t) {
+function Je(e, t) {
 	let n = (e) => t.get(`~${e}`) ?? "", r = (e) => e.split(" ").map(Number);
-	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of Ue) n(t).split(" ").includes(i) && (e.shown[i] = r);
+	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of We) n(t).split(" ").includes(i) && (e.shown[i] = r);
 	let [i, a, o] = r(n("window"));
 	i > 0 && Number.isFinite(i + a + o) && (e.window = {
 		perMm: i,
 		middle: [a, o]
-	}), e.tab = n("tab"), We.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
+	}), e.tab = n("tab"), Ge.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
 		let [t, ...n] = e.split(" "), r = n.map(Number);
 		return r.length > 1 && r.every(Number.isFinite) ? [{
 			link: t,
@@ -1516,7 +1555,7 @@ function qe(e, t) {
 		}] : [];
 	});
 }
-function Je(e, t) {
+function Ye(e, t) {
 	return {
 		loads: !0,
 		reactions: !0,
@@ -1530,7 +1569,7 @@ function Je(e, t) {
 	}[e];
 }
 // src/board.ts
-var Ye = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", Xe = [
+var Xe = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", Ze = [
 	1,
 	1.25,
 	1.5,
@@ -1543,24 +1582,24 @@ var Ye = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.ki
 	8,
 	10
 ];
-function Ze(e) {
+function Qe(e) {
 	if (!(e > 0) || !Number.isFinite(e)) return 1;
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (Xe.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+	return t * (Ze.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
 }
-function Qe(e) {
+function $e(e) {
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
 	return t * ([5, 2].find((n) => n * t <= e * (1 + 1e-12)) ?? 1);
 }
-function $e(e) {
+function et(e) {
 	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
 	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
 		x: n,
 		y: r
 	} : null;
 }
-var et = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function tt(e) {
+var tt = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function nt(e) {
 	return e.items.flatMap((e) => {
 		if (e.t === "circle") return [{
 			p: e.p,
@@ -1573,72 +1612,72 @@ function tt(e) {
 		}] : [];
 	});
 }
-function nt(e, t, n) {
-	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(et);
+function rt(e, t, n) {
+	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(tt);
 	for (let t = 0; t < r.count; t += i) {
 		if (!r.good[t]) continue;
 		let i = (e) => r.value(e, t);
 		for (let t of o) a.push(e.seen(t, i));
-		a.push(...rt(e, n, i));
+		a.push(...it(e, n, i));
 	}
-	return $e(a);
+	return et(a);
 }
-var rt = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), it = (e) => e.items.some((e) => e.t === "pair"), at = class {
+var it = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), at = (e) => e.items.some((e) => e.t === "pair"), ot = class {
 	arrow;
 	line;
 	text;
-	constructor(e, n = !1) {
-		this.arrow = n;
-		let r = t("g", e, { class: "scale" });
-		this.line = t("path", r, {
+	constructor(e, t = !1) {
+		this.arrow = t;
+		let n = r("g", e, { class: "scale" });
+		this.line = r("path", n, {
 			class: "l-axis",
 			style: "fill:none"
-		}), this.text = t("text", r, {
+		}), this.text = r("text", n, {
 			class: "l-note-t",
 			"font-size": 2.8
 		});
 	}
-	set([t, n], o, s) {
-		let c = o / s.size, l = c > 0 && Number.isFinite(c);
-		if (this.line.setAttribute("visibility", l ? "visible" : "hidden"), this.text.textContent = "", !l) return t;
-		let u = Qe(26 * c), d = t + u / c, p = `${i(u)} ${s.unit}`, m = `M${r(t)} ${r(n - 1)}v2`, h = this.arrow ? `M${r(d - 2.4)} ${r(n - .8)}L${r(d)} ${r(n)}L${r(d - 2.4)} ${r(n + .8)}` : `M${r(d)} ${r(n - 1)}v2`;
-		return this.line.setAttribute("d", m + a([[t, n], [d, n]]) + h), e(this.text, {
-			x: r(d + 1.4),
-			y: r(n + 1)
-		}).textContent = p, d + 1.4 + f(p, 2.8);
+	set([r, i], c, l) {
+		let u = c / l.size, d = u > 0 && Number.isFinite(u);
+		if (e(this.line, "visibility", d ? "visible" : "hidden"), !d) return t(this.text, ""), r;
+		let f = $e(26 * u), p = r + f / u, h = `${o(f)} ${l.unit}`, g = `M${a(r)} ${a(i - 1)}v2`, _ = this.arrow ? `M${a(p - 2.4)} ${a(i - .8)}L${a(p)} ${a(i)}L${a(p - 2.4)} ${a(i + .8)}` : `M${a(p)} ${a(i - 1)}v2`;
+		return e(this.line, "d", g + s([[r, i], [p, i]]) + _), t(n(this.text, {
+			x: a(p + 1.4),
+			y: a(i + 1)
+		}), h), p + 1.4 + m(h, 2.8);
 	}
 };
-function ot(e, n, r, i) {
-	return t("svg", e, {
-		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
+function st(e, t, n, i) {
+	return r("svg", e, {
+		viewBox: `${-t / 2} ${-n / 2} ${t} ${n}`,
 		role: "group",
 		"aria-label": i
 	});
 }
-var st = 8, ct = 20;
-function lt(e, n, r, i, a, o, s, c, l, u = []) {
-	let d = {
-		length: s.length.size,
-		force: s.force.size
-	}, f = ot(e, a, o, c), p = new Te(n, r.per_mm, s, it(r) ? l.camera : null), m = [], h = [], g = r.labels.filter((e) => e.kind === "joint").length > st, _ = (e) => i && e !== "values" ? !0 : l.shown[e] ?? Je(e, g), v = r.force, y = {
-		perMm: r.per_mm,
-		middle: r.middle ?? [0, 0]
+var ct = 8, lt = 20;
+function ut(t, i, a, o, s, c, l, u, d, f = []) {
+	let p = {
+		length: l.length.size,
+		force: l.force.size
+	}, m = st(t, s, c, u), h = new De(i, a.per_mm, l, at(a) ? d.camera : null), g = [], _ = [], v = a.labels.filter((e) => e.kind === "joint").length > ct, y = (e) => o && e !== "values" ? !0 : d.shown[e] ?? Ye(e, v), b = a.force, x = {
+		perMm: a.per_mm,
+		middle: a.middle ?? [0, 0]
 	};
-	r.middle && (p.middle = r.middle);
-	let b = t("g", f), x = t("g", f), S = t("g", f), C = t("g", f);
-	for (let e of r.items) (e.t === "trace" ? m : h).push(Ee(e.t === "trace" ? b : x, e, p));
-	let w = r.arrows.map((e) => ({
-		a: Le(S, e, p, () => v, i ?? void 0),
-		layer: Ye(e)
-	})), T = new at(C), E = new at(C, !0), D = r.arrows.filter((e) => e.t === "force"), O = (u.length ? ["velocities", "accelerations"] : []).map((e) => {
+	a.middle && (h.middle = a.middle);
+	let S = r("g", m), C = r("g", m), w = r("g", m), T = r("g", m);
+	for (let e of a.items) (e.t === "trace" ? g : _).push(Oe(e.t === "trace" ? S : C, e, h));
+	let E = a.arrows.map((e) => ({
+		a: Re(w, e, h, () => b, o ?? void 0),
+		layer: Xe(e)
+	})), D = new ot(T), O = new ot(T, !0), k = a.arrows.filter((e) => e.t === "force"), A = (f.length ? ["velocities", "accelerations"] : []).map((e) => {
 		let t = e === "velocities" ? "speed" : "acceleration", n = e === "velocities" ? "velocity" : "acceleration", r = n[0], i = {
 			layer: e,
-			unit: s[t],
-			rows: u.map((e) => r === "v" ? e.v : e.a),
+			unit: l[t],
+			rows: f.map((e) => r === "v" ? e.v : e.a),
 			perMm: NaN,
-			bar: new at(C, !0)
+			bar: new ot(T, !0)
 		};
-		return u.forEach((a, o) => {
+		return f.forEach((a, o) => {
 			let s = {
 				t: "force",
 				role: n,
@@ -1649,146 +1688,150 @@ function lt(e, n, r, i, a, o, s, c, l, u = []) {
 				p: a.p,
 				f: i.rows[o]
 			};
-			w.push({
-				a: Le(S, s, p, () => i.perMm, void 0, t),
+			E.push({
+				a: Re(w, s, h, () => i.perMm, void 0, t),
 				layer: e
 			});
 		}), i;
-	}), k = r.labels.map((e) => ({
-		l: ye(C, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
+	}), j = a.labels.map((e) => ({
+		l: xe(T, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
 		p: e.p,
 		q: e.q
-	})), A = tt(r), j = Math.max(1, Math.floor(n.count / 72)), M = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], N = i ? [
-		...i,
-		...r.arrows.map((e) => e.p),
-		...r.items.flatMap((e) => e.t === "symbol" ? [e.p] : [])
+	})), M = nt(a), N = Math.max(1, Math.floor(i.count / 72)), P = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], F = o ? [
+		...o,
+		...a.arrows.map((e) => e.p),
+		...a.items.flatMap((e) => e.t === "symbol" ? [e.p] : [])
 	] : [];
-	function P(e) {
-		return $e([...N.map((t) => p.seen(t, e)), ...rt(p, A, e)]);
+	function I(e) {
+		return et([...F.map((t) => h.seen(t, e)), ...it(h, M, e)]);
 	}
-	function F() {
-		return Array.from({ length: Math.ceil(n.count / j) }, (e, t) => t * j).flatMap((e) => {
-			let t = n.good[e] ? P((t) => n.value(t, e)) : null;
+	function L() {
+		return Array.from({ length: Math.ceil(i.count / N) }, (e, t) => t * N).flatMap((e) => {
+			let t = i.good[e] ? I((t) => i.value(t, e)) : null;
 			return t ? [{
 				k: e,
 				b: t
 			}] : [];
 		});
 	}
-	function I() {
-		let e = n.largest((e) => Math.max(0, ...D.map((t) => Math.hypot(...t.f.map((t) => n.value(t, e)))))) / (i ? 26 : Math.min(Math.max(.18 * Math.min(a, 1.3 * o), 16), 40));
-		for (let { k: t, b: r } of i ? F() : []) for (let i of D) {
-			let s = (e) => n.value(e, t), c = p.seen(i.p, s), l = p.seen(i.f, s);
-			[a / 2 - 9, o / 2 - 12].forEach((t, n) => {
-				let i = n ? (r.y[0] + r.y[1]) / 2 : (r.x[0] + r.x[1]) / 2, a = t - Math.abs(c[n] - i) / p.perMm;
-				e = Math.max(e, Math.abs(l[n]) / Math.max(a, 4));
+	function R() {
+		let e = i.largest((e) => Math.max(0, ...k.map((t) => Math.hypot(...t.f.map((t) => i.value(t, e)))))) / (o ? 26 : Math.min(Math.max(.18 * Math.min(s, 1.3 * c), 16), 40));
+		for (let { k: t, b: n } of o ? L() : []) for (let r of k) {
+			let a = (e) => i.value(e, t), o = h.seen(r.p, a), l = h.seen(r.f, a);
+			[s / 2 - 9, c / 2 - 12].forEach((t, r) => {
+				let i = r ? (n.y[0] + n.y[1]) / 2 : (n.x[0] + n.x[1]) / 2, a = t - Math.abs(o[r] - i) / h.perMm;
+				e = Math.max(e, Math.abs(l[r]) / Math.max(a, 4));
 			});
 		}
-		return e > 0 ? Ze(e / d.force) * d.force : v;
+		return e > 0 ? Qe(e / p.force) * p.force : b;
 	}
-	function L(e, t = !1) {
-		let s = i ? F().map(({ b: e }) => e) : [nt(p, r, A)].filter((e) => e !== null), c = i ? [46, 40] : [a - Math.max(.22 * a, 34), o - Math.max(.22 * o, 30)], l = Math.max(0, ...s.flatMap((e) => [(e.x[1] - e.x[0]) / c[0], (e.y[1] - e.y[0]) / c[1]]));
-		t && s.length && R(s[0], l) || (!i && s.length && (y.middle = M(s[0])), l > 0 && (y.perMm = Ze(l / d.length) * d.length)), v = e ?? I();
-		for (let e of O) {
-			let t = n.largest((t) => Math.max(0, ...e.rows.map((e) => Math.hypot(...e.map((e) => n.value(e, t))))));
-			e.perMm = t > 0 ? Ze(t / ct / e.unit.size) * e.unit.size : NaN;
+	function B(e, t = !1) {
+		let n = o ? L().map(({ b: e }) => e) : [rt(h, a, M)].filter((e) => e !== null), r = o ? [46, 40] : [s - Math.max(.22 * s, 34), c - Math.max(.22 * c, 30)], l = Math.max(0, ...n.flatMap((e) => [(e.x[1] - e.x[0]) / r[0], (e.y[1] - e.y[0]) / r[1]]));
+		t && n.length && V(n[0], l) || (!o && n.length && (x.middle = P(n[0])), l > 0 && (x.perMm = Qe(l / p.length) * p.length)), b = e ?? R();
+		for (let e of A) {
+			let t = i.largest((t) => Math.max(0, ...e.rows.map((e) => Math.hypot(...e.map((e) => i.value(e, t))))));
+			e.perMm = t > 0 ? Qe(t / lt / e.unit.size) * e.unit.size : NaN;
 		}
-		z();
+		H();
 	}
-	function R(e, t) {
-		let n = (e, t, n) => Math.max(...e.map((e) => Math.abs(e - t))) < y.perMm * n;
-		return t > .5 * y.perMm && n(e.x, y.middle[0], a / 2 - 8) && n(e.y, y.middle[1], o / 2 - 10);
+	function V(e, t) {
+		let n = (e, t, n) => Math.max(...e.map((e) => Math.abs(e - t))) < x.perMm * n;
+		return t > .5 * x.perMm && n(e.x, x.middle[0], s / 2 - 8) && n(e.y, x.middle[1], c / 2 - 10);
 	}
-	function z() {
-		let e = i ? y : l.window ?? y;
-		p.perMm = e.perMm, i || (p.middle = [...e.middle]);
+	function H() {
+		let e = o ? x : d.window ?? x;
+		h.perMm = e.perMm, o || (h.middle = [...e.middle]);
 	}
-	function B() {
+	function U() {
 		let e = [
 			[
-				T,
-				p.perMm,
-				s.length
+				D,
+				h.perMm,
+				l.length
 			],
 			[
-				E,
-				D.length ? v : NaN,
-				s.force
+				O,
+				k.length ? b : NaN,
+				l.force
 			],
-			...O.map((e) => [
+			...A.map((e) => [
 				e.bar,
-				_(e.layer) && !i ? e.perMm : NaN,
+				y(e.layer) && !o ? e.perMm : NaN,
 				e.unit
 			])
-		], [t, n] = [-a / 2 + 2, o / 2 - 2.6];
-		for (let [r, i, o] of e) {
-			t > -a / 2 + 2 && t + 46 > a / 2 && ([t, n] = [-a / 2 + 2, n - 5]);
-			let e = r.set([t, n], i, o);
+		], [t, n] = [-s / 2 + 2, c / 2 - 2.6];
+		for (let [r, i, a] of e) {
+			t > -s / 2 + 2 && t + 46 > s / 2 && ([t, n] = [-s / 2 + 2, n - 5]);
+			let e = r.set([t, n], i, a);
 			e > t && (t = e + 5);
 		}
 	}
-	function V() {
-		let e = new xe([
-			-a / 2,
-			-o / 2,
-			a / 2,
-			o / 2 - 6
-		]), t = ([e, t]) => Math.abs(e) < a / 2 && Math.abs(t) < o / 2;
-		for (let t of [...h, ...w.map((e) => e.a)]) t.mark?.(e);
-		for (let { l: n, p: r, q: i } of k) {
-			let a = p.point(r), o = i ? p.point(i) : a, s = (_("names") || !!i && l.shown.names === void 0) && t([(a[0] + o[0]) / 2, (a[1] + o[1]) / 2]);
-			if (n.el.setAttribute("visibility", s ? "visible" : "hidden"), !s) continue;
-			let c = (i ? [
+	function ee() {
+		let t = new Ce([
+			-s / 2,
+			-c / 2,
+			s / 2,
+			c / 2 - 6
+		]), n = ([e, t]) => Math.abs(e) < s / 2 && Math.abs(t) < c / 2;
+		for (let e of [..._, ...E.map((e) => e.a)]) e.mark?.(t);
+		for (let { l: r, p: i, q: a } of j) {
+			let o = h.point(i), s = a ? h.point(a) : o, c = (y("names") || !!a && d.shown.names === void 0) && n([(o[0] + s[0]) / 2, (o[1] + s[1]) / 2]);
+			if (e(r.el, "visibility", c ? "visible" : "hidden"), !c) continue;
+			let l = (a ? [
 				.5,
 				.35,
 				.65
-			] : [0]).map((e) => [a[0] + e * (o[0] - a[0]), a[1] + e * (o[1] - a[1])]);
-			e.put({
-				label: n,
-				anchors: c,
-				away: i ? void 0 : a,
-				leave: i ? .8 : 1.3
+			] : [0]).map((e) => [o[0] + e * (s[0] - o[0]), o[1] + e * (s[1] - o[1])]);
+			t.put({
+				label: r,
+				anchors: l,
+				away: a ? void 0 : o,
+				leave: a ? .8 : 1.3
 			});
 		}
-		for (let { a: r } of w) {
-			let i = n.solved ? r.anchor() : null;
-			!i || !t(i[0]) ? r.label.el.setAttribute("visibility", "hidden") : e.put({
+		for (let { a: r } of E) {
+			let a = i.solved ? r.anchor() : null;
+			!a || !n(a[0]) ? e(r.label.el, "visibility", "hidden") : t.put({
 				label: r.label,
-				anchors: i.slice(0, -1),
-				away: i[i.length - 1],
+				anchors: a.slice(0, -1),
+				away: a[a.length - 1],
 				leave: .9
 			});
 		}
 	}
+	function* te() {
+		for (let e of g) e.update(), yield;
+	}
 	return {
-		svg: f,
-		paper: p,
-		fit: L,
-		need: I,
-		look: z,
-		on: _,
-		force: () => v,
-		fitted: () => y.perMm,
+		svg: m,
+		paper: h,
+		parts: te,
+		fit: B,
+		need: R,
+		look: H,
+		on: y,
+		force: () => b,
+		fitted: () => x.perMm,
 		resize(e, t) {
-			[a, o] = [e, t], f.setAttribute("viewBox", `${-a / 2} ${-o / 2} ${a} ${o}`);
+			[s, c] = [e, t], m.setAttribute("viewBox", `${-s / 2} ${-c / 2} ${s} ${c}`);
 		},
 		update(e) {
-			if (p.values = _("values"), b.setAttribute("display", _("traces") ? "inline" : "none"), e && m.forEach((e) => e.update()), S.setAttribute("visibility", n.solved ? "visible" : "hidden"), B(), n.finite) {
-				i && (p.middle = M(P((e) => n.here[e]) ?? {
+			if (h.values = y("values"), n(S, { display: y("traces") ? "inline" : "none" }), e && z(te()), n(w, { visibility: i.solved ? "visible" : "hidden" }), U(), i.finite) {
+				o && (h.middle = P(I((e) => i.here[e]) ?? {
 					x: [0, 0],
 					y: [0, 0]
 				}));
-				for (let e of h) e.update();
-				for (let { a: e, layer: t } of w) _(t) ? e.update() : e.hide();
-				V();
+				for (let e of _) e.update();
+				for (let { a: e, layer: t } of E) y(t) ? e.update() : e.hide();
+				ee();
 			}
 		}
 	};
 }
 // src/menu.ts
-function ut(e, [t, r], i) {
-	if (e.querySelector(".menu")?.remove(), !i.length) return;
-	let a = document.activeElement, o = n("div", e, {
+function dt(e, [t, n], r) {
+	if (e.querySelector(".menu")?.remove(), !r.length) return;
+	let a = document.activeElement, o = i("div", e, {
 		class: "menu",
 		role: "menu",
 		"aria-label": "of this place"
@@ -1796,12 +1839,12 @@ function ut(e, [t, r], i) {
 		o.isConnected && (o.remove(), document.removeEventListener("pointerdown", c, !0), a?.focus?.());
 	}, c = (e) => {
 		e.composedPath().includes(o) || s();
-	}, l = i.map(({ said: e, act: t }) => {
-		let r = n("button", o, {
+	}, l = r.map(({ said: e, act: t }) => {
+		let n = i("button", o, {
 			type: "button",
 			role: "menuitem"
 		}, e);
-		return r.addEventListener("click", () => (s(), t())), r;
+		return n.addEventListener("click", () => (s(), t())), n;
 	});
 	o.addEventListener("keydown", (e) => {
 		let t = l.indexOf(document.activeElement), n = l.length, r = {
@@ -1816,19 +1859,19 @@ function ut(e, [t, r], i) {
 		e.preventDefault(), e.stopPropagation();
 	});
 	let { width: u, height: d } = o.getBoundingClientRect();
-	o.style.left = `${Math.max(4, Math.min(t, window.innerWidth - u - 4))}px`, o.style.top = `${Math.max(4, Math.min(r, window.innerHeight - d - 4))}px`, document.addEventListener("pointerdown", c, !0), l[0].focus({ preventScroll: !0 });
+	o.style.left = `${Math.max(4, Math.min(t, window.innerWidth - u - 4))}px`, o.style.top = `${Math.max(4, Math.min(n, window.innerHeight - d - 4))}px`, document.addEventListener("pointerdown", c, !0), l[0].focus({ preventScroll: !0 });
 }
 // src/viewport.ts
-var dt = 1e4, ft = 12, pt = 1.25;
-function mt(e, t, n, r, i, a) {
-	let { svg: o, paper: c } = e, l = /* @__PURE__ */ new Map(), u = !1, d = (n, r) => {
+var ft = 1e4, pt = 12, mt = 1.25;
+function ht(e, t, n, r, i, a) {
+	let { svg: o, paper: s } = e, c = /* @__PURE__ */ new Map(), u = !1, d = (n, r) => {
 		let i = e.fitted();
-		n > i / dt && n < i * dt && r.every(Number.isFinite) && (t.window = {
+		n > i / ft && n < i * ft && r.every(Number.isFinite) && (t.window = {
 			perMm: n,
 			middle: r
 		}, e.look(), a());
-	}, f = ([e, t]) => d(c.perMm, [c.middle[0] - e * c.perMm, c.middle[1] + t * c.perMm]), p = (e, t = [0, 0]) => {
-		let [n, r] = c.metres(t), i = c.perMm / e;
+	}, f = ([e, t]) => d(s.perMm, [s.middle[0] - e * s.perMm, s.middle[1] + t * s.perMm]), p = (e, t = [0, 0]) => {
+		let [n, r] = s.metres(t), i = s.perMm / e;
 		d(i, [n - t[0] * i, r + t[1] * i]);
 	}, m = () => {
 		t.window = null, e.look(), a();
@@ -1837,34 +1880,34 @@ function mt(e, t, n, r, i, a) {
 		if (!n && !e.ctrlKey && !e.metaKey) return;
 		e.preventDefault();
 		let t = e.deltaMode === 1 ? 16 : 1;
-		p(Math.exp(-e.deltaY * t * (e.ctrlKey ? .01 : .0015)), s(o, e));
+		p(Math.exp(-e.deltaY * t * (e.ctrlKey ? .01 : .0015)), l(o, e));
 	}, { passive: !1 }), o.addEventListener("pointerdown", (e) => {
-		e.pointerType === "mouse" && e.button > 1 || (l.size || e.button === 1 || r(e)) && (e.button === 1 && e.preventDefault(), o.setPointerCapture(e.pointerId), l.set(e.pointerId, s(o, e)), u = !1);
+		e.pointerType === "mouse" && e.button > 1 || (c.size || e.button === 1 || r(e)) && (e.button === 1 && e.preventDefault(), o.setPointerCapture(e.pointerId), c.set(e.pointerId, l(o, e)), u = !1);
 	}), o.addEventListener("pointermove", (e) => {
-		let t = l.get(e.pointerId);
+		let t = c.get(e.pointerId);
 		if (!t) return;
-		let n = s(o, e), r = [n[0] - t[0], n[1] - t[1]];
+		let n = l(o, e), r = [n[0] - t[0], n[1] - t[1]];
 		u = !0;
-		let a = [...l].find(([t]) => t !== e.pointerId)?.[1];
-		if (l.set(e.pointerId, n), a) {
+		let a = [...c].find(([t]) => t !== e.pointerId)?.[1];
+		if (c.set(e.pointerId, n), a) {
 			let e = (e) => Math.hypot(e[0] - a[0], e[1] - a[1]) || 1;
 			p(e(n) / e(t), a);
 		} else i && !e.shiftKey && e.buttons !== 4 ? i(r) : f(r);
 	});
-	let h = (e) => void l.delete(e.pointerId);
+	let h = (e) => void c.delete(e.pointerId);
 	return o.addEventListener("pointerup", h), o.addEventListener("pointercancel", h), o.addEventListener("lostpointercapture", h), o.addEventListener("dblclick", (e) => {
 		r(e) && m();
 	}), o.addEventListener("click", (e) => u && e.stopImmediatePropagation(), { capture: !0 }), o.tabIndex = 0, o.addEventListener("keydown", (e) => {
 		if (e.target !== o || e.ctrlKey || e.metaKey || e.altKey) return;
 		let t = {
-			ArrowLeft: [ft, 0],
+			ArrowLeft: [pt, 0],
 			ArrowRight: [-12, 0],
-			ArrowUp: [0, ft],
+			ArrowUp: [0, pt],
 			ArrowDown: [0, -12]
 		};
 		if (t[e.key]) f(t[e.key]);
-		else if (e.key === "+" || e.key === "=") p(pt);
-		else if (e.key === "-") p(1 / pt);
+		else if (e.key === "+" || e.key === "=") p(mt);
+		else if (e.key === "-") p(1 / mt);
 		else if (e.key === "0") m();
 		else return;
 		e.preventDefault(), e.stopPropagation();
@@ -1875,41 +1918,41 @@ function mt(e, t, n, r, i, a) {
 	};
 }
 // src/stage.ts
-var ht = 3.6, gt = 5.2, _t = 550, vt = 8;
-function yt(e, r, i, a, o, c) {
-	let l = n("div", e, { class: "paper" }), u = lt(l, r, i, null, 170, 119, a, "the mechanism", o, c.rates ?? []), { svg: d } = u, f = t("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
+var gt = 3.6, _t = 5.2, vt = 550, yt = 8;
+function bt(e, t, n, a, o, s) {
+	let c = i("div", e, { class: "paper" }), u = ut(c, t, n, null, 170, 119, a, "the mechanism", o, s.rates ?? []), { svg: d } = u, f = r("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
 		let t = e.target.closest("[data-item]")?.dataset.item;
-		return t ? G(t) : null;
-	}, h = (e) => !v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6).some(c.held), g = () => {
-		c.on?.({
+		return t ? K(t) : null;
+	}, h = (e) => !v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6).some(s.held), g = () => {
+		s.on?.({
 			type: "view",
 			view: o
-		}), c.again(!0);
-	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => K(d, e, t, n), y = mt(u, o, !!c.full, h, _, g);
+		}), s.again(!0);
+	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => q(d, e, t, n), y = ht(u, o, !!s.full, h, _, g);
 	p && (d.style.cursor = "move");
-	let b = (e, t) => u.paper.metres(s(d, {
+	let b = (e, t) => u.paper.metres(l(d, {
 		clientX: e,
 		clientY: t
 	})), x = (e) => {
-		o.chosen = e, ae(d, e), c.chosen(e);
+		o.chosen = e, se(d, e), s.chosen(e);
 	}, S = (e) => [e.clientX, e.clientY];
 	d.addEventListener("click", (e) => {
 		let t = v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6), n = t.length ? t : m(e) ? [m(e)] : [];
-		c.on?.({
+		s.on?.({
 			type: "select",
 			items: n,
 			at: S(e),
 			point: b(e.clientX, e.clientY)
-		}) || x(n[0] && !ie(n[0], o.chosen) ? n[0] : null);
+		}) || x(n[0] && !oe(n[0], o.chosen) ? n[0] : null);
 	});
 	let C = (t, n) => {
 		let r = b(...n);
-		t[0] && x(t[0]), c.on?.({
+		t[0] && x(t[0]), s.on?.({
 			type: "menu",
 			items: t,
 			at: n,
 			point: r
-		}) || ut(e.closest(".dalembert") ?? document.body, n, c.entries(t, r));
+		}) || dt(e.closest(".dalembert") ?? document.body, n, s.entries(t, r));
 	};
 	d.addEventListener("contextmenu", (e) => {
 		e.preventDefault();
@@ -1925,29 +1968,29 @@ function yt(e, r, i, a, o, c) {
 	});
 	let w = 0, T = [0, 0];
 	d.addEventListener("pointerdown", (e) => {
-		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), _t));
+		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), vt));
 	}, { capture: !0 });
 	let E = () => clearTimeout(w);
-	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > vt && E(), { capture: !0 });
+	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > yt && E(), { capture: !0 });
 	for (let e of ["pointerup", "pointercancel"]) d.addEventListener(e, E, { capture: !0 });
 	return {
 		m: u,
-		paper: l,
+		paper: c,
 		view: y,
 		overlay: f,
 		hit: v,
 		metres: b,
 		choose: x,
 		resize() {
-			let { width: e, height: t } = l.getBoundingClientRect();
+			let { width: e, height: t } = c.getBoundingClientRect();
 			if (!(e > 0 && t > 0)) return;
-			let n = Math.min(Math.max(Math.min(e / 170, t / 105), ht), gt);
+			let n = Math.min(Math.max(Math.min(e / 170, t / 105), gt), _t);
 			u.resize(e / n, t / n);
 		}
 	};
 }
 // src/switches.ts
-var bt = {
+var xt = {
 	loads: ["loads", "loads, efforts of drives, weights, springs"],
 	reactions: ["reactions", "forces in the joints"],
 	inertia: ["inertia", "D'Alembert's inertia forces and couples"],
@@ -1958,67 +2001,67 @@ var bt = {
 	values: ["values", "the value beside each arrow"],
 	digits: ["large digits", "the chosen curve's value, to be read from the last row"]
 };
-function xt(e, t) {
-	let r = n("label", e, { title: t.title }), i = n("input", r, { type: "checkbox" });
-	i.checked = t.on, r.append(t.said), i.addEventListener("change", () => t.act(i.checked));
+function St(e, t) {
+	let n = i("label", e, { title: t.title }), r = i("input", n, { type: "checkbox" });
+	r.checked = t.on, n.append(t.said), r.addEventListener("change", () => t.act(r.checked));
 }
-function St(e, t, n, r, i) {
+function Ct(e, t, n, r, i) {
 	for (let a of n) {
-		let [n, o] = bt[a];
-		xt(e, {
+		let [n, o] = xt[a];
+		St(e, {
 			said: n,
 			title: o,
-			on: t.shown[a] ?? Je(a, r),
+			on: t.shown[a] ?? Ye(a, r),
 			act: (e) => (t.shown[a] = e, i())
 		});
 	}
 }
-function Ct(e, t, r, i, a) {
-	let o = n("span", e, {
+function wt(e, t, n, r, a) {
+	let o = i("span", e, {
 		class: "group",
 		role: "group",
 		"aria-label": "view"
-	}), s = (e, t, r) => {
-		let i = n("button", o, {
+	}), s = (e, t, n) => {
+		let r = i("button", o, {
 			type: "button",
 			title: t,
 			.../^\w/.test(e) ? {} : { "aria-label": t }
 		}, e);
-		return i.addEventListener("click", r), i;
+		return r.addEventListener("click", n), r;
 	};
-	if (s("−", "zoom out (-)", () => t.zoom(.8)), s("+", "zoom in (+)", () => t.zoom(1.25)), s("fit", "the whole mechanism (0)", () => t.fit()), !i) return;
-	let c = n("span", e, {
+	if (s("−", "zoom out (-)", () => t.zoom(.8)), s("+", "zoom in (+)", () => t.zoom(1.25)), s("fit", "the whole mechanism (0)", () => t.fit()), !r) return;
+	let c = i("span", e, {
 		class: "group",
 		role: "group",
 		"aria-label": "dragging"
 	}), l = ["shape", "turn"].map((e) => {
-		let t = n("button", c, {
+		let t = i("button", c, {
 			type: "button",
 			title: e === "shape" ? "dragging a joint changes the mechanism" : "dragging a joint or a link turns the mechanism"
 		}, e === "shape" ? "reshape" : "turn");
 		return t.addEventListener("click", () => {
-			r.drag = e, u(), a();
+			n.drag = e, u(), a();
 		}), {
 			way: e,
 			b: t
 		};
-	}), u = () => l.forEach(({ way: e, b: t }) => t.setAttribute("aria-pressed", String(r.drag === e)));
+	}), u = () => l.forEach(({ way: e, b: t }) => t.setAttribute("aria-pressed", String(n.drag === e)));
 	u();
 }
 // src/tools.ts
-var wt = class {
+var Tt = class {
 	b;
 	data;
 	kernel;
 	on = !1;
 	arrows;
-	constructor(e, n, r) {
-		this.b = e, this.data = n, this.kernel = r;
-		let i = t("g", e.svg, { class: "gradient" }), a = n.gradient ? n.handles.flatMap((e) => "ends" in e && e.ends.length ? [e] : []) : [];
+	constructor(e, t, n) {
+		this.b = e, this.data = t, this.kernel = n;
+		let i = r("g", e.svg, { class: "gradient" }), a = t.gradient ? t.handles.flatMap((e) => "ends" in e && e.ends.length ? [e] : []) : [];
 		this.arrows = a.map((e) => ({
 			p: e.p,
 			ends: e.ends,
-			arrow: new m(i, "acceleration", `lower the peak by ${e.name}`)
+			arrow: new g(i, "acceleration", `lower the peak by ${e.name}`)
 		}));
 	}
 	peak(e) {
@@ -2026,7 +2069,7 @@ var wt = class {
 		return {
 			k: i,
 			size: r,
-			where: t.count > 1 ? ` at ${Tt(this.data, t, i)}` : ""
+			where: t.count > 1 ? ` at ${Et(this.data, t, i)}` : ""
 		};
 	}
 	update(e) {
@@ -2042,7 +2085,7 @@ var wt = class {
 			t.set([r, i], [r + 14 * a / l, i - 14 * o / l], .5);
 		});
 	}
-}, Tt = (e, t, n) => e.drives.map((e) => `${e.name} = ${i(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), Et = class {
+}, Et = (e, t, n) => e.drives.map((e) => `${e.name} = ${o(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), Dt = class {
 	b;
 	kernel;
 	places;
@@ -2082,7 +2125,7 @@ var wt = class {
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, Dt = class {
+}, Ot = class {
 	kernel;
 	gate;
 	past = [];
@@ -2102,29 +2145,29 @@ var wt = class {
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function Ot(e, t) {
+function kt(e, t) {
 	let n = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]), r = n.length ? t.motion.assembly() : [];
 	return Object.fromEntries([...n, ...r.map((t, n) => [e.sketch.assembly[n], t])]);
 }
-function kt(e, t, n) {
+function At(e, t, n) {
 	let r = new URLSearchParams({ t: String(+n.t.toFixed(4)) });
-	for (let [e, t] of Ke(n)) r.set(e, t);
-	for (let [n, i] of Object.entries(Ot(e, t))) r.set(n, String(i));
+	for (let [e, t] of qe(n)) r.set(e, t);
+	for (let [n, i] of Object.entries(kt(e, t))) r.set(n, String(i));
 	return r.toString();
 }
-function At(e, t, n, r) {
+function jt(e, t, n, r) {
 	let i = new Map(new URLSearchParams(r.replace(/^#/, ""))), a = {};
-	qe(n, i);
+	Je(n, i);
 	for (let [e, t] of i) e !== "t" && !e.startsWith("~") && (a[e] = t.trim() ? Number(t) : NaN);
 	t.change(a);
 	let o = Number(i.get("t") ?? NaN);
 	Number.isFinite(o) && (n.t = Math.min(Math.max(o, 0), e.end));
 }
-function jt(e, t) {
+function Mt(e, t) {
 	let n = [...t.values, ...t.motion.assembly()], r = e.numbers.map((e, n) => e.value !== t.values[n]), i = r.includes(!0);
 	return e.template.map((e) => typeof e == "string" ? e : e.was !== void 0 && !e.of?.some((e) => r[e] ?? i) ? e.was : e.now.map((e) => typeof e == "string" ? e : String(n[e[0]] / e[1])).join("")).join("");
 }
-function Mt(e, t) {
+function Nt(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind]
@@ -2143,33 +2186,33 @@ function Mt(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function Nt(n, r) {
-	let i = n.cloneNode(!0), { width: a, height: o } = n.viewBox.baseVal;
-	i.querySelectorAll(".handles, .overlay").forEach((e) => e.remove()), e(i, {
+function Pt(e, t) {
+	let i = e.cloneNode(!0), { width: a, height: o } = e.viewBox.baseVal;
+	i.querySelectorAll(".handles, .overlay").forEach((e) => e.remove()), n(i, {
 		xmlns: "http://www.w3.org/2000/svg",
 		width: `${a}mm`,
 		height: `${o}mm`,
 		"font-family": "'DejaVu Sans', Arial, sans-serif"
 	});
-	let s = t("style", null);
-	return s.textContent = r, i.prepend(s), new XMLSerializer().serializeToString(i);
+	let s = r("style", null);
+	return s.textContent = t, i.prepend(s), new XMLSerializer().serializeToString(i);
 }
-var Pt = 300 / 25.4;
-async function Ft(e, t) {
-	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Nt(e, t)], { type: "image/svg+xml" }));
+var Ft = 300 / 25.4;
+async function It(e, t) {
+	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Pt(e, t)], { type: "image/svg+xml" }));
 	try {
 		i.src = a, await i.decode();
 		let e = document.createElement("canvas"), t = e.getContext("2d");
-		return [e.width, e.height] = [Math.round(n * Pt), Math.round(r * Pt)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
+		return [e.width, e.height] = [Math.round(n * Ft), Math.round(r * Ft)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
 	} finally {
 		URL.revokeObjectURL(a);
 	}
 }
-function X(e, t, n) {
+function Z(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var It = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", Lt = class {
+var Lt = (e) => d(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", Rt = class {
 	data;
 	program;
 	here;
@@ -2211,259 +2254,259 @@ var It = (e) => l(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g,
 	largest(e) {
 		return e(0);
 	}
-}, Rt = .02, zt = 2, Bt = 500;
-async function Vt(o, c, l, u) {
-	let [d, f] = await Promise.all([W.create(c.sketch.closure, 1), W.create(c.shown, 1)]), m = c.sketch, h = {
-		point: Float64Array.from(m.pose.point),
-		rotation: Float64Array.from(m.pose.rotation),
-		turn: Float64Array.from(m.pose.turn)
-	}, v = new Lt(c, f), y = new ge(m, d, V(m, h, u.pose ?? {})), b = [], x = new _(m.links, c.poses, v), S = [], C = [], w = null, T = [], E = "there", O = 0, k = y.pose;
-	v.show(y.pose);
-	let A = n("header", o);
-	n("h1", A, {}, c.title);
-	let j = n("div", A, {
+}, zt = .02, Bt = 2, Vt = 500;
+async function Ht(e, t, c, u) {
+	let [d, f] = await Promise.all([G.create(t.sketch.closure, 1), G.create(t.shown, 1)]), p = t.sketch, m = {
+		point: Float64Array.from(p.pose.point),
+		rotation: Float64Array.from(p.pose.rotation),
+		turn: Float64Array.from(p.pose.turn)
+	}, g = new Rt(t, f), _ = new ve(p, d, ee(p, m, u.pose ?? {})), b = [], x = new y(p.links, t.poses, g), S = [], C = [], w = null, T = [], E = "there", D = 0, O = _.pose;
+	g.show(_.pose);
+	let A = i("header", e);
+	i("h1", A, {}, t.title);
+	let j = i("div", A, {
 		class: "bar",
 		role: "toolbar",
 		"aria-label": "sketch"
-	}), M = (e, t, r, i) => {
-		let a = n("button", e, {
+	}), M = (e, t, n, r) => {
+		let a = i("button", e, {
 			type: "button",
-			title: r,
-			.../^\w/.test(t) ? {} : { "aria-label": r }
+			title: n,
+			.../^\w/.test(t) ? {} : { "aria-label": n }
 		}, t);
-		return a.addEventListener("click", i), a;
+		return a.addEventListener("click", r), a;
 	};
-	n("output", j, { class: "readout" }, "Sketch: drag the links.").style.flex = "1", u.back && M(j, "Back", "undo the last addition", u.back);
-	let N = M(j, "↶", "undo (Ctrl+Z)", () => J(S, C)), P = M(j, "↷", "redo (Ctrl+Y)", () => J(C, S));
-	M(j, "Reset", "as in the file", () => le(() => y.placed(D(h))));
-	let F = n("section", n("main", o, { class: "one" }), {
+	i("output", j, { class: "readout" }, "Sketch: drag the links.").style.flex = "1", u.back && M(j, "Back", "undo the last addition", u.back);
+	let N = M(j, "↶", "undo (Ctrl+Z)", () => ue(S, C)), P = M(j, "↷", "redo (Ctrl+Y)", () => ue(C, S));
+	M(j, "Reset", "as in the file", () => se(() => _.placed(k(m))));
+	let F = i("section", i("main", e, { class: "one" }), {
 		class: "stage",
 		"aria-label": "sketch"
-	}), I = yt(F, v, c.views.mechanism, c.units, l, {
+	}), I = bt(F, g, t.views.mechanism, t.units, c, {
 		full: u.full,
 		on: u.on,
-		entries: ie,
+		entries: W,
 		chosen: () => Y(),
 		again: () => Y(),
-		held: (e) => U(`${e.kind}:${e.name}`) >= 0
-	}), { m: L, paper: R } = I, z = g(L, c, v), B = t("g", L.svg, { class: "handles" }), ee = t("g", L.svg, {
+		held: (e) => te(`${e.kind}:${e.name}`) >= 0
+	}), { m: L, paper: R } = I, z = v(L, t, g), B = r("g", L.svg, { class: "handles" }), V = r("g", L.svg, {
 		class: "gaps",
 		"pointer-events": "none"
-	}), te = re().map(({ link: e, point: n, p: r }) => {
-		let i = t("circle", B, {
+	}), H = ne().map(({ link: e, point: t, p: n }) => {
+		let i = r("circle", B, {
 			class: "handle joint",
 			r: 2.2,
 			tabindex: 0,
 			role: "slider",
-			"aria-label": `pull ${n} of ${e}`,
-			"aria-valuetext": `${n} of ${e}`,
+			"aria-label": `pull ${t} of ${e}`,
+			"aria-valuetext": `${t} of ${e}`,
 			"aria-valuenow": 0,
-			"data-item": `point:${e}.${n}`
+			"data-item": `point:${e}.${t}`
 		});
-		return t("title", i).textContent = `drag ${n} of ${e}`, i.addEventListener("keydown", (t) => {
-			let n = {
+		return r("title", i).textContent = `drag ${t} of ${e}`, i.addEventListener("keydown", (t) => {
+			let r = {
 				ArrowLeft: [-1, 0],
 				ArrowRight: [1, 0],
 				ArrowUp: [0, -1],
 				ArrowDown: [0, 1]
 			}[t.key];
-			if (!n) return;
+			if (!r) return;
 			t.preventDefault(), t.stopPropagation();
-			let i = zt * (t.shiftKey ? 5 : 1), a = L.paper.point(r);
-			le(() => {
+			let i = Bt * (t.shiftKey ? 5 : 1), a = L.paper.point(n);
+			se(() => {
 				let t = {
-					link: m.links.indexOf(e),
-					u: x.local(L.paper, m.links.indexOf(e), a)
+					link: p.links.indexOf(e),
+					u: x.local(L.paper, p.links.indexOf(e), a)
 				};
-				y.frame(t, L.paper.metres([a[0] + i * n[0], a[1] + i * n[1]]), ce());
+				_.frame(t, L.paper.metres([a[0] + i * r[0], a[1] + i * r[1]]), q());
 			});
 		}), {
 			knob: i,
-			p: r
+			p: n
 		};
-	}), H = n("div", null, {
+	}), U = i("div", null, {
 		class: "missing",
 		role: "status"
 	});
-	R.before(H), n("p", H, {}, c.missing.sentence[0].toUpperCase() + c.missing.sentence.slice(1) + ".");
-	for (let e of c.missing.offers) M(H, `+ ${e.said}`, e.page ? e.said : "add it and save the model file", () => void K(e));
-	G();
-	function U(e) {
-		return e.startsWith("point:") ? m.links.indexOf(e.slice(6, e.lastIndexOf("."))) : oe(c, e);
+	R.before(U), i("p", U, {}, t.missing.sentence[0].toUpperCase() + t.missing.sentence.slice(1) + ".");
+	for (let e of t.missing.offers) M(U, `+ ${e.said}`, e.page ? e.said : "add it and save the model file", () => void ae(e));
+	re();
+	function te(e) {
+		return e.startsWith("point:") ? p.links.indexOf(e.slice(6, e.lastIndexOf("."))) : ce(t, e);
 	}
-	function re() {
+	function ne() {
 		let e = /* @__PURE__ */ new Set();
-		return c.points.filter(({ p: t }) => {
-			let n = t.map((e) => v.here[e].toFixed(9)).join();
+		return t.points.filter(({ p: t }) => {
+			let n = t.map((e) => g.here[e].toFixed(9)).join();
 			return !e.has(n) && e.add(n);
 		});
 	}
-	function G() {
-		let e = n("div", F, { class: "switches" }), t = It(c.title);
-		Ct(e, I.view, l, !1, () => Y()), St(e, l, c.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => Y());
-		let r = n("span", e, {
+	function re() {
+		let e = i("div", F, { class: "switches" }), n = Lt(t.title);
+		wt(e, I.view, c, !1, () => Y()), Ct(e, c, t.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => Y());
+		let r = i("span", e, {
 			class: "group",
 			role: "group",
 			"aria-label": "save"
 		});
-		M(r, "Model file", "the file with the pose that is drawn", () => X(`${t}.yaml`, ae(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${t}.svg`, Nt(L.svg, c.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void Ft(L.svg, c.style.light).then((e) => X(`${t}.png`, e, "image/png")));
+		M(r, "Model file", "the file with the pose that is drawn", () => Z(`${n}.yaml`, K(), "text/yaml")), M(r, "SVG", "the drawing", () => Z(`${n}.svg`, Pt(L.svg, t.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void It(L.svg, t.style.light).then((e) => Z(`${n}.png`, e, "image/png")));
 	}
-	function ie(e) {
-		return e.flatMap(({ kind: e, name: t }) => m.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
-			said: `${y.locked(r) ? "Release" : "Lock"} the ${n.angular ? "turn" : "slide"} of ${t}`,
-			act: () => y.lock(r, !y.locked(r))
+	function W(e) {
+		return e.flatMap(({ kind: e, name: t }) => p.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
+			said: `${_.locked(r) ? "Release" : "Lock"} the ${n.angular ? "turn" : "slide"} of ${t}`,
+			act: () => _.lock(r, !_.locked(r))
 		}] : []));
 	}
-	async function K(e) {
+	async function ae(e) {
 		if (!u.on?.({
 			type: "offer",
 			offer: e
 		})) {
-			if (!e.page) return X(`${It(c.title)}.yaml`, e.text, "text/yaml");
-			await u.taken(JSON.parse(new TextDecoder().decode(await ne(e.page))), q());
+			if (!e.page) return Z(`${Lt(t.title)}.yaml`, e.text, "text/yaml");
+			await u.taken(JSON.parse(new TextDecoder().decode(await ie(e.page))), oe());
 		}
 	}
-	function ae() {
-		let e = m.links.flatMap((e, t) => [
-			y.pose.point[2 * t],
-			y.pose.point[2 * t + 1],
-			y.pose.turn[t]
+	function K() {
+		let e = p.links.flatMap((e, t) => [
+			_.pose.point[2 * t],
+			_.pose.point[2 * t + 1],
+			_.pose.turn[t]
 		]);
-		return c.text.replace(/@@(\d+)@@/g, (t, n) => String(e[+n]));
+		return t.text.replace(/@@(\d+)@@/g, (t, n) => String(e[+n]));
 	}
-	function q() {
-		return Object.fromEntries(m.links.map((e, t) => [e, [
-			y.pose.point[2 * t],
-			y.pose.point[2 * t + 1],
-			y.pose.turn[t]
+	function oe() {
+		return Object.fromEntries(p.links.map((e, t) => [e, [
+			_.pose.point[2 * t],
+			_.pose.point[2 * t + 1],
+			_.pose.turn[t]
 		]]));
 	}
-	let ce = () => Rt * L.paper.perMm / m.length;
-	function le(e) {
-		k = y.pose, e(), ue();
+	let q = () => zt * L.paper.perMm / p.length;
+	function se(e) {
+		O = _.pose, e(), J();
 	}
-	function ue() {
-		k !== y.pose && (S.push(k), S.length > Bt && S.shift(), C.length = 0), u.on?.({
+	function J() {
+		O !== _.pose && (S.push(O), S.length > Vt && S.shift(), C.length = 0), u.on?.({
 			type: "pose",
-			pose: q(),
-			closed: y.closed
+			pose: oe(),
+			closed: _.closed
 		}), Y();
 	}
-	function J(e, t) {
+	function ue(e, t) {
 		let n = e.pop();
-		n && (t.push(y.pose), y.placed(n), Y());
+		n && (t.push(_.pose), _.placed(n), Y());
 	}
 	L.svg.addEventListener("pointerdown", (e) => {
-		let t = e.button === 0 ? se(L.svg, e, U) : -1;
+		let t = e.button === 0 ? le(L.svg, e, te) : -1;
 		if (t < 0) return;
 		L.svg.setPointerCapture(e.pointerId);
-		let n = s(L.svg, e);
-		[w, T, k] = [
+		let n = l(L.svg, e);
+		[w, T, O] = [
 			{
 				link: t,
 				u: x.local(L.paper, t, n)
 			},
 			L.paper.metres(n),
-			y.pose
+			_.pose
 		];
 	}), L.svg.addEventListener("pointermove", (e) => {
-		w && L.svg.hasPointerCapture(e.pointerId) && (T = L.paper.metres(s(L.svg, e)), E = "on the way", Y());
+		w && L.svg.hasPointerCapture(e.pointerId) && (T = L.paper.metres(l(L.svg, e)), E = "on the way", Y());
 	});
 	let de = () => {
-		w && (w = null, E = "there", ue());
+		w && (w = null, E = "there", J());
 	};
 	L.svg.addEventListener("pointerup", de), L.svg.addEventListener("pointercancel", de);
 	function Y() {
-		O ||= requestAnimationFrame(() => {
-			O = 0;
+		D ||= requestAnimationFrame(() => {
+			D = 0;
 			let e = performance.now();
-			fe(), b.push(performance.now() - e), b.length > 2e3 && b.shift();
+			X(), b.push(performance.now() - e), b.length > 2e3 && b.shift();
 		});
 	}
-	function fe() {
-		if (w || !y.closed) {
-			let e = y.pose;
-			E !== "on the way" && y.closed || (E = y.frame(w, T, ce())), (E === "on the way" || E === "apart" && e !== y.pose) && Y();
+	function X() {
+		if (w || !_.closed) {
+			let e = _.pose;
+			E !== "on the way" && _.closed || (E = _.frame(w, T, q())), (E === "on the way" || E === "apart" && e !== _.pose) && Y();
 		}
-		v.show(y.pose), L.update(!0);
-		for (let { knob: t, p: n } of te) {
-			let [i, a] = L.paper.point(n);
-			e(t, {
-				cx: r(i),
-				cy: r(a)
+		g.show(_.pose), L.update(!0);
+		for (let { knob: e, p: t } of H) {
+			let [r, i] = L.paper.point(t);
+			n(e, {
+				cx: a(r),
+				cy: a(i)
 			});
 		}
-		z(), pe(), [N.disabled, P.disabled] = [!S.length, !C.length];
+		z(), fe(), [N.disabled, P.disabled] = [!S.length, !C.length];
 	}
-	function pe() {
-		if (ee.replaceChildren(), !w || E !== "nearest" || y.away < 3 * ce()) return;
-		let [n, o] = [y.at(w), T].map((e) => L.paper.of(...L.paper.project(e))), { unit: s, size: l } = c.units.length;
-		t("path", ee, {
+	function fe() {
+		if (V.replaceChildren(), !w || E !== "nearest" || _.away < 3 * q()) return;
+		let [e, i] = [_.at(w), T].map((e) => L.paper.of(...L.paper.project(e))), { unit: c, size: l } = t.units.length;
+		r("path", V, {
 			class: "l-gap",
-			d: a([n, o]),
+			d: s([e, i]),
 			style: "fill:none"
-		}), e(p(ee, "gap", `${i(y.away * m.length / l, 3)} ${s} too far`, 3.3, o[0] < n[0] == o[1] < n[1] ? "start" : "end"), {
-			x: r((n[0] + o[0]) / 2 + (o[0] < n[0] == o[1] < n[1] ? 2.5 : -2.5)),
-			y: r((n[1] + o[1]) / 2 - 1.5)
+		}), n(h(V, "gap", `${o(_.away * p.length / l, 3)} ${c} too far`, 3.3, i[0] < e[0] == i[1] < e[1] ? "start" : "end"), {
+			x: a((e[0] + i[0]) / 2 + (i[0] < e[0] == i[1] < e[1] ? 2.5 : -2.5)),
+			y: a((e[1] + i[1]) / 2 - 1.5)
 		});
 	}
-	let me = u.full ? document : o, he = (e) => {
+	let pe = u.full ? document : e, me = (e) => {
 		let t = e;
-		(t.ctrlKey || t.metaKey) && !t.altKey && /^[zy]$/i.test(t.key) && (t.preventDefault(), t.key.toLowerCase() === "z" && !t.shiftKey ? J(S, C) : J(C, S));
+		(t.ctrlKey || t.metaKey) && !t.altKey && /^[zy]$/i.test(t.key) && (t.preventDefault(), t.key.toLowerCase() === "z" && !t.shiftKey ? ue(S, C) : ue(C, S));
 	};
-	me.addEventListener("keydown", he);
-	let _e = () => {
+	pe.addEventListener("keydown", me);
+	let he = () => {
 		I.resize(), L.fit(), Y();
 	};
 	return {
-		data: c,
+		data: t,
 		times: b,
 		stage: I,
 		observed: [R],
-		resize: _e,
+		resize: he,
 		redraw: Y,
 		opened() {
-			_e(), fe(), I.choose(l.chosen);
+			he(), X(), I.choose(c.chosen);
 		},
 		set: () => void 0,
 		show: () => void 0,
-		text: ae,
-		pose: q,
-		sketch: y,
-		remove: () => me.removeEventListener("keydown", he)
+		text: K,
+		pose: oe,
+		sketch: _,
+		remove: () => pe.removeEventListener("keydown", me)
 	};
 }
 // src/reading.ts
-var Z = class extends Error {}, Q = (e, t) => e.replace(/\{(\w+)\}/g, (e, n) => t[n] ?? e);
-function $(e) {
+var Q = class extends Error {}, $ = (e, t) => e.replace(/\{(\w+)\}/g, (e, n) => t[n] ?? e);
+function Ut(e) {
 	if (/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(e)) return e;
 	let t = e.includes("'") && !e.includes("\"") ? "\"" : "'", n = t + e.replace(/\\/g, "\\\\") + t;
 	return n.length <= 60 ? n : n.slice(0, 57) + "...";
 }
-var Ht = {
+var Wt = {
 	"²": "^2",
 	"³": "^3",
 	"·": "*",
 	"⋅": "*",
 	"×": "*",
 	"−": "-"
-}, Ut = class {
+}, Gt = class {
 	text;
 	reading;
 	units;
 	tokens;
 	constructor(e, t, n) {
 		this.text = e, this.reading = t, this.units = n;
-		let r = e.replace(/[²³·⋅×−]/g, (e) => Ht[e]).replaceAll("**", "^");
+		let r = e.replace(/[²³·⋅×−]/g, (e) => Wt[e]).replaceAll("**", "^");
 		r = r.replace(/\b(ft|in)-lb\b/g, "$1*lbf").replace(/\blb-(ft|in)\b/g, "lbf*$1").replace(/(?<=[a-zµμ])[-.](?=[a-zµμ])/gi, "*"), this.tokens = r.match(/\d+|[a-zµμ_]+|[°%]|[-*/^()]|\S/gi) ?? [];
 	}
 	read() {
 		let e = this.product(1);
-		return this.tokens.length && this.refuse(`unexpected ${$(this.tokens[0])}`), e;
+		return this.tokens.length && this.refuse(`unexpected ${Ut(this.tokens[0])}`), e;
 	}
 	refuse(e) {
-		throw new Z(Q(this.reading.sentences.form, {
-			unit: $(this.text),
+		throw new Q($(this.reading.sentences.form, {
+			unit: Ut(this.text),
 			why: e
 		}));
 	}
@@ -2488,12 +2531,12 @@ var Ht = {
 		let r = this.tokens.shift(), i;
 		if (r === "(" && n < 5) i = this.product(n + 1), this.tokens.shift() !== ")" && this.refuse("a bracket is not closed");
 		else if (r !== void 0 && /^[a-zµμ_°%]/i.test(r)) i = this.named(r);
-		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${$(r)}`);
+		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${Ut(r)}`);
 		let a = 1;
 		if (this.tokens[0] === "^") {
 			this.tokens.shift();
 			let e = this.tokens[0] === "-" && this.tokens.shift() !== void 0, t = this.tokens.shift() ?? "";
-			if (!/^[1-6]$/.test(t)) throw new Z(Q(this.reading.sentences.power, { unit: $(this.text) }));
+			if (!/^[1-6]$/.test(t)) throw new Q($(this.reading.sentences.power, { unit: Ut(this.text) }));
 			a = e ? -t : +t;
 		}
 		let [o, s] = e * a < 0 ? [i.down, i.up] : [i.up, i.down];
@@ -2505,8 +2548,8 @@ var Ht = {
 	}
 	named(e) {
 		let t = Object.hasOwn(this.reading.units, e) ? this.reading.units[e] : null;
-		if (!t) throw new Z(Q(this.reading.sentences.no_unit, {
-			unit: $(e),
+		if (!t) throw new Q($(this.reading.sentences.no_unit, {
+			unit: Ut(e),
 			units: this.units
 		}));
 		let [n, r, ...i] = t;
@@ -2517,13 +2560,13 @@ var Ht = {
 		};
 	}
 };
-function Wt(e, t, n) {
+function Kt(e, t, n) {
 	let { kinds: r, sentences: i } = n, a = r[t.kind] ?? r.number, o = e.trim(), s = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/is.exec(o.replaceAll("−", "-")), c = {
-		text: $(o),
+		text: Ut(o),
 		phrase: a.phrase,
 		remedy: a.remedy
 	}, l = (e, t = {}) => {
-		throw new Z(Q(e, {
+		throw new Q($(e, {
 			...c,
 			...t
 		}));
@@ -2537,12 +2580,12 @@ function Wt(e, t, n) {
 	if (/^[\d/]/.test(d) && !/^1\/[^\W\d]/.test(d)) return l(i.several);
 	let f = (e) => Number.isFinite(e) ? e : l(i.finite);
 	if (!d || d === t.unit) return f(+u * t.size);
-	let p = new Ut(d, n, a.units).read(), m = [...p.dimension];
+	let p = new Gt(d, n, a.units).read(), m = [...p.dimension];
 	if (a.per_radian && m[3] === 0 && (m[3] = a.dimension[3]), m.some((e, t) => e !== a.dimension[t])) {
-		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? Gt(p.dimension);
+		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? qt(p.dimension);
 		if (/\blb\b/.test(d) && a.force) return l(i.dimension, {
 			given: e,
-			remedy: Q(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
+			remedy: $(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
 		});
 		let n = t.kind === "angular_speed" && String(p.dimension) === "0,0,-1,0";
 		return l(i.dimension, {
@@ -2552,7 +2595,7 @@ function Wt(e, t, n) {
 	}
 	return f(+u * p.up / p.down);
 }
-function Gt(e) {
+function qt(e) {
 	return `in ${[
 		"m",
 		"kg",
@@ -2561,7 +2604,7 @@ function Gt(e) {
 	].flatMap((t, n) => e[n] ? [t + (e[n] === 1 ? "" : `^${e[n]}`)] : []).join("*")}`;
 }
 // src/gate.ts
-var Kt = class {
+var Jt = class {
 	data;
 	kernel;
 	sentence = "";
@@ -2573,10 +2616,10 @@ var Kt = class {
 	type(e, t) {
 		let n = this.data.numbers[e];
 		try {
-			let r = Wt(t, n, this.data.reading);
-			this.check(n, r, $(t.trim())), this.kernel.values[e] = r;
+			let r = Kt(t, n, this.data.reading);
+			this.check(n, r, Ut(t.trim())), this.kernel.values[e] = r;
 		} catch (e) {
-			if (!(e instanceof Z)) throw e;
+			if (!(e instanceof Q)) throw e;
 			return e.message;
 		}
 		let r = this.pass() ? "" : this.sentence;
@@ -2608,9 +2651,9 @@ var Kt = class {
 	}
 	check(e, t, n) {
 		let { sentences: r, signs: i } = this.data.reading, a = e.range;
-		if (!Number.isFinite(t)) throw new Z(Q(r.finite, { text: n }));
-		if (e.sign && (t < 0 || e.sign === "positive" && t === 0)) throw new Z(Q(i[e.sign], { text: n }));
-		if (a && t !== e.value && (t < a[0] || t > a[1])) throw new Z(Q(r.range, {
+		if (!Number.isFinite(t)) throw new Q($(r.finite, { text: n }));
+		if (e.sign && (t < 0 || e.sign === "positive" && t === 0)) throw new Q($(i[e.sign], { text: n }));
+		if (a && t !== e.value && (t < a[0] || t > a[1])) throw new Q($(r.range, {
 			text: n,
 			low: this.words(e, a[0]),
 			high: this.words(e, a[1])
@@ -2624,22 +2667,22 @@ var Kt = class {
 			let e = this.out[n], a = r.lastIndexOf(".");
 			if (e < 0 || i === "positive" && e === 0) {
 				let n = Number.isInteger(e) ? e.toFixed(1) : String(e);
-				return `${r.slice(0, a)}: ${r.slice(a + 1)}: ${Q(t.signs[i], { text: n })}`;
+				return `${r.slice(0, a)}: ${r.slice(a + 1)}: ${$(t.signs[i], { text: n })}`;
 			}
 		}
 		return "";
 	}
 	words(e, t) {
-		return `${i(t / e.size, 6).replace("–", String(t))}${e.unit === "°" ? "" : " "}${e.unit}`.trim();
+		return `${o(t / e.size, 6).replace("–", String(t))}${e.unit === "°" ? "" : " "}${e.unit}`.trim();
 	}
 };
 // src/handles.ts
-function qt(e, n, r, i) {
-	let a = t("g", e.svg, { class: "handles" }), o = n.handles.map((t) => Xt(a, e, t, r, i));
-	return () => r.finite && o.forEach((e) => e());
+function Yt(e, t, n, i) {
+	let a = r("g", e.svg, { class: "handles" }), o = t.handles.map((t) => Qt(a, e, t, n, i));
+	return () => n.finite && o.forEach((e) => e());
 }
-var Jt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function Yt(e, t, n, r, [i, a]) {
+var Xt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function Zt(e, t, n, r, [i, a]) {
 	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
 		e.other(c, s);
 		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
@@ -2667,71 +2710,71 @@ function Yt(e, t, n, r, [i, a]) {
 		}
 	}
 }
-function Xt(n, i, a, o, c) {
-	let l = `${{
+function Qt(e, t, i, o, s) {
+	let c = `${{
 		joint: "joint",
 		point: "point",
 		center: "",
 		load: "force",
 		direction: "direction of"
-	}[a.kind]} ${a.name}`.trim(), u = t("circle", n, {
-		class: `handle ${a.kind}`,
-		r: a.kind === "joint" ? 2.6 : 2,
+	}[i.kind]} ${i.name}`.trim(), u = r("circle", e, {
+		class: `handle ${i.kind}`,
+		r: i.kind === "joint" ? 2.6 : 2,
 		tabindex: 0,
 		role: "slider",
-		"aria-label": `move ${l}`,
-		"aria-valuetext": l,
+		"aria-label": `move ${c}`,
+		"aria-valuetext": c,
 		"aria-valuenow": 0,
-		"data-kind": a.kind,
-		"data-name": a.name,
-		"data-item": a.kind === "center" ? `center:${a.name.split(":")[0]}` : `${a.kind}:${a.name}`
+		"data-kind": i.kind,
+		"data-name": i.name,
+		"data-item": i.kind === "center" ? `center:${i.name.split(":")[0]}` : `${i.kind}:${i.name}`
 	});
-	t("title", u).textContent = `drag ${l}`;
-	let d = i.paper, f = o.values, p = (e) => e.map((e) => o.here[e]), m = [], h = [], g = [0, 0], _ = [], v = [], y = [0, 0], b = !1, x = () => {
-		let e = d.point(a.p), t = "f" in a ? d.here(a.f) : "along" in a ? d.here(a.along) : [0, 0], n = a.kind === "direction" ? 16 : 1 / i.force();
-		return [e[0] + n * t[0], e[1] - n * t[1]];
+	r("title", u).textContent = `drag ${c}`;
+	let d = t.paper, f = o.values, p = (e) => e.map((e) => o.here[e]), m = [], h = [], g = [0, 0], _ = [], v = [], y = [0, 0], b = !1, x = () => {
+		let e = d.point(i.p), n = "f" in i ? d.here(i.f) : "along" in i ? d.here(i.along) : [0, 0], r = i.kind === "direction" ? 16 : 1 / t.force();
+		return [e[0] + r * n[0], e[1] - r * n[1]];
 	}, S = () => {
 		let e = (e, t) => ({
 			axes: e.map(p),
 			at: p(t)
 		});
-		m = "ends" in a ? a.ends.map((t) => e(t.axes, t.at)) : [e(a.axes, a.p)], [h, g, _, b] = [
-			p(a.p),
+		m = "ends" in i ? i.ends.map((t) => e(t.axes, t.at)) : [e(i.axes, i.p)], [h, g, _, b] = [
+			p(i.p),
 			x(),
-			"f" in a ? p(a.f) : [],
+			"f" in i ? p(i.f) : [],
 			!0
-		], v = "about" in a && a.about ? p(a.about) : [];
+		], v = "about" in i && i.about ? p(i.about) : [];
 	}, C = (e) => d.vector([e[0] - g[0], e[1] - g[1]]), w = (e) => {
-		if ("by" in a && a.by) Yt(o, d, a.p, a.by, d.metres(e));
-		else if ("ends" in a) E(a.ends, T(C(e)));
-		else if (a.kind === "direction") {
-			let t = d.point(a.p), n = [e[0] - t[0], t[1] - e[1]], [r, i] = m[0].axes.map((e) => Jt(e, n));
-			f[a.direction] = Zt(Math.atan2(i, r), f[a.direction]);
-		} else D(a, C(e).map((e, t) => _[t] + e / d.perMm * i.force()));
-		c.changed();
+		if ("by" in i && i.by) Zt(o, d, i.p, i.by, d.metres(e));
+		else if ("ends" in i) E(i.ends, T(C(e)));
+		else if (i.kind === "direction") {
+			let t = d.point(i.p), n = [e[0] - t[0], t[1] - e[1]], [r, a] = m[0].axes.map((e) => Xt(e, n));
+			f[i.direction] = $t(Math.atan2(a, r), f[i.direction]);
+		} else D(i, C(e).map((e, n) => _[n] + e / d.perMm * t.force()));
+		s.changed();
 	}, T = (e) => {
-		if (!("about" in a) || !a.about) return e;
-		let t = v, n = h.map((e, n) => e - t[n]), r = n.map((t, n) => t + e[n]), i = Math.hypot(...n) / (Math.hypot(...r) || 1);
-		return r.map((e, n) => t[n] + i * e - h[n]);
+		if (!("about" in i) || !i.about) return e;
+		let t = v, n = h.map((e, n) => e - t[n]), r = n.map((t, n) => t + e[n]), a = Math.hypot(...n) / (Math.hypot(...r) || 1);
+		return r.map((e, n) => t[n] + a * e - h[n]);
 	}, E = (e, t) => e.forEach((e, n) => {
 		let r = h.map((e, r) => e + t[r] - m[n].at[r]);
-		e.n.forEach((e, t) => f[e] = Jt(m[n].axes[t], r));
+		e.n.forEach((e, t) => f[e] = Xt(m[n].axes[t], r));
 	}), D = (e, t) => {
-		let n = m[0].axes.map((e) => Jt(e, t));
+		let n = m[0].axes.map((e) => Xt(e, t));
 		if (e.components) return e.components.forEach((e, t) => f[e] = n[t]);
 		let r = Math.sign(f[e.size]) || 1;
-		e.direction === void 0 ? f[e.size] = r * Jt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = Zt(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
+		e.direction === void 0 ? f[e.size] = r * Xt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = $t(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
 	}, O = () => {
-		b && c.finished(), b = !1;
+		b && s.finished(), b = !1;
 	};
 	return u.addEventListener("pointerdown", (e) => {
 		if (e.button !== 0) return;
 		e.stopPropagation(), u.setPointerCapture(e.pointerId), S();
-		let t = s(i.svg, e);
-		y = [g[0] - t[0], g[1] - t[1]];
+		let n = l(t.svg, e);
+		y = [g[0] - n[0], g[1] - n[1]];
 	}), u.addEventListener("pointermove", (e) => {
-		let t = s(i.svg, e);
-		b && w([t[0] + y[0], t[1] + y[1]]);
+		let n = l(t.svg, e);
+		b && w([n[0] + y[0], n[1] + y[1]]);
 	}), u.addEventListener("pointerup", O), u.addEventListener("pointercancel", O), u.addEventListener("keydown", (e) => {
 		let t = {
 			ArrowLeft: [-1, 0],
@@ -2744,21 +2787,21 @@ function Xt(n, i, a, o, c) {
 		let n = e.shiftKey ? 5 : 1;
 		w([g[0] + n * t[e.key][0], g[1] + n * t[e.key][1]]), O();
 	}), () => {
-		if (a.kind === "direction" && b) return;
-		let [t, n] = x();
-		e(u, {
-			visibility: Number.isFinite(t + n) ? "visible" : "hidden",
-			cx: r(t),
-			cy: r(n)
+		if (i.kind === "direction" && b) return;
+		let [e, t] = x();
+		n(u, {
+			visibility: Number.isFinite(e + t) ? "visible" : "hidden",
+			cx: a(e),
+			cy: a(t)
 		});
 	};
 }
-var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1, $t = 1e60, en = class {
+var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1, tn = 90, nn = 1e60, rn = class {
 	table;
 	breaks;
 	pieces;
 	constructor(e) {
-		this.table = e, this.breaks = U(e.breaks), this.pieces = U(e.pieces);
+		this.table = e, this.breaks = W(e.breaks), this.pieces = W(e.pieces);
 	}
 	at(e) {
 		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
@@ -2770,7 +2813,7 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, tn = class e {
+}, an = class e {
 	data;
 	whole;
 	one;
@@ -2784,6 +2827,7 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 	side;
 	finite = !0;
 	coarse = !1;
+	cycles = 0;
 	good;
 	refused = "";
 	cyclic;
@@ -2797,9 +2841,9 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 	followed;
 	known;
 	constructor(e, t, n, r, i, a) {
-		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, U(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
-			values: U(e.values),
-			pieces: e.table && new en(e.table),
+		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, W(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: W(e.values),
+			pieces: e.table && new rn(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}]));
 		let o = /* @__PURE__ */ new Set([...e.sketch.branches, ...e.sketch.known]);
@@ -2811,15 +2855,15 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 			for (let e = 0; e < this.row; e++) t.path[n * this.row + e] = r[Math.min(e, this.count - 1)];
 		}), this.side >= 0 && t.path.fill(-1, this.side * this.row, (this.side + 1) * this.row);
 		let s = (e) => this.channels.get(e)?.values ?? new Float64Array(this.count);
-		this.motion = new I(e, this, r, i, this.values, s), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.isWholeTurn(e.name));
+		this.motion = new R(e, this, r, i, this.values, s), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.isWholeTurn(e.name));
 	}
 	static async create(t) {
 		let n = t.numbers.length, [r, i, a, o, s] = await Promise.all([
-			W.create(t.kernel, n),
-			W.create(t.kernel, n),
-			W.create(t.sketch.closure, n),
-			W.create(t.sketch.shown, n),
-			t.gradient ? W.create(t.gradient, n) : void 0
+			G.create(t.kernel, n),
+			G.create(t.kernel, n),
+			G.create(t.sketch.closure, n),
+			G.create(t.sketch.shown, n),
+			t.gradient ? G.create(t.gradient, n) : void 0
 		]);
 		return new e(t, r, i, a, o, s);
 	}
@@ -2850,13 +2894,21 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 		return i === 0 ? n.values[r] : n.values[r] + i * (a - n.values[r]);
 	}
 	cycle() {
-		this.motion.update() || this.closes(), this.side >= 0 && this.bothSides();
-		let e = this.rows.length - this.row;
-		for (let t = 0; t < this.count; t++) this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], (e) => this.rows[e * this.row + t]) : Qt, this.good[t] = +this.numbered(this.markAt(t));
+		z(this.cycling());
+	}
+	*parts() {
+		let { values: e } = this, t = e.slice(), n = e.slice(), r = this.cycling();
+		for (let i = !1; !i;) n.set(e), e.set(t), i = !!r.next().done, e.set(n), yield;
+	}
+	*cycling() {
+		this.motion.current ? this.closes() : yield* this.motion.updating(), this.side >= 0 && this.bothSides();
+		let e = this.rows.length - this.row, t = 0, n = (e) => this.rows[e * this.row + t];
+		for (; t < this.count; t++) t % tn === 0 && (yield), this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], n) : en, this.good[t] = +this.numbered(this.markAt(t));
+		this.cycles++;
 	}
 	closes() {
 		for (let { name: e, channel: t } of this.followed) this.whole.path.set(this.channels.get(e).values, t * this.row);
-		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== Qt));
+		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== en));
 	}
 	bothSides() {
 		let { path: e, out: t } = this.whole, n = this.side * this.row, r = t.slice();
@@ -2868,8 +2920,8 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 		return e === t ? this.numbered(e) && !this.here.every((e, t) => t === this.here.length - 1 || n(t)) && e === 0 ? this.marked("reversal") : e : this.numbered(e) ? t : e;
 	}
 	judged(e, t) {
-		if (e === Qt || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
-		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > $t);
+		if (e === en || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
+		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > nn);
 		for (let e = 0; n && e < this.here.length - 1; e++) if (!Number.isFinite(t(e))) return this.marked("overflow");
 		return e;
 	}
@@ -2877,7 +2929,7 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 		return this.data.statuses.findIndex((t) => t.status === e);
 	}
 	closesAt(e) {
-		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== Qt;
+		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== en;
 	}
 	posed(e) {
 		return this.data.sketch.poses.map((t) => t.map((t) => this.value(t, e)));
@@ -2889,11 +2941,11 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 		return this.data.drives.map((t) => this.position(t.name, e));
 	}
 	at(e) {
-		let t = this.motion.at(e), { here: n } = this;
+		let t = this.coarse ? this.motion.near(e) : this.motion.at(e), { here: n } = this;
 		this.run(e, t, t ? this.motion.read(t, e) : this.motion.otherwise);
 		for (let e = 0; e < n.length; e++) [n[e], this.hereAfter[e]] = [this.one.at(e), this.one.at(e, 1)];
 		let r = n.length - 1, i = this.side >= 0 ? this.between(n[r], this.hereAfter[r], (e) => n[e] === this.hereAfter[e]) : n[r];
-		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = Qt), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
+		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = en), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
 	}
 	stretch(e, t) {
 		let { sketch: n } = this.data, r = this.motion.look(e, t, this.motion.otherwise), i = n.branches.length + n.known.length;
@@ -2966,22 +3018,22 @@ var Zt = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), Qt = 1
 	}
 };
 // src/panels.ts
-function nn(e, t, r, i, a) {
+function on(e, t, n, r, a) {
 	let o = [], s = /* @__PURE__ */ new Map(), c = (t) => {
-		let r = s.get(t);
-		if (!r) {
-			let i = n("fieldset", e);
-			n("legend", i, {}, t), s.set(t, r = i);
+		let n = s.get(t);
+		if (!n) {
+			let r = i("fieldset", e);
+			i("legend", r, {}, t), s.set(t, n = r);
 		}
-		return r;
+		return n;
 	}, l = t.numbers.map((e, t) => ({
 		field: e,
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n: t } of l) {
-		let [s, l] = e.parameter ? ["Parameters", e.label] : rn(e.label), f = n("label", c(s), { title: e.about ?? e.path });
-		n("span", f, {}, l);
-		let p = n("input", f, {
+		let [s, l] = e.parameter ? ["Parameters", e.label] : sn(e.label), f = i("label", c(s), { title: e.about ?? e.path });
+		i("span", f, {}, l);
+		let p = i("input", f, {
 			type: "text",
 			inputmode: "decimal",
 			autocomplete: "off",
@@ -2989,8 +3041,8 @@ function nn(e, t, r, i, a) {
 			"aria-label": e.label,
 			"data-path": e.path
 		});
-		n("span", f, { class: "unit" }, e.unit);
-		let m = n("span", f, {
+		i("span", f, { class: "unit" }, e.unit);
+		let m = i("span", f, {
 			class: "wrong",
 			role: "alert"
 		}), h = {
@@ -3002,108 +3054,108 @@ function nn(e, t, r, i, a) {
 		};
 		if (p.addEventListener("change", () => {
 			if (p.value.trim() === "" || p.value === u(h)) return g(""), d(h);
-			let e = i.type(t, p.value);
+			let e = r.type(t, p.value);
 			g(e), e || (p.value = u(h), a(!0));
 		}), p.addEventListener("keydown", (e) => {
 			e.key === "Escape" && (g(""), p.value = u(h), p.blur());
 		}), e.parameter) {
-			let [i, o] = e.range ?? an(e.value), s = n("input", f, {
+			let [r, o] = e.range ?? cn(e.value), s = i("input", f, {
 				type: "range",
-				min: i / e.size,
+				min: r / e.size,
 				max: o / e.size,
 				step: "any",
 				"aria-label": `${e.label}, slider`
 			});
 			h.slide = s;
-			let c = (n) => () => {
-				r.values[t] = +s.value * e.size, a(n);
+			let c = (r) => () => {
+				n.values[t] = +s.value * e.size, a(r);
 			};
 			s.addEventListener("input", c(!1)), s.addEventListener("change", c(!0));
 		}
 		o.push(h);
 	}
-	let u = (e) => String(+(r.values[e.n] / e.field.size).toPrecision(6)), d = (e) => {
-		let t = r.values[e.n] / e.field.size;
-		document.activeElement !== e.box && !e.box.hasAttribute("aria-invalid") && (e.box.value = u(e)), e.slide && document.activeElement !== e.slide && (e.slide.value = String(t)), e.box.classList.toggle("changed", r.values[e.n] !== e.field.value);
+	let u = (e) => String(+(n.values[e.n] / e.field.size).toPrecision(6)), d = (e) => {
+		let t = n.values[e.n] / e.field.size;
+		document.activeElement !== e.box && !e.box.hasAttribute("aria-invalid") && (e.box.value = u(e)), e.slide && document.activeElement !== e.slide && (e.slide.value = String(t)), e.box.classList.toggle("changed", n.values[e.n] !== e.field.value);
 	};
 	return {
 		update: () => o.forEach(d),
 		focus: (e) => o.find((t) => t.field.path === e)?.box.focus()
 	};
 }
-function rn(e) {
+function sn(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function an(e) {
+function cn(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function on(e, t, r) {
-	let a = n("tbody", n("table", e, { class: "answers" })), o = t.views.table.map((e) => {
-		let r = n("tr", a), i = t.units[e.kind];
-		return n("th", r, { scope: "row" }, l(e.name)), {
+function ln(e, n, r) {
+	let a = i("tbody", i("table", e, { class: "answers" })), s = n.views.table.map((e) => {
+		let t = i("tr", a), r = n.units[e.kind];
+		return i("th", t, { scope: "row" }, d(e.name)), {
 			r: e,
-			unit: i,
-			cell: n("td", r)
+			unit: r,
+			cell: i("td", t)
 		};
 	});
 	return { update() {
-		for (let { r: e, unit: t, cell: n } of o) {
-			let a = e.rows.map((e) => r.here[e] / t.size), o = (e) => t.unit === "°" ? `${i(e, 5)}°` : `${i(e)} ${t.unit}`;
-			n.textContent = r.solved ? a.length === 1 ? o(a[0]) : `${o(Math.hypot(...a))}${a.length === 2 ? ` at ${i(Math.atan2(a[1], a[0]) * 180 / Math.PI)}°` : ""}  (${a.map((e) => i(e)).join(", ")})` : "–";
+		for (let { r: e, unit: n, cell: i } of s) {
+			let a = e.rows.map((e) => r.here[e] / n.size), s = (e) => n.unit === "°" ? `${o(e, 5)}°` : `${o(e)} ${n.unit}`;
+			t(i, r.solved ? a.length === 1 ? s(a[0]) : `${s(Math.hypot(...a))}${a.length === 2 ? ` at ${o(Math.atan2(a[1], a[0]) * 180 / Math.PI)}°` : ""}  (${a.map((e) => o(e)).join(", ")})` : "–");
 		}
 	} };
 }
-function sn(e, t, r, a) {
-	let { terms: o, about: s } = a.equations, { force: c, moment: u } = t.units, d = o[0]?.f.length ?? 2, f = [
+function un(e, t, n, r) {
+	let { terms: a, about: s } = r.equations, { force: c, moment: l } = t.units, u = a[0]?.f.length ?? 2, f = [
 		"x",
 		"y",
 		"z"
-	].slice(0, d).map((e, t) => ({
+	].slice(0, u).map((e, t) => ({
 		head: `ΣF${e}`,
 		unit: c,
-		sign: (t) => l(t.name) + e,
+		sign: (t) => d(t.name) + e,
 		row: (e) => e.f[t]
 	}));
-	(d === 2 ? [""] : [
+	(u === 2 ? [""] : [
 		"x",
 		"y",
 		"z"
 	]).forEach((e, t) => f.push({
 		head: `ΣM${e} about ${s}`,
-		unit: u,
-		sign: (t) => `M${e}(${l(t.name)})`,
+		unit: l,
+		sign: (t) => `M${e}(${d(t.name)})`,
 		row: (e) => e.m[t]
 	}));
 	let p = f.map((t) => ({
 		sum: t,
-		el: n("p", e, { class: "equation" })
+		el: i("p", e, { class: "equation" })
 	}));
 	return { update() {
 		for (let { sum: e, el: t } of p) {
-			let n = o.map((t) => r.here[e.row(t)] / e.unit.size), a = Math.max(...n.map(Math.abs), 0), s = n.map((e, t) => ({
+			let r = a.map((t) => n.here[e.row(t)] / e.unit.size), i = Math.max(...r.map(Math.abs), 0), s = r.map((e, t) => ({
 				v: e,
 				k: t
-			})).filter((e) => Math.abs(e.v) > 1e-9 * a);
-			if (!r.solved || !s.length) {
-				t.textContent = `${e.head}: ${r.solved ? "nothing acts" : "no answer here"}`;
+			})).filter((e) => Math.abs(e.v) > 1e-9 * i);
+			if (!n.solved || !s.length) {
+				t.textContent = `${e.head}: ${n.solved ? "nothing acts" : "no answer here"}`;
 				continue;
 			}
-			let c = s.map((t) => e.sign(o[t.k])).join(" + "), l = s.reduce((e, t) => e + t.v, 0), u = s.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + i(Math.abs(e.v))).join("");
-			t.textContent = `${e.head}: ${c} = ${u} = ${i(Math.abs(l) < 1e-9 * a ? 0 : l)} ${e.unit.unit}`;
+			let c = s.map((t) => e.sign(a[t.k])).join(" + "), l = s.reduce((e, t) => e + t.v, 0), u = s.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + o(Math.abs(e.v))).join("");
+			t.textContent = `${e.head}: ${c} = ${u} = ${o(Math.abs(l) < 1e-9 * i ? 0 : l)} ${e.unit.unit}`;
 		}
 	} };
 }
-function cn(e, t) {
-	n("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
-	let r = n("dl", e);
-	for (let [e, i] of Object.entries(t.assumptions)) n("dt", r, {}, e), n("dd", r, {}, i);
-	t.source && n("p", e, {}, `Source: ${t.source}`), n("p", e, {}, `Made with dalembert ${t.version}.`);
+function dn(e, t) {
+	i("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
+	let n = i("dl", e);
+	for (let [e, r] of Object.entries(t.assumptions)) i("dt", n, {}, e), i("dd", n, {}, r);
+	t.source && i("p", e, {}, `Source: ${t.source}`), i("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/charts.ts
-var ln = 16, un = 5, dn = 8, fn = 4;
-function pn(e, t) {
+var fn = 16, pn = 5, mn = 8, hn = 4;
+function gn(e, t) {
 	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
 	return r * ([
 		1,
@@ -3112,7 +3164,7 @@ function pn(e, t) {
 		10
 	].find((e) => e * r >= n) ?? 10);
 }
-function mn(e, t) {
+function _n(e, t) {
 	return [
 		1,
 		2,
@@ -3125,247 +3177,276 @@ function mn(e, t) {
 		90,
 		180,
 		360
-	].find((n) => n >= e / t) ?? 360 * pn(e / 360, t);
+	].find((n) => n >= e / t) ?? 360 * gn(e / 360, t);
 }
-function hn(e, t, n) {
+function vn(e, t, n) {
 	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
 	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
 }
-function gn(a, o, l, u, d, p) {
-	let m = n("figure", a, { class: "chart" }), h = o.units[u.kind];
-	n("figcaption", m, {}, `${u.title}, ${h.unit}`);
-	let g = o.views.charts.flatMap((e) => e.curves.map((e) => f(e.name, 3))), _ = Math.max(44, 13 + fn * u.curves.length), v = ot(m, p, _, u.title), y = _ - un - dn, b = -_ / 2 + un, x = 0, S = 0, C = t("path", v, {
+function yn(t, s, c, d, f, p) {
+	let h = i("figure", t, { class: "chart" }), g = s.units[d.kind];
+	i("figcaption", h, {}, `${d.title}, ${g.unit}`);
+	let _ = s.views.charts.flatMap((e) => e.curves.map((e) => m(e.name, 3))), v = Math.max(44, 13 + hn * d.curves.length), y = st(h, p, v, d.title), b = v - pn - mn, x = -v / 2 + pn, S = 0, C = 0, w = r("path", y, {
 		class: "l-grid",
 		style: "fill:none"
-	}), w = t("path", v, {
+	}), T = r("path", y, {
 		class: "l-axis",
 		style: "fill:none"
-	}), T = t("g", v), E = u.curves.map((e) => t("path", v, {
+	}), E = r("g", y), D = d.curves.map((e) => r("path", y, {
 		class: `l-${e.role}`,
 		style: "fill:none"
-	})), D = t("path", v, { class: "cursor" }), O = u.curves.map((e) => t("circle", v, {
+	})), O = r("path", y, { class: "cursor" }), k = d.curves.map((e) => r("circle", y, {
 		class: `l-${e.role}-h`,
 		r: .9
-	})), k = Math.max(l.count - 1, 1), A = o.noise[u.kind] ?? 0, j = u.curves.map((e, n) => {
-		let r = t("text", v, {
+	})), A = Math.max(c.count - 1, 1), j = s.noise[d.kind] ?? 0, M = d.curves.map((e, t) => {
+		let n = r("text", y, {
 			class: `l-${e.role}-t key`,
 			"font-size": 3,
-			y: b + 3 + fn * n,
+			y: x + 3 + hn * t,
 			tabindex: 0,
 			role: "button"
 		});
-		return c(r, e.name, 3), t("title", r).textContent = "show what lowers its peak", r.addEventListener("click", () => d.pick(e)), r.addEventListener("keydown", (t) => t.key === "Enter" && d.pick(e)), r;
-	}), M = (e, t) => {
-		let n = l.value(e.row, t) / h.size;
-		return Math.abs(n) * h.size < A ? 0 : n;
-	}, N = NaN, P = NaN, F = 1, I = (e) => S + e / k * x, L = (e) => b + y - (e - N) / (P - N) * y;
-	function R() {
+		return u(n, e.name, 3), r("title", n).textContent = "show what lowers its peak", n.addEventListener("click", () => f.pick(e)), n.addEventListener("keydown", (t) => t.key === "Enter" && f.pick(e)), n;
+	}), N = (e, t) => {
+		let n = c.value(e.row, t) / g.size;
+		return Math.abs(n) * g.size < j ? 0 : n;
+	}, P = NaN, F = NaN, I = 1, L = (e) => C + e / A * S, R = (e) => x + b - (e - P) / (F - P) * b;
+	function* B() {
 		let [e, t] = [Infinity, -Infinity];
-		for (let n of u.curves) for (let r = 0; r < l.count; r++) if (l.good[r]) {
-			let i = M(n, r), a = l.reverses(r) ? l.onceAfter(() => M(n, r)) : i;
-			e = Math.min(e, i, a), t = Math.max(t, i, a);
+		for (let n of d.curves) {
+			for (let r = 0; r < c.count; r++) if (c.good[r]) {
+				let i = N(n, r), a = c.reverses(r) ? c.onceAfter(() => N(n, r)) : i;
+				e = Math.min(e, i, a), t = Math.max(t, i, a);
+			}
+			yield;
 		}
-		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), F = pn(t - e, 4), [e, t] = [Math.floor(e / F + 1e-9) * F, Math.ceil(t / F - 1e-9) * F], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
+		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), I = gn(t - e, 4), [e, t] = [Math.floor(e / I + 1e-9) * I, Math.ceil(t / I - 1e-9) * I], e === P && t === F ? !1 : ([P, F] = [e, t], !0);
 	}
-	function z() {
-		let e = o.drives[0], n = (e, n, r, i) => t("text", T, {
+	function V() {
+		let t = s.drives[0], n = (e, t, n, i) => r("text", E, {
 			class: "l-note-t",
 			"font-size": 2.6,
 			"text-anchor": i,
-			x: n,
-			y: r
+			x: t,
+			y: n
 		}).textContent = e;
-		T.replaceChildren();
-		let a = "";
-		for (let e of hn(N, P, F)) a += `M${S} ${r(L(e))}h${x}`, n(i(e, 5), S - 1.2, L(e) + .9, "end");
-		if (e) {
-			let [t, o] = [0, k].map((t) => l.position(e.name, t) / e.size);
-			for (let s of hn(Math.min(t, o), Math.max(t, o), (e.unit === "°" ? mn : pn)(Math.abs(o - t), 6))) {
-				let c = S + (s - t) / (o - t || 1) * x;
-				a += `M${r(c)} ${b}v${y}`, n(i(s, 5) + (e.unit === "°" ? "°" : ""), c, b + y + 3.4, "middle");
+		E.replaceChildren();
+		let i = "";
+		for (let e of vn(P, F, I)) i += `M${C} ${a(R(e))}h${S}`, n(o(e, 5), C - 1.2, R(e) + .9, "end");
+		if (t) {
+			let [e, r] = [0, A].map((e) => c.position(t.name, e) / t.size);
+			for (let s of vn(Math.min(e, r), Math.max(e, r), (t.unit === "°" ? _n : gn)(Math.abs(r - e), 6))) {
+				let c = C + (s - e) / (r - e || 1) * S;
+				i += `M${a(c)} ${x}v${b}`, n(o(s, 5) + (t.unit === "°" ? "°" : ""), c, x + b + 3.4, "middle");
 			}
-			n(`${e.name}, ${e.unit}`, S + x, b + y + 6.6, "end");
+			n(`${t.name}, ${t.unit}`, C + S, x + b + 6.6, "end");
 		}
-		C.setAttribute("d", a), w.setAttribute("d", `M${S} ${b}v${y}` + (N < 0 && P > 0 ? `M${S} ${r(L(0))}h${x}` : ""));
+		e(w, "d", i), e(T, "d", `M${C} ${x}v${b}` + (P < 0 && F > 0 ? `M${C} ${a(R(0))}h${S}` : ""));
 	}
-	function B(e) {
-		p = e, [x, S] = [p - ln - Math.min(Math.max(...g) + 4, .3 * p), -p / 2 + ln], v.setAttribute("viewBox", `${-p / 2} ${-_ / 2} ${p} ${_}`), j.forEach((e) => e.setAttribute("x", r(S + x + 2))), N = NaN;
+	function H(e) {
+		p = e, [S, C] = [p - fn - Math.min(Math.max(..._) + 4, .3 * p), -p / 2 + fn], y.setAttribute("viewBox", `${-p / 2} ${-v / 2} ${p} ${v}`), M.forEach((e) => e.setAttribute("x", a(C + S + 2))), P = NaN;
 	}
-	B(p);
-	let V = (e) => d.seek((s(v, e)[0] - S) / x * k);
-	return v.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (v.setPointerCapture(e.pointerId), V(e));
-	}), v.addEventListener("pointermove", (e) => e.buttons && v.hasPointerCapture(e.pointerId) && V(e)), {
-		resize: B,
+	H(p);
+	let U = (e) => f.seek((l(y, e)[0] - C) / S * A);
+	y.addEventListener("pointerdown", (e) => {
+		e.target.closest(".key") || (y.setPointerCapture(e.pointerId), U(e));
+	}), y.addEventListener("pointermove", (e) => e.buttons && y.hasPointerCapture(e.pointerId) && U(e));
+	function* ee() {
+		(yield* B()) && V();
+		for (let [t, n] of D.entries()) yield, e(n, "d", Ie(c, (e) => [L(e), R(N(d.curves[t], e))]));
+	}
+	return {
+		figure: h,
+		resize: H,
+		parts: ee,
 		update(t) {
-			t && (R() && z(), E.forEach((e, t) => Pe(e, Fe(l, (e) => [I(e), L(M(u.curves[t], e))]))));
-			let n = r(I(Math.min(d.time(), k)));
-			D.setAttribute("d", `M${n} ${b}v${y}`), u.curves.forEach((t, i) => {
-				let a = l.solved ? {
-					cx: n,
-					cy: r(L(l.here[t.row] / h.size))
+			t && z(ee());
+			let r = a(L(Math.min(f.time(), A)));
+			e(O, "d", `M${r} ${x}v${b}`), d.curves.forEach((e, t) => {
+				let i = c.solved ? {
+					cx: r,
+					cy: a(R(c.here[e.row] / g.size))
 				} : {};
-				e(O[i], {
-					visibility: l.solved ? "visible" : "hidden",
-					...a
-				}), j[i].classList.toggle("picked", d.picked() === t);
+				n(k[t], {
+					visibility: c.solved ? "visible" : "hidden",
+					...i
+				}), M[t].classList.toggle("picked", f.picked() === e);
 			});
 		}
 	};
 }
-var _n = 1e-11;
-function vn(e, r, a, o, s) {
-	let c = n("figure", e, { class: "polar" }), [l, u] = a.f, d = n("figcaption", c), f = ot(c, 66, 66, `polar diagram of joint ${a.name}`);
-	t("path", f, {
+var bn = (e, { f: t }) => e.largest((n) => Math.hypot(e.value(t[0], n), e.value(t[1], n)));
+function xn(e, t) {
+	let n = -1, r = 0;
+	return () => (n !== e.cycles && ([n, r] = [e.cycles, Math.max(...t.map((t) => bn(e, t)))]), r);
+}
+var Sn = 1e-11;
+function Cn(a, s, c, l, u) {
+	let d = i("figure", a, { class: "polar" }), [f, p] = c.f, m = i("figcaption", d), h = st(d, 66, 66, `polar diagram of joint ${c.name}`);
+	r("path", h, {
 		class: "l-grid",
 		style: "fill:none",
 		d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"
 	});
-	let p = t("path", f, {
-		class: `l-${a.role}`,
+	let _ = r("path", h, {
+		class: `l-${c.role}`,
 		style: "fill:none"
-	}), h = new m(f, "joint-force", a.name), g = 1, _ = !1;
-	return { update(e) {
-		if (e) {
-			let e = (e) => r.largest((t) => Math.max(...e.map(({ f: e }) => Math.hypot(r.value(e[0], t), r.value(e[1], t)))));
-			if (_ = !(e([a]) > _n * e(o)), f.setAttribute("display", _ ? "none" : "inline"), _) return void (d.textContent = `Joint ${a.name}: no force at any position`);
-			let t = Ze(e([a]) / s.size);
-			g = t / 30 * s.size, Pe(p, Fe(r, (e) => [r.value(l, e) / g, -r.value(u, e) / g], !0)), d.textContent = `Joint ${a.name}: circles of ${i(t / 2)} and ${i(t)} ${s.unit}`;
+	}), v = new g(h, "joint-force", c.name), y = 1, b = !1;
+	function* x() {
+		let r = l();
+		yield;
+		let i = bn(s, c);
+		b = !(i > Sn * r), n(h, { display: b ? "none" : "inline" });
+		let a = Qe(i / u.size), d = `Joint ${c.name}: ${b ? "no force at any position" : `circles of ${o(a / 2)} and ${o(a)} ${u.unit}`}`;
+		t(m, d), b || (y = a / 30 * u.size, e(_, "d", Ie(s, (e) => [s.value(f, e) / y, -s.value(p, e) / y], !0)));
+	}
+	return {
+		figure: d,
+		parts: x,
+		update(e) {
+			e && z(x()), v.set([0, 0], s.solved && !b ? [s.here[f] / y, -s.here[p] / y] : [0, 0]);
 		}
-		h.set([0, 0], r.solved && !_ ? [r.here[l] / g, -r.here[u] / g] : [0, 0]);
-	} };
+	};
 }
-function yn(e, r, i, o, s) {
-	let c = n("figure", e, { class: "polygon" }), l = r.units.force;
-	n("figcaption", c, {}, o);
-	let u = ot(c, 110, 80, o), d = t("g", u), f = /* @__PURE__ */ new Set(), p = s.map(({ sides: e }) => {
-		let t = e.find((e) => e.kind === "joint" && f.has(e.of));
-		for (let t of e) t.kind === "joint" && f.add(t.of);
+function wn(t, n, a, o, c) {
+	let l = i("figure", t, { class: "polygon" }), u = n.units.force;
+	i("figcaption", l, {}, o);
+	let d = st(l, 110, 80, o), f = r("g", d), p = /* @__PURE__ */ new Set(), m = c.map(({ sides: e }) => {
+		let t = e.find((e) => e.kind === "joint" && p.has(e.of));
+		for (let t of e) t.kind === "joint" && p.add(t.of);
 		return {
 			shared: t,
 			drawn: e.filter((e) => e !== t).map((e) => ({
 				s: e,
-				arrow: new m(u, e.role, e.name),
-				name: ye(d, e.role, e.name, 3)
+				arrow: new g(d, e.role, e.name),
+				name: xe(f, e.role, e.name, 3)
 			}))
 		};
-	}), h = t("path", u, {
+	}), h = r("path", d, {
 		class: "l-gap",
 		style: "fill:none"
-	}), g = new at(u, !0);
+	}), _ = new ot(d, !0);
 	return {
-		figure: c,
+		figure: l,
 		update() {
-			if (u.setAttribute("visibility", i.solved ? "visible" : "hidden"), !i.solved) return;
-			let e = i.here, t = /* @__PURE__ */ new Map(), n = [], r = [], o = p.flatMap(({ shared: i, drawn: a }) => {
-				let o = $e(n)?.y[1] ?? 0, s = t.get(i?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
-				i && (s = c(i.f));
+			if (e(d, "visibility", a.solved ? "visible" : "hidden"), !a.solved) return;
+			let t = a.here, n = /* @__PURE__ */ new Map(), r = [], i = [], o = m.flatMap(({ shared: e, drawn: a }) => {
+				let o = et(r)?.y[1] ?? 0, s = n.get(e?.of ?? "") ?? [0, o], c = (e) => [s[0] + t[e[0]], s[1] - t[e[1]]], l = s;
+				e && (s = c(e.f));
 				let u = a.map((e) => {
-					let r = s;
-					return s = c(e.s.f), e.s.kind === "joint" && !t.has(e.s.of) && t.set(e.s.of, s), n.push(r, s), {
+					let t = s;
+					return s = c(e.s.f), e.s.kind === "joint" && !n.has(e.s.of) && n.set(e.s.of, s), r.push(t, s), {
 						...e,
-						from: r,
+						from: t,
 						to: s
 					};
 				});
-				return r.push([l, s]), u;
-			}), s = $e(n) ?? {
+				return i.push([l, s]), u;
+			}), c = et(r) ?? {
 				x: [0, 0],
 				y: [0, 0]
-			}, c = Ze(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / l.size) * l.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new xe([
+			}, l = Qe(Math.max((c.x[1] - c.x[0]) / 66, (c.y[1] - c.y[0]) / 48) / u.size) * u.size, f = ([e, t]) => [(e - (c.x[0] + c.x[1]) / 2) / l, (t - (c.y[0] + c.y[1]) / 2) / l], p = new Ce([
 				-55,
 				-40,
 				55,
 				36
 			]);
-			for (let { from: e, to: t } of o) f.line(d(e), d(t));
-			for (let { arrow: e, name: t, from: n, to: r } of o) {
-				let [i, a] = [d(n), d(r)], o = e.set(i, a), s = [(i[0] + a[0]) / 2, (i[1] + a[1]) / 2];
-				t.el.setAttribute("visibility", o ? "visible" : "hidden"), o && f.put({
-					label: t,
-					anchors: [s],
-					away: s,
+			for (let { from: e, to: t } of o) p.line(f(e), f(t));
+			for (let { arrow: t, name: n, from: r, to: i } of o) {
+				let [a, o] = [f(r), f(i)], s = t.set(a, o), c = [(a[0] + o[0]) / 2, (a[1] + o[1]) / 2];
+				e(n.el, "visibility", s ? "visible" : "hidden"), s && p.put({
+					label: n,
+					anchors: [c],
+					away: c,
 					leave: .9
 				});
 			}
-			h.setAttribute("d", r.map(([e, t]) => a([d(e), d(t)])).join("")), g.set([-53, 37.4], c, l);
+			e(h, "d", i.map(([e, t]) => s([f(e), f(t)])).join("")), _.set([-53, 37.4], l, u);
 		}
 	};
 }
 // src/results.ts
-var bn = 4.6, xn = (e) => Math.min(Math.max(e / bn, 72), 140), Sn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
-function Cn(e, t, r, i, a, o) {
-	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = r.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
-	for (let e of f ? s : []) u.push(gn(f, t, r, e, i, 120));
-	let p = r.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
-	if (f && p.length) {
-		n("h2", f, {}, "Polar diagrams");
-		for (let e of p) d.push({
-			box: f,
-			view: vn(f, r, e, p, t.units.force)
+var Tn = 4.6, En = (e) => Math.min(Math.max(e / Tn, 72), 140), Dn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
+function On(e, t, n, r, a, o) {
+	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = [], p = /* @__PURE__ */ new Set(), m = new IntersectionObserver((e) => e.forEach((e) => e.isIntersecting ? p.add(e.target) : p.delete(e.target)));
+	function h(e) {
+		return f.push(e), m.observe(e.figure), e;
+	}
+	let g = n.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
+	for (let e of g ? s : []) u.push(h(yn(g, t, n, e, r, 120)));
+	let _ = n.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
+	if (g && _.length) {
+		i("h2", g, {}, "Polar diagrams");
+		let e = xn(n, _);
+		for (let r of _) d.push({
+			box: g,
+			view: h(Cn(g, n, r, e, t.units.force))
 		});
 	}
-	let m = e.add("Forces", "free bodies, their equations, and force polygons"), h = n("select", m, { "aria-label": "link" }), g = c.map((e, i) => {
-		n("option", h, { value: i }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let o = n("div", m, { class: "body" }), s = lt(o, r, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
+	let v = e.add("Forces", "free bodies, their equations, and force polygons"), y = i("select", v, { "aria-label": "link" }), b = c.map((e, r) => {
+		i("option", y, { value: r }, `${e.title}${e.member && `, ${e.member} member`}`);
+		let o = i("div", v, { class: "body" }), s = ut(o, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
 		return d.push({
 			box: o,
 			view: s,
-			link: i
+			link: r
 		}, {
 			box: o,
-			view: sn(o, t, r, e),
-			link: i
+			view: un(o, t, n, e),
+			link: r
 		}), s;
 	});
 	if (l.links.length) {
-		l.links.forEach((e, n) => {
-			let i = yn(m, t, r, `Force polygon of link ${e.title}`, [e]);
+		l.links.forEach((e, r) => {
+			let i = wn(v, t, n, `Force polygon of link ${e.title}`, [e]);
 			d.push({
 				box: i.figure,
 				view: i,
-				link: n
+				link: r
 			});
 		});
 		let e = l.chain.map((e) => l.links[e]);
 		d.push({
-			box: m,
-			view: yn(m, t, r, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
+			box: v,
+			view: wn(v, t, n, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
 		});
 	}
-	let _ = e.add("Numbers", "the numbers of this position");
+	let x = e.add("Numbers", "the numbers of this position");
 	d.push({
-		box: _,
-		view: on(_, t, r)
+		box: x,
+		view: ln(x, t, n)
 	});
-	let v = () => void (a.body = c[+h.value]?.link ?? ""), y = (e) => {
+	let S = () => void (a.body = c[+y.value]?.link ?? ""), C = (e) => {
 		let t = c.findIndex((t) => t.link === e);
-		return t >= 0 && (h.value = String(t)), v(), t >= 0;
+		return t >= 0 && (y.value = String(t)), S(), t >= 0;
 	};
-	h.addEventListener("change", () => (v(), o())), y(a.body);
-	function b() {
-		for (let e of g) e.fit();
-		let e = Math.max(0, ...g.map((e) => e.need()));
-		for (let t of g) t.fit(e || void 0);
+	y.addEventListener("change", () => (S(), o())), C(a.body);
+	function w() {
+		for (let e of b) e.fit();
+		let e = Math.max(0, ...b.map((e) => e.need()));
+		for (let t of b) t.fit(e || void 0);
 	}
 	return {
-		bodies: g,
-		fit: b,
-		choose: y,
-		resize: (e) => u.forEach((t) => t.resize(xn(e))),
+		bodies: b,
+		fit: w,
+		choose: C,
+		*parts() {
+			for (let e of f) p.has(e.figure) && (yield* e.parts());
+		},
+		resize: (e) => u.forEach((t) => t.resize(En(e))),
 		update(e) {
-			for (let t of u) Sn(f) && t.update(e);
-			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +h.value), (r === void 0 || r === +h.value) && Sn(t) && n.update(e);
+			for (let t of u) Dn(g) && t.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +y.value), (r === void 0 || r === +y.value) && Dn(t) && n.update(e);
 		}
 	};
 }
 // src/sentences.ts
-function wn(e, t = 6) {
+function kn(e, t = 6) {
 	if (!Number.isFinite(e)) return Number.isNaN(e) ? "nan" : e > 0 ? "inf" : "-inf";
 	let [n, r] = e.toExponential(t - 1).split("e"), i = +r, a = (e) => e.includes(".") ? e.replace(/\.?0+$/, "") : e;
 	return i < -4 || i >= t ? `${a(n)}e${i < 0 ? "-" : "+"}${String(Math.abs(i)).padStart(2, "0")}` : a(e.toFixed(Math.max(t - 1 - i, 0)));
 }
-var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, En = class {
+var An = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, jn = class {
 	data;
 	kernel;
 	s;
@@ -3379,11 +3460,11 @@ var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	refusal() {
 		for (let { sentence: e, rows: t, error: n } of this.s.gears) {
 			let [r, i, a] = t.map((e) => this.kernel.here[e]), o = i + a;
-			if (Math.abs(r - o) > n * o) return Q(e, {
-				found: wn(r),
-				ri: wn(Math.abs(i)),
-				rj: wn(Math.abs(a)),
-				wanted: wn(o)
+			if (Math.abs(r - o) > n * o) return $(e, {
+				found: kn(r),
+				ri: kn(Math.abs(i)),
+				rj: kn(Math.abs(a)),
+				wanted: kn(o)
 			});
 		}
 		return "";
@@ -3400,7 +3481,7 @@ var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		].join();
 		return this.said.key !== s && (this.said = {
 			key: s,
-			text: r === "not_assembled" ? this.open(a, o) : Q(a, this.places(r, o, e))
+			text: r === "not_assembled" ? this.open(a, o) : $(a, this.places(r, o, e))
 		}), this.said.text;
 	}
 	run(e) {
@@ -3430,18 +3511,18 @@ var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 			...i,
 			figures: this.figures(t, n)
 		};
-		let { kernel: a, s: o } = this, s = o.unknowns.map((e) => e.name), c = o.contacts.filter((t) => e === "reversal" ? a.here[t.row] !== a.hereAfter[t.row] : a.here[t.row] === 0), l = [...new Set(c.map((e) => e.joint))], u = o.unknowns.map((e) => Q(o.words.sides, {
+		let { kernel: a, s: o } = this, s = o.unknowns.map((e) => e.name), c = o.contacts.filter((t) => e === "reversal" ? a.here[t.row] !== a.hereAfter[t.row] : a.here[t.row] === 0), l = [...new Set(c.map((e) => e.joint))], u = o.unknowns.map((e) => $(o.words.sides, {
 			name: e.name,
 			before: this.quantity(a.here[e.row], e.kind),
 			after: this.quantity(a.hereAfter[e.row], e.kind)
 		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
 		return {
 			...i,
-			joints: e === "reversal" ? Tn(l) : l.join(", "),
+			joints: e === "reversal" ? An(l) : l.join(", "),
 			verb: d,
-			values: Tn(u),
+			values: An(u),
 			name: s[0] ?? "",
-			names: Tn(s)
+			names: An(s)
 		};
 	}
 	figures(e, t) {
@@ -3452,7 +3533,7 @@ var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		for (let t = e[0]; t <= e[1]; t++) {
 			n.at(t), n.other(a, o);
 			let e = r.unknowns.reduce((e, { row: t }) => e + Math.abs(n.here[t] - o[t]), 0);
-			e > c && ([c, l] = [e, t], u = r.unknowns.map(({ name: e, kind: t, row: i }) => Q(r.words.needs, {
+			e > c && ([c, l] = [e, t], u = r.unknowns.map(({ name: e, kind: t, row: i }) => $(r.words.needs, {
 				name: e,
 				rubbed: this.quantity(n.here[i], t),
 				bare: this.quantity(o[i], t)
@@ -3462,7 +3543,7 @@ var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	}
 	quantity(e, t, n = 6) {
 		let { unit: r, size: i } = this.s.units[t];
-		return `${wn(e / i, n)} ${r}`;
+		return `${kn(e / i, n)} ${r}`;
 	}
 	drive(e, t) {
 		return this.quantity(this.kernel.position(e.name, t), e.turns ? "angle" : "length");
@@ -3475,20 +3556,20 @@ var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let r = t === n ? t : t + (n - t + 1 >> 1), { pose: i, gaps: a } = this.kernel.motion.open(r), o = (e) => this.s.joints.indexOf(e), s = this.arc([t, n]).trim() || this.s.words.described;
 		a.sort((e, t) => o(e.joint) - o(t.joint));
 		let c = this.most(a.map((e) => [e.joint, e.length]), "length", this.data.sketch.length), l = [c, this.most(a.map((e) => [e.joint, e.angle]), "angle", 1)].filter(Boolean);
-		return l.length ? Q(e, {
+		return l.length ? $(e, {
 			span: s,
 			gap: `: ${t !== n && this.data.drives.length ? `${this.arc([r, r]).trim()} ` : ""}${l.join(" and ")}`,
 			datum: c ? "a length" : "a direction"
-		}) : this.loose(i) || Q(this.s.words.unfollowed, { span: s });
+		}) : this.loose(i) || $(this.s.words.unfollowed, { span: s });
 	}
 	loose(e) {
 		let { drives: t, sketch: n } = this.data, r = this.kernel.motion.sketch.mobility(e), i = r.freedoms - t.length;
 		if (n.dimension !== 2 || i <= 0) return "";
 		let a = r.joints.slice(0, 6).map((e) => `${e.joint} (${e.angular ? "turn" : "slide"})`), o = a.length ? ` at ${i === 1 ? "one" : "some"} of ${a.join(", ")}` : "", s = (e, t) => e ? `${e} ${t}${e > 1 ? "s" : ""}` : `no ${t}`;
-		return `${Q(this.s.words.counts, {
+		return `${$(this.s.words.counts, {
 			freedoms: s(r.freedoms, "freedom"),
 			drives: s(t.length, "drive")
-		})}; ${Q(this.s.words.add, {
+		})}; ${$(this.s.words.add, {
 			drives: s(i, "drive"),
 			where: o,
 			loose: r.links.join(", ")
@@ -3498,16 +3579,16 @@ var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let { words: r, limits: i } = this.s, a = e.filter(([, e]) => e > i.shut * n);
 		if (!a.length) return "";
 		let [o, s] = a.reduce((e, t) => t[1] > e[1] ? t : e), c = this.quantity(s, t, 3);
-		if (a.length === 1) return Q(r.one, {
+		if (a.length === 1) return $(r.one, {
 			...r.kinds[t],
 			joint: o,
 			figure: c
 		});
-		let l = Math.min(...a.map(([, e]) => e)) > i.alike * s ? Q(r.alike, { joints: a.map(([e]) => e).join(", ") }) : Q(r.most, {
+		let l = Math.min(...a.map(([, e]) => e)) > i.alike * s ? $(r.alike, { joints: a.map(([e]) => e).join(", ") }) : $(r.most, {
 			joint: o,
 			figure: c
 		});
-		return Q(r.several, {
+		return $(r.several, {
 			...r.kinds[t],
 			total: this.quantity(e.reduce((e, [, t]) => e + t, 0), t, 3),
 			where: l
@@ -3517,21 +3598,21 @@ var Tn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let { overflow: e, words: t } = this.s, n = (e) => this.kernel.here[e], r = "";
 		for (let [i, a] of Object.entries(e)) {
 			let o = a.filter(([, ...t]) => !t.every((t) => Number.isFinite(n(t) * n(t)) || Number.isFinite(n(t)) && i !== Object.keys(e)[0])).map(([e]) => e);
-			if (o.length) return Q(t.of, {
+			if (o.length) return $(t.of, {
 				what: i,
 				names: o.join(", ")
 			});
-			r = Q(t.checks, { what: i });
+			r = $(t.checks, { what: i });
 		}
 		return r;
 	}
-}, Dn = 0;
-function On(e, t, r) {
-	let i = n("div", e, {
+}, Mn = 0;
+function Nn(e, t, n) {
+	let r = i("div", e, {
 		class: "tabs",
 		role: "tablist",
 		"aria-label": "results"
-	}), a = n("div", e, { class: "panels" }), o = [], s = (e, t = !1) => {
+	}), a = i("div", e, { class: "panels" }), o = [], s = (e, t = !1) => {
 		let n = o.find((t) => t.name === e) ?? o[0];
 		if (n) {
 			for (let { tab: e, panel: t } of o) {
@@ -3540,10 +3621,10 @@ function On(e, t, r) {
 			}
 			t && n.tab.focus(), a.scrollTop = 0;
 		}
-	}, c = (e, n = !1) => {
-		t.tab = e === o[0].name ? "" : e, s(e, n), r();
+	}, c = (e, r = !1) => {
+		t.tab = e === o[0].name ? "" : e, s(e, r), n();
 	};
-	return i.addEventListener("keydown", (e) => {
+	return r.addEventListener("keydown", (e) => {
 		let t = o.findIndex((t) => t.tab === document.activeElement || t.tab === e.target), n = o.length, r = {
 			ArrowRight: (t + 1) % n,
 			ArrowLeft: (t + n - 1) % n,
@@ -3552,14 +3633,14 @@ function On(e, t, r) {
 		}[e.key];
 		t < 0 || r === void 0 || (e.preventDefault(), e.stopPropagation(), c(o[r].name, !0));
 	}), {
-		add(e, r = e) {
-			let l = `dalembert-tab-${++Dn}`, u = n("button", i, {
+		add(e, n = e) {
+			let l = `dalembert-tab-${++Mn}`, u = i("button", r, {
 				type: "button",
 				role: "tab",
 				id: l,
-				title: r,
+				title: n,
 				"aria-controls": `${l}-panel`
-			}, e), d = n("section", a, {
+			}, e), d = i("section", a, {
 				role: "tabpanel",
 				id: `${l}-panel`,
 				"aria-labelledby": l,
@@ -3576,328 +3657,346 @@ function On(e, t, r) {
 	};
 }
 // src/toolbar.ts
-function kn(e, t, r, i, a, o) {
-	let s = n("header", e);
-	n("h1", s, {}, t.title);
-	let c = n("div", s, {
+function Pn(e, n, r, a, o, s) {
+	let c = i("header", e);
+	i("h1", c, {}, n.title);
+	let l = i("div", c, {
 		class: "bar",
 		role: "toolbar",
 		"aria-label": "cycle and page"
-	}), l = (e, t, r) => {
-		let i = n("button", c, {
+	}), u = (e, t, n) => {
+		let r = i("button", l, {
 			type: "button",
 			title: t,
 			.../^\w/.test(e) ? {} : { "aria-label": t }
 		}, e);
-		return i.addEventListener("click", r), i;
-	}, u = l("▶", "play along the cycle (space)", o.play), d = n("input", c, {
+		return r.addEventListener("click", n), r;
+	}, d = u("▶", "play along the cycle (space)", s.play), f = i("input", l, {
 		type: "range",
 		min: 0,
 		max: r.end,
-		step: t.only_at_positions ? 1 : "any",
+		step: n.only_at_positions ? 1 : "any",
 		"aria-label": "position in the cycle"
-	}), f = n("output", c, { class: "readout" }), p = n("select", c, {
+	}), p = i("output", l, { class: "readout" }), m = i("select", l, {
 		class: "speed",
 		title: "speed of play; , and . step, with Shift by ten",
 		"aria-label": "speed of play"
 	});
-	for (let e of We) n("option", p, { value: e }, `${e}×`);
-	p.value = String(a.speed), p.addEventListener("change", () => a.speed = +p.value);
-	let m = l("↶", "undo (Ctrl+Z)", () => o.go(!0)), h = l("↷", "redo (Ctrl+Y)", () => o.go(!1));
-	o.back && l("Back", "back to the sketch: undo the last addition", o.back), l("Reset", "all numbers as in the file", o.reset);
-	let g = n("p", s, {
+	for (let e of Ge) i("option", m, { value: e }, `${e}×`);
+	m.value = String(o.speed), m.addEventListener("change", () => o.speed = +m.value);
+	let h = u("↶", "undo (Ctrl+Z)", () => s.go(!0)), g = u("↷", "redo (Ctrl+Y)", () => s.go(!1));
+	s.back && u("Back", "back to the sketch: undo the last addition", s.back), u("Reset", "all numbers as in the file", s.reset);
+	let _ = i("p", c, {
 		class: "mark",
 		role: "status"
 	});
-	d.addEventListener("input", () => o.show(+d.value));
+	f.addEventListener("input", () => s.show(+f.value));
 	for (let e of [
-		u,
 		d,
 		f,
-		p
+		p,
+		m
 	]) e.hidden = r.count < 2;
 	return {
-		playing: (e) => u.textContent = e ? "❚❚" : "▶",
-		update(e, n, a) {
-			let o = [a, i.at(e)].filter(Boolean).join(" ");
-			g.textContent !== o && (g.textContent = o), d.value = String(e), f.textContent = Tt(t, r, e), [m.disabled, h.disabled] = n.map((e) => !e);
+		playing: (e) => d.textContent = e ? "❚❚" : "▶",
+		update(e, i, o) {
+			let s = [o, a.at(e)].filter(Boolean).join(" ");
+			t(_, s), f.value = String(e), t(p, Et(n, r, e)), [h.disabled, g.disabled] = i.map((e) => !e);
 		}
 	};
 }
 // src/tracers.ts
-function An(n, i, a, o) {
-	let s = t("g", null, { class: "tracers" });
-	n.svg.querySelector("g").before(s);
-	let c = [];
-	return (l) => {
-		let u = o.tracers.filter((e) => i.links.includes(e.link));
-		for (; c.length > u.length;) for (let e of Object.values(c.pop())) e.remove();
-		u.forEach((o, u) => {
-			let d = i.links.indexOf(o.link), f = !c[u];
-			c[u] ??= {
-				line: t("path", s, {
+function Fn(t, i, o, s) {
+	let c = r("g", null, { class: "tracers" });
+	t.svg.querySelector("g").before(c);
+	let l = [], u = () => s.tracers.filter((e) => i.links.includes(e.link)), d = (e) => Ie(o, (n) => i.on(t.paper, i.links.indexOf(e.link), e.u, n), !0);
+	function* f() {
+		for (let [t, n] of u().entries()) l[t] && e(l[t].line, "d", d(n)), yield;
+	}
+	function p(o) {
+		let s = u();
+		for (; l.length > s.length;) for (let e of Object.values(l.pop())) e.remove();
+		s.forEach((s, u) => {
+			let f = i.links.indexOf(s.link), p = !l[u];
+			l[u] ??= {
+				line: r("path", c, {
 					class: "l-trace",
 					style: "fill:none"
 				}),
-				dot: t("circle", s, {
+				dot: r("circle", c, {
 					class: "l-trace tracer",
 					r: 1.1,
 					"data-item": `tracer:${u}`
 				})
-			}, (l || f) && c[u].line.setAttribute("d", Fe(a, (e) => i.on(n.paper, d, o.u, e), !0));
-			let [p, m] = n.paper.of(...n.paper.project(i.place(d, o.u)));
-			e(c[u].dot, {
-				cx: r(p),
-				cy: r(m)
+			}, (o || p) && e(l[u].line, "d", d(s));
+			let [m, h] = t.paper.of(...t.paper.project(i.place(f, s.u)));
+			n(l[u].dot, {
+				cx: a(m),
+				cy: a(h)
 			});
 		});
+	}
+	return {
+		update: p,
+		parts: f
 	};
 }
 // src/solved.ts
-var jn = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Mn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", Nn = 6, Pn = 10, Fn = 8, In = 4;
-async function Ln(e, t, r, a) {
-	let o = await tn.create(t), s = [], c = new Kt(t, o);
-	a.changes && c.change(a.changes), a.address && At(o, c, r, location.hash);
-	let u = a.pose && o.motion.take(a.pose);
-	u != null && (r.t = u), r.t = Math.min(Math.max(Number.isFinite(r.t) ? r.t : t.start, 0), o.end);
-	let d = 0, f = !0, p = 0;
-	o.cycle();
-	let m = new Dt(o, c), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
-		curve: n,
-		unit: t.units[e.kind]
-	}))), v = h.find((e) => e.curve.of === r.curve) ?? h.find((e) => t.gradient?.curves.includes(e.curve.row)) ?? h[0], y = new En(t, o), b = kn(e, t, o, y, r, {
-		play: le,
-		show: q,
-		go: ie,
-		reset: G,
+var In = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Ln = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", Rn = 6, zn = 10, Bn = 1, Vn = 8, Hn = 4;
+async function Un(e, n, r, a) {
+	let s = await an.create(n), c = [], l = new Jt(n, s);
+	a.changes && l.change(a.changes), a.address && jt(s, l, r, location.hash);
+	let u = a.pose && s.motion.take(a.pose);
+	u != null && (r.t = u), r.t = Math.min(Math.max(Number.isFinite(r.t) ? r.t : n.start, 0), s.end);
+	let f = 0, p = !0, m = 0, h = !1, g = null;
+	s.cycle();
+	let _ = new Ot(s, l), b = n.views.charts.flatMap((e) => e.curves.map((t) => ({
+		curve: t,
+		unit: n.units[e.kind]
+	}))), x = b.find((e) => e.curve.of === r.curve) ?? b.find((e) => n.gradient?.curves.includes(e.curve.row)) ?? b[0], S = new jn(n, s), C = Pn(e, n, s, S, r, {
+		play: de,
+		show: J,
+		go: oe,
+		reset: K,
 		back: a.back
-	}), x = n("main", e), S = n("section", x, {
+	}), w = i("main", e), T = i("section", w, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), C = new _(t.sketch.links, t.sketch.poses, o), w = yt(S, o, t.views.mechanism, t.units, r, {
+	}), E = new y(n.sketch.links, n.sketch.poses, s), D = bt(T, s, n.views.mechanism, n.units, r, {
 		full: a.full,
-		rates: t.views.rates,
+		rates: n.views.rates,
 		on: a.on,
-		entries: ee,
-		chosen: te,
-		again: J,
-		held: (e) => o.count > 1 && oe(t, `${e.kind}:${e.name}`) >= 0
-	}), { m: T, paper: E } = w, D = n("output", E, {
+		entries: te,
+		chosen: ne,
+		again: X,
+		held: (e) => s.count > 1 && ce(n, `${e.kind}:${e.name}`) >= 0
+	}), { m: O, paper: k } = D, A = i("output", k, {
 		class: "digits",
 		"aria-label": "value of the chosen curve"
-	}), O = new wt(T, t, o), k = An(T, C, o, r), A = new Et(E, T, t, o, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), j = qt(T, t, o, {
-		changed: W,
-		finished: re
+	}), j = new Tt(O, n, s), M = Fn(O, E, s, r), N = new Dt(k, O, n, s, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), P = Yt(O, n, s, {
+		changed: G,
+		finished: ae
 	});
-	ce(T, t, o, C, {
-		seek: q,
+	ue(O, n, s, E, {
+		seek: J,
 		time: () => r.t
 	});
-	let M = g(T, t, o), N = n("section", x, {
+	let F = v(O, n, s), I = i("section", w, {
 		class: "side",
 		"aria-label": "results"
-	}), P = On(N, r, () => J(!0)), F = (e) => (v = h.find((t) => t.curve === e), r.curve = e.of, J(!0)), I = Cn(P, t, o, {
+	}), L = Nn(I, r, () => X(!0)), R = (e) => (x = b.find((t) => t.curve === e), r.curve = e.of, X(!0)), z = On(L, n, s, {
 		time: () => r.t,
-		seek: q,
-		pick: F,
-		picked: () => v?.curve
-	}, r, () => J(!0)), L = z(), R = nn(P.add("Change", "every number of the file"), t, o, c, (e) => e ? re() : W());
-	H(), cn(P.add("About", "method and assumptions"), t);
-	function z() {
-		let e = n("div", S, { class: "switches" }), { arrows: i, labels: a } = t.views.mechanism;
-		Ct(e, w.view, r, o.count > 1, () => J(!0));
-		let s = (e) => i.some((t) => e.includes(t.kind)), c = t.views.rates.length > 0, l = [
+		seek: J,
+		pick: R,
+		picked: () => x?.curve
+	}, r, () => X(!0)), B = H(), V = on(L.add("Change", "every number of the file"), n, s, l, (e) => e ? ae() : G());
+	re(), dn(L.add("About", "method and assumptions"), n);
+	function H() {
+		let e = i("div", T, { class: "switches" }), { arrows: t, labels: a } = n.views.mechanism;
+		wt(e, D.view, r, s.count > 1, () => X(!0));
+		let o = (e) => t.some((t) => e.includes(t.kind)), c = n.views.rates.length > 0, l = [
 			["values", !0],
-			["digits", h.length > 0],
-			["loads", s([
+			["digits", b.length > 0],
+			["loads", o([
 				"load",
 				"effort",
 				"weight",
 				"spring",
 				"damper"
 			])],
-			["reactions", s(["joint", "friction"])],
-			["inertia", s(["inertia"])],
+			["reactions", o(["joint", "friction"])],
+			["inertia", o(["inertia"])],
 			["velocities", c],
 			["accelerations", c],
 			["names", !0],
-			["traces", t.views.mechanism.items.some((e) => e.t === "trace")]
+			["traces", n.views.mechanism.items.some((e) => e.t === "trace")]
 		];
-		return t.gradient && xt(e, {
+		return n.gradient && St(e, {
 			said: "what lowers the peak",
 			title: "arrows: moving a joint in this direction lowers the peak of the chosen curve",
 			on: !1,
-			act: (e) => (O.on = e, J(!0))
-		}), St(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Fn, () => (U(), J(!0))), t.handles.some((e) => e.kind === "joint") && xt(e, {
+			act: (e) => (j.on = e, X(!0))
+		}), Ct(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Vn, () => (W(), X(!0))), n.handles.some((e) => e.kind === "joint") && St(e, {
 			said: "tolerances",
 			title: "a thousand machines with points displaced by up to 0.5 % of the drawing's width",
 			on: !1,
-			act: (e) => (A.on = e, J(!0))
-		}), T.paper.axes.length > 2 && n("span", e, {}, "drag to rotate the view"), n("span", e, { class: "spread" });
+			act: (e) => (N.on = e, X(!0))
+		}), O.paper.axes.length > 2 && i("span", e, {}, "drag to rotate the view"), i("span", e, { class: "spread" });
 	}
-	function B({ kind: e, name: n }) {
-		return t.sketch.links[oe(t, `${e}:${n}`)] ?? t.views.mechanism.arrows.find((t) => t.of === n && t.kind === e)?.link;
+	function U({ kind: e, name: t }) {
+		return n.sketch.links[ce(n, `${e}:${t}`)] ?? n.views.mechanism.arrows.find((n) => n.of === t && n.kind === e)?.link;
 	}
-	function V({ kind: e, name: n }) {
-		let r = t.handles.find((t) => t.kind === e && (t.name === n || t.name.startsWith(`${n}:`)));
-		return r ? T.paper.point(r.p) : null;
+	function ee({ kind: e, name: t }) {
+		let r = n.handles.find((n) => n.kind === e && (n.name === t || n.name.startsWith(`${t}:`)));
+		return r ? O.paper.point(r.p) : null;
 	}
-	function ee(e, n) {
+	function te(e, t) {
 		let i = [], a = /* @__PURE__ */ new Set();
-		for (let s of e.slice(0, In)) {
-			let { kind: e, name: c } = s, u = oe(t, `${e}:${c}`), d = u < 0 ? void 0 : t.sketch.links[u], f = e === "joint" || e === "reaction" ? h.find((e) => e.curve.of === `reaction.${c}.magnitude`) : h.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
+		for (let o of e.slice(0, Hn)) {
+			let { kind: e, name: c } = o, l = ce(n, `${e}:${c}`), u = l < 0 ? void 0 : n.sketch.links[l], f = e === "joint" || e === "reaction" ? b.find((e) => e.curve.of === `reaction.${c}.magnitude`) : b.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
 			f && i.push({
-				said: `Curve of ${l(f.curve.name)}`,
-				act: () => (F(f.curve), P.show("Curves"))
+				said: `Curve of ${d(f.curve.name)}`,
+				act: () => (R(f.curve), L.show("Curves"))
 			});
-			let p = t.numbers.find((t) => t.path.split(".")[1] === c && t.path.startsWith(e === "center" ? "link" : e));
+			let p = n.numbers.find((t) => t.path.split(".")[1] === c && t.path.startsWith(e === "center" ? "link" : e));
 			p && i.push({
 				said: `Numbers of ${c}`,
-				act: () => (P.show("Change"), R.focus(p.path))
+				act: () => (L.show("Change"), V.focus(p.path))
 			}), e === "tracer" && i.push({
 				said: "Remove this path",
-				act: () => (r.tracers.splice(+c, 1), U(), J(!0))
-			}), d && !a.has(d) && (a.add(d), i.push({
-				said: `Free body of ${d}`,
-				act: () => (I.choose(d), P.show("Forces"))
-			}), o.count > 1 && i.push({
-				said: `Path of this point of ${d}`,
+				act: () => (r.tracers.splice(+c, 1), W(), X(!0))
+			}), u && !a.has(u) && (a.add(u), i.push({
+				said: `Free body of ${u}`,
+				act: () => (z.choose(u), L.show("Forces"))
+			}), s.count > 1 && i.push({
+				said: `Path of this point of ${u}`,
 				act: () => {
 					r.tracers.push({
-						link: d,
-						u: C.local(T.paper, u, V(s) ?? T.paper.of(...n))
-					}), U(), J(!0);
+						link: u,
+						u: E.local(O.paper, l, ee(o) ?? O.paper.of(...t))
+					}), W(), X(!0);
 				}
 			}));
 		}
 		return r.window && i.push({
 			said: "Fit the whole mechanism",
-			act: w.view.fit
+			act: D.view.fit
 		}), i.filter((e, t) => i.findIndex((t) => t.said === e.said) === t);
 	}
-	function te(e) {
-		e && e.kind !== "joint" && I.choose(B(e)), J(!0);
+	function ne(e) {
+		e && e.kind !== "joint" && z.choose(U(e)), X(!0);
 	}
-	function H() {
-		let e = P.add("Save", "files to save, print, share"), i = It(t.title), s = (t, r) => n("button", e, { type: "button" }, t).addEventListener("click", r);
-		t.template.length && s("Model file", () => X(`${i}.yaml`, jt(t, o), "text/yaml")), s("Curves as CSV", () => X(`${i}.csv`, Mt(t, o), "text/csv")), s("Drawing as SVG", () => X(`${i}.svg`, Nt(T.svg, t.style.light), "image/svg+xml")), s("Drawing as PNG", () => void Ft(T.svg, t.style.light).then((e) => X(`${i}.png`, e, "image/png"))), s("Print", () => window.print()), a.address && s("Copy link", () => {
-			location.hash = kt(t, o, r), navigator.clipboard?.writeText(location.href);
+	function re() {
+		let e = L.add("Save", "files to save, print, share"), t = Lt(n.title), o = (t, n) => i("button", e, { type: "button" }, t).addEventListener("click", n);
+		n.template.length && o("Model file", () => Z(`${t}.yaml`, Mt(n, s), "text/yaml")), o("Curves as CSV", () => Z(`${t}.csv`, Nt(n, s), "text/csv")), o("Drawing as SVG", () => Z(`${t}.svg`, Pt(O.svg, n.style.light), "image/svg+xml")), o("Drawing as PNG", () => void It(O.svg, n.style.light).then((e) => Z(`${t}.png`, e, "image/png"))), o("Print", () => window.print()), a.address && o("Copy link", () => {
+			location.hash = At(n, s, r), navigator.clipboard?.writeText(location.href);
 		});
 	}
-	function U() {
-		a.address && window.history.replaceState(null, "", "#" + kt(t, o, r)), a.on?.({
+	function W() {
+		a.address && window.history.replaceState(null, "", "#" + At(n, s, r)), a.on?.({
 			type: "view",
 			view: r
 		});
 	}
-	function ne() {
-		J(!0), R.update();
-		let e = Ot(t, o);
+	function ie() {
+		X(!0), V.update();
+		let e = kt(n, s);
 		a.edited?.(e), a.on?.({
 			type: "change",
 			changes: e
-		}), U();
-	}
-	function W() {
-		o.coarse = !0, c.pass(), J(!0);
-	}
-	function re() {
-		o.coarse = !1;
-		let { sentence: e } = c;
-		c.pass() && (c.sentence = e), m.note(), K(!0), ne();
+		}), W();
 	}
 	function G() {
-		c.change({}), re(), K();
-	}
-	function ie(e) {
-		m.go(e) && (K(!0), ne());
-	}
-	function K(e = !1) {
-		o.cycle(), T.fit(void 0, e), I.fit();
+		s.coarse = !0, l.pass(), X(!0);
 	}
 	function ae() {
-		w.resize();
-		let e = N.querySelector(".panels").clientWidth;
-		e > 0 && I.resize(e - 12), T.fit(), J(!0);
+		s.coarse = !1;
+		let { sentence: e } = l;
+		l.pass() && (l.sentence = e), _.note(), q(!0), ie();
 	}
-	function q(e) {
-		r.t = Math.min(Math.max(e, 0), o.end), t.only_at_positions && (r.t = Math.round(r.t)), J(!1);
+	function K() {
+		l.change({}), ae(), q();
 	}
-	function se(e) {
-		let t = e > 0 ? Math.floor(r.t + 1e-9) + e : Math.ceil(r.t - 1e-9) + e;
-		q(o.cyclic ? (t % o.count + o.count) % o.count : t);
+	function oe(e) {
+		_.go(e) && (q(!0), ie());
 	}
-	function le() {
-		if (b.playing(!p), p) return ue();
-		let e = performance.now(), t = r.t, n = (i) => {
-			t += (i - e) / 1e3 / Nn * r.speed * o.end, e = i, t >= o.end && (t = 0), q(t), p = requestAnimationFrame(n);
-		};
-		p = requestAnimationFrame(n);
+	function q(e = !1) {
+		s.cycle(), O.fit(void 0, e), z.fit();
 	}
-	function ue() {
-		cancelAnimationFrame(p), p = 0;
+	function se() {
+		D.resize();
+		let e = I.querySelector(".panels").clientWidth;
+		e > 0 && z.resize(e - 12), O.fit(), X(!0);
 	}
 	function J(e) {
-		f ||= e, d ||= requestAnimationFrame(() => {
-			d = 0;
-			let e = performance.now();
-			de(), s.push(performance.now() - e), s.length > 2e3 && s.shift();
-		});
+		r.t = Math.min(Math.max(e, 0), s.end), n.only_at_positions && (r.t = Math.round(r.t)), X(!1);
+	}
+	function le(e) {
+		let t = e > 0 ? Math.floor(r.t + 1e-9) + e : Math.ceil(r.t - 1e-9) + e;
+		J(s.cyclic ? (t % s.count + s.count) % s.count : t);
 	}
 	function de() {
-		let t = f;
-		f = !1, t && o.cycle(), o.at(r.t);
-		let n = y.refusal();
-		n !== o.refused && (o.refused = n, o.cycle()), e.classList.toggle("unsolved", !o.solved), e.classList.toggle("turning", r.drag === "turn"), T.update(t), k(t), j(), M(), O.update(v?.curve);
-		let a = A.update(v?.curve.row), s = O.on && v && O.peak(v.curve), u = s && v ? `arrows lower the peak of ${l(v.curve.name)}, now ${i(s.size / v.unit.size)} ${v.unit.unit}${s.where}` : "";
-		L.textContent = [u, a && v ? `${l(v.curve.name)}: ${i(a.mean / v.unit.size)} ± ${i(a.sigma / v.unit.size, 2)} ${v.unit.unit} (1 σ)` : ""].filter(Boolean).join("; "), D.hidden = !v || !T.on("digits"), v && !D.hidden && (D.textContent = `${l(v.curve.name)} ${o.solved ? i(o.here[v.curve.row] / v.unit.size) : "–"} ${v.unit.unit}`), I.update(t), b.update(r.t, m.can, c.sentence);
+		if (C.playing(!m), m) return Y();
+		let e = performance.now(), t = r.t, n = (i) => {
+			t += (i - e) / 1e3 / Rn * r.speed * s.end, e = i, t >= s.end && (t = 0), J(t), m = requestAnimationFrame(n);
+		};
+		m = requestAnimationFrame(n);
 	}
-	e.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => J(!0)));
-	let Y = a.full ? document : e, fe = (e) => pe(e);
-	Y.addEventListener("keydown", fe);
-	function pe(e) {
+	function Y() {
+		cancelAnimationFrame(m), m = 0;
+	}
+	function X(e) {
+		p ||= e, f ||= requestAnimationFrame(() => {
+			f = 0;
+			let e = performance.now();
+			fe(), c.push(performance.now() - e), c.length > 2e3 && c.shift();
+		});
+	}
+	function fe() {
+		let n = s.coarse && !j.on, i = p && !n;
+		h = p && n || h && !i, i && (g = null, s.cycle()), p = !1, s.at(r.t);
+		let a = S.refusal();
+		a !== s.refused && (s.refused = a, s.cycle()), e.classList.toggle("unsolved", !s.solved), e.classList.toggle("turning", r.drag === "turn"), O.update(i), M.update(i), P(), F(), j.update(x?.curve);
+		let c = N.update(x?.curve.row), u = j.on && x && j.peak(x.curve), f = u && x ? `arrows lower the peak of ${d(x.curve.name)}, now ${o(u.size / x.unit.size)} ${x.unit.unit}${u.where}` : "";
+		t(B, [f, c && x ? `${d(x.curve.name)}: ${o(c.mean / x.unit.size)} ± ${o(c.sigma / x.unit.size, 2)} ${x.unit.unit} (1 σ)` : ""].filter(Boolean).join("; ")), A.hidden = !x || !O.on("digits"), x && !A.hidden && t(A, `${d(x.curve.name)} ${s.solved ? o(s.here[x.curve.row] / x.unit.size) : "–"} ${x.unit.unit}`), z.update(i), C.update(r.t, _.can, l.sentence), n && me();
+	}
+	function* pe() {
+		yield* s.parts(), yield* O.parts(), yield* M.parts(), yield* z.parts();
+	}
+	function me() {
+		let e = performance.now() + Bn;
+		do {
+			if (!g && !h) return;
+			g || ([g, h] = [pe(), !1]), g.next().done && (g = null);
+		} while (performance.now() < e);
+		X(!1);
+	}
+	e.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => X(!0)));
+	let he = a.full ? document : e, ge = (e) => _e(e);
+	he.addEventListener("keydown", ge);
+	function _e(e) {
 		let t = e.target;
-		if (!(e.defaultPrevented || t.closest?.(jn))) {
-			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), ie(e.key.toLowerCase() === "z" && !e.shiftKey);
-			else if (e.ctrlKey || e.metaKey || e.altKey || o.count < 2) return;
-			else e.key === " " && !t.closest?.(Mn) ? (e.preventDefault(), le()) : ".,><:;".includes(e.key) && se((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Pn));
+		if (!(e.defaultPrevented || t.closest?.(In))) {
+			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), oe(e.key.toLowerCase() === "z" && !e.shiftKey);
+			else if (e.ctrlKey || e.metaKey || e.altKey || s.count < 2) return;
+			else e.key === " " && !t.closest?.(Ln) ? (e.preventDefault(), de()) : ".,><:;".includes(e.key) && le((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : zn));
 		}
 	}
-	return o.at(r.t), K(), {
-		kernel: o,
-		data: t,
-		times: s,
-		show: q,
-		stage: w,
+	return s.at(r.t), q(), {
+		kernel: s,
+		data: n,
+		times: c,
+		show: J,
+		stage: D,
 		opened() {
-			ae(), de(), R.update(), w.choose(r.chosen);
+			se(), fe(), V.update(), D.choose(r.chosen);
 		},
 		set(e) {
-			c.change(e), m.note(), K(!0), J(!0), R.update();
+			l.change(e), _.note(), q(!0), X(!0), V.update();
 		},
-		text: () => jt(t, o),
-		pose: () => o.motion.placed(),
-		redraw: () => J(!0),
-		observed: [E, N],
-		resize: ae,
+		text: () => Mt(n, s),
+		pose: () => s.motion.placed(),
+		redraw: () => X(!0),
+		observed: [k, I],
+		resize: se,
 		remove() {
-			ue(), Y.removeEventListener("keydown", fe);
+			Y(), he.removeEventListener("keydown", ge);
 		}
 	};
 }
 // src/page.ts
-async function Rn(e, t, r = {}) {
-	let i = r.view ?? Ge(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, r);
+async function Wn(e, t, n = {}) {
+	let r = n.view ?? Ke(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, n);
 	async function c(t, s) {
 		let c = document.createElement("div");
-		c.className = r.full ? "dalembert full" : "dalembert", c.tabIndex = -1;
+		c.className = n.full ? "dalembert full" : "dalembert", c.tabIndex = -1;
 		let f = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
-		n("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{-webkit-user-select:none;user-select:none;flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert main.one{flex-direction:column;display:flex}.dalembert main.one .stage{flex:1}.dalembert.full main.one .paper{aspect-ratio:auto;min-height:20em;max-height:none}.dalembert .missing{flex-wrap:wrap;gap:.3em;padding:.1em 0 .4em;display:flex}.dalembert .missing p{color:var(--warn);flex-basis:100%;margin:0;font-size:.92em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);max-height:calc(100vh - 8px);padding:.25em;display:flex;position:fixed;overflow-y:auto;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + t.style.light + f;
-		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Vt(c, t, i, {
+		i("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{-webkit-user-select:none;user-select:none;flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert main.one{flex-direction:column;display:flex}.dalembert main.one .stage{flex:1}.dalembert.full main.one .paper{aspect-ratio:auto;min-height:20em;max-height:none}.dalembert .missing{flex-wrap:wrap;gap:.3em;padding:.1em 0 .4em;display:flex}.dalembert .missing p{color:var(--warn);flex-basis:100%;margin:0;font-size:.92em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);max-height:calc(100vh - 8px);padding:.25em;display:flex;position:fixed;overflow-y:auto;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + t.style.light + f;
+		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Ht(c, t, r, {
 			...s,
 			taken: l,
 			back: p
-		}) : t.format === "dalembert-page/1" ? await Ln(c, t, i, {
+		}) : t.format === "dalembert-page/1" ? await Un(c, t, r, {
 			...s,
 			back: p
 		}) : null;
@@ -3928,13 +4027,13 @@ async function Rn(e, t, r = {}) {
 		o.length = 0, await p(e, t);
 	}
 	async function p(e, t = s.pose()) {
-		let n = s;
+		let r = s;
 		s = await c(e, {
-			...r,
+			...n,
 			changes: void 0,
 			address: !1,
 			pose: t ?? void 0
-		}), n.remove(), r.on?.({ type: "put" });
+		}), r.remove(), n.on?.({ type: "put" });
 	}
 	return {
 		get kernel() {
@@ -3955,7 +4054,7 @@ async function Rn(e, t, r = {}) {
 		get sketch() {
 			return s.sketch;
 		},
-		view: i,
+		view: r,
 		replace: f,
 		set: (e) => s.set(e),
 		show: (e) => s.show(e),
@@ -3972,9 +4071,9 @@ async function Rn(e, t, r = {}) {
 	};
 }
 // src/main.ts
-async function zn(e, t) {
+async function Gn(e, t) {
 	try {
-		return await Rn(e, JSON.parse(new TextDecoder().decode(await ne(t))), {
+		return await Wn(e, JSON.parse(new TextDecoder().decode(await ie(t))), {
 			address: location.protocol !== "about:",
 			full: !0
 		});
@@ -3982,24 +4081,24 @@ async function zn(e, t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var Bn = { async render({ model: e, el: t }) {
-	let r = "", i = Ge(), a = (t) => {
-		r = JSON.stringify(t), e.set("changes", t), e.save_changes();
+var Kn = { async render({ model: e, el: t }) {
+	let n = "", r = Ke(), a = (t) => {
+		n = JSON.stringify(t), e.set("changes", t), e.save_changes();
 	}, o = (t) => {
 		(t.type === "put" || t.type === "pose" || t.type === "change" && e.get("text")) && (e.set("text", c.text()), e.save_changes());
 	}, s = async () => {
-		let r = await Rn(t, e.get("data"), {
+		let n = await Wn(t, e.get("data"), {
 			edited: a,
 			on: o,
 			changes: e.get("changes"),
-			view: i
+			view: r
 		});
-		return n("style", t, {}, `[data-dalembert="${e.get("frame")}"]{display:none}`), r;
+		return i("style", t, {}, `[data-dalembert="${e.get("frame")}"]{display:none}`), n;
 	}, c = await s(), l = async () => {
-		i.window = null, c.remove(), c = await s();
-	}, u = () => JSON.stringify(e.get("changes")) !== r && c.set(e.get("changes"));
+		r.window = null, c.remove(), c = await s();
+	}, u = () => JSON.stringify(e.get("changes")) !== n && c.set(e.get("changes"));
 	return e.on("change:data", l), e.on("change:changes", u), () => {
 		e.off("change:data", l), e.off("change:changes", u), c.remove();
 	};
 } };
-export { Bn as default, Rn as mount, zn as open };
+export { Kn as default, Wn as mount, Gn as open };
