@@ -100,8 +100,8 @@ def press(s: Studio, r: Random) -> None:
 def letters(s: Studio, r: Random) -> None:
     """Letters in the file, mostly taken back."""
     pane(s, "File")
-    lines = s.page.locator(".cm-line")
-    lines.nth(r.randrange(lines.count())).click(timeout=5000)
+    box = s.page.locator(".cm-scroller").bounding_box()
+    s.page.mouse.click(box["x"] + 60 + r.uniform(0, 200), box["y"] + r.uniform(0, 0.9) * box["height"])
     if r.random() < 0.5:
         s.page.keyboard.press("Home")
     some = [r.choice(LETTERS) for _ in range(r.randrange(1, 4))]

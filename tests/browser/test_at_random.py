@@ -32,8 +32,9 @@ TEMPLATES = (
     "planetary_train",
 )
 TEMPLATES += ("watt_1", "belt_drive", "disc_cam")
-TOGETHER = 50
-"""Actions between two looks at the file and the numbers; then a mechanism that is in pieces is opened anew."""
+TOGETHER, LOOKS = 50, (4, 12, 25, 0)
+"""Actions after which the mechanism, by then in pieces, is opened anew, and those of them after which its file and its
+numbers are looked at."""
 
 
 class Forces:
@@ -91,11 +92,11 @@ def test_after_any_actions_what_is_saved_has_the_numbers_shown(
     with serving(path, solver=Solver()) as served:  # one that gives up in time
         s = tabs(served)
         for k in range(count):
-            if k and k % TOGETHER == 0:
+            if k and k % TOGETHER in LOOKS:
                 compared += looked_at(s, path)
-                if not k % (2 * TOGETHER):
-                    s.send({"edit": [[0, len(s.text), text]], "base": s.page.evaluate("studio.state().hash")})
-                    settled(s)
+            if k and k % TOGETHER == 0:
+                s.send({"edit": [[0, len(s.text), text]], "base": s.page.evaluate("studio.state().hash")})
+                settled(s)
             r.choice(ACTIONS)(s, r)
             assert not s.complaints, (k, s.complaints)
         looked_at(s, path)

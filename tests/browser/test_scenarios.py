@@ -227,6 +227,35 @@ def loads_of_each_kind(s: Studio) -> None:
     assert m.drives["cylinder1"].cylinder is not None
 
 
+def a_cam_with_typed_values(s: Studio) -> None:
+    """A cam from its axis to the roller of its follower; what is typed of it under Part is in the file."""
+    bars(s)
+    s.line("b", (0.1, 0), (0.06, 0.04), "50", "135")
+    ends = s.drawing()["links"]
+    follower = ends[-1]["name"]
+    aim(s, "link2", next(iter(ends[1]["points"])))
+    keys(s, "j Enter")
+    aim(s, follower, s.second(follower))
+    s.changes(lambda: keys(s, "Enter"))
+    cam = s.drawing()["joints"][-1]["name"]
+    s.choose("joints", cam)
+    s.type("follower", "{roller: 4 mm}")
+    s.type(
+        "profile",
+        "{base: 60, segments: [{to: 6 deg, in: 120, by: cycloidal}, {to: 0, in: 120, by: cycloidal}, {dwell: rest}]}",
+    )
+    s.page.locator(".pane.part select:has(option[value=contact])").select_option("contact")
+    s.type("contact", "holds")
+    joint: Any = da.loads(s.text).joints[cam]
+    assert (joint.type, joint.links[1], joint.follower.roller, joint.contact.mode) == (
+        "cam",
+        follower,
+        0.004,
+        "holds",
+    )
+    assert joint.profile.base == 0.06
+
+
 def crlf_is_kept(s: Studio) -> None:
     """A file with CRLF keeps it through gestures."""
     text = FOUR_BAR.replace("\n", "\r\n")
@@ -256,7 +285,7 @@ LONG: list[Callable[[Studio], None]] = [
         joints_of_each_kind,
         loads_of_each_kind,
     ),
-    *(crlf_is_kept, a_hundred_steps),
+    *(a_cam_with_typed_values, crlf_is_kept, a_hundred_steps),
 ]
 
 

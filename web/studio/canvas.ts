@@ -219,7 +219,7 @@ export class Canvas {
 /** A load's value as the file says it. */
 function value(l: DrawnLoad, drawing: Drawing): string {
   const said = l.written?.value;
-  if (said === undefined || typeof said === "object") return "";
+  if (said === undefined || said === l.name || typeof said === "object") return ""; // a parameter of the load's name
   const unit = l.type === "force" ? "force" : "moment";
   return typeof said === "number" ? `${figures(said)} ${drawing.units[unit].unit}` : String(said).split("@")[0].trim().replace(/^([-+.\deE]+)$/, `$1 ${drawing.units[unit].unit}`);
 }

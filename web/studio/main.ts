@@ -170,7 +170,7 @@ async function edited(values: Record<string, number>): Promise<void> {
 function numbers(): void {
   if (!page || page.sketch) return;
   const { kernel, data } = page, at = Math.round(data.start), efforts = data.views.table.filter((row) => row.name.startsWith("effort"));
-  const of = efforts.map((row) => `${row.name.replace(/[_{}]/g, "")} ${figures(kernel.rows[row.rows[0] * kernel.row + at] / data.units[row.kind].size, 5)} ${data.units[row.kind].unit}`);
+  const of = efforts.map((row) => `${row.name.replace(/[_{}]/g, "")} ${figures(kernel.rows[row.rows[0] * kernel.row + at] / data.units[row.kind].size, 5).replace("-", "−")} ${data.units[row.kind].unit}`);
   const solved = kernel.good[at] === 1;
   verdictIs(solved ? `${of.join("; ") || "In equilibrium"}${of.length ? " as drawn" : ""}. All forces: tab Forces.` : "No forces at the drawn position: see tab Forces", !solved);
 }

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
 from dalembert.studio.access import HOST, LARGEST, Access
-from dalembert.studio.solver import Solver
+from dalembert.studio.solver import Solver, collect_rarely
 
 if TYPE_CHECKING:
     from dalembert.studio.session import Session
@@ -38,10 +38,12 @@ def run(path: Path | None, port: int = 0, browser: bool = True) -> None:
         from dalembert.studio.stored_file import StoredFile
 
         try:
-            return Session(StoredFile(file))
+            session = Session(StoredFile(file))
         except ModelError:
             server.should_exit = True
             raise
+        collect_rarely()
+        return session
 
     studio = StudioServer(begin, access, solver)
     config = uvicorn.Config(

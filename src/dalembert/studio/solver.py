@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import gc
 import json
 import multiprocessing
 import signal
@@ -20,10 +21,12 @@ from dalembert.errors import DalembertError
 if TYPE_CHECKING:
     from dalembert.model.files.source import FileSource
 
-SECONDS, REPORT_SECONDS = 5.0, 60.0
-"""Longest solution, and longest report."""
+SECONDS, REPORT_SECONDS, START_SECONDS = 5.0, 60.0, 60.0
+"""Longest solution, longest report, and longest start of the process, which counts for neither."""
 MEMORY = 4 << 30
 """Bytes of address space."""
+IDLE = 0.3
+"""Seconds without a question after which what an answer has left is freed."""
 
 
 class Question(NamedTuple):
@@ -50,6 +53,7 @@ class Solver:
         self.seconds = seconds
         self._lock, self._process = Lock(), None
         self._pipe: Connection | None = None
+        self._started = False
 
     def start(self) -> None:
         """Start the process, which takes a second, before the first request."""
@@ -62,8 +66,10 @@ class Solver:
             limit = self.seconds if question.ask in ("data", "check") else REPORT_SECONDS
             try:
                 pipe = self._connection()
+                if not self._started and pipe.poll(START_SECONDS):
+                    self._started = pipe.recv_bytes() == STARTED
                 pipe.send(question)
-                if pipe.poll(limit):
+                if self._started and pipe.poll(limit):
                     return pipe.recv_bytes().decode()
                 reason = f"no answer within {limit:g} s"
             except (EOFError, OSError):
@@ -93,6 +99,11 @@ class Solver:
             self._process.kill()
             self._process.join()
         self._process = self._pipe = None
+        self._started = False
+
+
+STARTED = b"started"
+"""What the process says once it can answer."""
 
 
 def _serve(pipe: Connection) -> None:
@@ -101,12 +112,23 @@ def _serve(pipe: Connection) -> None:
     warnings.simplefilter("ignore", RuntimeWarning)  # of texts half typed; the page has the sentence
     _limit_memory()
     _warm_up(pipe)
+    collect_rarely()
     while True:
         try:
+            if not pipe.poll(IDLE):
+                gc.collect()
             question = pipe.recv()
             pipe.send_bytes(written(answered(question)).encode())
         except (EOFError, OSError):
             return
+
+
+def collect_rarely() -> None:
+    """What is imported is never looked at again for what can be freed, and new objects seldom: nearly all that an
+    answer makes are needed until it is given."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(100_000, 20, 20)
 
 
 def written(answer: Tree) -> str:
@@ -115,9 +137,11 @@ def written(answer: Tree) -> str:
 
 
 def _warm_up(pipe: Connection) -> None:
-    """Import what the first request needs, and run one unless it has come."""
+    """Import what the first request needs, which is the start, and run one unless it has come."""
     from dalembert.model.library import template_text
+    from dalembert.pages import page_data as _imported  # noqa: F401
 
+    pipe.send_bytes(STARTED)
     if not pipe.poll():
         answered(Question("data", template_text("four_bar"), "yaml", "four_bar"))
 

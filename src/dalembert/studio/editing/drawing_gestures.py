@@ -207,7 +207,7 @@ class Join(Gesture):
     ``weld``: rigidly; a pin between the two links becomes the weld. ``circular_slot``: from the pin to the slot's
     centre. ``rolling``: from the axis of a wheel to the point of its track below it. ``belt``: round wheels about both
     points, each a third of their distance, with 100 N in each strand. ``cam``: from its axis to the roller of its
-    follower, which it lifts by a fifth of their distance.
+    follower, which it lifts by a fifth of their distance, or swings by 15 degrees.
     """
 
     op: Literal["weld", "circular_slot", "rolling", "belt", "cam"]
@@ -229,10 +229,8 @@ class Join(Gesture):
         elif self.op == "belt":
             keys = {"radii": [d.number(apart / 3, "length", 4)] * 2, "tension": "100 N"}
         elif self.op == "cam":
-            lift, half = (
-                d.number(apart / 5, "length", 4),
-                {"by": "cycloidal", "in": d.number(math.radians(120), "angle")},
-            )
+            lift = "15 deg" if self._swings(d, a[0], b[0]) else d.number(apart / 5, "length", 4)
+            half = {"by": "cycloidal", "in": d.number(math.radians(120), "angle")}
             segments = [half | {"to": lift}, half | {"to": 0}, {"dwell": "rest"}]
             profile = {"prime": d.number(apart, "length", 8), "segments": segments}
             keys = {"follower": {"roller": d.number(apart / 5, "length", 4)}, "profile": profile}
@@ -243,6 +241,12 @@ class Join(Gesture):
                 keys |= {"direction": d.angle_text(line)}
         at = {"at": [of[0][1], of[1][1]]}
         d.put("joints", d.letter(), {"type": self.op, "links": [of[0][0], of[1][0]], **at, **keys})
+
+    @staticmethod
+    def _swings(d: Draft, cam: str, follower: str) -> bool:
+        """True if a follower is pinned to a link that the cam is pinned to."""
+        pins = [set(j.get("links") or ()) for j in d.entries("joints").values() if j.get("type") == "pin"]
+        return any({follower, *(pair - {cam})} in pins for pair in pins if cam in pair)
 
     @staticmethod
     def _unpin(d: Draft, a: End, b: End) -> None:

@@ -27,12 +27,14 @@ from dalembert.model import Mechanism, Schedule
 class PositionPath:
     """The mechanism with the file's numbers at a list of positions, followed when its motion is needed.
 
-    With the ``result`` of the general executor, which may be of another design, its motion is that.
+    With the ``result`` of the general executor, which may be of another design, its motion is that. ``inertia``: of the
+    analysis that is traced beside it, whose kept program then gives the motion too.
     """
 
     mechanism: Mechanism
     schedule: Schedule
     result: Result | None = None
+    inertia: bool = True
     target: Mapping[str, Array] | None = None
     """Target of each output (position, component)."""
 
@@ -52,7 +54,7 @@ class PositionPath:
         if beyond is not None:
             raise ModelError(beyond, "", ("links",))
         with np.errstate(all="ignore"):
-            value = quick_answer(self.compiled, inertia=True, forces=False)
+            value = quick_answer(self.compiled, self.inertia, forces=False)
         return value if isinstance(value, Positions) else positions(self.compiled)
 
     @cached_property
@@ -129,7 +131,7 @@ class PositionPath:
         schedule = replace(
             self.schedule, position=positions, speed=rates[0], acceleration=rates[1], time=None, after=None
         )
-        return PositionPath(self.mechanism, schedule)
+        return PositionPath(self.mechanism, schedule, inertia=self.inertia)
 
 
 def contact_keys(c: Compiled) -> list[tuple[str, str]]:

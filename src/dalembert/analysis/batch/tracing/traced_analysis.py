@@ -105,7 +105,7 @@ def trace_analysis(
     motion is followed where the program runs.
     """
     schedule = _schedule(m, moves)
-    course = PositionPath(m, schedule, solved)
+    course = PositionPath(m, schedule, solved, inertia)
     check_knowns(course.compiled)
     repeated = _check(course, redundant)
     where = numbers(m, vary)
