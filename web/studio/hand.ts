@@ -294,9 +294,10 @@ export class Hand {
       : ["slider", "slot", "slide"].includes(this.tool.name) ? { op: this.tool.name, where: first, guide: over && over !== first.link ? over : "ground", direction: turn, angle: typed("angle") }
       : this.tool.name === "force" ? { op: "force", where: first, vector: [size * Math.cos(turn), size * Math.sin(turn)], angle: typed("angle"), ...value }
       : { op: this.tool.name === "pin" ? "merge" : this.tool.name, first, second, ...value };
+    const goesOn = this.tool.name === "bar" && !(first.point && second.point); // a bar from point to point closes what is drawn
     this.cancel();
     const a = await this.socket.gesture(asked);
-    if (!a.refused && this.tool.name !== "bar") this.choose(TOOLS[0]);
+    if (!a.refused && !goesOn) this.choose(TOOLS[0]);
   }
 
   /** Points of other links at a place, which a click of the pin or weld tool joins to its own. */
