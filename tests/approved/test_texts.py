@@ -18,10 +18,10 @@ import openpyxl
 import pytest
 
 import dalembert as da
-from dalembert.bundled import cases, examples
 from dalembert.exams.question_sheet import ExamText, question_sheet
 from dalembert.machine.members.member_table import member_table
 from dalembert.model.library import TEMPLATES
+from tests.approved.read_out import READ, model
 
 TEXTS = Path(__file__).with_name("texts")
 ROUNDING = re.compile(
@@ -32,10 +32,6 @@ ROUNDING = re.compile(
 )
 """What only rounding or the day makes: the checks, places of what is zero throughout, the date of a design report."""
 NUMBER = re.compile(r"(?<![\w.])[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
-
-
-def model(name: str) -> da.Mechanism:
-    return da.load((cases() | examples())[name])
 
 
 def worked(name: str, **options: Any) -> Callable[[], str]:
@@ -124,6 +120,7 @@ TEXT: dict[str, Callable[[], str]] = {
     "members": answered(member_table, positions=12),
     "study": studied,
     "workbook": in_cells,
+    **READ,
 }
 
 

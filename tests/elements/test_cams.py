@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from dalembert.machine.elements.cam_files import outline
 from dalembert.machine.elements.hertz_contact import LineContact
 from dalembert.model.library import template_text
 from dalembert.views.paper.scene import Arrow, Circle, Polygon
+from tests.elements.random_cams import Case
 from tests.elements.test_cam_cases import sliding
 
 RISE = [{"to": "20 mm", "in": "90 deg", "by": "cycloidal"}, {"dwell": "40 deg"}]
@@ -113,9 +115,51 @@ def test_a_cam_is_saved_and_read() -> None:
         machine("flat", face_width="12 mm", elasticity="206 GPa", friction={"coefficient": 0.1}),
         sliding("knife", {"tangent": {"base": 0.03, "lift": 0.01, "half_angle": "60 deg"}}, drive=TURN),
         sliding({"roller": 0.01}, {"points": {"angle": [0, 90, 180, 270], "radius": [0.05] * 4}}, drive=TURN),
+        Case(3).tree(),  # whose lift is an angle, also where every number of the file is bare
+        Case(3).tree() | {"units": {"length": "mm", "angle": "rad"}},
     ):
         m = da.mechanism(tree)
         assert da.mechanism(m.to_tree()) == m
+        assert da.loads(str(m)) == m
+
+
+@pytest.mark.parametrize("past", [-1e-3, 1e-3])
+def test_the_nose_of_a_tangent_cam_has_a_radius(past: float) -> None:
+    """base + lift - lift / (1 - cos half) is 0 at lift = base (1 - cos half) / cos half."""
+    half = math.radians(50)
+    lift = 0.03 * (1 / math.cos(half) - 1) * (1 + past)
+    tangent = {"base": 0.03, "lift": lift, "half_angle": f"{half!r} rad"}
+    tree = sliding("knife", {"tangent": tangent}, drive=TURN)
+    if past < 0:
+        assert da.cam(da.mechanism(tree), "F").nose_radius == pytest.approx(0.03e-3)
+        return
+    with pytest.raises(ModelError, match=r"the nose would have a radius of -0\.03 mm; make the base circle"):
+        da.mechanism(tree)
+    for angle, refused in (("90 deg", True), ("89 deg", False)):
+        tangent |= {"lift": 0.01, "half_angle": angle}
+        assert ("the half angle is not below 90 deg" in refusal(tree)) == refused
+
+
+def refusal(tree: Any) -> str:
+    try:
+        da.statics(da.mechanism(tree))
+    except ModelError as error:
+        return str(error)
+    return ""
+
+
+def test_a_swinging_face_touches_base_circles_between_two_radii() -> None:
+    """Its line is as far from the pivot in every position; the pivot is 120 mm from the cam's axis."""
+    tree = Case(5).tree()
+    profile = tree["joints"]["F"]["profile"]
+    profile["base"] = 0.5
+    least, most = map(float, re.findall(r"between ([\d.]+) mm and ([\d.]+) mm", refusal(tree))[0])
+    assert most - least == pytest.approx(240, abs=1e-3) or (least == 0 and 120 <= most < 240)
+    for base in (least, most):
+        for side in (-1e-3, 1e-3):
+            profile["base"] = base * (1 + side) * 1e-3
+            outside = base > 0 and (side > 0) == (base == most)
+            assert ("does not touch a base circle of" in refusal(tree)) == outside
 
 
 @pytest.mark.parametrize("ending", ["csv", "dxf"])

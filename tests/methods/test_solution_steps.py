@@ -161,3 +161,25 @@ def test_the_four_bar_closes_by_the_cosine_law() -> None:
     assert "(15.00^2 + 17.06^2 − 10.00^2)/(2 · 15.00 · 17.06), ψ = 35.62 °" in text
     assert "87.47 + ω_3 · 14.90 = 0, ω_3 = −5.869 rad/s" in text
     assert "a_A,O4B − (ω_3^2 AB)_O4B + ω_4^2 O4B + (α_3 × AB)_O4B = 0" in text
+
+
+@pytest.mark.parametrize("part", [0.5e-10, 2e-10])
+def test_a_number_is_nothing_below_a_part_of_the_largest_force(part: float) -> None:
+    """Two levers apart, one with a force that is rounding beside the other's: the result keeps its number."""
+    pulls = {"F": ("a", 1e6), "G": ("b", 1e6 * part)}
+    tree = {
+        "links": {
+            "ground": {"points": {"O": [0, 0], "Q": [1, 0]}},
+            "a": {"points": {"O": [0, 0], "P": [0.4, 0]}},
+            "b": {"points": {"Q": [0, 0], "P": [0.4, 0]}},
+        },
+        "joints": {n: {"type": "pin", "links": ["ground", k]} for n, k in (("O", "a"), ("Q", "b"))},
+        "drives": {"O": {"position": 0}, "Q": {"position": 0}},
+        "loads": {n: {"type": "force", "on": k, "at": "P", "value": [0, -f]} for n, (k, f) in pulls.items()},
+    }
+    r = da.statics(da.mechanism(tree))
+    s = r.steps(1)
+    found = [n for step in s.steps if step.kind == "single" for n in step.finds]
+    sizes = sorted(abs(n.value) for n in found if n.mark == "y" and not n.turning)
+    assert sizes == pytest.approx([0.0 if part < 1e-10 else 1e6 * part, 1e6], rel=1e-9, abs=0)
+    assert r.reaction("Q", on="b")[0, 1] == pytest.approx(1e6 * part, rel=1e-9)

@@ -15,6 +15,7 @@ from dalembert.errors import ModelError
 from dalembert.model.drives.programmes import Programme, segment_tree
 from dalembert.model.drives.written_programmes import programme, programme_schema
 from dalembert.model.part import Part, ReadingRules, mapping, reading
+from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
@@ -73,7 +74,12 @@ class Segments(ValueField):
         return lift
 
     def write(self, value: CamLift) -> object:
-        return [segment_tree(s, value.kind, "angle") for s in value.programme.segments]
+        segments = [segment_tree(s, value.kind, "angle") for s in value.programme.segments]
+        unit = units.angle if (units := FILE_UNITS.get()) and value.kind == "angle" else ""
+        for s in segments if unit else ():
+            if isinstance(s.get("to"), (int, float)):  # bare it would be read as a length
+                s["to"] = f"{s['to']} {unit}"
+        return segments
 
     def json_schema(self) -> JsonSchema:
         properties: Any = programme_schema()["properties"]
@@ -83,8 +89,7 @@ class Segments(ValueField):
 def _lift_kind(value: object, rules: ReadingRules) -> str:
     """length, or angle where the first lift has the unit of one."""
     listed = value if isinstance(value, Sequence) and not isinstance(value, str) else []
-    lifts = [s["to"] for s in listed if isinstance(s, Mapping) and "to" in s]
-    texts = [x for x in lifts if isinstance(x, str)]
+    texts = [s["to"] for s in listed if isinstance(s, Mapping) and isinstance(s.get("to"), str)]
     for text in texts[:1]:
         try:
             rules.quantity(text, "length")
