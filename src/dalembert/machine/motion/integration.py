@@ -33,6 +33,9 @@ COARSEST = 1e-9
 """Tolerance up to which steps with friction are taken again that are refused."""
 BEYOND = 1e-12
 """Part of a step's change of what switches a load by which it is beyond its corner for all that analyse it."""
+UNBOUNDED = 1e8
+"""An inertia reduced to a drive that is so many times its least is that of a dead centre: the drive moves by less than
+1e-4 of what it moves elsewhere for the same speed of the links."""
 LIGHT = "the integration steps become too small, as where a part has almost no inertia"
 MOST_EVENTS = 10_000
 """Events of one motion at most."""
@@ -152,7 +155,8 @@ class Integration(StepState):
                     self.tolerance *= 10  # forces with friction are found to fewer digits than that
                     return before, from_
                 self._near_singular(before, from_)
-                raise StoppedError(self.refusal or "the integration steps become too small")
+                why = self.refusal or "the integration steps become too small"
+                raise StoppedError(self._why_too_small(before, from_, why))
             self.refusal, longest = "", max(longest, solver.h_previous or 0.0)
             if self.nears_dead_centre(solver.t, solver.y, (solver.h_previous or 0.0) / (longest or 1.0)):
                 return self._turn_over(solver, before)
@@ -160,7 +164,7 @@ class Integration(StepState):
                 self._near_singular(solver.t, solver.y)
                 tiny += 1
                 if tiny > TRIES:
-                    raise StoppedError(self.why_stopped(LIGHT))
+                    raise StoppedError(self._why_too_small(solver.t, solver.y, self.why_stopped(LIGHT)))
             met = self._event(solver, guards, before, from_)
             if met is not None:
                 self.flickers = self.flickers + 1 if met[0] - t <= 2 * longest else 0
@@ -274,6 +278,15 @@ class Integration(StepState):
         if (self.at(t, y)[2].closure < 0).any():
             raise StoppedError(self.why_stopped(DEAD_CENTRE))
         return False
+
+    def _why_too_small(self, t: float, y: Array, otherwise: str) -> str:
+        """Why steps become too small: at a dead centre of a drive all else moves without it, so that the inertia
+        reduced to it grows without bound."""
+        with suppress(StoppedError):
+            inertia, free = np.abs(self.at(t, y)[2].mass.diagonal()), self.acting.free & ~self.locked
+            if (inertia > UNBOUNDED * self.inertia)[free & (self.inertia > 0)].any():
+                return DEAD_CENTRE
+        return otherwise
 
     def _meet(self, g: Guard, when: float, t: float, y: Array) -> tuple[float, Array]:
         """The instant near ``when`` at which a guard passes zero, by the motion itself from (t, y), and the state."""

@@ -63,6 +63,7 @@ class StepState(CodedState):
         self.limits, self.taken, self.status = limits, 0, "ended"
         self.end, self.conditions, self.tolerance = end, conditions, tolerance
         self.natural = (np.ones((1, 1)), np.ones(1))
+        self.inertia = np.full(self.d, np.inf)  # least so far, reduced to each drive
         self.waiting = None if times is None else list(times)
         self.ended: Words = ()
         self.flickers, self.bears = 0, dict[int, float]()
@@ -168,6 +169,7 @@ class StepState(CodedState):
         with suppress(StoppedError):  # else those of before
             a, _, terms = self.at(t, y)
             u = np.maximum(np.abs(y[self.d : 2 * self.d]), self.fastest)
+            self.inertia = np.minimum(self.inertia, np.abs(terms.mass.diagonal()))
             self.natural = state_sizes(u[None], a[None], self.lengths, terms.mass.diagonal()[None])
         return self.natural
 
