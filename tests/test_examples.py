@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import Any
 
 import numpy as np
 import pytest
 
+import dalembert as da
 from dalembert.analysis import solve
 from dalembert.bundled import examples
 from dalembert.grading.file_answers import check_file
@@ -18,6 +20,14 @@ NAMES = list(examples())
 
 def test_every_example_by_hand_is_there() -> None:
     assert EXAMPLES.keys() <= set(NAMES)
+
+
+def test_every_public_name_has_an_example_in_its_docstring() -> None:
+    """All functions and classes; pytest runs the examples."""
+    public = [(name, getattr(da, name)) for name in da.__all__]
+    asked = [(name, value) for name, value in public if callable(value)]
+    assert len(asked) > 150
+    assert [name for name, value in asked if ">>> " not in (inspect.getdoc(value) or "")] == []
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -2,7 +2,7 @@
 
 Pages of docs/ are taken as they are, with links to examples and cases led to the gallery. The pages of the commands, of
 the model file's keys and of the names in Python, the gallery and the validation page are made from the program. Every
-`>>>` block is run, the notebooks are executed, and a warning is an error.
+`>>>` block and every command line is run, the notebooks are executed, and a warning is an error.
 
     python docs/site/build.py [--part GALLERY] [--no-notebooks]
 """
@@ -52,7 +52,7 @@ NOTEBOOKS = {"student": "student", "teacher": "teacher", "designer": "designer",
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--part", help="only the problems of the gallery whose name contains this")
-    parser.add_argument("--no-examples", action="store_true", help="leave the `>>>` blocks of the pages out")
+    parser.add_argument("--no-examples", action="store_true", help="leave the examples of the pages out")
     parser.add_argument("--no-notebooks", action="store_true", help="show the notebooks without running them")
     options = parser.parse_args()
     sys.path.insert(0, str(HERE))
@@ -61,6 +61,9 @@ def main() -> int:
 
     shutil.rmtree(SOURCE, ignore_errors=True)
     SOURCE.mkdir(parents=True)
+    lines = (
+        None if options.no_examples else subprocess.Popen([sys.executable, str(HERE / "page_commands.py")])
+    )
     failed = 0 if options.no_examples else run_examples()
     say("pages of the guide")
     copy_pages()
@@ -83,7 +86,7 @@ def main() -> int:
     pages = len(list(SITE.rglob("*.html")))
     size = sum(p.stat().st_size for p in SITE.rglob("*") if p.is_file()) / 1e6
     say(f"{pages} pages, {size:.0f} MB: {SITE / 'index.html'}")
-    return ended.returncode
+    return ended.returncode or (lines.wait() if lines else 0)
 
 
 def say(what: str) -> None:

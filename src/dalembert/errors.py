@@ -18,7 +18,12 @@ class Locator(Protocol):
 
 
 class DalembertError(Exception):
-    """Base of every exception this package raises on purpose."""
+    """Base of every exception this package raises on purpose.
+
+    >>> import dalembert as da
+    >>> issubclass(da.AnalysisError, DalembertError), issubclass(da.ModelError, DalembertError)
+    (True, True)
+    """
 
 
 class ModelError(DalembertError, ValueError):
@@ -88,7 +93,16 @@ def errors_at(*path: str | int, file: str = "", line: int = 0) -> Iterator[None]
 
 
 class AnalysisError(DalembertError):
-    """A position has no answer and the caller asked to be strict: the sentence of its status."""
+    """A position has no answer and the caller asked to be strict: the sentence of its status.
+
+    >>> import dalembert as da
+    >>> m = da.four_bar().with_values({"links.coupler.points.B.0": 0.01})
+    >>> try:
+    ...     da.statics(m, strict=True)
+    ... except AnalysisError as error:
+    ...     print(str(error).split(":")[0])
+    position 1-7
+    """
 
 
 class Status(NamedTuple):

@@ -1,4 +1,5 @@
-"""Runs a compiled unit with fmpy, in a process without dalembert: rows of inputs in, outputs out, as JSON."""
+"""Runs a compiled unit with fmpy, in a process without dalembert: rows of inputs in, outputs out, as JSON; or a motion
+from the start, as often as ``count`` says up to a time."""
 
 import json
 import sys
@@ -48,5 +49,16 @@ def run(folder: str, library: str, version: str, rows: list[dict[str, float]]) -
     }
 
 
+def move(folder: str, kind: str, until: float, count: int, tolerance: float) -> dict[str, Any]:
+    """Values by name along a motion of a unit with states."""
+    from fmpy import simulate_fmu
+
+    step = until / (count - 1)
+    options = {"stop_time": until, "output_interval": step, "relative_tolerance": tolerance}
+    rows = simulate_fmu(folder, fmi_type=kind, fmi_call_logger=None, **options)
+    return {name: rows[name].tolist() for name in rows.dtype.names}
+
+
 if __name__ == "__main__":
-    print(json.dumps(run(*sys.argv[1:4], json.load(sys.stdin))))
+    given = json.load(sys.stdin)
+    print(json.dumps(move(sys.argv[1], **given) if isinstance(given, dict) else run(*sys.argv[1:4], given)))

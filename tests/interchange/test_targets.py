@@ -23,13 +23,14 @@ from dalembert.interchange.file_formats import foreign_bytes
 from dalembert.interchange.targets.source_archive import sources_bytes
 from dalembert.interchange.targets.source_fmu import fmu_bytes
 from dalembert.interchange.targets.target_variables import kernel_of
+from dalembert.model.drives.starting import Start
 
 RUNNER = Path(__file__).parent / "run_fmu.py"
 GCC, NODE = shutil.which("gcc"), shutil.which("node")
 
 
-def run_fmu(content: bytes, folder: Path, rows: list[dict[str, float]], version: str) -> dict[str, Any]:
-    """Compiles a unit, validates its description, and runs it in another process."""
+def run_fmu(content: bytes, folder: Path, rows: Any, version: str) -> dict[str, Any]:
+    """Compiles a unit, validates its description, and runs rows or a motion in another process."""
     fmpy = pytest.importorskip("fmpy")
     if GCC is None:
         pytest.skip("no C compiler")
@@ -41,9 +42,8 @@ def run_fmu(content: bytes, folder: Path, rows: list[dict[str, float]], version:
         archive.extractall(folder)
     include = Path(fmpy.__file__).parent / "c-code"
     name = fmpy.read_model_description(str(folder)).modelExchange.modelIdentifier
-    library = (
-        folder / "binaries" / fmpy.platform_tuple / f"{name}.so"
-    )  # where fmpy looks for units of FMI 3.0
+    place = fmpy.platform if version == "2.0" else fmpy.platform_tuple  # where fmpy looks for it
+    library = folder / "binaries" / place / f"{name}.so"
     library.parent.mkdir(parents=True)
     source = folder / "sources" / f"fmi{version[0]}.c"
     options = ["-O2", "-shared", "-fPIC", f"-I{include}", "-o", str(library), str(source), "-lm"]
@@ -101,6 +101,62 @@ def test_a_unit_gives_the_numbers_of_dynamics_at_the_same_instant(
         assert found["shown"]["drive.O2.position"] == ["deg", pytest.approx(180 / math.pi)]
 
 
+@pytest.mark.parametrize(
+    ("name", "version"),
+    [
+        ("four_bar", "3.0"),
+        pytest.param("excavator", "2.0", marks=pytest.mark.long),
+        pytest.param("rssr", "2.0", marks=pytest.mark.long),
+    ],
+)
+def test_accelerations_of_a_unit_with_states_need_the_efforts_that_were_given(
+    name: str, version: str, tmp_path: Path
+) -> None:
+    """Inverse dynamics of each random state and effort, along the acceleration that the unit finds."""
+    m = da.load(examples()[name])
+    rng, (start,), drives = np.random.default_rng(8), m.schedule().position[:1], list(m.drives)
+    rows = []
+    for _ in range(4):
+        q, u = start * (1 + 0.1 * rng.uniform(-1, 1, len(drives))), rng.uniform(-5, 5, len(drives))
+        state = {"position": q, "speed": u, "effort": rng.uniform(-100, 100, len(drives))}
+        rows.append(
+            {f"drive.{d}.{what}": float(x[i]) for what, x in state.items() for i, d in enumerate(drives)}
+        )
+    content, _ = foreign_bytes(m, "x.fmu", version, forward=True)
+    found = run_fmu(content, tmp_path, rows, version)
+    assert found["alone"]
+    assert found["status"] == [0] * len(rows)
+    lawless = {"law": None, "position": 0.0, "speed": 1.0, "acceleration": 1.0}
+    m = m.model_copy(update={"drives": {n: d.model_copy(update=lawless) for n, d in m.drives.items()}})
+    for row, answer in zip(rows, found["answers"], strict=True):
+        of = dict(zip(found["outputs"], answer, strict=True)) | row
+        rates = {
+            f"drives.{d}.{what}": of[f"drive.{d}.{what}"]
+            for d in drives
+            for what in ("speed", "acceleration")
+        }
+        r = da.dynamics(m.with_values(rates), positions=[[of[f"drive.{d}.position"] for d in drives]])
+        size = max(float(np.abs(r.reaction(joint)).max()) for joint in m.joints)
+        gap = max(abs(float(r.effort(d)[0]) - of[f"drive.{d}.effort"]) for d in drives)
+        assert gap < 1e-12 * max(size, np.abs(r.effort_array).max())
+
+
+@pytest.mark.parametrize("version", ["2.0", pytest.param("3.0", marks=pytest.mark.long)])
+def test_a_unit_with_states_moves_as_simulate_does(version: str, tmp_path: Path) -> None:
+    m = da.slider_crank(crank=0.05, rod=0.2)
+    m = m.model_copy(update={"start": {"O2": Start(0.5, 20.0)}})
+    s = da.simulate(m, until="0.5 s", count=51)
+    content, lost = foreign_bytes(m, "x.fmu", version, forward=True)
+    motion = {"kind": "CoSimulation", "until": 0.5, "count": 51, "tolerance": 1e-12}
+    found = run_fmu(content, tmp_path, motion, version)
+    assert lost == []
+    for key in ("position", "speed"):
+        ours = getattr(s.schedule, key)[:, 0]
+        assert np.abs(np.array(found[f"drive.O2.{key}"]) - ours).max() < 1e-8 * np.abs(ours).max()
+    force = s.result.reaction("A")
+    assert np.abs(np.array(found["reaction.A.x"]) - force[:, 0]).max() < 1e-6 * np.abs(force).max()
+
+
 @pytest.mark.long
 def test_a_position_that_does_not_close_has_nan_and_its_status(tmp_path: Path) -> None:
     m = da.four_bar(ground=0.5, crank=0.4, coupler=0.2, rocker=0.3, sweep=(0.2, 1.0))
@@ -144,6 +200,14 @@ def test_what_only_python_computes_is_refused() -> None:
         fmu_bytes(da.compile(da.four_bar(), ["links.coupler.mass"]), "1.0")
     with pytest.raises(ModelError, match="is computed outside the program"):
         foreign_bytes(da.load(examples()["cam_and_follower"]), "x.fmu")
+    with pytest.raises(ModelError, match="has no dry friction"):
+        foreign_bytes(da.load(examples()["toggle_press"]), "x.fmu", forward=True)
+    m = da.load(examples()["excavator"])
+    m = m.model_copy(update={"start": {"boom_cylinder": Start(*m.schedule().position[0, :1])}})
+    with pytest.raises(
+        ModelError, match="forces move drive 'boom_cylinder', but drive 'stick_cylinder' is presc"
+    ):
+        foreign_bytes(m, "x.fmu", forward=True)
 
 
 def unpacked(m: da.Mechanism, folder: Path) -> Path:

@@ -18,6 +18,10 @@ class Mobility:
     """Freedoms of the mechanism, how many drives it has, redundant constraints and the joints they are in.
 
     ``passive`` are links whose spin moves nothing else; it is not counted.
+
+    >>> import dalembert as da
+    >>> da.mobility(da.four_bar()).freedoms
+    1
     """
 
     freedoms: int

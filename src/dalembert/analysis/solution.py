@@ -31,6 +31,10 @@ def statics(
 
     ``method="careful"`` solves every position separately, as is always done where a position is in doubt: slower, used
     to check the usual method.
+
+    >>> import dalembert as da
+    >>> statics(da.four_bar()).effort("O2").shape
+    (72,)
     """
     return _analyse(m, positions, strict, inertia=False, forces=True, method=method)
 
@@ -41,6 +45,11 @@ def dynamics(
     """Joint forces and efforts that keep the prescribed motion, by D'Alembert: A x + w - inertia = 0.
 
     ``method`` as in `statics`.
+
+    >>> from dalembert.bundled import examples
+    >>> r = dynamics(examples()["four_bar"])
+    >>> round(float(r.effort("O2")[0]), 4)    # N m
+    27.4822
     """
     return _analyse(m, positions, strict, inertia=True, forces=True, method=method)
 
@@ -48,7 +57,12 @@ def dynamics(
 def solve(
     m: ModelOrPath, static: bool = False, positions: AtPositions = None, strict: bool = False
 ) -> Result:
-    """Solution as by the command ``dalembert solve``: with inertia when the file has speeds, unless ``static``."""
+    """Solution as by the command ``dalembert solve``: with inertia when the file has speeds, unless ``static``.
+
+    >>> from dalembert.bundled import examples
+    >>> solve(examples()["four_bar"]).status
+    ('ok',)
+    """
     m = as_mechanism(m)
     if static or not m.has_speeds:
         return statics(m, positions, strict)

@@ -131,6 +131,9 @@ def convert(
     output: Annotated[Path | None, written("File to write; its extension selects the format.")] = None,
     set: Set = None,  # noqa: A002
     fmi: Annotated[Literal["2.0", "3.0"] | None, with_help("Version of an .fmu file (default: 2.0).")] = None,
+    forward: Annotated[
+        bool, flag("An .fmu file whose inputs are efforts, and whose states the motion.")
+    ] = False,
     strict: Annotated[bool, flag("Write nothing where something would not be kept.")] = False,
     force: Force = False,
 ) -> int:
@@ -144,7 +147,7 @@ def convert(
     assert out is not None
     check_new(out, force)
     change = (lambda m: with_settings(m, set)) if set else None
-    lost = convert_file(file, out, force, strict, change, fmi or "")
+    lost = convert_file(file, out, force, strict, change, fmi or "", forward)
     for note in lost:
         print(f"not kept: {note}", file=sys.stderr)
     print(f"Written: {out}")

@@ -155,15 +155,17 @@ def _warn(path: str | os.PathLike[str], lost: list[str]) -> None:
         warnings.warn(f"{os.fspath(path)}: not kept: {note}", NotKept, stacklevel=4)
 
 
-def foreign_bytes(m: Mechanism, path: str | os.PathLike[str], version: str = "") -> tuple[bytes, list[str]]:
+def foreign_bytes(
+    m: Mechanism, path: str | os.PathLike[str], version: str = "", forward: bool = False
+) -> tuple[bytes, list[str]]:
     """Content of another program's file by the suffix of its name, and what of the mechanism is not in it.
 
-    version: of the Functional Mock-up Interface, "2.0" (default) or "3.0".
+    Of a functional mock-up unit: its version, "2.0" (default) or "3.0", and whether forces move it (``forward``).
     """
     form = _form(path, "writer")
     write = form.function(form.writer)
-    if version:
-        write = partial(write, version=version)
+    if version or forward:
+        write = partial(write, version=version or "2.0", forward=forward)
     if form.writer.startswith(("robots", "assemblies")):
         graph = graph_of(m)
         content = write(graph)

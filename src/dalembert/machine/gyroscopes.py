@@ -26,6 +26,11 @@ class Gyroscopic:
 
     ``couple`` (P, 3), N m, is C = I_s w_s (w_p x e) on the rotor; the frame takes -C. ``exact`` (P, 3): the total rate
     of the rotor's angular momentum, including the terms of accelerations and of an inclined axis.
+
+    >>> import dalembert as da
+    >>> g = da.gyroscopic(da.dynamics(da.rotating_shaft()), "shaft")
+    >>> g.spin.shape, g.couple.shape
+    ((72,), (72, 3))
     """
 
     result: Result = field(repr=False)
@@ -48,6 +53,12 @@ def gyroscopic(r: Result, rotor: str, carrier: str = GROUND) -> Gyroscopic:
 
     The axis e is that of the spin relative to the carrier, I_s the rotor's inertia about it, w_s its total spin along
     it, w_p the carrier's turning across it. Raises ModelError in the plane, and where the rotor does not spin.
+
+    >>> import dalembert as da
+    >>> m = da.rotating_shaft()
+    >>> g = gyroscopic(da.dynamics(m), next(n for n in m.links if n != "ground"))
+    >>> g.couple.shape
+    (72, 3)
     """
     if r.mechanism.dimension == 2:
         raise ModelError(

@@ -35,6 +35,14 @@ class MotionLaw(Labelled):
 
     times (N + 1,): where its pieces join, s (or rad, m). rises: its rises and returns, each a stroke h in a length b
     with C_v = v b/h, C_a = a b^2/h, C_j = j b^3/h of the largest speed, acceleration and jerk in it.
+
+    >>> import dalembert as da
+    >>> slide = {"S": {"type": "slider", "links": ["ground", "ram"], "at": ["O", "F"]}}
+    >>> links = {"ground": {"points": {"O": [0, 0]}}, "ram": {"points": {"F": [0, 0]}}}
+    >>> rise = {"segments": [{"to": 0.025, "in": 0.2, "by": "cycloidal"}], "count": 11}
+    >>> law = da.law(da.mechanism({"links": links, "joints": slide, "drives": {"S": {"law": rise}}}), "S")
+    >>> law.times.tolist()
+    [0.0, 0.2]
     """
 
     ROWS: ClassVar[str] = "instants"

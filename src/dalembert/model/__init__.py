@@ -52,6 +52,8 @@ from dalembert.model.joints.plane_joints import Slider as Slider
 from dalembert.model.joints.plane_joints import Slot as Slot
 from dalembert.model.joints.plane_joints import Weld as Weld
 from dalembert.model.joints.space_joints import SpaceJoint as SpaceJoint
+from dalembert.model.joints.turn_loads import TorsionDamper as TorsionDamper
+from dalembert.model.joints.turn_loads import TorsionSpring as TorsionSpring
 from dalembert.model.links.link import GROUND as GROUND
 from dalembert.model.links.link import Link as Link
 from dalembert.model.links.link import Offset as Offset
@@ -69,8 +71,6 @@ from dalembert.model.load_types import ForceLoad as ForceLoad
 from dalembert.model.load_types import GasSpring as GasSpring
 from dalembert.model.load_types import Load as Load
 from dalembert.model.load_types import Spring as Spring
-from dalembert.model.load_types import TorsionDamper as TorsionDamper
-from dalembert.model.load_types import TorsionSpring as TorsionSpring
 from dalembert.model.quantities.expressions import Expression as Expression
 from dalembert.model.quantities.tables import Table as Table
 from dalembert.model.quantities.varying import Varying as Varying

@@ -10,7 +10,8 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
-from dalembert.model.part import Part, ReadingRules, reading
+from dalembert.model.joints.turn_loads import TorsionDamper, TorsionSpring
+from dalembert.model.part import LoadPart, ReadingRules, reading
 from dalembert.model.quantities.expression_trees import Functions
 from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.spans import ForceLaw, ForceLawValue, TwoEnds, one_force, refuse_both
@@ -99,22 +100,6 @@ class LoadPoint(ValueField):
 
     def json_schema(self) -> JsonSchema:
         return {"anyOf": [{"type": ["string", "integer"]}, vector_schema()]}
-
-
-class LoadPart(Part):
-    """Common keys of all loads: what they act on, and what their forces count as."""
-
-    ON: ClassVar[Literal["point", "link", "span", "turn"]]
-    """A point of a link, a link, the span between two points, or the turn of a joint."""
-
-    FORCE: ClassVar[Literal["load", "spring", "damper"]] = "load"
-
-    type: str
-
-    @property
-    def unknown(self) -> bool:
-        """True if it is unknown."""
-        return False
 
 
 class Directed(LoadPart):
@@ -230,7 +215,11 @@ class ForceLoad(Directed):
 
 
 class Couple(Directed):
-    """A couple on a link, counter-clockwise positive."""
+    """A couple on a link, counter-clockwise positive.
+
+    >>> Couple(on="rocker", value="120 N*m").value
+    120.0
+    """
 
     ON: ClassVar = "link"
     type: Literal["couple"] = "couple"
@@ -274,7 +263,11 @@ class SpanLoad(LoadPart):
 
 
 class Spring(SpanLoad):
-    """A straight spring between points of two links."""
+    """A straight spring between points of two links.
+
+    >>> Spring(between=("ground.A", "rod.B"), stiffness="2 kN/m", free_length="0.1 m").stiffness
+    2000.0
+    """
 
     FORCE: ClassVar = "spring"
     type: Literal["spring"] = "spring"
@@ -309,7 +302,11 @@ class ConstantForceSpring(SpanLoad):
 
 
 class Damper(SpanLoad):
-    """A straight viscous damper between points of two links."""
+    """A straight viscous damper between points of two links.
+
+    >>> Damper(between=("ground.A", "rod.B"), damping="40 N*s/m").damping
+    40.0
+    """
 
     FORCE: ClassVar = "damper"
     type: Literal["damper"] = "damper"
@@ -353,44 +350,6 @@ class GasSpring(SpanLoad):
     def area(self) -> float:
         """Area of the rod, m2."""
         return self.rod * self.rod * (math.pi / 4)
-
-
-class TurnLoad(LoadPart):
-    """A load in the turn of a joint."""
-
-    ON: ClassVar = "turn"
-    type: str
-    joint: Name = Field(description="the joint it turns with")
-    freedom: Literal["turn", "turn1", "turn2"] | None = Field(
-        None, description="in space: which turn of the joint; needed where it has several"
-    )
-
-
-class TorsionSpring(TurnLoad):
-    """A spring in the turn of a joint."""
-
-    FORCE: ClassVar = "spring"
-    type: Literal["torsion_spring"] = "torsion_spring"
-    stiffness: Annotated[float, Scalar("torsion_stiffness", "not negative")] = Field(
-        description="moment per angle; a bare number is one per radian"
-    )
-    free_angle: Annotated[float, Scalar("angle")] = Field(
-        0.0,
-        description="the joint's angle without moment; default 0. A driven turn counts full turns "
-        "with its drive. Another turn is, with the drives at their assembly values (else at 0), within half a turn of "
-        "the assembly's value, the angle of j less that of i as written (460 deg is a turn more than 100 deg), else "
-        "of 0; it is followed continuously from that value",
-    )
-
-
-class TorsionDamper(TurnLoad):
-    """A viscous damper in the turn of a joint."""
-
-    FORCE: ClassVar = "damper"
-    type: Literal["torsion_damper"] = "torsion_damper"
-    damping: Annotated[float, Scalar("torsion_damping", "not negative")] = Field(
-        description="moment per angular speed; a bare number is one per radian"
-    )
 
 
 Load = Annotated[

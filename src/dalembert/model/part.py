@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from pydantic import (
     BaseModel,
@@ -175,3 +175,19 @@ def mapping(
         if key not in value:
             raise ModelError(f"the key {key!r} is missing", f"write {example}")
     return value
+
+
+class LoadPart(Part):
+    """Common keys of all loads: what they act on, and what their forces count as."""
+
+    ON: ClassVar[Literal["point", "link", "span", "turn"]]
+    """A point of a link, a link, the span between two points, or the turn of a joint."""
+
+    FORCE: ClassVar[Literal["load", "spring", "damper"]] = "load"
+
+    type: str
+
+    @property
+    def unknown(self) -> bool:
+        """True if it is unknown."""
+        return False

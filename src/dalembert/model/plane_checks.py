@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from dalembert.errors import ModelError
 from dalembert.model.drives.turning_checks import turning_problems
 from dalembert.model.joints.joint_part import JointPart
+from dalembert.model.joints.turn_loads import TurnLoad
 from dalembert.model.links.link import CENTER, GROUND, Link, Offset
-from dalembert.model.load_types import Couple, ForceLoad, SpanLoad, TurnLoad
+from dalembert.model.load_types import Couple, ForceLoad, SpanLoad
 from dalembert.model.quantities.coordinates import SPEED, TIME, along_of, parts
 from dalembert.model.quantities.expression_trees import ARGUMENTS
 from dalembert.model.quantities.expressions import CONSTANTS, Expression

@@ -34,6 +34,11 @@ class Optimum(Labelled, Drawn, Worked, Remade):
     before, after: the analyses of the original description and of ``mechanism``. value: the aim, SI. found: how many
     of the polished starts came within a thousandth of the best, of ``polished``; started: number of starts that could
     be solved.
+
+    >>> import dalembert as da
+    >>> best = da.optimize(da.four_bar(), {"links.ground.points.O4.0": (0.28, 0.36)}, "peak effort.O2", starts=2)
+    >>> best.numbers, best.value <= best.value_before
+    (('links.ground.points.O4.0',), True)
     """
 
     mechanism: Mechanism

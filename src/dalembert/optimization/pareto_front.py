@@ -50,7 +50,15 @@ AS_GOOD = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Front(Labelled, Drawn, Worked):
-    """Designs from the best by the first aim to the best by the second; ``values`` (design, aim), SI."""
+    """Designs from the best by the first aim to the best by the second; ``values`` (design, aim), SI.
+
+    >>> import dalembert as da
+    >>> aims = ["effort.O2", "reaction.O4.magnitude"]
+    >>> vary = {"links.rocker.points.B.0": (0.2, 0.28)}
+    >>> front = da.pareto(da.four_bar(), vary, aims, points=3, starts=4)
+    >>> front.aims, front.values.shape[1]
+    (('peak effort.O2', 'peak reaction.O4.magnitude'), 2)
+    """
 
     aims: tuple[str, str]
     designs: tuple[Optimum, ...]

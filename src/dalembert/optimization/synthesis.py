@@ -48,7 +48,15 @@ EXACT = 1e-6
 class Synthesis(Labelled, Drawn, Worked, Remade):
     """A mechanism; ``error`` its rms error over the spread of the targets, ``exact`` how many of ``started``
     designs meet them to a millionth. ``values`` (number,) in SI in the order of ``numbers``; ``positions`` (P, D) are
-    those of the drives at the targets, computed where the timing is free."""
+    those of the drives at the targets, computed where the timing is free.
+
+    >>> import dalembert as da
+    >>> wanted = {"angle.rocker": [1.65, 1.72, 1.95, 2.27]}
+    >>> vary = {"links.crank.points.A.0": (0.06, 0.12)}
+    >>> found = da.synthesize(da.four_bar(), vary, wanted, [0.2, 0.9, 1.7, 2.5], starts=2)
+    >>> found.values.shape, found.started
+    ((1,), 3)
+    """
 
     mechanism: Mechanism
     numbers: tuple[str, ...]

@@ -81,6 +81,11 @@ def report(
 
     ``design``: the design report of the machine instead, with a verdict and its margin for all that the file has data
     for; ``at`` is then the position that is drawn (default: that of the largest effort).
+
+    >>> import dalembert as da
+    >>> sheet = report(da.statics(da.four_bar()), at=1)
+    >>> type(sheet).__name__
+    'Report'
     """
     import reprlib
 

@@ -137,7 +137,13 @@ def _refuse_beside_motion(**options: object) -> None:
 @dataclass(frozen=True)
 class Study:
     """Varied numbers, sampling and outputs of a study; `run` computes it. Two equal ones give the same bits
-    anywhere."""
+    anywhere.
+
+    >>> import dalembert as da
+    >>> s = da.study(da.four_bar(), {"links.coupler.mass": "± 5 %"}, ["effort.O2"], designs=100, seed=7)
+    >>> s.plan.count
+    100
+    """
 
     mechanism: Mechanism
     plan: DesignPlan

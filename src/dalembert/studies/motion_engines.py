@@ -14,17 +14,13 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError, errors_at
+from dalembert.machine.motion.actuation import read_start
 from dalembert.machine.motion.coded.shared_motion import SharedMotion
 from dalembert.machine.motion.compiled_motion import compile_motion
 from dalembert.machine.motion.many.motion_kernel import MotionKernel
 from dalembert.machine.motion.many.one_design import alone
 from dalembert.machine.motion.occurrences import read_end
-from dalembert.machine.motion.simulation import (
-    Simulation,
-    check_choices,
-    motion_of,
-    read_start,
-)
+from dalembert.machine.motion.simulation import Simulation, check_choices, motion_of
 from dalembert.model import Mechanism
 from dalembert.model.drives.drives import SLIDE, TURN
 from dalembert.model.part import check_keys

@@ -68,6 +68,12 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
     """Answers of a study by output, SI, NaN where there is none: ``r["effort.O2"]`` (design, ...).
 
     In an unfinished store `done` is true for the computed designs.
+
+    >>> import dalembert as da
+    >>> s = da.study(da.four_bar(), {"links.coupler.mass": "± 5 %"}, ["effort.O2"], designs=100, seed=7)
+    >>> r = s.run()
+    >>> r["effort.O2"].shape, bool(r.done.all())
+    ((100,), True)
     """
 
     def __init__(self, study: Study, arrays: Mapping[str, Any], ledger: Ints, block: int) -> None:

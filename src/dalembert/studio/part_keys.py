@@ -9,7 +9,7 @@ from dalembert.arrays import Tree
 from dalembert.model.drives.drives import Drive
 from dalembert.model.joints.joint_part import JointPart, kinds_of
 from dalembert.model.links.link import Link
-from dalembert.model.load_types import LoadPart
+from dalembert.model.part import LoadPart
 
 DRAWN = frozenset(("type", "links", "at", "points", "on", "between", "joint"))
 """Keys that say what a part belongs to: changed by drawing."""

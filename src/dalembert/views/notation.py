@@ -30,6 +30,9 @@ class Notation:
     ``letter``: F, or G as METU writes joint forces. ``units``: those of the file, or SI. ``figures``: significant
     figures; ``decimals`` instead where given. ``torque``: 1 where counter-clockwise is positive, -1 where
     clockwise is. ``axes``: components in ground axes, or in each link's local axes (LRCS).
+
+    >>> Notation(letter="G", order="on-by", figures=4).letter
+    'G'
     """
 
     links: Literal["number", "name"] = "number"

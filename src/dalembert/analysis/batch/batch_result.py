@@ -93,6 +93,12 @@ class BatchResult(NamedAnswer, Labelled):
     SI and radians, vectors in ground axes with their components last. NaN where unsolved; ``status`` gives the reason.
     Where contacts reverse the numbers are those just before, and ``after`` is the complete answer with those just
     after; None where no contact reverses, and where reduced: reductions are over both.
+
+    >>> import dalembert as da
+    >>> k = da.compile(da.four_bar(), ["links.coupler.mass"], ["effort.O2"])
+    >>> answer = k([[1.0], [2.0]])
+    >>> answer.effort("O2").shape, bool(answer.ok.all())
+    ((2, 72), True)
     """
 
     kernel: Any = field(compare=False)

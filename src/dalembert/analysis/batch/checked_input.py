@@ -154,3 +154,13 @@ def _strange(array: Array) -> str:
         return ""
     kinds = [x for x in array.ravel() if isinstance(x, bool | np.bool_) or not isinstance(x, Real | Decimal)]
     return "" if not kinds else "complex" if isinstance(kinds[0], complex) else "not all numbers"
+
+
+def lanes_here() -> int:
+    """Values side by side on this processor; raises ModelError without a compiler."""
+    try:
+        from dalembert.kernel.emit.machine_code import host_lanes
+
+        return host_lanes()
+    except ImportError:
+        raise ModelError("compiling needs llvmlite", "pip install 'dalembert[fast]'") from None

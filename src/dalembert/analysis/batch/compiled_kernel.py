@@ -24,6 +24,7 @@ from dalembert.analysis.batch.checked_input import (
     check_positions,
     design_values,
     drive_values,
+    lanes_here,
     read_target,
     targets,
 )
@@ -107,18 +108,15 @@ def _products(nodes: Sequence[Node]) -> list[Node]:
     return [a * b for a, b in zip(factors[::2], factors[1::2], strict=False)] + factors[len(factors) & ~1 :]
 
 
-def lanes_here() -> int:
-    try:
-        from dalembert.kernel.emit.machine_code import host_lanes
-
-        return host_lanes()
-    except ImportError:
-        raise ModelError("compiling needs llvmlite", "pip install 'dalembert[fast]'") from None
-
-
 @dataclass(frozen=True)
 class Kernel:
-    """A compiled analysis; call it with values (design, number) in SI, in the order of ``numbers``, or by name."""
+    """A compiled analysis; call it with values (design, number) in SI, in the order of ``numbers``, or by name.
+
+    >>> import dalembert as da
+    >>> k = da.compile(da.four_bar(), ["links.coupler.mass"], ["effort.O2"])
+    >>> k.numbers, k.nominal.tolist()
+    (('links.coupler.mass',), [0.6])
+    """
 
     mechanism: Mechanism = field(repr=False)
     trace: Trace = field(repr=False)

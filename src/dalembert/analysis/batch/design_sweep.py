@@ -241,6 +241,11 @@ class Sweep(NamedAnswer, Labelled, Drawn):
     ``s["effort.O2"]`` has the axes (values..., position), of a vector its components last; NaN where unsolved;
     ``status`` gives the reason. Where contacts reverse the numbers are those just before, ``answers.after`` has those
     just after.
+
+    >>> import dalembert as da
+    >>> s = da.sweep(da.four_bar(), "links.coupler.mass", [1.0, 2.0, 4.0], outputs="effort.O2")
+    >>> s["effort.O2"].shape, set(s.status.ravel().tolist())
+    ((3, 72), {'ok'})
     """
 
     mechanism: Mechanism

@@ -59,6 +59,11 @@ def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float
 
     It converges more slowly with larger mu r / l and may diverge where a solution exists. It is for reading; the answer
     is computed otherwise.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank().with_values({"joints.B.friction": {"coefficient": 0.1, "radius": "10 mm"}})
+    >>> fixed_point(da.statics(m), position=5).arrived
+    True
     """
     contacts, problem, sense = contacts_in_motion(r, position)
     c = strength(contacts, 1.0, sense=sense)

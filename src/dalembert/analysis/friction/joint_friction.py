@@ -158,6 +158,12 @@ def guide_contact(result: Result, joint: str) -> GuideContact:
 
     The lower face pushes j to the left of the direction of the slide. S = max(|N|, |2M - (l2 - l1) N| / (l1 + l2)) is
     the sum of the contact forces, lower (S + N) / 2 and upper (S - N) / 2.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank().with_values({"joints.guide.friction": {"coefficient": 0.1}})
+    >>> c = guide_contact(da.statics(m), "guide")
+    >>> sorted(set(c.mode))
+    ['lower face', 'upper face']
     """
     refuse_space(result.mechanism, "the contact of a guide", "ask friction_force and power_lost of the joint")
     f, _ = friction_of(result)

@@ -39,6 +39,11 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
     Friction's equations may have several solutions where it is strong; the physical one is continued from no friction
     with a positive determinant ratio. Others are sought by Newton from 200 random starts, so some may be missed; none
     where the physical one is proved to be the only one. At a position that jams, all of them are returned.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank().with_values({"joints.B.friction": {"coefficient": 0.1, "radius": "10 mm"}})
+    >>> other_solutions(da.statics(m), position=5)
+    []
     """
     if r.friction is not None and bool(r.friction.single[position]):
         return []

@@ -337,6 +337,12 @@ def inertia_shares(r: Result) -> tuple[Share, ...]:
 
     Where forces add it is inertia's part of the superposition, else the difference to the answer without inertia.
     Values that are only rounding beside the largest force or moment are left out.
+
+    >>> from dalembert.bundled import examples
+    >>> import dalembert as da
+    >>> share = inertia_shares(da.dynamics(examples()["four_bar"]))[0]
+    >>> share.of, round(share.inertia / share.whole, 2)
+    ('O2', 0.77)
     """
     efforts, forces = _parts_of_inertia(r)
     rounding = {kind: PART * float(np.nanmax(size, initial=0.0)) for kind, size in sizes(r).items()}

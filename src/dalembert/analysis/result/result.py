@@ -40,6 +40,11 @@ class Result(LinkMotion, ElementAnswers, NamedAnswer, Labelled, Drawn, Worked):
     Everything in SI and radians, vectors in ground axes. A reaction is exerted by a joint's other link on the requested
     link, at that link's point of the joint. NaN where unsolved; ``status`` and ``reasons`` give the reason. Where
     contacts reverse the numbers are those just before, and ``after`` is the complete result with those just after.
+
+    >>> import dalembert as da
+    >>> r = da.dynamics(da.four_bar())
+    >>> r.effort("O2").shape, r.reaction("A", on="coupler").shape, set(r.status)
+    ((72,), (72, 2), {'ok'})
     """
 
     compiled: Compiled = field(compare=False)

@@ -38,6 +38,11 @@ class Counterweight:
     kg; ``moment``: the largest m r, kg m; ``place``: its position as a point mass, then only its mass is optimised;
     ``x``, ``y``, ``z``: ranges of m x, m y and m z, kg m, (0, 0) for none; ``disc``: (density, thickness, largest
     radius) of a disc whose rim passes through ``at``, in space across the axis that the link turns about.
+
+    >>> import dalembert as da
+    >>> w = Counterweight(radius=0.1, mass=3.0)
+    >>> da.balance(da.dynamics(da.slider_crank()), {"crank": w}).complete
+    False
     """
 
     at: str | None = None

@@ -42,7 +42,13 @@ class EngineCylinder(NamedTuple):
 
 @dataclass(frozen=True)
 class EngineSeries:
-    """Force and couple (P, 2) of the inertia by the book's two harmonics, and exact."""
+    """Force and couple (P, 2) of the inertia by the book's two harmonics, and exact.
+
+    >>> import dalembert as da
+    >>> e = da.engine_series(da.dynamics(da.radial_engine(cylinders=3)))
+    >>> e.force.shape, len(e.cylinders)
+    ((72, 2), 3)
+    """
 
     exact: Shaking = field(repr=False)
     cylinders: tuple[EngineCylinder, ...]

@@ -50,6 +50,11 @@ class RotorBalance(Comparison):
     ``unbalance``: S and T as complex numbers, kg m and kg m2; ``left``: the same with the corrections. ``centers`` (2,
     3), m, and ``masses`` (2,), kg: those of the corrections at their radii, in the shaft link's axes. ``before``,
     ``after``: shaking without and with them, moments about the driven joint.
+
+    >>> import dalembert as da
+    >>> b = da.balance_rotor(da.rotating_shaft(), planes=(0.05, 0.45), radii=(0.04, 0.04))
+    >>> b.masses.round(3).tolist()
+    [0.234, 0.351]
     """
 
     result: Result = field(repr=False)

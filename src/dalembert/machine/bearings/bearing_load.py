@@ -38,6 +38,11 @@ class BearingLoad:
 
     ``couple`` (P,), N m: across the axis, not counted in these loads: it needs two bearings. ``time`` (P,), s: duration
     represented by each position. ``bearing``: from the file, or by its kind alone.
+
+    >>> import dalembert as da
+    >>> b = da.bearing(da.dynamics(da.slider_crank()), "A")
+    >>> b.radial.shape, b.sized
+    ((72,), False)
     """
 
     result: Result = field(repr=False)

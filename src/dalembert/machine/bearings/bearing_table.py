@@ -26,7 +26,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class BearingTable(MachineAnswer):
-    """Loads by joint; ``hours`` of life asked for, the load times ``factor``; ``chosen`` from a table of ``rows``."""
+    """Loads by joint; ``hours`` of life asked for, the load times ``factor``; ``chosen`` from a table of ``rows``.
+
+    >>> import dalembert as da
+    >>> list(da.bearings(da.dynamics(da.slider_crank())).loads)
+    ['O2', 'A', 'B']
+    """
 
     result: Result = field(repr=False)
     loads: dict[str, BearingLoad]
@@ -102,6 +107,10 @@ def bearings(
 
     ``hours``: the life to be had with the load times ``factor``; ``table``: a text file with columns name, C, C0, d, of
     which the smallest row is chosen that lives so long and whose C0 is ``safety`` times the largest load.
+
+    >>> import dalembert as da
+    >>> list(bearings(da.dynamics(da.slider_crank())).loads)
+    ['O2', 'A', 'B']
     """
     for key, value in (("hours", hours), ("factor", factor), ("safety", safety)):
         require(key, value)

@@ -44,6 +44,12 @@ class CamDesign(Drawn, Labelled, Worked):
     turn (T,): even turns with all joints of pieces. Lift and its derivatives over th in rad: m, or rad of a follower
     that swings, in the sense of its freedom; curvature radii > 0 where convex; pressure angle > 0 where the normal
     leans against the cam's sense.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import examples
+    >>> c = da.cam(da.load(examples()["carton_pusher"]), "F")
+    >>> c.turn.shape
+    (365,)
     """
 
     ROWS: ClassVar[str] = "places"

@@ -43,6 +43,12 @@ class ClearanceError(Labelled):
     """Error of a point by clearances (P, 2), m, where the forces press the journals; NaN where one is pressed nowhere.
 
     ``worst`` (P, 2): the largest in x and in y whatever the directions. ``of``: joint -> its part of ``by_force``.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank(crank=0.05, rod=0.2)
+    >>> x = da.clearance_error(da.dynamics(m), "piston", "B", {"A": 1e-5, "B": 1e-5})
+    >>> list(x.of), x.by_force.shape
+    (['A', 'B'], (72, 2))
     """
 
     result: Result = field(repr=False)

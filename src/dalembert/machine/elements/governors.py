@@ -48,6 +48,11 @@ class Governor(Labelled, Drawn):
     height (P,): slide of the sleeve, m; radius (P,): distance of the heaviest pull's mass centre from the axis, m;
     interval (P, 2): speeds at which friction holds it; sleeve_force (P,): F, what all loads but the centrifugal ones
     ask for at the sleeve, N; stable (P,); isochronous: positions of the drive at which the speed has an extreme.
+
+    >>> import dalembert as da
+    >>> g = da.governor(da.porter_governor())
+    >>> g.speed.shape == g.height.shape, bool(g.stable.all())
+    (True, True)
     """
 
     result: Result = field(repr=False)

@@ -42,6 +42,12 @@ class PinStresses(Labelled):
     its middle, 4/3 of it; eye_pressure, cheek_pressure: over the projected areas; bending: M over the section's
     modulus. planes (P, n): shear force in each plane of a stack. best: the order of a stack with the least bending.
     pressures: link -> bearing pressure on it (P,), Pa, where its thickness is given.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank().with_values({"joints.A.pin": {"diameter": "20 mm", "eye": "20 mm", "cheeks": "10 mm"}})
+    >>> b = da.pin(da.dynamics(m), "A")
+    >>> b.force.shape, bool((b.peak_shear >= b.shear).all())
+    ((72,), True)
     """
 
     result: Result = field(repr=False)

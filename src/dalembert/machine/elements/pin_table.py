@@ -26,7 +26,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class PinTable(Labelled, Drawn, Worked):
-    """Bolts by joint."""
+    """Bolts by joint.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank().with_values({"joints.A.pin": {"diameter": "20 mm", "eye": "20 mm", "cheeks": "10 mm"}})
+    >>> list(da.pins(da.dynamics(m)).bolts)
+    ['A']
+    """
 
     result: Result = field(repr=False)
     bolts: dict[str, PinStresses]

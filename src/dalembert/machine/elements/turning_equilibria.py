@@ -29,6 +29,14 @@ class TurningRange:
 
     bifurcation: speeds from which on links leave a place that they kept at every speed, at positions ``at``; folds:
     speeds at which two equilibria meet, extremes of the speed over the drive's range.
+
+    >>> import dalembert as da
+    >>> links = {"ground": {"points": {"O": [0, 0]}}, "bob": {"points": {"O": [0, 0]}, "mass": 2, "center": [0.5, 0]}}
+    >>> drives = {"O": {"position": "unknown", "effort": 0, "range": ["-91 deg", "-1 deg"]}}
+    >>> tree = {"gravity": "standard", "links": links, "joints": {"O": {"type": "pin", "links": ["ground", "bob"]}}}
+    >>> m = da.mechanism({**tree, "drives": drives, "turning": {"speed": "8 rad/s"}})
+    >>> round(da.turning_range(m).bifurcation[0], 3)    # rad/s
+    4.429
     """
 
     bifurcation: tuple[float, ...]

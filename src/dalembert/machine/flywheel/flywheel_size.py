@@ -19,6 +19,11 @@ class FlywheelSize:
     """Fluctuation of energy dE (J), mean speed w (rad/s), C_s = (w_max - w_min) / w, and inertia I (kg m2).
 
     ``pulses``: the areas between the curve and its mean, in order, J. w is the mean of the greatest and least speed.
+
+    >>> import dalembert as da
+    >>> f = da.flywheel_size(1200.0, speed=50, Cs=0.05)
+    >>> round(f.inertia, 6)    # dE = I C_s w^2
+    9.6
     """
 
     energy: float

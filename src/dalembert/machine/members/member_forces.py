@@ -114,6 +114,12 @@ class MemberForces:
 
     ``residual``: force and moment that do not close at the end, over the largest on the link; NaN where unknown.
     ``brackets``: joints and loads beside the members, with the distance in m; the bracket is not analysed.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import examples
+    >>> f = da.member_forces(da.dynamics(da.load(examples()["four_bar"])), "rocker")
+    >>> bool(f.residual.max() < 1e-9)
+    True
     """
 
     result: Result = field(repr=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -19,12 +20,13 @@ from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.end_stops import Stops
 from dalembert.model.drives.motors import Switch
-from dalembert.model.drives.starting import Start
+from dalembert.model.drives.starting import Start, StartValue
 from dalembert.model.drives.turning_checks import refuse_unsteady
 from dalembert.model.joints.plane_joints import Joint
 from dalembert.model.quantities.coordinates import SPEED
 from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.tables import Table
+from dalembert.wording import closest
 
 
 def joint_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
@@ -277,3 +279,15 @@ def _at_start(name: str, d: Drive, start: Start | None, free: bool) -> tuple[flo
     first = d.position.start if isinstance(d.position, Range) else np.ravel(d.position)[0]
     rate = float(np.ravel(d.acceleration)[0])
     return float(first), float(np.ravel(d.speed)[0]), 0.0 if free else rate
+
+
+def read_start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]:
+    """Starts given in the call, read as in a file."""
+    if not start:
+        return {}
+    for name in start:
+        if name not in m.drives:
+            raise ModelError(
+                f"start names the drive {name!r}, which does not exist", closest(name, list(m.drives))
+            )
+    return StartValue().starts(start, m._later_rules({}))

@@ -12,13 +12,13 @@ from itertools import pairwise
 import numpy as np
 
 from dalembert.analysis.batch import over_positions
-from dalembert.analysis.batch.compiled_kernel import lanes_here
+from dalembert.analysis.batch.checked_input import lanes_here
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, with_numbers
 from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
-from dalembert.machine.motion.actuation import Actuation, actuation, drive_lengths, joint_stops
+from dalembert.machine.motion.actuation import Actuation, actuation, drive_lengths, joint_stops, read_start
 from dalembert.machine.motion.coded.rate_program import Corners
 from dalembert.machine.motion.equation import Equation, StoppedError
 from dalembert.machine.motion.equation_trace import trace_equation
@@ -27,7 +27,7 @@ from dalembert.machine.motion.many.event_machine import event_block, refuse_even
 from dalembert.machine.motion.many.motion_block import MotionBlock
 from dalembert.machine.motion.many.motion_kernel import ROWS, MotionKernel
 from dalembert.machine.motion.occurrences import read_end
-from dalembert.machine.motion.simulation import check_choices, read_start
+from dalembert.machine.motion.simulation import check_choices
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.drives.starting import Start
 

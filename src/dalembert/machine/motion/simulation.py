@@ -22,7 +22,7 @@ from dalembert.arrays import Array, Tree
 from dalembert.bounds import BOUNDS, text_of
 from dalembert.errors import ArgumentError, ModelError
 from dalembert.machine.elements.brake_heat import BrakeHeat
-from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops
+from dalembert.machine.motion.actuation import Actuation, actuation, joint_stops, read_start
 from dalembert.machine.motion.coded.shared_motion import SharedMotion
 from dalembert.machine.motion.coordinates.pieces import analysis_along, instants, integrate
 from dalembert.machine.motion.energies import MotionChecks
@@ -37,8 +37,6 @@ from dalembert.machine.motors.motor_use import WithMotors
 from dalembert.machine.output.machine_answer import MachineAnswer
 from dalembert.model import Mechanism, ModelOrPath, Schedule, as_mechanism
 from dalembert.model.drives.drives import kind_of
-from dalembert.model.drives.starting import Start, StartValue
-from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.output.summary.printed_units import Printed
@@ -61,6 +59,13 @@ class Simulation(BrakeHeat, WithMotors, MotionChecks, NamedAnswer, MachineAnswer
     ``energy_residual``, the gap of the energy balance over the largest energy; ``law_gap`` (T,), of the efforts of the
     computed motion, prescribed, over the largest, ``law_residual`` its largest; and ``closure``, of the loops, m or
     rad. Joint forces and checks are computed when they are first needed; printed and written answers have them.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank(crank=0.05, rod=0.2)
+    >>> start = {"O2": {"position": "30 deg", "speed": "20 rad/s"}}
+    >>> s = da.simulate(m, until="10 ms", count=3, start=start)
+    >>> s.status, s.time.tolist()
+    ('ended', [0.0, 0.005, 0.01])
     """
 
     ROW = "instant"
@@ -343,18 +348,6 @@ def check_choices(count: int, tolerance: float) -> None:
     if not BOUNDS["step error"].allows(tolerance):
         what = f"the tolerance {text_of(tolerance)} is not between 1e-14 and 1e-3"
         raise ArgumentError(what, "leave it out: 1e-12")
-
-
-def read_start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]:
-    """Starts given in the call, read as in a file."""
-    if not start:
-        return {}
-    for name in start:
-        if name not in m.drives:
-            raise ModelError(
-                f"start names the drive {name!r}, which does not exist", closest(name, list(m.drives))
-            )
-    return StartValue().starts(start, m._later_rules({}))
 
 
 def _answer(m: Mechanism, prescribed: Mechanism, pieces: list[Integration]) -> Simulation:

@@ -60,6 +60,11 @@ class MotorChoice(MachineAnswer):
     ``time`` (P,), s: duration represented by each position. ``motor_inertia`` J_m, kg m2; ``curve``: the greatest
     torque over the speed; ``rated``: the continuous torque, compared with the rms, N m. ``needs``: requirements by
     name, of ratios.
+
+    >>> import dalembert as da
+    >>> c = da.motor(da.dynamics(da.slider_crank()), inertia=1e-4)
+    >>> c.effort.shape
+    (72,)
     """
 
     result: Result = field(repr=False)

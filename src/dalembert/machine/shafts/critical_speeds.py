@@ -46,6 +46,18 @@ class CriticalSpeeds(Labelled, Drawn, Worked):
     ``whirl`` (S,): of forward whirl with the gyroscopic couples of the masses, ``speeds`` without. dunkerley, rayleigh:
     the lowest by the books' formulas, rad/s. sag (N,): deflection under the weights across the shaft, m. supports:
     joint -> place. ``change``: relative difference of the lowest with half of the elements.
+
+    >>> import dalembert as da
+    >>> links = {"ground": {"points": {"A": [0, 0], "B": [0.8, 0]}}}
+    >>> section = {"circle": "25 mm", "elasticity": "207 GPa"}
+    >>> links["shaft"] = {"points": {"A": [0, 0], "B": [0.8, 0], "C": [0.3, 0]}, "section": section}
+    >>> links["gear"] = {"points": {"C": [0, 0]}, "mass": 16}
+    >>> types = {"A": "pin", "B": "slot"}
+    >>> joints = {name: {"type": types[name], "links": ["ground", "shaft"]} for name in types}
+    >>> joints["C"] = {"type": "weld", "links": ["shaft", "gear"]}
+    >>> c = da.critical_speeds(da.statics(da.mechanism({"links": links, "joints": joints})), "shaft")
+    >>> c.speeds.round(1).tolist()    # rad/s
+    [162.7]
     """
 
     result: Result = field(repr=False)

@@ -47,7 +47,11 @@ EXAMPLE = "{from: 0 deg, to: 360 deg, count: 72}"
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Equal steps from `start` to `stop`; a full turn does not repeat its first position."""
+    """Equal steps from `start` to `stop`; a full turn does not repeat its first position.
+
+    >>> Range(0.0, 1.0, 3).stop
+    1.0
+    """
 
     start: float
     stop: float

@@ -39,6 +39,9 @@ class Rise:
     harmonic:      (1 - cos pi u) / 2
     cycloidal:     u - sin(2 pi u) / (2 pi)
     polynomial345: 10 u^3 - 15 u^4 + 6 u^5
+
+    >>> Rise("cycloidal", 0.0, 0.02, 0.5, 101).at(0.5)[0].item()    # half of the rise at half of the time
+    0.01
     """
 
     type: str
@@ -92,6 +95,11 @@ class TimeTable:
     """Positions at given times, between them a cubic spline, so that speed and acceleration exist.
 
     periodic: the last position repeats the first, with its speed and acceleration; the last instant is not repeated.
+
+    >>> import numpy as np
+    >>> table = TimeTable((0.0, 1.0, 2.0), (0.0, 0.1, 0.0), 5)
+    >>> table.at(np.array([1.0]))[0].tolist()
+    [0.1]
     """
 
     time: tuple[float, ...]

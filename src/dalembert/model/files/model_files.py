@@ -48,6 +48,10 @@ def load(path: FilePath, data: FilePath = "") -> Mechanism:
     Files of other programs are read by their suffix (docs/formats.md), with a warning for each thing that is not kept.
     Tables may come from text files in its folder; from those in the folder ``data`` too. Raises
     FileNotFoundError, which is a ModelError too, for a file that does not exist.
+
+    >>> from dalembert.bundled import examples
+    >>> load(examples()["four_bar"]).title
+    'Four-bar linkage, dynamic'
     """
     if Path(path).suffix.lower() not in YAML_AND_TOML and not is_stream(path):
         from dalembert.interchange.file_formats import is_foreign, load_foreign

@@ -67,7 +67,11 @@ class FrictionPart(Part):
 
 
 class PinFriction(FrictionPart):
-    """Friction of a pin of a radius: a couple of the friction circle."""
+    """Friction of a pin of a radius: a couple of the friction circle.
+
+    >>> PinFriction(coefficient=0.1, radius="10 mm").radius
+    0.01
+    """
 
     radius: Annotated[float, Scalar("length", "not negative")] = Field(
         description="radius of the pin, a length"
@@ -76,7 +80,11 @@ class PinFriction(FrictionPart):
 
 
 class GuideFriction(FrictionPart):
-    """Friction along a slide; without `guide` the normal force bears on one face."""
+    """Friction along a slide; without `guide` the normal force bears on one face.
+
+    >>> GuideFriction(coefficient=0.1, half_height="20 mm").half_height
+    0.02
+    """
 
     guide: Annotated[tuple[float, float], Guide()] | None = Field(
         None, description="how far the guide reaches behind and ahead of j's point, two lengths"
@@ -90,7 +98,11 @@ class GuideFriction(FrictionPart):
 
 
 class SlotFriction(FrictionPart):
-    """Friction of a pin in a slot: along the slide, and with a radius also the pin's couple."""
+    """Friction of a pin in a slot: along the slide, and with a radius also the pin's couple.
+
+    >>> SlotFriction(coefficient=0.1).coefficient
+    0.1
+    """
 
     radius: Annotated[float, Scalar("length", "not negative")] | None = Field(
         None, description="radius of the pin in the slot, a length"
@@ -109,6 +121,9 @@ class GearFriction(FrictionPart):
     Teeth slide at the rate of the wheels' relative turn times the distance of their contact from the pitch point; the
     friction force changes its sense at the pitch point, so that what is left over a mesh is this couple. Without
     `arm`, the mean distance on the path of contact of standard full-depth teeth (needs `teeth` and `module`).
+
+    >>> GearFriction(coefficient=0.05).coefficient
+    0.05
     """
 
     arm: Annotated[float, Scalar("length", "positive")] | None = Field(

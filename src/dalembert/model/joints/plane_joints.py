@@ -36,51 +36,14 @@ from dalembert.model.joints.friction_keys import (
 )
 from dalembert.model.joints.joint_part import JointPart, TwoNumbers, kinds_of
 from dalembert.model.joints.pairs import freedoms_of
+from dalembert.model.joints.slot_damping import SlotDamping
 from dalembert.model.joints.space_joints import Frames, Matrix, SpaceJoint, frames
-from dalembert.model.part import mapping, reading
+from dalembert.model.part import reading
 from dalembert.model.quantities.values import (
-    NUMBER_OR_TEXT,
     Components,
-    JsonSchema,
     Scalar,
-    ValueField,
     Vector,
-    at_item,
-    check_sign,
-    value_text,
 )
-
-
-class SlotDamping(ValueField):
-    """Damping of the slide; or `{slide:, turn:}`."""
-
-    def read(self, value: object, info: ValidationInfo) -> tuple[float, float]:
-        rules = reading(info)
-        if isinstance(value, tuple):
-            return value[0], value[1]
-        keys = value if isinstance(value, Mapping) else {"slide": value}
-        mapping(keys, ["slide", "turn"], "{slide: 30, turn: 0.2}")
-        pair = (
-            at_item(key, rules.quantity, keys.get(key, 0.0), kind)
-            for key, kind in (("slide", "damping"), ("turn", "torsion_damping"))
-        )
-        slide, turn = (check_sign(number, number, "not negative") for number in pair)
-        return slide, turn
-
-    def write(self, value: tuple[float, float]) -> object:
-        return {"slide": value_text(value[0], "damping"), "turn": value_text(value[1], "torsion_damping")}
-
-    def json_schema(self) -> JsonSchema:
-        both = {
-            "type": "object",
-            "properties": {
-                "slide": NUMBER_OR_TEXT | {"description": "force per speed"},
-                "turn": NUMBER_OR_TEXT | {"description": "moment per angular speed"},
-            },
-            "additionalProperties": False,
-        }
-        return {"anyOf": [NUMBER_OR_TEXT, both]}
-
 
 Angle = Annotated[float, Scalar("angle")]
 TurnDamping = Annotated[float, Scalar("torsion_damping", "not negative")]
@@ -108,7 +71,11 @@ class Pin(JointPart):
 
 
 class Slider(JointPart):
-    """A straight guide: j slides along `direction` of i and does not turn in it."""
+    """A straight guide: j slides along `direction` of i and does not turn in it.
+
+    >>> Slider(links=("ground", "piston"), direction="90 deg").freedoms
+    ('slide',)
+    """
 
     FREEDOMS: ClassVar = ("slide",)
     type: Literal["slider"] = "slider"
@@ -131,7 +98,11 @@ class Slider(JointPart):
 
 
 class Slot(JointPart):
-    """A pin of j in a straight slot of i: it slides and turns."""
+    """A pin of j in a straight slot of i: it slides and turns.
+
+    >>> Slot(links=("arm", "block")).freedoms
+    ('slide', 'turn')
+    """
 
     FREEDOMS: ClassVar = ("slide", "turn")
     type: Literal["slot"] = "slot"
@@ -184,7 +155,11 @@ class CircularSlot(JointPart):
 
 
 class Weld(JointPart):
-    """A rigid connection."""
+    """A rigid connection.
+
+    >>> Weld(links=("boom", "load")).freedoms
+    ()
+    """
 
     DIMENSIONS: ClassVar = (2, 3)
     type: Literal["weld"] = "weld"
@@ -313,7 +288,11 @@ def _check_internal(internal: bool, radii: tuple[float, float]) -> None:
 
 
 class Rolling(JointPart):
-    """A wheel on j, about j's point, that rolls without slip on a line through i's point, or on a circle about it."""
+    """A wheel on j, about j's point, that rolls without slip on a line through i's point, or on a circle about it.
+
+    >>> Rolling(links=("ground", "wheel"), radius="200 mm").radius
+    0.2
+    """
 
     FREEDOMS: ClassVar = ("turn",)
     type: Literal["rolling"] = "rolling"

@@ -55,6 +55,9 @@ class Offset:
 
     In the plane ``start`` may be turned, or reflected in a line at the angle ``mirror`` through the point ``about``
     (empty: the link's origin), before ``at`` is added (empty: nothing).
+
+    >>> Offset("A", (0.1, 0.0)).at
+    (0.1, 0.0)
     """
 
     start: str

@@ -128,7 +128,11 @@ class Box(CentredShape):
 
 
 class Sphere(CentredShape):
-    """A ball: I = 2/5 V r^2."""
+    """A ball: I = 2/5 V r^2.
+
+    >>> round(Sphere(radius=1, density=3).solid(lambda name: (0.0, 0.0)).volume, 6)
+    4.18879
+    """
 
     type: Literal["sphere"] = "sphere"
     radius: Length = Field(description="a length")
@@ -198,7 +202,11 @@ class Cylinder(Long):
 
 
 class Tube(Long):
-    """A hollow cylinder."""
+    """A hollow cylinder.
+
+    >>> round(Tube(radii=(1, 2), length=3, density=1).solid(lambda name: (0.0, 0.0)).volume, 6)
+    28.274334
+    """
 
     type: Literal["tube"] = "tube"
     radii: Annotated[Vector, Lengths(2, "write radii: [inner, outer]")] = Field(
@@ -218,7 +226,11 @@ class Tube(Long):
 
 
 class SlenderBar(Long):
-    """A slender bar: no inertia about its axis, m l^2 / 12 across it."""
+    """A slender bar: no inertia about its axis, m l^2 / 12 across it.
+
+    >>> SlenderBar(between=("A", "B"), area="1 cm^2", density=7850).area
+    0.0001
+    """
 
     type: Literal["bar"] = "bar"
     area: Annotated[float, Scalar("area", "positive")] | None = Field(
@@ -231,7 +243,15 @@ class SlenderBar(Long):
 
 
 class StlMesh(ShapePart):
-    """A solid within a closed surface of triangles, from an STL file (needs the package trimesh)."""
+    """A solid within a closed surface of triangles, from an STL file (needs the package trimesh).
+
+    >>> from dalembert.errors import ModelError
+    >>> try:
+    ...     StlMesh(file="no.stl")
+    ... except ModelError as error:
+    ...     print(str(error).split(";")[0])
+    file 'no.stl' does not exist
+    """
 
     type: Literal["mesh"] = "mesh"
     file: Annotated[MeshFile, MeshFileValue()] = Field(

@@ -25,7 +25,13 @@ if TYPE_CHECKING:
 
 @dataclass(eq=False)
 class PaperSolution(Worked):
-    """The solution of one position as on paper; ``forces.steps`` has the numbers, ``position`` counts from 0."""
+    """The solution of one position as on paper; ``forces.steps`` has the numbers, ``position`` counts from 0.
+
+    >>> import dalembert as da
+    >>> s = da.solution(da.dynamics(da.four_bar()), at=1)
+    >>> s.position, len(s.steps)
+    (0, 10)
+    """
 
     ROWS = "steps"
 

@@ -1,4 +1,4 @@
-/* FMI 2.0, model exchange and co-simulation, without states: outputs are functions of inputs at the same instant. */
+/* FMI 2.0, model exchange and co-simulation. */
 #include "model.h"
 #include "model.c"
 #include "fmi2Functions.h"
@@ -11,11 +11,14 @@ typedef struct {
 #define MODEL (&((Unit *)c)->m)
 #define OK(condition) ((condition) ? fmi2OK : fmi2Error)
 
-static void solved(Unit *u) {
-  solve_model(&u->m);
+static void report(Unit *u) {
   if (u->m.code && u->m.code != u->m.reported && u->callbacks && u->callbacks->logger)
     u->callbacks->logger(u->callbacks->componentEnvironment, u->name, fmi2Warning, "logStatus", "%s", meaning(u->m.code));
   u->m.reported = u->m.code;
+}
+static void solved(Unit *u) {
+  solve_model(&u->m);
+  report(u);
 }
 
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
@@ -39,6 +42,7 @@ void fmi2FreeInstance(fmi2Component c) { free(c); }
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has, fmi2Real tol, fmi2Real start, fmi2Boolean ends,
                                fmi2Real stop) {
   MODEL->x[0] = start;
+  if (has && tol > 0) MODEL->tolerance = tol;
   return fmi2OK;
 }
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) { return fmi2OK; }
@@ -109,18 +113,36 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no, fmi2Bool
   return fmi2OK;
 }
 fmi2Status fmi2SetTime(fmi2Component c, fmi2Real t) { MODEL->x[0] = t; return fmi2OK; }
-fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n) { return OK(!n); }
-fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real d[], size_t n) { return OK(!n); }
+fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n) {
+  if (n == STATES) set_states(MODEL, x, n);
+  return OK(n == STATES);
+}
+fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n) {
+  if (n == STATES) get_states(MODEL, x, n);
+  return OK(n == STATES);
+}
+fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x[], size_t n) {
+  if (n == STATES) get_nominals(x, n);
+  return OK(n == STATES);
+}
+fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real d[], size_t n) {
+  if (n != STATES) return fmi2Error;
+  if (n) solved((Unit *)c);
+  get_derivatives(MODEL, d, n);
+  return n && has_no_answer(MODEL->code) ? fmi2Discard : fmi2OK;
+}
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real e[], size_t n) { return OK(!n); }
-fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n) { return OK(!n); }
-fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x[], size_t n) { return OK(!n); }
 
 /* co-simulation */
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer o[],
                                        const fmi2Real v[]) { return OK(!n); }
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Integer o[],
                                         fmi2Real v[]) { return OK(!n); }
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real t, fmi2Real h, fmi2Boolean no) { MODEL->x[0] = t + h; return fmi2OK; }
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real t, fmi2Real h, fmi2Boolean no) {
+  if (advance(MODEL, t, h)) return fmi2OK;
+  report((Unit *)c);
+  return fmi2Discard;
+}
 fmi2Status fmi2CancelStep(fmi2Component c) { return fmi2Error; }
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind k, fmi2Status *v) { return fmi2Discard; }
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind k, fmi2Real *v) {
@@ -128,5 +150,8 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind k, fmi2Real *
   return k == fmi2LastSuccessfulTime ? fmi2OK : fmi2Discard;
 }
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind k, fmi2Integer *v) { return fmi2Discard; }
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind k, fmi2Boolean *v) { return fmi2Discard; }
+fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind k, fmi2Boolean *v) {
+  *v = fmi2True; /* asked after a step that was discarded: the motion ends there */
+  return k == fmi2Terminated ? fmi2OK : fmi2Discard;
+}
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind k, fmi2String *v) { return fmi2Discard; }

@@ -1,4 +1,4 @@
-/* FMI 3.0, model exchange and co-simulation, without states: outputs are functions of inputs at the same instant. */
+/* FMI 3.0, model exchange and co-simulation. */
 #include "model.h"
 #include "model.c"
 #include "fmi3Functions.h"
@@ -14,11 +14,14 @@ typedef const fmi3ValueReference R[];
 #define MODEL (&((Unit *)c)->m)
 #define OK(condition) ((condition) ? fmi3OK : fmi3Error)
 
-static void solved(Unit *u) {
-  solve_model(&u->m);
+static void report(Unit *u) {
   if (u->m.code && u->m.code != u->m.reported && u->logger)
     u->logger(u->environment, fmi3Warning, "logStatus", meaning(u->m.code));
   u->m.reported = u->m.code;
+}
+static void solved(Unit *u) {
+  solve_model(&u->m);
+  report(u);
 }
 static I instance(fmi3String token, fmi3InstanceEnvironment environment, fmi3LogMessageCallback logger) {
   Unit *u;
@@ -53,6 +56,7 @@ I fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token, fmi3Strin
 void fmi3FreeInstance(I c) { free(c); }
 S fmi3EnterInitializationMode(I c, fmi3Boolean has, fmi3Float64 tol, fmi3Float64 start, fmi3Boolean ends, fmi3Float64 stop) {
   MODEL->x[0] = start;
+  if (has && tol > 0) MODEL->tolerance = tol;
   return fmi3OK;
 }
 #define DONE(name) \
@@ -144,20 +148,36 @@ S fmi3CompletedIntegratorStep(I c, fmi3Boolean no, fmi3Boolean *event, fmi3Boole
   return fmi3OK;
 }
 S fmi3SetTime(I c, fmi3Float64 t) { MODEL->x[0] = t; return fmi3OK; }
-S fmi3SetContinuousStates(I c, const fmi3Float64 x[], size_t n) { return OK(!n); }
-S fmi3GetContinuousStateDerivatives(I c, fmi3Float64 d[], size_t n) { return OK(!n); }
+S fmi3SetContinuousStates(I c, const fmi3Float64 x[], size_t n) {
+  if (n == STATES) set_states(MODEL, x, n);
+  return OK(n == STATES);
+}
+S fmi3GetContinuousStates(I c, fmi3Float64 x[], size_t n) {
+  if (n == STATES) get_states(MODEL, x, n);
+  return OK(n == STATES);
+}
+S fmi3GetNominalsOfContinuousStates(I c, fmi3Float64 x[], size_t n) {
+  if (n == STATES) get_nominals(x, n);
+  return OK(n == STATES);
+}
+S fmi3GetContinuousStateDerivatives(I c, fmi3Float64 d[], size_t n) {
+  if (n != STATES) return fmi3Error;
+  if (n) solved((Unit *)c);
+  get_derivatives(MODEL, d, n);
+  return n && has_no_answer(MODEL->code) ? fmi3Discard : fmi3OK;
+}
 S fmi3GetEventIndicators(I c, fmi3Float64 e[], size_t n) { return OK(!n); }
-S fmi3GetContinuousStates(I c, fmi3Float64 x[], size_t n) { return OK(!n); }
-S fmi3GetNominalsOfContinuousStates(I c, fmi3Float64 x[], size_t n) { return OK(!n); }
 S fmi3GetNumberOfEventIndicators(I c, size_t *n) { *n = 0; return fmi3OK; }
-S fmi3GetNumberOfContinuousStates(I c, size_t *n) { *n = 0; return fmi3OK; }
+S fmi3GetNumberOfContinuousStates(I c, size_t *n) { *n = STATES; return fmi3OK; }
 
 /* co-simulation */
 S fmi3GetOutputDerivatives(I c, R r, size_t n, const fmi3Int32 o[], fmi3Float64 v[], size_t count) { return OK(!n); }
 S fmi3DoStep(I c, fmi3Float64 t, fmi3Float64 h, fmi3Boolean no, fmi3Boolean *event, fmi3Boolean *stop,
              fmi3Boolean *early, fmi3Float64 *last) {
-  *event = *stop = *early = fmi3False;
-  *last = MODEL->x[0] = t + h;
+  *event = *early = fmi3False;
+  *stop = !advance(MODEL, t, h); /* where it has no answer, the motion ends */
+  if (*stop) report((Unit *)c);
+  *last = MODEL->x[0];
   return fmi3OK;
 }
 S fmi3ActivateModelPartition(I c, fmi3ValueReference r, fmi3Float64 t) { return fmi3Error; }

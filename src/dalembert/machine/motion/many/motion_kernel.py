@@ -37,6 +37,14 @@ class MotionBatch:
     ``time`` (design,): when each ended, s; ``ended``: by which condition; ``position``, ``speed`` (design, drive) at
     the end. NaN where the continuation of a motion is undecided, or it stops: not ``ok``; ``ended`` says why.
     ``redone``: number of designs that were simulated alone.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank(crank=0.05, rod=0.2)
+    >>> start = {"O2": {"position": "30 deg", "speed": "20 rad/s"}}
+    >>> k = da.compile_motion(m, "10 ms", ["links.piston.mass"], ["reaction.A"], start=start, count=5)
+    >>> batch = k([[1.0], [2.0]])
+    >>> batch.position.shape, bool(batch.ok.all())
+    ((2, 1), True)
     """
 
     values: Array = field(repr=False)
@@ -61,7 +69,15 @@ class MotionBatch:
 
 @dataclass(frozen=True)
 class MotionKernel:
-    """Compiled motions; call it with values (design, number) in SI, in the order of ``numbers``."""
+    """Compiled motions; call it with values (design, number) in SI, in the order of ``numbers``.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank(crank=0.05, rod=0.2)
+    >>> start = {"O2": {"position": "30 deg", "speed": "20 rad/s"}}
+    >>> k = da.compile_motion(m, "10 ms", ["links.piston.mass"], ["effort.O2"], start=start)
+    >>> k.numbers
+    ('links.piston.mass',)
+    """
 
     block: MotionBlock = field(repr=False)
     mechanism: Mechanism = field(repr=False)
