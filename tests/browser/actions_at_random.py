@@ -108,9 +108,8 @@ def letters(s: Studio, r: Random) -> None:
     for letter in some:
         (s.page.keyboard.press if letter[0].isupper() else s.page.keyboard.insert_text)(letter)
     if r.random() < 0.8:
-        s.page.wait_for_timeout(320)
-        for _ in some:
-            s.page.keyboard.press("Control+z")
+        s.page.wait_for_timeout(320)  # then they are one step
+        s.page.keyboard.press("Control+z")
     s.page.evaluate("document.activeElement?.blur()")
 
 
