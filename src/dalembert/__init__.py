@@ -189,6 +189,7 @@ if TYPE_CHECKING:
     from dalembert.model.library import v_engine as v_engine
     from dalembert.model.library import watt_1 as watt_1
     from dalembert.model.library import watt_2 as watt_2
+    from dalembert.model.library import wedge as wedge
     from dalembert.model.library import whitworth as whitworth
     from dalembert.model.library import worm_gear as worm_gear
     from dalembert.optimization.optimizing import optimize as optimize
@@ -267,7 +268,7 @@ _NAMES = {
         "inverted_slider_crank planetary_train plate_clutch porter_governor press_with_flywheel "
         "radial_engine ratchet rccc rotating_shaft rssp rssr scissor scotch_yoke screw_jack slider_crank "
         "spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 "
-        "whitworth worm_gear"
+        "wedge whitworth worm_gear"
     ),
     "optimization.optimizing": "optimize",
     "optimization.optimum": "Optimum",

@@ -8,9 +8,12 @@ from typing import Any
 import numpy as np
 
 from dalembert.arrays import Array
+from tests.elements.written_machines import Written
 
 RISES = ("cycloidal", "modified_sine", "polynomial345", "polynomial4567", "modified_trapezoid")
-FOLLOWERS: tuple[Any, ...] = ("knife", {"roller": 0.008}, "flat")
+ROLLER = 0.008
+FOLLOWERS: tuple[Any, ...] = ("knife", {"roller": ROLLER}, "flat")
+DRAWN = Written()
 
 
 class Case:
@@ -21,18 +24,14 @@ class Case:
         self.follower = FOLLOWERS[seed % 3]
         self.swings = seed // 3 % 2 == 1
         self.flat = self.follower == "flat"
-        self.sense = rng.choice(["ccw", "cw"])
+        self.sense = str(rng.choice(["ccw", "cw"]))
         self.first = bool(rng.integers(2))  # the carrier is link i of the guide
         self.up = float(rng.choice([-1, 1])) if self.swings else 1.0
         lengths = rng.uniform(50, 110, 2).tolist()
         self.lift = float(math.radians(rng.uniform(3, 6)) if self.swings else rng.uniform(0.006, 0.012))
         to = self.up * self.lift
-        self.segments = [
-            {
-                "to": f"{math.degrees(to)!r} deg" if self.swings else to,
-                "in": f"{lengths[0]!r} deg",
-                "by": str(rng.choice(RISES)),
-            },
+        self.segments: list[dict[str, Any]] = [
+            {"to": to, "in": f"{lengths[0]!r} deg", "by": str(rng.choice(RISES))},
             {"dwell": "40 deg"},
             {"to": 0, "in": f"{lengths[1]!r} deg", "by": str(rng.choice(RISES))},
             {"dwell": "rest"},
@@ -48,54 +47,59 @@ class Case:
         self.turn = float(rng.uniform(-3, 3))  # of the follower's axes
         self.speeds = float(rng.uniform(5, 20)), float(rng.uniform(-30, 30))
 
-    def tree(self, contact: str = "holds") -> dict[str, Any]:
+    def tree(self, contact: str = "holds", w: Written = DRAWN) -> dict[str, Any]:
         """The machine with its cam."""
-        profile = {"base": self.base, "sense": str(self.sense), "segments": self.segments}
-        cam = {"type": "cam", "links": ["cam", "follower"], "at": ["O", "F"], "follower": self.follower}
-        tree = self.frame()
+        segments = [x | {"to": self._lifted(w, x["to"])} if "to" in x else x for x in self.segments]
+        profile = {"base": w.by(self.base, 0, 1), "sense": w.side(self.sense), "segments": segments}
+        follower = {"roller": w.by(ROLLER, 0, 1)} if isinstance(self.follower, dict) else self.follower
+        cam = {"type": "cam", "links": ["cam", "follower"], "at": ["O", "F"], "follower": follower}
+        tree = self.frame(w)
         tree["joints"]["F"] = cam | {"profile": profile, "contact": contact}
         return tree
 
-    def frame(self) -> dict[str, Any]:
+    def _lifted(self, w: Written, to: float) -> Any:
+        return w.turn(to) if self.swings else w.by(to, 0, 1)
+
+    def frame(self, w: Written = DRAWN) -> dict[str, Any]:
         """The machine without it."""
-        m, p = self.masses, self.places.tolist()
+        m, p = self.masses, self.places
         c, s = math.cos(-self.turn), math.sin(-self.turn)
-        guide = [float(x) for x in (self.axis if self.swings else self._foot())]
-        arm = [0.1 * x for x in (c, s)] if self.swings else [0.0, 0.0]
+        guide = self.axis if self.swings else self._foot()
+        arm = (0.1 * c, 0.1 * s) if self.swings else (0.0, 0.0)
+        cam = {"points": {"O": [0, 0], "P": w.at(p[0])}, "center": w.at(p[1]), "inertia": w.by(0.002, 1, 2)}
+        follower = {
+            "points": {"Q": [0, 0], "F": w.at(arm), "P": w.at(p[1])},
+            "center": w.at(p[0]),
+            "inertia": w.by(0.003, 1, 2),
+        }
         links = {
-            "ground": {"points": {"O": self.center.tolist(), "Q": guide}},
-            "cam": {"points": {"O": [0, 0], "P": p[0]}, "mass": m[0], "center": p[1], "inertia": 0.002},
-            "follower": {
-                "points": {"Q": [0, 0], "F": arm, "P": p[1]},
-                "mass": m[1],
-                "center": p[0],
-                "inertia": 0.003,
-            },
+            "ground": {"points": {"O": w.at(self.center), "Q": w.at(guide)}},
+            "cam": cam | {"mass": w.by(m[0], 1)},
+            "follower": follower | {"mass": w.by(m[1], 1)},
         }
         ends = ["ground", "follower"] if self.first else ["follower", "ground"]
-        slide = {
-            "direction": f"{math.degrees(self._along())!r} deg",
-            "angle": f"{math.degrees(self._angle())!r} deg",
-        }
+        slide = {"direction": w.turn(self._along()), "angle": w.turn(self._angle())}
         kind = {"type": "pin"} if self.swings else {"type": "slider"} | slide
         joints = {"O": {"type": "pin", "links": ["ground", "cam"]}, "Q": kind | {"links": ends, "at": "Q"}}
-        w, a = self.speeds
-        drive = {
-            "position": {"from": 0, "to": 360, "count": 11},
-            "speed": f"{w!r} rad/s",
-            "acceleration": f"{a!r} rad/s^2",
-        }
+        turn = {"from": 0, "to": 360 * w.flip, "count": 11}
         loads = {
-            "A": {"type": "force", "on": "cam", "at": "P", "value": self.loads[:2].tolist()},
-            "B": {"type": "force", "on": "follower", "at": "P", "value": self.loads[2:].tolist()},
+            "A": {"type": "force", "on": "cam", "at": "P", "value": w.force(self.loads[:2])},
+            "B": {"type": "force", "on": "follower", "at": "P", "value": w.force(self.loads[2:])},
         }
         return {
             "links": links,
             "joints": joints,
-            "drives": {"O": drive},
+            "drives": {"O": w.spins(0.0, *self.speeds) | {"position": turn}},
             "loads": loads,
-            "gravity": "standard",
+            "gravity": w.at((0, -9.80665)),
         }
+
+    def press(self, force: float) -> Array:
+        """A force towards the cam at the follower's point in the first position."""
+        c, s = math.cos(self.tilt), math.sin(self.tilt)
+        if not self.swings:
+            return np.array([-force * c, -force * s])
+        return np.asarray(force * (self.center - self.axis) / 0.12)
 
     def _foot(self) -> Array:
         """A point of the line of the slide."""

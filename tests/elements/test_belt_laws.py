@@ -91,12 +91,8 @@ def test_torques_and_pulls_close(seed: int) -> None:
 
 
 @over(2, 200)
-def test_every_method_has_one_answer(seed: int) -> None:
-    m = read(random_drive(seed))
-    r = da.dynamics(m, method="careful")
-    scale = 1e-11 * max(np.abs(r.effort_array).max(), np.abs(r.force_array).max())
-    np.testing.assert_allclose(da.dynamics(m).effort_array, r.effort_array, atol=scale)
-    np.testing.assert_allclose(da.virtual_work(r).effort, r.effort_array, atol=scale)
+def test_causes_are_superposed_unless_the_pull_follows_the_torque(seed: int) -> None:
+    r = da.dynamics(read(random_drive(seed)))
     if KEYS[seed % 4] in ("tension", "tensioner"):
         assert da.superposition(r).gap.max() < 1e-11
     else:

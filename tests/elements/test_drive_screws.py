@@ -141,6 +141,8 @@ def test_a_wedge_with_three_rubbing_faces(angle: float) -> None:
     pull = 4000 * (math.tan(2 * phi - a) if a > phi else math.sin(2 * phi - a) / math.cos(a))
     assert out == pytest.approx(pull, rel=1e-9)
     assert (out > 0) == (a < 2 * phi)  # it stays by itself below twice the angle of friction
+    template = da.wedge(slope=angle, coefficient=0.18, mass=4000 / 9.80665, positions=2)
+    assert da.statics(template).effort("floor") == pytest.approx(2 * [4000 * math.tan(a + 2 * phi)], rel=1e-9)
 
 
 def test_a_wedge_jams_from_a_right_angle_less_twice_that_of_friction_on() -> None:

@@ -183,7 +183,8 @@ def test_in_python_a_drives_unit_says_its_freedom() -> None:
         (Link, {"mas": 3}, "unknown key 'mas'; did you mean 'mass'?"),
         (Pin, {}, "the key 'links' is missing; name the two links it connects, links: [ground, crank]"),
         (Slider, {"links": ("a", "a")}, "it connects link 'a' with itself; name two different links"),
-        (Drive, {}, "its position is missing; write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law"),
+        (Drive, {}, "its position is missing; write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law; "
+         "effort: 0 if only loads move it"),
         (ForceLoad, {"on": "a", "at": "A", "value": Expression("A", "m"), "direction": 0},
          "value: 'm' is a length, but a force is needed; write one, for example '80 N'"),
     ],

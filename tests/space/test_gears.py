@@ -117,7 +117,10 @@ def test_bevel_wheels(shaft: float, sense: float) -> None:
 
 
 def test_worm() -> None:
-    """A worm of lead angle g turns its wheel by r tan(g) / R, without losses its torque is that part of the wheel's."""
+    """A worm of lead angle g turns its wheel by r tan(g) / R, without losses its torque is that part of the wheel's.
+
+    Right-hand threads go against the worm's axis as it turns about it, and take along the teeth of the wheel below.
+    """
     lead = radians(10)
     m = pair(
         wheel([0, 0, 0.1], [1.0, 0, 0], 0.02),
@@ -127,8 +130,8 @@ def test_worm() -> None:
     )
     r = da.statics(m)
     ratio = 0.02 * tan(lead) / 0.08
-    assert r.speed("b")[0] == pytest.approx([0, 10 * ratio, 0])
-    assert r.effort("A") == pytest.approx(np.full(13, -TORQUE * ratio))
+    assert r.speed("b")[0] == pytest.approx([0, -10 * ratio, 0])
+    assert r.effort("A") == pytest.approx(np.full(13, TORQUE * ratio))
     along_worm = TORQUE / 0.08
     force = r.reaction("G", on="a")[0]
     assert force[0] == pytest.approx(along_worm)

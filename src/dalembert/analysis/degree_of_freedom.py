@@ -101,6 +101,8 @@ def check_knowns(c: Compiled) -> None:
     if known_efforts > unknown:
         more = _count(known_efforts - unknown, "load")
         remedy = f"make {more} unknown (`value: unknown` with a direction) or leave the efforts out"
+        if c.mechanism.start:
+            remedy += "; the motion that forces give it from its start is that of `dalembert simulate`"
         raise ModelError(f"{efforts} but {loads}", remedy, ("drives",))
     remedy = f"give the effort of {_count(unknown - known_efforts, 'drive')} or the values of the loads"
     if not c.schedule.names:

@@ -1,7 +1,7 @@
 """Gear meshes in space: wheels on parallel axes, on intersecting axes (bevel) and on skew axes (worm).
 
 a, e   axis of a wheel and direction from it to the pitch point C
-t      a_i x e_i, direction in which the teeth of i move at C
+t      direction in which the teeth of i move at C: a_i x e_i, or its opposite where e_i points away from C
 n      direction of the force of the teeth in the tangent plane, N the normal of that plane
 
 Mechanics: docs/theory.md 2.2.
@@ -91,11 +91,12 @@ def _axes(g: Algebra, f: Teeth, pose: Pose, twist: Array) -> tuple[_Vector, _Vec
 
 def _mesh(g: Algebra, f: Teeth, pose: Pose, twist: Array) -> _Mesh:
     a, e, _, _ = _axes(g, f, pose, twist)
-    t = _cross(g, a, e)
+    outward = sign(f.ri)[:, None]  # towards C, where e may point away from it
+    t = _cross(g, a, _Vector(outward * e.at, outward * e.rate))
     cos, sin = np.cos(f.helix)[:, None], np.sin(f.helix)[:, None]
     trace = [f.cone[:, :1] * a[k] + f.cone[:, 1:] * e[k] for k in (0, 1)]
     n = _Vector(cos * t.at - sin * trace[0], cos * t.rate - sin * trace[1])
-    normal = (f.cone[:, :1] * e.at - f.cone[:, 1:] * a.at) * sign(f.ri)[:, None]
+    normal = (f.cone[:, :1] * e.at - f.cone[:, 1:] * a.at) * outward
     center = _center(g, pose, twist, f.i, f.ui)
     contact = _Vector(center.at + f.ri[:, None] * e.at, center.rate + f.ri[:, None] * e.rate)
     slide = _Vector(sin * t.at + cos * trace[0], sin * t.rate + cos * trace[1])

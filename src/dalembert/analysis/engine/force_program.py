@@ -44,7 +44,7 @@ SAMPLES = 24
 DATA = "friction "
 """Before the names of what a ``Friction`` keeps, among the outputs of a program."""
 
-MARKS = ("unsure", "sure", "turned", "still", "locked")
+MARKS = ("unsure", "sure", "turned", "still")
 
 
 class ForceBlock(NamedTuple):
@@ -84,6 +84,7 @@ def trace_forces(c: Compiled, pose: Pose, numbers: Numbers, inertia: bool) -> Fo
     outputs["margin"] = _varying(t.doubt, t.contacts, flags.slips, flags.rest)
     nodes = friction | {name: outputs[name] for name in KEPT} | {name: outputs[name] for name in CHECKS}
     nodes |= {f"flag {name}": _varying(getattr(flags, name)) for name in MARKS}
+    nodes["flag locked"] = np.array([*flags.locked, None], object)[:-1]  # 0: it never locks without inertia
     graph.samples.clear()
     return ForceProgram(graph, symbols.inputs, nodes, bool(friction))
 

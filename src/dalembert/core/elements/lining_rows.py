@@ -15,7 +15,7 @@ import numpy as np
 
 from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Ints
-from dalembert.core.branchless import above, root, where
+from dalembert.core.branchless import above, larger, root, where
 from dalembert.core.elements.linings import BandStrands, Lining
 from dalembert.core.geometry import arm, point_motion, span, span_motion
 from dalembert.core.layout import Pose
@@ -44,7 +44,7 @@ def period_of_line(g: Algebra, f: Lining, pose: Pose) -> Array:
     """Change of the measure with a whole turn of the line; endless where the turn does not count in it."""
     _, length, _ = _directions(g, f, pose)
     slope = np.abs(f.across)
-    return np.asarray(2 * np.pi * length * where(above(slope, FLAT), slope, ENDLESS))
+    return np.asarray(2 * np.pi * length * larger(slope, where(above(slope, FLAT), 0.0, ENDLESS)))
 
 
 def lining_wrench(g: Algebra, f: Lining, pose: Pose, on_i: Array, on_j: Array) -> None:

@@ -18,8 +18,8 @@ class Teeth:
     way[0] (P_j - P_i) + way[1] a_other + way[2] a_i x a_j
     (one of them, for parallel, intersecting, or skew axes); a radius is negative where e points away
     from C. The force of the teeth on j per unit of multiplier is n, across their trace in the tangent plane at C:
-    n = cos(helix) a_i x e_i - sin(helix) (cone[0] a_i + cone[1] e_i). Measure ki psi_i - kj psi_j, with psi the angle
-    of e in the wheel from its direction b, whole turns counted at ``count``, and k = r (a x e) . n.
+    n = cos(helix) sgn(ri) a_i x e_i - sin(helix) (cone[0] a_i + cone[1] e_i). Measure ki psi_i - kj psi_j, with psi the
+    angle of e in the wheel from its direction b, whole turns counted at ``count``, and k = r (a x e) . n.
 
     ``outward`` is 1 where separation pushes j away from the axis of i, -1 in a ring wheel i; way, cone, outward, ki
     and kj are those of the first pose (``core.gear_rows.mesh_wheels``).

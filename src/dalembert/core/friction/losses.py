@@ -49,6 +49,8 @@ def friction_arrays(
 
 BESIDE = ("lining", "band")
 """Kinds of contacts in the plane whose force does not act at j's point: it has a couple about that point."""
+PITCH_POINT = "mesh"
+"""Kind of contacts whose force acts at the pitch point, as their joint's reaction does: it has no couple there."""
 
 
 def dry_wrenches(
@@ -89,10 +91,15 @@ def _in_joints(
         force[..., k, :] += wrench[..., : g.d]
         if along.angular[e]:
             couple[..., k, :] += wrench[..., g.d :]
-        elif g.d == 3 or (kind and kind[e] in BESIDE):
+        elif _has_couple(g.d, kind[e] if kind else ""):
             arm = g.rotate(pose.rotation[..., link[k], :], contacts.at[k])
             couple[..., k, :] += wrench[..., g.d :] - g.cross(arm, wrench[..., : g.d])
     return force, couple[..., 0] if g.d == 2 else couple
+
+
+def _has_couple(d: int, kind: str) -> bool:
+    """True where a force of a kind has a couple about the point at which its joint's reaction acts."""
+    return kind in BESIDE if d == 2 else kind != PITCH_POINT
 
 
 def by_joint(joint: Ints, joints: int, values: Array) -> Array:

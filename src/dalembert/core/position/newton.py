@@ -29,9 +29,6 @@ centre the gap vanishes long before the error of the pose, so the step decides."
 HELD = 1e3
 """Stiffness of drives over that of constraints in the search for the least gap."""
 
-ENDLESS = 1e300
-"""Period of a measure that does not repeat."""
-
 LONGEST_TURN = 0.5
 """No step turns a link further than this, radians, or moves it further than the characteristic length times this."""
 
@@ -48,7 +45,9 @@ def gap(layout: Layout, pose: Pose, target: Array) -> Array:
             )
             part, whole = missing[..., family.row], period
             if isinstance(family, BeltMesh | Strand):  # wheels of a belt may be equal
-                whole = where(above(np.abs(period), 0.0), period, ENDLESS)
+                whole = where(
+                    above(np.abs(period), 0.0), period, 1.0
+                )  # not a huge number: machine code adds it
             missing[..., family.row] = part - period * np.round(part / whole)
         elif isinstance(family, Lining):
             period = period_of_line(layout.algebra, family, pose)

@@ -291,7 +291,8 @@ class Drive(Part):
             self._refuse("a law of motion", "position", "speed", "acceleration", "range", "stops")
         elif self.position is None and self.motor is None and self.effort is None:
             what = "its position is missing"
-            raise ModelError(what, "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law")
+            ways = "position: 60 deg, or {from: ..., to: ..., count: ...}, or a law; effort: 0 if only loads move it"
+            raise ModelError(what, f"write {ways}")
         if self.motor is not None:
             self._refuse("a motor", "law", "range")
             if self.motor.geared and self.effort is not None:

@@ -43,6 +43,7 @@ block_brake = template_function("block_brake")
 band_brake = template_function("band_brake")
 plate_clutch = template_function("plate_clutch")
 screw_jack = template_function("screw_jack")
+wedge = template_function("wedge")
 ratchet = template_function("ratchet")
 cylinder_boom = template_function("cylinder_boom")
 worm_gear = template_function("worm_gear")
@@ -65,7 +66,7 @@ __all__ = [
     "planetary_train", "plate_clutch", "porter_governor", "press_with_flywheel", "radial_engine",
     "ratchet", "rccc", "rotating_shaft", "rssp", "rssr", "scissor", "scotch_yoke", "screw_jack",
     "slider_crank", "spherical_four_bar", "stephenson_1", "stephenson_2", "stephenson_3", "template",
-    "template_text", "toggle_press", "v_engine", "watt_1", "watt_2", "whitworth", "worm_gear",
+    "template_text", "toggle_press", "v_engine", "watt_1", "watt_2", "wedge", "whitworth", "worm_gear",
 ]  # fmt: skip
 
 
@@ -99,6 +100,7 @@ DESCRIPTIONS = {
     "band_brake": "a lever pulls a band tight round a drum",
     "plate_clutch": "two shafts and the plates between them, which slip",
     "screw_jack": "torque on a screw that lifts a load, with thread and collar friction",
+    "wedge": "a wedge lifts a block in a guide, with friction on its three faces",
     "ratchet": "a motor's pawl takes a hoist's drum along, which may run ahead",
     "cylinder_boom": "a hydraulic cylinder lifts a boom: force, pressure and flow",
     "hoist": "a drum winds a rope that runs over a fixed and a moving pulley",

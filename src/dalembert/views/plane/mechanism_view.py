@@ -22,6 +22,7 @@ from dalembert.views.plane.elements.turning_axis import draw_turning_axis
 from dalembert.views.plane.guide_details import with_rough_guide
 from dalembert.views.plane.joint_drawings import draw_joint
 from dalembert.views.plane.outline import (
+    MASS_CENTER,
     every_path,
     link_points,
     link_shape,
@@ -178,7 +179,8 @@ def draw_links(canvas: Canvas, r: Result, k: int, frame: PaperFrame) -> None:
         draw_joint(canvas, r, name, k, frame)
     for load in m.loads_on("turn").values():
         canvas.add(*plane_symbols.TURNS[load.type](frame(joint_place(r, load.joint)[k])))
-    joints = [frame(p) for link in r.links for p in link_points(r, link, k).values()]
+    places = [item for link in r.links for item in link_points(r, link, k).items()]
+    joints = [frame(p) for name, p in places if name != MASS_CENTER]
     for link in r.links:
         at = frame(r.center(link)[k])
         if m.mass(link) and all(math.dist(at, p) > 1.5 for p in joints):

@@ -21,8 +21,13 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 
+MASS_CENTER = "mass center"
+"""Name of a mass centre that a link's shape connects."""
+
+
 def link_paths(r: Result, link: str) -> dict[str, Array]:
-    """Places (P, 2) in metres that a link's shape connects: joints, then points that carry loads."""
+    """Places (P, 2) in metres that a link's shape connects: joints, points that carry loads, masses that swing
+    in a turning plane."""
     m = r.mechanism
     joints = {name: joint for name, joint in m.joints.items() if link in joint.links}
     places: dict[str, Array] = {}
@@ -35,6 +40,8 @@ def link_paths(r: Result, link: str) -> dict[str, Array]:
             places[f"{name} sliding"] = link_place(r, joint.links[1], m.joint_points(name)[1])
     for name, at in load_places(m, link).items():
         places.setdefault(name, link_place(r, link, at))
+    if m.turning is not None and m.mass(link):  # a governor's ball is a part of its arm
+        places[MASS_CENTER] = r.center(link)
     return places
 
 

@@ -32,11 +32,13 @@ from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.analysis.status.freewheeling import grip_margins, released_joints
 from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import stack_rows
+from dalembert.core.elements.strand_family import Strand
+from dalembert.core.elements.strand_rows import strands
 from dalembert.core.equilibrium import UNIQUE, Known
 from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing
 from dalembert.core.gear_rows import gearings
-from dalembert.core.layout import Gearing, Idle, Layout, Pose
+from dalembert.core.layout import Family, Gearing, Idle, Layout, Pose
 from dalembert.core.linear import PseudoInverse
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, node, trace_array
@@ -274,9 +276,15 @@ def _check_space(c: Compiled, moved: list[VariedNumber]) -> None:
 
 
 def with_meshes(layout: Layout, known: Layout) -> Layout:
-    """The layout with the known one's meshes in space, which are fitted at its first position."""
-    fitted = iter(gearings(known))
-    families = tuple(next(fitted) if isinstance(f, Gearing) else f for f in layout.constraints.families)
+    """The layout with what the known one has from its first position: meshes in space, directions of ropes' strands."""
+    fitted, begun = iter(gearings(known)), strands(known)
+
+    def first(f: Family) -> Family:
+        if isinstance(f, Gearing):
+            return next(fitted)
+        return replace(f, axis=begun.axis, zero=begun.zero) if begun and isinstance(f, Strand) else f
+
+    families = tuple(first(f) for f in layout.constraints.families)
     return replace(layout, constraints=replace(layout.constraints, families=families))
 
 
@@ -304,9 +312,9 @@ def _run(problem: TracedProblem, c: Compiled) -> Traced:
     except ValueError as error:
         if isinstance(error, ModelError):
             raise
-        singular = c.contacts is not None and "singular" in str(error)
-        why = "some load or effort acts only through friction" if singular else str(error)
-        raise ModelError(f"the mechanism cannot be compiled: {why}", "use the analyses") from error
+        if c.contacts is None or "singular" not in str(error):
+            raise ModelError(f"the mechanism cannot be compiled: {error}", "use the analyses") from error
+        raise _through_friction(c) from None
     if not problem.moves:
         margins = stroke_margins(c.mechanism, c.schedule.names, problem.drives.position)
         margins += grip_margins(c.mechanism)
@@ -314,6 +322,14 @@ def _run(problem: TracedProblem, c: Compiled) -> Traced:
         if released_joints(c.mechanism):  # their status is the general executor's
             traced.doubt.append(-1.0 - abs(traced.effort[0]))
     return traced
+
+
+def _through_friction(c: Compiled) -> ModelError:
+    """What is said of an unknown that has power only through friction."""
+    of = [f"load {name!r}" for name in c.unknown_loads] or ["an effort"]
+    what = f"{' or '.join(of)} acts only through friction, which neither a compiled analysis nor a live page solves"
+    remedy = "give its value and ask for the effort of a drive, or use the analyses (`dalembert solve`)"
+    return ModelError(what, remedy, ("loads", c.unknown_loads[0]) if c.unknown_loads else ("drives",))
 
 
 def _refuse_slip_limits(c: Compiled) -> None:
