@@ -126,7 +126,11 @@ class Belt(JointPart):
         if keys.get("idlers"):
             if known:
                 what = f"{known[0]} is given beside idlers, of which one gives the tension by its weight or spring"
-                raise ModelError(what, f"leave {known[0]} out", (known[0],))
+                remedy = (
+                    f"leave {known[0]} out; over fixed idlers alone it comes from the belt's stretch, which is not "
+                    "computed: put one of them on an arm or a slide, with the force that presses it on the belt"
+                )
+                raise ModelError(what, remedy, (known[0],))
             return keys
         if len(known) > 1:
             what = f"{known[0]} and {known[1]} are both given, and each gives the sum of the tensions"
