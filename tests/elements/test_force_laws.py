@@ -111,7 +111,7 @@ def test_a_bump_stop_with_play_throws_back() -> None:
         (
             "free_length: 200",
             "stiffness: 3",
-            "a stiffness and a table of its force are given; leave one of them out",
+            "both a stiffness and a table of its force are given; leave one of them out",
         ),
         (", force: {x: [-30, -10, 0, 20], y: [-500, -40, 0, 0]}", "", "the key 'stiffness' is missing"),
     ],

@@ -127,7 +127,7 @@ def test_states_of_an_independent_solution_fill_what_holds(seed: int) -> None:
 def test_what_holds_beyond_impending_motion_is_said() -> None:
     r = da.statics(wedge(0.6, 0.5, 20.0))
     said = (
-        "Motion impends at -70.9213 N and 21.9845 N; with the right history, friction as an earlier motion left it, "
+        "Motion impends at -70.9213 N and 21.9845 N; with friction as an earlier motion may have left it, "
         "floor can hold from -70.9213 N to 26.427 N."
     )
     assert str(r.reasons[0]).endswith(said)
@@ -135,7 +135,7 @@ def test_what_holds_beyond_impending_motion_is_said() -> None:
     (position,) = r.to_dict()["positions"]
     assert position["effort"]["floor"] == pytest.approx(r.interval("floor")[0])
     assert position["holding"]["floor"] == pytest.approx(r.holding("floor")[0])
-    assert "with the right history friction can hold −70.92 to 26.43 N" in str(da.report(r))
+    assert "after some earlier motions friction can hold −70.92 to 26.43 N" in str(da.report(r))
     locked = da.statics(wedge(1.5, 1.3, 40.0))
     assert str(locked.reasons[0]).endswith("floor can hold any value, its contacts wedged.")
     assert locked.to_dict()["positions"][0]["holding"] == {"floor": [None, None]}
@@ -146,7 +146,9 @@ def test_what_holds_beyond_impending_motion_is_said() -> None:
 
 def test_what_holds_beyond_is_counted_over_positions() -> None:
     m = wedge(0.6, 0.5, 20.0).with_values({"drives.floor.position": [0.1, 0.2, 0.3]})
-    said = "With the right history friction can hold values of floor beyond them at each of these positions."
+    said = (
+        "After some earlier motions friction can hold values of floor beyond them at each of these positions."
+    )
     assert str(da.statics(m).reasons[0]).endswith(said)
     bare = m.with_values({"loads.W_B.value": [0, "500 * (floor - 0.3)"]})  # nothing presses the wall at 0.3
     assert str(da.statics(bare).reasons[0]).endswith(said.replace("each of these", "2 of these 3"))

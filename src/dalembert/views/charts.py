@@ -61,7 +61,7 @@ def along(r: Result, shown: Shown) -> tuple[Array, str, bool]:
         return stepped_series(r, lambda side: np.arange(1.0, len(side.status) + 1)), "position", False
     kind = drive_kinds(r, r.drives[0])["position"]
     places = stepped_series(r, lambda side: side.drive_position(side.drives[0]))
-    values = np.array([shown.value(kind, v) for v in places])
+    values = np.asarray(shown.values(kind, places), float)
     unit = shown.unit(kind)
     return values, f"{r.drives[0]} in {unit}", unit == "°"
 
@@ -74,7 +74,7 @@ def effort_chart(r: Result, notation: Notation | None = None) -> list[Scene]:
     for kind in ("moment", "force"):
         names = [d for d in r.drives if drive_kinds(r, d)["effort"] == kind]
         efforts = {d: stepped_series(r, methodcaller("effort", d)) for d in names}
-        series = {d: np.array([shown.value(kind, v) for v in values]) for d, values in efforts.items()}
+        series = {d: np.asarray(shown.values(kind, v), float) for d, v in efforts.items()}
         means = {d: mean_effort(r, d) for d in names}
         known = {d: v for d, v in means.items() if v is not None}
         levels = {f"mean of {d}: {shown.number(kind, v)}": shown.value(kind, v) for d, v in known.items()}

@@ -15,6 +15,7 @@ from dalembert import unit_names
 from dalembert.analysis.output.rounding import least
 from dalembert.analysis.output.summary.printed_units import Printed, print_scale
 from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.arrays import Numeric
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:
@@ -127,8 +128,11 @@ class Figures:
 
     def value(self, kind: str, value: float) -> float:
         """An SI number in the reader's unit."""
-        sign = self.notation.torque if kind == "moment" else 1
-        return sign * float(self.scale(kind, value))
+        return float(self.values(kind, value))
+
+    def values(self, kind: str, values: Numeric) -> Numeric:
+        """SI numbers in the reader's unit."""
+        return (self.notation.torque if kind == "moment" else 1) * self.scale(kind, values)
 
     def size(self, kind: str) -> float:
         """Size in SI of the reader's unit of a kind."""

@@ -230,10 +230,10 @@ def _histories(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str
         count, some = int(beyond.any(axis=-1).sum()), np.flatnonzero(beyond.any(axis=0))
         where = f"{count} of these {len(run)}" if count < len(run) else "each of these"
         more = _and([names[n] for n in some])
-        return f" With the right history friction can hold values of {more} beyond them at {where} positions."
+        return f" After some earlier motions friction can hold values of {more} beyond them at {where} positions."
     return "".join(
         f" Motion impends at {_and([quantity_text(c, kind, v) for v in ends[0, n] if np.isfinite(v)] or ['none'])}; "
-        f"with the right history, friction as an earlier motion left it, {name} can hold "
+        f"with friction as an earlier motion may have left it, {name} can hold "
         f"{_range_text(c, kind, *held[0, n])}."
         for n, (name, kind) in enumerate(zip(names, _kinds(c), strict=True))
         if beyond[0, n]

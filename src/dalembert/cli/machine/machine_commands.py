@@ -219,7 +219,7 @@ def simulate(
     ] = None,
     curves: Annotated[
         list[str] | None,
-        several("Further quantities to draw over time: reaction.A, slide.guide, normal.wall."),
+        several("Further quantities to plot over time: reaction.A, slide.guide, normal.wall."),
     ] = None,
     count: Annotated[
         int, numeric("instants", "Number of equally spaced instants in the answer, besides the events.")

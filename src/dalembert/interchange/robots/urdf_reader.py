@@ -194,7 +194,9 @@ def _read_loops(graph: LinkGraph, path: Path) -> None:
         raise ModelError(what, "write closed_loop: [[A, B]] and type: [6d]", (), str(beside), 1)
     for pair, kind in zip(pairs, kinds, strict=True):
         if str(kind) not in LOOPS or not isinstance(pair, list) or len(pair) != 2:
-            raise ModelError(f"loop {pair} of type {kind} is not read", "use 3d or 6d", (), str(beside), 1)
+            raise ModelError(
+                f"loop {pair} of type {kind} is not supported", "use 3d or 6d", (), str(beside), 1
+            )
         ends = []
         for frame in map(str, pair):
             joint = graph.joints.get(plain_name(frame, {}))

@@ -162,7 +162,7 @@ def _axes(r: Result) -> tuple[str, str, Array, str]:
     """The shaft, its driven joint, rows x, y, z of a frame with z along its axis, ground axes, and the link's axis that
     x is nearly."""
     if not r.drives or not r.ok.any():
-        raise ModelError("a rotor has a drive that turns it", "drive its shaft")
+        raise ModelError("a rotor needs a drive that turns it", "drive its shaft")
     joint = r.mechanism.drives[r.drives[0]].joint or r.drives[0]
     i, j = r.mechanism.joints[joint].links
     shaft = j if i == GROUND else i

@@ -41,7 +41,7 @@ def save_outline(
 ) -> None:
     """Writes the outline, and the path of a cutter's centre besides."""
     if not tolerance > 0:
-        raise ModelError(f"the tolerance {tolerance:.6g} is not positive", "give a length in m, as 1e-6")
+        raise ModelError(f"the tolerance {tolerance:.6g} is not positive", "give a length in m, such as 1e-6")
     turns = outline(c, tolerance)
     curves = {"cam": c.profile(turns)}
     if cutter is not None:

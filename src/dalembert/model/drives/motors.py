@@ -153,7 +153,7 @@ def motor_curve(value: object, kind: str, rules: ReadingRules) -> MotorCurve:
     kinds, gearing = of_kind(kind, "ratio" in keys), _gearing(keys, kind, rules)
     line = {"stall", "no_load"} & set(keys)
     if ("curve" in keys) == bool(line) or (line and len(line) < 2):
-        raise ModelError("a motor has stall and no_load, or a curve", f"write motor: {EXAMPLE}")
+        raise ModelError("a motor needs stall and no_load, or a curve", f"write motor: {EXAMPLE}")
     on, off = (
         at_item(k, switch, keys[k], of_kind(kind), rules) if k in keys else None for k in ("on", "off")
     )

@@ -240,12 +240,14 @@ class Gear(JointPart):
         dimension = reading(info).dimension
         for key in ("helix_angle", "axes", "axis"):
             if dimension == 2 and getattr(self, key):
-                raise ModelError(f"a wheel of a planar mechanism has no {key}", "leave it out", (key,))
+                raise ModelError(f"a wheel of a planar mechanism takes no {key}", "leave it out", (key,))
         if dimension == 3 and (self.axes is None) == (self.axis is None):
             what = "a gear in space needs the axes of its wheels"
             raise ModelError(what, "write axis: [0, 0, 1] for both, or axes: {i: {z: ...}, j: {z: ...}}")
         if not -1.5 < self.helix_angle < 1.5:
-            raise ModelError("the helix angle is not between -86 and 86 deg", "write one", ("helix_angle",))
+            raise ModelError(
+                "the helix angle is not between -86 and 86 deg", "write one in range", ("helix_angle",)
+            )
         return self
 
     @model_validator(mode="after")

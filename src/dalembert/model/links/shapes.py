@@ -221,7 +221,9 @@ class Tube(Long):
     @model_validator(mode="after")
     def _hollow(self) -> Self:
         if self.radii[0] >= self.radii[1]:
-            raise ModelError("the inner radius is not smaller", "write radii: [inner, outer]", ("radii",))
+            raise ModelError(
+                "the inner radius is not smaller than the outer", "write radii: [inner, outer]", ("radii",)
+            )
         return self
 
 

@@ -126,5 +126,7 @@ def refuse_both(load: Any) -> Any:
     """Refuse a spring or damper with a table of its force and a slope."""
     slope = "stiffness" if hasattr(load, "stiffness") else "damping"
     if (getattr(load, "law", None) or getattr(load, "rate_law", None)) and getattr(load, slope):
-        raise ModelError(f"a {slope} and a table of its force are given", "leave one of them out", ("force",))
+        raise ModelError(
+            f"both a {slope} and a table of its force are given", "leave one of them out", ("force",)
+        )
     return load

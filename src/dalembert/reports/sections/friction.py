@@ -256,6 +256,6 @@ def intervals(c: ReportContext) -> list[Working]:
         held = r.holding(name)[c.k]
         if holds_beyond(r.interval(name)[c.k], held):
             low, high = (shown.number(kind, float(v)) if math.isfinite(v) else "any value" for v in held)
-            words = f"with the right history friction can hold {low} to {high} {shown.unit(kind)}"
+            words = f"after some earlier motions friction can hold {low} to {high} {shown.unit(kind)}"
             out.append(Working(f'"{name}: {words}"'))
     return out

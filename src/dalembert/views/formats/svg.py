@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from html import escape
+
+import numpy as np
 
 from dalembert.views.formats.themes import BACKGROUND, FONT, THEMES, Look
 from dalembert.views.paper.lettering import SMALL, Box, pieces
@@ -80,8 +83,14 @@ class Writer:
         return _n(p[0] - self.left), _n(self.top - p[1])
 
     def path(self, points: tuple[Point, ...]) -> str:
-        places = [self.at(p) for p in points]
-        return "M" + "L".join(f"{x} {y}" for x, y in places)
+        if len(points) <= FEW:
+            places = [self.at(p) for p in points]
+            return "M" + "L".join(f"{x} {y}" for x, y in places)
+        far = (np.array(points, float) - (self.left, self.top)) * (1, -1)
+        written = (
+            "%.2f %.2fL" * len(points) % tuple(np.where(np.abs(far) < NOTHING, 0.0, far).ravel().tolist())
+        )
+        return "M" + ZEROS.sub("", written)[:-1]
 
     def text(self, t: Text) -> str:
         x, y = self.at((t.at[0], t.at[1] - 0.36 * t.size))
@@ -114,8 +123,15 @@ class Writer:
         return out
 
 
+FEW = 8
+"""Points up to which a path is written one by one, which is faster there."""
+NOTHING = 0.005
+ZEROS = re.compile(r"\.?0+(?=[ L])")
+"""Zeros at the end of a number with two decimals."""
+
+
 def _n(x: float) -> str:
-    return f"{x:.2f}".rstrip("0").rstrip(".") if abs(x) >= 0.005 else "0"
+    return f"{x:.2f}".rstrip("0").rstrip(".") if abs(x) >= NOTHING else "0"
 
 
 def arrow_parts(tail: Point, head: Point) -> tuple[tuple[Point, Point], tuple[Point, ...]]:

@@ -17,7 +17,6 @@ from dalembert.views.paper.scene import (
     Arc,
     Arrow,
     Circle,
-    Group,
     Item,
     Line,
     Point,
@@ -123,14 +122,19 @@ class Canvas:
 
 def segments(items: Sequence[Item]) -> Array:
     """Every stroke as straight pieces (S, 2, 2); areas without an outline (`-fill`) have none."""
-    out: list[tuple[Point, Point]] = []
-    for item in items:
-        if isinstance(item, Group):
-            out += [tuple(map(tuple, s)) for s in segments(item.items).tolist()]  # type: ignore[misc]
-        elif not isinstance(item, Text) and not item.role.endswith("-fill"):
-            points = _outline(item)
-            out += list(pairwise(points))
-    return np.array(out, float).reshape(-1, 2, 2)
+    outlines = [
+        np.array(_outline(item), float)
+        for item in Scene(tuple(items)).flat()
+        if not isinstance(item, Text) and not item.role.endswith("-fill")  # type: ignore[union-attr]
+    ]
+    if not outlines:
+        return np.zeros((0, 2, 2))
+    points = np.concatenate(outlines)
+    pieces = np.stack([points[:-1], points[1:]], axis=1)
+    ends = (
+        np.cumsum([len(outline) for outline in outlines])[:-1] - 1
+    )  # from one outline to the next there is none
+    return np.delete(pieces, ends, axis=0)
 
 
 def _outline(item: Item) -> Sequence[Point]:
@@ -143,13 +147,22 @@ def _outline(item: Item) -> Sequence[Point]:
     return item.points  # type: ignore[union-attr]
 
 
-def crossings(box: Array, pieces: Array) -> Flags:
-    """True where straight pieces (S, 2, 2) touch boxes (B, 4): (B, S), by separating axes."""
-    start, end = pieces[:, 0], pieces[:, 1]
-    low, high = np.minimum(start, end).T, np.maximum(start, end).T
+def extents(pieces: Array) -> Array:
+    """Bounding boxes (4, S) of straight pieces (S, 2, 2): left, bottom, right, top."""
+    low, high = pieces.min(axis=1, initial=math.inf), pieces.max(axis=1, initial=-math.inf)
+    return np.concatenate([low.T, high.T])
+
+
+def crossings(box: Array, pieces: Array, extent: Array | None = None) -> Flags:
+    """True where straight pieces (S, 2, 2) touch boxes (B, 4): (B, S), by separating axes; faster with extents."""
+    extent = extents(pieces) if extent is None else extent
     left, bottom, right, top = box.T[:, :, None]
-    met = (low[0] <= right) & (high[0] >= left) & (low[1] <= top) & (high[1] >= bottom)
+    met = extent[0] <= right
+    met &= extent[2] >= left
+    met &= extent[1] <= top
+    met &= extent[3] >= bottom
     b, s = np.nonzero(met)  # few: only of them it is asked whether the box is beside the piece's line
+    start, end = pieces[:, 0], pieces[:, 1]
     c, half = (start[s] + end[s] - box[b, :2] - box[b, 2:]) / 2, (box[b, 2:] - box[b, :2]) / 2
     d = (end - start)[s]
     turn = np.abs(c[:, 0] * d[:, 1] - c[:, 1] * d[:, 0])
@@ -182,6 +195,7 @@ class _Placer:
 
     def __init__(self, items: Sequence[Item]) -> None:
         self.strokes = segments(items)
+        self.extents = extents(self.strokes)
         self.boxes = np.array([item_box(i) for i in items if isinstance(i, Text)], float).reshape(-1, 4)
 
     def place_text(self, label: Label) -> list[Item]:
@@ -200,7 +214,9 @@ class _Placer:
         items: list[Item] = [text]
         if label.leads and best.gap >= LEADER:
             items.append(_leader(best.near, best.box))
-            self.strokes = np.concatenate([self.strokes, segments(items[1:])])
+            leader = segments(items[1:])
+            self.strokes = np.concatenate([self.strokes, leader])
+            self.extents = np.concatenate([self.extents, extents(leader)], axis=1)
         self.boxes = np.concatenate([self.boxes, best.box[None]])
         return items
 
@@ -213,7 +229,7 @@ class _Placer:
         for first, last in pairwise(CHEAPEST):
             free = order[first:last]
             free = free[~overlapping(box[free], self.boxes).any(axis=1)]
-            free = free[~crossings(box[free], strokes).any(axis=1)]
+            free = free[~crossings(box[free], *strokes).any(axis=1)]
             if label.leads and gap.max() >= LEADER:
                 free = free[(gap[free] < LEADER) | ~self._is_blocked(near[free], box[free])]
             if len(free):
@@ -221,12 +237,12 @@ class _Placer:
                 return _Place(float(cost[k]), at[k], box[k], near[k], float(gap[k]))
         return NOWHERE
 
-    def _close(self, box: Array) -> Array:
-        """Strokes in the region of some boxes."""
+    def _close(self, box: Array) -> tuple[Array, Array]:
+        """Strokes in the region of some boxes, with their extents."""
         low, high = box[:, :2].min(axis=0), box[:, 2:].max(axis=0)
-        start, end = self.strokes[:, 0], self.strokes[:, 1]
-        kept = (np.maximum(start, end) >= low) & (np.minimum(start, end) <= high)
-        return np.asarray(self.strokes[kept[:, 0] & kept[:, 1]])
+        e = self.extents
+        kept = np.flatnonzero((e[2] >= low[0]) & (e[3] >= low[1]) & (e[0] <= high[0]) & (e[1] <= high[1]))
+        return self.strokes[kept], e[:, kept]
 
     def _is_blocked(self, near: Array, box: Array) -> Flags:
         """True where the straight line to a candidate crosses a text."""
@@ -243,11 +259,14 @@ class _Placer:
         return np.asarray(2.0 * (1 - np.cos(angle)))
 
 
+AROUND = np.arange(24) * (2 * math.pi / 24)
+
+
 def _candidates(
     label: Label, half_width: float, half_height: float, distances: tuple[float, ...]
 ) -> tuple[Array, Array, Array]:
     """Middles of boxes (B, 2) at distances ``gap`` around the points, and those points."""
-    angles = np.arange(24) * (2 * math.pi / 24) + (label.prefer or 0.0)
+    angles = AROUND + (label.prefer or 0.0)
     direction = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     reach = np.clip(direction * 1.5, -1, 1) * np.array([half_width, half_height])
     gaps = np.array(distances)

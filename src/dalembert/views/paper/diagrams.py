@@ -177,9 +177,9 @@ def _tick(value: float) -> str:
 def _runs(x: Array, y: Array) -> list[list[tuple[float, float]]]:
     """Pieces without gaps."""
     out: list[list[tuple[float, float]]] = [[]]
-    for a, b in zip(x, y, strict=True):
+    for a, b in zip(np.asarray(x, float).tolist(), np.asarray(y, float).tolist(), strict=True):
         if math.isfinite(b) and math.isfinite(a):
-            out[-1].append((float(a), float(b)))
+            out[-1].append((a, b))
         elif out[-1]:
             out.append([])
     return [run for run in out if run]
@@ -206,7 +206,7 @@ def polar_scene(
             canvas.add(Line(run, "grid"))
     for n, (name, path) in enumerate(paths.items()):
         _draw_path(canvas, path * scale, f"curve-{n % 6 + 1}", labels)
-        points = [(float(x), float(y)) for x, y in path * scale if math.isfinite(x)]
+        points = [(x, y) for x, y in (path * scale).tolist() if math.isfinite(x)]
         if points and len(paths) > 1:
             canvas.label(name, *points[:: max(1, len(points) // 12)], size=2.8)
     for n, radius in enumerate(rings, 1):

@@ -210,7 +210,7 @@ def item_box(item: Item) -> Box:
         (x, y), r = item.center, item.radius
         return (x - r, y - r, x + r, y + r)
     points = (item.tail, item.head) if isinstance(item, Arrow) else item.points  # type: ignore[union-attr]
-    across, up = [p[0] for p in points], [p[1] for p in points]
+    across, up = zip(*points, strict=True)
     return (min(across), min(up), max(across), max(up))
 
 
@@ -221,13 +221,13 @@ def shift_item(item: Item, dx: float, dy: float) -> Item:
         return (p[0] + dx, p[1] + dy)
 
     if isinstance(item, Group):
-        return replace(item, items=tuple(shift_item(one, dx, dy) for one in item.items))
+        return Group(tuple(shift_item(one, dx, dy) for one in item.items), item.name)
     if isinstance(item, (Line, Polygon)):
-        return replace(item, points=tuple(to(p) for p in item.points))
+        return type(item)(tuple([(x + dx, y + dy) for x, y in item.points]), item.role)
     if isinstance(item, Arrow):
-        return replace(item, tail=to(item.tail), head=to(item.head))
+        return Arrow(to(item.tail), to(item.head), item.role, item.of, item.kind, item.value)
     if isinstance(item, Text):
-        return replace(item, at=to(item.at))
+        return Text(to(item.at), item.text, item.size, item.role, item.anchor)
     return replace(item, center=to(item.center))
 
 

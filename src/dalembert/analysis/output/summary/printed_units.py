@@ -97,8 +97,15 @@ RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 
 def print_scale(result: Result, units: UnitChoice) -> Printed:
     """The scale of a printed answer, the same in every table, drawing and report of the result."""
+    return _scales(result)[units == "SI"]
+
+
+@kept
+def _scales(result: Result) -> tuple[Printed, Printed]:
+    """The scales in the units of the file and in SI."""
     most = {kind: float(size[0]) for kind, size in _extents(result).items()}
-    return scale_for(None if units == "SI" else result.mechanism.units, most, _smallest(result))
+    least = _smallest(result)
+    return scale_for(result.mechanism.units, most, least), scale_for(None, most, least)
 
 
 def scale_for(units: object, most: Mapping[str, float], least: float = math.inf) -> Printed:

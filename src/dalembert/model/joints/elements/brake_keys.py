@@ -92,7 +92,9 @@ class Capacity(ValueField):
                 r"\s*([\d.eE+-]+)\s*(k?)J\s*/\s*(?:\(\s*kg\s*\*\s*K\s*\)|kg\s*/\s*K)\s*", value
             )
             if match is None:
-                raise ModelError(f"{quote_value(value)} is not a heat capacity", "write 460 J/(kg*K)")
+                raise ModelError(
+                    f"{quote_value(value)} is not a specific heat capacity", "write 460 J/(kg*K)"
+                )
             value = float(match[1]) * (1000 if match[2] else 1)
         return check_sign(reading(info).quantity(value, "number"), value, "positive")
 
