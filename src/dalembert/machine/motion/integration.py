@@ -145,18 +145,7 @@ class Integration(StepState):
                 raise StoppedError("the integration steps become too small, as where friction nearly jams")
             if solver.step():
                 self.longest = longest
-                if self.coded is not None and self.equation.dry:
-                    self.keep_samples()
-                    self.careful = (
-                        True  # friction is not proved to have one solution: to the next event in numpy
-                    )
-                    return before, from_
-                if self.equation.dry and self.tolerance < COARSEST and not self._near_singular(before, from_):
-                    self.tolerance *= 10  # forces with friction are found to fewer digits than that
-                    return before, from_
-                self._near_singular(before, from_)
-                why = self.refusal or "the integration steps become too small"
-                raise StoppedError(self._why_too_small(before, from_, why))
+                return self._go_on_with_care(before, from_)
             self.refusal, longest = "", max(longest, solver.h_previous or 0.0)
             if self.nears_dead_centre(solver.t, solver.y, (solver.h_previous or 0.0) / (longest or 1.0)):
                 return self._turn_over(solver, before)
@@ -179,6 +168,19 @@ class Integration(StepState):
         if limit <= solver.t < self.end:
             self._give_up(solver.t, solver.y)
         return solver.t, solver.y
+
+    def _go_on_with_care(self, before: float, from_: Array) -> tuple[float, Array]:
+        """Where another segment begins after a step that failed; raises StoppedError where no care helps."""
+        if self.coded is not None and self.equation.dry:
+            self.keep_samples()
+            self.careful = True  # friction is not proved to have one solution: to the next event in numpy
+            return before, from_
+        if self.equation.dry and self.tolerance < COARSEST and not self._near_singular(before, from_):
+            self.tolerance *= 10  # forces with friction are found to fewer digits than that
+            return before, from_
+        self._near_singular(before, from_)
+        why = self.refusal or "the integration steps become too small"
+        raise StoppedError(self._why_too_small(before, from_, why))
 
     def _take_up(self, solver: Steps | MachineSteps, guards: list[Guard], t: float, y: Array) -> None:
         """Machine code of a solver, and the sides on which contacts bear by it."""
