@@ -53,10 +53,10 @@ def lifted(
     if m.turning is not None:
         remedy = "leave turning out, and join the plane to ground by a revolute that is driven"
         raise ModelError("a plane that turns is not lifted", remedy, ("turning",))
-    return _Lift(_in_numbers(m), dict(offsets or {}), dict(become or {})).mechanism()
+    return _Lift(in_numbers(m), dict(offsets or {}), dict(become or {})).mechanism()
 
 
-def _in_numbers(m: Mechanism) -> Mechanism:
+def in_numbers(m: Mechanism) -> Mechanism:
     """The mechanism with numbers where they follow from parameters; what changes along the motion keeps them."""
     plain: Mechanism = with_dependents(m, lambda leaf: float(leaf) if isinstance(leaf, float) else leaf, None)
     return plain.model_copy(update={"parameters": used_parameters(plain, m.parameters)})

@@ -65,6 +65,9 @@ FILE_FORMATS: dict[str, FileFormat] = {
     ".sdf": FileFormat("SDFormat", "robots.sdf_reader:read_sdf", "robots.sdf_writer:write_sdf"),
     ".urdf": FileFormat("URDF", "robots.urdf_reader:read_urdf", "robots.urdf_writer:write_urdf"),
     ".asmt": FileFormat("OndselSolver (FreeCAD Assembly)", "", "assemblies.ondsel_writer:write_asmt"),
+    ".cmd": FileFormat(
+        "Adams View", "assemblies.adams_reader:read_adams", "assemblies.adams_writer:write_adams"
+    ),
     ".pmks": FileFormat("PMKS and PMKS+", "sketches.pmks_links:read_pmks", "sketches.pmks_writer:write_pmks"),
     ".txt": FileFormat("PMKS and PMKS+", "sketches.pmks_links:read_pmks"),
     ".dxf": FileFormat("DXF skeleton", "sketches.dxf_skeletons:read_dxf"),

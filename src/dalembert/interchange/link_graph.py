@@ -206,6 +206,8 @@ def graph_of(m: Mechanism) -> LinkGraph:
 
 def drawn_graph(result: Result, k: int) -> LinkGraph:
     """The links and joints of a solved mechanism in space at its position of index k."""
+    from dalembert.analysis.lift import in_numbers
+
     space = result.mechanism
     if result.status[k] not in FORCED:
         what = f"position {k + 1} has no pose to write: {result.reasons[k] or result.status[k]}"
@@ -230,7 +232,7 @@ def drawn_graph(result: Result, k: int) -> LinkGraph:
         freedom = drive.freedom or space.joints[joint].freedoms[0]
         values = (result.drive_position, result.drive_speed, result.drive_acceleration)
         graph.drives[name] = DrivenFreedom(joint, freedom, *(float(of(name)[k]) for of in values))
-    graph.loads = {name: load.model_dump(mode="json") for name, load in space.loads.items()}
+    graph.loads = {name: load.model_dump(mode="json") for name, load in in_numbers(space).loads.items()}
     return graph
 
 

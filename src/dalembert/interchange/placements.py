@@ -48,6 +48,25 @@ def to_roll_pitch_yaw(rotation: Array) -> tuple[float, float, float]:
     return roll, pitch, float(np.arctan2(rotation[1, 0], rotation[0, 0]))
 
 
+def body_313(angles: Sequence[float]) -> Array:
+    """Rotation (3, 3) about z, then the turned x, then the turned z: Adams."""
+    first, second, third = angles
+    return turned((0, 0, 1), first) @ turned((1, 0, 0), second) @ turned((0, 0, 1), third)
+
+
+def to_body_313(rotation: Array) -> tuple[float, float, float]:
+    """The angles of `body_313`; where both z are one line, the third is 0."""
+    tilt = float(np.hypot(rotation[0, 2], rotation[1, 2]))
+    if tilt < 1e-14:
+        return (
+            float(np.arctan2(rotation[1, 0], rotation[0, 0])),
+            float(np.arccos(rotation[2, 2].round())),
+            0.0,
+        )
+    first = float(np.arctan2(rotation[0, 2], -rotation[1, 2]))
+    return first, float(np.arctan2(tilt, rotation[2, 2])), float(np.arctan2(rotation[2, 0], rotation[2, 1]))
+
+
 def from_quaternion(q: Sequence[float] | Array) -> Array:
     """Rotation (3, 3) of a quaternion w, x, y, z of any length."""
     w, x, y, z = np.asarray(q, float) / np.linalg.norm(q)

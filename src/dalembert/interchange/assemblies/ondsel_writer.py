@@ -126,9 +126,15 @@ def _markers(graph: LinkGraph) -> dict[str, dict[str, Array]]:
     """Markers of ground and of each link: one for each joint on it, named after the joint, with z along its axis."""
     markers: dict[str, dict[str, Array]] = {name: {} for name in (GROUND, *graph.links)}
     for joint in graph.joints.values():
-        for link, place in zip(joint.links, joint.places, strict=True):
-            markers[link][joint.name] = place @ X_TO_Z if joint.kind in ALONG_X else place
+        for link, place in zip(joint.links, marker_places(joint), strict=True):
+            markers[link][joint.name] = place
     return markers
+
+
+def marker_places(joint: Connection) -> tuple[Array, Array]:
+    """Places of a joint's markers on its links i and j, with z along its axis."""
+    i, j = joint.places
+    return (i @ X_TO_Z, j @ X_TO_Z) if joint.kind in ALONG_X else (i, j)
 
 
 def _pose(text: AssemblyText, depth: int, link: LinkPart) -> None:
@@ -139,15 +145,21 @@ def _pose(text: AssemblyText, depth: int, link: LinkPart) -> None:
 
 def _mass(text: AssemblyText, link: LinkPart) -> None:
     """The marker of the mass centre, along the principal axes of inertia."""
-    moments, axes = np.linalg.eigh(link.inertia)
-    if np.linalg.det(axes) < 0:
-        axes = axes * [1.0, 1.0, -1.0]
+    moments, axes = principal_inertia(link)
     text.add(3, "PrincipalMassMarker")
     text.add(4, "Name", "MassMarker")
     text.place(4, placement(axes, link.center))
     text.add(4, "Mass", repr(float(link.mass)))
     text.add(4, "MomentOfInertias", row(moments))
     text.add(4, "Density", "1.0")
+
+
+def principal_inertia(link: LinkPart) -> tuple[Array, Array]:
+    """Principal moments of inertia about the mass centre, and their axes as a rotation (3, 3)."""
+    moments, axes = np.linalg.eigh(link.inertia)
+    if np.linalg.det(axes) < 0:
+        axes = axes * [1.0, 1.0, -1.0]
+    return moments, axes
 
 
 def _joint(text: AssemblyText, joint: Connection) -> None:
@@ -165,13 +177,18 @@ def _joint(text: AssemblyText, joint: Connection) -> None:
 def _motion(text: AssemblyText, graph: LinkGraph, name: str, drive: DrivenFreedom) -> None:
     """A drive as a function of time: position, speed and constant acceleration from the written position on."""
     slides = drive.freedom.startswith("slide")
-    terms = [repr(drive.position)]
-    terms += [f"{drive.speed!r}*time"] if drive.speed else []
-    terms += [f"{drive.acceleration / 2!r}*time*time"] if drive.acceleration else []
     text.add(3, "TranslationalMotion" if slides else "RotationalMotion")
     text.add(4, "Name", f"motion {name}" if name in graph.joints else name)
     text.add(4, "MotionJoint", f"/{NAME}/{drive.joint}")
-    text.add(4, "TranslationZ" if slides else "RotationZ", " + ".join(terms))
+    text.add(4, "TranslationZ" if slides else "RotationZ", law_of_time(drive))
+
+
+def law_of_time(drive: DrivenFreedom) -> str:
+    """Position as a function of time: that of the first position, with its speed and constant acceleration."""
+    terms = [repr(drive.position)]
+    terms += [f"{drive.speed!r}*time"] if drive.speed else []
+    terms += [f"{drive.acceleration / 2!r}*time*time"] if drive.acceleration else []
+    return " + ".join(terms)
 
 
 def _settings(text: AssemblyText, speed: float) -> None:
