@@ -119,6 +119,18 @@ def every_path_has_one_answer(x: Made) -> None:
     assert da.virtual_work(r).gap[r.ok].max(initial=0.0) < 1e-9
 
 
+def steps_find_the_answer(x: Made) -> None:
+    """The solution on paper: each number of its steps, and an equation that none has used."""
+    r, (force, moment) = x.answer, x.size
+    if not r.ok.any():
+        return
+    for step in r.steps(int(np.argmax(r.ok)) + 1).steps:
+        for found, right in zip(step.finds, step.right, strict=True):
+            close(found.value, right, moment if found.turning else force)
+        terms = [t.value for t in step.terms] if step.kind == "check" else [0.0]
+        close(sum(terms), 0.0, max(map(abs, terms)) or 1.0)
+
+
 def a_kernel_is_the_careful_path(x: Made) -> None:
     """Three designs: status, efforts and reactions."""
     answer = x.kernel(x.designs)
@@ -187,6 +199,7 @@ LAWS = {
     for f in (
         reactions_do_no_work,
         every_path_has_one_answer,
+        steps_find_the_answer,
         a_kernel_is_the_careful_path,
         derivatives_are_differences,
         a_mirror_reverses_turns,

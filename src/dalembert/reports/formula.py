@@ -26,7 +26,8 @@ class NotatedName(NamedTuple):
 
 
 _GREEK = (
-    "alpha α, beta β, gamma γ, delta δ, theta θ, psi ψ, omega ω, phi φ, mu μ, pi π, eta η, sigma σ, tau τ"
+    "alpha α, beta β, gamma γ, delta δ, theta θ, lambda λ, psi ψ, omega ω, phi φ, mu μ, pi π, eta η, "
+    "sigma σ, tau τ"
 )
 
 WORDS: dict[str, NotatedName] = {

@@ -19,6 +19,7 @@ from dalembert.errors import FORCED, ModelError
 from dalembert.reports.element_sections.belt_lines import belts_and_ropes
 from dalembert.reports.element_sections.brake_section import brakes
 from dalembert.reports.element_sections.law_lines import motion_laws
+from dalembert.reports.element_sections.screw_lines import power_screws
 from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, figure, in_ground
 from dalembert.reports.sections import equilibrium_equations, friction, matrix
 from dalembert.reports.sections.given import knowns
@@ -90,6 +91,7 @@ def working(
     _answers(sheet, c)
     if plane:
         belts_and_ropes(sheet, c)
+    power_screws(sheet, c)
     if "graphical" in methods and plane:
         graphical(sheet, c)
     if "superposition" in methods:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.analysis.output import rounding
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array, Flags
@@ -110,14 +111,13 @@ def reaction_charts(r: Result, notation: Notation | None = None, joints: Sequenc
 def _size_charts(r: Result, kind: str, joints: Sequence[str], notation: Notation | None) -> list[Scene]:
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
-    out = []
+    out, floor = [], rounding.PART * float(np.nanmax(rounding.sizes(r)[kind], initial=0.0))
     many = -(-len(joints) // MOST)
     each = -(-len(joints) // max(many, 1))  # as many in one as in another
     for first in range(0, len(joints), max(each, 1)):
         some = joints[first : first + each]
-        sizes = {
-            n: magnitude(stepped_series(r, methodcaller(READS[kind], n))) / shown.size(kind) for n in some
-        }
+        values = {n: magnitude(stepped_series(r, methodcaller(READS[kind], n))) for n in some}
+        sizes = {n: np.where(v <= floor, 0.0, v) / shown.size(kind) for n, v in values.items()}
         y_label = f"Joint {kind} in {shown.unit(kind)}"
         out.append(curves_scene(x, sizes, label, y_label, f"Joint {kind}s", angle))
     return out

@@ -270,7 +270,9 @@ class Shown(Figures):
             extra = f"{'' if turning else ',d'}{self._drive(a)}"
             return f"{'T' if turning else 'F'}_{{{self.pair(a.by or GROUND, a.link)}{extra}}}"
         if a.kind == "friction":
-            return f"{'M' if turning else self.notation.letter}_{{f{self.between(a.of, a.link)}}}"
+            pulls = hasattr(self.r.mechanism.joints.get(a.of), "stated_tension")  # a belt's, not friction
+            index = f"{'0,' if pulls else 'f'}{self.between(a.of, a.link)}"
+            return f"{'M' if turning else self.notation.letter}_{{{index}}}"
         if a.kind == "damper" and a.of in self.r.joints:
             return f"D_{{{a.of}}}"
         if a.kind == "weight":

@@ -11,7 +11,7 @@ from dalembert.model.drives.programmes import RATES, rate_kind
 from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sheet import ReportSheet
 
-HEADS = ("Curve", "b", "h", "C_v", "C_a", "C_j", "v", "a", "j")
+HEADS = ("Curve", "b", "h", "$C_{v}$", "$C_{a}$", "$C_{j}$", "v", "a", "j")
 
 
 def motion_laws(sheet: ReportSheet, c: ReportContext) -> None:
@@ -21,9 +21,9 @@ def motion_laws(sheet: ReportSheet, c: ReportContext) -> None:
         return
     sheet.heading("Laws of motion")
     sheet.text(
-        "A stroke h in a time b has the largest speed v = C_v h/b, acceleration a = C_a h/b² and jerk j = C_j h/b³ "
-        "inside the rise; over the position of another drive, at its speed w, b/w is the time. Where the acceleration "
-        "jumps, the jerk is infinite."
+        "A stroke h in a time b has the largest speed $v = C_{v} h/b$, acceleration $a = C_{a} h/b^{2}$ and "
+        "jerk $j = C_{j} h/b^{3}$ inside the rise; over the position of another drive, at its speed w, b/w is the "
+        "time. Where the acceleration jumps, the jerk is infinite."
     )
     for heads, caption, rows in tables:
         sheet.table(heads, rows, caption)

@@ -46,7 +46,7 @@ def solution_steps(sheet: ReportSheet, c: ReportContext, solved: ForceSteps, dra
         if c.r.mechanism.dimension == 2
         else "$M(F)$ is the moment of a force about the line of the step, $h$ the arm of the unknown."
     )
-    sheet.text(_rounds(solved))
+    sheet.text(_rounds(solved, c.notation.letter))
     for links, lot in groupby(solved.steps, key=lambda s: (s.links, s.kind == "check")):
         texts = [block for step in writer.together(list(lot)) for block in step]
         fresh = drawn and len(links[0]) == 1 and not links[1] and links[0][0] not in shown_links
@@ -62,12 +62,16 @@ def solution_steps(sheet: ReportSheet, c: ReportContext, solved: ForceSteps, dra
         )
 
 
-def _rounds(solved: ForceSteps) -> str:
+def _rounds(solved: ForceSteps, letter: str) -> str:
     """The joints whose tangent points, or senses, are those of the last round of the iteration."""
     two_force = [m.link for m in members(solved.equations.r).values() if m.kind.startswith("two-force")]
     rods = {u.name for u in solved.equations.unknowns if set(two_force) & set(u.links)}
     circles = [u.name for u in solved.equations.unknowns if u.turned == "circle" and u.name not in rods]
-    leaning = [u.name for u in solved.equations.unknowns if u.turned == "angle"]
+    leaning = [
+        u.name
+        for u in solved.equations.unknowns
+        if u.turned == "angle" and u.name not in solved.equations.unpaired
+    ]
     parts = []
     if circles:
         parts.append(
@@ -77,6 +81,17 @@ def _rounds(solved: ForceSteps) -> str:
     if leaning:
         parts.append(
             f"The force in {', '.join(leaning)} is inclined to the normal, by friction or by the pressure angle."
+        )
+    parts += [
+        f"{name} has an end on the ground, so its forces on its two links are not opposite: both are in the ratio of "
+        "its tensions, which the coefficient of friction and the wrap give."
+        for name in solved.equations.unpaired
+    ]
+    joints = solved.equations.r.mechanism.joints
+    known = dict.fromkeys(a.of for a in solved.equations.friction)
+    if belts := [n for n in known if hasattr(joints[n], "stated_tension")]:
+        parts.append(
+            f"${letter}_{{0}}$ of {', '.join(belts)} is the part of the force that comes from the given tension alone."
         )
     return " ".join(parts)
 

@@ -176,7 +176,7 @@ class _Carrier:
     ) -> tuple[ForceNumber, float, float]:
         """A number as a force or couple along a direction, positive as it is counted in the equation."""
         u = self.e.unknowns[k]
-        force, turning = u.force @ vector, False
+        force, turning = self._force(u, q.links) @ vector, False
         if np.linalg.norm(force) <= FLAT:
             end = self.e.links.index(next(n for n in reversed(u.links) if n != GROUND))
             sign = 1.0 if u.links[-1] != GROUND else -1.0
@@ -187,7 +187,7 @@ class _Carrier:
         sense, direction = (1.0 if on_last else -1.0), force / factor
         mark, sign = self._mark(k, direction, turning, q), float(np.sign(coefficient)) or 1.0
         if u.kind != "joint":
-            sign = sense
+            sign = sense * float(np.sign(vector[0]))  # its one number, as the answer counts it
         elif mark in ("x", "y", "z"):
             sign = sense * float(np.sign(direction["xyz".index(mark)]))
         shown = ForceNumber(
@@ -200,6 +200,13 @@ class _Carrier:
             value * factor * sign,
         )
         return shown, factor, sign
+
+    def _force(self, u: UnknownForce, links: tuple[int, ...]) -> Array:
+        """Force (d, c) of an unknown on its last link; in a free body of a band's drum the opposite of that on it."""
+        drum = self.e.unpaired.get(u.name, [])[:1]
+        if u.kind == "joint" and drum and set(drum) & set(links):
+            return -u.columns[drum[0], : self.e.d]
+        return u.force
 
     def _mark(self, k: int, direction: Array, turning: bool, q: PaperEquation) -> str:
         """The index of a component; empty for the vector."""
@@ -332,8 +339,9 @@ class _Carrier:
         every = tuple(range(len(self.e.links)))
         used = [(s.equation.links, s.equation.twist) for s in self.out.steps if s.equations]
         best: tuple[int, PaperEquation, tuple[StepTerm, ...]] | None = None
-        for links in dict.fromkeys([every, *(q for q, _ in used)]):
-            places = [self._about_load(links, a) for a in self.e.known if self.e.d == 2]
+        for links in filter(self.e.paired, dict.fromkeys([every, *(q for q, _ in used)])):
+            here = [a for a in self.e.known if self.e.d == 2 and self.e.links.index(a.link) in links]
+            places = [self._about_load(links, a) for a in here]
             for q in [*(q for _, q in PaperTwists(self.e, self.choice).usual(links)), *places]:
                 if any(links == some and np.allclose(q.twist, t) for some, t in used):
                     continue

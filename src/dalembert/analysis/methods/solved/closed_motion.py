@@ -110,10 +110,28 @@ class ClosedMotion(RelativeRates):
                 if self.kind(joint) == "W":
                     name, other = self.tag(link), self.tag(self.other(joint, link))
                     words = f"{name} is fixed to {other} in {joint}."
+                    if self.m.joints[joint].outlined:
+                        words = f"{name} is moved by the profile of {other} in {joint}:"
+                        return MotionStep((link,), words, self._followed(link))
                     if getattr(self.m.joints[joint], "BRAKES", False):
                         words = f"{name} keeps the position in which its lining {joint} bears on {other}."
                     return MotionStep((link,), words)
         return None
+
+    def _followed(self, link: str) -> list[MotionLine]:
+        """Place and rates of a link by its guide to a link that is known, else its angle and rates."""
+        guide = next((n for n in self.between(link) if self.kind(n) == "P"), None)
+        if guide is None:
+            found = [
+                (f"theta_{{{self.tag(link)}}}", "angle", float(link_angle(self.r, link)[self.k])),
+                (f"omega_{{{self.tag(link)}}}", "angular_speed", self.spin(link)),
+                (f"alpha_{{{self.tag(link)}}}", "angular_acceleration", self.spin(link, 2)),
+            ]
+        else:
+            slide = (float(v[self.k]) for v in self.r.freedom(guide, "slide"))
+            kinds = zip("sva", ("length", "speed", "acceleration"), slide, strict=True)
+            found = [(f"{letter}_{{{written(guide)}}}", kind, v) for letter, kind, v in kinds]
+        return [MotionLine("", "", (), name, ShownNumber(kind, v), v) for name, kind, v in found]
 
     def _single(self) -> MotionStep | None:
         """A link between a pin and a slot."""

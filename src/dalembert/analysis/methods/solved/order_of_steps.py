@@ -133,7 +133,7 @@ class StepOrder:
     def _pure(self, k: int, vector: Array) -> bool:
         """True if a number of an unknown is of its force alone, or of its couple alone."""
         u = self.e.unknowns[k]
-        end = next(n for n, name in enumerate(self.e.links) if name in u.links)
+        end = self.e.links.index(next(n for n in reversed(u.links) if n != GROUND))
         w = u.columns[end] @ vector
         couple = (w[self.e.d :] - cross(u.at, w[: self.e.d, None])[:, 0]) / self.e.length
         sizes = float(np.linalg.norm(w[: self.e.d])), float(np.linalg.norm(couple))

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, full_actions, joint_place, other_actions, state
+from dalembert.analysis.methods.band_actions import has_strands
 from dalembert.arrays import Array
 from dalembert.core.constraints import dense
 from dalembert.core.equilibrium import known_sources, statement
@@ -101,7 +102,10 @@ class ForceEquations:
             on_j = sign * columns[self.links.index(end)]
             at = joint_place(self.r, name)[self.k]
             u = UnknownForce(name, "joint", (i, j), columns, on_j[: self.d], at, np.zeros(len(which)))
-            self._with_friction(u, on_j, wrench_of(whole[name, j], self.k))
+            if has_strands(self.r, name):
+                self._of_band(u, *(wrench_of(whole[name, n], self.k) for n in (i, j)))
+            else:
+                self._with_friction(u, on_j, wrench_of(whole[name, j], self.k))
             self.unknowns.append(u)
 
     def _with_friction(self, u: UnknownForce, on_j: Array, total: Array) -> None:
@@ -133,6 +137,34 @@ class ForceEquations:
         for end, sign in zip(u.links, (-1.0, 1.0), strict=True):
             if end != GROUND:
                 u.columns[self.links.index(end)] += sign * change
+
+    def _of_band(self, u: UnknownForce, on_drum: Array, on_lever: Array) -> None:
+        """A band's wrenches on its drum and its lever are both in the ratio of its tension, which is the one number; an
+        end on the ground keeps them from being opposite."""
+        size = float(np.linalg.norm(on_lever[: self.d]))
+        if size <= ROUNDING * self.largest_force:
+            return
+        u.value, u.turned = np.array([size]), "angle"
+        u.force = on_lever[: self.d, None] / size
+        for end, wrench in zip(u.links, (on_drum, on_lever), strict=True):
+            if end != GROUND:
+                u.columns[self.links.index(end)] = wrench[:, None] / size
+
+    @cached_property
+    def unpaired(self) -> dict[str, list[int]]:
+        """Bands with an end on the ground, whose forces on both of their links are not opposite, and these links."""
+        out = {}
+        for u in self.unknowns:
+            ends = [self.links.index(n) for n in u.links if n != GROUND]
+            if len(ends) == 2 and has_strands(self.r, u.name):
+                left, largest = u.columns[ends].sum(axis=0), np.abs(u.columns).max(initial=0.0)
+                if np.abs(left).max(initial=0.0) > 1e-7 * largest:
+                    out[u.name] = ends
+        return out
+
+    def paired(self, links: Sequence[int]) -> bool:
+        """False for a free body with both links of a band whose forces do not cancel in it."""
+        return not any(set(ends) <= set(links) for ends in self.unpaired.values())
 
     def _as_known(self, u: UnknownForce, rest: Array) -> None:
         """Sources that cannot be put into the columns are known from the answer, as friction of the last round."""
@@ -198,7 +230,7 @@ class ForceEquations:
         for _ in range(most):
             if len(level) > limit:
                 return
-            yield from sorted(tuple(sorted(some)) for some in level)
+            yield from filter(self.paired, sorted(tuple(sorted(some)) for some in level))
             level = {some | {b} for some in level for a in some for b in near[a] - some}
 
     def place_of(self, name: str) -> Array:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
-from dalembert.analysis.methods.elements.screw_torques import screws
+from dalembert.analysis.methods.elements.screw_torques import ScrewAnswer, screws
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.printing import Part, TextTable, with_unit, wrap
 
@@ -41,7 +41,13 @@ def element_parts(result: Result, to: Printed) -> Iterator[Part]:
             yield wrap(_column(result, c, to))
 
 
-LOCKS = "The screw of {name} {locks}: its thread alone holds any force from a coefficient of {least} on."
+_LOCKS = "The screw of {name} {locks}: its thread alone holds any force from a coefficient of {least} on."
+
+
+def locking_sentence(s: ScrewAnswer) -> str:
+    """Whether a screw locks by itself, and the coefficient from which on its thread alone does."""
+    locks = "is self-locking" if s.self_locking else "does not lock by itself"
+    return _LOCKS.format(name=s.name, locks=locks, least=f"{s.locking_coefficient:.4g}")
 
 
 def _screw_parts(result: Result, to: Printed) -> Iterator[Part]:
@@ -61,8 +67,7 @@ def _screw_parts(result: Result, to: Printed) -> Iterator[Part]:
                     f"{s.efficiency[k]:.4g}",
                 ]
             )
-            locks = "is self-locking" if s.self_locking else "does not lock by itself"
-            notes.append(wrap(LOCKS.format(name=name, locks=locks, least=f"{s.locking_coefficient:.4g}")))
+            notes.append(wrap(locking_sentence(s)))
     if rows:
         many = "greatest\n" if len(result.status) > 1 else ""
         yield TextTable(["screw", f"{many}force", f"{many}torque", "efficiency"], rows, 1)
