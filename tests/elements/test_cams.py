@@ -58,6 +58,11 @@ WRONG: list[tuple[dict[str, Any], str]] = [
         "link with friction in its pin",
     ),
     (machine({"roller": 0}), "roller of follower of joint 'F': 0 is not positive; write a positive one"),
+    (
+        machine(contact="pulls"),
+        "contact of joint 'F': a cam pushes its follower, it does not pull it; leave contact out, or write contact: "
+        "holds for a roller in a groove",
+    ),
     (machine(face="10 deg"), "face of joint 'F': a knife has no face; leave it out"),
 ]
 

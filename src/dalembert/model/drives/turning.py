@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo
 
+from dalembert.errors import ModelError
 from dalembert.model.part import Part, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -17,6 +18,7 @@ from dalembert.model.quantities.values import (
     Vector,
     value_text,
 )
+from dalembert.wording import quote_value
 
 UNKNOWN: Literal["unknown"] = "unknown"
 LINES = {"x": 0.0, "y": math.pi / 2}
@@ -27,11 +29,11 @@ class AxisLine(ValueField):
     """`x`, `y`, or the direction of a line, an angle."""
 
     def read(self, value: object, info: ValidationInfo) -> float:
-        return (
-            LINES[value]
-            if isinstance(value, str) and value in LINES
-            else reading(info).quantity(value, "angle")
-        )
+        if isinstance(value, str) and value.isalpha() and value not in LINES:
+            what = f"{quote_value(value)} is not the axis of a plane that turns about a line in it"
+            raise ModelError(what, "write x, y, or an angle from x such as '60 deg'")
+        named = LINES.get(value) if isinstance(value, str) else None
+        return reading(info).quantity(value, "angle") if named is None else named
 
     def write(self, value: float) -> object:
         names = {direction: name for name, direction in LINES.items()}

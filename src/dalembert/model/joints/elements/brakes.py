@@ -203,8 +203,8 @@ class Band(OnDrum):
     blocks: Blocks | None = Field(None, description="{count: 14, angle: 15 deg}: blocks on the band")
 
     def places(self, joint: str) -> Iterator[tuple[str, str, Path, Path]]:
-        """Its two ends besides."""
-        yield from super().places(joint)
+        """The drum's axis and its two ends."""
+        yield from (place for place in super().places(joint) if f"{place[0]}.{place[1]}" not in self.ends)
         for k, end in enumerate(self.ends):
             link, point = end.split(".")
             yield link, point, ("ends", k), ("ends", k)

@@ -93,6 +93,12 @@ class Cam(JointPart):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
+        if self.contact.mode == "pulls":
+            raise ModelError(
+                "a cam pushes its follower, it does not pull it",
+                "leave contact out, or write contact: holds for a roller in a groove",
+                ("contact",),
+            )
         if self.preload is not None and (self.contact.mode != "holds" or self.follower.kind != "roller"):
             raise ModelError(
                 "a preload is that of two rollers on conjugate cams",
