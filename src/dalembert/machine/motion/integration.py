@@ -157,6 +157,8 @@ class Integration(StepState):
             met = self._event(solver, guards, before, from_)
             if met is not None:
                 self.flickers = self.flickers + 1 if met[0] - t <= 2 * longest else 0
+                if self.flickers > 1 and (why := self._why_too_small(*met, "")):
+                    raise StoppedError(why)
                 return met
             self.fastest = np.maximum(self.fastest, np.abs(solver.y[self.d : 2 * self.d]))
             if self.waiting is None and not self._keep_step(solver, before, from_):
