@@ -102,7 +102,7 @@ def test_json_is_the_contract(run: Run) -> None:
     assert {"dalembert", "title", "units", "friction", "positions"} <= set(answer)
     assert (answer["dalembert"], answer["units"], answer["friction"]) == (2, "SI", False)
     (position,) = answer["positions"]
-    words = {"drive", "effort", "reaction", "reaction_moment", "turn", "angle", "point"}
+    words = {"drive", "effort", "power", "reaction", "reaction_moment", "turn", "angle", "point"}
     assert set(position) == {"status", *words, "residual", "power_balance"}
     assert position["drive"]["O2"] == {"value": math.pi / 3, "speed": 25.0, "acceleration": -40.0}
     assert position["status"] == "ok"

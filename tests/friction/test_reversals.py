@@ -223,7 +223,7 @@ def test_tables_have_low_and_high_of_every_quantity_that_friction_changes() -> N
     assert len(rows) == 144
     assert all(rows[0])
     named = [h for h in heads if h.split(" [")[0].split(".")[2:3] in (["low"], ["high"])]
-    assert len(named) == 2 * (1 + 4 * 3 + 4 * 4)
+    assert len(named) == 2 * (1 + 4 * 3 + 4 * 4 + 1)  # the last: power
     before, after = by_hand(np.pi / 2)
 
     def cell(name: str, k: int) -> float:

@@ -199,8 +199,9 @@ class Changes:
 
 def with_settings(m: Mechanism, settings: Sequence[str]) -> Mechanism:
     """The mechanism with the values of options `--set NAME=VALUE`; raises ModelError that names the option."""
+    values = set_values(settings)
     try:
-        return m.with_values(values) if (values := set_values(settings)) else m
+        return m.with_values(values) if values else m
     except ModelError as error:
         raise ModelError(f"--set {' --set '.join(settings)}: {error.what}", error.remedy) from None
 
