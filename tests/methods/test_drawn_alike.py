@@ -226,7 +226,7 @@ def labels_in_the_middle(monkeypatch: pytest.MonkeyPatch) -> None:
             self.add(Line(((x, y), (x + math.cos(prefer), y + math.sin(prefer))), PREFERRED))
 
     monkeypatch.setattr(Canvas, "label", label)
-    monkeypatch.setattr(lettering, "letters_width", len)
+    monkeypatch.setattr(lettering, "_extent", lambda text: (float(len(text)), 0.56))
     monkeypatch.setattr(Text, "box", property(lambda self: (*self.at, *self.at)))
 
 

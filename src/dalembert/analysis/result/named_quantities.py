@@ -120,7 +120,7 @@ def quantity_names(r: Result) -> list[str]:
 
     >>> import dalembert as da
     >>> quantity_names(da.statics(da.four_bar()))[:3]
-    ['effort.O2', 'reaction.O2', 'reaction.A']
+    ['effort.O2', 'load.torque', 'reaction.O2']
     """
     hidden = [] if r.friction else [word for word, row in CATALOGUE.items() if row.friction]
     hidden += ["rotation"] if r.mechanism.dimension == 2 else []
