@@ -109,9 +109,9 @@ def names_of(r: HasQuantities, compiled: bool = False, words: Iterable[str] = CA
 
 def solved_names(r: HasQuantities, words: Iterable[str], compiled: bool = False) -> list[str]:
     """The names of some words, of the loads those that are solved for."""
-    given = {f"load.{load}" for load in r.mechanism.loads if load not in r.unknown_loads}
+    known = {f"load.{load}" for load in r.mechanism.loads if load not in r.unknown_loads}
     return [
-        n for n in names_of(r, compiled, words) if n.removesuffix(".low").removesuffix(".high") not in given
+        n for n in names_of(r, compiled, words) if n.removesuffix(".low").removesuffix(".high") not in known
     ]
 
 

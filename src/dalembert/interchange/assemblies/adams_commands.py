@@ -200,7 +200,7 @@ def begins(words: str, beginning: str) -> bool:
 
 
 def note_of(command: Command) -> str | None:
-    """What is noted of a command that is left out, "" for nothing, None for one that is read; raises for others."""
+    """Note on a command that is left out, "" for nothing, None for one that is read; raises for others."""
     head = command.head
     for beginning, what in NOTED.items():
         if begins(head, beginning):

@@ -253,21 +253,21 @@ class _AdamsModel:
         scale = self.units["length"] if slides else 1.0
         order = command.text("time_derivative", "displacement").lower()
         rate = self.units["time"] if order == "velocity" else 1.0
-        motion, whole = of_time(command, scale / rate, self.units["time"])
+        motion, exact = of_time(command, scale / rate, self.units["time"])
         if order == "velocity":
             at = values(self.graph, joint)[freedoms.index(freedom)]
             if "displacement_ic" in command.keys:
                 at = command.numbers("displacement_ic", 1, scale if slides else self.units["angle"])[0]
-            whole = whole and abs(motion[2]) <= 1e-12 * abs(motion[1])
+            exact = exact and abs(motion[2]) <= 1e-12 * abs(motion[1])
             motion = [at, *motion[:2]]
         elif order != "displacement":
             raise command.error(f"a motion given by its {order} is not read", "give displacement or velocity")
-        if not whole:
+        if not exact:
             self.graph.lose(f"the motion {command.text('motion_name')!r} after time 0", command.line)
-        own = self._path(command, "motion_name")[-1]
-        bare = own.removeprefix("motion_")
-        own = plain_name(bare if bare in self.graph.joints else own, self.graph.drives)
-        self.graph.drives[own] = DrivenFreedom(joint.name, freedom, *motion)
+        label = self._path(command, "motion_name")[-1]
+        bare = label.removeprefix("motion_")
+        label = plain_name(bare if bare in self.graph.joints else label, self.graph.drives)
+        self.graph.drives[label] = DrivenFreedom(joint.name, freedom, *motion)
 
     def _force(self, command: Command) -> None:
         """A single force on the part of its marker I, along the z of J, of ground or of the same part."""
@@ -279,8 +279,8 @@ class _AdamsModel:
         if base.name not in (GROUND, part.name):
             raise command.error("its direction turns with a third part", "fix J to ground or the part")
         scale = self.units["force"] * (1.0 if kind == "force" else self.units["length"])
-        value, whole = of_time(command, scale, self.units["time"])
-        if not whole or any(value[1:]):
+        value, exact = of_time(command, scale, self.units["time"])
+        if not exact or any(value[1:]):
             raise command.error("a force that changes with time is not read", "write its value")
         name = plain_name(self._path(command, "single_component_force_name")[-1], self.graph.loads)
         self.graph.loads[name] = {

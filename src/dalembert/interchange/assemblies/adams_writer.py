@@ -123,10 +123,10 @@ class _WrittenModel(CommandText):
         if kind not in DRIVEN:
             what = f"drive {name!r}: a motion of Adams drives no {kind} joint"
             raise ModelError(what, "drive a pin or a slide", ("drives", name))
-        own = f"motion_{self.joints[name]}" if name in self.joints else name
+        label = f"motion_{self.joints[name]}" if name in self.joints else name
         slides = drive.freedom.startswith("slide")
         keys = {
-            "motion_name": f".{MODEL}.{self.name('', own)}",
+            "motion_name": f".{MODEL}.{self.name('', label)}",
             "joint_name": f".{MODEL}.{self.joints[drive.joint]}",
             "type_of_freedom": "translational" if slides else "rotational",
             "function": f'"{law_of_time(drive)}"',

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
 
 IGNORED = ("motor", "brake", "stops", "law", "range")
-"""What a drive may have besides an effort: the importer does its work, through the effort."""
+"""Keys of a drive besides an effort: the importer does their work, through the effort."""
 
 
 def forward_unit(m: Mechanism, name: str) -> tuple[Kernel, TargetFunction, UnitLayout, list[str]]:
@@ -131,7 +131,7 @@ def _accelerating(k: Kernel, name: str) -> tuple[str, list[str]]:
 
 
 def _size(m: Mechanism, drive: str) -> float:
-    """What its position is compared with in steps: 1 rad, or the largest distance of two points of a link."""
+    """Reference of its position in steps: 1 rad, or the largest distance of two points of a link."""
     if not slides(m, drive):
         return 1.0
     at = [np.array(list(m.points(name).values()), float) for name, link in m.links.items() if link.points]

@@ -137,7 +137,7 @@ def _derivatives(layout: UnitLayout) -> list[tuple[int, str]]:
 
 
 def _calculated(layout: UnitLayout) -> list[int]:
-    """What initialization computes; it depends on all that is known."""
+    """Values that initialization computes; they depend on all known ones."""
     return [k for k, _ in _dependent(layout) if k not in layout.state_references]
 
 

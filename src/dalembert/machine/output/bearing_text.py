@@ -23,7 +23,7 @@ PV_UNITS = (("MPa*m/s", 1e6), ("lbf/in^2*ft/min", 4.4482216152605 / 0.0254**2 * 
 
 
 def _one_way(b: BearingLoad) -> str:
-    """How a joint turns that never turns back: all round, or not over these positions."""
+    """Motion of a joint that never turns back: all round, or not over these positions."""
     swept = float((np.abs(b.rate) * b.time).sum())
     return "continuous" if len(b.rate) == 1 or swept > 2 * math.pi * (1 - 1e-6) else "one way"
 

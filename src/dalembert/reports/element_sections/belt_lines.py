@@ -109,8 +109,8 @@ def _wrap_lines(c: ReportContext, name: str, belt: Any, wrap: float) -> list[Wor
         ::-1
     ]
     sign, axes = "+" if belt.crossed else "−", joint_end(c.r, name, j, c.k) - joint_end(c.r, name, i, c.k)
-    apart, gamma = float(np.hypot(*axes)), abs(math.pi - wrap) / 2
-    radii, both = [shown.number("length", x) for x in (large, small, apart)], "+" if belt.crossed else "−"
+    distance, gamma = float(np.hypot(*axes)), abs(math.pi - wrap) / 2
+    radii, both = [shown.number("length", x) for x in (large, small, distance)], "+" if belt.crossed else "−"
     where = "on both wheels" if belt.crossed else "on the wheel with less wrap"
     return [
         Working(

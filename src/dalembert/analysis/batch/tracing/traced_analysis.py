@@ -325,7 +325,7 @@ def _run(problem: TracedProblem, c: Compiled) -> Traced:
 
 
 def _through_friction(c: Compiled) -> ModelError:
-    """What is said of an unknown that has power only through friction."""
+    """Sentence on an unknown that has power only through friction."""
     of = [f"load {name!r}" for name in c.unknown_loads] or ["an effort"]
     what = f"{' or '.join(of)} acts only through friction, which neither a compiled analysis nor a live page solves"
     remedy = "give its value and ask for the effort of a drive, or use the analyses (`dalembert solve`)"

@@ -45,7 +45,7 @@ _LOCKS = "The screw of {name} {locks}: its thread alone holds any force from a c
 
 
 def locking_sentence(s: ScrewAnswer) -> str:
-    """Whether a screw locks by itself, and the coefficient from which on its thread alone does."""
+    """True if a screw locks by itself, and the coefficient from which on its thread alone does."""
     locks = "is self-locking" if s.self_locking else "does not lock by itself"
     return _LOCKS.format(name=s.name, locks=locks, least=f"{s.locking_coefficient:.4g}")
 

@@ -59,7 +59,8 @@ class EventBlock:
     def text(self) -> str:
         """All that decides the bits of an answer."""
         code, machine = self.machine.code, self.machine
-        return f"{code.steps.machine.text}{code.asked.machine.text}{self.conditions}{machine.end}{machine.tolerance}"
+        programs = f"{code.steps.machine.text}{code.outputs_code.machine.text}"
+        return f"{programs}{self.conditions}{machine.end}{machine.tolerance}"
 
     def __call__(self, begin: Array, values: Array, levels: Array, on: Array) -> Ended:
         """Motions from states (M, n) with values (M, V) of the steps, levels (M, G) of the guards and motors (M, D)
@@ -122,7 +123,7 @@ class EventBlock:
     def _at(self, rows: Array, t: Array, y: Array) -> tuple[Array, Flags]:
         """Outputs (K, N) at states, those open at rest without numbers, and where the others are sure."""
         code = self.machine.code
-        watched, count = look(code.asked, rows, t, y)[1], code.outputs
+        watched, count = look(code.outputs_code, rows, t, y)[1], code.outputs
         still = rows[:, -1] > 0
         values = np.where(still[:, None] & code.open_, np.nan, watched[:, :count])
         known = np.isfinite(values) | (still[:, None] & code.open_)

@@ -30,7 +30,7 @@ ONE_AT_A_TIME = Lock()
 
 @dataclass(frozen=True)
 class EventKernel(MotionKernel):
-    """Compiled motions whose designs have events of their own."""
+    """Compiled motions whose designs have separate events."""
 
     block: EventBlock = field(repr=False)  # type: ignore[assignment]
     until: tuple[str | float, ...]
@@ -59,11 +59,11 @@ class EventKernel(MotionKernel):
         for x in (time, state, *arrays.values()):
             x[again] = np.nan
         for k in again:
-            found = self._alone(designs[k])
-            ended[k] = found.ended
-            if found.known:
-                time[k], state[k] = found.time, np.concatenate([found.position, found.speed])
-                for name, x in found.outputs.items():
+            solved = self._alone(designs[k])
+            ended[k] = solved.ended
+            if solved.known:
+                time[k], state[k] = solved.time, np.concatenate([solved.position, solved.speed])
+                for name, x in solved.outputs.items():
                     arrays[name][k] = x
         return MotionBatch(designs, time, state[:, :d], state[:, d:], tuple(ended), arrays, len(again))
 
@@ -72,14 +72,14 @@ class EventKernel(MotionKernel):
         ordered = values[:, np.argsort(self.places)] if self.places else values
         with np.errstate(all="ignore"):
             begin, inputs = self._begin(ordered)
-            own = self.block.machine.code.own
-            more = [np.ones((len(values), own)), np.zeros((len(values), own + 1))]
+            contacts = self.block.machine.code.contacts
+            more = [np.ones((len(values), contacts)), np.zeros((len(values), contacts + 1))]
             levels = np.tile(self._levels, (len(values), 1))
             for g, column in self._level_nodes(ordered):
                 levels[:, g] = column
-            found = self.block(begin, np.concatenate([inputs, *more], axis=1), levels, self._on(begin))
-        found.sure[self._other_branch(ordered)] = False
-        return found
+            solved = self.block(begin, np.concatenate([inputs, *more], axis=1), levels, self._on(begin))
+        solved.sure[self._other_branch(ordered)] = False
+        return solved
 
     @cached_property
     def _levels(self) -> Array:
@@ -90,8 +90,8 @@ class EventKernel(MotionKernel):
         nodes = {g: x for g, x in enumerate(self.block.levels) if isinstance(x, Node)}
         kernel = self.equation.kernel
         along = {n.index: column for n, column in zip(kernel.number_nodes, values.T, strict=False)}
-        found = kernel.trace.catalogue.graph.evaluate(list(nodes.values()), along)
-        return list(zip(nodes, map(np.asarray, found), strict=True))
+        solved = kernel.trace.catalogue.graph.evaluate(list(nodes.values()), along)
+        return list(zip(nodes, map(np.asarray, solved), strict=True))
 
     def _on(self, begin: Array) -> Array:
         """Motors (M, D) that are on at the start."""

@@ -1,4 +1,4 @@
-"""What motions with events of many designs have in common: machine code and guards of a machine.
+"""Common parts of motions with events of many designs: machine code and guards of a machine.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -110,10 +110,10 @@ def _rows(
 ) -> list[Row]:
     """All guards; columns: positions, speeds, what is watched, and the time."""
     d, sides = len(moves.names), len(equation.sides)
-    margins, switching = 2 * d + code.own, 2 * d + code.own + code.margins
+    margins, switching = 2 * d + code.contacts, 2 * d + code.contacts + code.margins
     time, k = 2 * d + code.steps.watched, int(np.flatnonzero(moves.free)[0])
     rows: list[Row] = [("rest", k, d + k, 0.0)] if rests else []
-    rows += [("contact", e, 2 * d + e, 0.0) for e in range(code.own)]
+    rows += [("contact", e, 2 * d + e, 0.0) for e in range(code.contacts)]
     rows += [("side", n, margins + n, 0.0) for n in _bearing(equation, code.margins)]
     rows += [("corner", j, switching + j, 0.0) for j in range(sides)]
     rows += [("kink", j, switching + j, 0.0) for j in range(sides, code.corners)]

@@ -26,8 +26,8 @@ class EventCode:
     ``Equation.steps`` one follows: 1 at rest. ``open_``: outputs that friction at rest leaves open."""
 
     steps: Integrator
-    asked: Integrator
-    own: int
+    outputs_code: Integrator
+    contacts: int
     margins: int
     corners: int
     outputs: int
@@ -49,14 +49,14 @@ def event_code(
         steps = rate_code(equation, r, [*rate, *r.watched, *switching], lanes)
         outputs = at_state(equation, r.slots, r.a * (1.0 - r.given[-1]), equation.asked.outputs)
         rubbing = {n.index: x for n, x in zip(equation.friction, trace_array(graph, r.cz), strict=True)}
-        asked = rate_code(equation, r, [*rate, *graph.substitute(outputs, rubbing)], lanes)
-    if steps is None or asked is None:
+        outputs_code = rate_code(equation, r, [*rate, *graph.substitute(outputs, rubbing)], lanes)
+    if steps is None or outputs_code is None:
         return None
     count = sum(map(len, equation.kernel.nodes.values()))
     open_ = [any(n.index in rubbing for n in graph.order([x])) for x in outputs[:count]]
     dry = equation.dry
-    own, margins = (len(dry.own), 2 * len(sided(dry.contacts))) if dry else (0, 0)
-    return EventCode(steps, asked, own, margins, int(last - first), count, np.array(open_, bool))
+    contacts, margins = (len(dry.own), 2 * len(sided(dry.contacts))) if dry else (0, 0)
+    return EventCode(steps, outputs_code, contacts, margins, int(last - first), count, np.array(open_, bool))
 
 
 def look(code: Integrator, values: Array, t: Array, y: Array) -> tuple[Array, Array]:

@@ -33,7 +33,7 @@ EVEN = 1e-9
 
 @dataclass(frozen=True)
 class EventMachine:
-    """What all designs have in common: the ``free`` drive, which may stay at ``rest`` (by friction, or its brake), how
+    """Data common to all designs: the ``free`` drive, which may stay at ``rest`` (by friction, or its brake), how
     the values of the steps are ``placed``, the guards, and whether loads go ``by_time``."""
 
     code: EventCode
@@ -88,14 +88,14 @@ class Course:
     @property
     def _senses(self) -> slice:
         first = self.machine.first + 4 * self.machine.drives
-        return slice(first, first + self.machine.code.own)
+        return slice(first, first + self.machine.code.contacts)
 
     # what is seen at a state
 
     def columns(self, y: Array, watched: Array, t: Array) -> Array:
         """Values (..., G) of the guards."""
-        whole = np.concatenate([y, watched, t[..., None]], axis=-1)
-        return np.asarray(whole[..., self.machine.guards.column])
+        columns = np.concatenate([y, watched, t[..., None]], axis=-1)
+        return np.asarray(columns[..., self.machine.guards.column])
 
     def _least(self, k: Ints) -> Array:
         """Amounts (K, G) by which guards are surely beyond zero."""
@@ -122,7 +122,7 @@ class Course:
         self._switch_lines(k)
         if len(machine.sides):
             self.values[np.ix_(k, machine.sides)] = 1.0
-            place = slice(machine.code.own + machine.code.margins, None)
+            place = slice(machine.code.contacts + machine.code.margins, None)
             for _ in machine.sides:  # the inner ones of an expression first
                 switching = look(machine.code.steps, self.values[k], self.t[k], self.y[k])[1][:, place]
                 sides = np.sign(switching[:, : len(machine.sides)])
@@ -131,8 +131,10 @@ class Course:
         u = self.y[:, d + machine.free]
         self.toward[k] = np.where(u[k] < 0, -1.0, 1.0)
         self._brake(k)
-        if machine.code.own:
-            rates = look(machine.code.steps, self.values[k], self.t[k], self.y[k])[1][:, : machine.code.own]
+        if machine.code.contacts:
+            rates = look(machine.code.steps, self.values[k], self.t[k], self.y[k])[1][
+                :, : machine.code.contacts
+            ]
             self.values[k, self._senses] = np.where(rates < 0, -1.0, 1.0)
         if machine.rests:
             self._settle(k[(u[k] == 0) & self.live[k]])
@@ -153,16 +155,16 @@ class Course:
         """At rest: whether friction and brakes hold it, or which way it goes: where it accelerates that way."""
         if not len(k):
             return
-        machine, d, own = self.machine, self.machine.drives, self.machine.code.own
+        machine, d, contacts = self.machine, self.machine.drives, self.machine.code.contacts
         self.y[k, d + machine.free] = 0.0
         ways = []
         for way in (1.0, -1.0):
             self.toward[k] = way
             self._brake(k)
             values, ahead = self.values[k], 0.0 * self.y[k]
-            if own:
+            if contacts:
                 ahead[:, :d], ahead[:, d + machine.free] = self.y[k, :d], way
-                pushed = look(machine.code.steps, values, self.t[k], ahead)[1][:, :own]
+                pushed = look(machine.code.steps, values, self.t[k], ahead)[1][:, :contacts]
                 values[:, self._senses] = np.where(pushed != 0, np.sign(pushed), values[:, self._senses])
             senses = values[:, self._senses].copy()
             values[:, -1] = 1.0
@@ -251,7 +253,7 @@ class Course:
         """The largest margin so far."""
         code = self.machine.code
         if code.margins:
-            margins = np.abs(watched[..., code.own : code.own + code.margins])
+            margins = np.abs(watched[..., code.contacts : code.contacts + code.margins])
             largest = margins.reshape(len(k), -1).max(axis=1, initial=0.0)
             self.bearing[k] = np.fmax(self.bearing[k], largest)
 
