@@ -72,7 +72,7 @@ loads:
 
 def test_a_screw_with_forces_and_couples(tmp_path: Path) -> None:
     assert compare(da.loads(SCREW), tmp_path / "x.cmd") == [
-        "the name 'nut 1', which is 'nut_1' there",
+        "the name 'nut 1', which is 'nut_1' in the file",
         "load 'wave' (couple): its value changes or is unknown",
     ]
 

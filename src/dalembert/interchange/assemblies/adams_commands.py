@@ -86,7 +86,7 @@ KINDS = {
     "weld": "fixed",
     "screw": "screw",
 }
-"""Type here -> type there; others become chains of these."""
+"""Our joint type -> that of the format; others become chains of these."""
 
 ENDS = "joint_name i_marker_name j_marker_name pitch"
 FUNCTION = "type_of_freedom function"

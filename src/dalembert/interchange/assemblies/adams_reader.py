@@ -36,7 +36,7 @@ from dalembert.interchange.placements import body_313, clean, inverse
 from dalembert.model import GROUND
 
 JOINTS = {theirs: kind for kind, theirs in KINDS.items()}
-"""Type there -> type here."""
+"""Joint type of Adams -> ours."""
 
 
 @dataclass
@@ -151,13 +151,13 @@ class _AdamsModel:
         """Part and name of a marker."""
         path = self._path(command, key)
         if len(path) != 2:
-            raise command.error(f"{key}: {command.text(key)!r} is no marker", "write .model.part.marker")
+            raise command.error(f"{key}: {command.text(key)!r} is not a marker", "write .model.part.marker")
         part = self.parts[path[0]]
         known = {marker.lower(): marker for marker in part.markers}
         return part, known.get(path[1].lower(), path[1])
 
     def _marker(self, command: Command, key: str) -> tuple[_Part, Array]:
-        """Part of a marker that something is fixed to, and its place there."""
+        """Part of a marker to which something is fixed, and the place of the marker in it."""
         part, name = self._marker_path(command, key)
         if name not in part.markers:
             raise command.error(f"{key}: there is no marker {command.text(key)!r}", "make it first")
@@ -206,7 +206,9 @@ class _AdamsModel:
         if "inertia_marker" in command.keys:
             axes = self._marker(command, "inertia_marker")[1]
             if not np.allclose(axes[:3, 3], center[:3, 3], rtol=0, atol=1e-12):
-                raise command.error("the inertia marker is not at the mass centre", "put it there")
+                raise command.error(
+                    "the inertia marker is not at the mass centre", "put it at the mass centre"
+                )
         unit = self.units["mass"] * self.units["length"] ** 2
         moments = [command.number(key) * unit for key in ("ixx", "iyy", "izz")]
         inertia = axes[:3, :3] @ np.diag(moments) @ axes[:3, :3].T

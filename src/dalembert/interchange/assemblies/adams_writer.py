@@ -56,7 +56,7 @@ class _WrittenModel(CommandText):
         self.joints = {joint: self.name("", joint) for joint in graph.joints}
         for old, new in (*self.parts.items(), *self.joints.items()):
             if old != new:
-                graph.lose(f"the name {old!r}, which is {new!r} there")
+                graph.lose(f"the name {old!r}, which is {new!r} in the file")
         for link in (LinkPart(GROUND, points=graph.ground), *graph.links.values()):
             self._part(link)
         for joint in graph.joints.values():
@@ -103,7 +103,7 @@ class _WrittenModel(CommandText):
             self.marker(link.name, name, placement(np.eye(3), at))
 
     def _joint(self, joint: Connection) -> None:
-        """A joint between its markers; a screw holds its advance alone there, and a cylindrical joint the rest."""
+        """A joint between its markers; a screw holds only its advance, and a cylindrical joint the rest."""
         j, i = (
             self.marker(link, f"{joint.name}_joint", place)
             for link, place in zip(joint.links, marker_places(joint), strict=True)

@@ -27,10 +27,10 @@ KINDS = {
     "weld": "FixedJoint",
     "screw": "ScrewJoint",
 }
-"""Type here -> type there; others become chains of these."""
+"""Our joint type -> that of the format; others become chains of these."""
 
 ALONG_X = ("prismatic", "cylindrical", "screw")
-"""Types whose axis is x here; it is z there."""
+"""Types whose axis is x in our files and z in the format."""
 
 X_TO_Z = placement(np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), (0.0, 0.0, 0.0))
 """Axes whose z is the former x."""
@@ -163,7 +163,7 @@ def principal_inertia(link: LinkPart) -> tuple[Array, Array]:
 
 
 def _joint(text: AssemblyText, joint: Connection) -> None:
-    """A joint between its markers; a screw holds its advance alone there, and a cylindrical joint the rest."""
+    """A joint between its markers; a screw holds only its advance, and a cylindrical joint the rest."""
     if joint.kind == "screw":
         _joint(text, replace(joint, kind="cylindrical", name=joint.name))
     text.add(3, KINDS[joint.kind])

@@ -124,7 +124,7 @@ class Writer:
 
 
 FEW = 8
-"""Points up to which a path is written one by one, which is faster there."""
+"""Points up to which writing them one by one is faster."""
 NOTHING = 0.005
 ZEROS = re.compile(r"\.?0+(?=[ L])")
 """Zeros at the end of a number with two decimals."""

@@ -28,7 +28,7 @@ MANY = 40
 FLICKERS = 10
 """Segments in turn, each of a step or two, after which a contact's change of sides ends none."""
 EVEN = 1e-9
-"""Part of the difference of the accelerations both ways from rest by which one has no sign."""
+"""Part of the difference of the accelerations in both senses from rest by which one has no sign."""
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ class Course:
         self.values[k, place] = -np.abs(self.values[k, place]) * self.toward[k]
 
     def _settle(self, k: Ints) -> None:
-        """At rest: whether friction and brakes hold it, or which way it goes: where it accelerates that way."""
+        """At rest: if friction and brakes hold it, and otherwise the sense in which it accelerates."""
         if not len(k):
             return
         machine, d, contacts = self.machine, self.machine.drives, self.machine.code.contacts
