@@ -28,6 +28,9 @@ from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.tables import Table
 from dalembert.wording import closest
 
+FADES = 3.0
+"""Time constants of a motor that a step lasts at most: up to 6 the method is stable, and in between less exact."""
+
 
 def joint_stops(m: Mechanism) -> dict[tuple[str, str], Stops]:
     """Stops of joints by joint and freedom, and of the gaps of opened contacts."""
@@ -71,6 +74,8 @@ class Actuation:
         self.motors = {k: d.motor.at_drive for k, d in enumerate(self.drives) if d.motor is not None}
         geared = {k: d.motor for k, d in enumerate(self.drives) if d.motor is not None and self.free[k]}
         self.gears = {k: x for k, x in geared.items() if x.inertia or x.efficiency < 1}
+        self.late = [k for k, x in self.motors.items() if x.time_constant and self.free[k]]
+        self.torque = np.zeros(len(self.late))  # of the late motors, at the state that is looked at
         self.side = np.ones(len(self.drives))  # the sign of what the motor's shaft gives to its gear
         self.gain = np.ones(len(self.drives))  # the efficiency of gears, or its inverse
         self.lossy = np.array(
@@ -130,11 +135,32 @@ class Actuation:
             if drive.effort is not None:
                 effort = self.sided.get(k, drive.effort)
                 out[k] = effort.at(known) if hasattr(effort, "at") else effort
-            if k in self.motors and self.on[k]:
-                out[k] += self.gain[k] * self.motors[k].at(u[k])
+            if k in self.motors:
+                out[k] += self.gain[k] * self.motor_effort(k, u)
             if k in self.elastic:
                 out[k] += self.elastic[k].at(known)
         return out
+
+    def motor_effort(self, k: int, u: Array) -> float:
+        """Effort of a motor: that of its curve, 0 switched off; of a late one what it has come to."""
+        if k in self.late:
+            return float(self.torque[self.late.index(k)])
+        return self.steady(k, u)
+
+    def steady(self, k: int, u: Array) -> float:
+        """Effort of a motor that its time constant leads to: of its curve, 0 switched off."""
+        return float(self.motors[k].at(u[k])) if self.on[k] else 0.0
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step, s, within which the efforts of the late motors die down instead of swinging."""
+        return min((FADES * self.motors[k].time_constant for k in self.late), default=np.inf)
+
+    def torque_rates(self, u: Array) -> Array:
+        """Rates (L,) of the efforts of the late motors: (curve - T)/tau."""
+        goals = [self.steady(k, u) for k in self.late]
+        late = np.array([self.motors[k].time_constant for k in self.late])
+        return np.asarray((goals - self.torque) / late)
 
     def elastic_forces(self, along: Schedule) -> Array:
         """Forces (T, D) of elastic stops along a motion."""
@@ -158,8 +184,8 @@ class Actuation:
 
     def shaft(self, k: int, u: Array, a: Array) -> float:
         """Torque of a motor's shaft on its gear, times the ratio: n (T - J n a)."""
-        gear, on = self.gears[k], self.on[k]
-        return float((self.motors[k].at(u[k]) if on else 0.0) - gear.inertia * gear.ratio**2 * a[k])
+        gear = self.gears[k]
+        return float(self.motor_effort(k, u) - gear.inertia * gear.ratio**2 * a[k])
 
     def set_anchor(self) -> None:
         """Keep the last state as the one at which a step begins: unused here."""
@@ -173,7 +199,7 @@ class Actuation:
         depends on positions, speeds or the time. ``ahead``: accelerations, which decide the side on which a motor
         leaves a corner."""
         first, slope = np.zeros((2, len(u)))
-        if self.gears or self.elastic:
+        if self.gears or self.elastic or self.late:
             return None
         for k, drive in enumerate(self.drives):
             if hasattr(drive.effort, "at"):

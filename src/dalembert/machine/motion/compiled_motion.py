@@ -175,6 +175,8 @@ def _refuse(moves: Actuation) -> None:
             raise ModelError(f"drive {name!r} has stops, which are met as events", REMEDY)
         if drive.motor is not None and drive.motor.geared:
             raise ModelError(f"the motor of drive {name!r} has a gear, inertia or an efficiency", REMEDY)
+        if drive.motor is not None and drive.motor.time_constant:
+            raise ModelError(f"the motor of drive {name!r} has a time constant", REMEDY)
 
 
 def _lines(m: Mechanism, moves: Actuation) -> Array:

@@ -49,13 +49,13 @@ class Integration(StepState):
     def run(self, t: float = 0.0, works: Array | None = None) -> None:
         """Integrate from the start until the end, a condition that stops, a state from which no motion continues, or
         one where other freedoms should lead."""
-        start, done = self.acting, np.zeros(self.d + 4) if works is None else works
+        start, done = self.acting, np.zeros(self.d + 4 + len(self.acting.late)) if works is None else works
         self.reached = t, y = t, np.concatenate([start.position, start.speed, done])
         try:
             self._settle_start(t, y)
             self.keep(t, y)
             while t < self.end and not self.ended and not self.turned_over:
-                if self._all_rest():
+                if self._all_rest() and not self.torques_change(y):
                     t = self._rest(t, y)
                 else:
                     t, y = self._segment(t, y)
@@ -226,6 +226,9 @@ class Integration(StepState):
             self._keep_until(dense, before, when)
             self._resume(when, y)
             return when, y
+        if self.acting.late and self._all_rest() and not self.torques_change(solver.y):
+            self._keep_until(solver.dense_output(), before, solver.t)
+            return solver.t, solver.y
         return None
 
     def _keep_step(self, solver: Steps | MachineSteps, before: float, y: Array) -> bool:

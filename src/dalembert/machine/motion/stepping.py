@@ -92,7 +92,8 @@ class StepState(CodedState):
         self.parts.append(np.where(self._determined, contacts.part, np.nan))
         q, u = y[:d].copy(), y[d : 2 * d].copy()
         on_stop = np.where(self.on_stop != 0, self.acting.effort(t, q, u), np.nan)
-        self.rows.append((t, q, u, contacts.a, effort, y[2 * d :].copy(), on_stop, self.joint_forces(t, y)))
+        works = y[2 * d : 3 * d + 4].copy()
+        self.rows.append((t, q, u, contacts.a, effort, works, on_stop, self.joint_forces(t, y)))
 
     @property
     def _determined(self) -> Flags:
@@ -159,7 +160,7 @@ class StepState(CodedState):
         if code is not None:
             more = bool(self.waiting and len(self.waiting) > 1)
             return MachineSteps(*code, t, y, end, self.tolerance, natural, more)
-        return Steps(self.rate, t, y, end, self.tolerance, natural)
+        return Steps(self.rate, t, y, end, self.tolerance, natural, self.acting.longest_step)
 
     def _natural(self, t: float, y: Array) -> tuple[Array, Array]:
         """Natural sizes (1, n) of the state's numbers, and pace (1,); within a segment in machine code those at its
@@ -170,7 +171,9 @@ class StepState(CodedState):
             a, _, terms = self.at(t, y)
             u = np.maximum(np.abs(y[self.d : 2 * self.d]), self.fastest)
             self.inertia = np.minimum(self.inertia, np.abs(terms.mass.diagonal()))
-            self.natural = state_sizes(u[None], a[None], self.lengths, terms.mass.diagonal()[None])
+            sizes, pace = state_sizes(u[None], a[None], self.lengths, terms.mass.diagonal()[None])
+            late = [[max(map(abs, self.acting.motors[k].effort)) for k in self.acting.late]]
+            self.natural = np.concatenate([sizes, np.array(late)], axis=1), pace
         return self.natural
 
     def pace(self, t: float, y: Array) -> float:

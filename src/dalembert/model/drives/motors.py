@@ -22,7 +22,8 @@ from dalembert.model.quantities.values import (
 EXAMPLE = "{stall: 40 N*m, no_load: 30 rad/s}, or {curve: {speed: [0 rpm, 900 rpm], torque: [40, 0]}}"
 GEARING = {"ratio": 1.0, "inertia": 0.0, "efficiency": 1.0}
 """Keys of a motor behind a gear, with their defaults."""
-KEYS = ["stall", "no_load", "curve", "on", "off", *GEARING]
+LAG = "time_constant"
+KEYS = ["stall", "no_load", "curve", "on", "off", *GEARING, LAG]
 SWITCHES = ("time", "position", "speed")
 
 Switch = tuple[str, float]
@@ -37,6 +38,9 @@ class MotorCurve:
     Behind a gear its numbers are those of the motor's shaft: ``ratio`` n, its speed over that of the drive (of one that
     slides, rad/m); ``inertia`` J of its rotor, kg m2; ``efficiency`` of the gear. X = T - J n a is what its shaft gives
     to the gear, and the drive gets eta n X while power goes to the machine, n X/eta while it comes back.
+
+    ``time_constant`` tau, s, L/R of its winding: the torque T follows its curve late, tau dT/dt = curve - T, from
+    0 where it is switched on, and to 0 where it is switched off.
     """
 
     speed: tuple[float, ...]
@@ -47,6 +51,7 @@ class MotorCurve:
     ratio: float = 1.0
     inertia: float = 0.0
     efficiency: float = 1.0
+    time_constant: float = 0.0
 
     @property
     def geared(self) -> bool:
@@ -69,11 +74,12 @@ class MotorCurve:
     def keys(self) -> dict[str, float]:
         """Its numbers by their keys in a file: of a curve none."""
         line = {"stall": self.effort[0], "no_load": self.speed[1]} if self.straight else {}
-        return line | {key: getattr(self, key) for key in GEARING} if self.geared else line
+        late = {LAG: self.time_constant} if self.time_constant else {}
+        return line | ({key: getattr(self, key) for key in GEARING} if self.geared else {}) | late
 
     def with_key(self, key: str, value: float) -> MotorCurve:
         """Another motor, its effort at rest or its free speed replaced."""
-        if key in GEARING:
+        if key == LAG or key in GEARING:
             return replace(self, **{key: value})  # type: ignore[arg-type]
         return replace(self, effort=(value, 0.0)) if key == "stall" else replace(self, speed=(0.0, value))
 
@@ -132,6 +138,7 @@ class MotorCurve:
             ("ratio", 1.0, "number"),
             ("inertia", 0.0, "inertia"),
             ("efficiency", 1.0, "number"),
+            (LAG, 0.0, "time"),
         ):
             if getattr(self, key) != default:
                 tree[key] = value_text(getattr(self, key), unit)
@@ -150,7 +157,8 @@ def motor_curve(value: object, kind: str, rules: ReadingRules) -> MotorCurve:
     if isinstance(value, MotorCurve):
         return value
     keys = mapping(value, KEYS, f"motor: {EXAMPLE}")
-    kinds, gearing = of_kind(kind, "ratio" in keys), _gearing(keys, kind, rules)
+    kinds = of_kind(kind, "ratio" in keys)
+    further = (*_gearing(keys, kind, rules), _lag(keys, rules))
     line = {"stall", "no_load"} & set(keys)
     if ("curve" in keys) == bool(line) or (line and len(line) < 2):
         raise ModelError("a motor needs stall and no_load, or a curve", f"write motor: {EXAMPLE}")
@@ -159,7 +167,7 @@ def motor_curve(value: object, kind: str, rules: ReadingRules) -> MotorCurve:
     )
     if "curve" in keys:
         speed, effort = at_item("curve", _curve, keys["curve"], kinds, rules)
-        return MotorCurve(speed, effort, False, on, off, *gearing)
+        return MotorCurve(speed, effort, False, on, off, *further)
     stall = at_item("stall", rules.quantity, keys["stall"], kinds["effort"])
     free = at_item("no_load", rules.quantity, keys["no_load"], kinds["speed"])
     if not stall or not free or (stall > 0) != (free > 0):
@@ -168,7 +176,7 @@ def motor_curve(value: object, kind: str, rules: ReadingRules) -> MotorCurve:
             "give both the same sign, and neither 0: negative ones drive against the freedom",
             ("no_load",),
         )
-    return MotorCurve((0.0, free), (stall, 0.0), True, on, off, *gearing)
+    return MotorCurve((0.0, free), (stall, 0.0), True, on, off, *further)
 
 
 def _gearing(keys: Mapping[str, object], kind: str, rules: ReadingRules) -> tuple[float, float, float]:
@@ -195,6 +203,17 @@ def _gearing(keys: Mapping[str, object], kind: str, rules: ReadingRules) -> tupl
             what, "give the ratio, its angle over the length of the slide in rad/m", ("inertia",)
         )
     return ratio, inertia, efficiency
+
+
+def _lag(keys: Mapping[str, object], rules: ReadingRules) -> float:
+    """Time constant, s."""
+    lag = at_item(LAG, rules.quantity, keys.get(LAG, "0 s"), "time")
+    if lag < 0:
+        what = "the time constant of the motor is negative"
+        raise ModelError(
+            what, "write the inductance of its winding over the resistance, such as 2 ms", (LAG,)
+        )
+    return lag
 
 
 def _curve(value: object, kinds: Mapping[str, str], rules: ReadingRules) -> tuple[tuple[float, ...], ...]:
@@ -258,5 +277,6 @@ def motor_schema() -> JsonSchema:
         "ratio": NUMBER_OR_TEXT | {"description": "speed of the motor over that of the drive; default 1"},
         "inertia": NUMBER_OR_TEXT | {"description": "of the rotor, about its axis; default 0"},
         "efficiency": NUMBER_OR_TEXT | {"description": "of the gear, in both directions; default 1"},
+        LAG: NUMBER_OR_TEXT | {"description": "L/R of its winding, by which its torque is late; default 0"},
     }
     return object_schema(keys)

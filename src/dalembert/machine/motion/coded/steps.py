@@ -271,9 +271,11 @@ class Steps(DOP853):
         end: float,
         rtol: float,
         natural: tuple[Array, Array],
+        longest: float = np.inf,
     ) -> None:
         least = rtol * LEAST * natural[0][0]
-        super().__init__(rate, t, y, end, rtol=rtol, atol=least, first_step=min(1.0, end - t))
+        first = min(1.0, end - t, longest)
+        super().__init__(rate, t, y, end, rtol=rtol, atol=least, first_step=first, max_step=longest)
 
         def ahead(h: Array) -> Array:
             return rate(t + float(h[0]), y + h[0] * self.f)[None]

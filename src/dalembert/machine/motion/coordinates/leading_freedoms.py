@@ -79,7 +79,8 @@ def can_change_lead(m: Mechanism, acting: Actuation) -> bool:
         return False
     original = getattr(acting, "own", acting)
     drives = [d for d in original.drives if d.brake or d.stops]
-    motors = [*original.gears, *(x for x in original.motors.values() if x.kinks or x.on or x.off)]
+    switched = [x for x in original.motors.values() if x.kinks or x.on or x.off]
+    motors = [*original.gears, *original.late, *switched]
     names = {
         n for load in m.loads.values() for v in getattr(load, "varying", ()) for n in getattr(v, "names", ())
     }

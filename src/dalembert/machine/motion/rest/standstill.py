@@ -30,6 +30,8 @@ WEIGHTLESS = 1e-12
 """Part of the greatest inertia that is rounding."""
 ROUNDING = 1e-9
 """Part of a motor's effort below which what its shaft gives to its gear has no sign."""
+SETTLED = 1e-9
+"""Part of a motor's greatest effort by which the one it has come to at rest may differ from that of its curve."""
 EVEN = 1e-10
 """Part of a limit of friction, or of what it accelerates, that is rounding."""
 INSTANTS = 400
@@ -86,6 +88,7 @@ class ContactState:
         q, u = y[: self.d], y[self.d : 2 * self.d]
         self.evaluations += 1
         rotor = self.acting.take_ways(self.toward)
+        self.take_torques(y)
         applied = self.acting.effort(t, q, u)
         tau = applied - self.acting.brake * self.toward
         free = self.acting.free & ~self.locked
@@ -105,7 +108,23 @@ class ContactState:
         braking = -self.acting.brake * self.toward * u * ~self.locked
         rubbing = contacts.cz @ np.where(self.stuck, 0.0, terms.rates)
         power = self.acting.powers(t, y[: self.d], u, effort)
-        return np.concatenate([u, contacts.a, power - braking, [braking.sum()], terms.power, [rubbing]])
+        late = self.acting.torque_rates(u)
+        return np.concatenate([u, contacts.a, power - braking, [braking.sum()], terms.power, [rubbing], late])
+
+    def take_torques(self, y: Array) -> None:
+        """Take the efforts of late motors from a state, at whose end they are."""
+        self.acting.torque = y[len(y) - len(self.acting.late) :]
+
+    def torques_change(self, y: Array) -> bool:
+        """True if efforts of late motors, at rest, are not yet what they lead to, or will be switched by time."""
+        self.take_torques(y)
+        waits = (s[0] == "time" for k in self.acting.late for _, s in self._switches(k))
+        return any(waits) or any(map(self._is_late, self.acting.late))
+
+    def _is_late(self, k: int) -> bool:
+        """True if the effort of a motor at rest has not yet come to what it leads to."""
+        goal, largest = self.acting.steady(k, np.zeros(self.d)), max(map(abs, self.acting.motors[k].effort))
+        return abs(self.acting.motor_effort(k, np.zeros(self.d)) - goal) > SETTLED * largest
 
     def rubbing_rates(self, t: float, y: Array) -> Array:
         """Rates of the contacts (E,) that slip by themselves, those of the last state kept."""
@@ -148,6 +167,7 @@ class ContactState:
         q, u = y[: self.d], y[self.d : 2 * self.d]
         held = self.locked.copy()
         self.locked[k] = True
+        self.take_torques(y)
         try:
             a = self.at(t, y)[0] if not self.locked[self.acting.free].all() else np.zeros(self.d)
         finally:
@@ -202,7 +222,8 @@ class ContactState:
                     self.note(t, "rest", f"{self.resting[k]} stays {self._where(k)}", of=self.resting[k])
                 return
             kind = kind_of(self.acting.drives[k].freedom, "effort")
-            why = "its motor stalls" if k in self.acting.motors and self.acting.on[k] else "friction holds it"
+            stalls = k in self.acting.motors and self.acting.on[k] and not self._is_late(k)
+            why = "its motor stalls" if stalls else "friction holds it"
             ends: Words = ("; effort ", (kind, tau), ", held from ", (kind, low), " to ", (kind, high))
             self.note(t, "rest", f"{name} comes to rest and stays: {why}", *ends, of=name)
             return

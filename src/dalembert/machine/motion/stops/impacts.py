@@ -317,6 +317,7 @@ class StopState(ClutchState):
         q, u, acting = y[: self.d], y[self.d : 2 * self.d], self.acting
         self.evaluations += 1
         f, rotor = np.flatnonzero(acting.free & ~self.locked), acting.take_ways(self.toward)
+        self.take_torques(y)
         tau = acting.effort(t, q, u) - acting.brake * self.toward
         a = acting.accelerations(t)
         e = self.equation(t, q, u)
