@@ -210,3 +210,18 @@ def test_designs_that_are_refused_have_no_slope() -> None:
     assert np.isfinite(r.gradient("effort.O2")[1][closed]).all()
     assert np.isnan(r.gradient("effort.O2")[1][~closed]).all()
     assert np.isnan(r.gradient("effort.O2")[2]).all()
+
+
+def test_a_jump_of_acceleration_has_derivatives_on_both_sides() -> None:
+    """dT/dI is the angular acceleration of a harmonic rise at its end, and then of the dwell."""
+    law = {"segments": [{"to": "30 deg", "in": "0.2 s", "by": "harmonic"}, {"dwell": "0.1 s"}], "count": 7}
+    arm = {"points": {"O": [0, 0]}, "mass": 2, "center": [0.3, 0], "inertia": 0.2}
+    links = {"ground": {"points": {"O": [0, 0]}}, "arm": arm}
+    joints = {"O": {"type": "pin", "links": ["ground", "arm"]}}
+    m = da.mechanism({"gravity": "none", "links": links, "joints": joints, "drives": {"O": {"law": law}}})
+    answer = da.compile(m, ["links.arm.inertia"], ["effort.O"], derivatives=True)([[0.2]])
+    assert list(answer.status[0]) == ["ok"] * 4 + ["jump"] + ["ok"] * 2
+    assert answer.after is not None
+    slopes = [side.gradient("effort.O")[0, 4] for side in (answer, answer.after)]
+    bend = np.radians(30) / 2 * (np.pi / 0.2) ** 2
+    assert np.ravel(slopes) == pytest.approx([-bend, 0.0], abs=1e-9 * bend)

@@ -58,10 +58,11 @@ def redone(
         return
     sides = [{name: quantity(side, name) for name in k.outputs} for side in result.sides]
     numbered = bool(np.isin(codes[here], NUMBERED).any())
-    slopes_ = [
-        slopes(k, values, replace(course, result=side), one, here) if answer.rates and numbered else {}
-        for side, one in zip(result.sides, sides, strict=True)
-    ]
+    slopes_: list[dict[str, Array]] = [{} for _ in sides]
+    if answer.rates and numbered:
+        schedules = (course.schedule, course.schedule.just_after)
+        courses = [replace(course, schedule=s, result=r) for s, r in zip(schedules, result.sides, strict=False)]
+        slopes_ = [slopes(k, values, c, one, here) for c, one in zip(courses, sides, strict=True)]
     if k.reduce:
         reduce_design(k, d, sides, slopes_, answer, course)
         return

@@ -38,8 +38,7 @@ def both_sides(c: Compiled, marks: Array) -> Iterator[tuple[Ints, Compiled, Comp
 
 def just_after(c: Compiled) -> Compiled:
     """The mechanism whose drives have the accelerations just after jumps of their laws."""
-    s = c.schedule
-    return c if s.after is None else replace(c, schedule=replace(s, acceleration=s.after, after=None))
+    return c if c.schedule.after is None else replace(c, schedule=c.schedule.just_after)
 
 
 def _moved(c: Compiled, side: Array) -> Compiled:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from dalembert.arrays import Array, Flags
@@ -64,6 +64,11 @@ class Schedule:
         if self.after is None:
             return np.zeros(self.acceleration.shape, bool)
         return np.asarray(self.after != self.acceleration)
+
+    @property
+    def just_after(self) -> Schedule:
+        """The motion with the accelerations just after jumps of the laws."""
+        return self if self.after is None else replace(self, acceleration=self.after, after=None)
 
     @property
     def count(self) -> int:

@@ -149,7 +149,7 @@ def trace_analysis(
         phased=phased,
     )
     motion = drives.position, drives.speed, drives.acceleration
-    traced = _run(problem, c)
+    traced = _run(problem, c, decided=moves or solved is not None)
     catalogue = Catalogue(
         graph, replace(c, forcing=traced.forcing, contacts=problem.contacts), traced, motion, inputs, inertia
     )
@@ -303,7 +303,8 @@ def _targets(symbolic: Array, known: Array, layout: Layout, inputs: Inputs | Non
     return out
 
 
-def _run(problem: TracedProblem, c: Compiled) -> Traced:
+def _run(problem: TracedProblem, c: Compiled, decided: bool) -> Traced:
+    """The traced analysis; unless ``decided`` elsewhere, strokes and clutches are left to the general executor."""
     try:
         traced = trace(problem)
     except ZeroDivisionError:  # by constants: what varies is a symbol
@@ -315,11 +316,11 @@ def _run(problem: TracedProblem, c: Compiled) -> Traced:
         if c.contacts is None or "singular" not in str(error):
             raise ModelError(f"the mechanism cannot be compiled: {error}", "use the analyses") from error
         raise _through_friction(c) from None
-    if not problem.moves:
+    if not decided:
         margins = stroke_margins(c.mechanism, c.schedule.names, problem.drives.position)
         margins += grip_margins(c.mechanism)
         traced.doubt.extend(node(problem.graph, margin) for margin in margins)
-        if released_joints(c.mechanism):  # their status is the general executor's
+        if released_joints(c.mechanism):
             traced.doubt.append(-1.0 - abs(traced.effort[0]))
     return traced
 
