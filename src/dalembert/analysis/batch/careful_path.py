@@ -61,7 +61,9 @@ def redone(
     slopes_: list[dict[str, Array]] = [{} for _ in sides]
     if answer.rates and numbered:
         schedules = (course.schedule, course.schedule.just_after)
-        courses = [replace(course, schedule=s, result=r) for s, r in zip(schedules, result.sides, strict=False)]
+        courses = [
+            replace(course, schedule=s, result=r) for s, r in zip(schedules, result.sides, strict=False)
+        ]
         slopes_ = [slopes(k, values, c, one, here) for c, one in zip(courses, sides, strict=True)]
     if k.reduce:
         reduce_design(k, d, sides, slopes_, answer, course)

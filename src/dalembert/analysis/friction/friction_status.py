@@ -38,13 +38,20 @@ def friction_checks(c: Compiled, f: SolvedForces, solvable: Array) -> list[Check
     """Status, positions and sentence of each thing that friction can do; none without friction."""
     if f.friction is None:
         return []
-    jammed, locked = (np.any([ask(side) for side in _sides(f)], axis=0) for ask in (_jams, _locks))
+    jammed = np.any([_jams(side) for side in _sides(f)], axis=0)
     return [
         ("redundant", f.friction.blocked & solvable, lambda k: _blocked_sentence(c)),
         ("at_rest", f.friction.open.any(axis=-1) & solvable, lambda k: _open_sentence(c, f, k)),
         ("jammed", jammed & solvable, lambda k: _jam_sentence(c, f, k)),
-        ("self_locking", locked & solvable, lambda k: _locked_sentence(c, f, k)),
     ]
+
+
+def locking_checks(c: Compiled, f: SolvedForces, solvable: Array) -> list[Check]:
+    """Positions that lock themselves, whose numbers are known: for after all that leaves a position without numbers."""
+    if f.friction is None:
+        return []
+    locked = np.any([_locks(side) for side in _sides(f)], axis=0)
+    return [("self_locking", locked & solvable, lambda k: _locked_sentence(c, f, k))]
 
 
 def _sides(f: SolvedForces) -> tuple[SolvedForces, ...]:

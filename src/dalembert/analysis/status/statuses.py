@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.elements.turning_speeds import speed_checks
-from dalembert.analysis.friction.friction_status import Check, alone, arc, friction_checks, reversal_checks
+from dalembert.analysis.friction.friction_status import (
+    Check,
+    alone,
+    arc,
+    friction_checks,
+    locking_checks,
+    reversal_checks,
+)
 from dalembert.analysis.status.acceleration_jumps import jump_sentence
 from dalembert.analysis.status.brake_verdicts import clamp_checks, helping
 from dalembert.analysis.status.closure_failure import open_sentence
@@ -77,6 +84,7 @@ def statuses(
             *(belt_checks(c, path.pose, twist, f) if c.mechanism.has_limits else ()),
             *(rope_checks(c, path.pose, f) if c.mechanism.has_limits else ()),
             *grip_checks(c, f),
+            *locking_checks(c, f, held),
             ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
             ("outside_table", outside(c), lambda k: outside_sentence(c, k)),
             *reversal_checks(c, f),
