@@ -62,7 +62,7 @@ def redone(m: Any, designs: int) -> tuple[float, float]:
     """Share of positions and of designs in doubt."""
     k = da.compile(m, vary=every_number(m))
     rng = np.random.default_rng(1)
-    size = np.array([0.02 if geometric(n) else 0.3 for n in k.numbers])
+    size = np.array([0.02 if geometric(m, n) else 0.3 for n in k.numbers])
     r = k(k.nominal * (1 + size * rng.uniform(-1, 1, (designs, len(size)))), redo=False)
     doubt = r.code == 2
     return float(doubt.mean()), float(doubt.any(axis=1).mean())

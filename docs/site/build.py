@@ -42,10 +42,17 @@ SECTIONS = {
         "Reference",
         "What every key, option, name and status means.",
         "model-file model-keys command-line commands api quantities statuses conventions json-answer theory "
-        "architecture licences",
+        "architecture benchmarks licences",
     ),
 }
 """Section page -> its title, its sentence and its pages, those that exist."""
+READERS = {
+    "tutorials/student": "For students",
+    "tutorials/teacher": "For teachers",
+    "tutorials/designer": "For designers",
+    "tutorials/programmer": "For programmers",
+}
+"""Tutorial -> its short name in the navigation."""
 NOTEBOOKS = {"student": "student", "teacher": "teacher", "designer": "designer", "programmer": "tour"}
 
 
@@ -77,7 +84,10 @@ def main() -> int:
         return 1
     say("sphinx")
     shutil.rmtree(SITE, ignore_errors=True)
-    settings = os.environ | {"SITE_NOTEBOOKS": "off" if options.no_notebooks else "force"}
+    settings = os.environ | {
+        "SITE_NOTEBOOKS": "off" if options.no_notebooks else "force",
+        "IPYTHONDIR": str(kernel_settings()),
+    }
     command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-n", "-c", str(HERE)]
     command += ["-d", str(ROOT / "build" / "site-doctrees")]
     ended = subprocess.run([*command, str(SOURCE), str(SITE)], env=settings, check=False)
@@ -87,6 +97,15 @@ def main() -> int:
     size = sum(p.stat().st_size for p in SITE.rglob("*") if p.is_file()) / 1e6
     say(f"{pages} pages, {size:.0f} MB: {SITE / 'index.html'}")
     return ended.returncode or (lines.wait() if lines else 0)
+
+
+def kernel_settings() -> Path:
+    """Settings of the notebooks' kernels: not the user's, and no warning of a socket within this machine."""
+    folder = ROOT / "build" / "site-ipython"
+    (folder / "profile_default").mkdir(parents=True, exist_ok=True)
+    config = folder / "profile_default" / "ipython_kernel_config.py"
+    config.write_text('get_config().IPKernelApp.log_level = "ERROR"\n', encoding="utf-8")
+    return folder
 
 
 def say(what: str) -> None:
@@ -143,6 +162,8 @@ def resolved(text: str) -> str:
     """A page with its links out of docs/ led to the gallery, to the pages here, or shown as names of files."""
     to_problem = r"\]\(\.\./(cases|examples)/([\w-]+)\.yaml\)"
     text = re.sub(to_problem, lambda m: f"](gallery/{problem(*m.groups())}.md)", text)
+    to_figures = r"\]\(\.\./benchmarks/kept/(\w+)\.txt\)"
+    text = re.sub(to_figures, lambda m: f"](benchmarks.md#{m[1].replace('_', '-')})", text)
     return re.sub(r"\[([^\]]+)\]\(\.\./[^)]+\)", r"\1", text)
 
 
@@ -153,9 +174,10 @@ def problem(folder: str, name: str) -> str:
 def sections() -> None:
     """The pages of the sections, each with its table of contents."""
     for name, (title, sentence, pages) in SECTIONS.items():
-        here = [
+        there = [
             p for p in pages.split() if any((SOURCE / f"{p}{end}").is_file() for end in (".md", ".ipynb"))
         ]
+        here = [f"{READERS[p]} <{p}>" if p in READERS else p for p in there]
         contents = "\n".join(["```{toctree}", ":maxdepth: 2", "", *here, "```"])
         write(f"{name}.md", f"# {title}\n\n{sentence}\n\n{contents}\n")
 

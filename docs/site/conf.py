@@ -38,6 +38,7 @@ autodoc_member_order = "bysource"
 nitpick_ignore_regex = [(r"py:.*", r".*")]  # types of other packages have no page here
 default_role = "code"
 highlight_language = "none"
+smartquotes_action = "qe"  # two hyphens are an option of a command, not a dash
 
 html_theme = "pydata_sphinx_theme"
 html_title = "dalembert"

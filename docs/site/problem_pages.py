@@ -121,7 +121,7 @@ def validation(rows: list[tuple[str, da.Mechanism, ComparedAnswer]]) -> str:
         f"{met} of {len(rows)} published answers of {count} problems are met within the rounding or the drawing "
         f"accuracy of their sources; {exact} of them also have an exact value. `dalembert validate` makes the same "
         "comparison on your machine.",
-        f"Computed by {made}.",
+        f"Computed by {made}. Times are [measured](benchmarks.md) beside other programs.",
     ]
     by_source: dict[str, list[str]] = {}
     for name, m, row in rows:

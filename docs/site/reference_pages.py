@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from functools import cache
 from importlib.metadata import PackageNotFoundError, metadata
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,7 @@ def pages() -> Iterator[tuple[str, str]]:
     yield "commands", commands()
     yield "model-keys", keys()
     yield "api", names()
+    yield "benchmarks", benchmarks()
     yield "licences", licences()
 
 
@@ -62,6 +64,24 @@ def keys() -> str:
             kind = part["properties"].get("type", {}).get("const")
             head = f"{name} (`type: {kind}`)" if kind else name
             parts += [f"## {head}", plain(said), key_table(part)]
+    return "\n\n".join(parts) + "\n"
+
+
+def benchmarks() -> str:
+    """What the benchmarks printed, with date and machine, as `benchmarks/keep.py` kept it."""
+    parts = [
+        "# Benchmarks",
+        "Each script compares the numbers first, then prints medians of one run; `python benchmarks/keep.py` runs "
+        "them and keeps their lines, which are below. On a machine with other work the times are longer; "
+        "the ratios are what to read.",
+    ]
+    for kept in sorted((Path(__file__).resolve().parents[2] / "benchmarks" / "kept").glob("*.txt")):
+        head, _, printed = kept.read_text(encoding="utf-8").partition("\n\n")
+        parts += [f"## {kept.stem.replace('_', ' ').capitalize()}", *head.splitlines()[:2]]
+        parts.append("`" + head.splitlines()[2].removeprefix("$ ") + "`")
+        for table, lines in groupby(printed.splitlines(), key=lambda line: line.startswith("|")):
+            text = "\n".join(lines).strip("\n")
+            parts += ([text] if table else [f"```text\n{text}\n```"]) if text else []
     return "\n\n".join(parts) + "\n"
 
 

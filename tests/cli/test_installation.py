@@ -28,6 +28,15 @@ def test_a_sound_installation_passes(run: Run) -> None:
     assert "FAILED" not in ran.out
 
 
+def test_machine_code_is_not_called_good_where_it_is_missing(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(self_test, "find_spec", lambda name: None)
+    ran = run("doctor")
+    assert (ran.status, ran.out.count("\nok: ")) == (0, len(self_test.CHECKS) - 1)
+    assert "machine code against" not in ran.out
+
+
 def test_its_extras_are_those_of_the_package() -> None:
     project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
     assert EXTRAS.keys() == {"", *project["optional-dependencies"]} - FOR_DEVELOPERS
