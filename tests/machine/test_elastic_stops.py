@@ -54,6 +54,17 @@ drives: {O: {effort: 6}}
 assembly: {rod: -10}
 start: {O: {position: 60 deg, speed: 0}}
 """
+PLAY = """
+links:
+  ground: {points: {O: [0, 0]}}
+  motor: {points: {O: [0, 0]}, inertia: 0.2}
+  load: {points: {O: [0, 0]}, inertia: 0.3}
+joints:
+  O: {type: pin, links: [ground, motor]}
+  C: {type: pin, links: [motor, load], at: [O, O], stops: {from: -2 deg, to: 2 deg, stiffness: 5000 N*m/rad}}
+drives: {O: {effort: 0}}
+start: {O: {position: 0, speed: 3 rad/s}, C: {position: 0, speed: -3 rad/s}}
+"""
 OUT_AND_BACK = "1 s"
 
 
@@ -160,12 +171,62 @@ def test_wrong_stops_are_named_with_their_line(
     assert sentence in str(raised.value)
 
 
-def test_elastic_stops_of_what_no_free_drive_moves_are_refused() -> None:
+def test_a_joint_without_a_drive_has_the_stop_that_a_load_by_its_slide_is() -> None:
+    """With every joint force, and also while another drive is prescribed."""
+    force = 'value: "1e5 N/m*max(0 m, 0.25 m - joints.S.slide)"}'
+    load = f"loads: {{F: {{type: force, on: piston, by: ground, at: B, direction: 0, {force}}}\n"
+    plain = da.loads(CRANK.replace(", stops: {from: 0.25, stiffness: 1e5}", "") + load)
+    s, known = da.simulate(da.loads(CRANK), "0.5 s"), da.simulate(plain, "0.5 s")
+    assert [e.sentence for e in s.events] == [
+        "S meets its elastic stop at 0.25 m with 0.560813 m/s",
+        "S leaves its elastic stop at 0.25 m",
+    ]
+    for name in ("O", "A", "S"):
+        assert s.result.reaction(name) == pytest.approx(known.result.reaction(name), rel=1e-7, abs=1e-6)
+    assert s.works["loads"] == pytest.approx(known.works["loads"], abs=1e-9)
+    assert s.joint_stop_force["S"].max() > 900
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
+def test_play_between_two_rotors_passes_on_their_momentum() -> None:
+    """One turns by 2 deg before it meets the other: half a period of both on the spring, then as after an impact."""
+    m = da.loads(PLAY)
+    s = da.simulate(m, "40 ms")
+    met, left = s.event("stop")
+    assert met.time == pytest.approx(math.radians(2) / 3, rel=1e-9)
+    assert left.time - met.time == pytest.approx(math.pi / math.sqrt(5000 * (1 / 0.2 + 1 / 0.3)), rel=1e-9)
+    speeds = s.speed("O")[-1], (s.speed("O") + s.speed("C"))[-1]
+    assert speeds == pytest.approx([3 * (0.2 - 0.3) / 0.5, 3 * 2 * 0.2 / 0.5], rel=1e-9)
+    rigid = m.with_values({"joints.C.stops": {"from": "-2 deg", "to": "2 deg", "restitution": 1}})
+    assert da.simulate(rigid, "30 ms").speed("O")[-1] == pytest.approx(speeds[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", tiers([0], [1, 2], range(3, 40)))
+def test_random_stops_of_a_rocker_keep_the_laws_and_only_push(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    a, b = np.sort(rng.uniform(1.2, 2.2, 2))
+    stiffness, damping = 10 ** rng.uniform(2, 4), rng.uniform(0, 3)
+    stops = f"{{from: {a} rad, to: {b + 0.1} rad, stiffness: {stiffness} N*m/rad"
+    stops += f", damping: {damping} N*m*s/rad}}" if seed % 2 else "}"
+    text = RUBBING.replace(", friction: {coefficient: 0.2, radius: 20 mm}", "").replace("SPEED", "6")
+    text = text.replace(", stops: {from: 20 deg, to: 140 deg, stiffness: 400 N*m/rad, damping: 0.5}", "")
+    s = da.simulate(da.loads(text.replace("[ground, rocker]", f"[ground, rocker], stops: {stops}")), "0.4 s")
+    force = s.joint_stop_force["C"]
+    assert np.abs(force).max() > 0
+    angle = s.result["turn.C"]
+    assert (force * (np.clip(angle, a, b + 0.1) - angle) >= -1e-9).all()
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
+def test_elastic_stops_of_what_is_prescribed_or_rubs_are_refused() -> None:
     prescribed = da.loads(LEVER).with_values({"drives.O.effort": "1 N*m"})
     with pytest.raises(ModelError, match="drive 'O' is prescribed, and its stops would be gone through"):
         da.simulate(da.loads(TWO), "1 s")
-    with pytest.raises(ModelError, match="joint 'S' has elastic stops, but no drive that forces move"):
-        da.simulate(da.loads(CRANK), "1 s")
+    rubs = CRANK.replace(
+        "links: [crank, rod]", "links: [crank, rod], friction: {coefficient: 0.1, radius: 9 mm}"
+    )
+    with pytest.raises(ModelError, match="joint 'S' has elastic stops beside dry friction"):
+        da.simulate(da.loads(rubs), "1 s")
     assert da.simulate(prescribed, "0.1 s").status == "ended"
 
 

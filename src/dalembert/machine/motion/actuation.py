@@ -90,10 +90,12 @@ class Actuation:
             for k, e in efforts.items()
             if isinstance(e, Expression | Table)
         }
-        elastic = {k: d for k, d in enumerate(self.drives) if d.stops is not None and d.stops.stiffness}
         self.elastic = {
-            k: ElasticStops(None, f"the stop of drive {self.names[k]!r}", name=self.names[k], drive=d)
-            for k, d in elastic.items()
+            k: ElasticStops(
+                None, f"the stop of drive {name!r}", name=name, freedom=str(d.freedom), stops=d.stops
+            )
+            for k, (name, d) in enumerate(self.m.drives.items())
+            if d.stops is not None and d.stops.stiffness
         }
 
     def _begins(self, k: int) -> bool:
@@ -278,14 +280,6 @@ def _with_stops_of_drives(m: Mechanism, free: list[str]) -> tuple[Mechanism, dic
         if ends:
             drives[name] = drive.model_copy(update={"stops": ends})
             joints[joint] = joints[joint].model_copy(update={"stops": None})
-    for name, joint_ in joints.items():
-        left = getattr(joint_, "stops", None)
-        if left is not None and left.stiffness:
-            raise ModelError(
-                f"joint {name!r} has elastic stops, but no drive that forces move",
-                f"release a drive of {name!r}, leave the stiffness out, or write a spring by a table",
-                ("joints", name, "stops"),
-            )
     return m.model_copy(update={"drives": drives}), joints
 
 

@@ -269,13 +269,15 @@ class Equation:
         sense: Array,
         stuck: Flags,
         rotor: Array | float = 0.0,
+        pushed: Callable[[Terms], Terms] = lambda terms: terms,
     ) -> tuple[Contacted, Terms]:
         """Accelerations (D,), those of ``free`` drives (D,) from their efforts tau, with what contacts do; the terms.
-        ``rotor`` (D,): inertias of what turns with the drives beside the links.
+        ``rotor`` (D,): inertias of what turns with the drives beside the links; ``pushed``: the terms with what else
+        pushes.
 
         Raises StoppedError where there are none: the mechanism does not close, or is singular, or jams.
         """
-        e, a = self(t, q, u), np.where(free, 0.0, prescribed)
+        e, a = pushed(self(t, q, u)), np.where(free, 0.0, prescribed)
         if not all(np.isfinite(x).all() for x in (e.effort, e.mass, *(e.linear or ()))):
             raise StoppedError(OPEN)
         e = e._replace(mass=e.mass + np.diag(rotor + np.zeros(len(a))))

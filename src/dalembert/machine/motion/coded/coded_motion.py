@@ -44,7 +44,8 @@ class CodedState(LeadState):
     def machine(self, t: float, y: Array) -> Coded | None:
         """Machine code and its values, where the efforts are straight lines of the speeds until the next event."""
         free = self.acting.free & ~self.locked
-        if self.pressed or self.acting.laws or self.careful or (self.stuck.any() and free.sum() < 2):
+        rough = self.pressed or self.elastic_joints or self.acting.laws or self.careful
+        if rough or (self.stuck.any() and free.sum() < 2):
             return None
         bent = any(motor.kinks for motor in self.acting.motors.values())
         ahead = self.at(t, y)[0] if bent else np.zeros(self.d)

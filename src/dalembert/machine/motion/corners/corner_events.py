@@ -13,10 +13,10 @@ import numpy as np
 
 from dalembert.arrays import Array
 from dalembert.machine.motion.actuation import Actuation
+from dalembert.machine.motion.corners.elastic_joints import ElasticState
 from dalembert.machine.motion.corners.one_sided import Sided, has_corners
 from dalembert.machine.motion.equation import LoadChannel, StoppedError
 from dalembert.machine.motion.occurrences import Guard, Value, Words
-from dalembert.machine.motion.rest.standstill import ContactState
 from dalembert.model import Mechanism
 
 AHEAD = 1e-7
@@ -45,7 +45,7 @@ class Switch:
     passed: list[float] = field(default_factory=list)
 
 
-class CornerState(ContactState):
+class CornerState(ElasticState):
     """A motion whose loads and efforts have corners, each ``switching`` on one side."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
@@ -62,6 +62,11 @@ class CornerState(ContactState):
                 yield channel.sided, partial(self._known_of, channel)
         for sided in getattr(self.acting, "own", self.acting).switched_efforts:
             yield sided, lambda t, y: self.acting.known(t, y[:d], y[d : 2 * d])
+        for j, elastic in self.elastic_joints.items():
+            yield elastic, partial(self._known_of_joint, j)
+
+    def _known_of_joint(self, j: int, t: float, y: Array) -> dict[str, float]:
+        return self.joint_motion(j, self.equation(t, y[: self.d], y[self.d : 2 * self.d]))
 
     def _known_of(self, channel: LoadChannel, t: float, y: Array) -> dict[str, float]:
         return channel.known(t, y[: self.d])

@@ -1,4 +1,4 @@
-"""Elastic and damped stops of drives: a spring and a damper that act beyond a position, and only push.
+"""Elastic and damped stops of drives and joints: a spring and a damper that act beyond a position, and only push.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -6,7 +6,7 @@ Mechanics: docs/theory.md 10.6.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.machine.motion.corners.one_sided import Sided
 from dalembert.machine.motion.occurrences import Words
-from dalembert.model.drives.drives import Drive, kind_of
+from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.end_stops import Stops
 from dalembert.model.quantities.coordinates import SPEED
 
@@ -41,18 +41,13 @@ def stop_forces(stops: Stops, x: Array, rate: Array) -> Array:
 
 @dataclass
 class ElasticStops(Sided):
-    """Elastic stops of a drive by its ``name``: contact and pressure of each are switches, in this order."""
+    """Elastic ``stops`` of the ``freedom`` of a drive or joint by its ``name``: contact and pressure of each are
+    switches, in this order."""
 
     value: Any = None
     name: str = ""
-    drive: Drive | None = None
-
-    @property
-    def stops(self) -> Stops:
-        """Its stops."""
-        assert self.drive is not None
-        assert self.drive.stops is not None
-        return self.drive.stops
+    freedom: str = ""
+    stops: Stops = field(default_factory=Stops)
 
     @property
     def ends(self) -> list[float]:
@@ -76,11 +71,11 @@ class ElasticStops(Sided):
         each = 2 if self.stops.damping else 1
         end, which = divmod(k, each)
         other = self.sides[each * end + 1 - which] if each == 2 else 1.0
-        if other < 0 or self.drive is None:
+        if other < 0:
             return ()
-        side, kind = self.ends[end], kind_of(self.drive.freedom, "")
+        side, kind = self.ends[end], kind_of(self.freedom, "")
         place = self.stops.least if side < 0 else self.stops.greatest
         if self.sides[k] < 0:
             return (f"{self.name} leaves its elastic stop at ", (kind, place))
-        rate = (kind_of(self.drive.freedom, "speed"), abs(float(known[self.name + SPEED])))
+        rate = (kind_of(self.freedom, "speed"), abs(float(known[self.name + SPEED])))
         return (f"{self.name} meets its elastic stop at ", (kind, place), " with ", rate)

@@ -14,6 +14,7 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation, drive_lengths
+from dalembert.machine.motion.corners.elastic_stops import ElasticStops
 from dalembert.machine.motion.equation import Equation, StoppedError, Terms, no_inertia
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event, Guard, Value, Words
@@ -71,6 +72,7 @@ class ContactState:
         self.stuck: Flags = np.zeros(dry.contacts.count if dry else 0, bool)
         self.rubs: Flags = actuation.free & ((dry is not None) | (actuation.brake > 0) | actuation.lossy)
         self.fastest = np.abs(actuation.speed)
+        self.elastic_joints = dict[int, ElasticStops]()
         self.events: list[Event] = []
         self.switched: set[tuple[int, str]] = set()
         self.evaluations, self.refusal = 0, ""
@@ -93,7 +95,8 @@ class ContactState:
         tau = applied - self.acting.brake * self.toward
         free = self.acting.free & ~self.locked
         a = self.acting.accelerations(t)
-        contacts, terms = self.equation.accelerations(t, q, u, a, tau, free, self.sense, self.stuck, rotor)
+        state = self.sense, self.stuck, rotor, self.with_elastic_stops
+        contacts, terms = self.equation.accelerations(t, q, u, a, tau, free, *state)
         held, tau = applied if self.equation.dry else contacts.effort, tau - rotor * contacts.a
         return contacts, np.where(free, tau, np.where(self.acting.free, held, contacts.effort)), terms
 
@@ -110,6 +113,21 @@ class ContactState:
         power = self.acting.powers(t, y[: self.d], u, effort)
         late = self.acting.torque_rates(u)
         return np.concatenate([u, contacts.a, power - braking, [braking.sum()], terms.power, [rubbing], late])
+
+    def elastic_force(self, j: int, terms: Terms) -> float:
+        """Force of a joint's elastic stop in its freedom, N m or N."""
+        raise NotImplementedError
+
+    def elastic_push(self, terms: Terms) -> tuple[Array, float]:
+        """Efforts (D,) of joints' elastic stops on the drives, and their power."""
+        return np.zeros(self.d), 0.0
+
+    def with_elastic_stops(self, terms: Terms) -> Terms:
+        """The terms with the forces of joints' elastic stops."""
+        if not self.elastic_joints:
+            return terms
+        push, power = self.elastic_push(terms)
+        return terms._replace(effort=terms.effort - push, power=terms.power + np.array([power, 0.0]))
 
     def take_torques(self, y: Array) -> None:
         """Take the efforts of late motors from a state, at whose end they are."""
@@ -178,6 +196,7 @@ class ContactState:
         if np.isnan(low) or np.isnan(high):
             raise StoppedError(f"{name} is at rest: {r.reasons[1] or r.status[1]}")
         tau, half = self._held(k, t, q, u)
+        tau += self.elastic_push(self.equation(t, q, u))[0][k]
         low, high = low - half, high + half
         return tau, -np.inf if self.on_stop[k] < 0 else low, np.inf if self.on_stop[k] > 0 else high
 

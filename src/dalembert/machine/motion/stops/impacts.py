@@ -6,7 +6,7 @@ Mechanics: docs/theory.md 10.6.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
@@ -90,6 +90,8 @@ class StopState(ClutchState):
         self.stops = [Stop(actuation.names[k], str(d.freedom), d.stops, drive=k) for k, d in free if d.stops]
         joints = enumerate(joint_stops(m).items())
         for j, ((name, freedom), ends) in joints:
+            if ends.stiffness:  # never struck
+                ends = replace(ends, least=-np.inf, greatest=np.inf)
             way, pitch = (float(getattr(m.joints[name], key, 0.0)) for key in ("way", "pitch"))
             self.stops.append(Stop(name, freedom, ends, joint=j, way=way, pitch=pitch))
         y = np.concatenate([actuation.position, actuation.speed])
@@ -320,7 +322,7 @@ class StopState(ClutchState):
         self.take_torques(y)
         tau = acting.effort(t, q, u) - acting.brake * self.toward
         a = acting.accelerations(t)
-        e = self.equation(t, q, u)
+        e = self.with_elastic_stops(self.equation(t, q, u))
         e = e._replace(mass=e.mass + np.diag(rotor))
         rows = e.freedoms[[s.joint for s in self.pressed]]
         n, none = rows[:, 3:], np.zeros((len(rows), len(rows)))
@@ -355,6 +357,11 @@ class StopState(ClutchState):
                 out[k, 1] = self._row(stop, terms)[self._drive_of(stop)]
         for stop, force in zip(self.pressed, self.pushing, strict=False):
             out[self.stops.index(stop), 0] = force
+        for k, stop in enumerate(self.stops):
+            if stop.joint in self.elastic_joints:
+                out[k, 0] = self.elastic_force(
+                    stop.joint, self.equation(t, y[: self.d], y[self.d : 2 * self.d])
+                )
         return out[[k for k, stop in enumerate(self.stops) if stop.joint >= 0]]
 
     def _note_impact(self, stop: Stop, side: float, t: float, of: Sequence[float]) -> None:

@@ -1,0 +1,71 @@
+"""Elastic stops of joints that no drive moves: their forces on the drives, at each state.
+
+A force F in a joint's freedom x is n^T F on the drives, where n = dx/dq, and has the power F x'.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.machine.motion.actuation import Actuation, joint_stops
+from dalembert.machine.motion.corners.elastic_stops import ElasticStops
+from dalembert.machine.motion.equation import Terms
+from dalembert.machine.motion.rest.standstill import ContactState
+from dalembert.model import Mechanism
+from dalembert.model.drives.end_stops import Stops
+from dalembert.model.quantities.coordinates import SPEED
+
+
+class ElasticState(ContactState):
+    """A motion some of whose joints have elastic stops; ``turned``: their last positions, full turns counted."""
+
+    def __init__(self, m: Mechanism, actuation: Actuation) -> None:
+        super().__init__(m, actuation)
+        self.turned = dict[int, float]()
+        for j, ((name, freedom), stops) in enumerate(joint_stops(m).items()):
+            if stops.stiffness:
+                what = f"the stop of joint {name!r}"
+                self.elastic_joints[j] = ElasticStops(None, what, name=name, freedom=freedom, stops=stops)
+        if self.elastic_joints and self.equation.dry:
+            name = next(iter(self.elastic_joints.values())).name
+            raise ModelError(
+                f"joint {name!r} has elastic stops beside dry friction, and its forces change that friction",
+                f"release a drive of {name!r}, leave the stiffness out, or write a spring by a table",
+                ("joints", name, "stops"),
+            )
+
+    def joint_motion(self, j: int, terms: Terms) -> dict[str, float]:
+        """Position and rate of such a joint by its name, full turns counted from the last state on."""
+        elastic, (x, rate) = self.elastic_joints[j], terms.freedoms[j][:2].tolist()
+        if elastic.freedom == "turn" and np.isfinite(x):
+            last = self.turned.get(j, within(elastic.stops, x))
+            x += 2 * np.pi * round((last - x) / (2 * np.pi))
+            self.turned[j] = x
+        return {elastic.name: x, elastic.name + SPEED: rate}
+
+    def elastic_force(self, j: int, terms: Terms) -> float:
+        """Force of a joint's elastic stop in its freedom, N m or N."""
+        return self.elastic_joints[j].at(self.joint_motion(j, terms))
+
+    def elastic_push(self, terms: Terms) -> tuple[Array, float]:
+        """Efforts (D,) of joints' elastic stops on the drives, and their power."""
+        push, power = np.zeros(self.d), 0.0
+        for j in self.elastic_joints:
+            force = self.elastic_force(j, terms)
+            push += force * terms.freedoms[j][3:]
+            power += force * terms.freedoms[j][1]
+        return push, power
+
+
+def within(stops: Stops, x: float) -> float:
+    """The angle equal to x up to full turns that is between stops, or nearest to them.
+
+    >>> round(within(Stops(5.0, 6.0), -1.0), 4)
+    5.2832
+    """
+    turns = [x + 2 * np.pi * n for n in range(-2, 3)]
+    return min(turns, key=lambda x: (max(stops.least - x, x - stops.greatest, 0.0), abs(x)))
