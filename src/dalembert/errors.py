@@ -128,7 +128,7 @@ STATUSES: dict[str, Status] = {
     ),
     "undefined_load": Status(
         "A preloaded spring, or one of constant force, has zero length here: its force has no direction.",
-        "Step over this position, move an end of the spring, or give a preloaded one no free length.",
+        "Step over this position, move an end of the spring, or remove the free length of a preloaded one.",
     ),
     "overflow": Status(
         "A number is too large for the arithmetic: beyond 1.8e308 in SI, or joints of a link more than 1e150 m apart.",
@@ -139,7 +139,7 @@ STATUSES: dict[str, Status] = {
         "Leave an effort or a load unknown, or widen the range.",
     ),
     "jammed": Status(
-        "Friction holds the mechanism: no effort moves it in this sense.",
+        "Friction holds the mechanism: no effort moves it in this direction.",
         "Reduce friction or change the geometry.",
     ),
     "self_locking": Status(
@@ -147,19 +147,20 @@ STATUSES: dict[str, Status] = {
         "Reduce friction if the load is to drive the machine.",
     ),
     "reversal": Status(
-        "Friction changes its sense here: the numbers jump from those just before to those just after.",
+        "Friction reverses here: the numbers jump from those just before to those just after.",
         "",
     ),
     "outside_table": Status(
-        "A load is a table that ends before this position: the value at its end was used.",
+        "The table of a load ends before this position: its end value was used.",
         "Give the table more points, make it periodic, or write outside: hold or outside: zero.",
     ),
     "contact_lost": Status(
         "A contact that only pushes would have to pull, or the reverse: it is lost.",
-        "Load or preload the contact, move more slowly, or write contact: holds if it carries forces in both senses.",
+        "Load or preload the contact, move more slowly, or write contact: holds if it carries forces in both "
+        "directions.",
     ),
     "slips": Status(
-        "A belt, a rope, a wheel or a clutch needs more friction than it has: it slips.",
+        "A belt, a rope, a wheel or a clutch needs more friction than is available: it slips.",
         "Raise the tension, the force or the coefficient, or lower the load.",
     ),
     "slack": Status(
@@ -175,7 +176,7 @@ STATUSES: dict[str, Status] = {
         "Change its closed length or its stroke, or the range of the motion.",
     ),
     "jump": Status(
-        "The acceleration of a prescribed motion jumps here: forces are those just before and just after.",
+        "The acceleration of a prescribed motion jumps here: forces are given just before and just after the jump.",
         "",
     ),
     "at_rest": Status(

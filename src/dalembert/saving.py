@@ -37,7 +37,7 @@ def check_new(path: Path, overwrite: bool) -> None:
         raise ModelError(f"{path} is {kind}", "name a file" + (" in it" if kind == "a folder" else ""))
     if not os.path.isdir(path.parent):
         raise ModelError(
-            f"cannot write {path}: folder {path.parent} does not exist", "make it, or name another"
+            f"cannot write {path}: folder {path.parent} does not exist", "create it, or name another"
         )
     if os.path.exists(path) and not overwrite:
         raise ModelError(
@@ -128,7 +128,7 @@ def check_new_folder(folder: Path, overwrite: bool) -> bool:
     """Raise where a folder cannot be written: before the work; whether it has files, which ``overwrite`` allows."""
     if not folder.parent.is_dir():
         raise ModelError(
-            f"cannot write {folder}: folder {folder.parent} does not exist", "make it, or name another"
+            f"cannot write {folder}: folder {folder.parent} does not exist", "create it, or name another"
         )
     if folder.exists() and not folder.is_dir():
         raise ModelError(f"{folder} is a file", "name a folder")

@@ -67,4 +67,4 @@ def test_every_command_has_help_with_examples(run: Run, command: str) -> None:
 
 def test_no_command_shows_help(run: Run) -> None:
     assert run() == run("--help")
-    assert "Exit status: 0 all positions solved; 1 some position is not; 2 the file" in run("--help").out
+    assert "Exit status: 0 all positions solved; 1 some positions are not; 2 the file" in run("--help").out

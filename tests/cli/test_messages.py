@@ -102,7 +102,7 @@ from tests.cli.conftest import Run
         (["new", "four_bra"], "unknown template 'four_bra'; did you mean 'four_bar'?"),
         (
             ["convert", "four_bar.yaml"],
-            "convert needs one file to write; write dalembert convert FILE OUT",
+            "convert needs one output file; write dalembert convert FILE OUT",
         ),
         (
             ["convert", "four_bar.yaml", "-o", "four_bar.txt"],

@@ -29,8 +29,8 @@ O2     ground   crank     -117.56  -107.459  159.272    -137.57       0
 A      crank    coupler  -118.026  -100.172  154.805   -139.678       0
 B      coupler  rocker    1.30956  -87.4015  87.4113   -89.1416       0
 O4     ground   rocker   -20.2378   77.6581  80.2518    104.606       0
-F_ij is the force by link i on link j, in ground axes; moments about j's point
-of the joint.
+F_ij is the force by link i on link j, in ground axes; moments about the joint's
+point on j.
 
 link      angle  ang. speed  ang. acc.  center x  center y   acc. x   acc. y
             deg       rad/s    rad/s^2        in        in   in/s^2   in/s^2
@@ -236,7 +236,7 @@ def test_a_folder_that_is_not_there(run: Run) -> None:
     assert ran == (
         2,
         "",
-        "cannot write nowhere/out.csv: folder nowhere does not exist; make it, or name another\n",
+        "cannot write nowhere/out.csv: folder nowhere does not exist; create it, or name another\n",
     )
 
 

@@ -104,7 +104,7 @@ def test_a_rod_at_45_degrees_jams_above_1(mu: float) -> None:
     assert r.friction.critical[0] == pytest.approx(1 / mu, rel=1e-9)
     assert da.efficiency(r).forward[0] == 0
     assert r.reasons[0] == (
-        "Friction jams the mechanism at guide = 1 m: no effort moves it in this sense, whatever its size. "
+        "Friction jams the mechanism at guide = 1 m: no effort moves it in this direction, whatever its size. "
         f"It would move with less than {1 / mu:.6g} times the coefficients of friction."
     )
 

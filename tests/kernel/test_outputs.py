@@ -124,7 +124,7 @@ def test_names_with_signs_and_links_with_several_joints() -> None:
     [
         ("efort.O2 + 1", "unknown output 'efort.O2'; did you mean 'effort.O2'?"),
         ("reaction.A + 3", "write reaction.A.x or reaction.A.magnitude"),
-        ("effort.O2 +", "it stops in the middle"),
+        ("effort.O2 +", "it is incomplete"),
         ("foo(effort.O2)", "unknown function 'foo'"),
         ("effort.O2 effort.O2", "'effort.O2 effort.O2': unexpected 'effort.O2' at the end"),
         ("transmission.O2", "unknown output 'transmission.O2'; did you mean 'transmission.B'?"),

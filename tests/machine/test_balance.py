@@ -368,7 +368,7 @@ def test_an_rssr_is_balanced_by_its_crank_and_rocker(
 
 
 WRONG = [
-    ({"arm": {}}, {}, "a counterweight cannot be on 'arm'"),
+    ({"arm": {}}, {}, "'arm' is not a moving link that can carry a counterweight"),
     ({"crank": {"radios": 1}}, {}, "counterweight on crank: unknown bound 'radios'"),
     ({"crank": {"radius": -1.0}}, {}, "counterweight on crank: radius is -1; give a number above 0"),
     (

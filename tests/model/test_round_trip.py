@@ -130,7 +130,7 @@ def test_what_cannot_be_written_is_said_and_leaves_no_file(tmp_path: Path) -> No
     mechanism = from_tree({"title": "\ud800", "links": {"a": {}}})
     for name, says in {
         "a.json": r"cannot write .*a\.json: a text in it has '\\ud800', half a character; write that text again",
-        "none/a.yaml": r"cannot write .*a\.yaml: folder .*none does not exist; make it, or name another",
+        "none/a.yaml": r"cannot write .*a\.yaml: folder .*none does not exist; create it, or name another",
         "a\0.yaml": r"cannot write .*\.yaml: .*null byte; name a file that can be written",
         "a.txt": "'.txt' is not an extension of model files; use .yaml, .json or .toml",
     }.items():

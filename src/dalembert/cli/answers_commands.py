@@ -126,7 +126,7 @@ def grade(
     of: Steady = AS_STATED,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
-    """Grade a class's ANSWERS by a key: mistakes named, partial credit, carried-forward errors not penalised twice."""
+    """Grade a class's ANSWERS against a key: mistakes named, partial credit, carried-forward errors penalised once."""
     from dalembert.grading.marking.grade import grade as graded
     from dalembert.saving import check_new_folder
 

@@ -33,9 +33,9 @@ EPILOGUE = """Examples:
   dalembert solve --help
   dalembert --version
 
-With --data FOLDER, tables of any command's FILE may be read from FOLDER too, not only from beside FILE.
+With --data FOLDER, any command also accepts tables of FILE in FOLDER, not only in the folder of FILE.
 
-Exit status: 0 all positions solved; 1 some position is not; 2 the file or the command line is wrong."""
+Exit status: 0 all positions solved; 1 some positions are not; 2 the file or the command line is wrong."""
 
 GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
     "Solve and show": {

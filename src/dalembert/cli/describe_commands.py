@@ -137,12 +137,12 @@ def convert(
     strict: Annotated[bool, flag("Write nothing where something would not be kept.")] = False,
     force: Force = False,
 ) -> int:
-    """Write a model file in another format: .yaml, .json, .toml, or that of another program; either may be FILE's."""
+    """Write a model file as .yaml, .json or .toml, or in the format of another program; FILE may be in any of these."""
     from dalembert.cli.options import with_settings
     from dalembert.model import convert as convert_file
 
     if (target is None) == (output is None):
-        raise ModelError("convert needs one file to write", "write dalembert convert FILE OUT")
+        raise ModelError("convert needs one output file", "write dalembert convert FILE OUT")
     out = target or output
     assert out is not None
     check_new(out, force)

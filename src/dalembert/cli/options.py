@@ -94,7 +94,7 @@ At = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="Position: its number, counted from 1, a value of the first drive such as 60deg, or an extreme of a "
+        help="Position: a number (from 1), a value of the first drive such as 60deg, or an extreme of a "
         'quantity: "max effort.O2", "min transmission.B", "peak reaction.A" (largest magnitude); default: the first.',
     ),
 ]

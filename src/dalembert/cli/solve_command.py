@@ -30,7 +30,7 @@ def solve(
     method: Annotated[
         Literal["matrix", "steps", "superposition", "virtual-work", "fixed-point"],
         with_help(
-            "Method; steps solves one unknown after the other, as on paper; fixed-point shows the textbook iteration "
+            "Method; steps solves for one unknown at a time, as on paper; fixed-point shows the textbook iteration "
             "for friction at the first position."
         ),
     ] = "matrix",

@@ -189,7 +189,8 @@ def fixed_point(r: Result, about: About) -> tuple[str, Array]:
     if isinstance(about, str):
         if about not in points:
             raise ModelError(
-                f"{about!r} is not a joint with the ground or a point of it", closest(about, list(points))
+                f"{about!r} is neither a joint with the ground nor a point of the ground",
+                closest(about, list(points)),
             )
         return about, np.array(points[about], float)
     for value in about:

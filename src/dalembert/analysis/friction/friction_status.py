@@ -118,7 +118,7 @@ def _kinds(c: Compiled) -> list[str]:
     return ["moment" if turning else "force" for turning in (*turns, *c.known.couple)]
 
 
-JAMMED = "Friction jams the mechanism{arc}{side}: no effort moves it in this sense, whatever its size."
+JAMMED = "Friction jams the mechanism{arc}{side}: no effort moves it in this direction, whatever its size."
 FREED = "It would move with less than {scale} times the coefficients of friction."
 GRABS = "the brake grabs{arc}: from mu = {least} on it holds any torque (now {now})"
 LOCKED = "Self-locking{arc}{side}: the load cannot drive the machine against its friction"

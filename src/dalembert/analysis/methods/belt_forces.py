@@ -79,7 +79,7 @@ def belt_forces(r: Result, joint: str) -> BeltForces:
         return _with_idlers(r, joint)
     if joint not in belts:
         known = [*belts, *rings]
-        remedy = closest(joint, known) if known else "write a joint of type: belt"
+        remedy = closest(joint, known) if known else "add a joint of type: belt"
         raise ModelError(f"{joint!r} is not a belt", remedy)
     k, belt = list(belts).index(joint), belts[joint]
     held = held_result(r)

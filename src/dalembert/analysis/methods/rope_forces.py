@@ -45,7 +45,7 @@ def rope_forces(r: Result, joint: str) -> RopeForces:
     """
     ropes = r.mechanism.ropes
     if joint not in ropes:
-        remedy = closest(joint, list(ropes)) if ropes else "write a joint of type: rope"
+        remedy = closest(joint, list(ropes)) if ropes else "add a joint of type: rope"
         raise ModelError(f"{joint!r} is not a rope", remedy)
     held = held_result(r)
     lines = rope_lines(held.compiled, joint, full_pose(held), held.force_array)

@@ -1,6 +1,6 @@
 """Reactions of a result in any axes: ground's, those of the link acted on, in space the joint's.
 
-A wrench is (force, moment about j's point of the joint): three numbers in the plane, six in space.
+A wrench is (force, moment about the joint's point on j): three numbers in the plane, six in space.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ class Result(LinkMotion, ElementAnswers, NamedAnswer, Labelled, Drawn, Worked):
     """Answer of one analysis over P positions (a leading axis design may precede position).
 
     Everything in SI and radians, vectors in ground axes. A reaction is exerted by a joint's other link on the requested
-    link, at that link's point of the joint. NaN where unsolved; ``status`` and ``reasons`` give the reason. Where
+    link, at the joint's point on that link. NaN where unsolved; ``status`` and ``reasons`` give the reason. Where
     contacts reverse the numbers are those just before, and ``after`` is the complete result with those just after.
 
     >>> import dalembert as da
@@ -236,7 +236,7 @@ class Result(LinkMotion, ElementAnswers, NamedAnswer, Labelled, Drawn, Worked):
         return self._wrench(joint, on, axes)[..., : self._d]
 
     def reaction_moment(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
-        """Moment of a joint on one of its links about j's point of the joint: (P,), in space (P, 3)."""
+        """Moment of a joint on one of its links about the joint's point on j: (P,), in space (P, 3)."""
         if self._d == 2:
             return self._wrench(joint, on, "ground")[..., 2]
         return self._wrench(joint, on, axes)[..., 3:]

@@ -35,8 +35,8 @@ UNFOLLOWED = (
     "branches are too close to be distinguished. Solve these positions separately, with an assembly, or "
     "change a length."
 )
-ONE = "the {what} of joint {joint} stay {figure} {how}"
-SEVERAL = "the {what} of its joints stay {how} by {total} in total, {where}"
+ONE = "the {what} of joint {joint} remain {figure} {how}"
+SEVERAL = "the {what} of its joints remain {total} {how} in total, {where}"
 ALL_ALIKE, MOST = "equally at {joints}", "mostly at {joint} ({figure})"
 WORDS = {"length": {"what": "points", "how": "apart"}, "angle": {"what": "axes", "how": "out of line"}}
 """Words for a joint's gap, by its kind."""
@@ -105,7 +105,7 @@ def _aside(c: Compiled, pose: Pose) -> Pose:
 
 
 def _most(c: Compiled, open_: Array, kind: str, size: float) -> str:
-    """'the points of joint B stay 12 mm apart', or of several the sum and the widest; nothing where all are shut."""
+    """'the points of joint B remain 12 mm apart', or of several the sum and the widest; nothing where all are shut."""
     wide = np.flatnonzero(open_ > SHUT * size)
     if not wide.size:
         return ""

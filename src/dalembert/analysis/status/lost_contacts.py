@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 LACKS = (
     "{joint} would have to {missing} with {force}{arc}: {what}. This contact only {mode}; "
-    "write contact: holds if it carries forces in both senses."
+    "write contact: holds if it carries forces in both directions."
 )
 SLIPS = (
     "{joint} slips{arc}: to roll it needs a coefficient of friction of {needs} at rest and has {has}. Load it more, or "

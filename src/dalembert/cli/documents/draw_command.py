@@ -69,7 +69,7 @@ def draw(
     theme: Theme = "light",
     paper: Annotated[
         Literal["a4", "letter", "fit"] | None,
-        with_help("Pages of a .pdf: a4 (default), letter, or fit: one as large as the drawing."),
+        with_help("Pages of a .pdf: a4 (default), letter, or fit: one page as large as the drawing."),
     ] = None,
     camera: Seen = None,
     names: Names = False,

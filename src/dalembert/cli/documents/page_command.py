@@ -23,7 +23,7 @@ def page(
     of: Steady = AS_STATED,
     force: Force = False,
 ) -> int:
-    """Make a live page of FILE, one HTML file: drag joints, change numbers, and all forces follow.
+    """Make a live page of FILE: one HTML file in which to drag joints and change numbers, and see all forces change.
 
     A mechanism that is not finished is a sketch: drag its links, and add what is missing.
     """

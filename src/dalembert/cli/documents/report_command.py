@@ -30,14 +30,16 @@ def report(
     design: Annotated[
         bool,
         flag(
-            "Write the design report instead: a verdict with its margin for all that the file has data for, "
-            "over the cycle, and the worst position of each thing."
+            "Write the design report instead: over the cycle, for each part that the file has data for, a verdict "
+            "with its margin and the worst position."
         ),
     ] = False,
     style: Style = AS_USUAL,
     about: Annotated[str, with_help("Joint about which moments are taken, for links that have it.")] = "",
     begin: Annotated[str, with_help("Link whose forces are solved first, as far as possible.")] = "",
-    along: Annotated[str, with_help("Angle of the first axis of the sums of forces, as 30deg.")] = "0",
+    along: Annotated[
+        str, with_help("Angle of the first axis along which forces are summed, e.g. 30deg.")
+    ] = "0",
     of: OfAt = AT_FIRST,
     force: Force = False,
 ) -> int:

@@ -37,7 +37,7 @@ def cam(
     m = changes.load(file)
     name = joint or next((n for n, j in m.joints.items() if isinstance(j, Cam)), None)
     if name is None:
-        raise ModelError("the mechanism has no cam", "write a joint of type: cam").at_source(m.source)
+        raise ModelError("the mechanism has no cam", "add a joint of type: cam").at_source(m.source)
     made = computed(lambda: cam_of(m, name), m)
     if outline is not None:
         sizes = _length(m, tolerance, "tolerance"), cutter and _length(m, cutter, "cutter")

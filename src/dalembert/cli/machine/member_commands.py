@@ -99,14 +99,14 @@ def shaft(
     of: Of = AS_GIVEN,
     out: LabelledOutputs = NO_LABELLED,
 ) -> int:
-    """Critical speeds of a shaft of FILE with the masses on it, beside Dunkerley's and Rayleigh's."""
+    """Critical speeds of a shaft of FILE with the masses on it, and Dunkerley's and Rayleigh's estimates."""
     from dalembert.machine.shafts.critical_speeds import critical_speeds
 
     r = cycle_of(file, of, out)
     links = r.mechanism.links
     elastic = [n for n in r.links if (s := links[n].section) is not None and s.elasticity is not None]
     if link is None and not elastic:
-        remedy = "give one section: {circle: 50 mm, elasticity: 210 GPa}"
+        remedy = "add section: {circle: 50 mm, elasticity: 210 GPa} to a link"
         raise ModelError("no link has a section with elasticity", remedy).at_source(r.mechanism.source)
     answer(r, lambda r: critical_speeds(r, link or elastic[0], count), out)
     return 0

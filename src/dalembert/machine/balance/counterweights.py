@@ -96,7 +96,9 @@ def counterweights(m: Mechanism, wanted: Wanted) -> dict[str, Counterweight]:
     for link, bounds in named.items():
         if link not in m.links or link == GROUND:
             moving = [name for name in m.links if name != GROUND]
-            raise ModelError(f"a counterweight cannot be on {link!r}", closest(link, moving))
+            raise ModelError(
+                f"{link!r} is not a moving link that can carry a counterweight", closest(link, moving)
+            )
         w = bounds if isinstance(bounds, Counterweight) else Counterweight(**_known(link, bounds or {}))
         at = w.at or _pivot(m, link)
         base = base_point(m, link, at)

@@ -121,7 +121,9 @@ def bearings(
     if table is None:
         return BearingTable(r, loads, hours, factor)
     if hours is None:
-        raise ModelError("a bearing is chosen by its life", "say how many hours: 20000")
+        raise ModelError(
+            "a bearing is chosen from a table by its required life", "give the hours, for example 20000"
+        )
     rows = catalogue(table, r.mechanism.units)
     chosen = {joint: choose(b, rows, hours, factor, safety) for joint, b in loads.items()}
     return BearingTable(r, loads, hours, factor, len(rows), chosen)

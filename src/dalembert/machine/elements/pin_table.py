@@ -123,6 +123,6 @@ def pins(r: Result, joints: Iterable[str] | None = None) -> PinTable:
     names = named if joints is None else [joints] if isinstance(joints, str) else list(joints)
     if not names:
         raise ModelError(
-            "no joint has a bolt", "give a joint pin: {diameter: 20 mm, eye: 30 mm, cheeks: 15 mm}"
+            "no joint has a bolt", "add pin: {diameter: 20 mm, eye: 30 mm, cheeks: 15 mm} to a joint"
         )
     return PinTable(r, {name: pin(r, name) for name in names})

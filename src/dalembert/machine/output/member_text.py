@@ -70,11 +70,9 @@ def _closure(t: MemberTable) -> str:
 
 
 def _brackets(link: str, f: MemberForces, to: Printed) -> str:
-    """Loads beside the members of a link, by a bracket that is not analysed."""
+    """Loads off the members of a link, by a bracket that is not analysed."""
     some = ", ".join(f"{of} ({to.number('length', x)} {to.text('length')})" for of, x in f.brackets.items())
-    return (
-        f"Loads beside the members of {link}: {some}. Their brackets are assumed rigid and are not analysed."
-    )
+    return f"Loads off the members of {link}: {some}. Their brackets are assumed rigid and are not analysed."
 
 
 def _unknown(t: MemberTable, which: str, why: str) -> str:

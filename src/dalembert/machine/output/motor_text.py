@@ -63,7 +63,7 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
     yield TextTable([*heads, "inertia, links\n/ motor", "enough\n"], rows)
     if c.least_rms() is None:
         yield _no_least(c)
-    by = {"its curve": c.curve, "its rated torque against the rms": c.rated}
+    by = {"each position with the motor's curve": c.curve, "the rms torque with the rated torque": c.rated}
     limits = " and ".join(what for what, value in by.items() if value is not None)
-    judged = f"The column `enough` compares with {limits}."
+    judged = f"The column `enough` compares {limits}."
     yield judged if limits else "Ratios are not judged: neither a motor curve nor a rated torque is given."

@@ -145,7 +145,7 @@ class _TreeBuilder:
         top = self.stack[-1]
         if key in top.value:
             first = self.lines.get((*top.path, key), self.line)
-            what = f"the key {quote_value(key)} occurs twice, first in line {first}"
+            what = f"the key {quote_value(key)} occurs twice, first on line {first}"
             raise self.error(what, "leave one of them out")
         top.key, top.wants_key = key, False
         self.lines[(*top.path, key)] = self.line

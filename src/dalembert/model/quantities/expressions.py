@@ -328,7 +328,7 @@ class _Parser:
 
     def refusal(self, text: str = "", why: str = "") -> ModelError:
         rest = text or self.text[self.place :].strip()
-        why = why or (f"unexpected {quote_value(rest[:20])}" if rest else "it stops in the middle")
+        why = why or (f"unexpected {quote_value(rest[:20])}" if rest else "it is incomplete")
         return ModelError(f"{quote_value(self.text)} is not an expression: {why}", GRAMMAR)
 
 

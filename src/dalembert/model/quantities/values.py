@@ -268,7 +268,7 @@ class PairOfNames(ValueField):
 
 def pair_of_names(value: object) -> tuple[str, str]:
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
-        shown = f"a list of {len(value)}" if isinstance(value, (list, tuple)) else quote_value(value)
+        shown = str(len(value)) if isinstance(value, (list, tuple)) else quote_value(value)
         raise ModelError(f"expected two names, not {shown}", "write [ground, crank]")
     first, second = (at_item(i, name, item) for i, item in enumerate(value))
     return first, second

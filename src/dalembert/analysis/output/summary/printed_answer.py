@@ -201,7 +201,7 @@ def _reaction_tables(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
         if r.least_norm is not None and np.isfinite(r.least_norm[0]).any():
             least.append([r.joint, r.by, r.on, *_wrench(r.least_norm[0, :2], r.least_norm[0, 2], to)])
     where = "ground axes" if axes == "ground" else "the axes of link j"
-    note = f"F_ij is the force by link i on link j, in {where}; moments about j's point of the joint."
+    note = f"F_ij is the force by link i on link j, in {where}; moments about the joint's point on j."
     yield TextTable(heads, rows, 3, wrap(note))
     if least:
         yield from (NOT_UNIQUE, TextTable(heads, least, 3))

@@ -29,7 +29,7 @@ AXES: dict[Axes, str] = {
 
 def space_reaction_tables(reactions: Sequence[JointReaction], to: Printed, axes: Axes) -> Iterator[Part]:
     """Forces, then moments, of reactions at one position (3,); what is not unique also with the least norm."""
-    note = f"F_ij and M_ij are by link i on link j, in {AXES[axes]}; moments about j's point of the joint."
+    note = f"F_ij and M_ij are by link i on link j, in {AXES[axes]}; moments about the joint's point on j."
     yield from _tables(reactions, to, wrap(note))
     least = [
         r._replace(force=r.least_norm[0, :3], moment=r.least_norm[0, 3:])
