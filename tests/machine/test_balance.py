@@ -209,6 +209,15 @@ def test_the_sentences_on_full_balance_are_those_of_the_inertia(four_bar: Any) -
     assert {"before.inertia_force.x", "after.inertia_force.x", "after.shaking_force.x"} <= {*heads}
 
 
+def test_friction_is_the_difference_of_the_re_analysis() -> None:
+    """Other weights, other joint forces, other friction: said where there is friction, and only there."""
+    rough = FOUR_BAR.replace("O2: {type: pin,", "O2: {type: pin, friction: {coefficient: 0.1, radius: 0.05},")
+    for file, rubs in ((FOUR_BAR, False), (rough, True)):
+        b = da.balance(da.dynamics(da.loads(file)), ["crank", "rocker"])
+        assert ("the balance takes friction as it was without them" in str(b)) == rubs
+        assert (b.residual > 1e-9) == rubs
+
+
 @pytest.mark.parametrize("least", ["rms", "max"])
 def test_a_sum_is_a_part_of_the_sum_before(least: Any) -> None:
     """Without any counterweight all is left: the value of a weighted sum is then 1, and 95 % is less than before."""

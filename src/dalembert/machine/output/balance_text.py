@@ -81,7 +81,8 @@ def proof(b: Balance) -> str:
         text += "Without bounds the force would be balanced completely. "
     else:
         text += "Full force balance is impossible: some link has no path to ground through turning joints. "
-    return f"{text}Check: re-analysis with the counterweights agrees to {remainder(b.residual)}."
+    rubs = "" if b.result.friction is None else "; the balance takes friction as it was without them"
+    return f"{text}Check: re-analysis with the counterweights agrees to {remainder(b.residual)}{rubs}."
 
 
 def _percent(part: float) -> str:
