@@ -487,7 +487,7 @@ def test_what_has_no_life_is_refused() -> None:
     r = shaft("1898", "{diameter: 20 mm, length: 10 mm}")
     with pytest.raises(ModelError, match="the bearing of 'O' has no rating; give rating: 12 kN"):
         _ = da.bearing(r, "O").turns
-    with pytest.raises(ModelError, match="a bearing is chosen by its life"):
+    with pytest.raises(ModelError, match="a bearing is chosen from a table by its required life"):
         da.bearings(r, table="none.csv")
     engine = da.dynamics(da.in_line_engine(cylinders=1))
     with pytest.raises(ModelError, match="joint 'cylinder_1' does not turn about one axis"):
