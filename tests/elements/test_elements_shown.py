@@ -12,6 +12,7 @@ import dalembert as da
 from dalembert.model.library import template_text
 from dalembert.pages.page_data import page_data
 from dalembert.views.paper.scene import Polygon
+from dalembert.views.plane.elements.wedge_drawing import wedge_corners
 
 CYLINDER = """units: {length: mm, mass: kg, force: N}
 gravity: standard
@@ -108,6 +109,16 @@ def test_a_cylinder_is_drawn_to_scale() -> None:
     )
     assert any(w == pytest.approx(0.095, rel=1e-9) for w in widths)
     assert any(w == pytest.approx(0.060, rel=1e-9) for w in widths)
+
+
+def test_a_wedge_is_drawn_with_its_faces() -> None:
+    """The triangle below the part of the face that its block slides along: travel times the tangent of the slope."""
+    for slope in (10, -10):
+        corners = wedge_corners(da.statics(da.wedge(slope=f"{slope} deg")), "wedge")
+        height = math.copysign(0.1 * math.tan(math.radians(10)), slope)
+        assert corners is not None
+        assert np.allclose(corners[np.lexsort(corners.T[::-1])], sorted([(0, 0), (0, height), (0.1, 0)]))
+    assert wedge_corners(da.statics(da.loads(CYLINDER)), "boom") is None
 
 
 def test_tables_say_what_elements_need() -> None:

@@ -228,3 +228,11 @@ def test_two_hundred_machines_keep_the_laws(family: str, block: int) -> None:
         answered += bool(made(family, seed).answer.ok.any())
         made.cache_clear()
     assert answered > BLOCK / 2
+
+
+def test_a_lost_contact_comes_before_self_locking() -> None:
+    """A machine with both: its numbers would be those of a pin that its slot pulls."""
+    r = made("pushing", 29).answer
+    assert "contact_lost" in r.status
+    assert "self_locking" not in r.status
+    assert "slot would have to pull" in r.text().replace("\n  ", " ")

@@ -50,6 +50,7 @@ interface Wheel { p: Rows; reach(value: (row: number) => number): number }
 function wheelsOf(d: Drawing): Wheel[] {
   return d.items.flatMap((i): Wheel[] => {
     if (i.t === "circle") return [{ p: i.p, reach: (value) => Math.abs(value(i.r)) }];
+    if (i.t === "pair" && i.size) return [{ p: i.p, reach: () => Math.max(...i.size!) }];
     const drawn = i.t === "symbol" && i.per_mm ? i.per_mm * Math.max(0, ...[...i.svg.matchAll(/ r="([\d.]+)"/g)].map((m) => +m[1])) : 0;
     return i.t === "symbol" && drawn ? [{ p: i.p, reach: () => drawn }] : [];
   });

@@ -1,7 +1,7 @@
 /** Curves over the cycle with a cursor, polar diagrams, and polygons of forces. */
 
 import { bounds, canvas, roundUp, ScaleBar } from "./board";
-import type { Chart, Curve, Data, Polygon } from "./data";
+import type { Chart, Curve, Data, Polygon, Rows } from "./data";
 import { curve } from "./items";
 import type { Kernel } from "./kernel";
 import { label, Placer } from "./labels";
@@ -142,10 +142,10 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
   };
 }
 
-const largestForce = (kernel: Kernel, { f }: Curve): number => kernel.largest((k) => Math.hypot(kernel.value(f![0], k), kernel.value(f![1], k)));
+const largestForce = (kernel: Kernel, { f }: { f?: Rows }): number => kernel.largest((k) => Math.hypot(kernel.value(f![0], k), kernel.value(f![1], k)));
 
-/** The largest force of some joints, computed once for each cycle. */
-export function largestOf(kernel: Kernel, some: Curve[]): () => number {
+/** The largest of some forces, computed once for each cycle. */
+export function largestOf(kernel: Kernel, some: { f?: Rows }[]): () => number {
   let cycle = -1, most = 0;
   return () => {
     if (cycle !== kernel.cycles) [cycle, most] = [kernel.cycles, Math.max(...some.map((c) => largestForce(kernel, c)))];
@@ -153,7 +153,7 @@ export function largestOf(kernel: Kernel, some: Curve[]): () => number {
   };
 }
 
-/** Share of the largest joint force below which another one is rounding. */
+/** Share of the largest force below which that of a joint is rounding. */
 const ROUNDING = 1e-11;
 
 /** The force in each joint as a curve about a pole: its tip over the cycle, and at the present position. */

@@ -26,10 +26,11 @@ export interface Place { was?: string; of?: number[]; now: (string | Pair)[] }
 export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; along?: Rows; p: Rows; link: string }
 
 /** A drawn item: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle; ``of``: what it
- * is part of, by kind and name. */
+ * is part of, by kind and name. ``size``: radius and half length in metres of a wheel or a worm; without it a pair of
+ * links has the size of a symbol. */
 export type Item = { of?: [string, string] } & (
   | { t: "symbol"; svg: string; p: Rows; e?: Rows; per_mm?: number }
-  | { t: "pair"; shape: "round" | "block" | "ball"; p: Rows; e: Rows; fixed: boolean }
+  | { t: "pair"; shape: "round" | "block" | "ball"; p: Rows; e: Rows; fixed: boolean; size?: Pair }
   | { t: "span"; svg: string; length: number; p: [Rows, Rows] }
   | { t: "hull"; role: string; p: Rows[]; link: string }
   | { t: "path"; role: string; p: Rows[] }

@@ -124,13 +124,14 @@ function drawn(parent: Element, i: Item, paper: Paper): Part {
   };
 }
 
-/** A joint in space: a cylinder or a block along its axis, or a ball. */
+/** A joint in space: a cylinder or a block along its axis, or a ball; with a size a wheel. */
 function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
-  const g = make("g", parent), look = i.fixed ? "support" : "block";
-  const side = make("path", g, { class: `l-${look}` }), end = make("path", g, { class: `l-${i.shape === "ball" ? look : "pin"}` });
-  const half = i.shape === "block" ? 4.2 : 3.4, r = i.shape === "block" ? 2.2 : 1.7;
+  const g = make("g", parent), look = i.size ? "link-area" : i.fixed ? "support" : "block";
+  const side = make("path", g, { class: `l-${look}` }), end = make("path", g, { class: `l-${i.shape === "ball" || i.size ? look : "pin"}` });
+  let half = i.shape === "block" ? 4.2 : 3.4, r = i.shape === "block" ? 2.2 : 1.7;
   return {
     update() {
+      if (i.size) [r, half] = i.size.map((x) => +short(x / paper.perMm));
       const [x, y] = paper.point(i.p), [ex, ey] = paper.here(i.e), away = paper.depth(i.e);
       attr(g, "transform", `translate(${short(x)} ${short(y)}) rotate(${short((-Math.atan2(ey, ex) * 180) / Math.PI)})`);
       if (i.shape === "ball") return attr(side, "d", `M${r} 0A${r} ${r} 0 1 0 ${-r} 0A${r} ${r} 0 1 0 ${r} 0Z`);
@@ -144,6 +145,7 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
       }
     },
     mark(placer) {
+      if (i.size) return;
       const [x, y] = paper.point(i.p), [ex, ey] = paper.here(i.e), long = i.shape === "ball" ? 0 : half;
       placer.disc([x, y], 2.4);
       placer.line([x - long * ex, y + long * ey], [x + long * ex, y - long * ey]);

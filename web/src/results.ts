@@ -33,7 +33,7 @@ export function results(tabs: Tabs, data: Data, kernel: Kernel, cursor: Cursor, 
   const polars = kernel.count > 2 ? charts.flatMap((c) => c.curves).filter((c) => c.f) : [];
   if (curves && polars.length) {
     html("h2", curves, {}, "Polar diagrams");
-    const most = largestOf(kernel, polars);
+    const most = largestOf(kernel, [...polars, ...data.views.mechanism.arrows.filter((a) => a.t === "force")]);
     for (const c of polars) closable.push({ box: curves, view: followed(polar(curves, kernel, c, most, data.units.force)) });
   }
   const body = tabs.add("Forces", "free bodies, their equations, and force polygons"), select = html("select", body, { "aria-label": "link" });

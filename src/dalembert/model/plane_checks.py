@@ -91,16 +91,17 @@ def _point(
         points = list(m.links[link].points)
         yield ModelError(
             f"{user} needs a point {point!r} of link {link!r}, which has {', '.join(points) or 'none'}",
-            _point_remedy(point, points, path[0] == "joints"),
+            _point_remedy(point, points, path),
             path,
         )
 
 
-def _point_remedy(point: str, points: list[str], joint: bool) -> str:
+def _point_remedy(point: str, points: list[str], path: tuple[str | int, ...]) -> str:
     guess = closest(point, points)
     if guess.startswith("did"):
         return guess
-    return f"add the point {point}, or name {'others with at: [of i, of j]' if joint else 'another'}"
+    of_joint = path[0] == "joints" and path[2:] in ((), ("at",), ("at", 0), ("at", 1))
+    return f"add the point {point}, or name {'others with at: [of i, of j]' if of_joint else 'another'}"
 
 
 def _joints(m: Mechanism) -> Iterator[ModelError]:

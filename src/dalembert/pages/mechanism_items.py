@@ -28,13 +28,17 @@ from dalembert.views.formats.svg import Writer
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Polygon
 from dalembert.views.plane.elements.cam_symbol import resting_follower
+from dalembert.views.plane.elements.wedge_drawing import wedge_corners
 from dalembert.views.plane.joint_drawings import (
     DRAWINGS,
+    CylinderSizes,
     JointPlace,
+    cylinder_sizes,
     driving_screw,
     ratchet_pawl,
     ratchet_wheel,
     round_slot,
+    screw_length,
 )
 from dalembert.views.plane.outline import link_paths, wheel_paths
 from dalembert.views.symbols import plane_symbols
@@ -98,11 +102,21 @@ class Items:
         if len(points) == 1 and self.known.mechanism.mass(link):
             points.append(self.rows.place(link, self.mechanism.center(link)))
         for name, joint in self.mechanism.joints.items():
-            if joint.guides and joint.links[0] == link:
+            if joint.guides and joint.links[0] == link and not self.cylinder(name):
                 both = zip(joint.links, self.mechanism.joint_points(name), strict=True)
                 out.append(self.path("path", "link", [self.rows.place(n, u) for n, u in both]))
         self.roles |= {"link-area"}
+        corners = wedge_corners(self.known, link) if self.known._d == 2 else None
+        if corners is not None:
+            points = [self.rows.place(link, u.tolist()) for u in corners]
         return [*out, self.path("hull", "link", points, link=link)]
+
+    def cylinder(self, name: str) -> CylinderSizes | None:
+        """Sizes of a slide that is drawn as a cylinder; None for any other."""
+        if self.known._d == 3:
+            return None
+        k = int(np.argmax(np.isfinite(self.known.point_array).all(axis=(1, 2))))
+        return cylinder_sizes(JointPlace(self.known, name, k, self.frame, (0.0, 0.0)))
 
     def spans(self) -> list[Tree]:
         """Springs and dampers between their two points."""
@@ -187,11 +201,34 @@ def _pin(d: Items, name: str, link: str | None) -> list[Tree]:
 
 def _slider(d: Items, name: str, link: str | None) -> list[Tree]:
     e, at, out = d.rows.direction(name), d.at(name), []
-    if link is None and GROUND in d.mechanism.joints[name].links:
+    if sizes := d.cylinder(name):
+        return _cylinder(d, name, link, sizes)
+    joint = d.mechanism.joints[name]
+    if link is None and GROUND in joint.links:
         out.append(d.symbol(plane_symbols.guide((0, 0), 0.0, 13.0), at, e))
     if screw := driving_screw(d.known, name, d.frame, (0, 0), 0.0):
         out.insert(0, d.symbol(screw, at, e, sized=True))
+        back = -screw_length(d.known, name, d.frame) * d.frame.per_mm
+        end = joint_place(d.r, name)[0] + back * np.array(d.rows.direction_nodes(name))
+        out.insert(0, d.symbol([], d.rows.vector(end)))  # room for it
+    if wedge_corners(d.known, joint.links[1]) is not None:
+        return out
     return [*out, d.symbol(plane_symbols.slider((0, 0), 0.0), at, e)]
+
+
+def _cylinder(d: Items, name: str, link: str | None, sizes: CylinderSizes) -> list[Tree]:
+    """Barrel on i and piston with its rod on j, to scale."""
+    least, most, wide, thick = sizes
+    half, e = plane_symbols.barrel_half(least, wide), d.rows.direction(name)
+    i, u = d.mechanism.joints[name].links[0], d.mechanism.joint_points(name)[0]
+    rod = plane_symbols.piston_rod((0, 0), 0.0, plane_symbols.rod_length(least, most), half, thick)
+    moved = [d.symbol(rod, d.at(name), e, sized=True)]
+    if link is not None:
+        return moved
+    return [
+        d.symbol(plane_symbols.barrel((0, 0), 0.0, least, half), d.rows.place(i, u), e, sized=True),
+        *moved,
+    ]
 
 
 def _slot(d: Items, name: str, link: str | None) -> list[Tree]:

@@ -58,6 +58,11 @@ class NodeRows:
         """The unit vector along a link's x axis."""
         return self.unit_vectors(link)[0]
 
+    def along(self, link: str, u: Iterable[float]) -> list[int]:
+        """The rows of a direction that is fixed in a link, given in its axes."""
+        parts = [float(x) * np.array(e) for x, e in zip(u, self.unit_vectors(link), strict=True)]
+        return self.vector(sum(parts[1:], parts[0]))
+
     def axes(self, link: str) -> list[list[int]]:
         """The rows of the unit vectors along a link's axes."""
         return [self.vector(v) for v in self.unit_vectors(link)]

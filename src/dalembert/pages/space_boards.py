@@ -17,6 +17,8 @@ from dalembert.pages.mechanism_items import Items
 from dalembert.pages.rows import NodeRows
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.plane.outline import load_places
+from dalembert.views.space.solids import circle
+from dalembert.views.symbols.joint_solids import wheel_sizes
 
 SHAPES = {
     **dict.fromkeys(("revolute", "cylindrical", "screw", "slotted_cylinder"), "round"),
@@ -46,8 +48,24 @@ class SpaceItems(Items):
         axis = self.r.joint_axes(name)[0] if pair is not None else np.eye(3)
         main = axis[AXES.index("z" if joint.wheels else pair.main if pair is not None else "z")]
         at = self.rows.vector(joint_place(self.r, name)[0]) if joint.wheels else self.at(name)
+        if joint.wheels:
+            return self._wheels(name, link)
         fixed = link is None and GROUND in joint.links
         return [{"t": "pair", "shape": shape, "p": at, "e": self.rows.vector(main), "fixed": fixed}]
+
+    def _wheels(self, name: str, link: str | None) -> list[Tree]:
+        """The wheels of a joint to scale, each with a spoke that shows its turn."""
+        self.roles |= {"link-area", "link"}
+        out = list[Tree]()
+        for on, center, axis, radius, half in wheel_sizes(self.known, name, self.frame.per_mm):
+            if link not in (None, on):
+                continue
+            at, along = self.rows.place(on, center.tolist()), self.rows.along(on, axis.tolist())
+            wheel = {"t": "pair", "shape": "round", "p": at, "e": along, "fixed": False}
+            out.append(wheel | {"size": [radius, half]})
+            rim = circle(center, axis, radius)[0]
+            out.append(self.path("path", "link", [at, self.rows.place(on, rim.tolist())]))
+        return out
 
     def circle_radius(self, name: str) -> Any:
         """None: in space no friction circle is drawn."""

@@ -26,7 +26,10 @@ def assumption(result: Result) -> str:
     if result.friction is None:
         keys = ("friction", "efficiency")
         has_friction = any(getattr(j, key, None) is not None for j in m.joints.values() for key in keys)
-        return "off (switched off)" if has_friction and not m.friction.enabled else "off"
+        if has_friction and not m.friction.enabled:
+            return "off (switched off)"
+        rubbing = [name for name, drive in m.drives.items() if drive.screw and drive.screw.friction]
+        return f"off in the joints, on in the screw of {', '.join(rubbing)}" if rubbing else "off"
     circles: dict[str, list[str]] = {}
     for name, joint in m.joints.items():
         f = getattr(joint, "friction", None)

@@ -162,6 +162,12 @@ def _member(r: Result, link: str, some: Sequence[Action], split: Sequence[Action
     ]
     if not couples and _nothing(r, forces, floor):
         return Member(link, ZERO, tuple(map(_name, forces)), (), None)
+    if not couples:
+        forces = [
+            a
+            for a in forces
+            if np.nanmax(np.abs(a.couple), initial=0.0) > floor * length or not _nothing(r, [a], floor)
+        ]
     kind = KINDS.get(len(forces), "general")
     if couples:
         kind = "two-force with couple" if kind == "two-force" else "general"

@@ -213,6 +213,9 @@ def _expand(
     for k, end in enumerate(c.between):
         _check_end(links, *end, k)
     (i, a), (j, b) = c.between
+    if i == j:
+        what = f"both ends of the cylinder are on {i}, so that its length is fixed"
+        raise ModelError(what, "name points of two links", ("between",))
     barrel, rod = (f"{name}_{part}" for part in PARTS)
     made = {
         f"{name}_base": {"type": "pin", "links": [i, barrel], "at": [a, "base"]},

@@ -71,6 +71,12 @@ def kinds_of(part: type[Any]) -> list[type[Any]]:
     return [leaf for kind in kinds for leaf in kinds_of(kind)] if kinds else [part]
 
 
+def refuse_parts_of(count: float, what: str, key: str) -> None:
+    """Raises ModelError if a number of teeth, faces or the like is not an integer."""
+    if count != round(count):
+        raise ModelError(f"the number of {what} is not an integer", "write an integer", (key,))
+
+
 class JointPart(Part):
     """Common keys of all joints: the links i and j, and the point on each."""
 

@@ -1397,15 +1397,17 @@ function ke(t, i, o) {
 	};
 }
 function Ae(t, n, i) {
-	let o = r("g", t), s = n.fixed ? "support" : "block", c = r("path", o, { class: `l-${s}` }), l = r("path", o, { class: `l-${n.shape === "ball" ? s : "pin"}` }), u = n.shape === "block" ? 4.2 : 3.4, d = n.shape === "block" ? 2.2 : 1.7;
+	let o = r("g", t), s = n.size ? "link-area" : n.fixed ? "support" : "block", c = r("path", o, { class: `l-${s}` }), l = r("path", o, { class: `l-${n.shape === "ball" || n.size ? s : "pin"}` }), u = n.shape === "block" ? 4.2 : 3.4, d = n.shape === "block" ? 2.2 : 1.7;
 	return {
 		update() {
+			n.size && ([d, u] = n.size.map((e) => +a(e / i.perMm)));
 			let [t, r] = i.point(n.p), [s, f] = i.here(n.e), p = i.depth(n.e);
 			if (e(o, "transform", `translate(${a(t)} ${a(r)}) rotate(${a(-Math.atan2(f, s) * 180 / Math.PI)})`), n.shape === "ball") return e(c, "d", `M${d} 0A${d} ${d} 0 1 0 ${-d} 0A${d} ${d} 0 1 0 ${d} 0Z`);
 			let m = u * Math.hypot(s, f), h = d * Math.abs(p), g = p >= 0 ? m : -m;
 			n.shape === "round" ? (e(c, "d", `M${a(-m)} ${-d}L${a(m)} ${-d}A${a(h)} ${d} 0 0 1 ${a(m)} ${d}L${a(-m)} ${d}A${a(h)} ${d} 0 0 1 ${a(-m)} ${-d}Z`), e(l, "d", `M${a(g + h)} 0A${a(h)} ${d} 0 1 0 ${a(g - h)} 0A${a(h)} ${d} 0 1 0 ${a(g + h)} 0Z`)) : (e(c, "d", `M${a(-m - h)} ${-d}H${a(m + h)}V${d}H${a(-m - h)}Z`), e(l, "d", `M${a(g - h)} ${-d}H${a(g + h)}V${d}H${a(g - h)}Z`));
 		},
 		mark(e) {
+			if (n.size) return;
 			let [t, r] = i.point(n.p), [a, o] = i.here(n.e), s = n.shape === "ball" ? 0 : u;
 			e.disc([t, r], 2.4), e.line([t - s * a, r + s * o], [t + s * a, r - s * o]);
 		}
@@ -1604,6 +1606,10 @@ function nt(e) {
 		if (e.t === "circle") return [{
 			p: e.p,
 			reach: (t) => Math.abs(t(e.r))
+		}];
+		if (e.t === "pair" && e.size) return [{
+			p: e.p,
+			reach: () => Math.max(...e.size)
 		}];
 		let t = e.t === "symbol" && e.per_mm ? e.per_mm * Math.max(0, ...[...e.svg.matchAll(/ r="([\d.]+)"/g)].map((e) => +e[1])) : 0;
 		return e.t === "symbol" && t ? [{
@@ -3377,7 +3383,7 @@ function On(e, t, n, r, a, o) {
 	let _ = n.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
 	if (g && _.length) {
 		i("h2", g, {}, "Polar diagrams");
-		let e = xn(n, _);
+		let e = xn(n, [..._, ...t.views.mechanism.arrows.filter((e) => e.t === "force")]);
 		for (let r of _) d.push({
 			box: g,
 			view: h(Cn(g, n, r, e, t.units.force))

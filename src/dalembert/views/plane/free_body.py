@@ -18,6 +18,7 @@ from dalembert.views.paper.details import detail_scenes, with_details
 from dalembert.views.paper.frame import PaperFrame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
 from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
+from dalembert.views.plane.elements.wedge_drawing import block_place, wedge_corners
 from dalembert.views.plane.guide_details import guide_block, guide_corners, with_rough_guide
 from dalembert.views.plane.joint_drawings import free_symbol
 from dalembert.views.plane.mechanism_view import draw_actions, role_of, scale_notes, unit_size
@@ -106,11 +107,11 @@ def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: PaperFrame, 
         if link not in joint.links:
             continue
         end, at = joint.links.index(link), frame(joint_place(r, name)[k])
-        if name in with_rough_guide(r, [name]) and end == 1:
+        if name in with_rough_guide(r, [name]) and end == 1 and wedge_corners(r, link) is None:
             canvas.add(guide_block(r, name, k, frame))
-        elif joint.guides and end == 1:
+        elif joint.guides and end == 1 and (middle := block_place(r, name, k, at)):
             angle = float(r.angle(link)[k]) - float(getattr(joint, "angle", 0.0) or 0.0)
-            canvas.add(*plane_symbols.slider(at, angle))
+            canvas.add(*plane_symbols.slider(middle, angle))
         if end == 1 or not joint.apart:  # the pin of a slot or slider is j's
             canvas.add(*free_symbol(joint.type, at))
         canvas.label(name, *_corners(at), size=3.2, role="title", leads=False)

@@ -17,6 +17,7 @@ from dalembert.views.paper.scene import Arc, Item, Line, Point, Polygon
 from dalembert.views.plane.elements import brake_symbols
 from dalembert.views.plane.elements.belt_drawings import belt_items, rope_items, sheave_items
 from dalembert.views.plane.elements.cam_symbol import cam_items
+from dalembert.views.plane.elements.wedge_drawing import block_place, under_wedge
 from dalembert.views.plane.outline import wheels
 from dalembert.views.space.solids import Ring, RoundBar, Solid
 from dalembert.views.symbols import plane_symbols
@@ -80,12 +81,21 @@ def _along(s: JointPlace) -> float:
     return math.atan2(float(e[1]), float(e[0]))
 
 
-def hydraulic_cylinder(s: JointPlace) -> list[Item]:
-    """Symbol of a driven slide between pins of two links as a hydraulic cylinder: barrel and rod; None otherwise."""
+class CylinderSizes(NamedTuple):
+    """Shortest and longest distance of a cylinder's pins, and the diameters of its barrel and rod, mm; 0 if unknown."""
+
+    shortest: float
+    longest: float
+    wide: float = 0.0
+    thick: float = 0.0
+
+
+def cylinder_sizes(s: JointPlace) -> CylinderSizes | None:
+    """A driven slide between pins of two links as a hydraulic cylinder; None for any other."""
     m = s.r.mechanism
     joint, driven = m.joints[s.name], {m.drives[d].joint or d: m.drives[d].cylinder for d in s.r.drives}
     if s.name not in driven or _on_ground(s) or not joint.guides:
-        return []
+        return None
     paths = [link_place(s.r, link, u) for link, u in zip(joint.links, m.joint_points(s.name), strict=True)]
     pinned = [
         any(
@@ -97,15 +107,13 @@ def hydraulic_cylinder(s: JointPlace) -> list[Item]:
     lengths = s.frame.length(1.0) * np.hypot(*(paths[1] - paths[0]).T)
     lengths = lengths[np.isfinite(lengths)]
     if not all(pinned) or float(lengths.min()) < 6.0:
-        return []
-    ends = [s.frame(path[s.k]) for path in paths]
+        return None
     least, most, c = float(lengths.min()), float(lengths.max()), driven[s.name]
     if c is None:
-        return plane_symbols.cylinder(ends[0], ends[1], least, most)
+        return CylinderSizes(least, most)
     if c.lengths:
         least, most = (s.frame.length(x) for x in c.lengths)
-    sizes = s.frame.length(c.barrel or c.bore), s.frame.length(c.rod or 0.0)
-    return plane_symbols.cylinder(ends[0], ends[1], least, most, *sizes)
+    return CylinderSizes(least, most, s.frame.length(c.barrel or c.bore), s.frame.length(c.rod or 0.0))
 
 
 def _together(one: Array, other: Array, s: JointPlace) -> bool:
@@ -113,12 +121,17 @@ def _together(one: Array, other: Array, s: JointPlace) -> bool:
 
 
 def _slider(s: JointPlace) -> list[Item]:
-    if cylinder := hydraulic_cylinder(s):
-        return cylinder
+    if sizes := cylinder_sizes(s):
+        both = zip(s.r.mechanism.joints[s.name].links, s.r.mechanism.joint_points(s.name), strict=True)
+        base, end = (s.frame(link_place(s.r, link, u)[s.k]) for link, u in both)
+        return plane_symbols.cylinder(base, end, *sizes)
     angle = _along(s)
     side = -1.0 if math.cos(angle) > -1e-9 else 1.0
-    ground = plane_symbols.guide(s.at, angle, 13.0, side) if _on_ground(s) else []
-    return [*driving_screw(s.r, s.name, s.frame, s.at, angle), *ground, *plane_symbols.slider(s.at, angle)]
+    at = block_place(s.r, s.name, s.k, s.at)
+    if at is None:
+        return under_wedge(s.r, s.name, s.k, s.frame) if _on_ground(s) else []
+    ground = plane_symbols.guide(at, angle, 13.0, side) if _on_ground(s) else []
+    return [*driving_screw(s.r, s.name, s.frame, at, angle), *ground, *plane_symbols.slider(at, angle)]
 
 
 def driving_screw(r: Result, name: str, frame: PaperFrame, at: Point, angle: float) -> list[Item]:
@@ -127,9 +140,14 @@ def driving_screw(r: Result, name: str, frame: PaperFrame, at: Point, angle: flo
     screw = next((drives[d].screw for d in r.drives if (drives[d].joint or d) == name), None)
     if screw is None:
         return []
-    moved = r.freedom(name, "slide")[0]
-    length = min(max(frame.length(float(np.nanmax(moved) - np.nanmin(moved))), 10.0), LONGEST_SCREW)
+    length = screw_length(r, name, frame)
     return plane_symbols.thread(at, angle, length, frame.length(screw.radius), frame.length(screw.advance))
+
+
+def screw_length(r: Result, name: str, frame: PaperFrame) -> float:
+    """Length of a screw on paper, mm: about as far as its nut moves."""
+    moved = r.freedom(name, "slide")[0]
+    return min(max(frame.length(float(np.nanmax(moved) - np.nanmin(moved))), 10.0), LONGEST_SCREW)
 
 
 def _slot(s: JointPlace) -> list[Item]:

@@ -15,6 +15,7 @@ from dalembert.model.joints.plane_joints import Joint
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Line, Point, Polygon
 from dalembert.views.plane.elements.cam_symbol import cam_reach
+from dalembert.views.plane.elements.wedge_drawing import wedge_corners, wedge_items
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -73,6 +74,9 @@ def every_path(r: Result) -> Array:
     out = [path for link in (*r.links, GROUND) for path in link_paths(r, link).values()]
     out += [joint_place(r, joint) for joint in r.joints]
     out += [r.center(link) for link in r.links if r.mechanism.mass(link)]
+    for link in r.links:
+        corners = wedge_corners(r, link)
+        out += [link_place(r, link, u) for u in corners] if corners is not None else []
     for name, joint in r.mechanism.joints.items():
         for _, center, radius in wheel_paths(r, name, joint):
             out += [center + radius, center - radius]
@@ -99,7 +103,9 @@ def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[str, tuple[fl
 
 
 def link_shape(r: Result, link: str, k: int, frame: PaperFrame) -> list[Item]:
-    """A bar, or an area with its outline for more than two points; the block of a slider is a symbol."""
+    """A bar, or an area with its outline for more than two points, or a wedge; the block of a slider is a symbol."""
+    if wedge := wedge_items(r, link, k, frame):
+        return wedge
     places = list(dict.fromkeys(_round(frame(p)) for p in link_points(r, link, k).values()))
     if len(places) == 1 and r.mechanism.mass(link):
         center = frame(r.center(link)[k])

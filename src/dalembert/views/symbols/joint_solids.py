@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 LAYER = 2.2
 """Distance of the layers of a planar mechanism, mm."""
 
+STEEP = 0.8
+"""Helix angle in radians beyond which the first wheel of a gear is a worm."""
+
 
 def lift(r: Result, link: str, u: Sequence[float] | Array, size: float = 0.0) -> Array:
     """A point of a link with three components; in the plane in the link's layer."""
@@ -33,20 +36,28 @@ def wheels(r: Result, name: str, size: float = 0.0) -> list[tuple[str, Array, Ar
     return [(link, lift(r, link, u, size), axis, float(radius)) for link, u, axis, radius in places if radius]
 
 
+def wheel_sizes(r: Result, name: str, size: float) -> list[tuple[str, Array, Array, float, float]]:
+    """Link, centre, axis, radius and half length of each wheel: a worm is twice as long as wide, others are thin."""
+    helix = float(getattr(r.mechanism.joints[name], "helix_angle", 0.0) or 0.0)
+    return [
+        (link, at, axis, radius, 2.0 * radius if abs(helix) > STEEP and n == 0 else 0.7 * size)
+        for n, (link, at, axis, radius) in enumerate(wheels(r, name, size))
+    ]
+
+
 def wheel_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
     """Discs; a ring for the wheel around an internal one; a worm has a thread."""
     joint: Any = r.mechanism.joints[name]
-    discs = wheels(r, name, size)
-    largest = max(radius for *_, radius in discs)
-    helix = float(getattr(joint, "helix_angle", 0.0) or 0.0)
+    discs = wheel_sizes(r, name, size)
+    largest = max(radius for *_, radius, _ in discs)
     out: list[tuple[str, Solid]] = []
-    for n, (link, at, axis, radius) in enumerate(discs):
+    for link, at, axis, radius, half in discs:
         if joint.internal and radius == largest:
             out.append((link, Ring(at, axis, radius + 0.9 * size, 0.9 * size)))
             continue
-        if abs(helix) > 0.8 and n == 0:
-            half, lead = 2.0 * radius * axis, 2 * np.pi * radius / np.tan(helix)
-            out.append((link, RoundBar(at - half, at + half, radius, thread=lead)))
+        if half > radius:
+            lead = 2 * np.pi * radius / np.tan(float(joint.helix_angle))
+            out.append((link, RoundBar(at - half * axis, at + half * axis, radius, thread=lead)))
             continue
-        out.append((link, Plate(circle(at, axis, radius, 48)[:-1], 1.4 * size, spoke=True)))
+        out.append((link, Plate(circle(at, axis, radius, 48)[:-1], 2 * half, spoke=True)))
     return out

@@ -187,24 +187,45 @@ def cylinder(
     diameters of barrel and rod in mm, where they are known; a rod thinner than a millimetre is a line.
     """
     length, angle = math.dist(base, end), math.atan2(end[1] - base[1], end[0] - base[0])
-    half = wide / 2 or min(2.2, 0.16 * shortest)
-    mouth = min(0.88 * shortest, shortest - PIN - 1.0)
-    rod = min(0.86 * shortest, max(0.5 * shortest, longest - 0.9 * mouth))
-    head = min(max(length - rod, 0.14 * shortest), 0.94 * mouth)
-    start = 0.1 * shortest
-    barrel: list[Point] = [(start, -half), (mouth, -half), (mouth, half), (start, half)]
-    parts: list[list[Point]] = [
-        [(head, -half), (head, half)],
-        [(head, 0.0), (length, 0.0)],
-        [(0.0, 0.0), (start, 0.0)],
-    ]
-    out: list[Item] = [Polygon(_rotate(barrel, base, angle), "block")]
-    if thick >= 1.0:
-        across = thick / 2
-        sides = [(head, -across), (length, -across), (length, across), (head, across)]
-        out.append(Polygon(_rotate(sides, base, angle), "block"))
-        del parts[1]
-    return out + [Line(_rotate(part, base, angle), "link") for part in parts]
+    half, mouth = barrel_half(shortest, wide), _mouth(shortest)
+    head = min(max(length - rod_length(shortest, longest), 0.14 * shortest), 0.94 * mouth)
+    tube, rest = barrel(base, angle, shortest, half)
+    return [tube, *piston_rod(end, angle, length - head, half, thick), rest]
+
+
+def barrel(base: Point, angle: float, shortest: float, half: float) -> tuple[Item, Item]:
+    """A cylinder's barrel, half as wide, and the line from its pin to it; ``shortest``: between the pins, mm."""
+    start, mouth = 0.1 * shortest, _mouth(shortest)
+    tube: list[Point] = [(start, -half), (mouth, -half), (mouth, half), (start, half)]
+    return (
+        Polygon(_rotate(tube, base, angle), "block"),
+        Line(_rotate([(0.0, 0.0), (start, 0.0)], base, angle), "link"),
+    )
+
+
+def piston_rod(end: Point, angle: float, length: float, half: float, thick: float) -> list[Item]:
+    """A cylinder's piston, half as wide, and its rod up to its pin; a rod thinner than a millimetre is a line."""
+    piston = Line(_rotate([(-length, -half), (-length, half)], end, angle), "link")
+    if thick < 1.0:
+        return [piston, Line(_rotate([(-length, 0.0), (0.0, 0.0)], end, angle), "link")]
+    across = thick / 2
+    sides = [(-length, -across), (0.0, -across), (0.0, across), (-length, across)]
+    return [Polygon(_rotate(sides, end, angle), "block"), piston]
+
+
+def barrel_half(shortest: float, wide: float) -> float:
+    """Half the width of a barrel, mm, whose diameter is known or 0."""
+    return wide / 2 or min(2.2, 0.16 * shortest)
+
+
+def rod_length(shortest: float, longest: float) -> float:
+    """Distance of a cylinder's piston from the pin of its rod, by the shortest and longest of its lengths, mm."""
+    return min(0.86 * shortest, max(0.5 * shortest, longest - 0.9 * _mouth(shortest)))
+
+
+def _mouth(shortest: float) -> float:
+    """End of the barrel from its pin, mm."""
+    return min(0.88 * shortest, shortest - PIN - 1.0)
 
 
 def gas_spring(a: Point, b: Point) -> list[Item]:

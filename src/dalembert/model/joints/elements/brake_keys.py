@@ -11,6 +11,7 @@ from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
+from dalembert.model.joints.joint_part import refuse_parts_of
 from dalembert.model.part import Part, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -122,8 +123,7 @@ class Blocks(Part):
 
     @model_validator(mode="after")
     def _whole(self) -> Self:
-        if self.count != round(self.count):
-            raise ModelError("the number of blocks is not an integer", "write an integer", ("count",))
+        refuse_parts_of(self.count, "blocks", "count")
         return self
 
 

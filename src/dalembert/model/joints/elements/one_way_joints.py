@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from dalembert.model.drives.end_stops import Stops
-from dalembert.model.joints.joint_part import JointPart
+from dalembert.model.joints.joint_part import JointPart, refuse_parts_of
 from dalembert.model.part import Part
 from dalembert.model.quantities.values import Scalar
 
@@ -96,6 +96,11 @@ class Ratchet(Clutch):
     type: Literal["ratchet"] = "ratchet"
     teeth: Number = Field(description="number of teeth")
     pawl: Pawl | None = Field(None, description="{radius, angle, coefficient}")
+
+    @model_validator(mode="after")
+    def _integer_teeth(self) -> Self:
+        refuse_parts_of(self.teeth, "teeth", "teeth")
+        return self
 
     @property
     def pitch(self) -> float:
