@@ -15,6 +15,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.output.summary.printed_answer import answer_text
 from dalembert.bundled import examples
+from dalembert.core.position import newton
 from dalembert.model import loads, tree_text
 from tests.laws.mutations import mutated as changed
 from tests.model.test_fuzz import loaded, mutated
@@ -85,11 +86,28 @@ def test_a_changed_tree_is_refused_or_answered_honestly(block: int) -> None:
         answered(seed)
 
 
-def test_a_drive_too_many_is_named() -> None:
+@pytest.mark.parametrize(("name", "joint"), [("rssr", "C"), ("four_bar", "A")])
+def test_a_drive_too_many_is_named_by_as_many_iterations_as_one_position_takes(
+    name: str, joint: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Found by a changed tree: drives that nothing closes with were laid although they were left out."""
-    tree = da.load(examples()["rssr"]).to_tree()
-    del tree["answers"]
-    tree["drives"]["C"] = {"position": "100 deg"}
-    with pytest.raises(da.ModelError) as caught:
-        da.solve(da.mechanism(tree), positions=2)
-    assert str(caught.value) == "the mechanism has 1 freedom and 2 drives; remove 1 drive of O, C"
+    tree, steps, step, taken = da.load(examples()[name]).to_tree(), list[int](), newton.step, set[int]()
+
+    def counted(layout: Any, pose: Any, gap: Any) -> Any:
+        steps.append(len(gap))
+        return step(layout, pose, gap)
+
+    tree.pop("answers", None)
+    (drive,) = tree["drives"]
+    monkeypatch.setattr(newton, "step", counted)
+    for last in (0, 40):
+        position = {"from": "100 deg", "to": f"{100 + last} deg", "count": 1 + last}
+        tree["drives"] = {drive: {"position": position}, joint: {"position": "100 deg"}}
+        steps.clear()
+        with pytest.raises(da.ModelError) as caught:
+            da.solve(da.mechanism(tree))
+        says = f"the mechanism has 1 freedom and 2 drives; remove 1 drive of {drive}, {joint}"
+        assert str(caught.value) == says
+        taken.add(sum(steps))
+    assert len(taken) == 1
+    assert taken != {0}

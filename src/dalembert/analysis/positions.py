@@ -68,7 +68,6 @@ def positions(c: Compiled) -> Positions:
         _refuse_far(c)
     first_pose = first_position(c)
     if first_pose is None:
-        _refuse_overdriven(c)
         return Positions(c, None, None, None)
     place, first = first_pose
     stood = first.pose.at(0)
@@ -92,11 +91,17 @@ def positions(c: Compiled) -> Positions:
 
 
 def first_position(c: Compiled) -> tuple[int, Modes] | None:
-    """The first position that closes on the branches that `assembly` gives, else on others, and its modes."""
+    """The first position that closes on the branches that `assembly` gives, else on others, and its modes.
+
+    Raises ModelError where none may close because the drives are too many: after one search, for all would take as long
+    each.
+    """
     other: tuple[int, Modes] | None = None
-    for k in _places_to_try(c):
+    for n, k in enumerate(_places_to_try(c)):
         modes = c.first_modes if k == 0 else c.guess.modes(c.layout, c.targets[k])
         if modes is None:
+            if n == 0:
+                _refuse_overdriven(c)
             continue
         if on_stated_sides(c, c.targets[k], modes):
             return int(k), modes
@@ -301,7 +306,9 @@ def _refuse_far(c: Compiled) -> None:
 
 
 def _refuse_overdriven(c: Compiled) -> None:
-    """Checks, where no pose closes, whether there are more drives than freedoms."""
+    """Checks, where a position does not close, whether there are more drives than freedoms."""
+    if c.layout.stack.count <= c.layout.unknowns:
+        return  # as many freedoms as drives at least
     layout = replace(c.layout, driven=np.zeros(0, np.intp))
     modes = c.guess.modes(layout, c.target)
     if modes is None:
