@@ -11,6 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.studio.document import EMPTY
 from dalembert.studio.problems import problem_text
+from tests.browser.sketch_scenarios import SKETCHES, every_problem_is_ticked
 from tests.browser.studio_tab import Studio
 from tests.studio.served import serving
 from tests.tiers import tiers
@@ -286,10 +287,11 @@ LONG: list[Callable[[Studio], None]] = [
         loads_of_each_kind,
     ),
     *(a_cam_with_typed_values, crlf_is_kept, a_hundred_steps),
+    *SKETCHES,
 ]
 
 
-@pytest.mark.parametrize("scenario", tiers(QUICK, LONG), ids=lambda f: f.__name__)
+@pytest.mark.parametrize("scenario", tiers(QUICK, LONG, [every_problem_is_ticked]), ids=lambda f: f.__name__)
 def test_scenario(scenario: Callable[[Studio], None], board: Studio) -> None:
     board.empty()
     assert board.text == EMPTY

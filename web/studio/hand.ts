@@ -35,16 +35,18 @@ const DIRECTIONS = 15, TURN = 3;
 
 export interface Shown { drawing(): Drawing; pick(p: Picked | null): void; picked(): Picked | null; said(text: string): void; again(): void; tool(t: Tool): void }
 
+/** Something that is dragged. A pulled link is held at a place `hold` of its axes; `path`: where the hand has been since
+ * the last question to the server, `led`: that question, `dropped`: by Esc. */
+interface Drag { kind: "move" | "pull" | "pan"; picked: Picked | null; x: number; y: number; moved: boolean; drawing: Drawing; hold: Point; path: Point[]; pose?: any; led?: Promise<void>; dropped?: boolean }
+
 export class Hand {
   tool = TOOLS[0];
   private from: { where: Where; x: number; y: number } | null = null;
   private place: Where = { at: [0, 0] };
   private typed: string[] = [];
   private field = 0;
-  private drag: { kind: "move" | "pull" | "pan"; picked: Picked | null; at: Point; x: number; y: number; moved: boolean; pose?: any } | null = null;
+  private drag: Drag | null = null;
   private pointers = new Map<number, Point>();
-  private pulling = false;
-  private path: Point[] = [];
   private readonly cursor: Cursor;
   /** The drawing while something is dragged. */
   shadow: Drawing | null = null;
@@ -71,6 +73,7 @@ export class Hand {
     this.shown.tool(tool);
   }
   cancel(): void {
+    if (this.drag) this.drag.dropped = true;
     this.from = this.drag = null;
     this.shadow = null;
     this.typed = [];
@@ -123,7 +126,7 @@ export class Hand {
     this.pointers.set(e.pointerId, this.xy(e));
     const [x, y] = this.xy(e);
     if (this.pointers.size === 2 || e.button === 1) {
-      this.drag = { kind: "pan", picked: null, at: [0, 0], x, y, moved: true };
+      this.drag = { ...this.begun("pan", null, x, y), moved: true };
       return;
     }
     if (e.button) return;
@@ -135,15 +138,20 @@ export class Hand {
     else this.grab(e, x, y);
   }
   private grab(e: PointerEvent, x: number, y: number): void {
-    const part = this.part(e), at = this.canvas.window.metres(x, y);
+    const part = this.part(e);
     if (!part) {
-      this.drag = { kind: "pan", picked: null, at, x, y, moved: false };
+      this.drag = this.begun("pan", null, x, y);
       return;
     }
     const picked: Picked = { kind: part.kind, name: part.name, link: part.link };
     this.shown.pick(picked);
-    if (part.point) this.drag = { kind: "move", picked: { kind: "points", name: part.point, link: part.link }, at, x, y, moved: false };
-    else if (part.kind === "links") this.drag = { kind: "pull", picked, at, x, y, moved: false };
+    if (part.point) this.drag = this.begun("move", { kind: "points", name: part.point, link: part.link }, x, y);
+    else if (part.kind === "links") this.drag = this.begun("pull", picked, x, y);
+  }
+  private begun(kind: Drag["kind"], picked: Picked | null, x: number, y: number): Drag {
+    const drawing = this.shown.drawing(), pose = kind === "pull" && drawing.links.find((l) => l.name === picked!.name)?.pose, [px, py, angle] = pose || [0, 0, 0];
+    const at = this.canvas.window.metres(x, y), dx = at[0] - px, dy = at[1] - py, c = Math.cos(angle), s = Math.sin(angle);
+    return { kind, picked, x, y, moved: false, drawing, hold: [dx * c + dy * s, dy * c - dx * s], path: [] };
   }
   private move(e: PointerEvent): void {
     const [x, y] = this.xy(e), before = this.pointers.get(e.pointerId);
@@ -177,7 +185,10 @@ export class Hand {
       this.place = this.snapAway(e, g.picked!);
       this.shadow = moved(this.shown.drawing(), g.picked!, this.place.at);
       this.shown.again();
-    } else void this.pull(this.canvas.window.metres(x, y));
+    } else {
+      g.path.push(this.canvas.window.metres(x, y));
+      g.led ??= this.lead(g).finally(() => (g.led = undefined));
+    }
   }
   /** Snaps to points other than those at the place that is dragged. */
   private snapAway(e: PointerEvent, picked: Picked): Where {
@@ -185,20 +196,20 @@ export class Hand {
     if (!to.point || dist(to.at, old) * this.canvas.window.scale > 3) return to;
     return { at: this.canvas.window.metres(...this.xy(e)) };
   }
-  private async pull(to: Point): Promise<void> {
-    this.path.push(to);
-    if (this.pulling) return;
-    const g = this.drag!, d = this.shown.drawing(), link = d.links.find((l) => l.name === g.picked!.name)!, [px, py, angle] = link.pose;
-    const dx = g.at[0] - px, dy = g.at[1] - py, at = [dx * Math.cos(angle) + dy * Math.sin(angle), dy * Math.cos(angle) - dx * Math.sin(angle)];
-    this.pulling = true;
-    while (this.path.length && this.drag === g) {
-      const path = this.path.splice(0).slice(-4), a = await this.socket.send({ pull: { link: link.name, at, path } });
-      if (!a.pose || this.drag !== g) break;
+  /** Lead a link along its path, question by question; each goes on from the pose of the one before. */
+  private async lead(g: Drag): Promise<void> {
+    while (g.path.length && !g.dropped) {
+      const path = g.path.splice(0).slice(-4), a = await this.socket.send({ pull: { link: g.picked!.name, at: g.hold, path, on: !!g.pose } });
+      if (!a.pose || g.dropped) return;
       g.pose = { links: a.pose, drives: a.drives };
-      this.shadow = posed(d, a.pose);
+      this.shadow = posed(g.drawing, a.pose);
       this.shown.again();
     }
-    this.pulling = false;
+  }
+  private async released(g: Drag): Promise<void> {
+    await g.led;
+    if (g.pose) await this.socket.gesture({ op: "pose", ...g.pose });
+    this.settle();
   }
   private up(e: PointerEvent): void {
     this.pointers.delete(e.pointerId);
@@ -211,14 +222,13 @@ export class Hand {
       return;
     }
     this.drag = null;
-    this.path = [];
     if (!g) return;
     if (!g.moved) {
       if (g.kind === "pan") this.shown.pick(null);
       return;
     }
     if (g.kind === "move") void this.dropped(g.picked!);
-    else if (g.kind === "pull" && g.pose) void this.socket.gesture({ op: "pose", ...g.pose }).then(() => this.settle());
+    else if (g.kind === "pull") void this.released(g);
   }
   private async dropped(p: Picked): Promise<void> {
     const to = this.place;

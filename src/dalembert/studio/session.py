@@ -10,6 +10,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.studio.document import EMPTY, Document
 from dalembert.studio.editing.gestures import gesture
+from dalembert.studio.editing.sketch_pose import SketchPose
 from dalembert.studio.part_keys import part_keys
 from dalembert.studio.problems import problem_text, problems
 from dalembert.studio.solver import Question
@@ -30,6 +31,8 @@ class Session:
     outside: str | None = None
     """Text on disk that another program wrote while there is something here that is not saved."""
     _kept_hash: str = ""
+    _pulled: tuple[object, SketchPose] | None = None
+    """The link and text of the last pull, and the pose after it."""
 
     def __post_init__(self) -> None:
         text = self.file.read()
@@ -115,21 +118,26 @@ class Session:
     def _redo(self, *_: Any) -> None:
         self.document.redo()
 
-    def _pull(self, asked: Any, _: Any) -> Tree:
-        """The pose after a pull; the text stays."""
+    def _pull(self, asked: Any, message: Any) -> Tree:
+        """The pose after a pull, which goes ``on`` from the last one or begins at the text's pose; the text stays."""
         sketch = self.document.reading.sketch
         try:
             link, steps = str(asked["link"]), asked["path"][-8:]
             at = (float(asked["at"][0]), float(asked["at"][1]))
             path = [(float(x), float(y)) for x, y in steps]
+            on = bool(message["pull"].get("on"))
             if not all(map(math.isfinite, [*at, *(x for place in path for x in place)])):
                 raise ValueError
         except (KeyError, IndexError, OverflowError, TypeError, ValueError):
             raise ModelError("the pull cannot be read", "reload the page") from None
         if sketch is None or link not in sketch.compiled.links:
             raise ModelError("this link cannot be pulled", "choose a moving link")
+        what = self.document.hash, link, at
+        if on and self._pulled is not None and self._pulled[0] == what:
+            sketch = self._pulled[1]
         for x, y in path:
             sketch = sketch.pulled(link, at, (max(-1e6, min(x, 1e6)), max(-1e6, min(y, 1e6))))
+        self._pulled = what, sketch
         drives = {drive: _position(sketch.drive_positions, m_drive) for drive, m_drive in _driven(sketch)}
         return {"pose": sketch.placed, "drives": {k: x for k, x in drives.items() if x is not None}}
 
