@@ -15,6 +15,10 @@ from tests.cli.conftest import Run
         (["solve"], "dalembert: solve needs FILE; see `dalembert solve --help`"),
         (["solve", "none.yaml"], "none.yaml: file not found"),
         (
+            ["report", "none.yaml", "-o", "a.docx"],  # before any work
+            "a.docx: reports cannot be written in this format; use one of .pdf .html .tex .txt",
+        ),
+        (
             ["solve", "four_bar.yml"],
             "four_bar.yml: file not found; did you mean 'four_bar.yaml'?",
         ),

@@ -27,9 +27,8 @@ class Report:
         """The report as `pdf`, `html`, `tex` or `txt`."""
         if kind in ("pdf", "html"):
             from dalembert.reports.writers.typst_writer import typst_bytes
-            from dalembert.saving import check_installed
 
-            check_installed("typst", f"writing {kind.upper()}", "report")
+            check_format(Path(f"report.{kind}"))
             return typst_bytes(self.sheet, kind)
         if kind == "tex":
             from dalembert.reports.writers.latex_writer import latex_text
@@ -41,14 +40,10 @@ class Report:
 
     def save(self, path: str | Path, overwrite: bool = False) -> None:
         """Write .pdf, .html, .tex or .txt."""
-        from dalembert.errors import ModelError
         from dalembert.saving import new_file
 
         target = Path(path)
-        if target.suffix.lower() not in FORMATS:
-            raise ModelError(
-                f"{target.name}: reports cannot be written in this format", f"use one of {' '.join(FORMATS)}"
-            )
+        check_format(target)
         written = self.to_bytes(target.suffix.lower()[1:])
         with new_file(target, overwrite) as temporary:
             temporary.write_bytes(written)
@@ -58,6 +53,19 @@ class Report:
 
     def _repr_html_(self) -> str:
         return self.to_bytes("html").decode()
+
+
+def check_format(path: Path) -> None:
+    """Raises ModelError where the file's ending is no format of reports, or what writes that is not installed."""
+    from dalembert.errors import ModelError
+    from dalembert.saving import check_installed
+
+    ending = path.suffix.lower()
+    if ending not in FORMATS:
+        what = f"{path.name}: reports cannot be written in this format"
+        raise ModelError(what, f"use one of {' '.join(FORMATS)}")
+    if ending in (".pdf", ".html"):
+        check_installed("typst", f"writing {ending[1:].upper()}", "report")
 
 
 def report(

@@ -44,8 +44,10 @@ def report(
     force: Force = False,
 ) -> int:
     """Write the worked solution of FILE, step by step, with its drawings; or its design report."""
+    from dalembert.reports import check_format
     from dalembert.reports import report as worked_out
 
+    check_format(output)
     check_new(output, force)
     if design:
         return design_report(file, output, of, style, force)
