@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from pathlib import Path
 
 import pytest
@@ -34,6 +36,25 @@ def test_what_was_not_saved_is_kept_beside_it(tmp_path: Path) -> None:
     again.save("typed")
     assert again.kept() is None
     assert [p.name for p in tmp_path.iterdir()] == ["m.yaml"]
+
+
+@pytest.mark.parametrize(("code", "sentence"), [(errno.ENOSPC, "no space"), (errno.EROFS, "read-only")])
+def test_a_full_disk_or_a_read_only_one_is_said_and_loses_nothing(
+    code: int, sentence: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = StoredFile(tmp_path / "m.yaml")
+    file.save("a")
+    file.keep("typed")
+
+    def refuse(*_: object) -> None:
+        raise OSError(code, os.strerror(code))
+
+    monkeypatch.setattr(Path, "replace", refuse)
+    for write in (file.save, file.keep):
+        with pytest.raises(ModelError, match=f"cannot write .*: {sentence}"):
+            write("typed later")
+    assert (file.path.read_text(), file.side.read_text()) == ("a", "typed")
+    assert {p.name for p in tmp_path.iterdir()} == {file.path.name, file.side.name}
 
 
 @pytest.mark.parametrize(
