@@ -50,11 +50,16 @@ def cycle(sheet: ReportSheet, c: ReportContext) -> None:
         value, where = r.worst("effort", d)
         kind = drive_kinds(r, d)["effort"]
         least = floors(r, where)[kind == "moment"] if r.mechanism.dimension == 3 else 0.0
-        rows.append([f"effort {d}", c.shown.text(kind, value, least), str(where + 1)])
+        rows.append(_largest(f"effort {d}", c.shown.text(kind, value, least), where))
     for j in known:
         value, where = r.worst("reaction", j)
-        rows.append([f"joint {j}", c.shown.text("force", value), str(where + 1)])
+        rows.append(_largest(f"joint {j}", c.shown.text("force", value), where))
     sheet.table(["Largest", "Value", "Position"], rows)
+
+
+def _largest(name: str, value: str, where: int) -> list[str]:
+    """A row of largest values; what is 0 is that at all positions."""
+    return [name, value, "all" if value.split()[0] == "0" else str(where + 1)]
 
 
 def checks(sheet: ReportSheet, c: ReportContext) -> None:
