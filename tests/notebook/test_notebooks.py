@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import json
 import os
-import re
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import pytest
 
 import dalembert
 from dalembert.bundled import folder
+from tests.progress_lines import only_progress
 
 NOTEBOOKS = sorted(folder("examples").glob("notebooks/*.ipynb"))
 SHOWN = {"designer": 9, "student": 5, "teacher": 2, "tour": 11}
@@ -60,8 +60,7 @@ def test_notebooks_run_in_jupyter(path: Path, tmp_path: Path, monkeypatch: pytes
     client.execute()
     outputs = [o for cell in book.cells if cell.cell_type == "code" for o in cell.outputs]
     said = [o.text for o in outputs if o.output_type == "stream" and o.name == "stderr"]
-    progress = r"([^\n]*( so far| left| take about [^\n]*, by the first \d+)\n?)+"  # of work that was slow
-    assert not [text for text in said if not re.fullmatch(progress, text)]
+    assert not [text for text in said if not only_progress(text)]
     kinds = {"text/html", "image/svg+xml", "image/png"}
     assert sum(1 for o in outputs if kinds & set(o.get("data", ()))) >= SHOWN[path.stem]
     assert list(work.iterdir()) == []
