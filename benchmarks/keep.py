@@ -31,12 +31,6 @@ RUNS = {
     "four_bar": ("benchmarks/four_bar.py",),
     "simulate_designs": ("benchmarks/simulate.py", "designs"),
     "study": ("benchmarks/study.py", "--workers", "2"),
-    "mistakes": (
-        "-m",
-        "benchmarks.mistakes",
-        "seed-000-a-four-bar-loaded-rocker",
-        "seed-002-2-slider-crank-2kn",
-    ),
     "cross_check": ("benchmarks/cross_check.py", "--markdown"),
 }
 """Name of the kept file -> arguments of Python."""
