@@ -193,7 +193,10 @@ def test_one_position_is_printed_in_full(tmp_path: Path, capsys: pytest.CaptureF
     assert main(["solve", str(tmp_path / "one.yaml"), "--axes", "joint", "--units", "si"]) == 0
     out = capsys.readouterr().out
     words = " ".join(out.split())
-    assert "F_ij and M_ij are by link i on link j, in the joint's axes; moments about j's point" in words
+    assert (
+        "F_ij and M_ij are by link i on link j, in the joint's axes; moments about the joint's point on j"
+        in words
+    )
     assert "rod could spin between\n  ball joints: no spin" in out
     tables = [
         [line.split() for line in part.splitlines() if line.startswith(("C ", "rocker "))]
