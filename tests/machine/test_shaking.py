@@ -185,7 +185,7 @@ def test_what_the_ground_exerts_is_no_part_of_it() -> None:
     assert max(s.residual.max() for s in (whole, inside, driven)) < 1e-15
     with pytest.raises(ModelError, match="by the ground or from outside, not by 'crank'"):
         da.loads(GAS.replace("[0, 5]}", "[0, 5], by: crank}"))
-    with pytest.raises(ModelError, match="'P' is not a joint with the ground"):
+    with pytest.raises(ModelError, match="'P' is neither a joint with the ground nor a point"):
         da.shaking(da.dynamics(da.loads(GAS)), about="P")
 
 
