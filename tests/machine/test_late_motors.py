@@ -77,7 +77,8 @@ def test_along_a_motion_it_follows_its_line(seed: int) -> None:
     use = s.motor["O2"]
     rate = (motor["stall"] * (1 - use.speed / 300.0) - use.torque) / tau  # type: ignore[operator]
     assert use.torque[0] == pytest.approx(0.0, abs=1e-9)
-    assert use.torque[-1] == pytest.approx(simpson(rate, x=s.time), rel=1e-5)
+    # Simpson's rule meets a corner where the crank reverses
+    assert use.torque[-1] == pytest.approx(simpson(rate, x=s.time), abs=1e-6 * np.abs(use.torque).max())
     assert max(s.energy_residual, s.law_residual) < 1e-9
     at_once, *short = (moved(late).position("O2")[-1] for late in (0.0, 1e-3, 1e-4))
     far, near = (abs(x - at_once) for x in short)
