@@ -30,6 +30,7 @@ def governor(seed: int, w: Written) -> Machine:
     upper, lower, off = rng.uniform(0.2, 0.3), rng.uniform(0.25, 0.35), rng.uniform(0, 0.05, 2)
     down = -rng.uniform(0.6, 1.1)
     ball = (off[0] + upper * math.cos(down), upper * math.sin(down))
+    lower = max(lower, 1.1 * abs(ball[0] - off[1]))  # long enough to reach the sleeve
     lean = -math.pi / 2 - math.asin((ball[0] - off[1]) / lower)
     rubs = (
         {},
