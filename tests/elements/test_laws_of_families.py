@@ -20,8 +20,8 @@ from tests.tiers import BLOCK, crossed
 FACTORS = (1.0, 1.03, 0.98)
 """Of the varied numbers of three designs."""
 
-SEEDS = {"one_way": (0, 3), "pushing": (0, 29)}
-"""Machines of the quick laws: a clutch that drives turn freely, a lost contact where friction locks the machine."""
+SEEDS = {"one_way": (0, 3)}
+"""Machines of the quick laws, if not the first alone: a clutch that holds, and one that drives turn freely."""
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,7 @@ from dalembert.views.space.solids import (
     helix,
 )
 from dalembert.views.space.space_mechanism import every_place, full_sight
+from dalembert.views.symbols.joint_solids import wheel_solids
 from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
 from tests.methods.readable import text_over_lines, text_overlaps
 from tests.methods.space_machines import MACHINES, solved
@@ -139,6 +140,15 @@ def test_strokes_of_the_ground_start_at_the_edge_of_its_square() -> None:
         sides = [(a, b) for square in squares for a, b in pairwise([*square, square[0]])]
         around = [np.linalg.norm(p - a) + np.linalg.norm(p - b) - np.linalg.norm(a - b) for a, b in sides]
         assert min(around) < 1e-12
+
+
+def test_a_small_wheel_is_no_worm() -> None:
+    """Drawn where a wheel is thicker than its radius; the first wheel of a worm gear alone is a threaded bar."""
+    for name, bars in (("bevel_differential", 0), ("worm_gear", 1)):
+        r = da.kinematics(getattr(da, name)(), 1)
+        joint = next(n for n, j in r.mechanism.joints.items() if getattr(j, "wheels", None))
+        solids = [solid for _, solid in wheel_solids(r, joint, 100.0)]
+        assert sum(isinstance(solid, RoundBar) for solid in solids) == bars
 
 
 def test_a_link_that_is_one_point_has_a_free_body() -> None:

@@ -34,7 +34,7 @@ from dalembert.model.joints.friction_keys import (
     RollingFriction,
     SlotFriction,
 )
-from dalembert.model.joints.joint_part import JointPart, TwoNumbers, kinds_of
+from dalembert.model.joints.joint_part import JointPart, TwoNumbers, kinds_of, refuse_parts_of
 from dalembert.model.joints.pairs import freedoms_of
 from dalembert.model.joints.slot_damping import SlotDamping
 from dalembert.model.joints.space_joints import Frames, Matrix, SpaceJoint, frames
@@ -262,8 +262,8 @@ class Gear(JointPart):
         half = (self.teeth is None) != (self.module is None)
         if half or toothed == (self.radii is not None):
             raise ModelError("its size is not clear", "give either radii, or both teeth and module")
-        if self.teeth is not None and any(number != round(number) for number in self.teeth):
-            raise ModelError("a number of teeth is not an integer", "write integers", ("teeth",))
+        for number in self.teeth or ():
+            refuse_parts_of(number, "teeth", "teeth")
         if not 0 <= self.pressure_angle < 1.2:
             raise ModelError(
                 "the pressure angle is not between 0 and 68 deg", "20 deg is usual", ("pressure_angle",)

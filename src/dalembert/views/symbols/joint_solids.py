@@ -38,11 +38,16 @@ def wheels(r: Result, name: str, size: float = 0.0) -> list[tuple[str, Array, Ar
 
 def wheel_sizes(r: Result, name: str, size: float) -> list[tuple[str, Array, Array, float, float]]:
     """Link, centre, axis, radius and half length of each wheel: a worm is twice as long as wide, others are thin."""
-    helix = float(getattr(r.mechanism.joints[name], "helix_angle", 0.0) or 0.0)
+    joint = r.mechanism.joints[name]
     return [
-        (link, at, axis, radius, 2.0 * radius if abs(helix) > STEEP and n == 0 else 0.7 * size)
+        (link, at, axis, radius, 2.0 * radius if is_worm(joint, n) else 0.7 * size)
         for n, (link, at, axis, radius) in enumerate(wheels(r, name, size))
     ]
+
+
+def is_worm(joint: Any, n: int) -> bool:
+    """True for the first wheel of a gear whose teeth are as steep as a thread."""
+    return n == 0 and abs(getattr(joint, "helix_angle", None) or 0.0) > STEEP
 
 
 def wheel_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
@@ -51,12 +56,12 @@ def wheel_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
     discs = wheel_sizes(r, name, size)
     largest = max(radius for *_, radius, _ in discs)
     out: list[tuple[str, Solid]] = []
-    for link, at, axis, radius, half in discs:
+    for n, (link, at, axis, radius, half) in enumerate(discs):
         if joint.internal and radius == largest:
             out.append((link, Ring(at, axis, radius + 0.9 * size, 0.9 * size)))
             continue
-        if half > radius:
-            lead = 2 * np.pi * radius / np.tan(float(joint.helix_angle))
+        if is_worm(joint, n):
+            lead = 2 * np.pi * radius / np.tan(joint.helix_angle)
             out.append((link, RoundBar(at - half * axis, at + half * axis, radius, thread=lead)))
             continue
         out.append((link, Plate(circle(at, axis, radius, 48)[:-1], 2 * half, spoke=True)))
