@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import subprocess
 import sys
@@ -9,12 +10,13 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import pytest
 
 from dalembert.errors import ModelError
-from dalembert.studio.access import LARGEST, TABS, Rate
+from dalembert.studio.access import LARGEST, TABS, Access, Rate
 from dalembert.studio.document import EMPTY, text_hash
 from dalembert.studio.problems import problem_text, problems
 from dalembert.studio.session import Session
@@ -133,6 +135,49 @@ def test_tabs_agree_and_the_last_text_is_solved(studio: Any) -> None:
         assert until(one, "text")["text"] == EMPTY
         assert "press B" in until(one, "missing")["missing"]
     assert len(studio.tabs) <= TABS
+
+
+def test_forces_are_told_with_the_hash_of_the_text_they_are_of(tmp_path: Path) -> None:
+    """Also where a gesture comes while the forces of the text before it are computed."""
+    from dalembert.studio.server import StudioServer
+
+    asked, told, release = list[str](), list[Any](), Event()
+
+    class Slow(Solver):
+        def ask(self, question: Question) -> str:
+            asked.append(question.text)
+            release.wait(10)
+            return json.dumps({"data": question.text})
+
+    class Tab:
+        async def send_text(self, text: str) -> None:
+            told.append(json.loads(text))
+            if "n" in told[-1]:  # a tab that takes its reply slowly: the solver ends meanwhile
+                release.set()
+                await asyncio.sleep(0.2)
+
+    async def run() -> None:
+        session = Session(StoredFile(tmp_path / "m.yaml"))
+        session.document.replace(FOUR_BAR)
+        server = StudioServer(lambda: session, Access(1), Slow())
+        ws: Any = Tab()
+        server.tabs[ws] = 0
+        running = asyncio.create_task(server._run())
+        await server._begun.wait()
+        server._wanted.set()
+        while not asked:
+            await asyncio.sleep(0.01)
+        message = {"n": 1, "edit": [[0, 0, "# one line more\n"]], "base": session.document.hash}
+        await server._message(ws, json.dumps(message))
+        while not any("data" in m for m in told):
+            await asyncio.sleep(0.01)
+        running.cancel()
+
+    asyncio.run(run())
+    assert len(asked) == 2
+    assert asked[0] != asked[1]
+    assert [text_hash(m["data"]) for m in told if "data" in m] == [m["hash"] for m in told if "data" in m]
+    assert [m["data"] for m in told if "data" in m] == asked[1:]
 
 
 def test_it_saves_reloads_and_never_overwrites(studio: Any, tmp_path: Path) -> None:

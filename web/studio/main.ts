@@ -110,6 +110,7 @@ function open(which: string): void {
 }
 function update(s: State): void {
   const first = !state;
+  if (state && (state.static !== s.static || state.friction !== s.friction)) solvedHash = shownHash = "";
   state = s;
   if (hand.shadow && s.drawing.links) hand.shadow = null;
   if (picked && !exists(s.drawing, picked)) picked = null;
@@ -137,6 +138,20 @@ function verdictIs(text: string, wrong: boolean): void {
 }
 /** The forces of the last text, or the sentence of what is missing, with what would add it. */
 async function forces(a: Record<string, any>): Promise<void> {
+  waiting = a;
+  if (mounting) return; // one page at a time is put in; the last one stays
+  mounting = true;
+  try {
+    while (waiting) {
+      const next = waiting;
+      waiting = null;
+      await put(next);
+    }
+  } finally {
+    mounting = false;
+  }
+}
+async function put(a: Record<string, any>): Promise<void> {
   solvedHash = a.hash;
   if (a.missing !== undefined) {
     forcePane.classList.add("stale");
@@ -158,6 +173,8 @@ async function forces(a: Record<string, any>): Promise<void> {
 }
 /** Hash of the text of which the verdict speaks, and of that of which the forces are shown. */
 let solvedHash = "", shownHash = "", last = "{}";
+/** The last answer that is not yet shown, and whether one is being put in. */
+let waiting: Record<string, any> | null = null, mounting = false;
 /** Numbers that were changed in the page go into the text. */
 async function edited(values: Record<string, number>): Promise<void> {
   const text = JSON.stringify(values);

@@ -47,7 +47,6 @@ class StudioServer:
     def __init__(self, begin: Callable[[], Session], access: Access, solver: Solver | None = None) -> None:
         self.begin, self.access, self.solver = begin, access, solver or Solver()
         self.tabs: dict[WebSocket, int] = {}
-        self.changes = 0
         self._begun, self._wanted = asyncio.Event(), asyncio.Event()
 
     def app(self) -> Starlette:
@@ -113,7 +112,7 @@ class StudioServer:
     async def _message(self, ws: WebSocket, text: str) -> None:
         """Answers a message; a fault of the program refuses it, and ends no tab."""
         n: object = None
-        before = self.session.document.text, self.session.static, self.session.friction
+        before = self.session.analysed
         try:
             message = read_message(text)
             message = message if isinstance(message, dict) else {}
@@ -129,14 +128,12 @@ class StudioServer:
             return
         await self._send(ws, {"n": n, **told})
         if not {"pull", "problems", "keys"} & set(message):
-            changed = before != (self.session.document.text, self.session.static, self.session.friction)
-            await self._tell_all(changed)
+            await self._tell_all(before != self.session.analysed)
 
     async def _tell_all(self, changed: bool = True) -> None:
         state = self.session.state()
         await asyncio.gather(*(self._send(ws, state) for ws in self.tabs))
         if changed:
-            self.changes += 1
             self._wanted.set()
 
     async def _send(self, ws: WebSocket, message: Tree) -> None:
@@ -166,13 +163,14 @@ class StudioServer:
         while True:
             await self._wanted.wait()
             self._wanted.clear()
-            requested, session = self.changes, self.session
+            session = self.session
+            asked = session.analysed
             try:
                 answer = await self._answer(session)
             except Exception as error:
                 answer = json.dumps({"missing": sentence(error)})
-            if requested == self.changes:
-                solved = joined({"hash": session.document.hash}, answer)
+            if asked == session.analysed:  # a text that has come meanwhile is solved next
+                solved = joined({"hash": asked[0]}, answer)
                 await asyncio.gather(*(self._send_text(ws, solved) for ws in self.tabs))
 
     async def _answer(self, session: Session) -> str:

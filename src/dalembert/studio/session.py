@@ -47,6 +47,11 @@ class Session:
         """True if something is not saved."""
         return self.document.text != self.saved
 
+    @property
+    def analysed(self) -> tuple[str, bool, bool]:
+        """What the forces depend on: hash of the text, and whether without inertia and with friction."""
+        return self.document.hash, self.static, self.friction
+
     def state(self) -> Tree:
         """Contents of a tab without the forces."""
         d, reading = self.document, self.document.reading
