@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -123,13 +123,13 @@ class Canvas:
 def segments(items: Sequence[Item]) -> Array:
     """Every stroke as straight pieces (S, 2, 2); areas without an outline (`-fill`) have none."""
     outlines = [
-        np.array(_outline(item), float)
+        _outline(item)
         for item in Scene(tuple(items)).flat()
         if not isinstance(item, Text) and not item.role.endswith("-fill")  # type: ignore[union-attr]
     ]
     if not outlines:
         return np.zeros((0, 2, 2))
-    points = np.concatenate(outlines)
+    points = np.array(list(chain.from_iterable(outlines)), float)
     pieces = np.stack([points[:-1], points[1:]], axis=1)
     ends = (
         np.cumsum([len(outline) for outline in outlines])[:-1] - 1
@@ -225,11 +225,11 @@ class _Placer:
         at, near, gap = _candidates(label, room[0] - 0.25, room[1] - 0.25, gaps)
         box = np.concatenate([at - room, at + room], axis=1)
         cost = gap + self._preference(label, at, near)
-        order, strokes = np.argsort(cost, kind="stable"), self._close(box)
+        order = np.argsort(cost, kind="stable")
         for first, last in pairwise(CHEAPEST):
             free = order[first:last]
             free = free[~overlapping(box[free], self.boxes).any(axis=1)]
-            free = free[~crossings(box[free], *strokes).any(axis=1)]
+            free = free[~crossings(box[free], *self._close(box[free])).any(axis=1)]
             if label.leads and gap.max() >= LEADER:
                 free = free[(gap[free] < LEADER) | ~self._is_blocked(near[free], box[free])]
             if len(free):
@@ -239,7 +239,7 @@ class _Placer:
 
     def _close(self, box: Array) -> tuple[Array, Array]:
         """Strokes in the region of some boxes, with their extents."""
-        low, high = box[:, :2].min(axis=0), box[:, 2:].max(axis=0)
+        low, high = box[:, :2].min(axis=0, initial=math.inf), box[:, 2:].max(axis=0, initial=-math.inf)
         e = self.extents
         kept = np.flatnonzero((e[2] >= low[0]) & (e[3] >= low[1]) & (e[0] <= high[0]) & (e[1] <= high[1]))
         return self.strokes[kept], e[:, kept]

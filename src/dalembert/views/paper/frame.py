@@ -29,6 +29,10 @@ class PaperFrame:
             (float(p[1]) - self.middle[1]) / self.per_mm,
         )
 
+    def line(self, path: Array) -> tuple[Point, ...]:
+        """Places of the machine (N, 2) on paper."""
+        return tuple(map(tuple, ((path - self.middle) / self.per_mm).tolist()))
+
     def length(self, metres: float) -> float:
         """A length on paper."""
         return metres / self.per_mm

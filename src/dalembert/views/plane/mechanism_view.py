@@ -160,7 +160,7 @@ def draw_traces(canvas: Canvas, r: Result, frame: PaperFrame) -> None:
         if GROUND in joint.links and joint.hinge:
             continue
         path = link_place(r, joint.links[1], r.mechanism.joint_points(name)[1])
-        canvas.add(*(Line(tuple(frame(p) for p in run), "trace") for run in unbroken(path)))
+        canvas.add(*(Line(frame.line(run), "trace") for run in unbroken(path)))
 
 
 def draw_links(canvas: Canvas, r: Result, k: int, frame: PaperFrame) -> None:
@@ -284,14 +284,20 @@ def draw_force(
     )
 
 
+NEAR = 0.9
+"""Distance in mm within which an arrow covers a stroke."""
+
+
 def _covered(strokes: Array, start: Point, end: Point) -> int:
     """Number of twelve sampled points of an arrow, excluding its start, that are on strokes (S, 2, 2)."""
     places = np.array(along(start, end, *np.linspace(0.25, 1.0, 12)))
+    low, high = places.min(axis=0) - NEAR, places.max(axis=0) + NEAR
+    strokes = strokes[((strokes.max(axis=1) > low) & (strokes.min(axis=1) < high)).all(axis=1)]
     first, span = strokes[:, 0], strokes[:, 1] - strokes[:, 0]
     away = places[:, None] - first
     t = np.clip((away * span).sum(axis=-1) / np.maximum((span**2).sum(axis=-1), 1e-12), 0.0, 1.0)
     off = np.hypot(*np.moveaxis(away - t[..., None] * span, -1, 0)).min(axis=1, initial=math.inf)
-    return int((off < 0.9).sum())
+    return int((off < NEAR).sum())
 
 
 def _pushes(r: Result, a: Action, k: int) -> bool:
