@@ -31,6 +31,10 @@ RUNS = {
     "four_bar": ("benchmarks/four_bar.py",),
     "simulate_designs": ("benchmarks/simulate.py", "designs"),
     "study": ("benchmarks/study.py", "--workers", "2"),
+    "optimize": ("-m", "benchmarks.optimize"),
+    "mistakes": ("-m", "benchmarks.mistakes"),
+    "judged": ("-m", "benchmarks.judged"),
+    "grading": ("-m", "benchmarks.grading"),
     "cross_check": ("benchmarks/cross_check.py", "--markdown"),
 }
 """Name of the kept file -> arguments of Python."""

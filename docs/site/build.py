@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import doctest
+import json
 import os
 import re
 import shutil
@@ -41,7 +42,7 @@ SECTIONS = {
     "reference": (
         "Reference",
         "What every key, option, name and status means.",
-        "model-file model-keys command-line commands api quantities statuses conventions json-answer theory "
+        "model-file model-keys command-line commands api quantities statuses conventions limits json-answer theory "
         "architecture benchmarks licences",
     ),
 }
@@ -71,13 +72,15 @@ def main() -> int:
     lines = (
         None if options.no_examples else subprocess.Popen([sys.executable, str(HERE / "page_commands.py")])
     )
+    counted = subprocess.Popen([sys.executable, str(HERE / "law_counts.py")], stdout=subprocess.PIPE)
     failed = 0 if options.no_examples else run_examples()
     say("pages of the guide")
     copy_pages()
     for name, text in reference_pages.pages():
         say(name)
         write(f"{name}.md", text)
-    for done, count, name in problem_pages.write_all(SOURCE, options.part or ""):
+    laws = json.loads(counted.communicate()[0])
+    for done, count, name in problem_pages.write_all(SOURCE, options.part or "", laws):
         say(f"gallery {done} of {count}: {name}")
     sections()
     if failed:
@@ -96,7 +99,7 @@ def main() -> int:
     pages = len(list(SITE.rglob("*.html")))
     size = sum(p.stat().st_size for p in SITE.rglob("*") if p.is_file()) / 1e6
     say(f"{pages} pages, {size:.0f} MB: {SITE / 'index.html'}")
-    return ended.returncode or (lines.wait() if lines else 0)
+    return ended.returncode or counted.returncode or (lines.wait() if lines else 0)
 
 
 def kernel_settings() -> Path:
@@ -162,9 +165,15 @@ def resolved(text: str) -> str:
     """A page with its links out of docs/ led to the gallery, to the pages here, or shown as names of files."""
     to_problem = r"\]\(\.\./(cases|examples)/([\w-]+)\.yaml\)"
     text = re.sub(to_problem, lambda m: f"](gallery/{problem(*m.groups())}.md)", text)
+    text = re.sub(r"<!-- table of (benchmarks/kept/\w+\.txt) -->", lambda m: table_of(ROOT / m[1]), text)
     to_figures = r"\]\(\.\./benchmarks/kept/(\w+)\.txt\)"
     text = re.sub(to_figures, lambda m: f"](benchmarks.md#{m[1].replace('_', '-')})", text)
     return re.sub(r"\[([^\]]+)\]\(\.\./[^)]+\)", r"\1", text)
+
+
+def table_of(kept: Path) -> str:
+    """The table that a benchmark printed."""
+    return "\n".join(line for line in kept.read_text(encoding="utf-8").splitlines() if line.startswith("|"))
 
 
 def problem(folder: str, name: str) -> str:

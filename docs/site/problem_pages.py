@@ -1,4 +1,4 @@
-"""The gallery and the validation page, from the bundled problems: nothing on them is written by hand."""
+"""The gallery and the validation page, from the bundled problems and the tests: no number on them is typed."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import platform
 from collections.abc import Iterator
 from html import escape
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from dalembert.grading.file_answers import ComparedAnswer, check
 
 HEADS = "| quantity | published | computed | exact | deviation | tolerance | |"
 RULE = "| --- | --- | --- | --- | --- | --- | --- |"
+LAW_HEADS = "| what holds | laws | machines, by default | in the long tests | in all tests |"
+Laws = dict[str, dict[str, Any]]
+"""What `law_counts.py` prints."""
 FILTER = """<div class="filters"><input id="problem-text" placeholder="Search titles and sources" aria-label="Search">
 <select id="problem-kind" aria-label="Kind"><option value="">all kinds</option>{options}</select></div>"""
 
@@ -24,7 +28,7 @@ def problems() -> dict[str, Path]:
     return dict(cases()) | {f"example-{name}": path for name, path in examples().items()}
 
 
-def write_all(source: Path, part: str) -> Iterator[tuple[int, int, str]]:
+def write_all(source: Path, part: str, laws: Laws) -> Iterator[tuple[int, int, str]]:
     """Write a page for each problem, the index and the validation page; yields count done, total and name."""
     folder = source / "gallery"
     folder.mkdir()
@@ -38,7 +42,7 @@ def write_all(source: Path, part: str) -> Iterator[tuple[int, int, str]]:
         kinds = write_problem(folder, source / "_static" / "problems", name, path, m, compared)
         entries.append((name, m.title, m.source_text, kinds))
     (folder / "index.md").write_text(index(entries), encoding="utf-8")
-    (source / "validation.md").write_text(validation(rows), encoding="utf-8")
+    (source / "validation.md").write_text(validation(rows, laws), encoding="utf-8")
 
 
 def write_problem(
@@ -111,8 +115,8 @@ def index(entries: list[tuple[str, str, str, list[str]]]) -> str:
     )
 
 
-def validation(rows: list[tuple[str, da.Mechanism, ComparedAnswer]]) -> str:
-    """Every published answer beside ours, by source."""
+def validation(rows: list[tuple[str, da.Mechanism, ComparedAnswer]], laws: Laws) -> str:
+    """Every published answer beside ours, by source; the laws that the tests try; the limits of the model."""
     met, exact = sum(row.ok for *_, row in rows), sum(bool(row.exact) for *_, row in rows)
     count = len({name for name, *_ in rows})
     made = f"dalembert {da.__version__}, Python {platform.python_version()}, numpy {np.__version__}"
@@ -122,11 +126,46 @@ def validation(rows: list[tuple[str, da.Mechanism, ComparedAnswer]]) -> str:
         f"accuracy of their sources; {exact} of them also have an exact value. `dalembert validate` makes the same "
         "comparison on your machine.",
         f"Computed by {made}. Times are [measured](benchmarks.md) beside other programs.",
+        "Below: [laws](#laws), [limits of the model](#limits-of-the-model), [published answers](#published-answers).",
+        law_part(laws),
+        not_modelled(),
+        "## Published answers",
     ]
     by_source: dict[str, list[str]] = {}
     for name, m, row in rows:
         head = (m.source_text or "Other").split(",")[0].split(";")[0]
         by_source.setdefault(head, []).append(f"| [{name}](gallery/{name}.md) {answer(row)}")
     for head, lines in sorted(by_source.items()):
-        parts += [f"## {head}", "\n".join([f"| problem {HEADS}", f"| --- {RULE}", *lines])]
+        parts += [f"### {head}", "\n".join([f"| problem {HEADS}", f"| --- {RULE}", *lines])]
     return "\n\n".join(parts) + "\n"
+
+
+def law_part(laws: Laws) -> str:
+    """Laws and the machines on which the tests try them, by room; then each file of tests."""
+    rooms: dict[str, list[dict[str, Any]]] = {}
+    for module, part in laws.items():
+        rooms.setdefault(module.split("/")[1], []).append(part)
+    by_room = [law_row(f"`tests/{room}`", parts) for room, parts in sorted(rooms.items())]
+    by_file = [law_row(part["said"].rstrip(".;").replace("|", "\\|"), [part]) for part in laws.values()]
+    total = law_row("**all**", list(laws.values()))
+    head = f"{LAW_HEADS}\n| --- | ---: | ---: | ---: | ---: |"
+    said = (
+        "A law holds for every machine, whether or not a book has it: reactions do no work, velocities are the "
+        "differences of positions, a mirrored or scaled machine has a mirrored or scaled answer, a program written "
+        "independently gives the same. Each law is tried on machines, mechanisms or force systems that are drawn at "
+        "random; a machine counts once for each law that is tried on it."
+    )
+    return "\n".join(
+        ["## Laws", "", said, "", head, *by_room, total, "", "By file of tests:", "", head, *by_file]
+    )
+
+
+def law_row(name: str, parts: list[dict[str, Any]]) -> str:
+    machines = [sum(part["machines"][tier] for part in parts) for tier in range(3)]
+    cells = [sum(len(part["laws"]) for part in parts), *machines]
+    return f"| {name} | " + " | ".join(f"{cell:,}" for cell in cells) + " |"
+
+
+def not_modelled() -> str:
+    """The page of the guide, one heading lower."""
+    return "#" + (Path(__file__).parents[1] / "limits.md").read_text(encoding="utf-8").strip()

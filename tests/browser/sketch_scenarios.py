@@ -146,7 +146,7 @@ def a_truss_does_not_move(s: Studio) -> None:
     """A pulled member stays, and the part list says that nothing is free."""
     s.open("example", "truss")
     s.choose("", "")
-    assert "0 freedoms" in s.page.inner_text(".pane.part")
+    assert "0 degrees of freedom" in s.page.inner_text(".pane.part")
     s.page.keyboard.press("0")
     link, before = names(s)[1], s.drawing()["links"]
     at = along(s, link, 0.5)

@@ -160,8 +160,8 @@ def test_virtual_work_needs_something_that_moves(run: Run) -> None:
         (
             "drives:\n  O2: {position: 60 deg, speed: 25 rad/s, acceleration: -40 rad/s^2}\n",
             "",
-            "18: the mechanism has 1 freedom and no drive; add 1 drive at one of O2 (turn), A (turn), B (turn), "
-            "O4 (turn), or join the links that still move: crank, coupler, rocker",
+            "18: the mechanism has 1 degree of freedom and no drive; add 1 drive at one of O2 (turn), A (turn), "
+            "B (turn), O4 (turn), or constrain the links that can still move: crank, coupler, rocker",
         ),
     ],
 )

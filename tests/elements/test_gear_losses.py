@@ -1,4 +1,4 @@
-"""Gears with an efficiency: trains on fixed axes and epicyclic ones against products of efficiencies, both ways."""
+"""Gears with an efficiency: fixed and epicyclic trains against products of efficiencies, both ways."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Kept programs answer what the careful path answers, to 1e-10, and take the same way of closing."""
+"""Kept programs give the answers of the careful path to 1e-10, on the same branch."""
 
 from __future__ import annotations
 

@@ -134,7 +134,7 @@ def test_a_pendulum_of_others_hangs_where_it_was_turned_to() -> None:
     assert m.points("link")["tip_mkr"] == pytest.approx([0, -0.2, 0])
     assert m.gravity_vector == pytest.approx([0, -9.80665, 0])
     assert m.assembly["link"].angle == pytest.approx(np.pi / 4)
-    with pytest.raises(ModelError, match="has 1 freedom and no drive"):
+    with pytest.raises(ModelError, match="has 1 degree of freedom and no drive"):
         da.kinematics(m)
 
 

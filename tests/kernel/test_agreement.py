@@ -1,4 +1,4 @@
-"""The kernel answers what the general executor answers (DESIGN: a test, on random mechanisms)."""
+"""The kernel gives the answers of the general executor on random mechanisms."""
 
 from __future__ import annotations
 

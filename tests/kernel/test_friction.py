@@ -1,4 +1,4 @@
-"""Friction in the kernel: what the general executor answers, its statuses, exact figures, and derivatives."""
+"""Friction in the kernel: the answers of the general executor, its statuses, exact figures, and derivatives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mechanisms in space: the kernel answers what the general executor answers, whatever numbers of the file vary."""
+"""Mechanisms in space: the kernel gives the answers of the general executor, whatever numbers of the file vary."""
 
 from __future__ import annotations
 

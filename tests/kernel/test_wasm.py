@@ -1,4 +1,4 @@
-"""The WebAssembly of a kernel answers what its machine code answers, marks too; its functions are exact to ulps."""
+"""The WebAssembly of a kernel gives the numbers and status codes of its machine code; functions are exact to ulps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Linkages that nearly change: near branches are told apart at their own scale, crossing ones followed straight on.
+"""Linkages near a change point: close branches are distinguished, and a motion stays on its branch through a crossing.
 
 Closed forms (circles that meet, Bennett's relation) say where a linkage is that stays on its branch.
 """

@@ -1,4 +1,4 @@
-"""First poses: groups of links laid down one after another, every way that they close."""
+"""First poses: groups of links placed one after another, in every assembly mode."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Wrong, odd and broken descriptions: a ModelError, a status with a sentence, or numbers that balance. Nothing else."""
+"""Wrong, odd and broken descriptions: a ModelError, a status with a sentence, or numbers that balance."""
 
 from __future__ import annotations
 

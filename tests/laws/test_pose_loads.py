@@ -1,4 +1,4 @@
-"""Loads that go by where the machine is: as the same loads stated in numbers, position by position, and as springs."""
+"""Loads that depend on the position of the machine: as the same loads in numbers at each position, and as springs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Linkages that close in two separate ranges of the drive: both are solved, on the stated side, in whatever order.
+"""Linkages that close in two separate ranges of the drive: both are solved, in the given mode and in any order.
 
 Closed forms say where they close and where they then are.
 """

@@ -45,7 +45,7 @@ def test_size_changes_no_freedom_and_no_force(size: float) -> None:
         assert sized.reaction(joint) == pytest.approx(unit.reaction(joint), abs=1e-9)
     assert sized.effort("O") / size == pytest.approx(unit.effort("O"), rel=1e-9)
     with pytest.raises(
-        da.ModelError, match=r"one of O \(turn\), A \(turn\), B \(turn\), guide \(slide\), or join"
+        da.ModelError, match=r"one of O \(turn\), A \(turn\), B \(turn\), guide \(slide\), or constrain"
     ):
         da.mobility(crank(size, False))
     found, double = da.mobility(crank(size, True, twin=True)), da.statics(crank(size, True, twin=True))
@@ -70,6 +70,6 @@ def test_two_freedoms_without_drives_are_named_together() -> None:
     tree = crank(1.0, False).to_tree()
     del tree["joints"]["guide"]
     with pytest.raises(
-        da.ModelError, match=r"has 3 freedoms and no drive; add 3 drives at some of O \(turn\), A"
+        da.ModelError, match=r"has 3 degrees of freedom and no drive; add 3 drives at some of O \(turn\), A"
     ):
         da.statics(da.mechanism(tree))

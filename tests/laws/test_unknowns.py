@@ -1,4 +1,4 @@
-"""Turning the question round: what was given is found again; what is doubled is not unique; the rest stays."""
+"""Knowns and unknowns exchanged: the given value is computed again; duplicates are not unique; all else stays."""
 
 from __future__ import annotations
 

@@ -121,7 +121,7 @@ def test_what_is_in_doubt_is_simulated_alone() -> None:
 
 
 @pytest.mark.parametrize(
-    ("seed", "sentence"), [(2, "several drives that forces move"), (4, "several drives that forces move")]
+    ("seed", "sentence"), [(2, "two or more drives that move"), (4, "two or more drives that move")]
 )
 def test_what_may_stick_several_ways_is_refused(seed: int, sentence: str) -> None:
     with pytest.raises(ModelError, match=sentence):

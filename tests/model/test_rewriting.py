@@ -1,4 +1,4 @@
-"""What is saved is the author's own text: only the characters of changed values change."""
+"""A saved file is the author's text: only the characters of changed values change."""
 
 from __future__ import annotations
 

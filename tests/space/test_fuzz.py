@@ -106,7 +106,7 @@ def test_a_drive_too_many_is_named_by_as_many_iterations_as_one_position_takes(
         steps.clear()
         with pytest.raises(da.ModelError) as caught:
             da.solve(da.mechanism(tree))
-        says = f"the mechanism has 1 freedom and 2 drives; remove 1 drive of {drive}, {joint}"
+        says = f"the mechanism has 1 degree of freedom and 2 drives; remove 1 drive of {drive}, {joint}"
         assert str(caught.value) == says
         taken.add(sum(steps))
     assert len(taken) == 1

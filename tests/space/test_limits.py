@@ -1,4 +1,4 @@
-"""What one joint has in common with others: a screw of no lead, a universal joint and its cross, a shaft that slides;
+"""Joints as limits of others: a screw of no lead, a universal joint and its cross, a shaft that slides;
 and turns of more than one whole turn."""
 
 from __future__ import annotations

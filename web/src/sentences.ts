@@ -125,8 +125,8 @@ export class Reasons {
     if (sketch.dimension !== 2 || missing <= 0) return "";
     const free = found.joints.slice(0, 6).map((r) => `${r.joint} (${r.angular ? "turn" : "slide"})`);
     const where = free.length ? ` at ${missing === 1 ? "one" : "some"} of ${free.join(", ")}` : "";
-    const count = (k: number, noun: string): string => (k ? `${k} ${noun}${k > 1 ? "s" : ""}` : `no ${noun}`);
-    const counts = fill(this.s.words.counts, { freedoms: count(found.freedoms, "freedom"), drives: count(drives.length, "drive") });
+    const count = (k: number, noun: string, more = `${noun}s`): string => (k ? `${k} ${k > 1 ? more : noun}` : `no ${noun}`);
+    const counts = fill(this.s.words.counts, { freedoms: count(found.freedoms, "degree of freedom", "degrees of freedom"), drives: count(drives.length, "drive") });
     return `${counts}; ${fill(this.s.words.add, { drives: count(missing, "drive"), where, loose: found.links.join(", ") })}`;
   }
 

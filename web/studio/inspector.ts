@@ -46,7 +46,7 @@ export class Inspector {
     for (const j of d.joints) add("joints", j.name, j.type);
     for (const l of d.loads) add("loads", l.name, l.type);
     if (d.links.length < 2) html("p", this.el, { class: "hint" }, "Begin with a ground point (X) and a link from it (B); the keys are on the buttons. Or open a template.");
-    else html("p", this.el, { class: "hint" }, `${d.freedoms} ${d.freedoms === 1 ? "freedom" : "freedoms"}, ${d.drives.length} ${d.drives.length === 1 ? "drive" : "drives"}`);
+    else html("p", this.el, { class: "hint" }, `${d.freedoms} ${d.freedoms === 1 ? "degree" : "degrees"} of freedom, ${d.drives.length} ${d.drives.length === 1 ? "drive" : "drives"}`);
   }
   private link(d: Drawing, name: string): void {
     const l = d.links.find((one) => one.name === name);

@@ -67,7 +67,7 @@ def mobility_at(c: Compiled, pose: Pose, special: bool = False) -> Mobility:
 
 
 COUNTS = "the mechanism has {freedoms} and {drives}"
-ADD = "add {drives}{where}, or join the links that still move: {loose}"
+ADD = "add {drives}{where}, or constrain the links that can still move: {loose}"
 NAMED = 6
 """Freedoms that are named at most."""
 
@@ -77,7 +77,8 @@ def check_drives(c: Compiled, ranked: Rank, mobility: Mobility) -> None:
     missing = mobility.freedoms - mobility.drives
     path = ("drives",) if mobility.drives else ("joints",)
     counts = COUNTS.format(
-        freedoms=_count(mobility.freedoms, "freedom"), drives=_count(mobility.drives, "drive")
+        freedoms=_count(mobility.freedoms, "degree of freedom", "degrees of freedom"),
+        drives=_count(mobility.drives, "drive"),
     )
     if missing < 0:
         names = ", ".join(c.schedule.names)
@@ -113,8 +114,8 @@ def check_knowns(c: Compiled) -> None:
     raise ModelError(f"{loads} but {efforts}", remedy, ("loads", c.unknown_loads[0]))
 
 
-def _count(number: int, noun: str) -> str:
+def _count(number: int, noun: str, plural: str = "") -> str:
     """'1 drive', '2 drives', 'no drive'."""
     if number == 0:
         return f"no {noun}"
-    return f"{number} {noun}" + ("s" if number > 1 else "")
+    return f"{number} {(plural or f'{noun}s') if number > 1 else noun}"

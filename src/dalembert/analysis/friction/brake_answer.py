@@ -50,8 +50,8 @@ class Brake:
 
 @dataclass(frozen=True)
 class ShoeBrake(Brake):
-    """A shoe; normal_moment, friction_moment (P,): sizes of the moments of its normal forces and of friction about its
-    point of the joint, N m; ``place``: angle of the greatest pressure from that line, rad."""
+    """A shoe; normal_moment, friction_moment (P,): moments of its normal and friction forces about its pivot, as
+    magnitudes, N m; ``place``: angle of the greatest pressure from the line from drum axis to pivot, rad."""
 
     normal_moment: Array = field(repr=False)
     friction_moment: Array = field(repr=False)

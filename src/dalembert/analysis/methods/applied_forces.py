@@ -227,7 +227,7 @@ def effort_actions(r: Result) -> tuple[Action, ...]:
 
 
 def drive_wrench(r: Result, drive: str, value: Array) -> tuple[Array, Array]:
-    """Force and couple of an effort of a drive (P,) on j at its point of the joint: one of both is zero."""
+    """Force and couple (P,) of a drive's effort on link j, at the joint's point on j; one of the two is zero."""
     d, row = r.compiled.layout.algebra.d, int(r.compiled.layout.driven[r.drives.index(drive)])
     with np.errstate(all="ignore"):
         rows = system(r.compiled.layout.algebra, r.compiled.layout.freedoms, full_pose(r))

@@ -66,4 +66,4 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
     by = {"each position with the motor's curve": c.curve, "the rms torque with the rated torque": c.rated}
     limits = " and ".join(what for what, value in by.items() if value is not None)
     judged = f"The column `enough` compares {limits}."
-    yield judged if limits else "Ratios are not judged: neither a motor curve nor a rated torque is given."
+    yield judged if limits else "The column `enough` needs a motor curve or a rated torque; neither is given."

@@ -3571,9 +3571,9 @@ var An = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	loose(e) {
 		let { drives: t, sketch: n } = this.data, r = this.kernel.motion.sketch.mobility(e), i = r.freedoms - t.length;
 		if (n.dimension !== 2 || i <= 0) return "";
-		let a = r.joints.slice(0, 6).map((e) => `${e.joint} (${e.angular ? "turn" : "slide"})`), o = a.length ? ` at ${i === 1 ? "one" : "some"} of ${a.join(", ")}` : "", s = (e, t) => e ? `${e} ${t}${e > 1 ? "s" : ""}` : `no ${t}`;
+		let a = r.joints.slice(0, 6).map((e) => `${e.joint} (${e.angular ? "turn" : "slide"})`), o = a.length ? ` at ${i === 1 ? "one" : "some"} of ${a.join(", ")}` : "", s = (e, t, n = `${t}s`) => e ? `${e} ${e > 1 ? n : t}` : `no ${t}`;
 		return `${$(this.s.words.counts, {
-			freedoms: s(r.freedoms, "freedom"),
+			freedoms: s(r.freedoms, "degree of freedom", "degrees of freedom"),
 			drives: s(t.length, "drive")
 		})}; ${$(this.s.words.add, {
 			drives: s(i, "drive"),

@@ -39,7 +39,8 @@ def refuse_events(m: Mechanism, prescribed: Mechanism, moves: Actuation, rough: 
     rests = rough or bool(moves.brake.any())
     if rests and moves.free.sum() > 1:
         raise ModelError(
-            "several drives that forces move have dry friction or brakes, and each may stick", REMEDY
+            "two or more drives that move freely have dry friction or brakes, and each of them may stick",
+            REMEDY,
         )
     if rests and ((moves.speed[~moves.free] != 0).any() or (moves.acceleration[~moves.free] != 0).any()):
         raise ModelError("a prescribed drive moves beside dry friction or a brake", REMEDY)
