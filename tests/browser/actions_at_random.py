@@ -79,11 +79,10 @@ def line(s: Studio, r: Random) -> None:
 def field(s: Studio, r: Random) -> None:
     """A value of a part under Part."""
     pane(s, "Part")
-    inputs = s.page.locator(".pane.part input:visible")
-    if not inputs.count():
+    script = """k => { const all = [...document.querySelectorAll('.pane.part input')];
+        all[k % all.length]?.focus(); return all.length; }"""
+    if not s.page.evaluate(script, r.randrange(1000)):
         return
-    box = inputs.nth(r.randrange(inputs.count()))
-    s.page.evaluate("e => e.focus()", box.element_handle())
     s.page.keyboard.press("Control+a")
     s.page.keyboard.type(r.choice(TYPED))
     s.page.keyboard.press(r.choice(["Enter", "Enter", "Escape", "Tab"]))
@@ -108,7 +107,6 @@ def letters(s: Studio, r: Random) -> None:
     for letter in some:
         (s.page.keyboard.press if letter[0].isupper() else s.page.keyboard.insert_text)(letter)
     if r.random() < 0.8:
-        s.page.wait_for_timeout(320)  # then they are one step
         s.page.keyboard.press("Control+z")
     s.page.evaluate("document.activeElement?.blur()")
 
@@ -116,17 +114,16 @@ def letters(s: Studio, r: Random) -> None:
 def forces(s: Studio, r: Random) -> None:
     """A handle of the page of forces is dragged, the time moved."""
     pane(s, "Forces")
-    handles = s.page.locator(".pane.forces:not(.stale) .handle:visible")
-    if not handles.count():
-        return
-    box = handles.nth(r.randrange(handles.count())).bounding_box()
-    if box:
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    script = """() => [...document.querySelectorAll('.pane.forces:not(.stale) .handle')]
+        .map(e => e.getBoundingClientRect()).filter(b => b.width)
+        .map(b => [b.x + b.width / 2, b.y + b.height / 2])"""
+    if handles := s.page.evaluate(script):
+        x, y = r.choice(handles)
         s.page.mouse.move(x, y)
         s.page.mouse.down()
         s.page.mouse.move(x + r.uniform(-25, 25), y + r.uniform(-25, 25), steps=3)
         s.page.mouse.up()
-    s.page.keyboard.press(r.choice([".", ",", " ", " "]))
+        s.page.keyboard.press(r.choice([".", ",", " ", " "]))
 
 
 def option(s: Studio, r: Random) -> None:

@@ -58,6 +58,7 @@ class Opened:
         page.on("pageerror", lambda e: self.complaints.append(str(e)))
         page.goto(file.as_uri())
         self.until("window.page !== undefined")
+        self.frame()  # its size is known
 
     def until(self, holds: str) -> None:
         """Wait for something; the page's policy forbids what Playwright would wait by."""

@@ -73,8 +73,7 @@ def pull(s: Studio, start: Place, *path: Place) -> None:
 
 def followed(s: Studio) -> None:
     """Wait until the link has followed the hand."""
-    s.page.wait_for_timeout(50)
-    s.until("!studio.hand.drag?.led")
+    s.answered()
 
 
 def miss(s: Studio, link: str, part: float, to: Place) -> float:
@@ -155,7 +154,7 @@ def a_truss_does_not_move(s: Studio) -> None:
     s.page.mouse.move(*s.pixel(at[0] + 0.5, at[1] + 0.5), steps=3)
     followed(s)
     s.page.mouse.up()
-    s.page.wait_for_timeout(300)
+    s.answered()
     for old, new in zip(before, s.drawing()["links"], strict=True):
         assert np.allclose(list(old["points"].values()), list(new["points"].values()), atol=1e-9)
 
@@ -243,7 +242,7 @@ def switches(s: Studio) -> None:
         ("dynamics", da.statics(m)),
         ("dynamics", da.dynamics(m)),
     ):
-        assert effort_is(s, float(r.effort("O2")[0])), (box, r)
+        assert s.effort() == pytest.approx(float(r.effort("O2")[0]), rel=1e-9), (box, r)
         s.page.get_by_label(box, exact=True).click()
     s.page.get_by_label("dynamics", exact=True).set_checked(True)
     s.changes(lambda: s.open("problem", "seed-002-7a-engine-friction-circles"))
@@ -251,21 +250,12 @@ def switches(s: Studio) -> None:
     (drive,) = m.drives
     for friction in (True, False, True):
         r = da.solve(m.with_values({"friction.enabled": friction}))
-        assert effort_is(s, float(r.effort(drive)[0]))
+        assert s.effort() == pytest.approx(float(r.effort(drive)[0]), rel=1e-9)
         if friction:
             s.page.get_by_label("friction", exact=True).click()
         else:
             s.page.get_by_label("friction", exact=True).set_checked(True)
     s.page.get_by_label("friction", exact=True).set_checked(True)
-
-
-def effort_is(s: Studio, expected: float) -> bool:
-    """True once the page shows an effort."""
-    for _ in range(100):
-        if s.effort() == pytest.approx(expected, rel=1e-9):
-            return True
-        s.page.wait_for_timeout(100)
-    return False
 
 
 def answers_of_the_file_are_checked(s: Studio) -> None:

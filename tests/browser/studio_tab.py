@@ -18,7 +18,7 @@ class Studio:
         self.page.on("console", lambda m: self.complaints.append(m.text))
         self.page.on("pageerror", lambda e: self.complaints.append(str(e)))
         self.page.goto(address)
-        self.until("window.studio && studio.state()")
+        self.until("window.studio && studio.state() && studio.answered()")
 
     def until(self, holds: str) -> None:
         """Wait for something; the page's policy forbids what Playwright would wait by."""
@@ -28,6 +28,14 @@ class Studio:
             self.page.wait_for_timeout(20)
         raise AssertionError(f"never: {holds}; {self.text}; {self.page.inner_text('.banners')}")
 
+    def answered(self) -> None:
+        """Wait until the state is that after all that was done."""
+        self.until("studio.answered()")
+
+    def settled(self) -> None:
+        """Wait until all that was done is answered, and shown as far as it has an answer."""
+        self.until("studio.settled()")
+
     @property
     def text(self) -> str:
         return str(self.page.evaluate("studio.state().text"))
@@ -36,7 +44,7 @@ class Studio:
         """Do something, and wait until the text is another one."""
         before = self.page.evaluate("studio.state().hash")
         act()
-        self.until(f"studio.state().hash !== '{before}'")
+        self.until(f"studio.answered() && studio.state().hash !== '{before}'")
 
     def pixel(self, x: float, y: float) -> tuple[float, float]:
         script = """p => { const b = studio.canvas.svg.getBoundingClientRect();
@@ -89,6 +97,14 @@ class Studio:
         box.fill(value)
         self.changes(lambda: box.press("Enter"))
 
+    def reads(self, text: str) -> None:
+        """Wait until the text is this one, also of what was done in another tab."""
+        for _ in range(3000):
+            if self.text == text:
+                return
+            self.page.wait_for_timeout(20)
+        raise AssertionError(f"never {text!r}, but {self.text!r}")
+
     def point(self, link: str, name: str = "") -> tuple[float, float]:
         """Place of a point of a link, by default its second one."""
         script = """([l, p]) => { const q = studio.state().drawing.links.find(k => k.name === l).points;
@@ -123,7 +139,7 @@ class Studio:
         """A bundled file, by the list of problems."""
         self.page.click("[role=tab][data-pane=Problems]")
         self.send({"open": {"kind": kind, "name": name}})
-        self.until(f"studio.state().drawing.title && studio.state().text.length > {len(EMPTY)}")
+        self.answered()
 
     def type(self, label: str, value: str) -> None:
         """A value of the part that is chosen."""
@@ -154,18 +170,16 @@ class Studio:
         """Begin with an empty drawing."""
         self.page.click("[role=tab][data-pane=Problems]")
         self.page.wait_for_selector(".list button")
+        self.answered()
         if self.text != EMPTY:
             self.changes(lambda: self.page.click(".list button:text-is('Empty drawing')"))
 
     def effort(self) -> float:
         """The effort of the drive that the page of forces computes, of the text as it is."""
-        self.until("studio.page() && studio.shown() === studio.state().hash")
+        self.until("studio.solved()")
         script = """() => { const p = studio.page(), k = p.kernel;
             const r = p.data.views.table.find(t => t.name.startsWith('effort')).rows[0];
             return k.rows[r * k.row + Math.round(p.data.start)]; }"""
-        self.until(
-            f"({script})() !== undefined"
-        )  # the page computes in a frame of its own, later on a busy machine
         return float(self.page.evaluate(script))
 
 

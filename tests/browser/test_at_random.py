@@ -49,10 +49,8 @@ class Forces:
 
 def settled(s: Studio) -> bool:
     """Wait until all that was done is answered; True if forces are shown of the text as it is."""
-    for _ in range(3):  # an edit of the file waits a quarter of a second
-        s.page.wait_for_timeout(300)
-        s.until("studio.state().error || studio.solved() === studio.state().hash")
-    return bool(s.page.evaluate("studio.shown() === studio.state().hash && !!studio.page()?.kernel"))
+    s.settled()
+    return bool(s.page.evaluate("studio.solved() && !!studio.page().kernel"))
 
 
 def looked_at(s: Studio, path: Path) -> bool:

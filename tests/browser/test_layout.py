@@ -38,7 +38,8 @@ SMALL = """[...document.querySelectorAll('.stage svg text, .chart svg text')]
 
 def resize(page: Any, width: int, height: int) -> None:
     page.page.set_viewport_size({"width": width, "height": height})
-    page.page.wait_for_timeout(60)
+    page.until(f"innerWidth === {width} && innerHeight === {height}")
+    page.frame()
     page.frame()
 
 

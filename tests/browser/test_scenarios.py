@@ -36,7 +36,7 @@ def keys(s: Studio, said: str) -> None:
     for key in said.split():
         named = key in ("Enter", "Tab", "Escape", "Delete", "PageDown", "PageUp", "Space") or "+" in key
         (s.page.keyboard.press if named else s.page.keyboard.type)(key)
-        s.page.wait_for_timeout(30)
+        s.answered()
 
 
 def bars(s: Studio) -> None:
@@ -87,6 +87,7 @@ def by_touch_alone(s: Studio) -> None:
 
     def tap(tool: str, *places: tuple[float, float]) -> None:
         s.page.tap(f"[data-tool={tool}]")
+        s.until(f"studio.hand.tool.name === '{tool}'")
         s.changes(lambda: [s.page.touchscreen.tap(*s.pixel(*at)) for at in places])
 
     tap("ground", (0, 0))
@@ -163,7 +164,8 @@ def refused_in_fields(s: Studio) -> None:
         box = s.page.locator(".pane.part input[aria-label=mass]")
         box.fill(wrong)
         box.press("Enter")
-        s.until("document.querySelector('.pane.part .refused:not(:empty)')")
+        s.answered()
+        assert s.page.locator(".pane.part .refused:not(:empty)").count() == 1
         assert s.text == before
         box.fill("2 lbm")
         box.press("Escape")
@@ -177,7 +179,7 @@ def another_assembly_by_picture(s: Studio) -> None:
     s.page.click("button:text-is('Other assemblies')")
     s.page.wait_for_selector(".modes img")
     assert s.page.locator(".modes button").count() == 2
-    assert s.page.evaluate("[...document.querySelectorAll('.modes img')].every(x => x.naturalWidth > 0)")
+    s.until("[...document.querySelectorAll('.modes img')].every(x => x.naturalWidth > 0)")
     s.changes(lambda: s.page.click(".modes button:not([disabled])"))
     assert s.effort() == pytest.approx(float(da.dynamics(da.loads(s.text)).effort("O2")[0]), rel=1e-9)
     assert s.effort() != pytest.approx(before)

@@ -32,6 +32,10 @@ window.remove = await module.default.render({model, el: document.body});
 }"""
 
 
+FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+"""Until the page has drawn what was done."""
+
+
 def test_python_follows_what_was_dragged() -> None:
     w, seen = da.widget(da.four_bar()), list[Any]()
     w.observe(seen.append, "changes")
@@ -57,6 +61,7 @@ def test_a_page_in_a_notebook_sends_each_drag_once(browser: Any) -> None:
     for k in range(1, 5):
         page.mouse.move(x + 5 * k, y)
     page.mouse.up()
+    page.wait_for_function("() => sent.length")
     sent = page.evaluate("sent")
     assert len(sent) == 1
     w.changes = sent[0]
@@ -98,7 +103,7 @@ def test_a_sketch_in_a_notebook_is_pulled_and_finished(browser: Any) -> None:
     page.mouse.down()
     for k in range(1, 9):
         page.mouse.move(x - 6 * k, y - 10 * k)
-        page.wait_for_timeout(30)
+        page.evaluate(FRAME)
     page.mouse.up()
     page.wait_for_function("() => state.text")
     w.text = page.evaluate("state.text")
@@ -189,10 +194,12 @@ def test_in_jupyterlab(browser: Any, jupyterlab: tuple[Path, Callable[[], str]])
     page.keyboard.press("Shift+Enter")
     handle = page.locator('.handle[data-name="B"]').first
     handle.wait_for(timeout=60_000)
-    page.wait_for_timeout(1500)
-    assert page.locator("[data-dalembert]").is_hidden()
+    page.locator("[data-dalembert]").wait_for(state="hidden", timeout=60_000)
     handle.scroll_into_view_if_needed()
-    box = handle.bounding_box()
+    box, before = handle.bounding_box(), None
+    while box != before:  # it moves while the notebook is laid out
+        page.wait_for_timeout(300)
+        box, before = handle.bounding_box(), box
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()
@@ -203,7 +210,10 @@ def test_in_jupyterlab(browser: Any, jupyterlab: tuple[Path, Callable[[], str]])
     page.keyboard.press("Shift+Enter")
     page.get_by_text("True True").wait_for(timeout=30_000)
     page.keyboard.press("Control+s")
-    page.wait_for_timeout(2000)
+    for _ in range(600):
+        if "True True" in (folder / "a.ipynb").read_text(encoding="utf-8"):
+            break
+        page.wait_for_timeout(100)
     page.close()
     page = browser.new_page(viewport={"width": 1400, "height": 1300})
     page.goto(f"{start()}/a.ipynb")

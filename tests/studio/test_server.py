@@ -19,6 +19,7 @@ from dalembert.errors import ModelError
 from dalembert.studio.access import LARGEST, TABS, Access, Rate
 from dalembert.studio.document import EMPTY, text_hash
 from dalembert.studio.problems import problem_text, problems
+from dalembert.studio.session import _DOES as DOES
 from dalembert.studio.session import Session
 from dalembert.studio.solver import Question, Solver
 from dalembert.studio.stored_file import StoredFile
@@ -107,8 +108,8 @@ def test_malformed_messages_are_refused_and_change_nothing(studio: Any, tmp_path
         until(ws, "text")
         for message in (*MALFORMED, b"\xff\x00", '{"ask": {}}', '{"edit": [[Infinity, 0, ""]]}'):
             ws.send(message)
-            assert len(until(ws, "refused")["refused"]) > 15, message[:80]
             assert until(ws, "text")["text"] == EMPTY
+            assert len(until(ws, "refused")["refused"]) > 15, message[:80]
     assert list(tmp_path.glob("*")) == []
 
 
@@ -131,6 +132,7 @@ def test_tabs_agree_and_the_last_text_is_solved(studio: Any) -> None:
         one.send(json.dumps({"open": {"kind": "example", "name": "four_bar"}}))
         assert until(two, "data")["hash"] == until(one, "data")["hash"] == text_hash(FOUR_BAR)
         two.send(json.dumps({"n": 7, "undo": True}))
+        assert until(two, "text")["text"] == EMPTY
         assert until(two, "n")["n"] == 7
         assert until(one, "text")["text"] == EMPTY
         assert "press B" in until(one, "missing")["missing"]
@@ -178,6 +180,53 @@ def test_forces_are_told_with_the_hash_of_the_text_they_are_of(tmp_path: Path) -
     assert asked[0] != asked[1]
     assert [text_hash(m["data"]) for m in told if "data" in m] == [m["hash"] for m in told if "data" in m]
     assert [m["data"] for m in told if "data" in m] == asked[1:]
+
+
+def test_a_question_is_answered_of_the_text_it_was_asked_of_and_holds_up_no_gesture(tmp_path: Path) -> None:
+    release = Event()
+
+    class Slow(Solver):
+        def ask(self, question: Question) -> str:
+            release.wait(10)
+            return json.dumps({"rows": question.text})
+
+    with serving(tmp_path / "m.yaml", solver=Slow()) as served, tab(served) as ws:
+        first = until(ws, "text")
+        for n in range(6):
+            ws.send(json.dumps({"n": n, "ask": "check"}))
+        assert "not yet answered" in until(ws, "refused")["refused"]
+        ws.send(json.dumps({"n": 9, "edit": [[0, 0, "# more\n"]], "base": first["hash"]}))
+        after = until(ws, "text")
+        while after["text"] == EMPTY:
+            after = until(ws, "text")
+        release.set()
+        answers = [until(ws, "rows") for _ in range(4)]
+        assert [(a["n"], a["of"], a["rows"]) for a in answers] == [
+            (n, first["analysed"], EMPTY) for n in range(4)
+        ]
+        ws.send(json.dumps({"n": 10, "ask": "check"}))
+        again = until(ws, "rows")
+        assert (again["of"], again["rows"]) == (after["analysed"], after["text"])
+        ws.send(json.dumps({"n": 11, "options": {"static": True}}))
+        assert until(ws, "text")["analysed"] not in (first["analysed"], after["analysed"])
+
+
+def test_a_text_that_came_with_a_fault_is_told_and_solved_too(
+    studio: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def choose(session: Session, *_: Any) -> None:
+        session.document.replace(FOUR_BAR)
+        raise OSError("the disk is gone")
+
+    monkeypatch.setitem(DOES, "choose", choose)
+    with tab(studio) as one, tab(studio) as two:
+        for ws in (one, two):
+            until(ws, "text")
+        one.send(json.dumps({"choose": "disk"}))
+        for ws in (one, two):
+            while until(ws, "text")["text"] != FOUR_BAR:
+                pass
+            assert until(ws, "data")["hash"] == text_hash(FOUR_BAR)
 
 
 def test_it_saves_reloads_and_never_overwrites(studio: Any, tmp_path: Path) -> None:

@@ -10,8 +10,14 @@ interface Share { name: string; unit: string; values: number[]; sum: number }
 
 export class Answers {
   private readonly out: HTMLElement;
+  /** Of which text and options the answer is that is shown; number of the last question; what asks it again, and
+   * the same after a choice in its answer. */
+  private of = "";
+  private last = 0;
+  private asks: (() => void) | null = null;
+  private again: (() => void) | null = null;
 
-  constructor(el: HTMLElement, private readonly socket: Socket, private readonly flushed: () => Promise<void>) {
+  constructor(el: HTMLElement, private readonly socket: Socket, private readonly flushed: () => Promise<void>, private readonly now: () => string) {
     const line = html("div", el, { class: "asks" });
     this.out = html("div", el, { class: "answer", "aria-live": "polite" });
     const ask = (said: string, what: string, show: (a: any) => void): void => {
@@ -23,16 +29,32 @@ export class Answers {
     html("p", this.out, { class: "hint" }, "Other assemblies of the same links, equilibrium positions without a drive effort, and the share of each load in each force.");
   }
   private async ask(what: string, show: (a: any) => void): Promise<void> {
-    await this.flushed();
+    const number = ++this.last;
+    [this.of, this.again] = ["", null];
     this.out.replaceChildren(html("p", this.out, { class: "hint" }, "Computing …"));
+    await this.flushed();
     const a = await this.socket.send({ ask: what });
+    if (number !== this.last) return;
+    this.of = a.of ?? this.now();
     this.out.replaceChildren();
-    if (a.error) html("p", this.out, { class: "off" }, a.error);
+    if (a.error || a.refused) html("p", this.out, { class: "off" }, a.error ?? a.refused);
     else show(a);
+    this.asks = () => void this.ask(what, show);
+    this.update();
+  }
+  /** An answer of another text or other options is taken away; after a choice in it, it is asked anew. */
+  update(): void {
+    if (!this.of || this.of === this.now()) return;
+    if (this.again) return this.again();
+    this.of = "";
+    this.out.replaceChildren(html("p", this.out, { class: "hint" }, "The mechanism has changed: ask again."));
   }
   private taken(parent: HTMLElement, title: string, links: object, drives: object = {}): HTMLElement {
     const b = html("button", parent, { type: "button", title });
-    b.addEventListener("click", () => void this.socket.gesture({ op: "pose", links, drives }));
+    b.addEventListener("click", () => {
+      this.again = this.asks;
+      void this.socket.gesture({ op: "pose", links, drives });
+    });
     return b;
   }
   private modes(modes: Mode[]): void {

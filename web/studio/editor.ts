@@ -12,6 +12,8 @@ import type { Socket } from "./socket";
 const FromServer = Annotation.define<boolean>();
 /** Pause after which what was typed is sent, ms. */
 const PAUSE = 250;
+/** Edits that are tried while others change the text. */
+const TRIES = 5;
 const colours = HighlightStyle.define([
   { tag: [tags.propertyName, tags.definition(tags.propertyName)], color: "var(--key)" },
   { tag: tags.comment, color: "var(--grey)", fontStyle: "italic" },
@@ -23,9 +25,9 @@ export class Editor {
   private base = "";
   private sent = "";
   private timer = 0;
-  /** The text of an edit that was sent and has not come back, and whether the server took it. */
+  /** The text of an edit that was sent and has not come back, and its answer. */
   private flying: string | null = null;
-  private accepted = false;
+  private flight: Promise<void> | null = null;
   private crlf = false;
 
   constructor(el: HTMLElement, private readonly socket: Socket, undo: (back: boolean) => void) {
@@ -49,19 +51,25 @@ export class Editor {
       }),
     });
   }
-  /** Sends what was typed since the last message; done once the server has it. */
+  /** Sends what was typed since the last message; done once the server has all of it. */
   async flush(): Promise<void> {
     clearTimeout(this.timer);
-    const text = this.text;
-    if (this.flying !== null) return this.later();
-    if (text === this.sent || !this.base) return;
+    for (let tries = 0; tries < TRIES; tries++) {
+      await this.flight;
+      if (this.idle || !this.base) return;
+      await (this.flight ??= this.fly().finally(() => (this.flight = null)));
+    }
+  }
+  private async fly(): Promise<void> {
+    const text = (this.flying = this.text);
     const [start, end, insert] = difference(this.sent, text), place = (k: number): number => units(this.sent, k) + (this.crlf ? this.sent.slice(0, k).split("\n").length - 1 : 0);
-    this.flying = text;
     const a = await this.socket.send({ edit: [[place(start), place(end), this.crlf ? insert.replaceAll("\n", "\r\n") : insert]], base: this.base });
-    this.accepted = !a.refused;
-    if (!a.refused) return; // the state that follows has what was sent
-    this.flying = null;
-    if (!/meanwhile/.test(a.refused)) this.put(this.sent);
+    this.flying = null; // the state that has come before has what was sent
+    if (a.refused && !/meanwhile/.test(a.refused)) this.put(this.sent);
+  }
+  /** True if the server has all that was typed. */
+  get idle(): boolean {
+    return !this.flight && this.text === this.sent;
   }
   private later(): void {
     clearTimeout(this.timer);
@@ -77,9 +85,9 @@ export class Editor {
   }
   /** The server's text and its error; what is typed meanwhile stays. */
   update(text: string, hash: string, error: string, line: number): void {
-    const plain = text.replaceAll("\r\n", "\n"), arrived = this.flying !== null && (this.accepted || plain === this.flying);
+    const plain = text.replaceAll("\r\n", "\n"), arrived = plain === this.flying;
     const before = arrived ? this.flying! : this.sent, typed = this.text !== before;
-    if (arrived) [this.flying, this.accepted] = [null, false];
+    if (arrived) this.flying = null;
     this.base = hash;
     this.crlf = plain !== text;
     this.sent = plain;

@@ -33,11 +33,11 @@ const CLICK = 4;
 /** Degrees of the directions that bars snap to, and how near they have to be. */
 const DIRECTIONS = 15, TURN = 3;
 
-export interface Shown { drawing(): Drawing; pick(p: Picked | null): void; picked(): Picked | null; said(text: string): void; again(): void; tool(t: Tool): void }
+export interface Shown { drawing(): Drawing; pick(p: Picked | null): void; picked(): Picked | null; said(text: string): void; again(): void; tool(t: Tool): void; step(back: boolean): void; now(): Drawing }
 
 /** Something that is dragged. A pulled link is held at a place `hold` of its axes; `path`: where the hand has been since
  * the last question to the server, `led`: that question, `dropped`: by Esc. */
-interface Drag { kind: "move" | "pull" | "pan"; picked: Picked | null; x: number; y: number; moved: boolean; drawing: Drawing; hold: Point; path: Point[]; pose?: any; led?: Promise<void>; dropped?: boolean }
+interface Drag { kind: "move" | "pull" | "pan"; picked: Picked | null; x: number; y: number; moved: boolean; hold: Point; path: Point[]; pose?: any; led?: Promise<void>; dropped?: boolean }
 
 export class Hand {
   tool = TOOLS[0];
@@ -149,9 +149,9 @@ export class Hand {
     else if (part.kind === "links") this.drag = this.begun("pull", picked, x, y);
   }
   private begun(kind: Drag["kind"], picked: Picked | null, x: number, y: number): Drag {
-    const drawing = this.shown.drawing(), pose = kind === "pull" && drawing.links.find((l) => l.name === picked!.name)?.pose, [px, py, angle] = pose || [0, 0, 0];
+    const pose = kind === "pull" && this.shown.drawing().links.find((l) => l.name === picked!.name)?.pose, [px, py, angle] = pose || [0, 0, 0];
     const at = this.canvas.window.metres(x, y), dx = at[0] - px, dy = at[1] - py, c = Math.cos(angle), s = Math.sin(angle);
-    return { kind, picked, x, y, moved: false, drawing, hold: [dx * c + dy * s, dy * c - dx * s], path: [] };
+    return { kind, picked, x, y, moved: false, hold: [dx * c + dy * s, dy * c - dx * s], path: [] };
   }
   private move(e: PointerEvent): void {
     const [x, y] = this.xy(e), before = this.pointers.get(e.pointerId);
@@ -202,7 +202,7 @@ export class Hand {
       const path = g.path.splice(0).slice(-4), a = await this.socket.send({ pull: { link: g.picked!.name, at: g.hold, path, on: !!g.pose } });
       if (!a.pose || g.dropped) return;
       g.pose = { links: a.pose, drives: a.drives };
-      this.shadow = posed(g.drawing, a.pose);
+      this.shadow = posed(this.shown.now(), a.pose);
       this.shown.again();
     }
   }
@@ -324,7 +324,7 @@ export class Hand {
     const back = (e.ctrlKey || e.metaKey) && /^[zy]$/i.test(e.key);
     if (back) {
       e.preventDefault();
-      void this.socket.send(e.key.toLowerCase() === "z" && !e.shiftKey ? { undo: true } : { redo: true });
+      this.shown.step(e.key.toLowerCase() === "z" && !e.shiftKey);
       return;
     }
     if (e.ctrlKey || e.metaKey || e.altKey) return;

@@ -17,15 +17,30 @@ type Keys = Record<string, Record<string, Record<string, string>>>;
 
 export class Inspector {
   private shownAs = "";
+  private building = false;
   private keys: Promise<Keys> | null = null;
   constructor(private readonly el: HTMLElement, private readonly socket: Socket, private readonly pick: (p: Picked | null) => void) {}
 
   update(d: Drawing, picked: Picked | null, text: string): void {
-    const typing = this.el.contains(document.activeElement) && document.activeElement instanceof HTMLInputElement, now = JSON.stringify(picked);
-    if (this.shownAs === now + text || (typing && this.shownAs.startsWith(now))) return; // a refusal stays beside its value
+    const now = JSON.stringify(picked);
+    if (this.shownAs === now + text) return; // a refusal stays beside its value
+    const on = document.activeElement, typing = this.shownAs.startsWith(now) && on instanceof HTMLInputElement && this.el.contains(on) ? on : null;
     this.shownAs = now + text;
+    this.building = true;
     this.el.replaceChildren();
-    if (d.space || !d.links) return;
+    if (!d.space && d.links) this.build(d, picked, text);
+    if (typing) this.goOn(typing);
+    this.building = false;
+  }
+  /** What is being typed is typed on, beside the values of the new text. */
+  private goOn(was: HTMLInputElement): void {
+    const [from, to] = [was.selectionStart, was.selectionEnd], here = [...this.el.querySelectorAll("input")].find((x) => x.ariaLabel === was.ariaLabel);
+    if (!here) this.el.append(was.parentElement!); // a value that the file does not have yet
+    else if (was.value !== was.defaultValue) here.value = was.value;
+    (here ?? was).focus({ preventScroll: true });
+    (here ?? was).setSelectionRange(from, to);
+  }
+  private build(d: Drawing, picked: Picked | null, text: string): void {
     if (!picked) this.machine(d, text);
     else if (picked.kind === "links") this.link(d, picked.name);
     else if (picked.kind === "joints") this.joint(d, picked.name);
@@ -117,17 +132,18 @@ export class Inspector {
     const line = html("label", this.el, { title: about }), input = html("input", line, { value, placeholder: about, "aria-label": label, spellcheck: "false" });
     line.prepend(html("span", line, {}, label.replaceAll("_", " ")));
     const said = html("em", line, { class: "refused" });
+    let tried = value;
     const give = async (): Promise<void> => {
-      if (input.value === value) return;
-      const typed = input.value, a = await this.socket.gesture(asked(typed));
+      if (input.value === tried || this.building) return;
+      const typed = (tried = input.value), a = await this.socket.gesture(asked(typed));
       said.textContent = a.refused ?? "";
       if (a.refused) return;
       value = typed;
       then?.(typed);
     };
-    input.addEventListener("change", () => void give());
+    for (const done of ["change", "blur"]) input.addEventListener(done, () => void give());
     input.addEventListener("keydown", (e) => {
-      if (e.key === "Escape") [input.value = value, input.blur()];
+      if (e.key === "Escape") [input.value = tried = value, input.blur()];
       if (e.key === "Enter") input.blur();
     });
     return input;

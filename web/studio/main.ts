@@ -25,7 +25,7 @@ let said = 0;
 const socket = new Socket({ state: update, forces, refused: say, ended });
 const canvas = new Canvas(paper);
 make(canvas.svg, "defs").innerHTML = ["driven", "acting"].map((id) => `<marker id="${id}" class="${id}" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="5" markerHeight="5" orient="auto-start-reverse"><path d="M0 0L10 5L0 10Z"/></marker>`).join("");
-const hand = new Hand(canvas, socket, { drawing, pick, picked: () => picked, said: (text) => (hint.textContent = text), again: draw, tool: chosen });
+const hand = new Hand(canvas, socket, { drawing, pick, picked: () => picked, said: (text) => (hint.textContent = text), again: draw, tool: chosen, step, now: () => state!.drawing });
 const pane = (name: string): HTMLElement => {
   const el = html("div", right, { class: `pane ${name.toLowerCase()}`, role: "tabpanel", "aria-label": name });
   html("button", tabs, { type: "button", role: "tab", "data-pane": name }, name).addEventListener("click", () => open(name));
@@ -34,8 +34,8 @@ const pane = (name: string): HTMLElement => {
 };
 const partPane = pane("Part"), forcePane = pane("Forces"), filePane = pane("File"), answerPane = pane("Answers"), openPane = pane("Problems");
 const inspector = new Inspector(partPane, socket, pick);
-const editor = new Editor(filePane, socket, (back) => void editor.flush().then(() => socket.send(back ? { undo: true } : { redo: true })));
-new Answers(answerPane, socket, () => editor.flush());
+const editor = new Editor(filePane, socket, step);
+const answers = new Answers(answerPane, socket, () => editor.flush(), () => state!.analysed);
 open("Part");
 
 const button = (parent: HTMLElement, text: string, title: string, act: () => void): HTMLButtonElement => {
@@ -43,7 +43,7 @@ const button = (parent: HTMLElement, text: string, title: string, act: () => voi
   b.addEventListener("click", act);
   return b;
 };
-const name = html("strong", bar), undo = button(bar, "↶", "Undo (Ctrl+Z)", () => void socket.send({ undo: true })), redo = button(bar, "↷", "Redo (Ctrl+Shift+Z)", () => void socket.send({ redo: true }));
+const name = html("strong", bar), undo = button(bar, "↶", "Undo (Ctrl+Z)", () => step(true)), redo = button(bar, "↷", "Redo (Ctrl+Shift+Z)", () => step(false));
 undo.setAttribute("aria-label", "undo");
 redo.setAttribute("aria-label", "redo");
 button(bar, "Save", "Save (Ctrl+S)", () => void save());
@@ -76,6 +76,10 @@ window.addEventListener("beforeunload", (e) => {
   if (state?.dirty) e.preventDefault();
 });
 
+/** One step back or forward, from all that was typed. */
+function step(back: boolean): void {
+  void editor.flush().then(() => socket.send(back ? { undo: true } : { redo: true }));
+}
 function check(parent: HTMLElement, text: string, title: string, options: (on: boolean) => object): HTMLInputElement {
   const line = html("label", parent, { title }), input = html("input", line, { type: "checkbox" });
   input.checked = true;
@@ -106,11 +110,10 @@ function open(which: string): void {
   for (const [one, el] of panes) el.hidden = one !== which;
   right.dataset.pane = which;
   if (which === "Forces") page?.redraw();
-  if (which === "Problems" && !openPane.childElementCount) void problems();
+  if (which === "Problems") openPane.childElementCount ? void ticks() : void problems();
 }
 function update(s: State): void {
   const first = !state;
-  if (state && (state.static !== s.static || state.friction !== s.friction)) solvedHash = shownHash = "";
   state = s;
   if (hand.shadow && s.drawing.links) hand.shadow = null;
   if (picked && !exists(s.drawing, picked)) picked = null;
@@ -124,8 +127,7 @@ function update(s: State): void {
     if (first) canvas.window.fit(s.drawing);
   }
   banners(s);
-  if (s.error) verdictIs(`Line ${s.line}: ${s.error}`, true);
-  else if (s.hash !== solvedHash) verdictIs("…", false);
+  speak();
   draw();
 }
 function exists(d: Drawing, p: Picked): boolean {
@@ -136,52 +138,68 @@ function verdictIs(text: string, wrong: boolean): void {
   verdict.textContent = text;
   verdict.classList.toggle("wrong", wrong);
 }
-/** The forces of the last text, or the sentence of what is missing, with what would add it. */
-async function forces(a: Record<string, any>): Promise<void> {
+/** The forces of the last text, or the sentence of what is missing. */
+async function forces(a: Forces): Promise<void> {
   waiting = a;
   if (mounting) return; // one page at a time is put in; the last one stays
   mounting = true;
   try {
     while (waiting) {
-      const next = waiting;
+      const next: Forces = waiting;
       waiting = null;
-      await put(next);
+      if (next.data) await put(next);
+      answer = next;
     }
   } finally {
     mounting = false;
   }
+  speak();
 }
-async function put(a: Record<string, any>): Promise<void> {
-  solvedHash = a.hash;
-  if (a.missing !== undefined) {
-    forcePane.classList.add("stale");
-    if (a.missing) verdictIs(a.missing, false);
-    offers(a.missing);
-    return;
-  }
-  forcePane.classList.remove("stale");
+async function put(a: Forces): Promise<void> {
   if (mounted && page) {
     if (a.data.start !== page.data.start || a.data.kernel.count !== page.data.kernel.count) page.view.t = NaN;
     await page.replace(a.data, null); // the text is the truth, also of the assembly
-  }
-  else {
+  } else {
     mounted = true;
     page = await mount(forcePane, a.data, { edited: (values) => void edited(values) });
   }
-  shownHash = a.hash;
-  numbers();
+  [shown, last] = [a, "{}"];
 }
-/** Hash of the text of which the verdict speaks, and of that of which the forces are shown. */
-let solvedHash = "", shownHash = "", last = "{}";
-/** The last answer that is not yet shown, and whether one is being put in. */
-let waiting: Record<string, any> | null = null, mounting = false;
-/** Numbers that were changed in the page go into the text. */
+/** What the verdict speaks of, the forces that are shown, and those that are not yet shown; `of`: of which text and options. */
+interface Forces { of: string; missing?: string; data?: any }
+let answer: Forces | null = null, shown: Forces | null = null, waiting: Forces | null = null, mounting = false, spoken = "", last = "{}";
+/** What is known of the present text: its fault, what is missing with what would add it, or the efforts; nothing of another one. */
+function speak(): void {
+  if (!state) return;
+  const now = answer?.of === state.analysed ? answer : null, what = JSON.stringify([state.analysed, state.error, state.line, now?.of, now?.missing]);
+  forcePane.classList.toggle("stale", shown?.of !== state.analysed);
+  answers.update();
+  if (now) void ticks();
+  if (spoken === what) return;
+  spoken = what;
+  if (state.error) verdictIs(`Line ${state.line}: ${state.error}`, true);
+  else if (!now) verdictIs("…", false);
+  else if (now.missing === undefined) numbers();
+  else {
+    verdictIs(now.missing, false);
+    offers(now.missing);
+  }
+}
+/** True if the state is that after all that was done. */
+function answered(): boolean {
+  return !!state && socket.idle && editor.idle;
+}
+/** True if all that was done is answered, and shown as far as it has an answer. */
+function settled(): boolean {
+  return answered() && !mounting && answer?.of === state!.analysed;
+}
+/** Numbers that were changed in the page go into the text; the page has those of the text again where they do not. */
 async function edited(values: Record<string, number>): Promise<void> {
-  const text = JSON.stringify(values);
-  if (text === last || text === "{}") return;
+  const text = JSON.stringify(values), of = shown;
+  if (text === last) return;
   last = text;
-  await socket.gesture({ op: "changes", values });
-  last = "{}";
+  if (text !== "{}") await socket.gesture({ op: "changes", values });
+  if (of && of === shown && of.of === state!.analysed && text === last) void forces(of);
 }
 /** The efforts of the drives where the file begins, as it is drawn. */
 function numbers(): void {
@@ -226,21 +244,21 @@ async function download(ask: string): Promise<void> {
   await editor.flush();
   hint.textContent = "Computing …";
   const a = await socket.send({ ask });
-  if (a.error) return say(a.error);
+  hint.textContent = "";
+  if (!a.file) return a.error && say(a.error);
   const bytes = Uint8Array.from(atob(a.file), (c) => c.charCodeAt(0)), link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([bytes], { type: "text/html" }));
   link.download = `${state!.file.replace(/\.\w+$/, "")}${ask === "page" ? "" : `_${ask}`}.${a.ending}`;
   link.click();
-  hint.textContent = `${link.download} is in your downloads`;
+  hint.textContent = `${link.download} is in your downloads${a.of === state!.analysed ? "" : "; the mechanism has changed since"}`;
 }
 async function problems(): Promise<void> {
   const all: { kind: string; name: string; title: string }[] = (await socket.send({ problems: true })).problems;
-  const find = html("input", openPane, { type: "search", placeholder: "search", "aria-label": "search problems" }), answers = html("div", openPane, { class: "answers" }), list = html("div", openPane, { class: "list" });
+  const find = html("input", openPane, { type: "search", placeholder: "search", "aria-label": "search problems" }), list = html("div", openPane, { class: "list" });
   const one = (said: string, asked: unknown, title = ""): HTMLElement =>
-    button(list, said, title, () => void socket.send({ open: asked }).then(async () => {
-      fitted = false;
-      setTimeout(() => (canvas.window.fit(drawing()), draw()), 60);
-      await ticks(answers);
+    button(list, said, title, () => void socket.send({ open: asked }).then(() => {
+      canvas.window.fit(drawing());
+      draw();
     }));
   one("Empty drawing", "empty");
   for (const kind of ["template", "example", "problem"]) {
@@ -248,13 +266,23 @@ async function problems(): Promise<void> {
     for (const p of all.filter((x) => x.kind === kind)) one(kind === "template" ? `${p.name.replaceAll("_", " ")}: ${p.title}` : p.title, { kind, name: p.name }, p.name);
   }
   find.addEventListener("input", () => list.querySelectorAll("button").forEach((b) => (b.hidden = !b.textContent!.toLowerCase().includes(find.value.toLowerCase()))));
-  await ticks(answers);
+  find.after(ticked);
+  void ticks();
 }
-/** The answers that the file prints, each with a tick where the computed one agrees. */
-async function ticks(el: HTMLElement): Promise<void> {
-  const a = await socket.send({ ask: "check" });
-  el.replaceChildren();
-  for (const row of a.rows ?? []) html("p", el, { class: row.ok ? "ok" : "off", title: row.why }, `${row.ok ? "✓" : "✗"} ${row.quantity}: printed ${row.published}, computed ${row.computed}`);
-  if (a.error && /answers/.test(state?.text ?? "")) html("p", el, { class: "off" }, a.error);
+const ticked = html("div", null, { class: "answers" });
+let tickedOf = "", ticking = false;
+/** The answers that the file prints, each with a tick where the computed one agrees; asked anew of each text while they are in sight. */
+async function ticks(): Promise<void> {
+  if (!state || tickedOf === state.analysed) return;
+  ticked.replaceChildren();
+  if (ticking || current() !== "Problems" || answer?.of !== state.analysed) return;
+  ticking = true;
+  const a = /answers/.test(state.text) ? await socket.send({ ask: "check" }) : { of: state.analysed };
+  ticking = false;
+  if (a.of !== state.analysed) return void ticks();
+  tickedOf = a.of;
+  ticked.replaceChildren();
+  for (const row of a.rows ?? []) html("p", ticked, { class: row.ok ? "ok" : "off", title: row.why }, `${row.ok ? "✓" : "✗"} ${row.quantity}: printed ${row.published}, computed ${row.computed}`);
+  if (a.error) html("p", ticked, { class: "off" }, a.error);
 }
-Object.assign(window, { studio: { state: () => state, page: () => page, solved: () => solvedHash, shown: () => shownHash, pick, canvas, hand, socket } });
+Object.assign(window, { studio: { state: () => state, page: () => page, answered, settled, solved: () => settled() && !!answer!.data, pick, canvas, hand, socket, editor } });

@@ -27,7 +27,11 @@ export class Socket {
     this.ws.onclose = (e) =>
       told.ended(e.code === 4403 ? this.last : "The studio's server has stopped. Start it again with `dalembert studio` and the file's name: what was typed here is kept in a file beside it.");
   }
-  /** Sends a message; the answer to it. */
+  /** True if nothing waits for an answer. */
+  get idle(): boolean {
+    return !this.waiting.size;
+  }
+  /** Sends a message; the answer to it, which comes after the state that follows from it. */
   send(message: Record<string, unknown>): Promise<Answer> {
     const n = ++this.n;
     return new Promise((done) => {

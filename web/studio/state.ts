@@ -15,7 +15,7 @@ export interface Drawing {
   links: DrawnLink[]; joints: DrawnJoint[]; loads: DrawnLoad[]; drives: DrawnDrive[];
 }
 export interface State {
-  text: string; hash: string; form: string; file: string; dirty: boolean; undo: boolean; redo: boolean; drawing: Drawing; error: string; line: number;
+  text: string; hash: string; analysed: string; form: string; file: string; dirty: boolean; undo: boolean; redo: boolean; drawing: Drawing; error: string; line: number;
   static: boolean; friction: boolean; kept: boolean; outside: boolean;
 }
 export type Kind = "links" | "joints" | "loads" | "drives" | "points";

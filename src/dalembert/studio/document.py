@@ -194,3 +194,5 @@ def read(text: str, form: str, name: str, before: Reading | None) -> Reading:
     except OverflowError:
         said = "a length or an angle of the file exceeds the range of numbers; correct it or its unit"
         return Reading(None, None, before.drawing if before else {}, said, 1)
+    except Exception as error:  # a fault of the program is the text's, which can then be changed
+        return Reading(None, None, before.drawing if before else {}, sentence(error), 1)

@@ -16,13 +16,14 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from dalembert.arrays import Tree
-from dalembert.errors import DalembertError
+from dalembert.errors import DalembertError, ModelError
 from dalembert.studio.access import LARGEST, TABS, Access, Rate
 from dalembert.studio.solver import ASKED, Solver
 from dalembert.studio.tab_messages import read_message, sentence
 
 if TYPE_CHECKING:
     from dalembert.studio.session import Session
+    from dalembert.studio.solver import Question
 
 BUNDLE = Path(__file__).with_name("bundle")
 FILES = {"/": ("index.html", "text/html"), "/studio.js": ("studio.js", "text/javascript")}
@@ -30,6 +31,10 @@ LOOK = 0.7
 """Seconds between looks at the disk: what was typed is on disk within two."""
 PATIENCE = 5.0
 """Seconds in which a tab reads a message."""
+QUESTIONS = 4
+"""Questions of a tab that may wait for their answers."""
+QUIET = {"pull", "problems", "keys"}
+"""Messages after which the state is not sent."""
 REFUSED = 4403
 """Code with which a socket is closed that may not speak."""
 
@@ -46,8 +51,9 @@ class StudioServer:
 
     def __init__(self, begin: Callable[[], Session], access: Access, solver: Solver | None = None) -> None:
         self.begin, self.access, self.solver = begin, access, solver or Solver()
-        self.tabs: dict[WebSocket, int] = {}
-        self._begun, self._wanted = asyncio.Event(), asyncio.Event()
+        self.tabs: dict[WebSocket, int] = {}  # and how many questions of each are not answered
+        self._answers = set[asyncio.Task[None]]()
+        self._begun, self._wanted, self._free = asyncio.Event(), asyncio.Event(), asyncio.Lock()
 
     def app(self) -> Starlette:
         """The application."""
@@ -110,25 +116,60 @@ class StudioServer:
             await self._message(ws, text)
 
     async def _message(self, ws: WebSocket, text: str) -> None:
-        """Answers a message; a fault of the program refuses it, and ends no tab."""
+        """The state after a message, then its reply; a fault of the program refuses it, and ends no tab. A question
+        is answered later, and holds up nothing."""
         n: object = None
+        message: Tree = {}
         before = self.session.analysed
         try:
-            message = read_message(text)
-            message = message if isinstance(message, dict) else {}
+            read = read_message(text)
+            message = read if isinstance(read, dict) else {}
             n, ask = message.get("n"), message.get("ask")
             if isinstance(ask, str) and ask in ASKED:
-                answer = await asyncio.to_thread(self.solver.ask, self.session.question(ask))
-                await self._send_text(ws, joined({"n": n, "ask": ask}, answer))
+                self._ask(ws, n, ask)
                 return
-            told = self.session.handle(message)
+            reply = self.session.handle(message)
         except Exception as error:
-            await self._send(ws, {"n": n, "refused": sentence(error)})
-            await self._send(ws, self.session.state())
+            reply = {"refused": sentence(error)}
+        await self._reply(ws, {"n": n, **reply}, before != self.session.analysed, bool(QUIET & set(message)))
+
+    async def _reply(self, ws: WebSocket, reply: Tree, changed: bool, quiet: bool) -> None:
+        """Send the state to all tabs, after a refusal to the sender alone, and then the reply to the sender."""
+        alone = "refused" in reply and not changed
+        if quiet and not alone:
+            await self._send(ws, reply)
             return
-        await self._send(ws, {"n": n, **told})
-        if not {"pull", "problems", "keys"} & set(message):
-            await self._tell_all(before != self.session.analysed)
+        state = self.session.state()
+        others = [] if alone else [tab for tab in self.tabs if tab is not ws]
+        if changed:
+            self._wanted.set()
+        await asyncio.gather(self._send(ws, state, reply), *(self._send(tab, state) for tab in others))
+
+    def _ask(self, ws: WebSocket, n: object, ask: str) -> None:
+        """Begin to answer a question of a tab; raises ModelError where it has too many."""
+        if self.tabs.get(ws, 0) >= QUESTIONS:
+            raise ModelError("earlier questions are not yet answered", "wait for their answers")
+        question = self.session.question(ask)
+        if ws in self.tabs:
+            self.tabs[ws] += 1
+
+        async def answer() -> None:
+            try:
+                found = await self._solved(question)
+            except Exception as error:
+                found = json.dumps({"error": sentence(error)})
+            if ws in self.tabs:
+                self.tabs[ws] -= 1
+            await self._send_text(ws, joined({"n": n, "ask": ask, "of": question.of}, found))
+
+        task = asyncio.create_task(answer())
+        self._answers.add(task)
+        task.add_done_callback(self._answers.discard)
+
+    async def _solved(self, question: Question) -> str:
+        """The answer of the solver, which takes one question after the other."""
+        async with self._free:
+            return await asyncio.to_thread(self.solver.ask, question)
 
     async def _tell_all(self, changed: bool = True) -> None:
         state = self.session.state()
@@ -136,8 +177,9 @@ class StudioServer:
         if changed:
             self._wanted.set()
 
-    async def _send(self, ws: WebSocket, message: Tree) -> None:
-        await self._send_text(ws, json.dumps(message, separators=(",", ":"), default=float))
+    async def _send(self, ws: WebSocket, *messages: Tree) -> None:
+        for message in messages:
+            await self._send_text(ws, json.dumps(message, separators=(",", ":"), default=float))
 
     async def _send_text(self, ws: WebSocket, text: str) -> None:
         """Sends to a tab; one that does not read in time is no longer told anything."""
@@ -163,14 +205,13 @@ class StudioServer:
         while True:
             await self._wanted.wait()
             self._wanted.clear()
-            session = self.session
-            asked = session.analysed
+            asked, digest = self.session.analysed, self.session.document.hash
             try:
-                answer = await self._answer(session)
+                answer = await self._answer(self.session)
             except Exception as error:
                 answer = json.dumps({"missing": sentence(error)})
-            if asked == session.analysed:  # a text that has come meanwhile is solved next
-                solved = joined({"hash": asked[0]}, answer)
+            if asked == self.session.analysed:  # a text that has come meanwhile is solved next
+                solved = joined({"hash": digest, "of": asked}, answer)
                 await asyncio.gather(*(self._send_text(ws, solved) for ws in self.tabs))
 
     async def _answer(self, session: Session) -> str:
@@ -179,7 +220,7 @@ class StudioServer:
         if reading.error or reading.alone or reading.mechanism is None:
             return json.dumps({"missing": "" if reading.error else "Draw a link: press B and drag."})
         answer, _ = await asyncio.gather(
-            asyncio.to_thread(self.solver.ask, session.question("data")),
+            self._solved(session.question("data")),
             asyncio.to_thread(session.document.prepare),
         )
         return answer
@@ -188,12 +229,15 @@ class StudioServer:
         """Look at the disk from time to time; why that fails is said as long as it does."""
         while True:
             await asyncio.sleep(LOOK)
+            before, seen = self.session.analysed, False
             try:
-                if self.session.look():
-                    await self._tell_all()
+                seen = self.session.look()
             except Exception as error:
                 refused = {"refused": sentence(error)}
                 await asyncio.gather(*(self._send(ws, refused) for ws in self.tabs))
+            changed = before != self.session.analysed
+            if seen or changed:
+                await self._tell_all(changed)
 
     @contextlib.asynccontextmanager
     async def _lifespan(self, _: Any) -> AsyncIterator[None]:

@@ -48,9 +48,9 @@ class Session:
         return self.document.text != self.saved
 
     @property
-    def analysed(self) -> tuple[str, bool, bool]:
-        """What the forces depend on: hash of the text, and whether without inertia and with friction."""
-        return self.document.hash, self.static, self.friction
+    def analysed(self) -> str:
+        """Hash of the text with the options of the analysis: an answer with another one is out of date."""
+        return f"{self.document.hash}{' static' * self.static}{' frictionless' * (not self.friction)}"
 
     def state(self) -> Tree:
         """Contents of a tab without the forces."""
@@ -59,6 +59,7 @@ class Session:
         return {
             "text": d.text,
             "hash": d.hash,
+            "analysed": self.analysed,
             "form": d.form,
             "file": self.file.path.name,
             "dirty": self.dirty,
@@ -77,7 +78,7 @@ class Session:
         """A question about the present text."""
         d, reading = self.document, self.document.reading
         read = None if reading.source is None else (reading.tree, reading.source)
-        return Question(ask, d.text, d.form, d.name, self.static, self.friction, read)
+        return Question(ask, d.text, d.form, d.name, self.static, self.friction, read, self.analysed)
 
     def handle(self, message: Any) -> Tree:
         """Do what a message says; returns the reply to its sender. Raises ModelError where it cannot be done."""

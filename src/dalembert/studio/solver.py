@@ -40,6 +40,8 @@ class Question(NamedTuple):
     friction: bool = True
     read: tuple[Tree, FileSource] | None = None
     """The text as it is read, where it is: parsing takes a quarter of a small answer."""
+    of: str = ""
+    """Text and options of the answer, sent with it."""
 
     def refusal(self, sentence: str, path: Iterable[str | int] = ()) -> Tree:
         """The answer where there is none: of page data what is missing, else an error."""
