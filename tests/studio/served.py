@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import socket
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from threading import Thread
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 
@@ -16,12 +17,20 @@ from dalembert.studio.session import Session
 from dalembert.studio.solver import Question, Solver, answered, written
 from dalembert.studio.stored_file import StoredFile
 
+T = TypeVar("T")
+
 
 class Here(Solver):
     """Answers in this process."""
 
     def ask(self, question: Question) -> str:
         return written(answered(question))
+
+
+def apart(act: Callable[[], T]) -> T:
+    """What an act returns that runs an event loop: in a thread, as this one may have the loop of a browser."""
+    with ThreadPoolExecutor(1) as one:
+        return one.submit(act).result()
 
 
 @contextmanager

@@ -18,6 +18,7 @@ from dalembert.studio.session import Session
 from dalembert.studio.solver import Question, Solver
 from dalembert.studio.stored_file import StoredFile
 from tests.studio.messages_at_random import text_of_message
+from tests.studio.served import apart
 from tests.tiers import tiers
 
 pytest.importorskip("starlette")
@@ -91,7 +92,7 @@ def test_a_tab_that_does_not_read_keeps_no_other_from_its_answers(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("dalembert.studio.server.PATIENCE", 0.05)
-    told, left = asyncio.run(told_beside_a_deaf_tab(tmp_path / "m.yaml"))
+    told, left = apart(lambda: asyncio.run(told_beside_a_deaf_tab(tmp_path / "m.yaml")))
     assert [message.get("n") for message in told] == [None, 1]
     assert "four" in told[0]["text"].lower()
     assert left == 1
@@ -144,7 +145,8 @@ def test_a_fault_of_the_program_is_a_sentence_and_the_next_text_is_solved(
 ) -> None:
     monkeypatch.setattr("dalembert.studio.server.LOOK", 0.01)
     report = "the studio failed ({}); please report what you did"
-    assert asyncio.run(asyncio.wait_for(told_of_faults(tmp_path / "m.yaml"), 30)) == [
+    told = apart(lambda: asyncio.run(asyncio.wait_for(told_of_faults(tmp_path / "m.yaml"), 30)))
+    assert told == [
         report.format("RuntimeError"),
         "solved again",
         report.format("ZeroDivisionError"),
@@ -156,7 +158,7 @@ def test_no_message_ends_the_server_or_leaves_its_folder(tmp_path: Path, count: 
     folder = tmp_path / "mine"
     folder.mkdir()
     (folder / "m.yaml").write_text(problem_text("template", "four_bar"), encoding="utf-8")
-    session = asyncio.run(flooded(folder / "m.yaml", count, count))
+    session = apart(lambda: asyncio.run(flooded(folder / "m.yaml", count, count)))
     assert [p.name for p in tmp_path.iterdir()] == ["mine"]
     ours = {"m.yaml", "other.yaml", ".m.yaml.autosave", ".other.yaml.autosave"}
     assert {p.name for p in folder.iterdir()} <= ours | {session.file.path.name, session.file.side.name}

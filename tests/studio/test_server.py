@@ -23,7 +23,7 @@ from dalembert.studio.session import _DOES as DOES
 from dalembert.studio.session import Session
 from dalembert.studio.solver import Question, Solver
 from dalembert.studio.stored_file import StoredFile
-from tests.studio.served import serving
+from tests.studio.served import apart, serving
 
 httpx = pytest.importorskip("httpx")
 client = pytest.importorskip("websockets.sync.client")
@@ -175,7 +175,7 @@ def test_forces_are_told_with_the_hash_of_the_text_they_are_of(tmp_path: Path) -
             await asyncio.sleep(0.01)
         running.cancel()
 
-    asyncio.run(run())
+    apart(lambda: asyncio.run(run()))
     assert len(asked) == 2
     assert asked[0] != asked[1]
     assert [text_hash(m["data"]) for m in told if "data" in m] == [m["hash"] for m in told if "data" in m]
@@ -288,7 +288,7 @@ def test_a_file_that_cannot_be_read_ends_the_studio_with_the_reason(
     wrong = tmp_path / "m.yaml"
     wrong.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(ModelError, match=r"m.yaml is not UTF-8 text"):
-        run(wrong, browser=False)
+        apart(lambda: run(wrong, browser=False))
     assert "http://127.0.0.1:" in capsys.readouterr().out
 
 
