@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from dalembert.grading.marking.rubric import SHARES
 from dalembert.machine.motion.stepping import Limits
 from dalembert.pages.unfinished.sketch_page import INSIDE
 from dalembert.studio.document import STEPS
@@ -86,6 +87,16 @@ def test_limits_that_the_guide_states() -> None:
     assert f"the last {STEPS} steps" in page("docs/studio.md")
     assert f"up to {INSIDE} such steps" in page("docs/live-pages.md")
     assert f"ends after {Limits.steps:,} integration steps" in page("docs/machine.md")
+
+
+def test_shares_of_the_outcomes_are_those_of_the_rubric() -> None:
+    rows = re.findall(
+        r"^\| ((?:`\w+`(?:, )?)+) \| ([\d.]+) \|",
+        (ROOT / "docs" / "exams.md").read_text("utf-8"),
+        re.MULTILINE,
+    )
+    stated = {name: float(share) for names, share in rows for name in re.findall(r"\w+", names)}
+    assert stated == SHARES
 
 
 def test_a_law_counts_its_machines_by_tier() -> None:

@@ -1,4 +1,4 @@
-"""Every command line of the pages runs, in a folder with the files that they name."""
+"""Every command line of the pages runs, in a folder with the files that they name, and so does their Python."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ import importlib.util
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import dalembert as da
+from dalembert.bundled import examples
 from dalembert.cli import main
 
 ROOT = Path(__file__).parents[1]
@@ -40,3 +43,21 @@ def test_every_command_of_a_page_runs(
         return status, capsys.readouterr().err
 
     assert page_commands.failures(page, tmp_path, run) == []
+
+
+@pytest.mark.parametrize("page", ["getting-started.md", "kernel.md", "live-pages.md"])
+def test_python_without_prompts_runs(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """On the file that the page's commands write, or on names of the page's examples before it."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "slider_crank", "-o", "engine.yaml"]) == 0
+    (tmp_path / "four_bar.yaml").write_text(
+        examples()["four_bar"].read_text(encoding="utf-8"), encoding="utf-8"
+    )
+    k = da.compile(da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"])
+    blocks = page_commands.python_blocks(ROOT / "docs" / page)
+    assert len(blocks) == 1
+    for block in blocks:
+        exec(block, {"da": da, "np": np, "k": k, "values": np.array([[1.0], [2.0]])})
+    assert "Error" not in capsys.readouterr().err

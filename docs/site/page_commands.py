@@ -63,6 +63,12 @@ def commands(page: Path) -> Iterator[str]:
                 yield line
 
 
+def python_blocks(page: Path) -> list[str]:
+    """The Python of a page that has no prompts, and so is not run as an example."""
+    blocks = BLOCK.finditer(page.read_text(encoding="utf-8"))
+    return [b[3] for b in blocks if b[1] == "python" and ">>> " not in b[3]]
+
+
 def failures(page: Path, folder: Path, run: Run) -> list[str]:
     """Run a page's commands in an empty folder; those that failed, with their messages."""
     shutil.copytree(ROOT / "examples", folder / "examples", ignore=shutil.ignore_patterns("notebooks"))
