@@ -171,14 +171,17 @@ def test_wrong_stops_are_named_with_their_line(
     assert sentence in str(raised.value)
 
 
-def test_a_joint_without_a_drive_has_the_stop_that_a_load_by_its_slide_is() -> None:
-    """With every joint force, and also while another drive is prescribed."""
+@pytest.mark.parametrize("rough", ["", ", friction: {coefficient: 0.1, radius: 9 mm}"])
+def test_a_joint_without_a_drive_has_the_stop_that_a_load_by_its_slide_is(rough: str) -> None:
+    """With every joint force, also beside dry friction, which the force of the stop changes."""
+    crank = CRANK.replace("links: [crank, rod]", f"links: [crank, rod]{rough}")
     force = 'value: "1e5 N/m*max(0 m, 0.25 m - joints.S.slide)"}'
     load = f"loads: {{F: {{type: force, on: piston, by: ground, at: B, direction: 0, {force}}}\n"
-    plain = da.loads(CRANK.replace(", stops: {from: 0.25, stiffness: 1e5}", "") + load)
-    s, known = da.simulate(da.loads(CRANK), "0.5 s"), da.simulate(plain, "0.5 s")
-    assert [e.sentence for e in s.events] == [
-        "S meets its elastic stop at 0.25 m with 0.560813 m/s",
+    plain = da.loads(crank.replace(", stops: {from: 0.25, stiffness: 1e5}", "") + load)
+    s, known = da.simulate(da.loads(crank), "0.5 s"), da.simulate(plain, "0.5 s")
+    speed = "0.560481" if rough else "0.560813"
+    assert [e.sentence for e in s.events if "elastic" in e.sentence] == [
+        f"S meets its elastic stop at 0.25 m with {speed} m/s",
         "S leaves its elastic stop at 0.25 m",
     ]
     for name in ("O", "A", "S"):
@@ -201,14 +204,16 @@ def test_play_between_two_rotors_passes_on_their_momentum() -> None:
     assert da.simulate(rigid, "30 ms").speed("O")[-1] == pytest.approx(speeds[0], rel=1e-9)
 
 
-@pytest.mark.parametrize("seed", tiers([0], [1, 2], range(3, 40)))
+@pytest.mark.parametrize("seed", tiers([0, 2], [1, 3], range(4, 40)))
 def test_random_stops_of_a_rocker_keep_the_laws_and_only_push(seed: int) -> None:
+    """With dry friction in every second pair of seeds."""
     rng = np.random.default_rng(seed)
     a, b = np.sort(rng.uniform(1.2, 2.2, 2))
     stiffness, damping = 10 ** rng.uniform(2, 4), rng.uniform(0, 3)
     stops = f"{{from: {a} rad, to: {b + 0.1} rad, stiffness: {stiffness} N*m/rad"
     stops += f", damping: {damping} N*m*s/rad}}" if seed % 2 else "}"
-    text = RUBBING.replace(", friction: {coefficient: 0.2, radius: 20 mm}", "").replace("SPEED", "6")
+    smooth = "" if seed % 4 < 2 else ", friction: {coefficient: 0.2, radius: 20 mm}"
+    text = RUBBING.replace(", friction: {coefficient: 0.2, radius: 20 mm}", smooth).replace("SPEED", "6")
     text = text.replace(", stops: {from: 20 deg, to: 140 deg, stiffness: 400 N*m/rad, damping: 0.5}", "")
     s = da.simulate(da.loads(text.replace("[ground, rocker]", f"[ground, rocker], stops: {stops}")), "0.4 s")
     force = s.joint_stop_force["C"]
@@ -218,15 +223,10 @@ def test_random_stops_of_a_rocker_keep_the_laws_and_only_push(seed: int) -> None
     assert max(s.energy_residual, s.law_residual) < 1e-9
 
 
-def test_elastic_stops_of_what_is_prescribed_or_rubs_are_refused() -> None:
+def test_elastic_stops_of_what_is_prescribed_are_refused() -> None:
     prescribed = da.loads(LEVER).with_values({"drives.O.effort": "1 N*m"})
     with pytest.raises(ModelError, match="drive 'O' is prescribed, and its stops would be gone through"):
         da.simulate(da.loads(TWO), "1 s")
-    rubs = CRANK.replace(
-        "links: [crank, rod]", "links: [crank, rod], friction: {coefficient: 0.1, radius: 9 mm}"
-    )
-    with pytest.raises(ModelError, match="joint 'S' has elastic stops beside dry friction"):
-        da.simulate(da.loads(rubs), "1 s")
     assert da.simulate(prescribed, "0.1 s").status == "ended"
 
 

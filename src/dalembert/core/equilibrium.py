@@ -118,6 +118,8 @@ def known_sources(
         "spring": fc.spring_wrench(layout, forcing.springs, pose, twist),
         "resistance": fc.resistance_wrench(layout, forcing.resistances, pose, twist),
     }
+    if forcing.pushes is not None:
+        sources["push"] = forcing.pushes
     if forcing.belts is not None:
         sources["belt"] = fc.belt_source(layout, forcing.belts, pose, twist)
     if inertia:

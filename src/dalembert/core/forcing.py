@@ -117,6 +117,7 @@ class Forcing:
     belts: BeltPulls | None = None
     turning: TurningFrame | None = None
     ropes: RopeGrips | None = None
+    pushes: WrenchSource | None = None  # along freedoms of joints, as elastic stops do
 
     @property
     def follows_reactions(self) -> bool:

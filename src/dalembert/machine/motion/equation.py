@@ -140,7 +140,8 @@ class Equation:
     its function of time and positions; ``sides``: places of the values for sides of loads computed in machine code.
     ``known``: the pose, where states are followed one by one; ``dry``: the contacts, where there is friction, with the
     names of the joints of its ``own`` ones (those that slip independently); ``contacts``: the same as nodes;
-    ``friction``: inputs of what is ``asked``, c z of each contact.
+    ``friction``: inputs of what is ``asked``, c z of each contact; ``pushes``: places of the values for forces of
+    elastic stops, by their joint's place among those with stops.
     """
 
     def __init__(
@@ -167,6 +168,7 @@ class Equation:
         self.kernel: Any = None
         self.asked, self.asked_channels = program, channels
         self.sides: list[int] = []
+        self.pushes: dict[int, int] = {}
         self.contacts: Contacts | None = None
         self.friction: list[Node] = []
 
@@ -216,6 +218,15 @@ class Equation:
                 self.known.pose, self.known.at = self.known.anchor
                 return self(t, q, u)
         return terms
+
+    def pushed(self, forces: Mapping[int, float], t: float, q: Array, u: Array) -> Terms:
+        """The terms with forces in the freedoms of joints, by their place among those with stops."""
+        places = {self.pushes[j]: force for j, force in forces.items() if j in self.pushes}
+        self.values[list(places)] = list(places.values())
+        try:
+            return self(t, q, u)
+        finally:
+            self.values[list(places)] = 0.0
 
     def terms(self, out: Array) -> Terms:
         """The terms of all outputs, numbers or nodes."""
@@ -269,15 +280,15 @@ class Equation:
         sense: Array,
         stuck: Flags,
         rotor: Array | float = 0.0,
-        pushed: Callable[[Terms], Terms] = lambda terms: terms,
+        loaded: Callable[[float, Array, Array], Terms] | None = None,
     ) -> tuple[Contacted, Terms]:
         """Accelerations (D,), those of ``free`` drives (D,) from their efforts tau, with what contacts do; the terms.
-        ``rotor`` (D,): inertias of what turns with the drives beside the links; ``pushed``: the terms with what else
+        ``rotor`` (D,): inertias of what turns with the drives beside the links; ``loaded``: the terms with what else
         pushes.
 
         Raises StoppedError where there are none: the mechanism does not close, or is singular, or jams.
         """
-        e, a = pushed(self(t, q, u)), np.where(free, 0.0, prescribed)
+        e, a = (loaded or self)(t, q, u), np.where(free, 0.0, prescribed)
         if not all(np.isfinite(x).all() for x in (e.effort, e.mass, *(e.linear or ()))):
             raise StoppedError(OPEN)
         e = e._replace(mass=e.mass + np.diag(rotor + np.zeros(len(a))))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import Any
@@ -90,7 +90,11 @@ def trace_equation(
     full, varied = outputs is None or events, [*vary, *moving]
     switches: dict[Node, Node] = {}
     of: Callable[[Graph], Tree] = partial(_sided_functions, switches) if full else functions
-    trace = trace_analysis(m, varied, True, moves=True, redundant=True, unsplit=full, functions_of=of)
+    stops = joint_stops(m)
+    pushed = [of for of, ends in stops.items() if ends.stiffness]
+    trace = trace_analysis(
+        m, varied, True, moves=True, redundant=True, unsplit=full, functions_of=of, pushed=pushed
+    )
     known_functions = of(trace.catalogue.graph)
     if full:
         _trace_switches(trace, names, known_functions, switches)
@@ -104,7 +108,7 @@ def trace_equation(
     if trace.redundant:  # no number where constraints that repeat others are not met
         effort = [n + 1e-300 * traced.open[-1].sqrt() for n in effort]
     rubbing, *linear = _contacts(trace, numbers[count:])
-    c, watched = trace.catalogue.compiled, (*joint_stops(m), *freedoms)
+    c, watched = trace.catalogue.compiled, (*stops, *freedoms)
     moved = [rubbing, traced.closure, _motion(graph, c, traced, watched, numbers[count:])]
     parts = [effort, mass, _powers(graph, c, traced), *moved, [*met, *_bends(graph, c, traced)], *linear]
     slip, none = traced.friction.slip, dict[int, Node]()
@@ -120,10 +124,12 @@ def trace_equation(
     if known:  # whole turns, and groups without a closed form: followed from state to state
         built = program(*(n for a in traced.pose for n in trace_array(graph, a).ravel()))
     channels = [_channel(trace, names, n) for n in built.inputs_in_use("channel")]
-    places = {n.index: k for k, n in enumerate((*kernel.number_nodes, *met.values()))}
-    values = np.concatenate([kernel.nominal, np.ones(len(met)), [0.0]])
+    pushes = [n for n in built.inputs_in_use("number") if graph.names[n.index].startswith("push ")]
+    places = {n.index: k for k, n in enumerate((*kernel.number_nodes, *met.values(), *pushes))}
+    values = np.concatenate([kernel.nominal, np.ones(len(met)), np.zeros(len(pushes) + 1)])
     out = Equation(names, built, parts, numbers, places, values, channels)
     out.sides = [places[side.index] for side in met.values()]
+    out.pushes = {_of_push(graph, n, stops, pushed): places[n.index] for n in pushes}
     out.kernel = kernel
     if outputs is not None:
         _ask(out, trace, events, known_functions if events else None)
@@ -132,6 +138,11 @@ def trace_equation(
     out.known = LastPose(trace.course.pose, followed, followed.compiled.layout) if known else None
     out.by_newton = any(not name.startswith("known turn") for name in known)
     return out
+
+
+def _of_push(graph: Graph, node: Node, stops: Iterable[tuple[str, str]], pushed: Freedoms) -> int:
+    """Place among all stops of the one whose push is an input."""
+    return list(stops).index(pushed[int(graph.names[node.index].split()[1])])
 
 
 def _ask(out: Equation, trace: Trace, events: bool, known: Functions | None) -> None:
@@ -350,7 +361,7 @@ def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
 
     dampers = power(*elastic(twist)) - power(*elastic(0.0 * twist))
     loads = graph.zero
-    if len(f.forces.link) or len(f.couples.link):  # all power less that of the others
+    if len(f.forces.link) or len(f.couples.link) or f.pushes is not None:  # all power less that of the others
         inertial = fc.inertia_wrench(layout, f.inertia, pose, twist, traced.acceleration[:-1])
         turning = [traced.sources["turning"]] if "turning" in traced.sources else []
         others = power(*elastic(twist), fc.weight(layout, f.inertia, pose), inertial, *turning)

@@ -31,12 +31,12 @@ from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.analysis.status.freewheeling import grip_margins, released_joints
 from dalembert.arrays import Array, Tree
-from dalembert.core.constraints import stack_rows
+from dalembert.core.constraints import stack_rows, system
 from dalembert.core.elements.strand_family import Strand
 from dalembert.core.elements.strand_rows import strands
 from dalembert.core.equilibrium import UNIQUE, Known
 from dalembert.core.factor import factor
-from dalembert.core.forcing import Forcing
+from dalembert.core.forcing import Forcing, WrenchSource
 from dalembert.core.gear_rows import gearings
 from dalembert.core.layout import Family, Gearing, Idle, Layout, Pose
 from dalembert.core.linear import PseudoInverse
@@ -96,6 +96,7 @@ def trace_analysis(
     unsplit: bool = False,
     functions_of: Callable[[Graph], Tree] = functions,
     followed: bool = False,
+    pushed: Sequence[tuple[str, str]] = (),
 ) -> Trace:
     """Everything an analysis computes, as nodes; raises ModelError for cases that only the analyses support.
 
@@ -104,7 +105,8 @@ def trace_analysis(
     of reversals as an input. ``redundant``: constraints may repeat each other; reactions that are not unique are then
     one choice of many; ``unsplit``: links placed by these are solved with all constraints at once. ``functions_of`` a
     graph: those of loads by the pose. ``followed``: branches of closed forms and phases of wheels are inputs, as the
-    motion is followed where the program runs.
+    motion is followed where the program runs. ``pushed``: freedoms of joints in which a force acts that is an input,
+    ``push k``.
     """
     schedule = _schedule(m, moves)
     course = PositionPath(m, schedule, solved, inertia)
@@ -140,7 +142,7 @@ def trace_analysis(
         reversals=None if solved is None else inputs.reversals(c),
         margins=margins if moved else {},
         contacts=like_contacts(description, c.contacts, m, like.contacts),
-        at_pose=_pose_loads(inputs, c, functions_of(graph)),
+        at_pose=_pushes(inputs, c, pushed, _pose_loads(inputs, c, functions_of(graph))),
         pushing=c.pushing,
         moves=moves,
         side=inputs.side() if sided else None,
@@ -156,7 +158,11 @@ def trace_analysis(
     return Trace(course, inputs, where, catalogue, inertia, repeated)
 
 
-def _pose_loads(inputs: Inputs, c: Compiled, known: Tree) -> Callable[[Forcing, Pose, Array], Forcing] | None:
+AtPose = Callable[[Forcing, Pose, Array], Forcing]
+"""Loads that follow from the pose and the twist."""
+
+
+def _pose_loads(inputs: Inputs, c: Compiled, known: Tree) -> AtPose | None:
     """Loads that depend on the pose, by speeds, or by the time of a constant speed, as nodes of these."""
     graph = inputs.graph
     _note_table_ends(inputs)
@@ -181,6 +187,22 @@ def _pose_loads(inputs: Inputs, c: Compiled, known: Tree) -> Callable[[Forcing, 
         )
 
     return at_pose
+
+
+def _pushes(inputs: Inputs, c: Compiled, freedoms: Sequence[tuple[str, str]], at_pose: AtPose | None) -> AtPose | None:
+    """The loads at a pose with those in freedoms of joints that are inputs."""
+    if not freedoms:
+        return at_pose
+    place = np.array([c.freedoms.index(of) for of in freedoms], np.intp)
+    size = np.array([inputs.graph.input("number", f"push {k}", 0.0) for k in range(len(place))], object)
+
+    def with_pushes(forcing: Forcing, pose: Pose, twist: Array) -> Forcing:
+        rows = system(c.layout.algebra, c.layout.freedoms, pose)
+        wrench = np.concatenate([rows.on_i[place], rows.on_j[place]]) * np.tile(size, 2)[:, None]
+        source = WrenchSource(np.concatenate([rows.i[place], rows.j[place]]), wrench)
+        return replace(at_pose(forcing, pose, twist) if at_pose else forcing, pushes=source)
+
+    return with_pushes
 
 
 def _known(inputs: Inputs, c: Compiled, functions: Tree) -> Known:

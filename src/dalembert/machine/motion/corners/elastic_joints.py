@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.errors import ModelError
 from dalembert.machine.motion.actuation import Actuation, joint_stops
 from dalembert.machine.motion.corners.elastic_stops import ElasticStops
 from dalembert.machine.motion.equation import Terms
@@ -30,13 +29,6 @@ class ElasticState(ContactState):
             if stops.stiffness:
                 what = f"the stop of joint {name!r}"
                 self.elastic_joints[j] = ElasticStops(None, what, name=name, freedom=freedom, stops=stops)
-        if self.elastic_joints and self.equation.dry:
-            name = next(iter(self.elastic_joints.values())).name
-            raise ModelError(
-                f"joint {name!r} has elastic stops beside dry friction, and its forces change that friction",
-                f"release a drive of {name!r}, leave the stiffness out, or write a spring by a table",
-                ("joints", name, "stops"),
-            )
 
     def joint_motion(self, j: int, terms: Terms) -> dict[str, float]:
         """Position and rate of such a joint by its name, full turns counted from the last state on."""
@@ -51,14 +43,21 @@ class ElasticState(ContactState):
         """Force of a joint's elastic stop in its freedom, N m or N."""
         return self.elastic_joints[j].at(self.joint_motion(j, terms))
 
-    def elastic_push(self, terms: Terms) -> tuple[Array, float]:
-        """Efforts (D,) of joints' elastic stops on the drives, and their power."""
-        push, power = np.zeros(self.d), 0.0
-        for j in self.elastic_joints:
-            force = self.elastic_force(j, terms)
-            push += force * terms.freedoms[j][3:]
-            power += force * terms.freedoms[j][1]
-        return push, power
+    def elastic_forces(self, terms: Terms) -> dict[int, float]:
+        """Forces of all of them."""
+        return {j: self.elastic_force(j, terms) for j in self.elastic_joints}
+
+    def loaded_terms(self, t: float, q: Array, u: Array) -> Terms:
+        """The terms with the forces of joints' elastic stops, on which friction depends."""
+        terms = self.equation(t, q, u)
+        if not self.elastic_joints:
+            return terms
+        forces = self.elastic_forces(terms)
+        if self.equation.dry:
+            return self.equation.pushed(forces, t, q, u)
+        push = sum((x * terms.freedoms[j][3:] for j, x in forces.items()), np.zeros(self.d))
+        power = sum(x * terms.freedoms[j][1] for j, x in forces.items())
+        return terms._replace(effort=terms.effort - push, power=terms.power + np.array([power, 0.0]))
 
 
 def within(stops: Stops, x: float) -> float:

@@ -95,7 +95,7 @@ class ContactState:
         tau = applied - self.acting.brake * self.toward
         free = self.acting.free & ~self.locked
         a = self.acting.accelerations(t)
-        state = self.sense, self.stuck, rotor, self.with_elastic_stops
+        state = self.sense, self.stuck, rotor, self.loaded_terms
         contacts, terms = self.equation.accelerations(t, q, u, a, tau, free, *state)
         held, tau = applied if self.equation.dry else contacts.effort, tau - rotor * contacts.a
         return contacts, np.where(free, tau, np.where(self.acting.free, held, contacts.effort)), terms
@@ -118,16 +118,13 @@ class ContactState:
         """Force of a joint's elastic stop in its freedom, N m or N."""
         raise NotImplementedError
 
-    def elastic_push(self, terms: Terms) -> tuple[Array, float]:
-        """Efforts (D,) of joints' elastic stops on the drives, and their power."""
-        return np.zeros(self.d), 0.0
-
-    def with_elastic_stops(self, terms: Terms) -> Terms:
+    def loaded_terms(self, t: float, q: Array, u: Array) -> Terms:
         """The terms with the forces of joints' elastic stops."""
-        if not self.elastic_joints:
-            return terms
-        push, power = self.elastic_push(terms)
-        return terms._replace(effort=terms.effort - push, power=terms.power + np.array([power, 0.0]))
+        return self.equation(t, q, u)
+
+    def loaded_model(self, t: float, q: Array, u: Array) -> Mechanism:
+        """The mechanism with the forces of joints' elastic stops as loads."""
+        return self.m
 
     def take_torques(self, y: Array) -> None:
         """Take the efforts of late motors from a state, at whose end they are."""
@@ -190,13 +187,12 @@ class ContactState:
             a = self.at(t, y)[0] if not self.locked[self.acting.free].all() else np.zeros(self.d)
         finally:
             self.locked = held
-        r = at_state(self.m, self.acting.position, t, q, u, a)
+        r = at_state(self.loaded_model(t, q, u), self.acting.position, t, q, u, a)
         name = self.acting.names[k]
         low, high = holding_efforts(r, k) if self.equation.dry else (float(r.effort(name)[1]),) * 2
         if np.isnan(low) or np.isnan(high):
             raise StoppedError(f"{name} is at rest: {r.reasons[1] or r.status[1]}")
         tau, half = self._held(k, t, q, u)
-        tau += self.elastic_push(self.equation(t, q, u))[0][k]
         low, high = low - half, high + half
         return tau, -np.inf if self.on_stop[k] < 0 else low, np.inf if self.on_stop[k] > 0 else high
 

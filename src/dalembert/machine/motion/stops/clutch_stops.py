@@ -16,14 +16,14 @@ from dalembert.errors import ModelError
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.occurrences import Guard
 from dalembert.machine.motion.rest.standstill import STILL
-from dalembert.machine.motion.rest.sticking import StickState
+from dalembert.machine.motion.stops.elastic_rest import ElasticRestState
 from dalembert.model import Mechanism
 
 ON_TOOTH = 1e-12
 """Part of a pitch by which a ratchet may start before a tooth and be on it."""
 
 
-class ClutchState(StickState):
+class ClutchState(ElasticRestState):
     """A motion some of whose ``stops`` are clutches."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:

@@ -322,7 +322,7 @@ class StopState(ClutchState):
         self.take_torques(y)
         tau = acting.effort(t, q, u) - acting.brake * self.toward
         a = acting.accelerations(t)
-        e = self.with_elastic_stops(self.equation(t, q, u))
+        e = self.loaded_terms(t, q, u)
         e = e._replace(mass=e.mass + np.diag(rotor))
         rows = e.freedoms[[s.joint for s in self.pressed]]
         n, none = rows[:, 3:], np.zeros((len(rows), len(rows)))

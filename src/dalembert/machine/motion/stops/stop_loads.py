@@ -5,6 +5,7 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,6 +49,11 @@ def with_stop_loads(
     """The analysis with the forces of joints' stops, and these (T,) by joint: ``stop_forces`` (T, J, 2) from
     ``StopState.joint_forces``. Where one drive is at rest it is the least force: friction holds as much as it can."""
     m, names = r.mechanism, list(joint_stops(r.mechanism))
+    time = tuple(np.asarray(r.schedule.time).tolist())
+
+    def over_time(values: Array) -> Table:
+        return Table("time", time, tuple(values.tolist()))
+
     force, ratio, loaded = stop_forces[..., 0], stop_forces[..., 1], r
     k, held = (
         int(np.argmax(moves.free)),
@@ -59,7 +65,7 @@ def with_stop_loads(
         missing = np.where(sense > 0, high, low) - pushed[:, k]
         more = np.where(held & (sense != 0)[:, None], missing[:, None] / np.where(held, ratio, 1.0), 0.0)
         force = force + np.nan_to_num(more)
-        loads = {**m.loads, **_loads(r, names, force)}
+        loads = {**m.loads, **loads_of_stops(r, names, force, over_time)}
         loaded = at_schedule(m.model_copy(update={"loads": loads}), r.schedule, inertia=True)
         if not np.nanmax(np.abs(more)) > SAME * np.abs(force).max():
             break
@@ -67,9 +73,12 @@ def with_stop_loads(
     return loaded, {joint + ends.get(freedom, ""): force[:, n] for n, (joint, freedom) in enumerate(names)}
 
 
-def _loads(r: Result, names: list[tuple[str, str]], force: Array) -> dict[str, Load]:
-    """Forces along slides and couples about turns, on both links of each joint whose stop gives some, over time."""
-    c, m, time = r.compiled, r.mechanism, tuple(np.asarray(r.schedule.time).tolist())
+def loads_of_stops(
+    r: Result, names: list[tuple[str, str]], force: Array, value: Callable[[Array], Table | float]
+) -> dict[str, Load]:
+    """Forces along slides and couples about turns, on both links of each joint whose stop gives some; ``value`` of a
+    load from numbers at the positions."""
+    c, m = r.compiled, r.mechanism
     rows, d, out = (
         system(c.layout.algebra, c.layout.freedoms, full_pose(r)),
         c.layout.algebra.d,
@@ -83,8 +92,7 @@ def _loads(r: Result, names: list[tuple[str, str]], force: Array) -> dict[str, L
             part.links, part.links[::-1], part.point_names(joint), (rows.on_i, rows.on_j), strict=True
         ):
             along = wrench[:, row, d:] if freedom == "turn" else wrench[:, row, :d]
-            values = np.nan_to_num(along * force[:, k, None]).T.tolist()
-            tables = tuple(Table("time", time, tuple(value)) for value in values)
+            tables = tuple(map(value, np.nan_to_num(along * force[:, k, None]).T))
             by = GROUND if other == GROUND else None
             name = f"stop of {joint} on {link}"
             while name in m.loads:
@@ -101,6 +109,6 @@ def _loads(r: Result, names: list[tuple[str, str]], force: Array) -> dict[str, L
                     r.rotation_array[:, own], np.subtract(place, c.layout.reference[own])
                 )
                 more = wrench[:, row, d] - (r_[:, 0] * along[:, 1] - r_[:, 1] * along[:, 0])
-                couple = np.nan_to_num(more * force[:, k]).tolist()
-                out[name + " turns"] = Couple(on=link, value=Table("time", time, tuple(couple)), by=by)
+                couple = value(np.nan_to_num(more * force[:, k]))
+                out[name + " turns"] = Couple(on=link, value=couple, by=by)
     return out
