@@ -147,9 +147,11 @@ def test_a_table_that_ends_too_early_is_held_with_a_status_or_zero(outside: str,
     assert set(s.result.status) == ({"ok", "outside_table"} if outside == "refuse" else {"ok"})
 
 
-def test_many_designs_of_an_effort_by_speed_are_refused() -> None:
-    with pytest.raises(ModelError, match="the effort of drive 'O' depends on"):
-        da.compile_motion(rotor("{effort: -O.speed N*m}"), until="1 s")
+def test_many_designs_of_an_effort_by_speed_decay() -> None:
+    """w' = -w/J."""
+    k = da.compile_motion(rotor("{effort: -O.speed N*m}"), "1 s", ["start.O.speed"])
+    speed = np.array([2.0, -3.0])
+    assert k(speed[:, None]).speed[:, 0] == pytest.approx(speed * np.exp(-1 / J), rel=1e-8)
 
 
 @pytest.mark.parametrize("sign", ["", "-"])

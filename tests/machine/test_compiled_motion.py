@@ -146,8 +146,11 @@ def test_a_motion_that_cannot_go_on_is_undecided() -> None:
             [],
             "has a curve, and switches",
         ),
-        (("effort: 0", "effort: 0, stops: {to: 500 deg}"), [], "has stops, which are met as events"),
-        (("effort: 0", "effort: 2*cos(O2)"), [], "depends on positions or time"),
+        (
+            ("effort: 0", "effort: {x: [0 s, 1 s], y: [0, 1], against: time, outside: zero}"),
+            [],
+            "the table of the effort of drive 'O2' repeats, or ends at zero",
+        ),
         (("", ""), ["start.O4.speed"], "is not a number of a drive that forces move"),
         (("", ""), ["drives.O2.position"], "vary 'start.O2.position'"),
         ((FOUR_BAR, SPRINGS), [], "forces that move M move no mass; give its links masses"),

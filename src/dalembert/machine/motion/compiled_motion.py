@@ -18,7 +18,7 @@ from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
-from dalembert.machine.motion.actuation import Actuation, actuation, drive_lengths, joint_stops, read_start
+from dalembert.machine.motion.actuation import Actuation, actuation, drive_lengths, read_start
 from dalembert.machine.motion.coded.rate_program import Corners
 from dalembert.machine.motion.equation import Equation, StoppedError
 from dalembert.machine.motion.equation_trace import trace_equation
@@ -30,6 +30,7 @@ from dalembert.machine.motion.occurrences import read_end
 from dalembert.machine.motion.simulation import check_choices
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.model.drives.starting import Start
+from dalembert.model.quantities.tables import Table
 
 CORNERED = 0.01
 """Part of the tolerance for motors with corners: a step that goes over one errs by more than it says."""
@@ -54,8 +55,9 @@ def compile_motion(
     and ``.speed``. outputs: names as in `da.compile`, at ``count`` instants evenly from a design's start to its end;
     reduce: over these instants, as in `da.compile`, or ``final``. tolerance: of each step, relative; the error of the
     motion grows beyond it with the steps: compare with a tenth of it. Dry friction and brakes of one drive that forces
-    move, switches of motors, and corners and tables of loads are events of each design; outputs have values at these
-    instants too. Raises ModelError for stops, laws, and efforts that depend on positions or time.
+    move, switches of motors, corners and tables of loads and efforts, stops and clutches are events of each
+    design; outputs have values at these instants too. Raises ModelError for laws, ratchets, gears with losses, and
+    friction of several free drives.
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2)
@@ -99,13 +101,16 @@ def _compile(
     placed = next((path for path in vary if path.startswith("drives.") and path.endswith(".position")), "")
     if placed:
         raise ModelError(f"{placed!r} moves along the motion", f"vary 'start{placed[6:]}'")
+    stopped = next((path for path in vary if path.split(".")[2:3] == ["stops"]), "")
+    if stopped:
+        raise ModelError(f"{stopped!r} cannot vary by its path", "write it as a parameter, and vary that")
     lanes = lanes_here()
     rubs = [name for name, joint in m.joints.items() if getattr(joint, "friction", None) is not None]
     rough = bool(rubs) or any(path.endswith(".brake") for path in driven)
     events = refuse_events(m, prescribed, moves, rough)
     inside = [path for path in vary if path not in driven]
     try:
-        equation = trace_equation(prescribed, inside, outputs, events=events)
+        equation = trace_equation(prescribed, inside, outputs, acting=moves if events else None)
     except ModelError as error:
         why = f"joint {rubs[0]!r} has dry friction: " if rubs else ""
         raise ModelError(f"{why}{error.what}", REMEDY if rubs else error.remedy, error.path) from None
@@ -156,36 +161,33 @@ def _corners(m: Mechanism) -> dict[int, Corners]:
     out = dict[int, Corners]()
     for k, drive in enumerate(m.drives.values()):
         if drive.motor is not None and drive.effort is None and not drive.motor.straight:
-            points = list(zip(drive.motor.speed, drive.motor.effort, strict=True))
+            motor = drive.motor.at_drive
+            points = list(zip(motor.speed, motor.effort, strict=True))
             slopes = [0.0, *((e - e0) / (u - u0) for (u0, e0), (u, e) in pairwise(points)), 0.0]
             out[k] = [(u, new - old) for (u, _), (old, new) in zip(points, pairwise(slopes), strict=True)]
     return out
 
 
 def _refuse(moves: Actuation) -> None:
-    """Refuses stops, laws and efforts that the steps do not support: they must be functions of the drive's speed."""
-    for joint, _ in joint_stops(moves.m):
-        raise ModelError(f"joint {joint!r} has stops, which change speeds at once", REMEDY)
+    """Refuses laws, and stops and efforts that the steps do not support."""
     for k, (name, drive) in enumerate(moves.m.drives.items()):
         if k in moves.laws:
             raise ModelError(f"drive {name!r} has a law of motion, whose acceleration changes", REMEDY)
-        if hasattr(drive.effort, "at"):
-            raise ModelError(f"the effort of drive {name!r} depends on positions or time", REMEDY)
-        if drive.stops:
-            raise ModelError(f"drive {name!r} has stops, which are met as events", REMEDY)
-        if drive.motor is not None and drive.motor.geared:
-            raise ModelError(f"the motor of drive {name!r} has a gear, inertia or an efficiency", REMEDY)
-        if drive.motor is not None and drive.motor.time_constant:
-            raise ModelError(f"the motor of drive {name!r} has a time constant", REMEDY)
+        if isinstance(drive.effort, Table) and (drive.effort.period or drive.effort.outside == "zero"):
+            raise ModelError(f"the table of the effort of drive {name!r} repeats, or ends at zero", REMEDY)
+        if drive.motor is not None and drive.motor.efficiency < 1:
+            raise ModelError(f"the gear of the motor of drive {name!r} has losses", REMEDY)
 
 
 def _lines(m: Mechanism, moves: Actuation) -> Array:
     """``ROWS`` (6, D) of the drives: numbers, or symbols."""
     lines = np.zeros((6, len(moves.names)), object)
     for k, (name, drive) in enumerate(m.drives.items()):
-        start, line = m.start.get(name), (0.0 if drive.effort is None else drive.effort, np.inf)
+        given = 0.0 if drive.effort is None or hasattr(drive.effort, "at") else drive.effort
+        start, line = m.start.get(name), (given, np.inf)
         if drive.motor is not None and drive.effort is None:
-            line = drive.motor.effort[0], drive.motor.speed[1] if drive.motor.straight else np.inf
+            motor = drive.motor.at_drive
+            line = motor.effort[0], motor.speed[1] if motor.straight else np.inf
         rate, speed = (np.ravel(np.array(x, object))[0] for x in (drive.acceleration, drive.speed))
         begin = (moves.position[k], speed) if start is None else (start.position, start.speed)
         lines[:, k] = *line, 0.0 if moves.free[k] else rate, *begin, drive.brake or 0.0
@@ -206,9 +208,10 @@ def _varying(moves: Actuation, k: int) -> list[tuple[str, str]]:
     if k < 0 or not moves.free[k]:
         return []
     motor = moves.motors.get(k) if moves.drives[k].effort is None else None
-    efforts = (
-        ["effort"] if motor is None else [f"motor.{key}" for key in ("stall", "no_load") if motor.straight]
-    )
+    efforts = [] if hasattr(moves.drives[k].effort, "at") else ["effort"]
+    if motor is not None:
+        plain = motor.straight and not moves.drives[k].motor.geared  # type: ignore[union-attr]
+        efforts = [f"motor.{key}" for key in ("stall", "no_load") if plain]
     return [("start", "position"), ("start", "speed"), *(("drives", each) for each in (*efforts, "brake"))]
 
 

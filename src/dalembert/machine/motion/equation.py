@@ -141,7 +141,9 @@ class Equation:
     ``known``: the pose, where states are followed one by one; ``dry``: the contacts, where there is friction, with the
     names of the joints of its ``own`` ones (those that slip independently); ``contacts``: the same as nodes;
     ``friction``: inputs of what is ``asked``, c z of each contact; ``pushes``: places of the values for forces of
-    elastic stops, by their joint's place among those with stops.
+    elastic stops, by their joint's place among those with stops. Where what acts on drives is part of it: ``stops``
+    that are struck, whose numbers are outputs of the program behind the others; time constants of ``late`` motors;
+    ``lost``: number of contacts that open below zero, the last outputs.
     """
 
     def __init__(
@@ -169,6 +171,9 @@ class Equation:
         self.asked, self.asked_channels = program, channels
         self.sides: list[int] = []
         self.pushes: dict[int, int] = {}
+        self.stops: list[Any] = []
+        self.late: dict[int, Node] = {}
+        self.lost = 0
         self.contacts: Contacts | None = None
         self.friction: list[Node] = []
 

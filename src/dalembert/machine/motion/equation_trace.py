@@ -6,7 +6,6 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
-import re
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
@@ -20,21 +19,27 @@ from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.tracing.symbolic_model import functions
 from dalembert.analysis.batch.tracing.symbolic_model import numbers as varied_numbers
 from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
-from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME
 from dalembert.analysis.engine.kept_program import KeptProgram
 from dalembert.analysis.engine.structures import ready
 from dalembert.arrays import Array, Ints, Tree
-from dalembert.core import forcing as fc
-from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.friction_trace import TRACED, trace_contacts
 from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
 from dalembert.kernel.program import Program
-from dalembert.kernel.trace import Traced
-from dalembert.machine.motion.actuation import joint_stops
+from dalembert.machine.motion.actuation import Actuation, joint_stops
+from dalembert.machine.motion.coded.acting_nodes import ActingNodes, trace_acting
+from dalembert.machine.motion.coded.traced_terms import (
+    Freedoms,
+    contact_terms,
+    freedom_motions,
+    load_powers,
+    required_efforts,
+    table_bends,
+)
 from dalembert.machine.motion.corners.one_sided import Sided, has_corners, sided
 from dalembert.machine.motion.equation import LOCK, Equation, LastPose, LoadChannel
 from dalembert.machine.motion.rest.dry_friction import DryFriction
@@ -45,11 +50,6 @@ from dalembert.model.quantities.expressions import Expression
 OUTSIDE = frozenset({"min", "log", "asin", "acos"})
 """Operations of expressions without machine code."""
 
-WHOLE_TURN = re.compile(r"known turn \d+")
-"""Inputs that angles are counted from."""
-
-Freedoms = tuple[tuple[str, str], ...]
-"""Joints and their freedoms."""
 LATEST: deque[tuple[tuple[object, Freedoms], Mechanism, Equation]] = deque(maxlen=8)
 """Equations of the mechanisms met last, by what these are made of, which they keep alive, and the freedoms watched."""
 
@@ -80,18 +80,18 @@ def trace_equation(
     vary: Sequence[str] = (),
     outputs: tuple[str, ...] | None = None,
     freedoms: Freedoms = (),
-    events: bool = False,
+    acting: Actuation | None = None,
 ) -> Equation:
     """The equation of one mechanism, for any numbers at the paths ``vary``; with what is ``asked`` of a state: outputs,
-    then what is below zero where it is in doubt; and with the ``freedoms`` of joints that are watched. ``events``:
-    corners of loads are on one side each also where there are outputs."""
-    names = tuple(m.drives)
+    then what is below zero where it is in doubt; and with the ``freedoms`` of joints that are watched. ``acting``,
+    for a motion with events: what acts on the drives is part of it, and corners are on one side each."""
+    names, events = tuple(m.drives), acting is not None
     moving = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
     full, varied = outputs is None or events, [*vary, *moving]
     switches: dict[Node, Node] = {}
     of: Callable[[Graph], Tree] = partial(_sided_functions, switches) if full else functions
     stops = joint_stops(m)
-    pushed = [of for of, ends in stops.items() if ends.stiffness]
+    pushed = tuple(joint for joint, ends in stops.items() if ends.stiffness)
     trace = trace_analysis(
         m, varied, True, moves=True, redundant=True, unsplit=full, functions_of=of, pushed=pushed
     )
@@ -103,14 +103,16 @@ def trace_equation(
     graph, traced, count = trace.catalogue.graph, trace.catalogue.traced, len(names)
     kernel = Kernel(m, trace, outputs or (), None, False, 1)
     numbers = kernel.number_nodes[-2 * count :]
-    effort = [n for name in names for n in trace.catalogue.nodes(f"effort.{name}")]
-    mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
-    if trace.redundant:  # no number where constraints that repeat others are not met
-        effort = [n + 1e-300 * traced.open[-1].sqrt() for n in effort]
-    rubbing, *linear = _contacts(trace, numbers[count:])
+    rubbing, *linear = contact_terms(trace, numbers[count:])
     c, watched = trace.catalogue.compiled, (*stops, *freedoms)
-    moved = [rubbing, traced.closure, _motion(graph, c, traced, watched, numbers[count:])]
-    parts = [effort, mass, _powers(graph, c, traced), *moved, [*met, *_bends(graph, c, traced)], *linear]
+    moved = [rubbing, traced.closure, freedom_motions(graph, c, traced, watched, numbers[count:])]
+    acts = ActingNodes(*required_efforts(trace, names, numbers[count:]))
+    before = set(switches)
+    trace_acting(acts, trace, acting, m, moved[2], known_functions, kernel.number_nodes)
+    met |= {by: side for by, side in switches.items() if by not in before}
+    parts = [acts.effort, acts.mass, load_powers(graph, c, traced), *moved]
+    parts += [[*met, *table_bends(graph, c, traced)], *linear]
+    parts = [graph.substitute(part, acts.pushes) for part in parts]
     slip, none = traced.friction.slip, dict[int, Node]()
     if slip is not None:
         none = dict.fromkeys((n.index for n in (*trace_array(graph, slip.cz), *numbers[count:])), graph.zero)
@@ -119,8 +121,8 @@ def trace_equation(
         nodes = graph.substitute([*(n for part in parts for n in part), *more], none)
         return plain(kernel, nodes, marked=False, without=OUTSIDE, known=known_functions)
 
-    built = program()
-    known = [x for n in built.inputs_in_use("channel") if (x := graph.names[n.index]).startswith("known ")]
+    built = program(*(n for stop in acts.stops for n in stop.nodes))
+    known = _known_inputs(built)
     if known:  # whole turns, and groups without a closed form: followed from state to state
         built = program(*(n for a in traced.pose for n in trace_array(graph, a).ravel()))
     channels = [_channel(trace, names, n) for n in built.inputs_in_use("channel")]
@@ -130,14 +132,26 @@ def trace_equation(
     out = Equation(names, built, parts, numbers, places, values, channels)
     out.sides = [places[side.index] for side in met.values()]
     out.pushes = {_of_push(graph, n, stops, pushed): places[n.index] for n in pushes}
-    out.kernel = kernel
+    out.kernel, out.stops, out.late = kernel, acts.stops, acts.late
     if outputs is not None:
-        _ask(out, trace, events, known_functions if events else None)
-    followed = trace.course.followed
+        _ask(out, trace, events, known_functions if events else None, acts)
     _set_contacts(out, trace)
-    out.known = LastPose(trace.course.pose, followed, followed.compiled.layout) if known else None
-    out.by_newton = any(not name.startswith("known turn") for name in known)
+    _follow(out, trace, known)
     return out
+
+
+def _known_inputs(program: Program) -> list[str]:
+    """Names of the inputs that are known from the state before."""
+    names = (program.graph.names[n.index] for n in program.inputs_in_use("channel"))
+    return [name for name in names if name.startswith("known ")]
+
+
+def _follow(out: Equation, trace: Trace, known: Sequence[str]) -> None:
+    """Follow states one by one where some inputs are known from the state before."""
+    if known:
+        followed = trace.course.followed
+        out.known = LastPose(trace.course.pose, followed, followed.compiled.layout)
+        out.by_newton = any(not name.startswith("known turn") for name in known)
 
 
 def _of_push(graph: Graph, node: Node, stops: Iterable[tuple[str, str]], pushed: Freedoms) -> int:
@@ -145,10 +159,12 @@ def _of_push(graph: Graph, node: Node, stops: Iterable[tuple[str, str]], pushed:
     return list(stops).index(pushed[int(graph.names[node.index].split()[1])])
 
 
-def _ask(out: Equation, trace: Trace, events: bool, known: Functions | None) -> None:
+def _ask(out: Equation, trace: Trace, events: bool, known: Functions | None, acts: ActingNodes) -> None:
     """Give an equation what is asked of its states; with ``events`` its friction is an input."""
     graph, traced, kernel = out.graph, trace.catalogue.traced, out.kernel
-    asked, slip = [*kernel.flat, *traced.closure, *traced.open], traced.friction.slip
+    forces, slip = [*traced.contacts, *acts.lost] if events else [], traced.friction.slip
+    out.lost = len(forces)
+    asked = graph.substitute([*kernel.flat, *traced.closure, *traced.open, *forces], acts.pushes)
     if events and slip is not None:
         out.friction = [graph.input("number", f"friction {e}", 0.0) for e in range(len(slip.cz))]
         found = zip(trace_array(graph, slip.cz), out.friction, strict=True)
@@ -265,8 +281,8 @@ def _shared(k: KeptProgram, names: tuple[str, ...], freedoms: Freedoms) -> Equat
     graph, (q, u, a) = k.graph, k.symbols.drives
     effort = list(k.traced.effort)
     mass = [n for row in gradients(graph, effort, list(a)) for n in row]
-    moved = _motion(graph, k.symbols.compiled, k.traced, freedoms, list(a))
-    parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure, moved, []]
+    moved = freedom_motions(graph, k.symbols.compiled, k.traced, freedoms, list(a))
+    parts = [effort, mass, load_powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure, moved, []]
     inputs = [
         n if n.op == "number" else graph.input("number", f"value {j}", 1.0) for j, n in enumerate(k.inputs)
     ]
@@ -285,85 +301,3 @@ def _independent(contacts: Contacts, sense: Array) -> Ints:
     alone = (contacts.group == contacts.group[:, None]).sum(axis=0) == 1
     moves = [n.level != CONSTANT for n in sense]
     return np.flatnonzero(~contacts.fixed & alone & (contacts.leader == np.arange(contacts.count)) & moves)
-
-
-def _contacts(trace: Trace, accelerations: Sequence[Node]) -> list[list[Node]]:
-    """Rates of the contacts, and the nodes of ``Linear``."""
-    c, traced, graph = trace.catalogue.compiled, trace.catalogue.traced, trace.catalogue.graph
-    slip, contacts = traced.friction.slip, c.contacts
-    if slip is None or contacts is None:
-        return [[]]
-    first = c.layout.constraints.count
-    second = rates(slip.along, traced.acceleration) + drift(
-        c.layout.algebra, contacts.rows, traced.pose, traced.twist
-    )
-    push = slip.r.change[first : first + len(accelerations)]
-    ahead = gradients(graph, list(slip.r.y.ravel()), accelerations)
-    arrays = (
-        slip.state.rate,
-        push,
-        slip.r.y,
-        np.array(ahead),
-        slip.r.h,
-        second,
-    )
-    return [list(trace_array(graph, a).ravel()) for a in arrays]
-
-
-def _motion(
-    graph: Graph, c: Compiled, traced: Traced, names: Freedoms, accelerations: Sequence[Node]
-) -> list[Node]:
-    """For freedoms of joints: value, without full turns, rate and second rate, and the slopes by the accelerations."""
-    g, freedoms, out, pose = c.layout.algebra, c.layout.freedoms, list[Node](), traced.pose
-    if g.d == 2:
-        cos, sin = np.moveaxis(trace_array(graph, pose.rotation), -1, 0)
-        pose = pose._replace(turn=np.arctan2(sin, cos))
-    for name in names:
-        row, rows = c.freedoms.index(name), system(g, freedoms, pose)
-        second = rates(rows, traced.acceleration) + drift(g, freedoms, pose, traced.twist)
-        motion = (measure(g, freedoms, pose), rates(rows, traced.twist), second)
-        out.extend(trace_array(graph, np.array([x[..., row][()] for x in motion], object)))
-        out.extend(gradients(graph, out[-1:], list(accelerations))[0])
-    known = {i: x for n in graph.order(out) if (x := graph.names.get(i := n.index, "")).startswith("known ")}
-    if not all(WHOLE_TURN.fullmatch(x) for x in known.values()):
-        return out  # Newton's steps begin at these angles
-    return graph.substitute(out, dict.fromkeys(known, graph.zero))
-
-
-def _bends(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
-    """Distances of springs and dampers from the bends of their tables."""
-    springs = traced.forcing.springs
-    if not springs.slopes.any():
-        return []
-    margins = fc.table_margins(c.layout, springs, traced.pose, traced.twist)
-    return list(trace_array(graph, np.array(margins, object)))
-
-
-def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
-    """Powers of forces and couples, and of dampers, as nodes; dry friction is not included yet."""
-    layout, f, pose, twist = c.layout, c.forcing, traced.pose, traced.twist
-
-    def power(*sources: fc.WrenchSource) -> Node:
-        parts = [
-            (k, w)
-            for s in sources
-            for k, w in zip(s.link, s.wrench.reshape(-1, twist.shape[-1]), strict=True)
-        ]
-        return sum(((w * twist[k]).sum() for k, w in parts), graph.zero)
-
-    def elastic(at: Array) -> list[fc.WrenchSource]:
-        springs = [fc.spring_wrench(layout, f.springs, pose, at)] if len(f.springs.a) else []
-        return (
-            [*springs, fc.resistance_wrench(layout, f.resistances, pose, at)]
-            if len(f.resistances.row)
-            else springs
-        )
-
-    dampers = power(*elastic(twist)) - power(*elastic(0.0 * twist))
-    loads = graph.zero
-    if len(f.forces.link) or len(f.couples.link) or f.pushes is not None:  # all power less that of the others
-        inertial = fc.inertia_wrench(layout, f.inertia, pose, twist, traced.acceleration[:-1])
-        turning = [traced.sources["turning"]] if "turning" in traced.sources else []
-        others = power(*elastic(twist), fc.weight(layout, f.inertia, pose), inertial, *turning)
-        loads = (traced.loads * twist[:-1]).sum() - others
-    return list(trace_array(graph, np.array([loads, dampers], object)))

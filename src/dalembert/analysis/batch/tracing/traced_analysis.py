@@ -114,8 +114,7 @@ def trace_analysis(
     repeated = _check(course, redundant)
     where = numbers(m, vary)
     moved = [n for n in where if geometric(m, n.path)]
-    if m.dimension == 3:
-        _check_space(course.compiled, moved)
+    _check_space(course.compiled, moved)
     graph = Graph()
     inputs = Inputs(graph, course, followed)
     description = symbolic(m, where, graph, inputs.load)
@@ -189,7 +188,9 @@ def _pose_loads(inputs: Inputs, c: Compiled, known: Tree) -> AtPose | None:
     return at_pose
 
 
-def _pushes(inputs: Inputs, c: Compiled, freedoms: Sequence[tuple[str, str]], at_pose: AtPose | None) -> AtPose | None:
+def _pushes(
+    inputs: Inputs, c: Compiled, freedoms: Sequence[tuple[str, str]], at_pose: AtPose | None
+) -> AtPose | None:
     """The loads at a pose with those in freedoms of joints that are inputs."""
     if not freedoms:
         return at_pose
@@ -276,6 +277,8 @@ def _refuse_friction(course: PositionPath) -> None:
 
 def _check_space(c: Compiled, moved: list[VariedNumber]) -> None:
     """Refuses cases in space that are not compiled."""
+    if c.layout.algebra.d == 2:
+        return
     links = dict(enumerate(c.links))
     for f in c.contacts.rows.families if c.contacts is not None else ():
         rods = [links[end] for end in (*f.i, *f.j) if links.get(end) in c.passive]

@@ -40,6 +40,7 @@ class EquationNodes(Protocol):
     asked_channels: list[Any]
     dry: DryFriction | None
     contacts: Contacts | None
+    late: dict[int, Node]
 
     def terms(self, out: Array) -> Any:
         """The terms of all outputs."""
@@ -56,7 +57,7 @@ class MasslessError(ArithmeticError):
 class RateNodes(NamedTuple):
     """A motion's rates as nodes: ``slots`` (n + 1,), the state's numbers and the time; ``given``, the numbers behind
     the equation's values; accelerations, applied and required efforts (D,); powers of brakes, loads, dampers and
-    friction; friction c z of the contacts (E,), and what is watched of them."""
+    friction; friction c z of the contacts (E,), and what is watched of them; of the efforts of late motors."""
 
     slots: Array
     given: Array
@@ -66,6 +67,7 @@ class RateNodes(NamedTuple):
     powers: list[Node]
     cz: Array
     watched: list[Node]
+    late: list[Node]
 
 
 def rate_steps(
@@ -114,6 +116,10 @@ def trace_rates(
     a, applied = np.where(free, 0.0, inputs[3]), inputs[0] + inputs[1] * u
     for k, bends in corners.items():
         applied[k] = sum(((u[k] - speed).larger(0.0) * bend for speed, bend in bends), applied[k])
+    late = list[Node]()
+    for torque, (k, constant) in zip(slots[2 * d :], equation.late.items() if at_rest else (), strict=False):
+        late.append((applied[k] - torque) / constant)
+        applied[k] = torque
     heat, cz, watched = graph.zero, np.zeros(0, object), list[Node]()
     if equation.dry:
         known, still = (a, applied + inputs[2], free), given[-1] if at_rest else None
@@ -127,7 +133,7 @@ def trace_rates(
         a[free] = solve_nodes(m, (applied + inputs[2] - effort)[free])
         required, _, power = np.split(solve_at(equation.ends[2], a), equation.ends[:2])
     powers = [(inputs[2] * u).sum(), *power, heat]
-    return RateNodes(slots, given, a, applied, required, powers, cz, watched)
+    return RateNodes(slots, given, a, applied, required, powers, cz, watched, late)
 
 
 def at_state(equation: EquationNodes, slots: Array, a: Array, nodes: Sequence[Node]) -> Array:

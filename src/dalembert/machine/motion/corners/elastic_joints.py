@@ -11,11 +11,11 @@ import numpy as np
 
 from dalembert.arrays import Array
 from dalembert.machine.motion.actuation import Actuation, joint_stops
+from dalembert.machine.motion.coded.acting_nodes import within
 from dalembert.machine.motion.corners.elastic_stops import ElasticStops
 from dalembert.machine.motion.equation import Terms
 from dalembert.machine.motion.rest.standstill import ContactState
 from dalembert.model import Mechanism
-from dalembert.model.drives.end_stops import Stops
 from dalembert.model.quantities.coordinates import SPEED
 
 
@@ -58,13 +58,3 @@ class ElasticState(ContactState):
         push = sum((x * terms.freedoms[j][3:] for j, x in forces.items()), np.zeros(self.d))
         power = sum(x * terms.freedoms[j][1] for j, x in forces.items())
         return terms._replace(effort=terms.effort - push, power=terms.power + np.array([power, 0.0]))
-
-
-def within(stops: Stops, x: float) -> float:
-    """The angle equal to x up to full turns that is between stops, or nearest to them.
-
-    >>> round(within(Stops(5.0, 6.0), -1.0), 4)
-    5.2832
-    """
-    turns = [x + 2 * np.pi * n for n in range(-2, 3)]
-    return min(turns, key=lambda x: (max(stops.least - x, x - stops.greatest, 0.0), abs(x)))

@@ -5,8 +5,7 @@ In: designs of one machine. Out: their ends and outputs. Imports ``machine.motio
 motion_block    smooth motions, and their outputs
 motion_kernel   what is called with designs, and its answer
 event_program   rates in machine code with all that is watched, and the outputs
-guards          quantities whose change of sign is an event, of all designs
-event_steps     steps of all designs to their next events, and what happens there
+course          steps of all designs to their next events, and what happens there
 event_block     outputs at instants and events, reduced
 event_machine   code and guards of a machine
 event_kernel    what is called with designs that have events

@@ -14,8 +14,9 @@ from dalembert.arrays import Array, Flags
 from dalembert.kernel.graph import Node
 from dalembert.machine.motion.coded.steps import between
 from dalembert.machine.motion.equation import Equation
+from dalembert.machine.motion.many.course.course_events import Course
+from dalembert.machine.motion.many.course.course_state import EventMachine
 from dalembert.machine.motion.many.event_program import look
-from dalembert.machine.motion.many.event_steps import Course, EventMachine
 from dalembert.machine.motion.many.over_instants import over_instants
 from dalembert.machine.motion.occurrences import EventCondition
 
@@ -79,13 +80,13 @@ class EventBlock:
         even = time[:, None] * (np.linspace(0.0, 1.0, self.instants) if self.instants > 1 else np.ones(1))
         design = np.repeat(np.arange(m), even.shape[1])
         t, version, y = self._states(course, design, even.ravel())
-        if self.reduce != "final":
+        if self.reduce != "final" and course.instants:
             of, when, by, state = (np.concatenate(x) for x in zip(*course.instants, strict=True))
             design, t = np.concatenate([design, of]), np.concatenate([t, when])
             version, y = np.concatenate([version, by]), np.concatenate([y, state])
             order = np.lexsort((t, design))
             design, t, version, y = design[order], t[order], version[order], y[order]
-        rows = np.array(course.versions)
+        rows = np.array(course.versions or list(course.values))
         parts = [
             self._at(rows[version[k : k + AT_ONCE]], t[k : k + AT_ONCE], y[k : k + AT_ONCE])
             for k in range(0, len(t), AT_ONCE)

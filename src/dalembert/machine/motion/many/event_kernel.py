@@ -62,10 +62,10 @@ class EventKernel(MotionKernel):
             solved = self._alone(designs[k])
             ended[k] = solved.ended
             if solved.known:
-                time[k], state[k] = solved.time, np.concatenate([solved.position, solved.speed])
+                time[k], state[k, : 2 * d] = solved.time, np.concatenate([solved.position, solved.speed])
                 for name, x in solved.outputs.items():
                     arrays[name][k] = x
-        return MotionBatch(designs, time, state[:, :d], state[:, d:], tuple(ended), arrays, len(again))
+        return MotionBatch(designs, time, state[:, :d], state[:, d : 2 * d], tuple(ended), arrays, len(again))
 
     def _ended(self, values: Array) -> Ended:
         """The ends of some designs."""

@@ -11,18 +11,19 @@ import numpy as np
 
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Node
-from dalembert.machine.motion.actuation import Actuation, drive_lengths
+from dalembert.machine.motion.actuation import Actuation, drive_lengths, joint_stops
 from dalembert.machine.motion.coded.rate_program import Corners, MasslessError
 from dalembert.machine.motion.corners.one_sided import has_corners
 from dalembert.machine.motion.equation import Equation, StoppedError, no_inertia
+from dalembert.machine.motion.many.course.course_state import EventMachine
+from dalembert.machine.motion.many.course.guards import Guards
 from dalembert.machine.motion.many.event_block import EventBlock
 from dalembert.machine.motion.many.event_program import EventCode, event_code
-from dalembert.machine.motion.many.event_steps import EventMachine
-from dalembert.machine.motion.many.guards import Guards
 from dalembert.machine.motion.occurrences import EventCondition
 from dalembert.machine.motion.rest.dry_friction import sided
 from dalembert.machine.motion.stops.opened_contacts import opened
 from dalembert.model import Mechanism
+from dalembert.model.drives.motors import MotorCurve
 from dalembert.model.joints.elements.one_way_joints import Clutch
 from dalembert.model.quantities.coordinates import TIME
 
@@ -34,15 +35,15 @@ Row = tuple[str, int, int, float | Node]
 def refuse_events(m: Mechanism, prescribed: Mechanism, moves: Actuation, rough: bool) -> bool:
     """True if a motion of a machine has events, with dry friction or a brake that varies if ``rough``; raises
     ModelError for those that only motions alone have."""
-    if any(isinstance(joint, Clutch) for joint in m.joints.values()) and m.dimension == 2:
-        raise ModelError("a one-way clutch or a ratchet holds, or turns freely", REMEDY)
+    if any(getattr(joint, "pitch", 0.0) for joint in m.joints.values() if isinstance(joint, Clutch)):
+        raise ModelError("a ratchet meets its teeth one by one", REMEDY)
     rests = rough or bool(moves.brake.any())
     if rests and moves.free.sum() > 1:
         raise ModelError(
             "two or more drives that move freely have dry friction or brakes, and each of them may stick",
             REMEDY,
         )
-    if rests and ((moves.speed[~moves.free] != 0).any() or (moves.acceleration[~moves.free] != 0).any()):
+    if rests and _others_move(moves):
         raise ModelError("a prescribed drive moves beside dry friction or a brake", REMEDY)
     switched = False
     for k, motor in moves.motors.items():
@@ -51,10 +52,23 @@ def refuse_events(m: Mechanism, prescribed: Mechanism, moves: Actuation, rough: 
             if motor.kinks or moves.drives[k].effort is not None:
                 raise ModelError(f"the motor of drive {moves.names[k]!r} has a curve, and switches", REMEDY)
     bent = any(has_corners(v) for load in m.loads.values() for v in getattr(load, "varying", ()))
-    events = rests or switched or bent
-    if events and opened(prescribed, moves) is not None:
-        raise ModelError("a contact that only pushes may lift off", REMEDY)
-    return events
+    acts = any(
+        d.stops is not None or hasattr(d.effort, "at") or (d.motor is not None and _acts(d.motor))
+        for d in moves.drives
+    )
+    stopped = acts or bool(joint_stops(prescribed)) or opened(prescribed, moves) is not None
+    return rests or switched or bent or stopped
+
+
+def _others_move(moves: Actuation) -> bool:
+    """True if a prescribed drive moves."""
+    others = ~moves.free
+    return bool((moves.speed[others] != 0).any() or (moves.acceleration[others] != 0).any())
+
+
+def _acts(motor: MotorCurve) -> bool:
+    """True if a motor's effort is more than a line over the speed."""
+    return bool(motor.time_constant or motor.inertia)
 
 
 def event_block(
@@ -76,28 +90,34 @@ def event_block(
     if code is None:
         raise ModelError("the motion has loads that no formula gives, or too many contacts", REMEDY)
     rests = equation.dry is not None or bool(moves.brake.any())
+    late = len(equation.late)
     rows = _rows(equation, moves, conditions, corners, code, rests)
     kinds = [row[0] for row in rows]
     machine = EventMachine(
         code,
         int(np.flatnonzero(free)[0]),
+        free,
+        free.sum() == 1 and not _others_move(moves),
         len(free),
         rests,
         len(equation.values),
         np.array(equation.sides, int),
+        [stop.drive for stop in equation.stops],
         Guards.of([row[:3] for row in rows]),
         np.array([kind == "condition" for kind in kinds], bool),
-        _by_time(moves.m),
+        bool(late) or _by_time(moves.m),
         end,
         tolerance,
         drive_lengths(equation.kernel.mechanism),
+        np.array([max(map(abs, moves.motors[k].effort)) for k in equation.late], float),
     )
     return EventBlock(equation, machine, tuple(conditions), tuple(row[3] for row in rows), instants, reduce)
 
 
 def _by_time(m: Mechanism) -> bool:
-    """True if a load depends on time."""
-    varying = (v for load in m.loads.values() for v in getattr(load, "varying", ()))
+    """True if a load or an effort depends on time."""
+    varying = [v for load in m.loads.values() for v in getattr(load, "varying", ())]
+    varying += [d.effort for d in m.drives.values()]
     return any(TIME in getattr(v, "names", ()) for v in varying)
 
 
@@ -110,11 +130,14 @@ def _rows(
     rests: bool,
 ) -> list[Row]:
     """All guards; columns: positions, speeds, what is watched, and the time."""
-    d, sides = len(moves.names), len(equation.sides)
-    margins, switching = 2 * d + code.contacts, 2 * d + code.contacts + code.margins
-    time, k = 2 * d + code.steps.watched, int(np.flatnonzero(moves.free)[0])
+    d, n, sides = len(moves.names), code.steps.n, len(equation.sides)
+    margins, switching = n + code.place("margins"), n + code.place("corners")
+    time, k = n + code.steps.watched, int(np.flatnonzero(moves.free)[0])
     rows: list[Row] = [("rest", k, d + k, 0.0)] if rests else []
-    rows += [("contact", e, 2 * d + e, 0.0) for e in range(code.contacts)]
+    rows += [("contact", e, n + e, 0.0) for e in range(code.contacts)]
+    for j, stop in enumerate(equation.stops):
+        rows.append(("clutch" if stop.clutch else "stop", j, n + code.place("stops") + j * (2 + d), 0.0))
+    rows += [("lost", j, n + code.place("lost") + j, 0.0) for j in range(code.lost)]
     rows += [("side", n, margins + n, 0.0) for n in _bearing(equation, code.margins)]
     rows += [("corner", j, switching + j, 0.0) for j in range(sides)]
     rows += [("kink", j, switching + j, 0.0) for j in range(sides, code.corners)]
