@@ -81,6 +81,50 @@ def miss(s: Studio, link: str, part: float, to: Place) -> float:
     return math.dist(s.pixel(*along(s, link, part)), s.pixel(*to))
 
 
+def a_first_four_bar(s: Studio) -> None:
+    """By what is to be seen alone: buttons and the mouse. What the preview says of a bar is in the file."""
+    s.see(0.05, 0.02, 3000)
+    page = s.page
+
+    def drag(a: Place, b: Place) -> None:
+        page.mouse.move(*s.pixel(*a))
+        page.mouse.down()
+        page.mouse.move(*s.pixel(*b), steps=5)
+
+    page.click("[data-tool=ground]")
+    page.mouse.move(*s.pixel(0.1, 0.0))
+    assert page.locator(".preview text").text_content() == "100, 0 mm"
+    for at in ((0.0, 0.0), (0.1, 0.0)):
+        s.changes(lambda at=at: page.mouse.click(*s.pixel(*at)))  # type: ignore[misc]
+    page.click("[data-tool=bar]")
+    drag((0.0, 0.0), (0.0203, 0.0342))
+    assert page.locator(".preview text").text_content() == "length 40 mm   angle 60°"
+    s.changes(page.mouse.up)
+    for end in ((0.12, 0.07), (0.1, 0.0)):
+        drag(s.point(names(s)[-1]), end)
+        s.changes(page.mouse.up)
+    s.settled()
+    s.changes(lambda: page.click(".verdict button:text-is('Drive A')"))
+    for link, long in (("link3", "120"), ("link4", "80")):
+        page.mouse.click(*s.pixel(*along(s, link, 0.4)))
+        box = page.get_by_label("length", exact=True)
+        box.fill(long)
+        s.changes(lambda box=box: box.press("Enter"))  # type: ignore[misc]
+    page.click("[data-tool=force]")
+    drag(s.point("link4", "D"), (s.point("link4", "D")[0], s.point("link4", "D")[1] - 0.04))
+    s.changes(page.mouse.up)
+    m = da.loads(s.text)
+    assert m.links["link2"].points["C"] == (0.04, 0.0)
+    assert m.drives["A"].position == pytest.approx(math.radians(60), abs=2e-5)
+    torque = float(da.statics(m).effort("A")[0])
+    assert s.effort() == pytest.approx(torque, rel=1e-9)
+    said = page.inner_text(".verdict").replace("−", "-")
+    assert said.startswith(f"Effort of A (torque): {float(f'{torque:.5g}')!r} N·m as drawn.")
+    s.changes(lambda: page.click(".verdict button:text-is('Whole turn')"))
+    assert len(da.statics(da.loads(s.text)).effort("A")) > 30
+    s.effort()
+
+
 def a_pinned_bar_is_pulled_round(s: Studio) -> None:
     """It keeps its length and its pin, and points to the hand."""
     s.see(0.0, 0.0, 3000)
@@ -291,6 +335,7 @@ def every_problem_is_ticked(s: Studio) -> None:
 
 
 SKETCHES = [
+    a_first_four_bar,
     *(a_pinned_bar_is_pulled_round, a_free_bar_follows_and_turns, far_beyond_reach_and_back),
     *(
         both_cranks_of_a_five_bar_by_turns,

@@ -113,7 +113,7 @@ export class Hand {
       const turn = (Math.atan2(at[1] - a[1], at[0] - a[0]) * 180) / Math.PI, near = Math.round(turn / DIRECTIONS) * DIRECTIONS, far = dist(a, at);
       if (Math.abs(turn - near) < TURN) {
         const step = this.canvas.window.step(d.units.length.size, 7), long = Math.round(far / step) * step, r = (near * Math.PI) / 180;
-        return { at: [a[0] + long * Math.cos(r), a[1] + long * Math.sin(r)] };
+        return { at: [a[0] + long * Math.cos(r), a[1] + long * Math.sin(r)], polar: [long / d.units.length.size, near] };
       }
     }
     const step = this.canvas.window.step(d.units.length.size, 7);
@@ -169,7 +169,8 @@ export class Hand {
     } else if (this.drag) this.dragged(e, x, y, before ?? [x, y]);
     else if (this.tool.shape !== "select") {
       this.canvas.preview.replaceChildren();
-      const at = this.snap(e);
+      const at = this.snap(e), [u, v] = this.canvas.window.px(at.at), unit = this.shown.drawing().units.length;
+      if (this.tool.name === "ground") make(this.canvas.preview, "text", { x: u + 14, y: v - 14, class: "label" }, `${at.at.map((q) => figures(q / unit.size)).join(", ")} ${unit.unit}`);
       if (at.point) make(this.canvas.preview, "circle", { class: "snap", cx: this.canvas.window.px(at.at)[0], cy: this.canvas.window.px(at.at)[1], r: 10 });
     }
     if (!e.buttons) this.pointers.delete(e.pointerId);
@@ -298,12 +299,12 @@ export class Hand {
     const any = this.typed.some(Boolean), there = this.place.point && dist(this.place.at, first.at) > 0, second: Where = there || !any ? this.place : { at: end };
     const turn = Math.atan2(end[1] - first.at[1], end[0] - first.at[0]), over = e && !this.place.point ? this.linkAt(e) : this.place.link ?? "";
     const unit = this.shown.drawing().units.force.size, size = this.force(end) * unit;
-    const value = typed("value") ? { value: typed("value") } : {};
+    const value = typed("value") ? { value: typed("value") } : {}, polar = this.place.polar?.map((x) => figures(x, 9)) ?? ["", ""];
     const asked: Record<string, unknown> =
-      this.tool.name === "bar" ? { op: "bar", ends: [first, second], length: typed("length"), angle: typed("angle") }
-      : ["slider", "slot", "slide"].includes(this.tool.name) ? { op: this.tool.name, where: first, guide: over && over !== first.link ? over : "ground", direction: turn, angle: typed("angle") }
-      : this.tool.name === "force" ? { op: "force", where: first, vector: [size * Math.cos(turn), size * Math.sin(turn)], angle: typed("angle"), ...value }
-      : { op: this.tool.name === "pin" ? "merge" : this.tool.name, first, second, ...value };
+      this.tool.name === "bar" ? { op: "bar", ends: [first, second].map(plain), length: typed("length") || polar[0], angle: typed("angle") || `${polar[1]}${polar[1] && " deg"}` }
+      : ["slider", "slot", "slide"].includes(this.tool.name) ? { op: this.tool.name, where: plain(first), guide: over && over !== first.link ? over : "ground", direction: turn, angle: typed("angle") }
+      : this.tool.name === "force" ? { op: "force", where: plain(first), vector: [size * Math.cos(turn), size * Math.sin(turn)], angle: typed("angle"), ...value }
+      : { op: this.tool.name === "pin" ? "merge" : this.tool.name, first: plain(first), second: plain(second), ...value };
     const goesOn = this.tool.name === "bar" && !(first.point && second.point); // a bar from point to point closes what is drawn
     this.cancel();
     const a = await this.socket.gesture(asked);
@@ -365,6 +366,9 @@ export class Hand {
     return true;
   }
 }
+
+/** A place as the server takes it. */
+const plain = ({ at, link, point }: Where): Where => (point ? { at, link, point } : { at });
 
 /** The drawing with all points at one place moved. */
 function moved(d: Drawing, p: Picked, to: Point): Drawing {

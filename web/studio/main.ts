@@ -135,7 +135,7 @@ function exists(d: Drawing, p: Picked): boolean {
   return !!(d[p.kind] as { name: string }[] | undefined)?.some((one) => one.name === p.name);
 }
 function verdictIs(text: string, wrong: boolean): void {
-  verdict.textContent = text;
+  verdict.textContent = text.charAt(0).toUpperCase() + text.slice(1);
   verdict.classList.toggle("wrong", wrong);
 }
 /** The forces of the last text, or the sentence of what is missing. */
@@ -205,9 +205,11 @@ async function edited(values: Record<string, number>): Promise<void> {
 function numbers(): void {
   if (!page || page.sketch) return;
   const { kernel, data } = page, at = Math.round(data.start), efforts = data.views.table.filter((row) => row.name.startsWith("effort"));
-  const of = efforts.map((row) => `${row.name.replace(/[_{}]/g, "")} ${figures(kernel.rows[row.rows[0] * kernel.row + at] / data.units[row.kind].size, 5).replace("-", "−")} ${data.units[row.kind].unit}`);
-  const solved = kernel.good[at] === 1;
+  const of = efforts.map((row) => `${row.name.replace(/[_{}]/g, "")} (${row.kind === "moment" ? "torque" : "force"}): ${figures(kernel.rows[row.rows[0] * kernel.row + at] / data.units[row.kind].size, 5).replace("-", "−")} ${data.units[row.kind].unit}`);
+  const solved = kernel.good[at] === 1, drives = state!.drawing.drives;
   verdictIs(solved ? `${of.join("; ") || "In equilibrium"}${of.length ? " as drawn" : ""}. All forces: tab Forces.` : "No forces at the drawn position: see tab Forces", !solved);
+  for (const { joint, written } of drives.length === 1 ? drives : [])
+    if (solved && typeof written?.position === "number" && state!.drawing.joints.some((j) => j.name === joint && j.type === "pin")) button(verdict, "Whole turn", "Drive it through a full turn", () => void socket.gesture({ op: "drive", joint, whole_turn: true }));
 }
 function offers(missing: string): void {
   const d = drawing();

@@ -2,7 +2,8 @@
 
 export type Point = [number, number];
 export interface End { link: string; point: string }
-export interface Where { at: Point; link?: string; point?: string }
+/** A place, with the point of a link or the length and angle (in the file's unit, in degrees) that it snapped to. */
+export interface Where { at: Point; link?: string; point?: string; polar?: [number, number] }
 export interface DrawnLink { name: string; points: Record<string, Point>; pose: [number, number, number]; bar?: boolean; center?: Point; written: any }
 export interface DrawnJoint {
   name: string; type: string; links: [string, string]; at: [string, string]; p: Point; q: Point; freedoms: string[]; written: any;
