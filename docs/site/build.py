@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import time
+from html import escape
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -54,6 +55,15 @@ READERS = {
     "tutorials/programmer": "For programmers",
 }
 """Tutorial -> its short name in the navigation."""
+PICTURES = (
+    "example-excavator",
+    "example-four_cylinder",
+    "example-cam_and_follower",
+    "brk-1-simple-band-brake",
+    "example-rssr",
+    "example-hexapod",
+)
+"""Problems of the gallery on the home page."""
 NOTEBOOKS = {"student": "student", "teacher": "teacher", "designer": "designer", "programmer": "tour"}
 
 
@@ -82,6 +92,7 @@ def main() -> int:
     laws = json.loads(counted.communicate()[0])
     for done, count, name in problem_pages.write_all(SOURCE, options.part or "", laws):
         say(f"gallery {done} of {count}: {name}")
+    write("index.md", home())
     sections()
     if failed:
         return 1
@@ -158,7 +169,21 @@ def copy_pages() -> None:
     da.page(da.load(examples()["four_bar"]), static / "four_bar.html", overwrite=True)
     r = da.dynamics(da.load(examples()["four_bar"]))
     da.draw.mechanism(r, forces=True).save(static / "four_bar.svg", overwrite=True)
-    write("index.md", (HERE / "home.md").read_text(encoding="utf-8"))
+
+
+def home() -> str:
+    """The home page, with the first sentence of the validation page and pictures of the gallery."""
+    text = (HERE / "home.md").read_text(encoding="utf-8")
+    sentence = (SOURCE / "validation.md").read_text(encoding="utf-8").split("\n\n")[1].partition(";")[0]
+    pages = [name for name in PICTURES if (SOURCE / "gallery" / f"{name}.md").is_file()]
+    texts = [(SOURCE / "gallery" / f"{name}.md").read_text(encoding="utf-8") for name in pages]
+    pictures = "".join(
+        f'<a href="gallery/{name}.html"><img src="_static/problems/{name}.svg" alt="" loading="lazy">'
+        f"<span>{escape(text.partition('# ')[2].partition(chr(10))[0])}</span></a>\n"
+        for name, text in zip(pages, texts, strict=True)
+    )
+    text = text.replace("<!-- validated -->", f"{sentence} ([validation](validation.md)).")
+    return text.replace("<!-- pictures -->", f'<div class="problems">\n{pictures}</div>')
 
 
 def resolved(text: str) -> str:

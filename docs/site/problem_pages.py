@@ -16,7 +16,7 @@ from dalembert.grading.file_answers import ComparedAnswer, check
 
 HEADS = "| quantity | published | computed | exact | deviation | tolerance | |"
 RULE = "| --- | --- | --- | --- | --- | --- | --- |"
-LAW_HEADS = "| what holds | laws | machines, by default | in the long tests | in all tests |"
+LAW_HEADS = "laws | machines, default tests | with the long tests | all tests |"
 Laws = dict[str, dict[str, Any]]
 """What `law_counts.py` prints."""
 FILTER = """<div class="filters"><input id="problem-text" placeholder="Search titles and sources" aria-label="Search">
@@ -148,16 +148,16 @@ def law_part(laws: Laws) -> str:
     by_room = [law_row(f"`tests/{room}`", parts) for room, parts in sorted(rooms.items())]
     by_file = [law_row(part["said"].rstrip(".;").replace("|", "\\|"), [part]) for part in laws.values()]
     total = law_row("**all**", list(laws.values()))
-    head = f"{LAW_HEADS}\n| --- | ---: | ---: | ---: | ---: |"
+    rule = "| --- | ---: | ---: | ---: | ---: |"
+    rooms_head, files_head = (f"| {what} | {LAW_HEADS}\n{rule}" for what in ("tests", "what holds"))
     said = (
         "A law holds for every machine, whether or not a book has it: reactions do no work, velocities are the "
         "differences of positions, a mirrored or scaled machine has a mirrored or scaled answer, a program written "
         "independently gives the same. Each law is tried on machines, mechanisms or force systems that are drawn at "
         "random; a machine counts once for each law that is tried on it."
     )
-    return "\n".join(
-        ["## Laws", "", said, "", head, *by_room, total, "", "By file of tests:", "", head, *by_file]
-    )
+    rows = [rooms_head, *by_room, total, "", "By file of tests:", "", files_head, *by_file]
+    return "\n".join(["## Laws", "", said, "", *rows])
 
 
 def law_row(name: str, parts: list[dict[str, Any]]) -> str:
