@@ -23,6 +23,7 @@ from dalembert.analysis.result.quantity_expressions import parse_quantity
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.machine.motion.many.along_motions import AlongMotions
 from dalembert.model.quantities.expression_trees import (
     REDUCTIONS,
     Apply,
@@ -210,14 +211,14 @@ class CycleExpressions:
     """
 
     trees: Mapping[str, Tree]
-    kernel: Kernel | OneByOne
+    kernel: Kernel | OneByOne | AlongMotions
 
     @classmethod
     def of(
         cls,
         texts: Sequence[str],
         r: Result,
-        compiled: Callable[[Sequence[str]], Kernel | OneByOne],
+        compiled: Callable[[Sequence[str]], Kernel | OneByOne | AlongMotions],
         functions: Collection[str] = (),
         written: Mapping[str, str] | None = None,
     ) -> CycleExpressions:

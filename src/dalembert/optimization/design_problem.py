@@ -17,6 +17,8 @@ from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError, errors_at
 from dalembert.machine.bearings.compiled_life import life_expression
+from dalembert.machine.motion.many.along_motions import AlongMotions
+from dalembert.machine.motion.many.simulation_plan import SimulationPlan
 from dalembert.model import AtPositions, Mechanism
 from dalembert.model.paths import reached
 from dalembert.optimization.aims import Aim, Constraint
@@ -61,6 +63,7 @@ class DesignProblem:
     method: str = DEFAULT
     requested: AtPositions = None
     functions: Mapping[str, Function] = field(default_factory=dict)
+    motion: SimulationPlan | None = None
 
     def check(self) -> None:
         """Raises ModelError, with its key, where the aim or a condition is not valid for this mechanism."""
@@ -98,7 +101,7 @@ class DesignProblem:
         """True if designs are analysed one by one, as some quantity is not compiled, or is a Python function."""
         named = {x for text in (self.aim.of, *self.margins) for x in analysed_names(text)}
         lives = {of for word, of in named if word == "life"}
-        if self.functions or self.lives.keys() != lives:
+        if self.motion or self.functions or self.lives.keys() != lives:
             return True
         sized = sorted(f"{word}.{of}" for word, of in named if word != "life")
         try:
@@ -138,7 +141,11 @@ class DesignProblem:
 
     @cached_property
     def nominal_answer(self) -> Result:
-        return solve(self.mechanism, self.static, self.requested)
+        return self.answer_of(self.mechanism)
+
+    def answer_of(self, m: Mechanism) -> Result:
+        """The analysis of a design, along its motion if forces move it."""
+        return self.motion.of(m).result if self.motion else solve(m, self.static, self.requested)
 
     def kernel(self, outputs: Sequence[str], reduce: str | None) -> Kernel:
         return compile(self.mechanism, self.vary, list(outputs), reduce, derivatives=True, static=self.static)
@@ -172,12 +179,14 @@ class DesignProblem:
         lives = {} if self.one_by_one else {f"life.{n}": text for n, text in self.lives.items()}
         return CycleExpressions.of(texts, self.nominal_answer, self._leaves, self.functions, lives)
 
-    def _leaves(self, names: Sequence[str]) -> Kernel | OneByOne:
+    def _leaves(self, names: Sequence[str]) -> Kernel | OneByOne | AlongMotions:
         """Quantities at every position."""
         if not self.one_by_one:
             return self.kernel(names, None)
         paths = tuple(n.path for n in numbers(self.mechanism, self.vary))
         box = self.low, self.high
+        if self.motion is not None:
+            return AlongMotions(self.mechanism, paths, *box, tuple(names), self.motion)
         return OneByOne(
             self.mechanism, paths, *box, tuple(names), self.functions, self.static, self.requested
         )

@@ -8,7 +8,7 @@ from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
-from dalembert.model.files.task_files import load_task, plain_options
+from dalembert.model.files.task_files import load_task, motion_options, plain_options
 from dalembert.optimization.optimizing import optimize
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.pareto_front import Front, pareto
@@ -27,6 +27,7 @@ KEYS = {
     "positions": "number of positions instead of the file's",
     "static": "true leaves inertia out",
     "method": "an optimizer by name, such as nlopt.slsqp or pymoo.de",
+    "simulate": "motions under forces, {until: [2 s, 'O2.speed = 0 rad/s'], start: ..., count: 201}",
 }
 
 
@@ -45,6 +46,9 @@ def optimize_file(
         if single:
             what = "two aims give several designs, and a model file has one"
             raise ModelError(what, "write .csv, .xlsx, .json or a report, or give one aim", ("least",))
+        if "simulate" in options:
+            what = "two aims along motions under forces give no front"
+            raise ModelError(what, "give one aim, and a condition for the other", ("simulate",))
         points: Any = plain_options(tree, {"points": 2}, ())
         return pareto(changed(m), **options, **points)
 
@@ -78,6 +82,8 @@ def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
     options = plain_options(tree, {"starts": 1, "seed": 0, "positions": 1}, ("static",))
     if "method" in tree:
         options["method"] = tree["method"]
+    if "simulate" in tree:
+        options["simulate"] = motion_options(tree)
     return {"vary": bounds, "least": least, "where": where, **options}
 
 

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.batch.tracing.symbolic_model import VariedNumber, number_kinds, numbers
-from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Flags
 from dalembert.bounds import require
 from dalembert.errors import ModelError, errors_at
+from dalembert.machine.motion.many.simulation_plan import read_motion
 from dalembert.machine.whole_cycle import over_a_turn
 from dalembert.model import AtPositions, Mechanism, ModelOrPath, as_mechanism
 from dalembert.optimization.aims import Aim, Constraint, parse_aim, parse_condition
@@ -60,6 +60,7 @@ def optimize(
     positions: AtPositions = None,
     static: bool = False,
     method: str = DEFAULT,
+    simulate: Mapping[str, object] | None = None,
 ) -> Optimum:
     """Optimal design of a mechanism: numbers within bounds, an aim to minimize, conditions at every position.
 
@@ -75,6 +76,8 @@ def optimize(
     An aim may be a Python function of a result that returns a number; a condition one whose numbers, one or one a
     position, must not be negative. With these, and with quantities that are not compiled (``deflection.rod``),
     designs are analysed one by one with gradients by differences: by default 20 starts, the best five polished.
+    ``simulate``: motions under forces, ``{"until": ["2 s", "O.speed = 0 rad/s"], "start": ...}`` as in `da.study`; aims
+    and conditions are of quantities along each design's motion, ``final time``, ``peak drive.O.speed``.
     Raises ModelError for unknown names, empty bounds, and where no design within the bounds can be solved.
 
     >>> import dalembert as da
@@ -86,7 +89,7 @@ def optimize(
     """
     mechanism = as_mechanism(mechanism)
     name = find_method(method, "polish", "search")
-    p, steps, varied = problem_of(mechanism, vary, least, where, positions, static)
+    p, steps, varied = problem_of(mechanism, vary, least, where, positions, static, simulate)
     p = replace(p, method=name)
     usual = STARTS_ANALYSED if p.one_by_one else STARTS
     return _best(p, steps, varied, usual if starts is None else starts, seed)
@@ -106,14 +109,19 @@ def problem_of(
     where: Rule | Sequence[Rule],
     positions: AtPositions,
     static: bool,
+    simulate: Mapping[str, object] | None = None,
 ) -> tuple[DesignProblem, Array, tuple[VariedNumber, ...]]:
     """The problem, the steps of its numbers (NaN for none), and the numbers."""
+    m, motion = (m, None) if simulate is None else read_motion(m, simulate)
     varied, low, high, steps = bounds_of(m, vary)
     rules: list[Any] = [where] if isinstance(where, str) or callable(where) else list(where)
     functions = named([f for f in dict.fromkeys((least, *rules)) if callable(f)])
+    for key, given in (("positions", positions), ("static", static)):
+        if motion is not None and given:
+            raise ModelError(f"{key} is given, and forces move the designs", f"leave {key} out", (key,))
     with errors_at("positions"):
-        at = over_a_turn(m, positions)
-        place = m.schedule(at).position
+        at = positions if motion else over_a_turn(m, positions)
+        place = np.zeros((motion.count, len(m.drives))) if motion else m.schedule(at).position
     with errors_at("least"):
         aim = aim_of(least, functions)
     conditions = list[Constraint]()
@@ -121,7 +129,7 @@ def problem_of(
         with errors_at("where", k):
             conditions.append(_condition(rule, functions))
     problem = DesignProblem(
-        m, tuple(vary), low, high, aim, tuple(conditions), place, static, requested=at, functions=functions
+        m, tuple(vary), low, high, aim, tuple(conditions), place, static, DEFAULT, at, functions, motion
     )
     problem.check()
     return problem, steps, varied
@@ -289,12 +297,13 @@ def optimum_of(
         bounds=np.stack([p.low, p.high], axis=1),
         aim=p.aim,
         conditions=p.conditions,
-        before=solve(m, p.static, p.requested),
-        after=solve(best, p.static, p.requested),
+        before=p.nominal_answer,
+        after=p.answer_of(best),
         feasible=feasible,
         found=alike,
         polished=polished,
         started=started,
         kinds=number_kinds(m, varied),
         functions=p.functions,
+        instants=p.motion.count if p.motion else 0,
     )

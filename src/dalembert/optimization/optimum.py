@@ -56,10 +56,29 @@ class Optimum(Labelled, Drawn, Worked, Remade):
     started: int
     kinds: tuple[str, ...] = field(repr=False)
     functions: Mapping[str, Function] = field(default_factory=dict, repr=False)
+    instants: int = 0
+    """Of motions under forces: number of even instants at which all is compared."""
 
     def values_of(self, r: Result, text: str) -> Array:
         """An expression, or a function by its name, of a result (P,)."""
-        return value_of(r, text, self.functions)
+        return self.sampled(r, value_of(r, text, self.functions))
+
+    def sampled(self, r: Result, values: Array) -> Array:
+        """Values at the positions of a result, or at even instants of its motion."""
+        time = r.schedule.time
+        if not self.instants or time is None:
+            return values
+        known = np.isfinite(values)
+        if not known.any():
+            return np.full(self.instants, np.nan)
+        return np.interp(np.linspace(0.0, time[-1], self.instants), time[known], values[known])
+
+    def place(self, r: Result, k: int) -> int:
+        """Number of the position of a result at, or nearest to, the kth of these."""
+        time = r.schedule.time
+        if not self.instants or time is None:
+            return k + 1
+        return int(np.abs(time - time[-1] * k / (self.instants - 1)).argmin()) + 1
 
     def kind_of(self, text: str) -> str:
         """Its kind."""
@@ -128,7 +147,7 @@ class Optimum(Labelled, Drawn, Worked, Remade):
         """The objective, and the margin of each condition, over the cycle before and after."""
         for drive in self.after.drives:
             kind = drive_kinds(self.after, drive)["position"]
-            yield Column(f"drive.{drive}", kind, self.after.drive_position(drive))
+            yield Column(f"drive.{drive}", kind, self.sampled(self.after, self.after.drive_position(drive)))
         for side, r in (("before", self.before), ("after", self.after)):
             for name, of in (
                 (self.aim.of, self.aim.of),

@@ -22,6 +22,7 @@ from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.bounds import require
 from dalembert.errors import ModelError
+from dalembert.machine.motion.many.simulation_plan import SimulationPlan, read_motion
 from dalembert.model import Mechanism, ModelOrPath, as_mechanism
 from dalembert.optimization.cycle_expressions import has_reductions, is_single
 from dalembert.studies.block_engines import (
@@ -33,7 +34,7 @@ from dalembert.studies.block_engines import (
     with_cycle_numbers,
 )
 from dalembert.studies.limits import Limit, read_limit
-from dalembert.studies.motion_engines import SimulationPlan, end_kinds, make_motion_engine, read_motion
+from dalembert.studies.motion_engines import end_kinds, make_motion_engine
 from dalembert.studies.sampling import DesignPlan, triangle_of
 from dalembert.studies.spreads import Spread
 from dalembert.studies.varied_numbers import check_twofold, columns_of, spreads_of, varied_numbers

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from dalembert.arrays import Tree
-from dalembert.errors import ModelError, errors_at
+from dalembert.errors import ModelError
 from dalembert.model import Mechanism
-from dalembert.model.files.task_files import load_task, plain_options
+from dalembert.model.files.task_files import load_task, mapping_of, motion_options, plain_options, texts_of
 from dalembert.studies.design_study import Study, study
 from dalembert.studies.sampling import DRAWS
 from dalembert.units import NUMBER
@@ -50,7 +50,7 @@ def load_study(
 
 def _study(tree: Mapping[str, object], mechanism: Mechanism, folder: Path) -> Study:
     options = _options(tree)
-    vary: dict[str, object] = _texts(_mapping(tree, "vary", "stroke: ± 0.1 mm")) if "vary" in tree else {}
+    vary: dict[str, object] = texts_of(mapping_of(tree, "vary", "stroke: ± 0.1 mm")) if "vary" in tree else {}
     table = tree.get("table")
     if table is not None:
         for key in ("designs", "draw", "seed"):
@@ -122,13 +122,11 @@ def _options(tree: Mapping[str, object]) -> Tree:
             )
         out["draw"] = draw
     if "limits" in tree:
-        out["limits"] = _mapping(tree, "limits", "effort.O2: < 45 N*m")
+        out["limits"] = mapping_of(tree, "limits", "effort.O2: < 45 N*m")
     if "simulate" in tree:
-        motion = _mapping(tree, "simulate", "until: 2 s")
-        texts = {key: _texts(motion[key]) for key in motion if key in ("until", "start")}
-        out["simulate"] = {**motion, **texts, **_counted(motion)}
+        out["simulate"] = motion_options(tree)
     if "correlation" in tree:
-        out["correlation"] = dict(map(_pair, _mapping(tree, "correlation", "'stroke, bore': 0.5").items()))
+        out["correlation"] = dict(map(_pair, mapping_of(tree, "correlation", "'stroke, bore': 0.5").items()))
     return out
 
 
@@ -141,29 +139,6 @@ def _pair(item: tuple[Any, Any]) -> tuple[tuple[str, str], Any]:
             ("correlation", item[0]),
         )
     return (paths[0], paths[1]), item[1]
-
-
-def _mapping(tree: Mapping[str, object], key: str, example: str) -> dict[str, object]:
-    value = tree[key]
-    if not isinstance(value, Mapping) or not value:
-        what = f"{key} is empty" if value == {} else f"{key} is {quote_value(value)}, not a mapping"
-        raise ModelError(what, f"write {key}: {{{example}}}", (key,))
-    return dict(value)
-
-
-def _counted(options: Mapping[str, object]) -> dict[str, object]:
-    with errors_at("simulate"):
-        return plain_options(options, {"count": 2}, ())
-
-
-def _texts(value: Any) -> Any:
-    """Bare numbers, in lists and mappings too, as texts, for which the file's units count."""
-    if isinstance(value, Mapping):
-        return {key: _texts(value) for key, value in value.items()}
-    if isinstance(value, list):
-        return [_texts(value) for value in value]
-    number = isinstance(value, (int, float)) and not isinstance(value, bool) and value != 0
-    return repr(value) if number else value
 
 
 def _table(path: Path) -> dict[str, list[str]]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
-from dalembert.errors import ModelError
+from dalembert.errors import ModelError, errors_at
 from dalembert.model.description import Mechanism
 from dalembert.model.files.model_files import load, read_file
 from dalembert.model.part import check_keys
@@ -79,3 +79,30 @@ def _whole_number(value: Any, key: str, least: int) -> int:
         return int(value)
     what = f"{key} is {quote_value(value)}; it must be an integer of at least {least}"
     raise ModelError(what, f"write {key}: 1000", (key,))
+
+
+def mapping_of(tree: Mapping[str, object], key: str, example: str) -> dict[str, object]:
+    """The mapping of a key, which is not empty."""
+    value = tree[key]
+    if not isinstance(value, Mapping) or not value:
+        what = f"{key} is empty" if value == {} else f"{key} is {quote_value(value)}, not a mapping"
+        raise ModelError(what, f"write {key}: {{{example}}}", (key,))
+    return dict(value)
+
+
+def texts_of(value: Any) -> Any:
+    """Bare numbers, in lists and mappings too, as texts, for which the file's units count."""
+    if isinstance(value, Mapping):
+        return {key: texts_of(value) for key, value in value.items()}
+    if isinstance(value, list):
+        return [texts_of(value) for value in value]
+    number = isinstance(value, (int, float)) and not isinstance(value, bool) and value != 0
+    return repr(value) if number else value
+
+
+def motion_options(tree: Mapping[str, object]) -> dict[str, object]:
+    """Settings of the motion of each design, ``simulate: {until: 2 s}``."""
+    motion = mapping_of(tree, "simulate", "until: 2 s")
+    texts = {key: texts_of(motion[key]) for key in motion if key in ("until", "start")}
+    with errors_at("simulate"):
+        return {**motion, **texts, **plain_options(motion, {"count": 2}, ())}

@@ -39,15 +39,17 @@ def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
     of = next((text for text in names if np.ptp(o.values_of(o.after, text)) > 0), o.aim.of)
     shown, kind = Shown(o.after, notation or Notation()), o.kind_of(of)
     x, label, angle = along(o.after, shown)
+    if o.instants:
+        x, label, angle = np.linspace(0.0, 100.0, o.instants), "part of the motion in %", False
     both = {"before": o.before, "after": o.after}
     curves = {name: o.values_of(r, of) * shown.value(kind, 1.0) for name, r in both.items()}
-    title, unit = f"{names[of]} over the cycle", shown.unit(kind)
+    title, unit = f"{names[of]} over the {'motion' if o.instants else 'cycle'}", shown.unit(kind)
     values = o.values_of(o.after, of)
     size = np.abs(values) if of == o.aim.of else -values  # of a margin where it is least
     at = int(np.nanargmax(size)) if np.isfinite(size).any() else 0
     closed = [r for r in both.values() if np.isfinite(o.values_of(r, of)[at])]
     chart = curves_scene(x, curves, label, f"{names[of]} in {unit}" if unit else names[of], title, angle)
-    return [chart, *(draw.mechanism(r, at + 1, notation) for r in closed)]
+    return [chart, *(draw.mechanism(r, o.place(r, at), notation) for r in closed)]
 
 
 def front_scenes(f: Front, notation: Notation | None = None) -> list[Scene]:

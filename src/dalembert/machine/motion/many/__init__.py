@@ -11,4 +11,6 @@ event_machine   code and guards of a machine
 event_kernel    what is called with designs that have events
 one_design      a design by itself
 over_instants   an output of one design over its instants
+along_motions   quantities along the motions of many designs, with derivatives by differences
+simulation_plan settings of the motion of each design, from a file or a call
 """
