@@ -199,8 +199,34 @@ def a_truss_does_not_move(s: Studio) -> None:
     followed(s)
     s.page.mouse.up()
     s.answered()
+    assert s.text == problem_text("example", "truss")
     for old, new in zip(before, s.drawing()["links"], strict=True):
         assert np.allclose(list(old["points"].values()), list(new["points"].values()), atol=1e-9)
+
+
+def drives_of_one_position_go_along_and_others_keep_the_first(s: Studio) -> None:
+    """A crank that is driven at one position, with a unit or not, is driven where it was pulled; of several, not."""
+    for position in ("60 deg", "60"):
+        give(s, FREE.replace("assembly", f"drives: {{A: {{position: {position}}}}}\nassembly"))
+        pull(s, along(s, "crank", 0.6), (0.0, 0.045))
+        (drive,) = da.loads(s.text).drives.values()
+        assert drive.position == pytest.approx(math.pi / 2, abs=0.02)
+        assert ("deg}" in s.text) == ("deg" in position)
+        x, y = s.point("crank", "B")
+        assert math.atan2(y, x) == pytest.approx(float(drive.position), abs=1e-4)
+    text = FREE.replace("assembly", "drives: {A: {position: {from: 60, to: 420, count: 13}}}\nassembly")
+    give(s, text)
+    before = s.point("crank", "B")
+    s.page.mouse.move(*s.pixel(*along(s, "crank", 0.6)))
+    s.page.mouse.down()
+    s.page.mouse.move(*s.pixel(0.0, 0.045), steps=4)
+    followed(s)
+    s.page.mouse.up()
+    s.until("!studio.hand.shadow")
+    s.answered()
+    assert s.text == text
+    assert s.point("crank", "B") == before
+    assert "first position of drive A" in s.page.inner_text(".hint")
 
 
 def a_wheel_rolls(s: Studio) -> None:
@@ -341,6 +367,7 @@ SKETCHES = [
         both_cranks_of_a_five_bar_by_turns,
         a_truss_does_not_move,
         a_wheel_rolls,
+        drives_of_one_position_go_along_and_others_keep_the_first,
         a_link_too_short_leaves_a_gap,
     ),
     *(a_pin_becomes_a_slider, a_number_typed_in_the_text_moves_the_drawing, copies_are_refused_with_a_word),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,14 @@ SLOW = """() => { const socket = studio.socket, send = socket.send.bind(socket);
 socket.send = async m => { const a = send(m); if (m.edit && !window.go) {
   await new Promise(go => { window.go = go; }); } return a; }; }"""
 """The answer of the first edit is taken only when it is told to go."""
+
+
+LATE = """() => { const make = WebAssembly.instantiate, all = [];
+WebAssembly.instantiate = (...a) => new Promise(go => { window.waits = true; all.push(go); }).then(() => make(...a));
+window.go = () => { WebAssembly.instantiate = make; for (const go of all) go(); }; }"""
+"""Programs of the page are ready only when it is told to go."""
+FRAMES = """async () => { for (let k = 0; k < 4; k++) { studio.page().redraw();
+await new Promise(done => requestAnimationFrame(done)); } }"""
 
 
 def typed(s: Studio, text: str) -> None:
@@ -151,3 +160,24 @@ def test_numbers_of_the_page_that_the_text_refuses_come_back(studio: Studio) -> 
     assert s.page.inner_text(".banners .refusal")
     assert s.effort() == before
     assert s.text == FOUR_BAR
+
+
+@pytest.mark.long
+def test_the_page_is_drawn_while_one_of_other_positions_is_made(studio: Studio) -> None:
+    """Without a complaint of the browser, before and after the other one takes its place."""
+    s = studio
+    s.settled()
+    s.page.click("[role=tab][data-pane=Forces]")
+    s.page.evaluate("studio.page().show(60)")
+    s.page.evaluate(LATE)
+    position = {"from": 60, "to": 420, "count": 7}
+    s.changes(
+        lambda: s.gesture({"op": "set", "path": ["drives", "O2", "position"], "value": json.dumps(position)})
+    )
+    s.until("window.waits")
+    s.page.evaluate(FRAMES)
+    assert s.page.evaluate("studio.page().view.t") == 60
+    s.page.evaluate("() => { studio.page().redraw(); window.go(); }")
+    s.settled()
+    s.page.evaluate(FRAMES)
+    assert s.page.evaluate("[studio.page().view.t, studio.page().kernel.count]") == [0, 7]

@@ -214,7 +214,7 @@ export class Kernel implements Source {
   }
 
   closesAt(t: number): boolean {
-    this.run(t, null, this.motion.otherwise);
+    this.run(t, null, this.motion.branches.model);
     return this.one.at(this.here.length - 1) !== OPEN;
   }
 
@@ -234,7 +234,7 @@ export class Kernel implements Source {
    * joint. */
   at(t: number): void {
     const pose = this.coarse ? this.motion.near(t) : this.motion.at(t), { here } = this;
-    this.run(t, pose, pose ? this.motion.read(pose, t) : this.motion.otherwise);
+    this.run(t, pose, pose ? this.motion.branches.read(pose, t) : this.motion.branches.model);
     for (let r = 0; r < here.length; r++) [here[r], this.hereAfter[r]] = [this.one.at(r), this.one.at(r, 1)];
     const last = here.length - 1, reverses = this.side >= 0 ? this.between(here[last], this.hereAfter[last], (r) => here[r] === this.hereAfter[r]) : here[last];
     here[last] = this.judged(reverses, (r) => here[r]);
@@ -246,7 +246,7 @@ export class Kernel implements Source {
 
   /** Drawn rows of a pose that need not close. */
   private stretch(pose: Pose, t: number): void {
-    const { sketch } = this.data, p = this.motion.look(pose, t, this.motion.otherwise), first = sketch.branches.length + sketch.known.length;
+    const { sketch } = this.data, p = this.motion.branches.look(pose, t, this.motion.branches.model), first = sketch.branches.length + sketch.known.length;
     sketch.drawn.forEach((row, k) => (this.here[row] = p.at(first + k)));
     const at = (rows: number[]): number[] => rows.map((r) => p.at(r));
     const gaps = sketch.gaps.map((g) => ({ joint: g.joint, p: at(g.p), q: at(g.q) })), size = gaps.map((g) => Math.hypot(...g.p.map((x, k) => x - g.q[k])));
@@ -262,7 +262,7 @@ export class Kernel implements Source {
   }
 
   private feed(p: Program, names: string[], t: number, pose: Pose | null, branch: Float64Array): void {
-    const found = pose && this.data.sketch.known.length ? this.motion.look(pose, t, branch) : null;
+    const found = pose && this.data.sketch.known.length ? this.motion.branches.look(pose, t, branch) : null;
     names.forEach((name, k) => {
       const b = this.data.sketch.branches.indexOf(name), known = this.known.get(name);
       if (name === "side") return p.put(k, -1, 1);
@@ -281,7 +281,7 @@ export class Kernel implements Source {
   gradient(curve: number, position: number): Float64Array {
     const g = this.data.gradient!, p = this.slope!;
     const pose = this.motion.poses[position];
-    this.feed(p, g.channels, position, pose, Float64Array.from(this.motion.branches, (of) => of[position]));
+    this.feed(p, g.channels, position, pose, Float64Array.from(this.motion.branches.of, (of) => of[position]));
     p.values.set(this.values);
     p.call(1);
     const n = g.numbers.length;

@@ -1,8 +1,10 @@
 /** The motion of the linkage from the present pose: that pose is closed again after each change of numbers, and
  * followed over the full cycle; so the assembly mode is known, and stays that of the present pose. */
 
+import { Branches } from "./branches";
 import type { Data, SketchData } from "./data";
 import type { Program } from "./program";
+import { Between, placedPose, posed, turnOf, wrap } from "./poses";
 import { copied, type Pose, Sketch, Trail } from "./sketch";
 
 /** Functions of the kernel that the motion needs. */
@@ -35,8 +37,7 @@ export class Motion {
   readonly data: SketchData;
   /** Poses of the positions that are reached, null of others. */
   poses: (Pose | null)[];
-  /** Sign of each branch (1 or -1) at every position; the branches used where nothing is reached. */
-  readonly branches: Float64Array[];
+  readonly branches: Branches;
   private readonly count: number;
   private readonly first: Held;
   private held: Held;
@@ -44,22 +45,16 @@ export class Motion {
   private loose: { t: number; pose: Pose } | null = null;
   /** The numbers of the last accepted pose. */
   private seen: Float64Array | null = null;
-  private model: Float64Array;
   private readonly phases: number[];
   private readonly phasesAtFirst: number[];
   private readonly weakest: string;
-  /** The drives at each position. */
-  private readonly driven: number[][];
-  private readonly channels: { kind: "pose" | "position" | "branch" | "given"; part: keyof Pose; k: number; given: Float64Array }[];
 
-  constructor(data: Data, private readonly kernel: Closing, closure: Program, private readonly shown: Program, private readonly values: Float64Array, private readonly inputs: (name: string) => Float64Array) {
+  constructor(data: Data, private readonly kernel: Closing, closure: Program, shown: Program, private readonly values: Float64Array, private readonly inputs: (name: string) => Float64Array) {
     const s = (this.data = data.sketch);
     this.sketch = new Sketch(s, closure);
     this.count = data.kernel.count;
-    this.driven = Array.from({ length: this.count }, (_, k) => kernel.drives(k));
     this.poses = Array<Pose | null>(this.count).fill(null);
-    this.branches = s.branches.map(() => new Float64Array(this.count).fill(1));
-    this.model = new Float64Array(s.branches.length).fill(1);
+    this.branches = new Branches(s, data.drives.map((d) => d.name), kernel, shown, values, inputs, this.count);
     this.phases = s.rows.flatMap((r, k) => (r.kind === "phase" ? [k] : []));
     const [point, rotation, turn] = [s.pose.point, s.pose.rotation, s.pose.turn].map((x) => Float64Array.from(x));
     this.first = { values: Float64Array.from(data.numbers, (n) => n.value), t: s.place, pose: { point, rotation, turn } };
@@ -68,13 +63,6 @@ export class Motion {
     this.held = this.first;
     this.base = { place: s.place, pose: this.first.pose };
     this.weakest = weakest(s);
-    const drives = data.drives.map((d) => d.name);
-    this.channels = shown.module.channels.map((name) => {
-      const [kind, part, k] = name.split(" "), branch = s.branches.indexOf(name);
-      if (kind === "pose") return { kind, part: part as keyof Pose, k: +k, given: this.values };
-      if (kind === "position") return { kind, part: "turn", k: drives.indexOf(name.slice(9)), given: this.values };
-      return { kind: branch < 0 ? "given" : "branch", part: "turn", k: branch, given: branch < 0 ? inputs(name) : this.values };
-    });
     this.home();
   }
 
@@ -226,7 +214,7 @@ export class Motion {
 
   /** Branches at all positions, the first pose of the file, and the positions behind gaps. */
   private *settle(pose: Pose, t: number): Generator<void> {
-    this.spread(this.read(pose, t));
+    this.spread(this.branches.read(pose, t));
     yield;
     let closes = this.kernel.closes();
     yield;
@@ -235,17 +223,21 @@ export class Motion {
       if (!this.poses[first]) yield* this.follow(first, begin);
       this.base = { place: first, pose: this.exact(first) ?? begin };
       if (this.poses.every((q) => q)) {
-        this.model = this.read(begin, first);
+        this.branches.model = this.branches.read(begin, first);
         return; // nothing is left to which it would apply
       }
-      this.spread(this.read(begin, first));
+      this.spread(this.branches.read(begin, first));
       closes = this.kernel.closes();
       yield;
       yield* this.behind(closes);
     }
-    this.spread(this.model);
+    this.spread(this.branches.model);
     yield;
     this.kernel.closes();
+  }
+
+  private spread(model: Float64Array): void {
+    this.branches.spread(model, this.poses, this.base.pose);
   }
 
   /** The pose of a position to rounding; with many positions, those between stations are only near it. */
@@ -309,63 +301,6 @@ export class Motion {
     const [a, b] = [this.data.course[k], this.data.course[k + 1]];
     for (let i = 1; i < BETWEEN; i++) if (!this.kernel.closesAt(a + (i / BETWEEN) * (b - a))) return true;
     return false;
-  }
-
-  /** The branches of a pose at a place of the cycle, each from the previous ones. */
-  read(pose: Pose, t: number): Float64Array {
-    const out = new Float64Array(this.branches.length).fill(1);
-    for (let n = 0; n < out.length; n++) out[n] = this.look(pose, t, out).at(n) < 0 ? -1 : 1;
-    return out;
-  }
-
-  /** Evaluates the program of a pose's known quantities. */
-  look(pose: Pose, t: number, branch: Float64Array): Program {
-    const p = this.shown, drives = this.kernel.drives(t);
-    p.values.set(this.values);
-    this.channels.forEach((c, n) =>
-      p.put(n, c.kind === "pose" ? pose[c.part][c.k] : c.kind === "position" ? drives[c.k] : c.kind === "branch" ? branch[c.k] : c.given[0]));
-    p.call(1);
-    return p;
-  }
-
-  /** Branches used where nothing is reached. */
-  get otherwise(): Float64Array {
-    return this.model;
-  }
-
-  /** The kernel's inputs over all positions: branches and known motion of the reached poses, the model's elsewhere. */
-  private spread(model: Float64Array): void {
-    const p = this.shown, { row } = p, n = this.count, spare = this.base.pose;
-    this.model = model;
-    p.values.set(this.values);
-    const poses = this.poses.map((q) => q ?? spare), { path } = p;
-    this.channels.forEach(({ kind, part, k: place, given }, at) => {
-      const from = at * row;
-      if (kind === "pose") for (let k = 0; k < n; k++) {
-        const q = poses[k];
-        path[from + k] = q instanceof Between ? q.value(part, place) : q[part][place];
-      }
-      else if (kind === "position") for (let k = 0; k < n; k++) path[from + k] = this.driven[k][place];
-      else if (kind === "given") path.set(given.subarray(0, n), from);
-    });
-    // Each branch depends on those before it only: once no sign changes, all are as if read one after the other.
-    for (let changed = true, left = this.branches.length + 1; changed && left; left--) {
-      this.channels.forEach((c, at) => c.kind === "branch" && p.path.set(this.branches[c.k], at * row));
-      p.call(n);
-      changed = false;
-      this.branches.forEach((of, b) => {
-        for (let k = 0; k < n; k++) {
-          const sign = !this.poses[k] ? model[b] : p.at(b, k) < 0 ? -1 : 1;
-          changed ||= sign !== of[k];
-          of[k] = sign;
-        }
-      });
-    }
-    this.branches.forEach((of, b) => this.inputs(this.data.branches[b]).set(of));
-    this.data.known.forEach((name, i) => {
-      const of = this.inputs(name);
-      for (let k = 0; k < n; k++) of[k] = this.poses[k] ? p.at(this.branches.length + i, k) : NaN;
-    });
   }
 
   /** The pose at any place of the cycle, null where the motion does not get. */
@@ -499,29 +434,6 @@ export function whole(parts: Generator<void>): void {
   while (!parts.next().done);
 }
 
-const wrap = (x: number): number => x - 2 * Math.PI * Math.round(x / (2 * Math.PI));
-
-/** A pose between two others, in proportion to the drives; for planar links. Its arrays are made when they are read. */
-class Between implements Pose {
-  private readonly part: number;
-  constructor(private readonly a: Pose, private readonly b: Pose, from: number[], to: number[], at: number[]) {
-    const d = to.findIndex((x, k) => x !== from[k]);
-    this.part = d < 0 ? 1 : (at[d] - from[d]) / (to[d] - from[d]);
-  }
-  /** One number of it. */
-  value(of: keyof Pose, k: number): number {
-    if (of !== "rotation") return this.a[of][k] + this.part * (this.b[of][k] - this.a[of][k]);
-    const turn = this.value("turn", k >> 1);
-    return k & 1 ? Math.sin(turn) : Math.cos(turn);
-  }
-  private all(of: keyof Pose): Float64Array {
-    return this.a[of].map((_, k) => this.value(of, k));
-  }
-  get point(): Float64Array { return this.all("point"); }
-  get rotation(): Float64Array { return this.all("rotation"); }
-  get turn(): Float64Array { return this.all("turn"); }
-}
-
 /** The joint that is opened if the linkage does not close: between two moving links, if possible not driven. */
 function weakest(s: SketchData): string {
   const moving = (row: { ends: readonly number[] }): number[] => row.ends.filter((link) => link < s.links.length);
@@ -531,49 +443,4 @@ function weakest(s: SketchData): string {
     return links.length - (links.some((link) => driven.has(link)) ? 0.5 : 0);
   };
   return s.gaps.map((g) => g.joint).reduce((best, name) => (best && rank(best) >= rank(name) ? best : name), "");
-}
-
-/** Links rotated by the numbers of an assembly; in space they are also placed. */
-function posed(s: SketchData, like: Pose, assembly: number[]): Pose {
-  const q = copied(like);
-  s.links.forEach((name, k) => {
-    if (s.dimension === 2) {
-      const t = (q.turn[k] = assembly[k] - (s.counted[name] ?? 0));
-      [q.rotation[2 * k], q.rotation[2 * k + 1]] = [Math.cos(t), Math.sin(t)];
-      return;
-    }
-    const [x, y, z, a, b, c, angle] = assembly.slice(7 * k, 7 * k + 7), one = Math.hypot(a, b, c) || 1;
-    q.point.set([x, y, z], 3 * k);
-    q.rotation.set(matrixOf([a / one, b / one, c / one], angle), 9 * k);
-  });
-  return q;
-}
-
-/** Links placed by name; others as they are. */
-export function placedPose(s: Pick<SketchData, "links" | "dimension">, like: Pose, placing: Record<string, number[]>): Pose {
-  const q = copied(like);
-  s.links.forEach((name, k) => {
-    const at = placing[name], d = s.dimension;
-    if (at?.length !== (d === 2 ? 3 : 12) || !at.every(Number.isFinite)) return;
-    q.point.set(at.slice(0, d), d * k);
-    if (d === 3) return q.rotation.set(at.slice(3), 9 * k);
-    q.turn[k] = at[2];
-    q.rotation.set([Math.cos(at[2]), Math.sin(at[2])], 2 * k);
-  });
-  return q;
-}
-
-function matrixOf([x, y, z]: number[], angle: number): number[] {
-  const c = Math.cos(angle), s = Math.sin(angle), v = 1 - c;
-  return [c + v * x * x, v * x * y - s * z, v * x * z + s * y, v * x * y + s * z, c + v * y * y, v * y * z - s * x, v * x * z - s * y, v * y * z + s * x, c + v * z * z];
-}
-
-/** Axis and angle of a rotation matrix. */
-function turnOf(r: Float64Array): number[] {
-  const v = [r[7] - r[5], r[2] - r[6], r[3] - r[1]], sin = Math.hypot(...v), cos = r[0] + r[4] + r[8] - 1;
-  if (sin > 1e-6) return [...v.map((x) => x / sin), Math.atan2(sin, cos)];
-  if (cos > 0) return [0, 0, 1, 0];
-  const k = [0, 1, 2].reduce((a, b) => (r[4 * b] > r[4 * a] ? b : a)), column = [0, 1, 2].map((i) => r[3 * i + k] + (i === k ? 1 : 0));
-  const size = Math.hypot(...column);
-  return [...column.map((x) => x / size), Math.PI];
 }

@@ -17,8 +17,8 @@ export type AnyData = Data | SketchPageData;
 
 /** ``changes``: initial ones, by path; ``edited`` receives all changes after each one. ``address``: they and the view
  * are kept in it. ``full``: the page fills its window and uses its keys. ``view``: how it is looked at, kept by whoever
- * mounts. ``pose``: where the links are taken from. ``on``: what is picked, asked for, changed, released. */
-export interface Options { changes?: Changes; edited?: (changes: Changes) => void; address?: boolean; full?: boolean; view?: View; pose?: Placing; on?: Listener }
+ * mounts. ``pose``: where the links are taken from. ``anew``: at the beginning of the cycle. ``on``: what is picked, asked for, changed, released. */
+export interface Options { changes?: Changes; edited?: (changes: Changes) => void; address?: boolean; full?: boolean; view?: View; pose?: Placing; anew?: boolean; on?: Listener }
 
 /** One page inside its element. */
 export interface Inner {
@@ -32,7 +32,7 @@ export interface Page {
   readonly kernel: Kernel; readonly data: Data; readonly times: number[]; readonly view: View; readonly svg: SVGSVGElement; readonly overlay: SVGGElement;
   /** The solver of a sketch; undefined of a solved mechanism. */
   readonly sketch: Pulled | undefined;
-  set(changes: Changes): void; show(t: number): void; text(): string; remove(): void; replace(data: AnyData, pose?: Placing | null): Promise<void>;
+  set(changes: Changes): void; show(t: number): void; text(): string; remove(): void; replace(data: AnyData, pose?: Placing | null, anew?: boolean): Promise<void>;
   hit(x: number, y: number): Identity[]; metres(x: number, y: number): Point; paper(place: number[]): Point; choose(chosen: Identity | null): void; pose(): Placing; redraw(): void;
 }
 
@@ -77,13 +77,13 @@ export async function mount(el: HTMLElement, data: AnyData, options: Options = {
     const known = ["data-path", "data-item", "aria-label"].find((name) => on.hasAttribute(name));
     return known ? `${on.tagName.toLowerCase()}[${known}="${CSS.escape(on.getAttribute(known)!)}"]` : "";
   }
-  async function replace(next: AnyData, pose?: Placing | null): Promise<void> {
+  async function replace(next: AnyData, pose?: Placing | null, anew = false): Promise<void> {
     before.length = 0;
-    await swap(next, pose);
+    await swap(next, pose, anew);
   }
-  async function swap(next: AnyData, pose: Placing | null = inner.pose()): Promise<void> {
+  async function swap(next: AnyData, pose: Placing | null = inner.pose(), anew = false): Promise<void> {
     const old = inner;
-    inner = await put(next, { ...options, changes: undefined, address: false, pose: pose ?? undefined });
+    inner = await put(next, { ...options, changes: undefined, address: false, pose: pose ?? undefined, anew });
     old.remove();
     options.on?.({ type: "put" });
   }

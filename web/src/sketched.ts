@@ -4,7 +4,7 @@ import type { Offer, Rows, SketchPageData } from "./data";
 import { gapMarks } from "./gap";
 import { Material } from "./material";
 import type { Entry } from "./menu";
-import { placedPose } from "./motion";
+import { placedPose } from "./poses";
 import type { AnyData, Inner, Options, Placing } from "./page";
 import { inflate, Program } from "./program";
 import { heldLink, linkOf } from "./pull";

@@ -39,8 +39,8 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
   if (options.address) restore(kernel, gate, view, location.hash);
   const placed = options.pose && kernel.motion.take(options.pose);
   if (placed !== undefined && placed !== null) view.t = placed;
-  view.t = Math.min(Math.max(Number.isFinite(view.t) ? view.t : data.start, 0), kernel.end);
-  let asked = 0, whole = true, runs = 0, stale = false, later: Generator<void> | null = null;
+  view.t = Math.min(Math.max(Number.isFinite(view.t) && !options.anew ? view.t : data.start, 0), kernel.end);
+  let asked = 0, whole = true, runs = 0, stale = false, gone = false, later: Generator<void> | null = null;
   kernel.cycle();
   const history = new History(kernel, gate);
   const curves = data.views.charts.flatMap((c) => c.curves.map((curve) => ({ curve, unit: data.units[c.kind] })));
@@ -210,6 +210,7 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
   }
   function request(all: boolean): void {
     whole ||= all;
+    if (gone) return; // other data have taken its place
     asked ||= requestAnimationFrame(() => {
       asked = 0;
       const start = performance.now();
@@ -305,6 +306,8 @@ export async function solved(root: HTMLElement, data: Data, view: View, options:
     observed: [paper, side], resize,
     remove() {
       stop();
+      gone = true;
+      cancelAnimationFrame(asked);
       keys.removeEventListener("keydown", key);
     },
   };

@@ -209,8 +209,11 @@ export class Hand {
   }
   private async released(g: Drag): Promise<void> {
     await g.led;
-    if (g.pose) await this.socket.gesture({ op: "pose", ...g.pose });
+    const d = this.shown.now(), listed = d.drives.find(({ written: w }) => w?.law || (w?.position && typeof w.position === "object")); // its first position is drawn
+    const held = listed && d.freedoms <= d.drives.length;
+    if (g.pose && !held) await this.socket.gesture({ op: "pose", ...g.pose });
     this.settle();
+    if (held) this.shown.said(`The drawing is at the first position of drive ${listed.name}: give it one position to have it elsewhere`);
   }
   private up(e: PointerEvent): void {
     this.pointers.delete(e.pointerId);

@@ -157,8 +157,8 @@ async function forces(a: Forces): Promise<void> {
 }
 async function put(a: Forces): Promise<void> {
   if (mounted && page) {
-    if (a.data.start !== page.data.start || a.data.kernel.count !== page.data.kernel.count) page.view.t = NaN;
-    await page.replace(a.data, null); // the text is the truth, also of the assembly
+    const anew = a.data.start !== page.data.start || a.data.kernel.count !== page.data.kernel.count;
+    await page.replace(a.data, null, anew); // the text is the truth, also of the assembly
   } else {
     mounted = true;
     page = await mount(forcePane, a.data, { edited: (values) => void edited(values) });

@@ -466,403 +466,8 @@ function N(e, t, n, r, i) {
 	];
 	for (let n = 0; n < 3; n++) for (let r = 0; r < 3; r++) e[t + 3 * n + r] = l[3 * n] * c[r] + l[3 * n + 1] * c[3 + r] + l[3 * n + 2] * c[6 + r];
 }
-// src/motion.ts
-var P = 8, F = 120, I = .3, L = 2 ** -7, R = class {
-	kernel;
-	shown;
-	values;
-	inputs;
-	sketch;
-	data;
-	poses;
-	branches;
-	count;
-	first;
-	held;
-	base;
-	loose = null;
-	seen = null;
-	model;
-	phases;
-	phasesAtFirst;
-	weakest;
-	driven;
-	channels;
-	constructor(e, t, n, r, i, a) {
-		this.kernel = t, this.shown = r, this.values = i, this.inputs = a;
-		let o = this.data = e.sketch;
-		this.sketch = new A(o, n), this.count = e.kernel.count, this.driven = Array.from({ length: this.count }, (e, n) => t.drives(n)), this.poses = Array(this.count).fill(null), this.branches = o.branches.map(() => new Float64Array(this.count).fill(1)), this.model = new Float64Array(o.branches.length).fill(1), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
-		let [s, c, l] = [
-			o.pose.point,
-			o.pose.rotation,
-			o.pose.turn
-		].map((e) => Float64Array.from(e));
-		this.first = {
-			values: Float64Array.from(e.numbers, (e) => e.value),
-			t: o.place,
-			pose: {
-				point: s,
-				rotation: c,
-				turn: l
-			}
-		}, this.sketch.values = this.first.values, this.phasesAtFirst = this.phases.map((e) => this.sketch.measure(e, this.first.pose)), this.held = this.first, this.base = {
-			place: o.place,
-			pose: this.first.pose
-		}, this.weakest = H(o);
-		let u = e.drives.map((e) => e.name);
-		this.channels = r.module.channels.map((e) => {
-			let [t, n, r] = e.split(" "), i = o.branches.indexOf(e);
-			return t === "pose" ? {
-				kind: t,
-				part: n,
-				k: +r,
-				given: this.values
-			} : t === "position" ? {
-				kind: t,
-				part: "turn",
-				k: u.indexOf(e.slice(9)),
-				given: this.values
-			} : {
-				kind: i < 0 ? "given" : "branch",
-				part: "turn",
-				k: i,
-				given: i < 0 ? a(e) : this.values
-			};
-		}), this.home();
-	}
-	home() {
-		this.hold(this.phasesAtFirst), this.held = this.first, this.base = {
-			place: this.first.t,
-			pose: this.first.pose
-		}, [this.seen, this.loose] = [null, null];
-	}
-	hold(e) {
-		this.phases.forEach((t, n) => this.inputs(`phase ${t}`).fill(this.sketch.hold[t] = e[n]));
-	}
-	assume(e) {
-		if (this.home(), !e) return;
-		let t = U(this.data, this.held.pose, e), { sketch: n } = this;
-		n.values = this.values, n.count(this.phases, !1);
-		for (let e of [...this.data.places, ...Array(this.count).keys()]) {
-			let r = this.wound(t, this.kernel.drives(e)), i = n.close(r, this.kernel.drives(e));
-			if (!(!i || this.turned(i, r) > 1e-6)) {
-				this.held = {
-					values: this.values.slice(),
-					t: e,
-					pose: i
-				}, this.hold(this.phases.map((e) => n.measure(e, i)));
-				break;
-			}
-		}
-		n.count(this.phases, !0);
-	}
-	turned(e, t) {
-		let [n, r] = this.data.dimension === 2 ? [e.turn, t.turn] : [e.rotation, t.rotation];
-		return n.reduce((e, t, n) => Math.max(e, Math.abs(t - r[n])), 0);
-	}
-	get current() {
-		return !!this.seen?.every((e, t) => e === this.values[t]);
-	}
-	update() {
-		this.current || z(this.updating());
-	}
-	*updating() {
-		this.seen = null;
-		let { t: e, pose: t } = this.reclose() ? this.held : {
-			t: this.base.place,
-			pose: null
-		};
-		this.poses.fill(null), t && (yield* this.follow(e, t)), yield* this.settle(t ?? this.base.pose, e), this.seen = this.values.slice();
-	}
-	reclose() {
-		let e = this.values, t = this.kernel.drives(this.held.t), { sketch: n } = this;
-		if (this.loose) {
-			n.values = e;
-			let t = n.close(this.loose.pose, this.kernel.drives(this.loose.t), I);
-			if (t && (this.held = {
-				values: e.slice(),
-				t: this.loose.t,
-				pose: t
-			}), this.loose = null, t) return !0;
-		}
-		let r = this.held.values, i = 1, a = 0;
-		for (; a < 1;) {
-			let o = Math.min(1, a + i), s = e.map((e, t) => o === 1 ? e : r[t] + o * (e - r[t]));
-			n.values = s;
-			let c = n.close(this.held.pose, t, I);
-			if (c) this.held = {
-				values: s,
-				t: this.held.t,
-				pose: c
-			}, [a, i] = [o, Math.min(1, 2 * i)];
-			else if ((i /= 2) < L) return !1;
-		}
-		return !0;
-	}
-	*follow(e, t) {
-		let { course: n, cycle: r } = this.data, i = this.count, a = this.along(e), o = this.kernel.drives(e), s = yield* this.march(new M(t, o), Math.ceil(a), 1, null), c = yield* this.march(new M(t, o), Math.floor(a), -1, null);
-		r && !this.phases.length && (s && this.poses[n[i - 1]] && (yield* this.march(s, 0, 1, r)), c && this.poses[n[0]] && (yield* this.march(c, i - 1, -1, r)));
-	}
-	along(e) {
-		let { course: t } = this.data;
-		if (Number.isInteger(e) && e < this.count) return t.indexOf(e);
-		let n = t.every((e, t) => e === t), r = this.kernel.drives(e)[0];
-		return (n ? Math.ceil(e) : t.findIndex((e) => this.kernel.drives(e)[0] > r)) - .5;
-	}
-	*march(e, t, n, r) {
-		let { course: i } = this.data, a = this.count, o = this.data.dimension === 2 ? Math.ceil(a / F) : 1, s = (r ?? []).map((e) => n * (r.length > 1 ? e : Math.abs(e))), c = this.counts((e) => s[this.data.drives.indexOf(e)] ?? 0), l = (e) => this.kernel.drives(i[e]).map((e, t) => e + (s[t] ?? 0)), u = (e, t) => {
-			r ? this.poses[i[e]] = {
-				point: t.point,
-				rotation: t.rotation,
-				turn: t.turn.map((e, t) => e - c[t])
-			} : this.poses[i[e]] = t;
-		};
-		for (let s = t; s >= 0 && s < a;) {
-			if (r && this.poses[i[s]]) return null;
-			let t = e.pose, c = e.drives;
-			this.sketch.values = this.values;
-			let d = Math.min(Math.max(s + n * (o - 1), 0), a - 1);
-			if (d !== s && !this.sketch.walk(e, l(d)) && (e = new M(t, c), d = s), d === s && !this.sketch.walk(e, l(s))) return null;
-			for (let r = s; r !== d; r += n) u(r, new V(t, e.pose, c, e.drives, l(r)));
-			u(d, e.pose), s = d + n, yield;
-		}
-		return e;
-	}
-	counts(e) {
-		let { data: t } = this, n = new Float64Array(this.held.pose.turn.length), r = /* @__PURE__ */ new Set([t.links.length]);
-		if (t.dimension !== 2) return n;
-		let i = new Set(t.rows.flatMap((e, n) => e.angular && (e.kind === "constraint" || t.drives.includes(n)) ? [n] : []));
-		for (; i.size;) {
-			let a = [...i].find((e) => t.rows[e].ends.some((e) => r.has(e)));
-			if (a === void 0) {
-				r.add(t.rows[[...i][0]].ends[0]);
-				continue;
-			}
-			let [o, s] = t.rows[a].ends;
-			r.has(s) ? r.has(o) || (n[o] = (n[s] ?? 0) - e(a)) : n[s] = (n[o] ?? 0) + e(a), r.add(o).add(s), i.delete(a);
-		}
-		return n;
-	}
-	*settle(e, t) {
-		this.spread(this.read(e, t)), yield;
-		let n = this.kernel.closes();
-		yield;
-		let r = this.firstOf(n), i = r < 0 ? null : this.poses[r] ?? this.enter(r, e);
-		if (i) {
-			if (this.poses[r] || (yield* this.follow(r, i)), this.base = {
-				place: r,
-				pose: this.exact(r) ?? i
-			}, this.poses.every((e) => e)) {
-				this.model = this.read(i, r);
-				return;
-			}
-			this.spread(this.read(i, r)), n = this.kernel.closes(), yield, yield* this.behind(n);
-		}
-		this.spread(this.model), yield, this.kernel.closes();
-	}
-	exact(e) {
-		return this.sketch.values = this.values, this.poses[e] && this.sketch.close(this.poses[e], this.kernel.drives(e), .05);
-	}
-	firstOf(e) {
-		let t = (t) => this.poses[t] !== null || e[t] > 0;
-		return this.data.places.find(t) ?? e.findIndex((e, n) => t(n));
-	}
-	enter(e, t) {
-		let n = this.data.dimension, r = k(t), i = .1;
-		return this.kernel.posed(e).forEach((e, t) => {
-			if (!e.every(Number.isFinite)) i = Infinity;
-			else {
-				for (let i = 0; i < n; i++) r.point[n * t + i] = e[i];
-				if (n === 2) r.turn[t] += B(Math.atan2(e[3], e[2]) - r.turn[t]), [r.rotation[2 * t], r.rotation[2 * t + 1]] = [e[2], e[3]];
-				else for (let n = 0; n < 3; n++) for (let i = 0; i < 3; i++) r.rotation[9 * t + 3 * n + i] = e[3 + 3 * i + n];
-			}
-		}), [
-			...r.point,
-			...r.rotation,
-			...r.turn
-		].every(Number.isFinite) ? (this.sketch.values = this.values, this.sketch.close(this.wound(r, this.kernel.drives(e)), this.kernel.drives(e), i)) : null;
-	}
-	wound(e, t) {
-		let { data: n, sketch: r } = this, i = (e) => 2 * Math.PI * Math.round(e / (2 * Math.PI)), a = n.drives.map((a, o) => n.rows[a].angular ? i(t[o] - r.measure(a, e)) : 0), o = this.counts((e) => a[this.data.drives.indexOf(e)] ?? 0);
-		return {
-			...e,
-			turn: e.turn.map((e, t) => e + o[t])
-		};
-	}
-	*behind(e) {
-		let { course: t } = this.data, n = (e) => this.poses[t[e]] !== null;
-		for (let r = 0; r < this.count; r++) {
-			if (n(r) || !e[t[r]]) continue;
-			let i = r;
-			for (; i + 1 < this.count && !n(i + 1) && e[t[i + 1]] && !this.gapBetween(i);) i++;
-			let a = r === 0 || !e[t[r - 1]] && !n(r - 1) || this.gapBetween(r - 1), o = i === this.count - 1 || !n(i + 1) || this.gapBetween(i);
-			if (a && o) {
-				let e = t[r + i >> 1], n = this.enter(e, this.base.pose);
-				n && (yield* this.follow(e, n));
-			}
-			r = i, yield;
-		}
-	}
-	gapBetween(e) {
-		let [t, n] = [this.data.course[e], this.data.course[e + 1]];
-		for (let e = 1; e < P; e++) if (!this.kernel.closesAt(t + e / P * (n - t))) return !0;
-		return !1;
-	}
-	read(e, t) {
-		let n = new Float64Array(this.branches.length).fill(1);
-		for (let r = 0; r < n.length; r++) n[r] = this.look(e, t, n).at(r) < 0 ? -1 : 1;
-		return n;
-	}
-	look(e, t, n) {
-		let r = this.shown, i = this.kernel.drives(t);
-		return r.values.set(this.values), this.channels.forEach((t, a) => r.put(a, t.kind === "pose" ? e[t.part][t.k] : t.kind === "position" ? i[t.k] : t.kind === "branch" ? n[t.k] : t.given[0])), r.call(1), r;
-	}
-	get otherwise() {
-		return this.model;
-	}
-	spread(e) {
-		let t = this.shown, { row: n } = t, r = this.count, i = this.base.pose;
-		this.model = e, t.values.set(this.values);
-		let a = this.poses.map((e) => e ?? i), { path: o } = t;
-		this.channels.forEach(({ kind: e, part: t, k: i, given: s }, c) => {
-			let l = c * n;
-			if (e === "pose") for (let e = 0; e < r; e++) {
-				let n = a[e];
-				o[l + e] = n instanceof V ? n.value(t, i) : n[t][i];
-			}
-			else if (e === "position") for (let e = 0; e < r; e++) o[l + e] = this.driven[e][i];
-			else e === "given" && o.set(s.subarray(0, r), l);
-		});
-		for (let i = !0, a = this.branches.length + 1; i && a; a--) this.channels.forEach((e, r) => e.kind === "branch" && t.path.set(this.branches[e.k], r * n)), t.call(r), i = !1, this.branches.forEach((n, a) => {
-			for (let o = 0; o < r; o++) {
-				let r = this.poses[o] ? t.at(a, o) < 0 ? -1 : 1 : e[a];
-				i ||= r !== n[o], n[o] = r;
-			}
-		});
-		this.branches.forEach((e, t) => this.inputs(this.data.branches[t]).set(e)), this.data.known.forEach((e, n) => {
-			let i = this.inputs(e);
-			for (let e = 0; e < r; e++) i[e] = this.poses[e] ? t.at(this.branches.length + n, e) : NaN;
-		});
-	}
-	at(e) {
-		this.update();
-		let t = Math.floor(e) % this.count, n = e - Math.floor(e) === 0 && this.count <= F ? this.poses[t] : null;
-		this.sketch.values = this.values;
-		for (let r of [t, (t + 1) % this.count]) {
-			let t = this.poses[r];
-			if (n || !t) continue;
-			let i = this.sketch.close(t, this.kernel.drives(r), .05), a = this.nearDrives(r, e);
-			n = i && this.sketch.walk(new M(i, this.kernel.drives(r)), a);
-		}
-		return n && ([this.held, this.loose] = [{
-			values: this.values.slice(),
-			t: e,
-			pose: n
-		}, null]), n;
-	}
-	near(e) {
-		if (!this.reclose()) return null;
-		if (this.held.t === e) return this.held.pose;
-		this.sketch.values = this.values;
-		let t = this.sketch.walk(new M(this.held.pose, this.kernel.drives(this.held.t)), this.nearDrives(this.held.t, e));
-		return t && (this.held = {
-			values: this.values.slice(),
-			t: e,
-			pose: t
-		}), t;
-	}
-	nearDrives(e, t) {
-		let n = this.kernel.drives(t), r = this.kernel.drives(e);
-		return n.map((e, t) => this.data.cycle?.[t] ? r[t] + B(e - r[t]) : e);
-	}
-	stretched(e) {
-		this.sketch.values = this.values;
-		let t = this.loose?.t === e ? this.loose.pose : this.nearest(e);
-		return this.loose = {
-			t: e,
-			pose: this.sketch.loosen(t, this.kernel.drives(e), this.weakest)
-		}, this.loose.pose;
-	}
-	open(e) {
-		return this.sketch.values = this.values, this.sketch.open(this.nearest(e), this.kernel.drives(e));
-	}
-	nearest(e) {
-		let t = this.held.pose, n = Infinity;
-		return this.poses.forEach((r, i) => {
-			r && Math.abs(i - e) < n && ([t, n] = [r, Math.abs(i - e)]);
-		}), t;
-	}
-	assembly() {
-		this.update();
-		let { links: e, dimension: t, counted: n } = this.data, { pose: r } = this.base;
-		return e.flatMap((e, i) => t === 2 ? [r.turn[i] + (n[e] ?? 0)] : [...r.point.subarray(3 * i, 3 * i + 3), ...ne(r.rotation.subarray(9 * i, 9 * i + 9))]);
-	}
-	placed() {
-		let { links: e, dimension: t } = this.data, { pose: n } = this.held;
-		return Object.fromEntries(e.map((e, r) => [e, t === 2 ? [
-			n.point[2 * r],
-			n.point[2 * r + 1],
-			n.turn[r]
-		] : [...n.point.subarray(3 * r, 3 * r + 3), ...n.rotation.subarray(9 * r, 9 * r + 9)]]));
-	}
-	take(e) {
-		let { data: t, sketch: n, kernel: r } = this, i = ee(t, this.first.pose, e);
-		this.home(), n.values = this.values, n.count(this.phases, !1);
-		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, I), s = o && this.placeOf(a);
-		if (o && s !== null) {
-			let e = r.drives(s).map((e, n) => t.rows[t.drives[n]].angular ? a[n] + B(e - a[n]) : e);
-			o = n.walk(new M(o, a), e), o &&= this.wound(o, r.drives(s));
-		}
-		return o && s !== null && (this.held = {
-			values: this.values.slice(),
-			t: s,
-			pose: o
-		}, this.hold(this.phases.map((e) => n.measure(e, o)))), n.count(this.phases, !0), o && s !== null ? s : null;
-	}
-	placeOf(e) {
-		let { kernel: t, data: n, count: r } = this, i = n.drives.map((e) => n.rows[e].angular), a = (r) => Math.hypot(...t.drives(r).map((t, r) => i[r] ? B(t - e[r]) : (t - e[r]) / n.length)), o = 0, s = Infinity;
-		for (let e = 0; e < r; e++) a(e) < s && ([o, s] = [e, a(e)]);
-		if (e.length !== 1 || s < 1e-12 || t.stepped) return o;
-		for (let [n, a] of [
-			[o - 1, o],
-			[o, o + 1],
-			...o === 0 ? [[r - 1, r]] : []
-		]) {
-			if (n < 0 || a > t.end) continue;
-			let [r, o] = [n, a].map((e) => t.drives(e)[0]), s = i[0] ? B : (e) => e, c = s(e[0] - r) / s(o - r);
-			if (c >= 0 && c <= 1) return n + c;
-		}
-		return o;
-	}
-	state() {
-		this.update();
-		let { t: e, pose: t } = this.held;
-		return [
-			e,
-			...t.point,
-			...t.rotation,
-			...t.turn,
-			...this.phases.map((e) => this.sketch.hold[e])
-		];
-	}
-	restore(e) {
-		let [t, ...n] = e, r = k(this.held.pose);
-		for (let e of [
-			"point",
-			"rotation",
-			"turn"
-		]) r[e].set(n.splice(0, r[e].length));
-		this.hold(n), this.held = {
-			values: this.values.slice(),
-			t,
-			pose: r
-		}, [this.seen, this.loose] = [null, null];
-	}
-};
-function z(e) {
-	for (; !e.next().done;);
-}
-var B = (e) => e - 2 * Math.PI * Math.round(e / (2 * Math.PI)), V = class {
+// src/poses.ts
+var P = (e) => e - 2 * Math.PI * Math.round(e / (2 * Math.PI)), F = class {
 	a;
 	b;
 	part;
@@ -889,14 +494,7 @@ var B = (e) => e - 2 * Math.PI * Math.round(e / (2 * Math.PI)), V = class {
 		return this.all("turn");
 	}
 };
-function H(e) {
-	let t = (t) => t.ends.filter((t) => t < e.links.length), n = new Set(e.drives.flatMap((n) => t(e.rows[n]))), r = (r) => {
-		let i = t(e.rows.find((e) => e.kind === "constraint" && e.joint === r) ?? { ends: [] });
-		return i.length - (i.some((e) => n.has(e)) ? .5 : 0);
-	};
-	return e.gaps.map((e) => e.joint).reduce((e, t) => e && r(e) >= r(t) ? e : t, "");
-}
-function U(e, t, n) {
+function I(e, t, n) {
 	let r = k(t);
 	return e.links.forEach((t, i) => {
 		if (e.dimension === 2) {
@@ -909,14 +507,14 @@ function U(e, t, n) {
 			a,
 			o,
 			s
-		], 3 * i), r.rotation.set(te([
+		], 3 * i), r.rotation.set(R([
 			c / f,
 			l / f,
 			u / f
 		], d), 9 * i);
 	}), r;
 }
-function ee(e, t, n) {
+function L(e, t, n) {
 	let r = k(t);
 	return e.links.forEach((t, i) => {
 		let a = n[t], o = e.dimension;
@@ -926,7 +524,7 @@ function ee(e, t, n) {
 		}
 	}), r;
 }
-function te([e, t, n], r) {
+function R([e, t, n], r) {
 	let i = Math.cos(r), a = Math.sin(r), o = 1 - i;
 	return [
 		i + o * e * e,
@@ -940,7 +538,7 @@ function te([e, t, n], r) {
 		i + o * n * n
 	];
 }
-function ne(e) {
+function z(e) {
 	let t = [
 		e[7] - e[5],
 		e[2] - e[6],
@@ -965,19 +563,19 @@ function ne(e) {
 	return [...a.map((e) => e / o), Math.PI];
 }
 // src/program.ts
-function re(e) {
+function B(e) {
 	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
 }
-function W(e) {
-	if (typeof e == "string") return new Float64Array(re(e).buffer);
+function V(e) {
+	if (typeof e == "string") return new Float64Array(B(e).buffer);
 	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
 	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
 }
-async function ie(e) {
-	let t = new Blob([re(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
+async function H(e) {
+	let t = new Blob([B(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
 	return new Response(t).arrayBuffer();
 }
-var G = class e {
+var U = class e {
 	run;
 	module;
 	values;
@@ -996,7 +594,7 @@ var G = class e {
 		a > t.buffer.byteLength && t.grow(Math.ceil((a - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = i.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
 	}
 	static async create(t, n) {
-		let { instance: r } = await WebAssembly.instantiate(await ie(t.wasm)), { memory: i, run: a } = r.exports;
+		let { instance: r } = await WebAssembly.instantiate(await H(t.wasm)), { memory: i, run: a } = r.exports;
 		return new e(a, i, t, n);
 	}
 	call(e) {
@@ -1008,7 +606,7 @@ var G = class e {
 	at(e, t = 0) {
 		return this.out[e * this.row + t];
 	}
-}, ae = {
+}, W = {
 	joint: 0,
 	point: 0,
 	tracer: 0,
@@ -1017,14 +615,14 @@ var G = class e {
 	direction: 1,
 	link: 4,
 	trace: 5
-}, K = (e) => {
+}, ee = (e) => {
 	let t = e.indexOf(":");
 	return {
 		kind: e.slice(0, t),
 		name: e.slice(t + 1)
 	};
-}, oe = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
-function q(e, t, n, r = 6) {
+}, te = (e, t) => !!e && !!t && e.kind === t.kind && e.name === t.name;
+function ne(e, t, n, r = 6) {
 	let i = e.getRootNode(), a = /* @__PURE__ */ new Map();
 	return [
 		0,
@@ -1035,40 +633,40 @@ function q(e, t, n, r = 6) {
 			let l = c * Math.PI / 4;
 			for (let c of i.elementsFromPoint(t + o * r * Math.cos(l), n + o * r * Math.sin(l))) {
 				let t = e.contains(c) && c.closest("[data-item]")?.dataset.item;
-				t && !a.has(t) && a.set(t, 2 * s + (ae[K(t).kind] ?? 2));
+				t && !a.has(t) && a.set(t, 2 * s + (W[ee(t).kind] ?? 2));
 			}
 		}
-	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => K(e));
+	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => ee(e));
 }
-function se(e, t) {
+function re(e, t) {
 	e.querySelectorAll(".chosen").forEach((e) => e.classList.remove("chosen")), t && e.querySelectorAll(`[data-item="${CSS.escape(`${t.kind}:${t.name}`)}"]`).forEach((e) => e.classList.add("chosen"));
 }
 // src/pull.ts
-var J = 1 / 10;
-function ce(e, t) {
+var ie = 1 / 10;
+function ae(e, t) {
 	if (!t) return -1;
-	let { kind: n, name: r } = K(t), { links: i, rows: a } = e.sketch;
+	let { kind: n, name: r } = ee(t), { links: i, rows: a } = e.sketch;
 	return n === "link" || n === "center" ? i.indexOf(r) : (n === "joint" ? a.find((e) => e.joint === r)?.ends : void 0)?.find((e) => e < i.length) ?? -1;
 }
-function le(e, t, n) {
-	for (let { kind: r, name: i } of q(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
+function oe(e, t, n) {
+	for (let { kind: r, name: i } of ne(e, t.clientX, t.clientY, t.pointerType === "touch" ? 14 : 6)) {
 		let e = n(`${r}:${i}`);
 		if (e >= 0) return e;
 	}
 	return -1;
 }
-function ue(e, t, n, r, i) {
+function se(e, t, n, r, i) {
 	if (n.count < 2) return;
 	let a = -1, o = [];
 	e.svg.addEventListener("pointerdown", (n) => {
-		a = n.button === 0 ? le(e.svg, n, (e) => ce(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, l(e.svg, n)));
+		a = n.button === 0 ? oe(e.svg, n, (e) => ae(t, e)) : -1, a < 0 || (e.svg.setPointerCapture(n.pointerId), o = r.local(e.paper, a, l(e.svg, n)));
 	}), e.svg.addEventListener("pointermove", (t) => {
 		a >= 0 && e.svg.hasPointerCapture(t.pointerId) && i.seek(c(l(e.svg, t)));
 	});
 	let s = () => void (a = -1);
 	e.svg.addEventListener("pointerup", s), e.svg.addEventListener("pointercancel", s);
 	function c(t) {
-		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * J)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
+		let { count: s, cyclic: c } = n, l = i.time(), u = Math.max(3, Math.ceil(s * ie)), d = l, f = Infinity, p = /* @__PURE__ */ new Map(), m = (t) => (p.has(t) || p.set(t, n.motion.poses[t] ? r.on(e.paper, a, o, t) : null), p.get(t));
 		for (let e = Math.floor(l) - u; e <= Math.floor(l) + u; e++) {
 			if (!c && (e < 0 || e + 1 >= s)) continue;
 			let [n, r] = [e, e + 1].map((e) => (e % s + s) % s), [i, a] = [m(n), m(r)];
@@ -1080,16 +678,16 @@ function ue(e, t, n, r, i) {
 	}
 }
 // src/pulling.ts
-var de = 12, Y = 1e6, X = .001, fe = 1e-5, pe = 1e6, me = .5, he = 6, ge = 100, _e = .2, ve = class extends A {
+var ce = 12, le = 1e6, G = .001, ue = 1e-5, K = 1e6, de = .5, q = 6, fe = 100, J = .2, pe = class extends A {
 	pose;
 	closed = !1;
 	away = 0;
-	damping = X;
+	damping = G;
 	constructor(e, t, n) {
 		super(e, t), this.pose = n, this.placed(n);
 	}
 	placed(e) {
-		this.data.rows.forEach((t, n) => t.kind === "phase" && (this.hold[n] = this.measure(n, e))), this.pose = e, this.damping = X, this.closed = this.gap(e) <= b;
+		this.data.rows.forEach((t, n) => t.kind === "phase" && (this.hold[n] = this.measure(n, e))), this.pose = e, this.damping = G, this.closed = this.gap(e) <= b;
 	}
 	lock(e, t) {
 		this.active[e] = +t, this.hold[e] = this.measure(e, this.pose);
@@ -1128,7 +726,7 @@ var de = 12, Y = 1e6, X = .001, fe = 1e-5, pe = 1e6, me = .5, he = 6, ge = 100, 
 		if (!this.closed) return this.gather(e, t);
 		if (!e) return "there";
 		this.away = this.far(e, t, this.pose);
-		for (let r = 0; r < de; r++) {
+		for (let r = 0; r < ce; r++) {
 			if (this.away < n) return this.ended("there");
 			let r = this.step(e, t, n);
 			if (!r) return this.ended("nearest");
@@ -1138,27 +736,27 @@ var de = 12, Y = 1e6, X = .001, fe = 1e-5, pe = 1e6, me = .5, he = 6, ge = 100, 
 		return "on the way";
 	}
 	ended(e) {
-		return this.damping = X, e;
+		return this.damping = G, e;
 	}
 	step(e, t, n) {
-		let { pose: r, data: i } = this, a = Math.min(1, me / this.away), o = this.at(e).map((e, n) => a * (t[n] - e) / i.length);
-		for (let i = 0; i < he; i++) {
-			this.gap(r), this.weight.fill(Y), this.fill(this.damping), this.weight.fill(1), this.pull(e, r, o);
+		let { pose: r, data: i } = this, a = Math.min(1, de / this.away), o = this.at(e).map((e, n) => a * (t[n] - e) / i.length);
+		for (let i = 0; i < q; i++) {
+			this.gap(r), this.weight.fill(le), this.fill(this.damping), this.weight.fill(1), this.pull(e, r, o);
 			let i = this.answer();
 			if (!(i >= n / 10)) return null;
 			let a = this.correct(this.moved(r, Math.min(1, S / i)), .5 * Math.min(i, S) + 1e-9, 8)?.pose;
-			if (a && this.far(e, t, a) < this.away) return this.damping = Math.max(this.damping / 4, fe), a;
-			this.damping = Math.min(this.damping * 8, pe);
+			if (a && this.far(e, t, a) < this.away) return this.damping = Math.max(this.damping / 4, ue), a;
+			this.damping = Math.min(this.damping * 8, K);
 		}
 		return null;
 	}
 	gather(e, t) {
 		let n = (n) => {
-			let r = this.gap(n), i = this.missing.reduce((e, t, n) => e + (this.active[n] ? ge * t * t : 0), 0);
+			let r = this.gap(n), i = this.missing.reduce((e, t, n) => e + (this.active[n] ? fe * t * t : 0), 0);
 			return Number.isFinite(r) ? i + (e ? this.far(e, t, n) ** 2 : 0) : Infinity;
 		}, r = Math.max(this.damping, .01), i = n(this.pose);
-		for (let a = 0; a < de && r < 1e8; a++) {
-			this.gap(this.pose), this.weight.fill(ge), this.fill(r), this.weight.fill(1), e && this.pull(e, this.pose, this.at(e).map((e, n) => (t[n] - e) / this.data.length));
+		for (let a = 0; a < ce && r < 1e8; a++) {
+			this.gap(this.pose), this.weight.fill(fe), this.fill(r), this.weight.fill(1), e && this.pull(e, this.pose, this.at(e).map((e, n) => (t[n] - e) / this.data.length));
 			let a = this.answer(), o = this.moved(this.pose, Math.min(1, S / a)), s = n(o);
 			if (!(s < i)) {
 				r *= 4;
@@ -1172,10 +770,10 @@ var de = 12, Y = 1e6, X = .001, fe = 1e-5, pe = 1e6, me = .5, he = 6, ge = 100, 
 			], c) break;
 		}
 		this.damping = r;
-		let a = this.correct(k(this.pose), _e)?.pose;
+		let a = this.correct(k(this.pose), J)?.pose;
 		return a ? (this.placed(a), "on the way") : "apart";
 	}
-}, ye = [
+}, Y = [
 	[1, -1],
 	[-1, -1],
 	[1, 1],
@@ -1184,13 +782,13 @@ var de = 12, Y = 1e6, X = .001, fe = 1e-5, pe = 1e6, me = .5, he = 6, ge = 100, 
 	[1, 0],
 	[-1, 0],
 	[0, 1]
-], be = [
+], me = [
 	1,
 	1.9,
 	3,
 	4.5
 ];
-function xe(e, t, n, r) {
+function X(e, t, n, r) {
 	return {
 		el: h(e, t, n, r),
 		text: n,
@@ -1199,10 +797,10 @@ function xe(e, t, n, r) {
 		choice: -1
 	};
 }
-function Se(e, t) {
+function he(e, t) {
 	e.text !== t && (e.text = t, u(e.el, t, e.size));
 }
-var Ce = class {
+var ge = class {
 	bounds;
 	texts = [];
 	discs = [];
@@ -1227,10 +825,10 @@ var Ce = class {
 			0,
 			0,
 			0
-		], u = ye.length * be.length, d = (c) => {
-			let [d, f] = e.anchors[Math.floor(c / u)], [p, m] = ye[c % ye.length], h = c % u * .12 + .2 * Math.floor(c / u) - (c === t.choice ? .4 : 0);
+		], u = Y.length * me.length, d = (c) => {
+			let [d, f] = e.anchors[Math.floor(c / u)], [p, m] = Y[c % Y.length], h = c % u * .12 + .2 * Math.floor(c / u) - (c === t.choice ? .4 : 0);
 			if (e.away && (h += 1.2 * (1 - (p * e.away[0] + m * e.away[1]) / (Math.hypot(p, m) * a))), h >= o) return;
-			let g = i * be[Math.floor(c % u / ye.length)], _ = d + p * (g + n / 2), v = f + m * (g + r / 2), y = [
+			let g = i * me[Math.floor(c % u / Y.length)], _ = d + p * (g + n / 2), v = f + m * (g + r / 2), y = [
 				_ - n / 2,
 				v - r / 2,
 				_ + n / 2,
@@ -1245,25 +843,25 @@ var Ce = class {
 	cost(e, t) {
 		let [n, r, i, a] = this.bounds, o = e[0] < n || e[1] < r || e[2] > i || e[3] > a ? 60 : 0;
 		for (let t of this.texts) {
-			let n = we(e, t);
+			let n = _e(e, t);
 			n > 0 && (o += 60 + 5 * n);
 		}
 		for (let t of this.discs) {
-			let n = we(e, t);
+			let n = _e(e, t);
 			n > 0 && (o += 8 + n);
 		}
 		for (let [n, r] of this.lines) {
 			if (o >= t) return o;
-			Te(e, n, r) && (o += 6);
+			ve(e, n, r) && (o += 6);
 		}
 		return o;
 	}
 };
-function we(e, t) {
+function _e(e, t) {
 	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
 	return n > 0 && r > 0 ? n * r : 0;
 }
-function Te(e, t, n) {
+function ve(e, t, n) {
 	if (Math.max(t[0], n[0]) < e[0] || Math.min(t[0], n[0]) > e[2] || Math.max(t[1], n[1]) < e[1] || Math.min(t[1], n[1]) > e[3]) return !1;
 	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
 	for (let n = 0; n < 2; n++) {
@@ -1277,7 +875,7 @@ function Te(e, t, n) {
 	return r < i;
 }
 // src/items.ts
-var Ee = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), De = class {
+var ye = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), be = class {
 	kernel;
 	perMm;
 	units;
@@ -1311,10 +909,10 @@ var Ee = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), De = class {
 		];
 	}
 	seen(e, t) {
-		return e.length < 3 ? [t(e[0]), t(e[1])] : [Ee(this.axes[0], e, t), Ee(this.axes[1], e, t)];
+		return e.length < 3 ? [t(e[0]), t(e[1])] : [ye(this.axes[0], e, t), ye(this.axes[1], e, t)];
 	}
 	depth(e) {
-		return Ee(this.axes[2], e, (e) => this.kernel.here[e]);
+		return ye(this.axes[2], e, (e) => this.kernel.here[e]);
 	}
 	here(e) {
 		return this.seen(e, (e) => this.kernel.here[e]);
@@ -1338,11 +936,11 @@ var Ee = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), De = class {
 		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
 	}
 };
-function Oe(e, t, n) {
-	let r = ke(e, t, n);
+function xe(e, t, n) {
+	let r = Se(e, t, n);
 	return t.of && (e.lastElementChild.dataset.item = t.of.join(":")), r;
 }
-function ke(t, i, o) {
+function Se(t, i, o) {
 	let c = o.kernel.here;
 	if (i.t === "symbol") {
 		let n = r("g", t, i.per_mm ? { class: "span" } : {});
@@ -1375,12 +973,12 @@ function ke(t, i, o) {
 			});
 		} };
 	}
-	if (i.t === "pair") return Ae(t, i, o);
+	if (i.t === "pair") return Ce(t, i, o);
 	let l = r("path", t, {
 		class: `l-${i.role}`,
 		style: "fill:none"
 	});
-	if (i.t === "trace") return { update: () => e(l, "d", Ie(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
+	if (i.t === "trace") return { update: () => e(l, "d", ke(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
 	i.t === "hull" && (l.dataset.link = i.link);
 	let u = [], d = !1;
 	return {
@@ -1396,7 +994,7 @@ function ke(t, i, o) {
 		}
 	};
 }
-function Ae(t, n, i) {
+function Ce(t, n, i) {
 	let o = r("g", t), s = n.size ? "link-area" : n.fixed ? "support" : "block", c = r("path", o, { class: `l-${s}` }), l = r("path", o, { class: `l-${n.shape === "ball" || n.size ? s : "pin"}` }), u = n.shape === "block" ? 4.2 : 3.4, d = n.shape === "block" ? 2.2 : 1.7;
 	return {
 		update() {
@@ -1413,51 +1011,51 @@ function Ae(t, n, i) {
 		}
 	};
 }
-var je = 240, Me = .04, Ne = 12, Pe = 3;
-function Fe(e, t, n) {
+var we = 240, Te = .04, Ee = 12, De = 3;
+function Oe(e, t, n) {
 	let r = e[2 * t], i = e[2 * t + 1], a = e[2 * n] - r, o = e[2 * n + 1] - i, s = a * a + o * o;
 	for (let c = t + 1; c < n; c++) {
 		let t = e[2 * c] - r, n = e[2 * c + 1] - i, l = t * a + n * o;
-		if ((t * o - n * a) ** 2 > Me * Me * s || l < 0 || l > s) return !1;
+		if ((t * o - n * a) ** 2 > Te * Te * s || l < 0 || l > s) return !1;
 	}
 	return !0;
 }
-function Ie(e, t, n = !1) {
-	let r = n && e.cyclic ? e.count : e.count - 1, i = e.count > je, o = i && e.coarse ? Pe : 1, s = Math.ceil(r / o), c = new Float64Array(2 * s + 2), l = "", u = -1, d = (e, t = "L") => {
+function ke(e, t, n = !1) {
+	let r = n && e.cyclic ? e.count : e.count - 1, i = e.count > we, o = i && e.coarse ? De : 1, s = Math.ceil(r / o), c = new Float64Array(2 * s + 2), l = "", u = -1, d = (e, t = "L") => {
 		l += `${t}${a(c[2 * e])} ${a(c[2 * e + 1])}`, u = e;
 	};
 	for (let n = 0; n <= s; n++) {
 		let a = Math.min(n * o, r) % e.count, s = !!e.good[a];
-		s && c.set(t(a), 2 * n), s && u < 0 ? d(n, "M") : u >= 0 && u < n - 1 && !(s && i && n - u <= Ne && Fe(c, u, n)) && d(n - 1), s ? e.reverses(a) && (u < n && d(n), c.set(e.onceAfter(() => t(a)), 2 * n), d(n)) : u = -1;
+		s && c.set(t(a), 2 * n), s && u < 0 ? d(n, "M") : u >= 0 && u < n - 1 && !(s && i && n - u <= Ee && Oe(c, u, n)) && d(n - 1), s ? e.reverses(a) && (u < n && d(n), c.set(e.onceAfter(() => t(a)), 2 * n), d(n)) : u = -1;
 	}
 	return u >= 0 && u < s && d(s), l;
 }
-function Le(e, t, n, r, i) {
+function Ae(e, t, n, r, i) {
 	let { unit: a, size: s } = i.units[r] ?? {
 		unit: "",
 		size: 1
 	};
-	Se(e, i.values ? `${t} = ${o(n / s)} ${a}`.trim() : t);
+	he(e, i.values ? `${t} = ${o(n / s)} ${a}`.trim() : t);
 }
-function Re(e, t, n, r, i, a = "force") {
-	return t.t === "couple" ? Ue(e, t, n) : Ve(e, t, n, r, i, a);
+function je(e, t, n, r, i, a = "force") {
+	return t.t === "couple" ? Ie(e, t, n) : Pe(e, t, n, r, i, a);
 }
-var ze = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Be = 13;
-function Ve(t, n, r, i, a, o) {
-	let s = new g(t, n.role, n.name), c = n.t === "force" ? null : new g(t, n.role), l = n.t === "force" ? n.f : n.m, u = xe(t, n.role, n.name, 3.4), d = [0, 0], f = [0, 0], p = [0, 0], m = !1;
-	for (let e of [s, c]) e && ze(e.g, n);
+var Me = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Ne = 13;
+function Pe(t, n, r, i, a, o) {
+	let s = new g(t, n.role, n.name), c = n.t === "force" ? null : new g(t, n.role), l = n.t === "force" ? n.f : n.m, u = X(t, n.role, n.name, 3.4), d = [0, 0], f = [0, 0], p = [0, 0], m = !1;
+	for (let e of [s, c]) e && Me(e.g, n);
 	return {
 		label: u,
 		hide() {
 			m = s.set([0, 0], [0, 0]), c?.set([0, 0], [0, 0]), e(u.el, "visibility", "hidden");
 		},
 		update() {
-			let t = r.point(n.p), [h, g] = r.here(l), _ = c ? Math.hypot(...l.map((e) => r.kernel.here[e])) / Be || 1 : i(), v = [h / _, -g / _], y = !1;
+			let t = r.point(n.p), [h, g] = r.here(l), _ = c ? Math.hypot(...l.map((e) => r.kernel.here[e])) / Ne || 1 : i(), v = [h / _, -g / _], y = !1;
 			if (a && a.length > 1 && !c) {
 				let e = a.map((e) => r.point(e)), n = [0, 1].map((t) => e.reduce((e, n) => e + n[t], 0) / e.length);
 				y = v[0] * (n[0] - t[0]) + v[1] * (n[1] - t[1]) > 1e-9;
 			}
-			[d, f] = y ? [[t[0] - v[0], t[1] - v[1]], t] : [t, [t[0] + v[0], t[1] + v[1]]], p = y ? d : f, m = s.set(d, f), c?.set(d, [d[0] + .78 * (f[0] - d[0]), d[1] + .78 * (f[1] - d[1])]), e(u.el, "visibility", m ? "visible" : "hidden"), m && Le(u, n.name, Math.hypot(...l.map((e) => r.kernel.here[e])), c ? "moment" : o, r);
+			[d, f] = y ? [[t[0] - v[0], t[1] - v[1]], t] : [t, [t[0] + v[0], t[1] + v[1]]], p = y ? d : f, m = s.set(d, f), c?.set(d, [d[0] + .78 * (f[0] - d[0]), d[1] + .78 * (f[1] - d[1])]), e(u.el, "visibility", m ? "visible" : "hidden"), m && Ae(u, n.name, Math.hypot(...l.map((e) => r.kernel.here[e])), c ? "moment" : o, r);
 		},
 		mark: (e) => m && e.line(d, f),
 		anchor() {
@@ -1471,9 +1069,9 @@ function Ve(t, n, r, i, a, o) {
 		}
 	};
 }
-var He = 4.6;
-function Ue(t, n, i) {
-	let o = i.kernel.here, s = r("g", t), c = xe(t, n.role, n.name, 3.4);
+var Fe = 4.6;
+function Ie(t, n, i) {
+	let o = i.kernel.here, s = r("g", t), c = X(t, n.role, n.name, 3.4);
 	r("title", s).textContent = d(n.name), r("path", s, {
 		class: `l-${n.role}`,
 		style: "fill:none",
@@ -1483,32 +1081,442 @@ function Ue(t, n, i) {
 		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
 	});
 	let l = !1;
-	return ze(s, n), {
+	return Me(s, n), {
 		label: c,
 		hide() {
 			l = !1, e(s, "display", "none"), e(c.el, "visibility", "hidden");
 		},
 		update() {
 			let [t, r] = i.point(n.p), u = o[n.m[0]];
-			l = Number.isFinite(u) && Math.abs(u) > 1e-9, e(s, "display", l ? "inline" : "none"), e(c.el, "visibility", l ? "visible" : "hidden"), e(s, "transform", `translate(${a(t)} ${a(r)}) scale(${u < 0 ? -1 : 1} 1)`), l && Le(c, n.name, Math.abs(u), "moment", i);
+			l = Number.isFinite(u) && Math.abs(u) > 1e-9, e(s, "display", l ? "inline" : "none"), e(c.el, "visibility", l ? "visible" : "hidden"), e(s, "transform", `translate(${a(t)} ${a(r)}) scale(${u < 0 ? -1 : 1} 1)`), l && Ae(c, n.name, Math.abs(u), "moment", i);
 		},
 		mark(e) {
-			l && e.disc(i.point(n.p), He);
+			l && e.disc(i.point(n.p), Fe);
 		},
 		anchor() {
 			let [e, t] = i.point(n.p);
 			return l ? [
-				[e, t - He],
-				[e - He, t],
-				[e + He, t],
-				[e, t + He],
+				[e, t - Fe],
+				[e - Fe, t],
+				[e + Fe, t],
+				[e, t + Fe],
 				[0, -1]
 			] : null;
 		}
 	};
 }
+// src/branches.ts
+var Le = class {
+	data;
+	kernel;
+	shown;
+	values;
+	inputs;
+	of;
+	model;
+	driven;
+	channels;
+	constructor(e, t, n, r, i, a, o) {
+		this.data = e, this.kernel = n, this.shown = r, this.values = i, this.inputs = a, this.driven = Array.from({ length: o }, (e, t) => n.drives(t)), this.of = e.branches.map(() => new Float64Array(o).fill(1)), this.model = new Float64Array(e.branches.length).fill(1), this.channels = r.module.channels.map((n) => {
+			let [r, o, s] = n.split(" "), c = e.branches.indexOf(n);
+			return r === "pose" ? {
+				kind: r,
+				part: o,
+				k: +s,
+				given: i
+			} : r === "position" ? {
+				kind: r,
+				part: "turn",
+				k: t.indexOf(n.slice(9)),
+				given: i
+			} : {
+				kind: c < 0 ? "given" : "branch",
+				part: "turn",
+				k: c,
+				given: c < 0 ? a(n) : i
+			};
+		});
+	}
+	read(e, t) {
+		let n = new Float64Array(this.of.length).fill(1);
+		for (let r = 0; r < n.length; r++) n[r] = this.look(e, t, n).at(r) < 0 ? -1 : 1;
+		return n;
+	}
+	look(e, t, n) {
+		let r = this.shown, i = this.kernel.drives(t);
+		return r.values.set(this.values), this.channels.forEach((t, a) => r.put(a, t.kind === "pose" ? e[t.part][t.k] : t.kind === "position" ? i[t.k] : t.kind === "branch" ? n[t.k] : t.given[0])), r.call(1), r;
+	}
+	spread(e, t, n) {
+		let r = this.shown, { row: i } = r, a = t.length;
+		this.model = e, r.values.set(this.values);
+		let o = t.map((e) => e ?? n), { path: s } = r;
+		this.channels.forEach(({ kind: e, part: t, k: n, given: r }, c) => {
+			let l = c * i;
+			if (e === "pose") for (let e = 0; e < a; e++) {
+				let r = o[e];
+				s[l + e] = r instanceof F ? r.value(t, n) : r[t][n];
+			}
+			else if (e === "position") for (let e = 0; e < a; e++) s[l + e] = this.driven[e][n];
+			else e === "given" && s.set(r.subarray(0, a), l);
+		});
+		for (let n = !0, o = this.of.length + 1; n && o; o--) this.channels.forEach((e, t) => e.kind === "branch" && r.path.set(this.of[e.k], t * i)), r.call(a), n = !1, this.of.forEach((i, o) => {
+			for (let s = 0; s < a; s++) {
+				let a = t[s] ? r.at(o, s) < 0 ? -1 : 1 : e[o];
+				n ||= a !== i[s], i[s] = a;
+			}
+		});
+		this.of.forEach((e, t) => this.inputs(this.data.branches[t]).set(e)), this.data.known.forEach((e, n) => {
+			let i = this.inputs(e);
+			for (let e = 0; e < a; e++) i[e] = t[e] ? r.at(this.of.length + n, e) : NaN;
+		});
+	}
+}, Re = 8, ze = 120, Be = .3, Ve = 2 ** -7, He = class {
+	kernel;
+	values;
+	inputs;
+	sketch;
+	data;
+	poses;
+	branches;
+	count;
+	first;
+	held;
+	base;
+	loose = null;
+	seen = null;
+	phases;
+	phasesAtFirst;
+	weakest;
+	constructor(e, t, n, r, i, a) {
+		this.kernel = t, this.values = i, this.inputs = a;
+		let o = this.data = e.sketch;
+		this.sketch = new A(o, n), this.count = e.kernel.count, this.poses = Array(this.count).fill(null), this.branches = new Le(o, e.drives.map((e) => e.name), t, r, i, a, this.count), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
+		let [s, c, l] = [
+			o.pose.point,
+			o.pose.rotation,
+			o.pose.turn
+		].map((e) => Float64Array.from(e));
+		this.first = {
+			values: Float64Array.from(e.numbers, (e) => e.value),
+			t: o.place,
+			pose: {
+				point: s,
+				rotation: c,
+				turn: l
+			}
+		}, this.sketch.values = this.first.values, this.phasesAtFirst = this.phases.map((e) => this.sketch.measure(e, this.first.pose)), this.held = this.first, this.base = {
+			place: o.place,
+			pose: this.first.pose
+		}, this.weakest = We(o), this.home();
+	}
+	home() {
+		this.hold(this.phasesAtFirst), this.held = this.first, this.base = {
+			place: this.first.t,
+			pose: this.first.pose
+		}, [this.seen, this.loose] = [null, null];
+	}
+	hold(e) {
+		this.phases.forEach((t, n) => this.inputs(`phase ${t}`).fill(this.sketch.hold[t] = e[n]));
+	}
+	assume(e) {
+		if (this.home(), !e) return;
+		let t = I(this.data, this.held.pose, e), { sketch: n } = this;
+		n.values = this.values, n.count(this.phases, !1);
+		for (let e of [...this.data.places, ...Array(this.count).keys()]) {
+			let r = this.wound(t, this.kernel.drives(e)), i = n.close(r, this.kernel.drives(e));
+			if (!(!i || this.turned(i, r) > 1e-6)) {
+				this.held = {
+					values: this.values.slice(),
+					t: e,
+					pose: i
+				}, this.hold(this.phases.map((e) => n.measure(e, i)));
+				break;
+			}
+		}
+		n.count(this.phases, !0);
+	}
+	turned(e, t) {
+		let [n, r] = this.data.dimension === 2 ? [e.turn, t.turn] : [e.rotation, t.rotation];
+		return n.reduce((e, t, n) => Math.max(e, Math.abs(t - r[n])), 0);
+	}
+	get current() {
+		return !!this.seen?.every((e, t) => e === this.values[t]);
+	}
+	update() {
+		this.current || Ue(this.updating());
+	}
+	*updating() {
+		this.seen = null;
+		let { t: e, pose: t } = this.reclose() ? this.held : {
+			t: this.base.place,
+			pose: null
+		};
+		this.poses.fill(null), t && (yield* this.follow(e, t)), yield* this.settle(t ?? this.base.pose, e), this.seen = this.values.slice();
+	}
+	reclose() {
+		let e = this.values, t = this.kernel.drives(this.held.t), { sketch: n } = this;
+		if (this.loose) {
+			n.values = e;
+			let t = n.close(this.loose.pose, this.kernel.drives(this.loose.t), Be);
+			if (t && (this.held = {
+				values: e.slice(),
+				t: this.loose.t,
+				pose: t
+			}), this.loose = null, t) return !0;
+		}
+		let r = this.held.values, i = 1, a = 0;
+		for (; a < 1;) {
+			let o = Math.min(1, a + i), s = e.map((e, t) => o === 1 ? e : r[t] + o * (e - r[t]));
+			n.values = s;
+			let c = n.close(this.held.pose, t, Be);
+			if (c) this.held = {
+				values: s,
+				t: this.held.t,
+				pose: c
+			}, [a, i] = [o, Math.min(1, 2 * i)];
+			else if ((i /= 2) < Ve) return !1;
+		}
+		return !0;
+	}
+	*follow(e, t) {
+		let { course: n, cycle: r } = this.data, i = this.count, a = this.along(e), o = this.kernel.drives(e), s = yield* this.march(new M(t, o), Math.ceil(a), 1, null), c = yield* this.march(new M(t, o), Math.floor(a), -1, null);
+		r && !this.phases.length && (s && this.poses[n[i - 1]] && (yield* this.march(s, 0, 1, r)), c && this.poses[n[0]] && (yield* this.march(c, i - 1, -1, r)));
+	}
+	along(e) {
+		let { course: t } = this.data;
+		if (Number.isInteger(e) && e < this.count) return t.indexOf(e);
+		let n = t.every((e, t) => e === t), r = this.kernel.drives(e)[0];
+		return (n ? Math.ceil(e) : t.findIndex((e) => this.kernel.drives(e)[0] > r)) - .5;
+	}
+	*march(e, t, n, r) {
+		let { course: i } = this.data, a = this.count, o = this.data.dimension === 2 ? Math.ceil(a / ze) : 1, s = (r ?? []).map((e) => n * (r.length > 1 ? e : Math.abs(e))), c = this.counts((e) => s[this.data.drives.indexOf(e)] ?? 0), l = (e) => this.kernel.drives(i[e]).map((e, t) => e + (s[t] ?? 0)), u = (e, t) => {
+			r ? this.poses[i[e]] = {
+				point: t.point,
+				rotation: t.rotation,
+				turn: t.turn.map((e, t) => e - c[t])
+			} : this.poses[i[e]] = t;
+		};
+		for (let s = t; s >= 0 && s < a;) {
+			if (r && this.poses[i[s]]) return null;
+			let t = e.pose, c = e.drives;
+			this.sketch.values = this.values;
+			let d = Math.min(Math.max(s + n * (o - 1), 0), a - 1);
+			if (d !== s && !this.sketch.walk(e, l(d)) && (e = new M(t, c), d = s), d === s && !this.sketch.walk(e, l(s))) return null;
+			for (let r = s; r !== d; r += n) u(r, new F(t, e.pose, c, e.drives, l(r)));
+			u(d, e.pose), s = d + n, yield;
+		}
+		return e;
+	}
+	counts(e) {
+		let { data: t } = this, n = new Float64Array(this.held.pose.turn.length), r = /* @__PURE__ */ new Set([t.links.length]);
+		if (t.dimension !== 2) return n;
+		let i = new Set(t.rows.flatMap((e, n) => e.angular && (e.kind === "constraint" || t.drives.includes(n)) ? [n] : []));
+		for (; i.size;) {
+			let a = [...i].find((e) => t.rows[e].ends.some((e) => r.has(e)));
+			if (a === void 0) {
+				r.add(t.rows[[...i][0]].ends[0]);
+				continue;
+			}
+			let [o, s] = t.rows[a].ends;
+			r.has(s) ? r.has(o) || (n[o] = (n[s] ?? 0) - e(a)) : n[s] = (n[o] ?? 0) + e(a), r.add(o).add(s), i.delete(a);
+		}
+		return n;
+	}
+	*settle(e, t) {
+		this.spread(this.branches.read(e, t)), yield;
+		let n = this.kernel.closes();
+		yield;
+		let r = this.firstOf(n), i = r < 0 ? null : this.poses[r] ?? this.enter(r, e);
+		if (i) {
+			if (this.poses[r] || (yield* this.follow(r, i)), this.base = {
+				place: r,
+				pose: this.exact(r) ?? i
+			}, this.poses.every((e) => e)) {
+				this.branches.model = this.branches.read(i, r);
+				return;
+			}
+			this.spread(this.branches.read(i, r)), n = this.kernel.closes(), yield, yield* this.behind(n);
+		}
+		this.spread(this.branches.model), yield, this.kernel.closes();
+	}
+	spread(e) {
+		this.branches.spread(e, this.poses, this.base.pose);
+	}
+	exact(e) {
+		return this.sketch.values = this.values, this.poses[e] && this.sketch.close(this.poses[e], this.kernel.drives(e), .05);
+	}
+	firstOf(e) {
+		let t = (t) => this.poses[t] !== null || e[t] > 0;
+		return this.data.places.find(t) ?? e.findIndex((e, n) => t(n));
+	}
+	enter(e, t) {
+		let n = this.data.dimension, r = k(t), i = .1;
+		return this.kernel.posed(e).forEach((e, t) => {
+			if (!e.every(Number.isFinite)) i = Infinity;
+			else {
+				for (let i = 0; i < n; i++) r.point[n * t + i] = e[i];
+				if (n === 2) r.turn[t] += P(Math.atan2(e[3], e[2]) - r.turn[t]), [r.rotation[2 * t], r.rotation[2 * t + 1]] = [e[2], e[3]];
+				else for (let n = 0; n < 3; n++) for (let i = 0; i < 3; i++) r.rotation[9 * t + 3 * n + i] = e[3 + 3 * i + n];
+			}
+		}), [
+			...r.point,
+			...r.rotation,
+			...r.turn
+		].every(Number.isFinite) ? (this.sketch.values = this.values, this.sketch.close(this.wound(r, this.kernel.drives(e)), this.kernel.drives(e), i)) : null;
+	}
+	wound(e, t) {
+		let { data: n, sketch: r } = this, i = (e) => 2 * Math.PI * Math.round(e / (2 * Math.PI)), a = n.drives.map((a, o) => n.rows[a].angular ? i(t[o] - r.measure(a, e)) : 0), o = this.counts((e) => a[this.data.drives.indexOf(e)] ?? 0);
+		return {
+			...e,
+			turn: e.turn.map((e, t) => e + o[t])
+		};
+	}
+	*behind(e) {
+		let { course: t } = this.data, n = (e) => this.poses[t[e]] !== null;
+		for (let r = 0; r < this.count; r++) {
+			if (n(r) || !e[t[r]]) continue;
+			let i = r;
+			for (; i + 1 < this.count && !n(i + 1) && e[t[i + 1]] && !this.gapBetween(i);) i++;
+			let a = r === 0 || !e[t[r - 1]] && !n(r - 1) || this.gapBetween(r - 1), o = i === this.count - 1 || !n(i + 1) || this.gapBetween(i);
+			if (a && o) {
+				let e = t[r + i >> 1], n = this.enter(e, this.base.pose);
+				n && (yield* this.follow(e, n));
+			}
+			r = i, yield;
+		}
+	}
+	gapBetween(e) {
+		let [t, n] = [this.data.course[e], this.data.course[e + 1]];
+		for (let e = 1; e < Re; e++) if (!this.kernel.closesAt(t + e / Re * (n - t))) return !0;
+		return !1;
+	}
+	at(e) {
+		this.update();
+		let t = Math.floor(e) % this.count, n = e - Math.floor(e) === 0 && this.count <= ze ? this.poses[t] : null;
+		this.sketch.values = this.values;
+		for (let r of [t, (t + 1) % this.count]) {
+			let t = this.poses[r];
+			if (n || !t) continue;
+			let i = this.sketch.close(t, this.kernel.drives(r), .05), a = this.nearDrives(r, e);
+			n = i && this.sketch.walk(new M(i, this.kernel.drives(r)), a);
+		}
+		return n && ([this.held, this.loose] = [{
+			values: this.values.slice(),
+			t: e,
+			pose: n
+		}, null]), n;
+	}
+	near(e) {
+		if (!this.reclose()) return null;
+		if (this.held.t === e) return this.held.pose;
+		this.sketch.values = this.values;
+		let t = this.sketch.walk(new M(this.held.pose, this.kernel.drives(this.held.t)), this.nearDrives(this.held.t, e));
+		return t && (this.held = {
+			values: this.values.slice(),
+			t: e,
+			pose: t
+		}), t;
+	}
+	nearDrives(e, t) {
+		let n = this.kernel.drives(t), r = this.kernel.drives(e);
+		return n.map((e, t) => this.data.cycle?.[t] ? r[t] + P(e - r[t]) : e);
+	}
+	stretched(e) {
+		this.sketch.values = this.values;
+		let t = this.loose?.t === e ? this.loose.pose : this.nearest(e);
+		return this.loose = {
+			t: e,
+			pose: this.sketch.loosen(t, this.kernel.drives(e), this.weakest)
+		}, this.loose.pose;
+	}
+	open(e) {
+		return this.sketch.values = this.values, this.sketch.open(this.nearest(e), this.kernel.drives(e));
+	}
+	nearest(e) {
+		let t = this.held.pose, n = Infinity;
+		return this.poses.forEach((r, i) => {
+			r && Math.abs(i - e) < n && ([t, n] = [r, Math.abs(i - e)]);
+		}), t;
+	}
+	assembly() {
+		this.update();
+		let { links: e, dimension: t, counted: n } = this.data, { pose: r } = this.base;
+		return e.flatMap((e, i) => t === 2 ? [r.turn[i] + (n[e] ?? 0)] : [...r.point.subarray(3 * i, 3 * i + 3), ...z(r.rotation.subarray(9 * i, 9 * i + 9))]);
+	}
+	placed() {
+		let { links: e, dimension: t } = this.data, { pose: n } = this.held;
+		return Object.fromEntries(e.map((e, r) => [e, t === 2 ? [
+			n.point[2 * r],
+			n.point[2 * r + 1],
+			n.turn[r]
+		] : [...n.point.subarray(3 * r, 3 * r + 3), ...n.rotation.subarray(9 * r, 9 * r + 9)]]));
+	}
+	take(e) {
+		let { data: t, sketch: n, kernel: r } = this, i = L(t, this.first.pose, e);
+		this.home(), n.values = this.values, n.count(this.phases, !1);
+		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, Be), s = o && this.placeOf(a);
+		if (o && s !== null) {
+			let e = r.drives(s).map((e, n) => t.rows[t.drives[n]].angular ? a[n] + P(e - a[n]) : e);
+			o = n.walk(new M(o, a), e), o &&= this.wound(o, r.drives(s));
+		}
+		return o && s !== null && (this.held = {
+			values: this.values.slice(),
+			t: s,
+			pose: o
+		}, this.hold(this.phases.map((e) => n.measure(e, o)))), n.count(this.phases, !0), o && s !== null ? s : null;
+	}
+	placeOf(e) {
+		let { kernel: t, data: n, count: r } = this, i = n.drives.map((e) => n.rows[e].angular), a = (r) => Math.hypot(...t.drives(r).map((t, r) => i[r] ? P(t - e[r]) : (t - e[r]) / n.length)), o = 0, s = Infinity;
+		for (let e = 0; e < r; e++) a(e) < s && ([o, s] = [e, a(e)]);
+		if (e.length !== 1 || s < 1e-12 || t.stepped) return o;
+		for (let [n, a] of [
+			[o - 1, o],
+			[o, o + 1],
+			...o === 0 ? [[r - 1, r]] : []
+		]) {
+			if (n < 0 || a > t.end) continue;
+			let [r, o] = [n, a].map((e) => t.drives(e)[0]), s = i[0] ? P : (e) => e, c = s(e[0] - r) / s(o - r);
+			if (c >= 0 && c <= 1) return n + c;
+		}
+		return o;
+	}
+	state() {
+		this.update();
+		let { t: e, pose: t } = this.held;
+		return [
+			e,
+			...t.point,
+			...t.rotation,
+			...t.turn,
+			...this.phases.map((e) => this.sketch.hold[e])
+		];
+	}
+	restore(e) {
+		let [t, ...n] = e, r = k(this.held.pose);
+		for (let e of [
+			"point",
+			"rotation",
+			"turn"
+		]) r[e].set(n.splice(0, r[e].length));
+		this.hold(n), this.held = {
+			values: this.values.slice(),
+			t,
+			pose: r
+		}, [this.seen, this.loose] = [null, null];
+	}
+};
+function Ue(e) {
+	for (; !e.next().done;);
+}
+function We(e) {
+	let t = (t) => t.ends.filter((t) => t < e.links.length), n = new Set(e.drives.flatMap((n) => t(e.rows[n]))), r = (r) => {
+		let i = t(e.rows.find((e) => e.kind === "constraint" && e.joint === r) ?? { ends: [] });
+		return i.length - (i.some((e) => n.has(e)) ? .5 : 0);
+	};
+	return e.gaps.map((e) => e.joint).reduce((e, t) => e && r(e) >= r(t) ? e : t, "");
+}
 // src/view.ts
-var We = [
+var Ge = [
 	"loads",
 	"reactions",
 	"inertia",
@@ -1518,14 +1526,14 @@ var We = [
 	"traces",
 	"values",
 	"digits"
-], Ge = [
+], Ke = [
 	.1,
 	.25,
 	.5,
 	1,
 	2,
 	4
-], Ke = () => ({
+], qe = () => ({
 	t: NaN,
 	shown: {},
 	window: null,
@@ -1538,18 +1546,18 @@ var We = [
 	drag: "shape",
 	tracers: []
 });
-function qe(e) {
-	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => We.filter((n) => e.shown[n] === t).join(" ");
+function Je(e) {
+	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => Ge.filter((n) => e.shown[n] === t).join(" ");
 	return n("show", r(!0)), n("hide", r(!1)), e.window && n("window", [e.window.perMm, ...e.window.middle].map((e) => +e.toPrecision(6)).join(" ")), n("tab", e.tab), n("speed", String(e.speed), "1"), n("drag", e.drag, "shape"), n("trace", e.tracers.map((e) => [e.link, ...e.u.map((e) => +e.toPrecision(6))].join(" ")).join("; ")), t;
 }
-function Je(e, t) {
+function Ye(e, t) {
 	let n = (e) => t.get(`~${e}`) ?? "", r = (e) => e.split(" ").map(Number);
-	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of We) n(t).split(" ").includes(i) && (e.shown[i] = r);
+	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of Ge) n(t).split(" ").includes(i) && (e.shown[i] = r);
 	let [i, a, o] = r(n("window"));
 	i > 0 && Number.isFinite(i + a + o) && (e.window = {
 		perMm: i,
 		middle: [a, o]
-	}), e.tab = n("tab"), Ge.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
+	}), e.tab = n("tab"), Ke.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
 		let [t, ...n] = e.split(" "), r = n.map(Number);
 		return r.length > 1 && r.every(Number.isFinite) ? [{
 			link: t,
@@ -1557,7 +1565,7 @@ function Je(e, t) {
 		}] : [];
 	});
 }
-function Ye(e, t) {
+function Xe(e, t) {
 	return {
 		loads: !0,
 		reactions: !0,
@@ -1571,7 +1579,7 @@ function Ye(e, t) {
 	}[e];
 }
 // src/board.ts
-var Xe = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", Ze = [
+var Ze = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", Qe = [
 	1,
 	1.25,
 	1.5,
@@ -1584,24 +1592,24 @@ var Xe = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.ki
 	8,
 	10
 ];
-function Qe(e) {
+function $e(e) {
 	if (!(e > 0) || !Number.isFinite(e)) return 1;
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (Ze.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+	return t * (Qe.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
 }
-function $e(e) {
+function et(e) {
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
 	return t * ([5, 2].find((n) => n * t <= e * (1 + 1e-12)) ?? 1);
 }
-function et(e) {
+function tt(e) {
 	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
 	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
 		x: n,
 		y: r
 	} : null;
 }
-var tt = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function nt(e) {
+var nt = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function rt(e) {
 	return e.items.flatMap((e) => {
 		if (e.t === "circle") return [{
 			p: e.p,
@@ -1618,17 +1626,17 @@ function nt(e) {
 		}] : [];
 	});
 }
-function rt(e, t, n) {
-	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(tt);
+function it(e, t, n) {
+	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(nt);
 	for (let t = 0; t < r.count; t += i) {
 		if (!r.good[t]) continue;
 		let i = (e) => r.value(e, t);
 		for (let t of o) a.push(e.seen(t, i));
-		a.push(...it(e, n, i));
+		a.push(...at(e, n, i));
 	}
-	return et(a);
+	return tt(a);
 }
-var it = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), at = (e) => e.items.some((e) => e.t === "pair"), ot = class {
+var at = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), ot = (e) => e.items.some((e) => e.t === "pair"), st = class {
 	arrow;
 	line;
 	text;
@@ -1646,42 +1654,42 @@ var it = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.see
 	set([r, i], c, l) {
 		let u = c / l.size, d = u > 0 && Number.isFinite(u);
 		if (e(this.line, "visibility", d ? "visible" : "hidden"), !d) return t(this.text, ""), r;
-		let f = $e(26 * u), p = r + f / u, h = `${o(f)} ${l.unit}`, g = `M${a(r)} ${a(i - 1)}v2`, _ = this.arrow ? `M${a(p - 2.4)} ${a(i - .8)}L${a(p)} ${a(i)}L${a(p - 2.4)} ${a(i + .8)}` : `M${a(p)} ${a(i - 1)}v2`;
+		let f = et(26 * u), p = r + f / u, h = `${o(f)} ${l.unit}`, g = `M${a(r)} ${a(i - 1)}v2`, _ = this.arrow ? `M${a(p - 2.4)} ${a(i - .8)}L${a(p)} ${a(i)}L${a(p - 2.4)} ${a(i + .8)}` : `M${a(p)} ${a(i - 1)}v2`;
 		return e(this.line, "d", g + s([[r, i], [p, i]]) + _), t(n(this.text, {
 			x: a(p + 1.4),
 			y: a(i + 1)
 		}), h), p + 1.4 + m(h, 2.8);
 	}
 };
-function st(e, t, n, i) {
+function ct(e, t, n, i) {
 	return r("svg", e, {
 		viewBox: `${-t / 2} ${-n / 2} ${t} ${n}`,
 		role: "group",
 		"aria-label": i
 	});
 }
-var ct = 8, lt = 20;
-function ut(t, i, a, o, s, c, l, u, d, f = []) {
+var lt = 8, ut = 20;
+function dt(t, i, a, o, s, c, l, u, d, f = []) {
 	let p = {
 		length: l.length.size,
 		force: l.force.size
-	}, m = st(t, s, c, u), h = new De(i, a.per_mm, l, at(a) ? d.camera : null), g = [], _ = [], v = a.labels.filter((e) => e.kind === "joint").length > ct, y = (e) => o && e !== "values" ? !0 : d.shown[e] ?? Ye(e, v), b = a.force, x = {
+	}, m = ct(t, s, c, u), h = new be(i, a.per_mm, l, ot(a) ? d.camera : null), g = [], _ = [], v = a.labels.filter((e) => e.kind === "joint").length > lt, y = (e) => o && e !== "values" ? !0 : d.shown[e] ?? Xe(e, v), b = a.force, x = {
 		perMm: a.per_mm,
 		middle: a.middle ?? [0, 0]
 	};
 	a.middle && (h.middle = a.middle);
 	let S = r("g", m), C = r("g", m), w = r("g", m), T = r("g", m);
-	for (let e of a.items) (e.t === "trace" ? g : _).push(Oe(e.t === "trace" ? S : C, e, h));
+	for (let e of a.items) (e.t === "trace" ? g : _).push(xe(e.t === "trace" ? S : C, e, h));
 	let E = a.arrows.map((e) => ({
-		a: Re(w, e, h, () => b, o ?? void 0),
-		layer: Xe(e)
-	})), D = new ot(T), O = new ot(T, !0), k = a.arrows.filter((e) => e.t === "force"), A = (f.length ? ["velocities", "accelerations"] : []).map((e) => {
+		a: je(w, e, h, () => b, o ?? void 0),
+		layer: Ze(e)
+	})), D = new st(T), O = new st(T, !0), k = a.arrows.filter((e) => e.t === "force"), A = (f.length ? ["velocities", "accelerations"] : []).map((e) => {
 		let t = e === "velocities" ? "speed" : "acceleration", n = e === "velocities" ? "velocity" : "acceleration", r = n[0], i = {
 			layer: e,
 			unit: l[t],
 			rows: f.map((e) => r === "v" ? e.v : e.a),
 			perMm: NaN,
-			bar: new ot(T, !0)
+			bar: new st(T, !0)
 		};
 		return f.forEach((a, o) => {
 			let s = {
@@ -1695,21 +1703,21 @@ function ut(t, i, a, o, s, c, l, u, d, f = []) {
 				f: i.rows[o]
 			};
 			E.push({
-				a: Re(w, s, h, () => i.perMm, void 0, t),
+				a: je(w, s, h, () => i.perMm, void 0, t),
 				layer: e
 			});
 		}), i;
 	}), j = a.labels.map((e) => ({
-		l: xe(T, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
+		l: X(T, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
 		p: e.p,
 		q: e.q
-	})), M = nt(a), N = Math.max(1, Math.floor(i.count / 72)), P = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], F = o ? [
+	})), M = rt(a), N = Math.max(1, Math.floor(i.count / 72)), P = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], F = o ? [
 		...o,
 		...a.arrows.map((e) => e.p),
 		...a.items.flatMap((e) => e.t === "symbol" ? [e.p] : [])
 	] : [];
 	function I(e) {
-		return et([...F.map((t) => h.seen(t, e)), ...it(h, M, e)]);
+		return tt([...F.map((t) => h.seen(t, e)), ...at(h, M, e)]);
 	}
 	function L() {
 		return Array.from({ length: Math.ceil(i.count / N) }, (e, t) => t * N).flatMap((e) => {
@@ -1729,26 +1737,26 @@ function ut(t, i, a, o, s, c, l, u, d, f = []) {
 				e = Math.max(e, Math.abs(l[r]) / Math.max(a, 4));
 			});
 		}
-		return e > 0 ? Qe(e / p.force) * p.force : b;
+		return e > 0 ? $e(e / p.force) * p.force : b;
 	}
-	function B(e, t = !1) {
-		let n = o ? L().map(({ b: e }) => e) : [rt(h, a, M)].filter((e) => e !== null), r = o ? [46, 40] : [s - Math.max(.22 * s, 34), c - Math.max(.22 * c, 30)], l = Math.max(0, ...n.flatMap((e) => [(e.x[1] - e.x[0]) / r[0], (e.y[1] - e.y[0]) / r[1]]));
-		t && n.length && V(n[0], l) || (!o && n.length && (x.middle = P(n[0])), l > 0 && (x.perMm = Qe(l / p.length) * p.length)), b = e ?? R();
+	function z(e, t = !1) {
+		let n = o ? L().map(({ b: e }) => e) : [it(h, a, M)].filter((e) => e !== null), r = o ? [46, 40] : [s - Math.max(.22 * s, 34), c - Math.max(.22 * c, 30)], l = Math.max(0, ...n.flatMap((e) => [(e.x[1] - e.x[0]) / r[0], (e.y[1] - e.y[0]) / r[1]]));
+		t && n.length && B(n[0], l) || (!o && n.length && (x.middle = P(n[0])), l > 0 && (x.perMm = $e(l / p.length) * p.length)), b = e ?? R();
 		for (let e of A) {
 			let t = i.largest((t) => Math.max(0, ...e.rows.map((e) => Math.hypot(...e.map((e) => i.value(e, t))))));
-			e.perMm = t > 0 ? Qe(t / lt / e.unit.size) * e.unit.size : NaN;
+			e.perMm = t > 0 ? $e(t / ut / e.unit.size) * e.unit.size : NaN;
 		}
-		H();
+		V();
 	}
-	function V(e, t) {
+	function B(e, t) {
 		let n = (e, t, n) => Math.max(...e.map((e) => Math.abs(e - t))) < x.perMm * n;
 		return t > .5 * x.perMm && n(e.x, x.middle[0], s / 2 - 8) && n(e.y, x.middle[1], c / 2 - 10);
 	}
-	function H() {
+	function V() {
 		let e = o ? x : d.window ?? x;
 		h.perMm = e.perMm, o || (h.middle = [...e.middle]);
 	}
-	function U() {
+	function H() {
 		let e = [
 			[
 				D,
@@ -1772,8 +1780,8 @@ function ut(t, i, a, o, s, c, l, u, d, f = []) {
 			e > t && (t = e + 5);
 		}
 	}
-	function ee() {
-		let t = new Ce([
+	function U() {
+		let t = new ge([
 			-s / 2,
 			-c / 2,
 			s / 2,
@@ -1805,16 +1813,16 @@ function ut(t, i, a, o, s, c, l, u, d, f = []) {
 			});
 		}
 	}
-	function* te() {
+	function* W() {
 		for (let e of g) e.update(), yield;
 	}
 	return {
 		svg: m,
 		paper: h,
-		parts: te,
-		fit: B,
+		parts: W,
+		fit: z,
 		need: R,
-		look: H,
+		look: V,
 		on: y,
 		force: () => b,
 		fitted: () => x.perMm,
@@ -1822,20 +1830,20 @@ function ut(t, i, a, o, s, c, l, u, d, f = []) {
 			[s, c] = [e, t], m.setAttribute("viewBox", `${-s / 2} ${-c / 2} ${s} ${c}`);
 		},
 		update(e) {
-			if (h.values = y("values"), n(S, { display: y("traces") ? "inline" : "none" }), e && z(te()), n(w, { visibility: i.solved ? "visible" : "hidden" }), U(), i.finite) {
+			if (h.values = y("values"), n(S, { display: y("traces") ? "inline" : "none" }), e && Ue(W()), n(w, { visibility: i.solved ? "visible" : "hidden" }), H(), i.finite) {
 				o && (h.middle = P(I((e) => i.here[e]) ?? {
 					x: [0, 0],
 					y: [0, 0]
 				}));
 				for (let e of _) e.update();
 				for (let { a: e, layer: t } of E) y(t) ? e.update() : e.hide();
-				ee();
+				U();
 			}
 		}
 	};
 }
 // src/menu.ts
-function dt(e, [t, n], r) {
+function ft(e, [t, n], r) {
 	if (e.querySelector(".menu")?.remove(), !r.length) return;
 	let a = document.activeElement, o = i("div", e, {
 		class: "menu",
@@ -1868,11 +1876,11 @@ function dt(e, [t, n], r) {
 	o.style.left = `${Math.max(4, Math.min(t, window.innerWidth - u - 4))}px`, o.style.top = `${Math.max(4, Math.min(n, window.innerHeight - d - 4))}px`, document.addEventListener("pointerdown", c, !0), l[0].focus({ preventScroll: !0 });
 }
 // src/viewport.ts
-var ft = 1e4, pt = 12, mt = 1.25;
-function ht(e, t, n, r, i, a) {
+var pt = 1e4, mt = 12, ht = 1.25;
+function gt(e, t, n, r, i, a) {
 	let { svg: o, paper: s } = e, c = /* @__PURE__ */ new Map(), u = !1, d = (n, r) => {
 		let i = e.fitted();
-		n > i / ft && n < i * ft && r.every(Number.isFinite) && (t.window = {
+		n > i / pt && n < i * pt && r.every(Number.isFinite) && (t.window = {
 			perMm: n,
 			middle: r
 		}, e.look(), a());
@@ -1906,14 +1914,14 @@ function ht(e, t, n, r, i, a) {
 	}), o.addEventListener("click", (e) => u && e.stopImmediatePropagation(), { capture: !0 }), o.tabIndex = 0, o.addEventListener("keydown", (e) => {
 		if (e.target !== o || e.ctrlKey || e.metaKey || e.altKey) return;
 		let t = {
-			ArrowLeft: [pt, 0],
+			ArrowLeft: [mt, 0],
 			ArrowRight: [-12, 0],
-			ArrowUp: [0, pt],
+			ArrowUp: [0, mt],
 			ArrowDown: [0, -12]
 		};
 		if (t[e.key]) f(t[e.key]);
-		else if (e.key === "+" || e.key === "=") p(mt);
-		else if (e.key === "-") p(1 / mt);
+		else if (e.key === "+" || e.key === "=") p(ht);
+		else if (e.key === "-") p(1 / ht);
 		else if (e.key === "0") m();
 		else return;
 		e.preventDefault(), e.stopPropagation();
@@ -1924,23 +1932,23 @@ function ht(e, t, n, r, i, a) {
 	};
 }
 // src/stage.ts
-var gt = 3.6, _t = 5.2, vt = 550, yt = 8;
-function bt(e, t, n, a, o, s) {
-	let c = i("div", e, { class: "paper" }), u = ut(c, t, n, null, 170, 119, a, "the mechanism", o, s.rates ?? []), { svg: d } = u, f = r("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
+var _t = 3.6, vt = 5.2, yt = 550, bt = 8;
+function xt(e, t, n, a, o, s) {
+	let c = i("div", e, { class: "paper" }), u = dt(c, t, n, null, 170, 119, a, "the mechanism", o, s.rates ?? []), { svg: d } = u, f = r("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
 		let t = e.target.closest("[data-item]")?.dataset.item;
-		return t ? K(t) : null;
+		return t ? ee(t) : null;
 	}, h = (e) => !v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6).some(s.held), g = () => {
 		s.on?.({
 			type: "view",
 			view: o
 		}), s.again(!0);
-	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => q(d, e, t, n), y = ht(u, o, !!s.full, h, _, g);
+	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => ne(d, e, t, n), y = gt(u, o, !!s.full, h, _, g);
 	p && (d.style.cursor = "move");
 	let b = (e, t) => u.paper.metres(l(d, {
 		clientX: e,
 		clientY: t
 	})), x = (e) => {
-		o.chosen = e, se(d, e), s.chosen(e);
+		o.chosen = e, re(d, e), s.chosen(e);
 	}, S = (e) => [e.clientX, e.clientY];
 	d.addEventListener("click", (e) => {
 		let t = v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6), n = t.length ? t : m(e) ? [m(e)] : [];
@@ -1949,7 +1957,7 @@ function bt(e, t, n, a, o, s) {
 			items: n,
 			at: S(e),
 			point: b(e.clientX, e.clientY)
-		}) || x(n[0] && !oe(n[0], o.chosen) ? n[0] : null);
+		}) || x(n[0] && !te(n[0], o.chosen) ? n[0] : null);
 	});
 	let C = (t, n) => {
 		let r = b(...n);
@@ -1958,7 +1966,7 @@ function bt(e, t, n, a, o, s) {
 			items: t,
 			at: n,
 			point: r
-		}) || dt(e.closest(".dalembert") ?? document.body, n, s.entries(t, r));
+		}) || ft(e.closest(".dalembert") ?? document.body, n, s.entries(t, r));
 	};
 	d.addEventListener("contextmenu", (e) => {
 		e.preventDefault();
@@ -1974,10 +1982,10 @@ function bt(e, t, n, a, o, s) {
 	});
 	let w = 0, T = [0, 0];
 	d.addEventListener("pointerdown", (e) => {
-		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), vt));
+		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), yt));
 	}, { capture: !0 });
 	let E = () => clearTimeout(w);
-	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > yt && E(), { capture: !0 });
+	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > bt && E(), { capture: !0 });
 	for (let e of ["pointerup", "pointercancel"]) d.addEventListener(e, E, { capture: !0 });
 	return {
 		m: u,
@@ -1990,13 +1998,13 @@ function bt(e, t, n, a, o, s) {
 		resize() {
 			let { width: e, height: t } = c.getBoundingClientRect();
 			if (!(e > 0 && t > 0)) return;
-			let n = Math.min(Math.max(Math.min(e / 170, t / 105), gt), _t);
+			let n = Math.min(Math.max(Math.min(e / 170, t / 105), _t), vt);
 			u.resize(e / n, t / n);
 		}
 	};
 }
 // src/switches.ts
-var xt = {
+var St = {
 	loads: ["loads", "loads, efforts of drives, weights, springs"],
 	reactions: ["reactions", "forces in the joints"],
 	inertia: ["inertia", "D'Alembert's inertia forces and couples"],
@@ -2007,22 +2015,22 @@ var xt = {
 	values: ["values", "the value beside each arrow"],
 	digits: ["large digits", "the chosen curve's value, to be read from the last row"]
 };
-function St(e, t) {
+function Ct(e, t) {
 	let n = i("label", e, { title: t.title }), r = i("input", n, { type: "checkbox" });
 	r.checked = t.on, n.append(t.said), r.addEventListener("change", () => t.act(r.checked));
 }
-function Ct(e, t, n, r, i) {
+function wt(e, t, n, r, i) {
 	for (let a of n) {
-		let [n, o] = xt[a];
-		St(e, {
+		let [n, o] = St[a];
+		Ct(e, {
 			said: n,
 			title: o,
-			on: t.shown[a] ?? Ye(a, r),
+			on: t.shown[a] ?? Xe(a, r),
 			act: (e) => (t.shown[a] = e, i())
 		});
 	}
 }
-function wt(e, t, n, r, a) {
+function Tt(e, t, n, r, a) {
 	let o = i("span", e, {
 		class: "group",
 		role: "group",
@@ -2055,7 +2063,7 @@ function wt(e, t, n, r, a) {
 	u();
 }
 // src/tools.ts
-var Tt = class {
+var Et = class {
 	b;
 	data;
 	kernel;
@@ -2075,7 +2083,7 @@ var Tt = class {
 		return {
 			k: i,
 			size: r,
-			where: t.count > 1 ? ` at ${Et(this.data, t, i)}` : ""
+			where: t.count > 1 ? ` at ${Dt(this.data, t, i)}` : ""
 		};
 	}
 	update(e) {
@@ -2091,7 +2099,7 @@ var Tt = class {
 			t.set([r, i], [r + 14 * a / l, i - 14 * o / l], .5);
 		});
 	}
-}, Et = (e, t, n) => e.drives.map((e) => `${e.name} = ${o(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), Dt = class {
+}, Dt = (e, t, n) => e.drives.map((e) => `${e.name} = ${o(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), Ot = class {
 	b;
 	kernel;
 	places;
@@ -2131,7 +2139,7 @@ var Tt = class {
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, Ot = class {
+}, kt = class {
 	kernel;
 	gate;
 	past = [];
@@ -2151,29 +2159,29 @@ var Tt = class {
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function kt(e, t) {
+function At(e, t) {
 	let n = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]), r = n.length ? t.motion.assembly() : [];
 	return Object.fromEntries([...n, ...r.map((t, n) => [e.sketch.assembly[n], t])]);
 }
-function At(e, t, n) {
+function jt(e, t, n) {
 	let r = new URLSearchParams({ t: String(+n.t.toFixed(4)) });
-	for (let [e, t] of qe(n)) r.set(e, t);
-	for (let [n, i] of Object.entries(kt(e, t))) r.set(n, String(i));
+	for (let [e, t] of Je(n)) r.set(e, t);
+	for (let [n, i] of Object.entries(At(e, t))) r.set(n, String(i));
 	return r.toString();
 }
-function jt(e, t, n, r) {
+function Mt(e, t, n, r) {
 	let i = new Map(new URLSearchParams(r.replace(/^#/, ""))), a = {};
-	Je(n, i);
+	Ye(n, i);
 	for (let [e, t] of i) e !== "t" && !e.startsWith("~") && (a[e] = t.trim() ? Number(t) : NaN);
 	t.change(a);
 	let o = Number(i.get("t") ?? NaN);
 	Number.isFinite(o) && (n.t = Math.min(Math.max(o, 0), e.end));
 }
-function Mt(e, t) {
+function Nt(e, t) {
 	let n = [...t.values, ...t.motion.assembly()], r = e.numbers.map((e, n) => e.value !== t.values[n]), i = r.includes(!0);
 	return e.template.map((e) => typeof e == "string" ? e : e.was !== void 0 && !e.of?.some((e) => r[e] ?? i) ? e.was : e.now.map((e) => typeof e == "string" ? e : String(n[e[0]] / e[1])).join("")).join("");
 }
-function Nt(e, t) {
+function Pt(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind]
@@ -2192,7 +2200,7 @@ function Nt(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function Pt(e, t) {
+function Ft(e, t) {
 	let i = e.cloneNode(!0), { width: a, height: o } = e.viewBox.baseVal;
 	i.querySelectorAll(".handles, .overlay").forEach((e) => e.remove()), n(i, {
 		xmlns: "http://www.w3.org/2000/svg",
@@ -2203,13 +2211,13 @@ function Pt(e, t) {
 	let s = r("style", null);
 	return s.textContent = t, i.prepend(s), new XMLSerializer().serializeToString(i);
 }
-var Ft = 300 / 25.4;
-async function It(e, t) {
-	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Pt(e, t)], { type: "image/svg+xml" }));
+var It = 300 / 25.4;
+async function Lt(e, t) {
+	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Ft(e, t)], { type: "image/svg+xml" }));
 	try {
 		i.src = a, await i.decode();
 		let e = document.createElement("canvas"), t = e.getContext("2d");
-		return [e.width, e.height] = [Math.round(n * Ft), Math.round(r * Ft)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
+		return [e.width, e.height] = [Math.round(n * It), Math.round(r * It)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
 	} finally {
 		URL.revokeObjectURL(a);
 	}
@@ -2218,7 +2226,7 @@ function Z(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var Lt = (e) => d(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", Rt = class {
+var Rt = (e) => d(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", zt = class {
 	data;
 	program;
 	here;
@@ -2260,13 +2268,13 @@ var Lt = (e) => d(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g,
 	largest(e) {
 		return e(0);
 	}
-}, zt = .02, Bt = 2, Vt = 500;
-async function Ht(e, t, c, u) {
-	let [d, f] = await Promise.all([G.create(t.sketch.closure, 1), G.create(t.shown, 1)]), p = t.sketch, m = {
+}, Bt = .02, Vt = 2, Ht = 500;
+async function Ut(e, t, c, u) {
+	let [d, f] = await Promise.all([U.create(t.sketch.closure, 1), U.create(t.shown, 1)]), p = t.sketch, m = {
 		point: Float64Array.from(p.pose.point),
 		rotation: Float64Array.from(p.pose.rotation),
 		turn: Float64Array.from(p.pose.turn)
-	}, g = new Rt(t, f), _ = new ve(p, d, ee(p, m, u.pose ?? {})), b = [], x = new y(p.links, t.poses, g), S = [], C = [], w = null, T = [], E = "there", D = 0, O = _.pose;
+	}, g = new zt(t, f), _ = new pe(p, d, L(p, m, u.pose ?? {})), b = [], x = new y(p.links, t.poses, g), S = [], C = [], w = null, T = [], E = "there", D = 0, O = _.pose;
 	g.show(_.pose);
 	let A = i("header", e);
 	i("h1", A, {}, t.title);
@@ -2283,23 +2291,23 @@ async function Ht(e, t, c, u) {
 		return a.addEventListener("click", r), a;
 	};
 	i("output", j, { class: "readout" }, "Sketch: drag the links.").style.flex = "1", u.back && M(j, "Back", "undo the last addition", u.back);
-	let N = M(j, "↶", "undo (Ctrl+Z)", () => ue(S, C)), P = M(j, "↷", "redo (Ctrl+Y)", () => ue(C, S));
-	M(j, "Reset", "as in the file", () => se(() => _.placed(k(m))));
+	let N = M(j, "↶", "undo (Ctrl+Z)", () => q(S, C)), P = M(j, "↷", "redo (Ctrl+Y)", () => q(C, S));
+	M(j, "Reset", "as in the file", () => K(() => _.placed(k(m))));
 	let F = i("section", i("main", e, { class: "one" }), {
 		class: "stage",
 		"aria-label": "sketch"
-	}), I = bt(F, g, t.views.mechanism, t.units, c, {
+	}), I = xt(F, g, t.views.mechanism, t.units, c, {
 		full: u.full,
 		on: u.on,
-		entries: W,
-		chosen: () => Y(),
-		again: () => Y(),
-		held: (e) => te(`${e.kind}:${e.name}`) >= 0
-	}), { m: L, paper: R } = I, z = v(L, t, g), B = r("g", L.svg, { class: "handles" }), V = r("g", L.svg, {
+		entries: se,
+		chosen: () => J(),
+		again: () => J(),
+		held: (e) => ne(`${e.kind}:${e.name}`) >= 0
+	}), { m: R, paper: z } = I, B = v(R, t, g), V = r("g", R.svg, { class: "handles" }), W = r("g", R.svg, {
 		class: "gaps",
 		"pointer-events": "none"
-	}), H = ne().map(({ link: e, point: t, p: n }) => {
-		let i = r("circle", B, {
+	}), ee = re().map(({ link: e, point: t, p: n }) => {
+		let i = r("circle", V, {
 			class: "handle joint",
 			r: 2.2,
 			tabindex: 0,
@@ -2318,61 +2326,61 @@ async function Ht(e, t, c, u) {
 			}[t.key];
 			if (!r) return;
 			t.preventDefault(), t.stopPropagation();
-			let i = Bt * (t.shiftKey ? 5 : 1), a = L.paper.point(n);
-			se(() => {
+			let i = Vt * (t.shiftKey ? 5 : 1), a = R.paper.point(n);
+			K(() => {
 				let t = {
 					link: p.links.indexOf(e),
-					u: x.local(L.paper, p.links.indexOf(e), a)
+					u: x.local(R.paper, p.links.indexOf(e), a)
 				};
-				_.frame(t, L.paper.metres([a[0] + i * r[0], a[1] + i * r[1]]), q());
+				_.frame(t, R.paper.metres([a[0] + i * r[0], a[1] + i * r[1]]), ue());
 			});
 		}), {
 			knob: i,
 			p: n
 		};
-	}), U = i("div", null, {
+	}), te = i("div", null, {
 		class: "missing",
 		role: "status"
 	});
-	R.before(U), i("p", U, {}, t.missing.sentence[0].toUpperCase() + t.missing.sentence.slice(1) + ".");
-	for (let e of t.missing.offers) M(U, `+ ${e.said}`, e.page ? e.said : "add it and save the model file", () => void ae(e));
-	re();
-	function te(e) {
-		return e.startsWith("point:") ? p.links.indexOf(e.slice(6, e.lastIndexOf("."))) : ce(t, e);
+	z.before(te), i("p", te, {}, t.missing.sentence[0].toUpperCase() + t.missing.sentence.slice(1) + ".");
+	for (let e of t.missing.offers) M(te, `+ ${e.said}`, e.page ? e.said : "add it and save the model file", () => void ce(e));
+	ie();
+	function ne(e) {
+		return e.startsWith("point:") ? p.links.indexOf(e.slice(6, e.lastIndexOf("."))) : ae(t, e);
 	}
-	function ne() {
+	function re() {
 		let e = /* @__PURE__ */ new Set();
 		return t.points.filter(({ p: t }) => {
 			let n = t.map((e) => g.here[e].toFixed(9)).join();
 			return !e.has(n) && e.add(n);
 		});
 	}
-	function re() {
-		let e = i("div", F, { class: "switches" }), n = Lt(t.title);
-		wt(e, I.view, c, !1, () => Y()), Ct(e, c, t.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => Y());
+	function ie() {
+		let e = i("div", F, { class: "switches" }), n = Rt(t.title);
+		Tt(e, I.view, c, !1, () => J()), wt(e, c, t.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => J());
 		let r = i("span", e, {
 			class: "group",
 			role: "group",
 			"aria-label": "save"
 		});
-		M(r, "Model file", "the file with the pose that is drawn", () => Z(`${n}.yaml`, K(), "text/yaml")), M(r, "SVG", "the drawing", () => Z(`${n}.svg`, Pt(L.svg, t.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void It(L.svg, t.style.light).then((e) => Z(`${n}.png`, e, "image/png")));
+		M(r, "Model file", "the file with the pose that is drawn", () => Z(`${n}.yaml`, le(), "text/yaml")), M(r, "SVG", "the drawing", () => Z(`${n}.svg`, Ft(R.svg, t.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void Lt(R.svg, t.style.light).then((e) => Z(`${n}.png`, e, "image/png")));
 	}
-	function W(e) {
+	function se(e) {
 		return e.flatMap(({ kind: e, name: t }) => p.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
 			said: `${_.locked(r) ? "Release" : "Lock"} the ${n.angular ? "turn" : "slide"} of ${t}`,
 			act: () => _.lock(r, !_.locked(r))
 		}] : []));
 	}
-	async function ae(e) {
+	async function ce(e) {
 		if (!u.on?.({
 			type: "offer",
 			offer: e
 		})) {
-			if (!e.page) return Z(`${Lt(t.title)}.yaml`, e.text, "text/yaml");
-			await u.taken(JSON.parse(new TextDecoder().decode(await ie(e.page))), oe());
+			if (!e.page) return Z(`${Rt(t.title)}.yaml`, e.text, "text/yaml");
+			await u.taken(JSON.parse(new TextDecoder().decode(await H(e.page))), G());
 		}
 	}
-	function K() {
+	function le() {
 		let e = p.links.flatMap((e, t) => [
 			_.pose.point[2 * t],
 			_.pose.point[2 * t + 1],
@@ -2380,139 +2388,139 @@ async function Ht(e, t, c, u) {
 		]);
 		return t.text.replace(/@@(\d+)@@/g, (t, n) => String(e[+n]));
 	}
-	function oe() {
+	function G() {
 		return Object.fromEntries(p.links.map((e, t) => [e, [
 			_.pose.point[2 * t],
 			_.pose.point[2 * t + 1],
 			_.pose.turn[t]
 		]]));
 	}
-	let q = () => zt * L.paper.perMm / p.length;
-	function se(e) {
-		O = _.pose, e(), J();
+	let ue = () => Bt * R.paper.perMm / p.length;
+	function K(e) {
+		O = _.pose, e(), de();
 	}
-	function J() {
-		O !== _.pose && (S.push(O), S.length > Vt && S.shift(), C.length = 0), u.on?.({
+	function de() {
+		O !== _.pose && (S.push(O), S.length > Ht && S.shift(), C.length = 0), u.on?.({
 			type: "pose",
-			pose: oe(),
+			pose: G(),
 			closed: _.closed
-		}), Y();
+		}), J();
 	}
-	function ue(e, t) {
+	function q(e, t) {
 		let n = e.pop();
-		n && (t.push(_.pose), _.placed(n), Y());
+		n && (t.push(_.pose), _.placed(n), J());
 	}
-	L.svg.addEventListener("pointerdown", (e) => {
-		let t = e.button === 0 ? le(L.svg, e, te) : -1;
+	R.svg.addEventListener("pointerdown", (e) => {
+		let t = e.button === 0 ? oe(R.svg, e, ne) : -1;
 		if (t < 0) return;
-		L.svg.setPointerCapture(e.pointerId);
-		let n = l(L.svg, e);
+		R.svg.setPointerCapture(e.pointerId);
+		let n = l(R.svg, e);
 		[w, T, O] = [
 			{
 				link: t,
-				u: x.local(L.paper, t, n)
+				u: x.local(R.paper, t, n)
 			},
-			L.paper.metres(n),
+			R.paper.metres(n),
 			_.pose
 		];
-	}), L.svg.addEventListener("pointermove", (e) => {
-		w && L.svg.hasPointerCapture(e.pointerId) && (T = L.paper.metres(l(L.svg, e)), E = "on the way", Y());
+	}), R.svg.addEventListener("pointermove", (e) => {
+		w && R.svg.hasPointerCapture(e.pointerId) && (T = R.paper.metres(l(R.svg, e)), E = "on the way", J());
 	});
-	let de = () => {
-		w && (w = null, E = "there", J());
+	let fe = () => {
+		w && (w = null, E = "there", de());
 	};
-	L.svg.addEventListener("pointerup", de), L.svg.addEventListener("pointercancel", de);
-	function Y() {
+	R.svg.addEventListener("pointerup", fe), R.svg.addEventListener("pointercancel", fe);
+	function J() {
 		D ||= requestAnimationFrame(() => {
 			D = 0;
 			let e = performance.now();
-			X(), b.push(performance.now() - e), b.length > 2e3 && b.shift();
+			Y(), b.push(performance.now() - e), b.length > 2e3 && b.shift();
 		});
 	}
-	function X() {
+	function Y() {
 		if (w || !_.closed) {
 			let e = _.pose;
-			E !== "on the way" && _.closed || (E = _.frame(w, T, q())), (E === "on the way" || E === "apart" && e !== _.pose) && Y();
+			E !== "on the way" && _.closed || (E = _.frame(w, T, ue())), (E === "on the way" || E === "apart" && e !== _.pose) && J();
 		}
-		g.show(_.pose), L.update(!0);
-		for (let { knob: e, p: t } of H) {
-			let [r, i] = L.paper.point(t);
+		g.show(_.pose), R.update(!0);
+		for (let { knob: e, p: t } of ee) {
+			let [r, i] = R.paper.point(t);
 			n(e, {
 				cx: a(r),
 				cy: a(i)
 			});
 		}
-		z(), fe(), [N.disabled, P.disabled] = [!S.length, !C.length];
+		B(), me(), [N.disabled, P.disabled] = [!S.length, !C.length];
 	}
-	function fe() {
-		if (V.replaceChildren(), !w || E !== "nearest" || _.away < 3 * q()) return;
-		let [e, i] = [_.at(w), T].map((e) => L.paper.of(...L.paper.project(e))), { unit: c, size: l } = t.units.length;
-		r("path", V, {
+	function me() {
+		if (W.replaceChildren(), !w || E !== "nearest" || _.away < 3 * ue()) return;
+		let [e, i] = [_.at(w), T].map((e) => R.paper.of(...R.paper.project(e))), { unit: c, size: l } = t.units.length;
+		r("path", W, {
 			class: "l-gap",
 			d: s([e, i]),
 			style: "fill:none"
-		}), n(h(V, "gap", `${o(_.away * p.length / l, 3)} ${c} too far`, 3.3, i[0] < e[0] == i[1] < e[1] ? "start" : "end"), {
+		}), n(h(W, "gap", `${o(_.away * p.length / l, 3)} ${c} too far`, 3.3, i[0] < e[0] == i[1] < e[1] ? "start" : "end"), {
 			x: a((e[0] + i[0]) / 2 + (i[0] < e[0] == i[1] < e[1] ? 2.5 : -2.5)),
 			y: a((e[1] + i[1]) / 2 - 1.5)
 		});
 	}
-	let pe = u.full ? document : e, me = (e) => {
+	let X = u.full ? document : e, he = (e) => {
 		let t = e;
-		(t.ctrlKey || t.metaKey) && !t.altKey && /^[zy]$/i.test(t.key) && (t.preventDefault(), t.key.toLowerCase() === "z" && !t.shiftKey ? ue(S, C) : ue(C, S));
+		(t.ctrlKey || t.metaKey) && !t.altKey && /^[zy]$/i.test(t.key) && (t.preventDefault(), t.key.toLowerCase() === "z" && !t.shiftKey ? q(S, C) : q(C, S));
 	};
-	pe.addEventListener("keydown", me);
-	let he = () => {
-		I.resize(), L.fit(), Y();
+	X.addEventListener("keydown", he);
+	let ge = () => {
+		I.resize(), R.fit(), J();
 	};
 	return {
 		data: t,
 		times: b,
 		stage: I,
-		observed: [R],
-		resize: he,
-		redraw: Y,
+		observed: [z],
+		resize: ge,
+		redraw: J,
 		opened() {
-			he(), X(), I.choose(c.chosen);
+			ge(), Y(), I.choose(c.chosen);
 		},
 		set: () => void 0,
 		show: () => void 0,
-		text: K,
-		pose: oe,
+		text: le,
+		pose: G,
 		sketch: _,
-		remove: () => pe.removeEventListener("keydown", me)
+		remove: () => X.removeEventListener("keydown", he)
 	};
 }
 // src/reading.ts
 var Q = class extends Error {}, $ = (e, t) => e.replace(/\{(\w+)\}/g, (e, n) => t[n] ?? e);
-function Ut(e) {
+function Wt(e) {
 	if (/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(e)) return e;
 	let t = e.includes("'") && !e.includes("\"") ? "\"" : "'", n = t + e.replace(/\\/g, "\\\\") + t;
 	return n.length <= 60 ? n : n.slice(0, 57) + "...";
 }
-var Wt = {
+var Gt = {
 	"²": "^2",
 	"³": "^3",
 	"·": "*",
 	"⋅": "*",
 	"×": "*",
 	"−": "-"
-}, Gt = class {
+}, Kt = class {
 	text;
 	reading;
 	units;
 	tokens;
 	constructor(e, t, n) {
 		this.text = e, this.reading = t, this.units = n;
-		let r = e.replace(/[²³·⋅×−]/g, (e) => Wt[e]).replaceAll("**", "^");
+		let r = e.replace(/[²³·⋅×−]/g, (e) => Gt[e]).replaceAll("**", "^");
 		r = r.replace(/\b(ft|in)-lb\b/g, "$1*lbf").replace(/\blb-(ft|in)\b/g, "lbf*$1").replace(/(?<=[a-zµμ])[-.](?=[a-zµμ])/gi, "*"), this.tokens = r.match(/\d+|[a-zµμ_]+|[°%]|[-*/^()]|\S/gi) ?? [];
 	}
 	read() {
 		let e = this.product(1);
-		return this.tokens.length && this.refuse(`unexpected ${Ut(this.tokens[0])}`), e;
+		return this.tokens.length && this.refuse(`unexpected ${Wt(this.tokens[0])}`), e;
 	}
 	refuse(e) {
 		throw new Q($(this.reading.sentences.form, {
-			unit: Ut(this.text),
+			unit: Wt(this.text),
 			why: e
 		}));
 	}
@@ -2537,12 +2545,12 @@ var Wt = {
 		let r = this.tokens.shift(), i;
 		if (r === "(" && n < 5) i = this.product(n + 1), this.tokens.shift() !== ")" && this.refuse("a bracket is not closed");
 		else if (r !== void 0 && /^[a-zµμ_°%]/i.test(r)) i = this.named(r);
-		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${Ut(r)}`);
+		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${Wt(r)}`);
 		let a = 1;
 		if (this.tokens[0] === "^") {
 			this.tokens.shift();
 			let e = this.tokens[0] === "-" && this.tokens.shift() !== void 0, t = this.tokens.shift() ?? "";
-			if (!/^[1-6]$/.test(t)) throw new Q($(this.reading.sentences.power, { unit: Ut(this.text) }));
+			if (!/^[1-6]$/.test(t)) throw new Q($(this.reading.sentences.power, { unit: Wt(this.text) }));
 			a = e ? -t : +t;
 		}
 		let [o, s] = e * a < 0 ? [i.down, i.up] : [i.up, i.down];
@@ -2555,7 +2563,7 @@ var Wt = {
 	named(e) {
 		let t = Object.hasOwn(this.reading.units, e) ? this.reading.units[e] : null;
 		if (!t) throw new Q($(this.reading.sentences.no_unit, {
-			unit: Ut(e),
+			unit: Wt(e),
 			units: this.units
 		}));
 		let [n, r, ...i] = t;
@@ -2566,9 +2574,9 @@ var Wt = {
 		};
 	}
 };
-function Kt(e, t, n) {
+function qt(e, t, n) {
 	let { kinds: r, sentences: i } = n, a = r[t.kind] ?? r.number, o = e.trim(), s = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/is.exec(o.replaceAll("−", "-")), c = {
-		text: Ut(o),
+		text: Wt(o),
 		phrase: a.phrase,
 		remedy: a.remedy
 	}, l = (e, t = {}) => {
@@ -2586,9 +2594,9 @@ function Kt(e, t, n) {
 	if (/^[\d/]/.test(d) && !/^1\/[^\W\d]/.test(d)) return l(i.several);
 	let f = (e) => Number.isFinite(e) ? e : l(i.finite);
 	if (!d || d === t.unit) return f(+u * t.size);
-	let p = new Gt(d, n, a.units).read(), m = [...p.dimension];
+	let p = new Kt(d, n, a.units).read(), m = [...p.dimension];
 	if (a.per_radian && m[3] === 0 && (m[3] = a.dimension[3]), m.some((e, t) => e !== a.dimension[t])) {
-		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? qt(p.dimension);
+		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? Jt(p.dimension);
 		if (/\blb\b/.test(d) && a.force) return l(i.dimension, {
 			given: e,
 			remedy: $(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
@@ -2601,7 +2609,7 @@ function Kt(e, t, n) {
 	}
 	return f(+u * p.up / p.down);
 }
-function qt(e) {
+function Jt(e) {
 	return `in ${[
 		"m",
 		"kg",
@@ -2610,7 +2618,7 @@ function qt(e) {
 	].flatMap((t, n) => e[n] ? [t + (e[n] === 1 ? "" : `^${e[n]}`)] : []).join("*")}`;
 }
 // src/gate.ts
-var Jt = class {
+var Yt = class {
 	data;
 	kernel;
 	sentence = "";
@@ -2622,8 +2630,8 @@ var Jt = class {
 	type(e, t) {
 		let n = this.data.numbers[e];
 		try {
-			let r = Kt(t, n, this.data.reading);
-			this.check(n, r, Ut(t.trim())), this.kernel.values[e] = r;
+			let r = qt(t, n, this.data.reading);
+			this.check(n, r, Wt(t.trim())), this.kernel.values[e] = r;
 		} catch (e) {
 			if (!(e instanceof Q)) throw e;
 			return e.message;
@@ -2683,12 +2691,12 @@ var Jt = class {
 	}
 };
 // src/handles.ts
-function Yt(e, t, n, i) {
-	let a = r("g", e.svg, { class: "handles" }), o = t.handles.map((t) => Qt(a, e, t, n, i));
+function Xt(e, t, n, i) {
+	let a = r("g", e.svg, { class: "handles" }), o = t.handles.map((t) => $t(a, e, t, n, i));
 	return () => n.finite && o.forEach((e) => e());
 }
-var Xt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function Zt(e, t, n, r, [i, a]) {
+var Zt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function Qt(e, t, n, r, [i, a]) {
 	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
 		e.other(c, s);
 		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
@@ -2716,7 +2724,7 @@ function Zt(e, t, n, r, [i, a]) {
 		}
 	}
 }
-function Qt(e, t, i, o, s) {
+function $t(e, t, i, o, s) {
 	let c = `${{
 		joint: "joint",
 		point: "point",
@@ -2751,11 +2759,11 @@ function Qt(e, t, i, o, s) {
 			!0
 		], v = "about" in i && i.about ? p(i.about) : [];
 	}, C = (e) => d.vector([e[0] - g[0], e[1] - g[1]]), w = (e) => {
-		if ("by" in i && i.by) Zt(o, d, i.p, i.by, d.metres(e));
+		if ("by" in i && i.by) Qt(o, d, i.p, i.by, d.metres(e));
 		else if ("ends" in i) E(i.ends, T(C(e)));
 		else if (i.kind === "direction") {
-			let t = d.point(i.p), n = [e[0] - t[0], t[1] - e[1]], [r, a] = m[0].axes.map((e) => Xt(e, n));
-			f[i.direction] = $t(Math.atan2(a, r), f[i.direction]);
+			let t = d.point(i.p), n = [e[0] - t[0], t[1] - e[1]], [r, a] = m[0].axes.map((e) => Zt(e, n));
+			f[i.direction] = en(Math.atan2(a, r), f[i.direction]);
 		} else D(i, C(e).map((e, n) => _[n] + e / d.perMm * t.force()));
 		s.changed();
 	}, T = (e) => {
@@ -2764,12 +2772,12 @@ function Qt(e, t, i, o, s) {
 		return r.map((e, n) => t[n] + a * e - h[n]);
 	}, E = (e, t) => e.forEach((e, n) => {
 		let r = h.map((e, r) => e + t[r] - m[n].at[r]);
-		e.n.forEach((e, t) => f[e] = Xt(m[n].axes[t], r));
+		e.n.forEach((e, t) => f[e] = Zt(m[n].axes[t], r));
 	}), D = (e, t) => {
-		let n = m[0].axes.map((e) => Xt(e, t));
+		let n = m[0].axes.map((e) => Zt(e, t));
 		if (e.components) return e.components.forEach((e, t) => f[e] = n[t]);
 		let r = Math.sign(f[e.size]) || 1;
-		e.direction === void 0 ? f[e.size] = r * Xt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = $t(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
+		e.direction === void 0 ? f[e.size] = r * Zt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = en(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
 	}, O = () => {
 		b && s.finished(), b = !1;
 	};
@@ -2802,12 +2810,12 @@ function Qt(e, t, i, o, s) {
 		});
 	};
 }
-var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1, tn = 90, nn = 1e60, rn = class {
+var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1, nn = 90, rn = 1e60, an = class {
 	table;
 	breaks;
 	pieces;
 	constructor(e) {
-		this.table = e, this.breaks = W(e.breaks), this.pieces = W(e.pieces);
+		this.table = e, this.breaks = V(e.breaks), this.pieces = V(e.pieces);
 	}
 	at(e) {
 		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
@@ -2819,7 +2827,7 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, an = class e {
+}, on = class e {
 	data;
 	whole;
 	one;
@@ -2847,9 +2855,9 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 	followed;
 	known;
 	constructor(e, t, n, r, i, a) {
-		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, W(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
-			values: W(e.values),
-			pieces: e.table && new rn(e.table),
+		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, V(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: V(e.values),
+			pieces: e.table && new an(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}]));
 		let o = /* @__PURE__ */ new Set([...e.sketch.branches, ...e.sketch.known]);
@@ -2861,15 +2869,15 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 			for (let e = 0; e < this.row; e++) t.path[n * this.row + e] = r[Math.min(e, this.count - 1)];
 		}), this.side >= 0 && t.path.fill(-1, this.side * this.row, (this.side + 1) * this.row);
 		let s = (e) => this.channels.get(e)?.values ?? new Float64Array(this.count);
-		this.motion = new R(e, this, r, i, this.values, s), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.isWholeTurn(e.name));
+		this.motion = new He(e, this, r, i, this.values, s), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.isWholeTurn(e.name));
 	}
 	static async create(t) {
 		let n = t.numbers.length, [r, i, a, o, s] = await Promise.all([
-			G.create(t.kernel, n),
-			G.create(t.kernel, n),
-			G.create(t.sketch.closure, n),
-			G.create(t.sketch.shown, n),
-			t.gradient ? G.create(t.gradient, n) : void 0
+			U.create(t.kernel, n),
+			U.create(t.kernel, n),
+			U.create(t.sketch.closure, n),
+			U.create(t.sketch.shown, n),
+			t.gradient ? U.create(t.gradient, n) : void 0
 		]);
 		return new e(t, r, i, a, o, s);
 	}
@@ -2900,7 +2908,7 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 		return i === 0 ? n.values[r] : n.values[r] + i * (a - n.values[r]);
 	}
 	cycle() {
-		z(this.cycling());
+		Ue(this.cycling());
 	}
 	*parts() {
 		let { values: e } = this, t = e.slice(), n = e.slice(), r = this.cycling();
@@ -2909,12 +2917,12 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 	*cycling() {
 		this.motion.current ? this.closes() : yield* this.motion.updating(), this.side >= 0 && this.bothSides();
 		let e = this.rows.length - this.row, t = 0, n = (e) => this.rows[e * this.row + t];
-		for (; t < this.count; t++) t % tn === 0 && (yield), this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], n) : en, this.good[t] = +this.numbered(this.markAt(t));
+		for (; t < this.count; t++) t % nn === 0 && (yield), this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], n) : tn, this.good[t] = +this.numbered(this.markAt(t));
 		this.cycles++;
 	}
 	closes() {
 		for (let { name: e, channel: t } of this.followed) this.whole.path.set(this.channels.get(e).values, t * this.row);
-		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== en));
+		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== tn));
 	}
 	bothSides() {
 		let { path: e, out: t } = this.whole, n = this.side * this.row, r = t.slice();
@@ -2926,8 +2934,8 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 		return e === t ? this.numbered(e) && !this.here.every((e, t) => t === this.here.length - 1 || n(t)) && e === 0 ? this.marked("reversal") : e : this.numbered(e) ? t : e;
 	}
 	judged(e, t) {
-		if (e === en || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
-		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > nn);
+		if (e === tn || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
+		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > rn);
 		for (let e = 0; n && e < this.here.length - 1; e++) if (!Number.isFinite(t(e))) return this.marked("overflow");
 		return e;
 	}
@@ -2935,7 +2943,7 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 		return this.data.statuses.findIndex((t) => t.status === e);
 	}
 	closesAt(e) {
-		return this.run(e, null, this.motion.otherwise), this.one.at(this.here.length - 1) !== en;
+		return this.run(e, null, this.motion.branches.model), this.one.at(this.here.length - 1) !== tn;
 	}
 	posed(e) {
 		return this.data.sketch.poses.map((t) => t.map((t) => this.value(t, e)));
@@ -2948,13 +2956,13 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 	}
 	at(e) {
 		let t = this.coarse ? this.motion.near(e) : this.motion.at(e), { here: n } = this;
-		this.run(e, t, t ? this.motion.read(t, e) : this.motion.otherwise);
+		this.run(e, t, t ? this.motion.branches.read(t, e) : this.motion.branches.model);
 		for (let e = 0; e < n.length; e++) [n[e], this.hereAfter[e]] = [this.one.at(e), this.one.at(e, 1)];
 		let r = n.length - 1, i = this.side >= 0 ? this.between(n[r], this.hereAfter[r], (e) => n[e] === this.hereAfter[e]) : n[r];
-		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = en), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
+		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = tn), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
 	}
 	stretch(e, t) {
-		let { sketch: n } = this.data, r = this.motion.look(e, t, this.motion.otherwise), i = n.branches.length + n.known.length;
+		let { sketch: n } = this.data, r = this.motion.branches.look(e, t, this.motion.branches.model), i = n.branches.length + n.known.length;
 		n.drawn.forEach((e, t) => this.here[e] = r.at(i + t));
 		let a = (e) => e.map((e) => r.at(e)), o = n.gaps.map((e) => ({
 			joint: e.joint,
@@ -2967,7 +2975,7 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 		this.feed(this.one, this.data.kernel.channels, e, t, n), this.one.values.set(this.values), this.one.call(1);
 	}
 	feed(e, t, n, r, i) {
-		let a = r && this.data.sketch.known.length ? this.motion.look(r, n, i) : null;
+		let a = r && this.data.sketch.known.length ? this.motion.branches.look(r, n, i) : null;
 		t.forEach((t, r) => {
 			let o = this.data.sketch.branches.indexOf(t), s = this.known.get(t);
 			if (t === "side") return e.put(r, -1, 1);
@@ -2980,7 +2988,7 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 	}
 	gradient(e, t) {
 		let n = this.data.gradient, r = this.slope, i = this.motion.poses[t];
-		this.feed(r, n.channels, t, i, Float64Array.from(this.motion.branches, (e) => e[t])), r.values.set(this.values), r.call(1);
+		this.feed(r, n.channels, t, i, Float64Array.from(this.motion.branches.of, (e) => e[t])), r.values.set(this.values), r.call(1);
 		let a = n.numbers.length;
 		return Float64Array.from({ length: a }, (t, n) => r.at(e * a + n));
 	}
@@ -3024,7 +3032,7 @@ var $t = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), en = 1
 	}
 };
 // src/panels.ts
-function on(e, t, n, r, a) {
+function sn(e, t, n, r, a) {
 	let o = [], s = /* @__PURE__ */ new Map(), c = (t) => {
 		let n = s.get(t);
 		if (!n) {
@@ -3037,7 +3045,7 @@ function on(e, t, n, r, a) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n: t } of l) {
-		let [s, l] = e.parameter ? ["Parameters", e.label] : sn(e.label), f = i("label", c(s), { title: e.about ?? e.path });
+		let [s, l] = e.parameter ? ["Parameters", e.label] : cn(e.label), f = i("label", c(s), { title: e.about ?? e.path });
 		i("span", f, {}, l);
 		let p = i("input", f, {
 			type: "text",
@@ -3065,7 +3073,7 @@ function on(e, t, n, r, a) {
 		}), p.addEventListener("keydown", (e) => {
 			e.key === "Escape" && (g(""), p.value = u(h), p.blur());
 		}), e.parameter) {
-			let [r, o] = e.range ?? cn(e.value), s = i("input", f, {
+			let [r, o] = e.range ?? ln(e.value), s = i("input", f, {
 				type: "range",
 				min: r / e.size,
 				max: o / e.size,
@@ -3089,15 +3097,15 @@ function on(e, t, n, r, a) {
 		focus: (e) => o.find((t) => t.field.path === e)?.box.focus()
 	};
 }
-function sn(e) {
+function cn(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function cn(e) {
+function ln(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function ln(e, n, r) {
+function un(e, n, r) {
 	let a = i("tbody", i("table", e, { class: "answers" })), s = n.views.table.map((e) => {
 		let t = i("tr", a), r = n.units[e.kind];
 		return i("th", t, { scope: "row" }, d(e.name)), {
@@ -3113,7 +3121,7 @@ function ln(e, n, r) {
 		}
 	} };
 }
-function un(e, t, n, r) {
+function dn(e, t, n, r) {
 	let { terms: a, about: s } = r.equations, { force: c, moment: l } = t.units, u = a[0]?.f.length ?? 2, f = [
 		"x",
 		"y",
@@ -3153,15 +3161,15 @@ function un(e, t, n, r) {
 		}
 	} };
 }
-function dn(e, t) {
+function fn(e, t) {
 	i("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
 	let n = i("dl", e);
 	for (let [e, r] of Object.entries(t.assumptions)) i("dt", n, {}, e), i("dd", n, {}, r);
 	t.source && i("p", e, {}, `Source: ${t.source}`), i("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/charts.ts
-var fn = 16, pn = 5, mn = 8, hn = 4;
-function gn(e, t) {
+var pn = 16, mn = 5, hn = 8, gn = 4;
+function _n(e, t) {
 	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
 	return r * ([
 		1,
@@ -3170,7 +3178,7 @@ function gn(e, t) {
 		10
 	].find((e) => e * r >= n) ?? 10);
 }
-function _n(e, t) {
+function vn(e, t) {
 	return [
 		1,
 		2,
@@ -3183,16 +3191,16 @@ function _n(e, t) {
 		90,
 		180,
 		360
-	].find((n) => n >= e / t) ?? 360 * gn(e / 360, t);
+	].find((n) => n >= e / t) ?? 360 * _n(e / 360, t);
 }
-function vn(e, t, n) {
+function yn(e, t, n) {
 	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
 	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
 }
-function yn(t, s, c, d, f, p) {
+function bn(t, s, c, d, f, p) {
 	let h = i("figure", t, { class: "chart" }), g = s.units[d.kind];
 	i("figcaption", h, {}, `${d.title}, ${g.unit}`);
-	let _ = s.views.charts.flatMap((e) => e.curves.map((e) => m(e.name, 3))), v = Math.max(44, 13 + hn * d.curves.length), y = st(h, p, v, d.title), b = v - pn - mn, x = -v / 2 + pn, S = 0, C = 0, w = r("path", y, {
+	let _ = s.views.charts.flatMap((e) => e.curves.map((e) => m(e.name, 3))), v = Math.max(44, 13 + gn * d.curves.length), y = ct(h, p, v, d.title), b = v - mn - hn, x = -v / 2 + mn, S = 0, C = 0, w = r("path", y, {
 		class: "l-grid",
 		style: "fill:none"
 	}), T = r("path", y, {
@@ -3208,7 +3216,7 @@ function yn(t, s, c, d, f, p) {
 		let n = r("text", y, {
 			class: `l-${e.role}-t key`,
 			"font-size": 3,
-			y: x + 3 + hn * t,
+			y: x + 3 + gn * t,
 			tabindex: 0,
 			role: "button"
 		});
@@ -3217,7 +3225,7 @@ function yn(t, s, c, d, f, p) {
 		let n = c.value(e.row, t) / g.size;
 		return Math.abs(n) * g.size < j ? 0 : n;
 	}, P = NaN, F = NaN, I = 1, L = (e) => C + e / A * S, R = (e) => x + b - (e - P) / (F - P) * b;
-	function* B() {
+	function* z() {
 		let [e, t] = [Infinity, -Infinity];
 		for (let n of d.curves) {
 			for (let r = 0; r < c.count; r++) if (c.good[r]) {
@@ -3226,9 +3234,9 @@ function yn(t, s, c, d, f, p) {
 			}
 			yield;
 		}
-		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), I = gn(t - e, 4), [e, t] = [Math.floor(e / I + 1e-9) * I, Math.ceil(t / I - 1e-9) * I], e === P && t === F ? !1 : ([P, F] = [e, t], !0);
+		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), I = _n(t - e, 4), [e, t] = [Math.floor(e / I + 1e-9) * I, Math.ceil(t / I - 1e-9) * I], e === P && t === F ? !1 : ([P, F] = [e, t], !0);
 	}
-	function V() {
+	function B() {
 		let t = s.drives[0], n = (e, t, n, i) => r("text", E, {
 			class: "l-note-t",
 			"font-size": 2.6,
@@ -3238,10 +3246,10 @@ function yn(t, s, c, d, f, p) {
 		}).textContent = e;
 		E.replaceChildren();
 		let i = "";
-		for (let e of vn(P, F, I)) i += `M${C} ${a(R(e))}h${S}`, n(o(e, 5), C - 1.2, R(e) + .9, "end");
+		for (let e of yn(P, F, I)) i += `M${C} ${a(R(e))}h${S}`, n(o(e, 5), C - 1.2, R(e) + .9, "end");
 		if (t) {
 			let [e, r] = [0, A].map((e) => c.position(t.name, e) / t.size);
-			for (let s of vn(Math.min(e, r), Math.max(e, r), (t.unit === "°" ? _n : gn)(Math.abs(r - e), 6))) {
+			for (let s of yn(Math.min(e, r), Math.max(e, r), (t.unit === "°" ? vn : _n)(Math.abs(r - e), 6))) {
 				let c = C + (s - e) / (r - e || 1) * S;
 				i += `M${a(c)} ${x}v${b}`, n(o(s, 5) + (t.unit === "°" ? "°" : ""), c, x + b + 3.4, "middle");
 			}
@@ -3249,24 +3257,24 @@ function yn(t, s, c, d, f, p) {
 		}
 		e(w, "d", i), e(T, "d", `M${C} ${x}v${b}` + (P < 0 && F > 0 ? `M${C} ${a(R(0))}h${S}` : ""));
 	}
-	function H(e) {
-		p = e, [S, C] = [p - fn - Math.min(Math.max(..._) + 4, .3 * p), -p / 2 + fn], y.setAttribute("viewBox", `${-p / 2} ${-v / 2} ${p} ${v}`), M.forEach((e) => e.setAttribute("x", a(C + S + 2))), P = NaN;
+	function V(e) {
+		p = e, [S, C] = [p - pn - Math.min(Math.max(..._) + 4, .3 * p), -p / 2 + pn], y.setAttribute("viewBox", `${-p / 2} ${-v / 2} ${p} ${v}`), M.forEach((e) => e.setAttribute("x", a(C + S + 2))), P = NaN;
 	}
-	H(p);
-	let U = (e) => f.seek((l(y, e)[0] - C) / S * A);
+	V(p);
+	let H = (e) => f.seek((l(y, e)[0] - C) / S * A);
 	y.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (y.setPointerCapture(e.pointerId), U(e));
-	}), y.addEventListener("pointermove", (e) => e.buttons && y.hasPointerCapture(e.pointerId) && U(e));
-	function* ee() {
-		(yield* B()) && V();
-		for (let [t, n] of D.entries()) yield, e(n, "d", Ie(c, (e) => [L(e), R(N(d.curves[t], e))]));
+		e.target.closest(".key") || (y.setPointerCapture(e.pointerId), H(e));
+	}), y.addEventListener("pointermove", (e) => e.buttons && y.hasPointerCapture(e.pointerId) && H(e));
+	function* U() {
+		(yield* z()) && B();
+		for (let [t, n] of D.entries()) yield, e(n, "d", ke(c, (e) => [L(e), R(N(d.curves[t], e))]));
 	}
 	return {
 		figure: h,
-		resize: H,
-		parts: ee,
+		resize: V,
+		parts: U,
 		update(t) {
-			t && z(ee());
+			t && Ue(U());
 			let r = a(L(Math.min(f.time(), A)));
 			e(O, "d", `M${r} ${x}v${b}`), d.curves.forEach((e, t) => {
 				let i = c.solved ? {
@@ -3281,14 +3289,14 @@ function yn(t, s, c, d, f, p) {
 		}
 	};
 }
-var bn = (e, { f: t }) => e.largest((n) => Math.hypot(e.value(t[0], n), e.value(t[1], n)));
-function xn(e, t) {
+var xn = (e, { f: t }) => e.largest((n) => Math.hypot(e.value(t[0], n), e.value(t[1], n)));
+function Sn(e, t) {
 	let n = -1, r = 0;
-	return () => (n !== e.cycles && ([n, r] = [e.cycles, Math.max(...t.map((t) => bn(e, t)))]), r);
+	return () => (n !== e.cycles && ([n, r] = [e.cycles, Math.max(...t.map((t) => xn(e, t)))]), r);
 }
-var Sn = 1e-11;
-function Cn(a, s, c, l, u) {
-	let d = i("figure", a, { class: "polar" }), [f, p] = c.f, m = i("figcaption", d), h = st(d, 66, 66, `polar diagram of joint ${c.name}`);
+var Cn = 1e-11;
+function wn(a, s, c, l, u) {
+	let d = i("figure", a, { class: "polar" }), [f, p] = c.f, m = i("figcaption", d), h = ct(d, 66, 66, `polar diagram of joint ${c.name}`);
 	r("path", h, {
 		class: "l-grid",
 		style: "fill:none",
@@ -3301,23 +3309,23 @@ function Cn(a, s, c, l, u) {
 	function* x() {
 		let r = l();
 		yield;
-		let i = bn(s, c);
-		b = !(i > Sn * r), n(h, { display: b ? "none" : "inline" });
-		let a = Qe(i / u.size), d = `Joint ${c.name}: ${b ? "no force at any position" : `circles of ${o(a / 2)} and ${o(a)} ${u.unit}`}`;
-		t(m, d), b || (y = a / 30 * u.size, e(_, "d", Ie(s, (e) => [s.value(f, e) / y, -s.value(p, e) / y], !0)));
+		let i = xn(s, c);
+		b = !(i > Cn * r), n(h, { display: b ? "none" : "inline" });
+		let a = $e(i / u.size), d = `Joint ${c.name}: ${b ? "no force at any position" : `circles of ${o(a / 2)} and ${o(a)} ${u.unit}`}`;
+		t(m, d), b || (y = a / 30 * u.size, e(_, "d", ke(s, (e) => [s.value(f, e) / y, -s.value(p, e) / y], !0)));
 	}
 	return {
 		figure: d,
 		parts: x,
 		update(e) {
-			e && z(x()), v.set([0, 0], s.solved && !b ? [s.here[f] / y, -s.here[p] / y] : [0, 0]);
+			e && Ue(x()), v.set([0, 0], s.solved && !b ? [s.here[f] / y, -s.here[p] / y] : [0, 0]);
 		}
 	};
 }
-function wn(t, n, a, o, c) {
+function Tn(t, n, a, o, c) {
 	let l = i("figure", t, { class: "polygon" }), u = n.units.force;
 	i("figcaption", l, {}, o);
-	let d = st(l, 110, 80, o), f = r("g", d), p = /* @__PURE__ */ new Set(), m = c.map(({ sides: e }) => {
+	let d = ct(l, 110, 80, o), f = r("g", d), p = /* @__PURE__ */ new Set(), m = c.map(({ sides: e }) => {
 		let t = e.find((e) => e.kind === "joint" && p.has(e.of));
 		for (let t of e) t.kind === "joint" && p.add(t.of);
 		return {
@@ -3325,19 +3333,19 @@ function wn(t, n, a, o, c) {
 			drawn: e.filter((e) => e !== t).map((e) => ({
 				s: e,
 				arrow: new g(d, e.role, e.name),
-				name: xe(f, e.role, e.name, 3)
+				name: X(f, e.role, e.name, 3)
 			}))
 		};
 	}), h = r("path", d, {
 		class: "l-gap",
 		style: "fill:none"
-	}), _ = new ot(d, !0);
+	}), _ = new st(d, !0);
 	return {
 		figure: l,
 		update() {
 			if (e(d, "visibility", a.solved ? "visible" : "hidden"), !a.solved) return;
 			let t = a.here, n = /* @__PURE__ */ new Map(), r = [], i = [], o = m.flatMap(({ shared: e, drawn: a }) => {
-				let o = et(r)?.y[1] ?? 0, s = n.get(e?.of ?? "") ?? [0, o], c = (e) => [s[0] + t[e[0]], s[1] - t[e[1]]], l = s;
+				let o = tt(r)?.y[1] ?? 0, s = n.get(e?.of ?? "") ?? [0, o], c = (e) => [s[0] + t[e[0]], s[1] - t[e[1]]], l = s;
 				e && (s = c(e.f));
 				let u = a.map((e) => {
 					let t = s;
@@ -3348,10 +3356,10 @@ function wn(t, n, a, o, c) {
 					};
 				});
 				return i.push([l, s]), u;
-			}), c = et(r) ?? {
+			}), c = tt(r) ?? {
 				x: [0, 0],
 				y: [0, 0]
-			}, l = Qe(Math.max((c.x[1] - c.x[0]) / 66, (c.y[1] - c.y[0]) / 48) / u.size) * u.size, f = ([e, t]) => [(e - (c.x[0] + c.x[1]) / 2) / l, (t - (c.y[0] + c.y[1]) / 2) / l], p = new Ce([
+			}, l = $e(Math.max((c.x[1] - c.x[0]) / 66, (c.y[1] - c.y[0]) / 48) / u.size) * u.size, f = ([e, t]) => [(e - (c.x[0] + c.x[1]) / 2) / l, (t - (c.y[0] + c.y[1]) / 2) / l], p = new ge([
 				-55,
 				-40,
 				55,
@@ -3372,39 +3380,39 @@ function wn(t, n, a, o, c) {
 	};
 }
 // src/results.ts
-var Tn = 4.6, En = (e) => Math.min(Math.max(e / Tn, 72), 140), Dn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
-function On(e, t, n, r, a, o) {
+var En = 4.6, Dn = (e) => Math.min(Math.max(e / En, 72), 140), On = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
+function kn(e, t, n, r, a, o) {
 	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = [], p = /* @__PURE__ */ new Set(), m = new IntersectionObserver((e) => e.forEach((e) => e.isIntersecting ? p.add(e.target) : p.delete(e.target)));
 	function h(e) {
 		return f.push(e), m.observe(e.figure), e;
 	}
 	let g = n.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
-	for (let e of g ? s : []) u.push(h(yn(g, t, n, e, r, 120)));
+	for (let e of g ? s : []) u.push(h(bn(g, t, n, e, r, 120)));
 	let _ = n.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
 	if (g && _.length) {
 		i("h2", g, {}, "Polar diagrams");
-		let e = xn(n, [..._, ...t.views.mechanism.arrows.filter((e) => e.t === "force")]);
+		let e = Sn(n, [..._, ...t.views.mechanism.arrows.filter((e) => e.t === "force")]);
 		for (let r of _) d.push({
 			box: g,
-			view: h(Cn(g, n, r, e, t.units.force))
+			view: h(wn(g, n, r, e, t.units.force))
 		});
 	}
 	let v = e.add("Forces", "free bodies, their equations, and force polygons"), y = i("select", v, { "aria-label": "link" }), b = c.map((e, r) => {
 		i("option", y, { value: r }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let o = i("div", v, { class: "body" }), s = ut(o, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
+		let o = i("div", v, { class: "body" }), s = dt(o, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
 		return d.push({
 			box: o,
 			view: s,
 			link: r
 		}, {
 			box: o,
-			view: un(o, t, n, e),
+			view: dn(o, t, n, e),
 			link: r
 		}), s;
 	});
 	if (l.links.length) {
 		l.links.forEach((e, r) => {
-			let i = wn(v, t, n, `Force polygon of link ${e.title}`, [e]);
+			let i = Tn(v, t, n, `Force polygon of link ${e.title}`, [e]);
 			d.push({
 				box: i.figure,
 				view: i,
@@ -3414,13 +3422,13 @@ function On(e, t, n, r, a, o) {
 		let e = l.chain.map((e) => l.links[e]);
 		d.push({
 			box: v,
-			view: wn(v, t, n, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
+			view: Tn(v, t, n, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
 		});
 	}
 	let x = e.add("Numbers", "the numbers of this position");
 	d.push({
 		box: x,
-		view: ln(x, t, n)
+		view: un(x, t, n)
 	});
 	let S = () => void (a.body = c[+y.value]?.link ?? ""), C = (e) => {
 		let t = c.findIndex((t) => t.link === e);
@@ -3439,20 +3447,20 @@ function On(e, t, n, r, a, o) {
 		*parts() {
 			for (let e of f) p.has(e.figure) && (yield* e.parts());
 		},
-		resize: (e) => u.forEach((t) => t.resize(En(e))),
+		resize: (e) => u.forEach((t) => t.resize(Dn(e))),
 		update(e) {
-			for (let t of u) Dn(g) && t.update(e);
-			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +y.value), (r === void 0 || r === +y.value) && Dn(t) && n.update(e);
+			for (let t of u) On(g) && t.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +y.value), (r === void 0 || r === +y.value) && On(t) && n.update(e);
 		}
 	};
 }
 // src/sentences.ts
-function kn(e, t = 6) {
+function An(e, t = 6) {
 	if (!Number.isFinite(e)) return Number.isNaN(e) ? "nan" : e > 0 ? "inf" : "-inf";
 	let [n, r] = e.toExponential(t - 1).split("e"), i = +r, a = (e) => e.includes(".") ? e.replace(/\.?0+$/, "") : e;
 	return i < -4 || i >= t ? `${a(n)}e${i < 0 ? "-" : "+"}${String(Math.abs(i)).padStart(2, "0")}` : a(e.toFixed(Math.max(t - 1 - i, 0)));
 }
-var An = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, jn = class {
+var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, Mn = class {
 	data;
 	kernel;
 	s;
@@ -3467,10 +3475,10 @@ var An = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		for (let { sentence: e, rows: t, error: n } of this.s.gears) {
 			let [r, i, a] = t.map((e) => this.kernel.here[e]), o = i + a;
 			if (Math.abs(r - o) > n * o) return $(e, {
-				found: kn(r),
-				ri: kn(Math.abs(i)),
-				rj: kn(Math.abs(a)),
-				wanted: kn(o)
+				found: An(r),
+				ri: An(Math.abs(i)),
+				rj: An(Math.abs(a)),
+				wanted: An(o)
 			});
 		}
 		return "";
@@ -3524,11 +3532,11 @@ var An = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
 		return {
 			...i,
-			joints: e === "reversal" ? An(l) : l.join(", "),
+			joints: e === "reversal" ? jn(l) : l.join(", "),
 			verb: d,
-			values: An(u),
+			values: jn(u),
 			name: s[0] ?? "",
-			names: An(s)
+			names: jn(s)
 		};
 	}
 	figures(e, t) {
@@ -3549,7 +3557,7 @@ var An = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	}
 	quantity(e, t, n = 6) {
 		let { unit: r, size: i } = this.s.units[t];
-		return `${kn(e / i, n)} ${r}`;
+		return `${An(e / i, n)} ${r}`;
 	}
 	drive(e, t) {
 		return this.quantity(this.kernel.position(e.name, t), e.turns ? "angle" : "length");
@@ -3612,8 +3620,8 @@ var An = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		}
 		return r;
 	}
-}, Mn = 0;
-function Nn(e, t, n) {
+}, Nn = 0;
+function Pn(e, t, n) {
 	let r = i("div", e, {
 		class: "tabs",
 		role: "tablist",
@@ -3640,7 +3648,7 @@ function Nn(e, t, n) {
 		t < 0 || r === void 0 || (e.preventDefault(), e.stopPropagation(), c(o[r].name, !0));
 	}), {
 		add(e, n = e) {
-			let l = `dalembert-tab-${++Mn}`, u = i("button", r, {
+			let l = `dalembert-tab-${++Nn}`, u = i("button", r, {
 				type: "button",
 				role: "tab",
 				id: l,
@@ -3663,7 +3671,7 @@ function Nn(e, t, n) {
 	};
 }
 // src/toolbar.ts
-function Pn(e, n, r, a, o, s) {
+function Fn(e, n, r, a, o, s) {
 	let c = i("header", e);
 	i("h1", c, {}, n.title);
 	let l = i("div", c, {
@@ -3688,7 +3696,7 @@ function Pn(e, n, r, a, o, s) {
 		title: "speed of play; , and . step, with Shift by ten",
 		"aria-label": "speed of play"
 	});
-	for (let e of Ge) i("option", m, { value: e }, `${e}×`);
+	for (let e of Ke) i("option", m, { value: e }, `${e}×`);
 	m.value = String(o.speed), m.addEventListener("change", () => o.speed = +m.value);
 	let h = u("↶", "undo (Ctrl+Z)", () => s.go(!0)), g = u("↷", "redo (Ctrl+Y)", () => s.go(!1));
 	s.back && u("Back", "back to the sketch: undo the last addition", s.back), u("Reset", "all numbers as in the file", s.reset);
@@ -3707,15 +3715,15 @@ function Pn(e, n, r, a, o, s) {
 		playing: (e) => d.textContent = e ? "❚❚" : "▶",
 		update(e, i, o) {
 			let s = [o, a.at(e)].filter(Boolean).join(" ");
-			t(_, s), f.value = String(e), t(p, Et(n, r, e)), [h.disabled, g.disabled] = i.map((e) => !e);
+			t(_, s), f.value = String(e), t(p, Dt(n, r, e)), [h.disabled, g.disabled] = i.map((e) => !e);
 		}
 	};
 }
 // src/tracers.ts
-function Fn(t, i, o, s) {
+function In(t, i, o, s) {
 	let c = r("g", null, { class: "tracers" });
 	t.svg.querySelector("g").before(c);
-	let l = [], u = () => s.tracers.filter((e) => i.links.includes(e.link)), d = (e) => Ie(o, (n) => i.on(t.paper, i.links.indexOf(e.link), e.u, n), !0);
+	let l = [], u = () => s.tracers.filter((e) => i.links.includes(e.link)), d = (e) => ke(o, (n) => i.on(t.paper, i.links.indexOf(e.link), e.u, n), !0);
 	function* f() {
 		for (let [t, n] of u().entries()) l[t] && e(l[t].line, "d", d(n)), yield;
 	}
@@ -3748,61 +3756,61 @@ function Fn(t, i, o, s) {
 	};
 }
 // src/solved.ts
-var In = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Ln = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", Rn = 6, zn = 10, Bn = 1, Vn = 8, Hn = 4;
-async function Un(e, n, r, a) {
-	let s = await an.create(n), c = [], l = new Jt(n, s);
-	a.changes && l.change(a.changes), a.address && jt(s, l, r, location.hash);
+var Ln = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Rn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", zn = 6, Bn = 10, Vn = 1, Hn = 8, Un = 4;
+async function Wn(e, n, r, a) {
+	let s = await on.create(n), c = [], l = new Yt(n, s);
+	a.changes && l.change(a.changes), a.address && Mt(s, l, r, location.hash);
 	let u = a.pose && s.motion.take(a.pose);
-	u != null && (r.t = u), r.t = Math.min(Math.max(Number.isFinite(r.t) ? r.t : n.start, 0), s.end);
-	let f = 0, p = !0, m = 0, h = !1, g = null;
+	u != null && (r.t = u), r.t = Math.min(Math.max(Number.isFinite(r.t) && !a.anew ? r.t : n.start, 0), s.end);
+	let f = 0, p = !0, m = 0, h = !1, g = !1, _ = null;
 	s.cycle();
-	let _ = new Ot(s, l), b = n.views.charts.flatMap((e) => e.curves.map((t) => ({
+	let b = new kt(s, l), x = n.views.charts.flatMap((e) => e.curves.map((t) => ({
 		curve: t,
 		unit: n.units[e.kind]
-	}))), x = b.find((e) => e.curve.of === r.curve) ?? b.find((e) => n.gradient?.curves.includes(e.curve.row)) ?? b[0], S = new jn(n, s), C = Pn(e, n, s, S, r, {
-		play: de,
-		show: J,
-		go: oe,
-		reset: K,
+	}))), S = x.find((e) => e.curve.of === r.curve) ?? x.find((e) => n.gradient?.curves.includes(e.curve.row)) ?? x[0], C = new Mn(n, s), w = Fn(e, n, s, C, r, {
+		play: J,
+		show: q,
+		go: ue,
+		reset: G,
 		back: a.back
-	}), w = i("main", e), T = i("section", w, {
+	}), T = i("main", e), E = i("section", T, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), E = new y(n.sketch.links, n.sketch.poses, s), D = bt(T, s, n.views.mechanism, n.units, r, {
+	}), D = new y(n.sketch.links, n.sketch.poses, s), O = xt(E, s, n.views.mechanism, n.units, r, {
 		full: a.full,
 		rates: n.views.rates,
 		on: a.on,
 		entries: te,
 		chosen: ne,
-		again: X,
-		held: (e) => s.count > 1 && ce(n, `${e.kind}:${e.name}`) >= 0
-	}), { m: O, paper: k } = D, A = i("output", k, {
+		again: Y,
+		held: (e) => s.count > 1 && ae(n, `${e.kind}:${e.name}`) >= 0
+	}), { m: k, paper: A } = O, j = i("output", A, {
 		class: "digits",
 		"aria-label": "value of the chosen curve"
-	}), j = new Tt(O, n, s), M = Fn(O, E, s, r), N = new Dt(k, O, n, s, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), P = Yt(O, n, s, {
-		changed: G,
-		finished: ae
+	}), M = new Et(k, n, s), N = In(k, D, s, r), P = new Ot(A, k, n, s, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), F = Xt(k, n, s, {
+		changed: ce,
+		finished: le
 	});
-	ue(O, n, s, E, {
-		seek: J,
+	se(k, n, s, D, {
+		seek: q,
 		time: () => r.t
 	});
-	let F = v(O, n, s), I = i("section", w, {
+	let I = v(k, n, s), L = i("section", T, {
 		class: "side",
 		"aria-label": "results"
-	}), L = Nn(I, r, () => X(!0)), R = (e) => (x = b.find((t) => t.curve === e), r.curve = e.of, X(!0)), z = On(L, n, s, {
+	}), R = Pn(L, r, () => Y(!0)), z = (e) => (S = x.find((t) => t.curve === e), r.curve = e.of, Y(!0)), B = kn(R, n, s, {
 		time: () => r.t,
-		seek: J,
-		pick: R,
-		picked: () => x?.curve
-	}, r, () => X(!0)), B = H(), V = on(L.add("Change", "every number of the file"), n, s, l, (e) => e ? ae() : G());
-	re(), dn(L.add("About", "method and assumptions"), n);
-	function H() {
-		let e = i("div", T, { class: "switches" }), { arrows: t, labels: a } = n.views.mechanism;
-		wt(e, D.view, r, s.count > 1, () => X(!0));
+		seek: q,
+		pick: z,
+		picked: () => S?.curve
+	}, r, () => Y(!0)), V = U(), H = sn(R.add("Change", "every number of the file"), n, s, l, (e) => e ? le() : ce());
+	re(), fn(R.add("About", "method and assumptions"), n);
+	function U() {
+		let e = i("div", E, { class: "switches" }), { arrows: t, labels: a } = n.views.mechanism;
+		Tt(e, O.view, r, s.count > 1, () => Y(!0));
 		let o = (e) => t.some((t) => e.includes(t.kind)), c = n.views.rates.length > 0, l = [
 			["values", !0],
-			["digits", b.length > 0],
+			["digits", x.length > 0],
 			["loads", o([
 				"load",
 				"effort",
@@ -3817,192 +3825,192 @@ async function Un(e, n, r, a) {
 			["names", !0],
 			["traces", n.views.mechanism.items.some((e) => e.t === "trace")]
 		];
-		return n.gradient && St(e, {
+		return n.gradient && Ct(e, {
 			said: "what lowers the peak",
 			title: "arrows: moving a joint in this direction lowers the peak of the chosen curve",
 			on: !1,
-			act: (e) => (j.on = e, X(!0))
-		}), Ct(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Vn, () => (W(), X(!0))), n.handles.some((e) => e.kind === "joint") && St(e, {
+			act: (e) => (M.on = e, Y(!0))
+		}), wt(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Hn, () => (ie(), Y(!0))), n.handles.some((e) => e.kind === "joint") && Ct(e, {
 			said: "tolerances",
 			title: "a thousand machines with points displaced by up to 0.5 % of the drawing's width",
 			on: !1,
-			act: (e) => (N.on = e, X(!0))
-		}), O.paper.axes.length > 2 && i("span", e, {}, "drag to rotate the view"), i("span", e, { class: "spread" });
+			act: (e) => (P.on = e, Y(!0))
+		}), k.paper.axes.length > 2 && i("span", e, {}, "drag to rotate the view"), i("span", e, { class: "spread" });
 	}
-	function U({ kind: e, name: t }) {
-		return n.sketch.links[ce(n, `${e}:${t}`)] ?? n.views.mechanism.arrows.find((n) => n.of === t && n.kind === e)?.link;
+	function W({ kind: e, name: t }) {
+		return n.sketch.links[ae(n, `${e}:${t}`)] ?? n.views.mechanism.arrows.find((n) => n.of === t && n.kind === e)?.link;
 	}
 	function ee({ kind: e, name: t }) {
 		let r = n.handles.find((n) => n.kind === e && (n.name === t || n.name.startsWith(`${t}:`)));
-		return r ? O.paper.point(r.p) : null;
+		return r ? k.paper.point(r.p) : null;
 	}
 	function te(e, t) {
 		let i = [], a = /* @__PURE__ */ new Set();
-		for (let o of e.slice(0, Hn)) {
-			let { kind: e, name: c } = o, l = ce(n, `${e}:${c}`), u = l < 0 ? void 0 : n.sketch.links[l], f = e === "joint" || e === "reaction" ? b.find((e) => e.curve.of === `reaction.${c}.magnitude`) : b.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
+		for (let o of e.slice(0, Un)) {
+			let { kind: e, name: c } = o, l = ae(n, `${e}:${c}`), u = l < 0 ? void 0 : n.sketch.links[l], f = e === "joint" || e === "reaction" ? x.find((e) => e.curve.of === `reaction.${c}.magnitude`) : x.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
 			f && i.push({
 				said: `Curve of ${d(f.curve.name)}`,
-				act: () => (R(f.curve), L.show("Curves"))
+				act: () => (z(f.curve), R.show("Curves"))
 			});
 			let p = n.numbers.find((t) => t.path.split(".")[1] === c && t.path.startsWith(e === "center" ? "link" : e));
 			p && i.push({
 				said: `Numbers of ${c}`,
-				act: () => (L.show("Change"), V.focus(p.path))
+				act: () => (R.show("Change"), H.focus(p.path))
 			}), e === "tracer" && i.push({
 				said: "Remove this path",
-				act: () => (r.tracers.splice(+c, 1), W(), X(!0))
+				act: () => (r.tracers.splice(+c, 1), ie(), Y(!0))
 			}), u && !a.has(u) && (a.add(u), i.push({
 				said: `Free body of ${u}`,
-				act: () => (z.choose(u), L.show("Forces"))
+				act: () => (B.choose(u), R.show("Forces"))
 			}), s.count > 1 && i.push({
 				said: `Path of this point of ${u}`,
 				act: () => {
 					r.tracers.push({
 						link: u,
-						u: E.local(O.paper, l, ee(o) ?? O.paper.of(...t))
-					}), W(), X(!0);
+						u: D.local(k.paper, l, ee(o) ?? k.paper.of(...t))
+					}), ie(), Y(!0);
 				}
 			}));
 		}
 		return r.window && i.push({
 			said: "Fit the whole mechanism",
-			act: D.view.fit
+			act: O.view.fit
 		}), i.filter((e, t) => i.findIndex((t) => t.said === e.said) === t);
 	}
 	function ne(e) {
-		e && e.kind !== "joint" && z.choose(U(e)), X(!0);
+		e && e.kind !== "joint" && B.choose(W(e)), Y(!0);
 	}
 	function re() {
-		let e = L.add("Save", "files to save, print, share"), t = Lt(n.title), o = (t, n) => i("button", e, { type: "button" }, t).addEventListener("click", n);
-		n.template.length && o("Model file", () => Z(`${t}.yaml`, Mt(n, s), "text/yaml")), o("Curves as CSV", () => Z(`${t}.csv`, Nt(n, s), "text/csv")), o("Drawing as SVG", () => Z(`${t}.svg`, Pt(O.svg, n.style.light), "image/svg+xml")), o("Drawing as PNG", () => void It(O.svg, n.style.light).then((e) => Z(`${t}.png`, e, "image/png"))), o("Print", () => window.print()), a.address && o("Copy link", () => {
-			location.hash = At(n, s, r), navigator.clipboard?.writeText(location.href);
+		let e = R.add("Save", "files to save, print, share"), t = Rt(n.title), o = (t, n) => i("button", e, { type: "button" }, t).addEventListener("click", n);
+		n.template.length && o("Model file", () => Z(`${t}.yaml`, Nt(n, s), "text/yaml")), o("Curves as CSV", () => Z(`${t}.csv`, Pt(n, s), "text/csv")), o("Drawing as SVG", () => Z(`${t}.svg`, Ft(k.svg, n.style.light), "image/svg+xml")), o("Drawing as PNG", () => void Lt(k.svg, n.style.light).then((e) => Z(`${t}.png`, e, "image/png"))), o("Print", () => window.print()), a.address && o("Copy link", () => {
+			location.hash = jt(n, s, r), navigator.clipboard?.writeText(location.href);
 		});
 	}
-	function W() {
-		a.address && window.history.replaceState(null, "", "#" + At(n, s, r)), a.on?.({
+	function ie() {
+		a.address && window.history.replaceState(null, "", "#" + jt(n, s, r)), a.on?.({
 			type: "view",
 			view: r
 		});
 	}
-	function ie() {
-		X(!0), V.update();
-		let e = kt(n, s);
+	function oe() {
+		Y(!0), H.update();
+		let e = At(n, s);
 		a.edited?.(e), a.on?.({
 			type: "change",
 			changes: e
-		}), W();
+		}), ie();
 	}
-	function G() {
-		s.coarse = !0, l.pass(), X(!0);
+	function ce() {
+		s.coarse = !0, l.pass(), Y(!0);
 	}
-	function ae() {
+	function le() {
 		s.coarse = !1;
 		let { sentence: e } = l;
-		l.pass() && (l.sentence = e), _.note(), q(!0), ie();
+		l.pass() && (l.sentence = e), b.note(), K(!0), oe();
 	}
-	function K() {
-		l.change({}), ae(), q();
+	function G() {
+		l.change({}), le(), K();
 	}
-	function oe(e) {
-		_.go(e) && (q(!0), ie());
+	function ue(e) {
+		b.go(e) && (K(!0), oe());
 	}
-	function q(e = !1) {
-		s.cycle(), O.fit(void 0, e), z.fit();
-	}
-	function se() {
-		D.resize();
-		let e = I.querySelector(".panels").clientWidth;
-		e > 0 && z.resize(e - 12), O.fit(), X(!0);
-	}
-	function J(e) {
-		r.t = Math.min(Math.max(e, 0), s.end), n.only_at_positions && (r.t = Math.round(r.t)), X(!1);
-	}
-	function le(e) {
-		let t = e > 0 ? Math.floor(r.t + 1e-9) + e : Math.ceil(r.t - 1e-9) + e;
-		J(s.cyclic ? (t % s.count + s.count) % s.count : t);
+	function K(e = !1) {
+		s.cycle(), k.fit(void 0, e), B.fit();
 	}
 	function de() {
-		if (C.playing(!m), m) return Y();
+		O.resize();
+		let e = L.querySelector(".panels").clientWidth;
+		e > 0 && B.resize(e - 12), k.fit(), Y(!0);
+	}
+	function q(e) {
+		r.t = Math.min(Math.max(e, 0), s.end), n.only_at_positions && (r.t = Math.round(r.t)), Y(!1);
+	}
+	function fe(e) {
+		let t = e > 0 ? Math.floor(r.t + 1e-9) + e : Math.ceil(r.t - 1e-9) + e;
+		q(s.cyclic ? (t % s.count + s.count) % s.count : t);
+	}
+	function J() {
+		if (w.playing(!m), m) return pe();
 		let e = performance.now(), t = r.t, n = (i) => {
-			t += (i - e) / 1e3 / Rn * r.speed * s.end, e = i, t >= s.end && (t = 0), J(t), m = requestAnimationFrame(n);
+			t += (i - e) / 1e3 / zn * r.speed * s.end, e = i, t >= s.end && (t = 0), q(t), m = requestAnimationFrame(n);
 		};
 		m = requestAnimationFrame(n);
 	}
-	function Y() {
+	function pe() {
 		cancelAnimationFrame(m), m = 0;
 	}
-	function X(e) {
-		p ||= e, f ||= requestAnimationFrame(() => {
+	function Y(e) {
+		p ||= e, g || (f ||= requestAnimationFrame(() => {
 			f = 0;
 			let e = performance.now();
-			fe(), c.push(performance.now() - e), c.length > 2e3 && c.shift();
-		});
-	}
-	function fe() {
-		let n = s.coarse && !j.on, i = p && !n;
-		h = p && n || h && !i, i && (g = null, s.cycle()), p = !1, s.at(r.t);
-		let a = S.refusal();
-		a !== s.refused && (s.refused = a, s.cycle()), e.classList.toggle("unsolved", !s.solved), e.classList.toggle("turning", r.drag === "turn"), O.update(i), M.update(i), P(), F(), j.update(x?.curve);
-		let c = N.update(x?.curve.row), u = j.on && x && j.peak(x.curve), f = u && x ? `arrows lower the peak of ${d(x.curve.name)}, now ${o(u.size / x.unit.size)} ${x.unit.unit}${u.where}` : "";
-		t(B, [f, c && x ? `${d(x.curve.name)}: ${o(c.mean / x.unit.size)} ± ${o(c.sigma / x.unit.size, 2)} ${x.unit.unit} (1 σ)` : ""].filter(Boolean).join("; ")), A.hidden = !x || !O.on("digits"), x && !A.hidden && t(A, `${d(x.curve.name)} ${s.solved ? o(s.here[x.curve.row] / x.unit.size) : "–"} ${x.unit.unit}`), z.update(i), C.update(r.t, _.can, l.sentence), n && me();
-	}
-	function* pe() {
-		yield* s.parts(), yield* O.parts(), yield* M.parts(), yield* z.parts();
+			me(), c.push(performance.now() - e), c.length > 2e3 && c.shift();
+		}));
 	}
 	function me() {
-		let e = performance.now() + Bn;
-		do {
-			if (!g && !h) return;
-			g || ([g, h] = [pe(), !1]), g.next().done && (g = null);
-		} while (performance.now() < e);
-		X(!1);
+		let n = s.coarse && !M.on, i = p && !n;
+		h = p && n || h && !i, i && (_ = null, s.cycle()), p = !1, s.at(r.t);
+		let a = C.refusal();
+		a !== s.refused && (s.refused = a, s.cycle()), e.classList.toggle("unsolved", !s.solved), e.classList.toggle("turning", r.drag === "turn"), k.update(i), N.update(i), F(), I(), M.update(S?.curve);
+		let c = P.update(S?.curve.row), u = M.on && S && M.peak(S.curve), f = u && S ? `arrows lower the peak of ${d(S.curve.name)}, now ${o(u.size / S.unit.size)} ${S.unit.unit}${u.where}` : "";
+		t(V, [f, c && S ? `${d(S.curve.name)}: ${o(c.mean / S.unit.size)} ± ${o(c.sigma / S.unit.size, 2)} ${S.unit.unit} (1 σ)` : ""].filter(Boolean).join("; ")), j.hidden = !S || !k.on("digits"), S && !j.hidden && t(j, `${d(S.curve.name)} ${s.solved ? o(s.here[S.curve.row] / S.unit.size) : "–"} ${S.unit.unit}`), B.update(i), w.update(r.t, b.can, l.sentence), n && he();
 	}
-	e.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => X(!0)));
-	let he = a.full ? document : e, ge = (e) => _e(e);
-	he.addEventListener("keydown", ge);
-	function _e(e) {
+	function* X() {
+		yield* s.parts(), yield* k.parts(), yield* N.parts(), yield* B.parts();
+	}
+	function he() {
+		let e = performance.now() + Vn;
+		do {
+			if (!_ && !h) return;
+			_ || ([_, h] = [X(), !1]), _.next().done && (_ = null);
+		} while (performance.now() < e);
+		Y(!1);
+	}
+	e.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => Y(!0)));
+	let ge = a.full ? document : e, _e = (e) => ve(e);
+	ge.addEventListener("keydown", _e);
+	function ve(e) {
 		let t = e.target;
-		if (!(e.defaultPrevented || t.closest?.(In))) {
-			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), oe(e.key.toLowerCase() === "z" && !e.shiftKey);
+		if (!(e.defaultPrevented || t.closest?.(Ln))) {
+			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), ue(e.key.toLowerCase() === "z" && !e.shiftKey);
 			else if (e.ctrlKey || e.metaKey || e.altKey || s.count < 2) return;
-			else e.key === " " && !t.closest?.(Ln) ? (e.preventDefault(), de()) : ".,><:;".includes(e.key) && le((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : zn));
+			else e.key === " " && !t.closest?.(Rn) ? (e.preventDefault(), J()) : ".,><:;".includes(e.key) && fe((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Bn));
 		}
 	}
-	return s.at(r.t), q(), {
+	return s.at(r.t), K(), {
 		kernel: s,
 		data: n,
 		times: c,
-		show: J,
-		stage: D,
+		show: q,
+		stage: O,
 		opened() {
-			se(), fe(), V.update(), D.choose(r.chosen);
+			de(), me(), H.update(), O.choose(r.chosen);
 		},
 		set(e) {
-			l.change(e), _.note(), q(!0), X(!0), V.update();
+			l.change(e), b.note(), K(!0), Y(!0), H.update();
 		},
-		text: () => Mt(n, s),
+		text: () => Nt(n, s),
 		pose: () => s.motion.placed(),
-		redraw: () => X(!0),
-		observed: [k, I],
-		resize: se,
+		redraw: () => Y(!0),
+		observed: [A, L],
+		resize: de,
 		remove() {
-			Y(), he.removeEventListener("keydown", ge);
+			pe(), g = !0, cancelAnimationFrame(f), ge.removeEventListener("keydown", _e);
 		}
 	};
 }
 // src/page.ts
-async function Wn(e, t, n = {}) {
-	let r = n.view ?? Ke(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, n);
+async function Gn(e, t, n = {}) {
+	let r = n.view ?? qe(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, n);
 	async function c(t, s) {
 		let c = document.createElement("div");
 		c.className = n.full ? "dalembert full" : "dalembert", c.tabIndex = -1;
 		let f = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
 		i("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{-webkit-user-select:none;user-select:none;flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert main.one{flex-direction:column;display:flex}.dalembert main.one .stage{flex:1}.dalembert.full main.one .paper{aspect-ratio:auto;min-height:20em;max-height:none}.dalembert .missing{flex-wrap:wrap;gap:.3em;padding:.1em 0 .4em;display:flex}.dalembert .missing p{color:var(--warn);flex-basis:100%;margin:0;font-size:.92em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);max-height:calc(100vh - 8px);padding:.25em;display:flex;position:fixed;overflow-y:auto;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + t.style.light + f;
-		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Ht(c, t, r, {
+		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Ut(c, t, r, {
 			...s,
 			taken: l,
 			back: p
-		}) : t.format === "dalembert-page/1" ? await Un(c, t, r, {
+		}) : t.format === "dalembert-page/1" ? await Wn(c, t, r, {
 			...s,
 			back: p
 		}) : null;
@@ -4029,17 +4037,18 @@ async function Wn(e, t, n = {}) {
 		].find((e) => t.hasAttribute(e));
 		return n ? `${t.tagName.toLowerCase()}[${n}="${CSS.escape(t.getAttribute(n))}"]` : "";
 	}
-	async function f(e, t) {
-		o.length = 0, await p(e, t);
+	async function f(e, t, n = !1) {
+		o.length = 0, await p(e, t, n);
 	}
-	async function p(e, t = s.pose()) {
-		let r = s;
+	async function p(e, t = s.pose(), r = !1) {
+		let i = s;
 		s = await c(e, {
 			...n,
 			changes: void 0,
 			address: !1,
-			pose: t ?? void 0
-		}), r.remove(), n.on?.({ type: "put" });
+			pose: t ?? void 0,
+			anew: r
+		}), i.remove(), n.on?.({ type: "put" });
 	}
 	return {
 		get kernel() {
@@ -4077,9 +4086,9 @@ async function Wn(e, t, n = {}) {
 	};
 }
 // src/main.ts
-async function Gn(e, t) {
+async function Kn(e, t) {
 	try {
-		return await Wn(e, JSON.parse(new TextDecoder().decode(await ie(t))), {
+		return await Gn(e, JSON.parse(new TextDecoder().decode(await H(t))), {
 			address: location.protocol !== "about:",
 			full: !0
 		});
@@ -4087,13 +4096,13 @@ async function Gn(e, t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var Kn = { async render({ model: e, el: t }) {
-	let n = "", r = Ke(), a = (t) => {
+var qn = { async render({ model: e, el: t }) {
+	let n = "", r = qe(), a = (t) => {
 		n = JSON.stringify(t), e.set("changes", t), e.save_changes();
 	}, o = (t) => {
 		(t.type === "put" || t.type === "pose" || t.type === "change" && e.get("text")) && (e.set("text", c.text()), e.save_changes());
 	}, s = async () => {
-		let n = await Wn(t, e.get("data"), {
+		let n = await Gn(t, e.get("data"), {
 			edited: a,
 			on: o,
 			changes: e.get("changes"),
@@ -4107,4 +4116,4 @@ var Kn = { async render({ model: e, el: t }) {
 		e.off("change:data", l), e.off("change:changes", u), c.remove();
 	};
 } };
-export { Kn as default, Wn as mount, Gn as open };
+export { qn as default, Gn as mount, Kn as open };

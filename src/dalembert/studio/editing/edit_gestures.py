@@ -24,6 +24,9 @@ from dalembert.units import quantity
 
 HOLDING = ("pin", "weld", "slot", "slider")
 """Joints whose points move together."""
+STILL = 1e-7
+"""Turn, and way over the width of the drawing, below which a link has not moved."""
+NUMBER_WITH_UNIT = re.compile(r"\s*[-+\d.eE]+\s*([^\W\d_]+|°)\s*")
 
 
 class Move(Gesture):
@@ -49,22 +52,39 @@ class Move(Gesture):
 
 
 class PoseLinks(Gesture):
-    """The pose that the mouse left: angles of links in ``assembly``, and the positions of drives of one number."""
+    """The pose that the mouse left: angles of links in ``assembly``, and the positions of drives of one number. Links
+    that did not move change nothing."""
 
     op: Literal["pose"]
     links: Annotated[dict[Text, tuple[Coordinate, Coordinate, Coordinate]], Field(max_length=200)]
     drives: Annotated[dict[Text, Coordinate], Field(default_factory=dict, max_length=50)]
 
     def apply(self, d: Draft) -> None:
+        if not any(self._moved(d, link) for link in self.links):
+            return
         for link, (x, y, angle) in self.links.items():
             if link in d.entries("links") and link != GROUND:
                 d.assemble(link, x, y, angle, not isinstance(d.entries("assembly").get(link), list))
         for drive, position in self.drives.items():
-            if is_number((d.entries("drives").get(drive) or {}).get("position")):
-                slides = joint_type(d, drive) == "slider"
-                kind = "length" if slides else "angle"
-                text = d.number(position, kind, 6) if slides else d.angle_text(position)
+            written = (d.entries("drives").get(drive) or {}).get("position")
+            slides = joint_type(d, drive) == "slider"
+            kind = "length" if slides else "angle"
+            text: object = d.number(position, kind, 6) if slides else d.angle_text(position)
+            if isinstance(written, str) and (unit := NUMBER_WITH_UNIT.fullmatch(written)):
+                d.splice({("drives", drive, "position"): d.with_unit(position, kind, unit[1])})
+            elif is_number(written):
                 d.splice({("drives", drive, "position"): text})
+
+    def _moved(self, d: Draft, link: str) -> bool:
+        """True if a link is elsewhere than it was drawn."""
+        x, y, angle = self.links[link]
+        if link not in d.placed:
+            return True
+        u, v, before = d.placed[link]
+        return (
+            math.hypot(x - u, y - v) > STILL * d.width
+            or abs(math.remainder(angle - before, math.tau)) > STILL
+        )
 
 
 class SetValue(Gesture):
