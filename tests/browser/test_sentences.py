@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dalembert as da
 from dalembert.errors import ModelError
 from dalembert.pages.sweep import with_cycle
+from dalembert.studio.problems import problem_text
 from tests.browser.opened import FILES
 
 pytestmark = pytest.mark.long
@@ -89,3 +91,16 @@ def test_a_reversal_has_its_numbers_on_both_sides(opened: Any) -> None:
         assert over == pytest.approx(both, rel=1e-12)
     lines = page.run("document.querySelector('.chart path[class^=\"l-effort\"]').getAttribute('d')")
     assert lines.count("L") + lines.count("M") == sum(page.run("[...page.kernel.good]")) + len(places)
+
+
+def test_a_contact_without_a_force_is_not_lost(opened: Any) -> None:
+    """While the follower of a cam dwells and nothing loads it, its force is rounding of zero, of either sense."""
+    text = problem_text("template", "disc_cam").replace("direction: 90", "direction: 113.2097")
+    m = da.loads(text[: text.index("loads:")] + "assembly: {cam: 0, follower: 113.2097}")
+    page = opened(html=da.page(m))
+    r = da.dynamics(with_cycle(m))
+    force = np.abs(r.reaction("F")).max(axis=1)
+    still = np.flatnonzero(force < 1e-12 * np.nanmax(force))
+    assert len(still) > 5
+    assert [said for k in still if (said := said_at(page, k))] == []
+    assert page.run("[...page.kernel.good]") == [int(status == "ok") for status in r.status]

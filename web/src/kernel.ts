@@ -72,6 +72,8 @@ export class Kernel implements Source {
   private readonly channels: Map<string, { values: Float64Array; pieces?: Pieces; drive: string }>;
   private followed: { name: string; channel: number }[];
   private readonly known: Map<string, number>;
+  /** Rows of the forces of joints. */
+  private readonly forces: number[];
 
   private constructor(private readonly data: Data, private readonly whole: Program, private readonly one: Program, closure: Program, shown: Program, private readonly slope?: Program) {
     this.count = data.kernel.count;
@@ -90,6 +92,7 @@ export class Kernel implements Source {
       values: series(c.values), pieces: c.table && new Pieces(c.table), drive: c.table ? c.table.drive : c.name.replace(/^position /, ""),
     }]));
     const given = new Set([...data.sketch.branches, ...data.sketch.known]);
+    this.forces = data.views.mechanism.arrows.flatMap((a) => (a.kind === "joint" && a.t === "force" ? a.f : []));
     this.followed = data.kernel.channels.flatMap((name, channel) => (given.has(name) || name.startsWith("phase ") ? [{ name, channel }] : []));
     this.known = new Map(data.sketch.known.map((name, k) => [name, data.sketch.branches.length + k]));
     data.kernel.channels.forEach((name, k) => {
@@ -203,6 +206,8 @@ export class Kernel implements Source {
 
   /** A status code, or that of an overflow, where some row is not finite because of extreme numbers. */
   private judged(mark: number, value: (row: number) => number): number {
+    const still = this.data.statuses[mark]?.status === "contact_lost" && this.forces.every((r) => Math.abs(value(r)) <= this.data.noise.force);
+    if (still) return 0; // a force of zero has no sense
     if (mark === OPEN || (!this.numbered(mark) && this.data.statuses[mark].status !== "undecided")) return mark;
     const absurd = this.numbered(mark) || this.values.some((x) => Math.abs(x) > ABSURD);
     for (let r = 0; absurd && r < this.here.length - 1; r++) if (!Number.isFinite(value(r))) return this.marked("overflow");

@@ -2854,6 +2854,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 	channels;
 	followed;
 	known;
+	forces;
 	constructor(e, t, n, r, i, a) {
 		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, V(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
 			values: V(e.values),
@@ -2861,7 +2862,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}]));
 		let o = /* @__PURE__ */ new Set([...e.sketch.branches, ...e.sketch.known]);
-		this.followed = e.kernel.channels.flatMap((e, t) => o.has(e) || e.startsWith("phase ") ? [{
+		this.forces = e.views.mechanism.arrows.flatMap((e) => e.kind === "joint" && e.t === "force" ? e.f : []), this.followed = e.kernel.channels.flatMap((e, t) => o.has(e) || e.startsWith("phase ") ? [{
 			name: e,
 			channel: t
 		}] : []), this.known = new Map(e.sketch.known.map((t, n) => [t, e.sketch.branches.length + n])), e.kernel.channels.forEach((e, n) => {
@@ -2934,6 +2935,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 		return e === t ? this.numbered(e) && !this.here.every((e, t) => t === this.here.length - 1 || n(t)) && e === 0 ? this.marked("reversal") : e : this.numbered(e) ? t : e;
 	}
 	judged(e, t) {
+		if (this.data.statuses[e]?.status === "contact_lost" && this.forces.every((e) => Math.abs(t(e)) <= this.data.noise.force)) return 0;
 		if (e === tn || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
 		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > rn);
 		for (let e = 0; n && e < this.here.length - 1; e++) if (!Number.isFinite(t(e))) return this.marked("overflow");
