@@ -9,6 +9,7 @@ import pytest
 
 import dalembert as da
 from dalembert.errors import ModelError
+from dalembert.model.library import template_text
 from tests.browser.opened import FILES
 from tests.browser.test_page import FOUR_BAR, tab
 from tests.pages.test_page_data import PARAMETRIC
@@ -142,6 +143,23 @@ def test_what_follows_from_a_parameter_is_bounded_too(opened: Any) -> None:
     assert page.value("m1") == 1.5
     page.run("page.set({m1: 1})")
     assert (page.value("m1"), "is negative" in page.page.locator(".mark").inner_text()) == (2.0, True)
+
+
+@pytest.mark.parametrize(("template", "name"), [("plate_clutch", "faces"), ("ratchet", "teeth")])
+def test_what_is_counted_stays_an_integer(opened: Any, template: str, name: str) -> None:
+    m = da.loads(template_text(template))
+    page = opened(html=da.page(m))
+    tab(page, "Change")
+    box = page.page.locator(f'input[data-path="{name}"]')
+    before = page.value(name)
+    with pytest.raises(ModelError) as refused:
+        m.with_values({name: before + 0.5})
+    for text, value, said in ((f"{before + 0.5}", before, str(refused.value)), ("4", 4.0, "")):
+        box.fill(text)
+        box.press("Enter")
+        page.frame()
+        assert page.value(name) == value
+        assert page.page.locator(f"label:has([data-path={name}]) .wrong").inner_text() == said
 
 
 def test_an_address_or_python_cannot_bring_what_the_gate_refuses(opened: Any) -> None:

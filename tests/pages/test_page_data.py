@@ -235,6 +235,18 @@ def test_parameters_come_first_and_set_what_follows_from_them() -> None:
     assert da.loads(saved_text(data)).parameters["l"].value == pytest.approx(0.15)
 
 
+def test_a_page_knows_what_is_counted() -> None:
+    """As the model does: where an integer is wanted of a parameter, and in its words."""
+    faces = page_data(da.loads(template_text("plate_clutch")))
+    sentence = faces["reading"]["sentences"]["count"]
+    assert {"counts": "faces", "sign": "positive"}.items() <= next(
+        x for x in faces["limits"] if x["path"] == "joints.plates.faces"
+    ).items()
+    with pytest.raises(da.ModelError) as refused:
+        da.loads(template_text("plate_clutch")).with_values({"faces": 2.5})
+    assert str(refused.value) == "joints.plates: faces: " + sentence.replace("{what}", "faces")
+
+
 def roles(tree: Any) -> set[str]:
     """Roles of everything that a page draws."""
     if isinstance(tree, dict):

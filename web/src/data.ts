@@ -9,10 +9,12 @@ export type Series = string | { from: number; to: number; count: number };
 export interface Table { drive: string; breaks: string; pieces: string; order: number; period: number | null }
 export interface Channel { name: string; values: Series; table?: Table }
 export interface Module { wasm: string; heap: number; row: number; count: number; outputs: number; channels: string[] }
-export interface NumberField {
+export interface NumberField extends Required {
   path: string; label: string; value: number; unit: string; size: number;
-  parameter?: boolean; about?: string; range?: Rows; kind: string; sign?: Sign;
+  parameter?: boolean; about?: string; range?: Rows; kind: string;
 }
+/** What the model requires of a number: its sign; an integer where it counts things. */
+export interface Required { sign?: Sign; counts?: string }
 /** Sign that the model requires of a number. */
 export type Sign = "positive" | "not negative";
 /** How numbers are read: units by name (SI value = number * first / second, then powers), kinds, Python's sentences. */
@@ -90,7 +92,7 @@ export interface Data {
   /** Place of the cycle with which the file begins. */
   start: number;
   gradient?: Module & { curves: number[]; numbers: number[] };
-  numbers: NumberField[]; limits: { row: number; path: string; sign: Sign }[]; reading: Reading; template: (string | Place)[]; drives: Drive[]; handles: Handle[]; sketch: SketchData;
+  numbers: NumberField[]; limits: ({ row: number; path: string } & Required)[]; reading: Reading; template: (string | Place)[]; drives: Drive[]; handles: Handle[]; sketch: SketchData;
   views: {
     mechanism: Drawing & { middle?: Pair }; bodies: FreeBody[];
     polygons: { links: Polygon[]; chain: number[] }; charts: Chart[]; table: TableRow[]; rates: Rate[];

@@ -1,6 +1,6 @@
 /** Check of every number, typed, dragged or from an address: finite, within the model's bounds and its range. */
 
-import type { Data, NumberField } from "./data";
+import type { Data, NumberField, Required } from "./data";
 import type { Kernel } from "./kernel";
 import { fill, quoted, read, Refused } from "./reading";
 import { figures } from "./svg";
@@ -75,26 +75,32 @@ export class Gate {
   }
 
   private check(field: NumberField, value: number, text: string): void {
-    const { sentences, signs } = this.data.reading, range = field.range;
+    const { sentences } = this.data.reading, range = field.range;
     if (!Number.isFinite(value)) throw new Refused(fill(sentences.finite, { text }));
-    if (field.sign && (value < 0 || (field.sign === "positive" && value === 0))) throw new Refused(fill(signs[field.sign], { text }));
+    const said = this.unmet(field, value, text);
+    if (said) throw new Refused(said);
     if (range && value !== field.value && (value < range[0] || value > range[1]))
       throw new Refused(fill(sentences.range, { text, low: this.words(field, range[0]), high: this.words(field, range[1]) }));
   }
 
   /** Message for an invalid value that depends on parameters. */
   private following(): string {
-    const { limits, reading } = this.data, u = this.kernel.values;
+    const { limits } = this.data, u = this.kernel.values;
     if (!limits.length || u.every((x, n) => x === this.accepted[n])) return "";
     this.kernel.other(u, this.out);
-    for (const { row, path, sign } of limits) {
+    for (const { row, path, ...required } of limits) {
       const value = this.out[row], place = path.lastIndexOf(".");
-      if (value < 0 || (sign === "positive" && value === 0)) {
-        const text = Number.isInteger(value) ? value.toFixed(1) : String(value);
-        return `${path.slice(0, place)}: ${path.slice(place + 1)}: ${fill(reading.signs[sign], { text })}`;
-      }
+      const said = this.unmet(required, value, Number.isInteger(value) ? value.toFixed(1) : String(value));
+      if (said) return `${path.slice(0, place)}: ${path.slice(place + 1)}: ${said}`;
     }
     return "";
+  }
+
+  /** Message for a value whose sign is wrong, or that counts things and is no integer. */
+  private unmet({ sign, counts }: Required, value: number, text: string): string {
+    const { sentences, signs } = this.data.reading;
+    if (sign && (value < 0 || (sign === "positive" && value === 0))) return fill(signs[sign], { text });
+    return counts && !Number.isInteger(value) ? fill(sentences.count, { what: counts }) : "";
   }
 
   private words(field: NumberField, value: number): string {

@@ -20,7 +20,7 @@ from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.parameters import Parameter
 from dalembert.model.quantities.tables import Table
 from dalembert.pages.boards import Boards
-from dalembert.pages.messages.number_reading import sign_of
+from dalembert.pages.messages.number_reading import required_of
 from dalembert.views.notation import pretty
 
 
@@ -126,7 +126,7 @@ def number_fields(b: Boards, k: Kernel) -> list[Tree]:
                 "size": b.shown.size(kind),
                 "kind": kind,
             }
-            | ({"sign": sign} if (sign := sign_of(m, n.path)) else {})
+            | required_of(m, n.path)
         )
     return out
 

@@ -43,7 +43,7 @@ class DriveScrew(Part):
     pitch: Length | None = Field(
         None, description="distance of threads, a length: the lead is starts times it"
     )
-    starts: Annotated[float, Scalar("number", "positive")] = Field(
+    starts: Annotated[float, Scalar("number", "positive", "starts")] = Field(
         1.0, description="number of threads side by side; default 1"
     )
     radius: Length = Field(description="mean radius of the thread, a length")

@@ -18,6 +18,7 @@ from dalembert.model.quantities.values import (
     TwoNames,
     ValueField,
     at_item,
+    check_count,
     check_sign,
     name,
     numbers,
@@ -45,17 +46,20 @@ Path = tuple[str | int, ...]
 
 
 class TwoNumbers(ValueField):
-    """Two positive numbers of a kind, `[of i, of j]`."""
+    """Two positive numbers of a kind, `[of i, of j]`; integers where they count things."""
 
-    def __init__(self, kind: str) -> None:
-        self.kind = kind
+    sign = "positive"
+
+    def __init__(self, kind: str, counts: str = "") -> None:
+        self.kind, self.counts = kind, counts
 
     def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
         pair = numbers(value, self.kind, reading(info))
         if len(pair) != 2:
             raise ModelError(f"a list of {len(pair)} is given; two values are needed", "write [of i, of j]")
         for i, number in enumerate(pair):
-            at_item(i, check_sign, number, value[i], "positive")
+            at_item(i, check_sign, number, value[i], self.sign)
+            at_item(i, check_count, number, self.counts)
         return pair[0], pair[1]
 
     def write(self, value: tuple[float, float]) -> object:
@@ -69,12 +73,6 @@ def kinds_of(part: type[Any]) -> list[type[Any]]:
     """The classes of a part without subclasses: those that a file can name."""
     kinds = part.__subclasses__()
     return [leaf for kind in kinds for leaf in kinds_of(kind)] if kinds else [part]
-
-
-def refuse_parts_of(count: float, what: str, key: str) -> None:
-    """Raises ModelError if a number of teeth, faces or the like is not an integer."""
-    if count != round(count):
-        raise ModelError(f"the number of {what} is not an integer", "write an integer", (key,))
 
 
 class JointPart(Part):

@@ -34,7 +34,7 @@ from dalembert.model.joints.friction_keys import (
     RollingFriction,
     SlotFriction,
 )
-from dalembert.model.joints.joint_part import JointPart, TwoNumbers, kinds_of, refuse_parts_of
+from dalembert.model.joints.joint_part import JointPart, TwoNumbers, kinds_of
 from dalembert.model.joints.pairs import freedoms_of
 from dalembert.model.joints.slot_damping import SlotDamping
 from dalembert.model.joints.space_joints import Frames, Matrix, SpaceJoint, frames
@@ -187,7 +187,7 @@ class Gear(JointPart):
     radii: Annotated[tuple[float, float], TwoNumbers("length")] | None = Field(
         None, description="of the pitch circles, [of i, of j], lengths; or teeth and module"
     )
-    teeth: Annotated[tuple[float, float], TwoNumbers("number")] | None = Field(
+    teeth: Annotated[tuple[float, float], TwoNumbers("number", "teeth")] | None = Field(
         None, description="numbers of teeth, [of i, of j]"
     )
     module: Annotated[float, Scalar("length", "positive")] | None = Field(
@@ -262,8 +262,6 @@ class Gear(JointPart):
         half = (self.teeth is None) != (self.module is None)
         if half or toothed == (self.radii is not None):
             raise ModelError("its size is not clear", "give either radii, or both teeth and module")
-        for number in self.teeth or ():
-            refuse_parts_of(number, "teeth", "teeth")
         if not 0 <= self.pressure_angle < 1.2:
             raise ModelError(
                 "the pressure angle is not between 0 and 68 deg", "20 deg is usual", ("pressure_angle",)

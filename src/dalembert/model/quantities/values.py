@@ -75,13 +75,14 @@ class ValueField:
 
 
 class Scalar(ValueField):
-    """A number of one kind, in SI inside."""
+    """A number of one kind, in SI inside; an integer where it counts things: faces, teeth."""
 
-    def __init__(self, kind: str, sign: str = "") -> None:
-        self.kind, self.sign = kind, sign
+    def __init__(self, kind: str, sign: str = "", counts: str = "") -> None:
+        self.kind, self.sign, self.counts = kind, sign, counts
 
     def read(self, value: object, info: ValidationInfo) -> float:
-        return check_sign(reading(info).quantity(value, self.kind), value, self.sign)
+        number = check_sign(reading(info).quantity(value, self.kind), value, self.sign)
+        return check_count(number, self.counts)
 
     def write(self, value: float) -> object:
         return value_text(value, self.kind)
@@ -96,6 +97,13 @@ def check_sign(number: float, value: object, sign: str) -> float:
         positive = sign == "positive"
         what = f"{quote_value(value)} is {'not positive' if positive else 'negative'}"
         raise ModelError(what, "write a positive one" if positive else "write a positive one, or 0")
+    return number
+
+
+def check_count(number: float, what: str) -> float:
+    """The number, if it is an integer or counts nothing."""
+    if what and number != round(number):
+        raise ModelError(f"the number of {what} is not an integer", "write an integer")
     return number
 
 

@@ -2664,27 +2664,29 @@ var Yt = class {
 		this.kernel.values.set(e), this.accepted.set(e), this.sentence = "";
 	}
 	check(e, t, n) {
-		let { sentences: r, signs: i } = this.data.reading, a = e.range;
+		let { sentences: r } = this.data.reading, i = e.range;
 		if (!Number.isFinite(t)) throw new Q($(r.finite, { text: n }));
-		if (e.sign && (t < 0 || e.sign === "positive" && t === 0)) throw new Q($(i[e.sign], { text: n }));
-		if (a && t !== e.value && (t < a[0] || t > a[1])) throw new Q($(r.range, {
+		let a = this.unmet(e, t, n);
+		if (a) throw new Q(a);
+		if (i && t !== e.value && (t < i[0] || t > i[1])) throw new Q($(r.range, {
 			text: n,
-			low: this.words(e, a[0]),
-			high: this.words(e, a[1])
+			low: this.words(e, i[0]),
+			high: this.words(e, i[1])
 		}));
 	}
 	following() {
-		let { limits: e, reading: t } = this.data, n = this.kernel.values;
-		if (!e.length || n.every((e, t) => e === this.accepted[t])) return "";
-		this.kernel.other(n, this.out);
-		for (let { row: n, path: r, sign: i } of e) {
-			let e = this.out[n], a = r.lastIndexOf(".");
-			if (e < 0 || i === "positive" && e === 0) {
-				let n = Number.isInteger(e) ? e.toFixed(1) : String(e);
-				return `${r.slice(0, a)}: ${r.slice(a + 1)}: ${$(t.signs[i], { text: n })}`;
-			}
+		let { limits: e } = this.data, t = this.kernel.values;
+		if (!e.length || t.every((e, t) => e === this.accepted[t])) return "";
+		this.kernel.other(t, this.out);
+		for (let { row: t, path: n, ...r } of e) {
+			let e = this.out[t], i = n.lastIndexOf("."), a = this.unmet(r, e, Number.isInteger(e) ? e.toFixed(1) : String(e));
+			if (a) return `${n.slice(0, i)}: ${n.slice(i + 1)}: ${a}`;
 		}
 		return "";
+	}
+	unmet({ sign: e, counts: t }, n, r) {
+		let { sentences: i, signs: a } = this.data.reading;
+		return e && (n < 0 || e === "positive" && n === 0) ? $(a[e], { text: r }) : t && !Number.isInteger(n) ? $(i.count, { what: t }) : "";
 	}
 	words(e, t) {
 		return `${o(t / e.size, 6).replace("–", String(t))}${e.unit === "°" ? "" : " "}${e.unit}`.trim();

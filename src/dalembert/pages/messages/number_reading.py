@@ -6,8 +6,8 @@ values.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from functools import cache
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache, partial
 from typing import Any, get_args
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
@@ -20,18 +20,18 @@ from dalembert.model.part import Part
 from dalembert.model.paths import dependents
 from dalembert.model.quantities.dependent_numbers import Dependent, with_new
 from dalembert.model.quantities.parameters import values_of
-from dalembert.model.quantities.values import check_sign
+from dalembert.model.quantities.values import check_count, check_sign
 from dalembert.pages.rows import NodeRows
 from dalembert.unit_names import SYMBOLS
 from dalembert.units import KINDS, PER_RADIAN, quantity
 
 
-def sign_of(m: Mechanism, path: str) -> str:
-    """Sign required by the field of a path's number: `positive`, `not negative` or empty.
+def required_of(m: Mechanism, path: str) -> Tree:
+    """What the field of a path's number requires: its sign, `positive` or `not negative`; what it counts.
 
     >>> from dalembert.model.library import four_bar
-    >>> sign_of(four_bar(), "links.crank.mass"), sign_of(four_bar(), "links.crank.points.A.0")
-    ('not negative', '')
+    >>> required_of(four_bar(), "links.crank.mass"), required_of(four_bar(), "links.crank.points.A.0")
+    ({'sign': 'not negative'}, {})
     """
     part: Any = m
     keys = path.split(".")
@@ -40,15 +40,16 @@ def sign_of(m: Mechanism, path: str) -> str:
             name = next((n for n, f in type(part).model_fields.items() if (f.alias or n) == key), "")
             part, field = getattr(part, name), type(part).model_fields[name]
             if _is_number(part, keys[place + 1 :]):
-                signs = (getattr(x, "sign", "") for x in _inside([*field.metadata, field.annotation]))
-                return next((sign for sign in signs if sign), "")
+                found = list(_inside([*field.metadata, field.annotation]))
+                wanted = {key: [getattr(x, key, "") for x in found] for key in ("sign", "counts")}
+                return {key: next(filter(None, said)) for key, said in wanted.items() if any(said)}
         elif isinstance(part, Mapping):
             part = part[key]
         elif isinstance(part, tuple):
             part = part[int(key)]
         else:
-            return ""  # keys of a value with messages of its own: a motor, a start, a section
-    return ""
+            break  # keys of a value with messages of its own: a motor, a start, a section
+    return {}
 
 
 def _is_number(value: object, rest: list[str]) -> bool:
@@ -66,17 +67,17 @@ def _inside(annotations: Iterable[Any]) -> Iterator[Any]:
 
 
 def limits(m: Mechanism, k: Kernel, rows: NodeRows) -> list[Tree]:
-    """Bounds of values that depend on parameters: the row of the value, its path and its sign."""
+    """Bounds of values that depend on parameters: the row of the value, its path, its sign and what it counts."""
     parameters = {
         n.path: node for n, node in zip(k.trace.numbers, k.number_nodes, strict=True) if n.parameter
     }
     functions = symbol_functions(k.trace.catalogue.graph)
     new, out = values_of(m.parameters, parameters, functions), list[Tree]()
     for keys, leaf in dependents(m):
-        sign = sign_of(m, path := ".".join(keys)) if isinstance(leaf, Dependent) else ""
-        value = with_new(leaf, new, functions) if sign else None
+        required = required_of(m, path := ".".join(keys)) if isinstance(leaf, Dependent) else {}
+        value = with_new(leaf, new, functions) if required else None
         if isinstance(value, Node):
-            out.append({"row": rows.of(value), "path": path, "sign": sign})
+            out.append({"row": rows.of(value), "path": path, **required})
     return out
 
 
@@ -86,7 +87,8 @@ def reading() -> Tree:
     return {
         "units": {name: [u.numerator, u.denominator, *u.dimension] for name, u in SYMBOLS.items()},
         "kinds": {kind: _kind(kind) for kind in KINDS},
-        "sentences": {name: _left_open(*example) for name, example in EXAMPLES.items()} | {"range": RANGE},
+        "sentences": {name: _left_open(*example) for name, example in EXAMPLES.items()}
+        | {"range": RANGE, "count": _refused(partial(check_count, 0.5, "{what}"))},
     }
 
 
@@ -139,20 +141,22 @@ def _left_open(text: str, kind: str, places: dict[str, str]) -> str:
 
 
 def _message(text: str, kind: str) -> str:
+    return _refused(partial(quantity, text, kind))
+
+
+def _refused(check: Callable[[], object]) -> str:
+    """The message with which the model refuses what is wrong."""
     try:
-        quantity(text, kind)
+        check()
     except ModelError as error:
         return str(error)
-    raise AssertionError(f"{text} can be read")
+    raise AssertionError("it is not refused")
 
 
 @cache
 def sign_sentences() -> Tree:
     """Messages for a number with the wrong sign for its field."""
-    out: Tree = {}
-    for sign in ("positive", "not negative"):
-        try:
-            check_sign(-1.0, "#", sign)
-        except ModelError as error:
-            out[sign] = str(error).replace("'#'", "{text}")
-    return out
+    return {
+        sign: _refused(partial(check_sign, -1.0, "#", sign)).replace("'#'", "{text}")
+        for sign in ("positive", "not negative")
+    }

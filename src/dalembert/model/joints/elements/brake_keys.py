@@ -11,7 +11,6 @@ from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
-from dalembert.model.joints.joint_part import refuse_parts_of
 from dalembert.model.part import Part, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -118,13 +117,8 @@ class Heat(Part):
 class Blocks(Part):
     """Blocks on a band."""
 
-    count: Annotated[float, Scalar("number", "positive")] = Field(description="number of blocks")
+    count: Annotated[float, Scalar("number", "positive", "blocks")] = Field(description="number of blocks")
     angle: Annotated[float, Scalar("angle", "positive")] = Field(description="of a block at the drum's axis")
-
-    @model_validator(mode="after")
-    def _whole(self) -> Self:
-        refuse_parts_of(self.count, "blocks", "count")
-        return self
 
 
 class Clamp(Part):

@@ -12,7 +12,6 @@ from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.joints.elements.brake_keys import Button, Clamp, ClampForce, Heat, Radii
 from dalembert.model.joints.elements.brakes import HEAT, Angle, BrakePart
-from dalembert.model.joints.joint_part import refuse_parts_of
 from dalembert.model.quantities.values import Scalar
 
 
@@ -22,7 +21,7 @@ class Faces(BrakePart):
     radii: Annotated[tuple[float, float], Radii()] | None = Field(
         None, description="of the faces, [inner, outer], lengths"
     )
-    faces: Annotated[float, Scalar("number", "positive")] = Field(
+    faces: Annotated[float, Scalar("number", "positive", "faces")] = Field(
         1.0, description="number of pairs of rubbing faces; default 1"
     )
     law: Literal["wear", "pressure"] = Field(
@@ -103,7 +102,6 @@ class Faces(BrakePart):
 
     @model_validator(mode="after")
     def _pressed(self) -> Self:
-        refuse_parts_of(self.faces, "faces", "faces")
         known = [key for key in ("force", "pressure", "cylinder", "spring") if getattr(self, key) is not None]
         if "cylinder" in known and self.cylinder is not None and self.cylinder.pressure is None:
             known.remove("cylinder")

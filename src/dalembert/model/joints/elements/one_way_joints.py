@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from dalembert.model.drives.end_stops import Stops
-from dalembert.model.joints.joint_part import JointPart, refuse_parts_of
+from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.part import Part
 from dalembert.model.quantities.values import Scalar
 
@@ -27,7 +27,7 @@ ANGLE = "of j's axes to i's where it holds; default 0"
 class Rollers(Part):
     """Rollers between a ring and a wedge-shaped face."""
 
-    count: Number = Field(description="number of rollers")
+    count: Annotated[float, Scalar("number", "positive", "rollers")] = Field(description="number of rollers")
     radius: Length = Field(description="of the ring, a length")
     wedge: Wedge = Field(description="angle between ring and face at a roller")
     coefficient: Number = Field(description="of friction, static")
@@ -94,13 +94,8 @@ class Ratchet(Clutch):
     """
 
     type: Literal["ratchet"] = "ratchet"
-    teeth: Number = Field(description="number of teeth")
+    teeth: Annotated[float, Scalar("number", "positive", "teeth")] = Field(description="number of teeth")
     pawl: Pawl | None = Field(None, description="{radius, angle, coefficient}")
-
-    @model_validator(mode="after")
-    def _integer_teeth(self) -> Self:
-        refuse_parts_of(self.teeth, "teeth", "teeth")
-        return self
 
     @property
     def pitch(self) -> float:

@@ -57,7 +57,7 @@ class RopePoint(Part):
     side: Literal["left", "right"] | None = Field(
         None, description="of the wheel's centre on which the rope passes, along the rope; default left"
     )
-    turns: Annotated[float, Scalar("number", "not negative")] = Field(
+    turns: Annotated[float, Scalar("number", "not negative", "whole turns")] = Field(
         0.0, description="whole turns of the rope round it besides what the geometry gives"
     )
     friction: FrictionPart | None = Field(
@@ -79,10 +79,6 @@ class RopePoint(Part):
 
     @model_validator(mode="after")
     def _whole(self) -> Self:
-        if self.turns != int(self.turns):
-            raise ModelError(
-                "turns is not an integer", "write whole turns; the geometry gives the rest", ("turns",)
-            )
         if self.efficiency is not None and self.efficiency > 1:
             raise ModelError("an efficiency is greater than 1", "write 0.95 for 95 %", ("efficiency",))
         if self.friction is not None and self.efficiency is not None:
