@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import dalembert as da
+from dalembert.model.library import template_text
 from tests.browser.opened import FILES
 from tests.browser.test_page import FOUR_BAR, SHAPER, tab
 
@@ -105,6 +106,33 @@ def test_free_bodies_find_room_in_their_panel(opened: Any, name: str) -> None:
             page.run(f"page.show(Math.round({part} * page.kernel.end))")
             outside += page.run(OUTSIDE)
     assert outside == []
+
+
+ARROWS = """(() => { const box = document.querySelector('.stage .paper svg').getBoundingClientRect();
+return [...document.querySelectorAll('.stage .paper svg g[data-item]')]
+  .filter(g => /^(weight|load|effort|reaction|inertia):/.test(g.dataset.item))
+  .flatMap(g => [...g.querySelectorAll('path')].map(e => [g.dataset.item, e.getBoundingClientRect()]))
+  .filter(([, b]) => b.width + b.height > 0 && (b.left < box.left || b.right > box.right
+    || b.top < box.top || b.bottom > box.bottom)).map(([name]) => name); })()"""
+"""Arrows of the drawing that its paper cuts off."""
+
+
+@pytest.mark.parametrize("template", ["hoist", "ratchet", "screw_jack"])
+def test_no_arrow_is_cut_off(opened: Any, template: str) -> None:
+    page = opened(html=da.page(da.loads(template_text(template))))
+    for width, height in ((1280, 800), (1024, 600)):
+        resize(page, width, height)
+        assert {k: cut for k in (0, 9, 36) if (cut := page.run(f"page.show({k})") or page.run(ARROWS))} == {}
+
+
+def test_a_polygon_of_couples_alone_says_that_there_are_no_forces(opened: Any) -> None:
+    page = opened(html=da.page(da.loads(template_text("plate_clutch"))))
+    tab(page, "Forces")
+    page.frame()
+    said = page.page.locator(".polygon:visible figcaption").all_inner_texts()
+    assert len(said) == 2
+    assert all(text.endswith(": no forces") for text in said)
+    assert page.page.locator(".polygon:visible svg:visible").count() == 0
 
 
 def test_keys_work_without_a_click_first(opened: Any) -> None:

@@ -11,7 +11,8 @@ import pytest
 import dalembert as da
 from dalembert.model.library import template_text
 from dalembert.pages.page_data import page_data
-from dalembert.views.paper.scene import Polygon
+from dalembert.views.paper.scene import Circle, Polygon
+from dalembert.views.plane.elements.turning_axis import BALL, axis_ends
 from dalembert.views.plane.elements.wedge_drawing import wedge_corners
 
 CYLINDER = """units: {length: mm, mass: kg, force: N}
@@ -152,3 +153,41 @@ def test_a_page_shows_what_is_pressed_on_a_drum(template: str, shapes: int) -> N
     linings = [svg for svg in drawn if "journal" in svg or "block" in svg]
     assert len(linings) == 1
     assert linings[0].count("l-journal" if template == "plate_clutch" else "l-block") == shapes
+
+
+@pytest.mark.parametrize(("template", "arcs"), [("belt_drive", 2), ("hoist", 2), ("disc_cam", 0)])
+def test_a_page_shows_a_belt_on_its_wheels(template: str, arcs: int) -> None:
+    """Arcs about the wheels' centres from one strand to the next."""
+    items = page_data(da.loads(template_text(template)))["views"]["mechanism"]["items"]
+    drawn = [item for item in items if item["t"] == "arc"]
+    ends = [tuple(p) for item in items if item["t"] == "path" for p in item["p"]]
+    assert len(drawn) == arcs
+    for item in drawn:
+        assert {tuple(p) for p in item["p"][1:]} <= {*ends}
+        assert tuple(item["p"][0]) not in ends
+
+
+def test_a_governor_has_its_ball_and_its_axis() -> None:
+    for template in ("porter_governor", "hartnell_governor"):
+        m = da.loads(template_text(template))
+        r = da.statics(m)
+        balls = [i for i in da.draw.mechanism(r).items if isinstance(i, Circle) and i.role == "block"]
+        assert [ball.radius for ball in balls] == [BALL]
+        items = page_data(m)["views"]["mechanism"]["items"]
+        links = [
+            item["of"][1] for item in items if item["t"] == "symbol" and 'class="l-block"' in item["svg"]
+        ]
+        assert [n for n in links if n in m.links] == ["upper" if "upper" in m.links else "bell"]
+        assert [len(item["p"]) for item in items if item.get("role") == "pitch"] == [2]
+    assert axis_ends(da.statics(da.loads(CYLINDER)), slice(None), 0.0) is None
+
+
+def test_the_axis_reaches_over_all_heights() -> None:
+    ends = axis_ends(da.statics(da.loads(template_text("porter_governor"))), slice(0, 1), 0.01)
+    assert ends is not None
+    assert np.allclose(ends, [(0, -0.5 * math.sin(math.radians(60)) - 0.01), (0, 0.01)])
+
+
+def test_corners_of_a_wedge_are_found_once() -> None:
+    r = da.statics(da.wedge())
+    assert wedge_corners(r, "wedge") is wedge_corners(r, "wedge")

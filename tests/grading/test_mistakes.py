@@ -286,6 +286,17 @@ def test_a_single_number_for_a_force_is_its_magnitude() -> None:
     assert [v.right for v in found] == [True, True]
 
 
+def test_a_sheet_says_once_at_which_position_its_figures_are() -> None:
+    m = da.load(examples()["engine"])
+    r = da.dynamics(m)
+    sheet = {"at": 3, "mobility": 1, "efforts": {n: f"{float(r.effort(n)[2])!r} N*m" for n in r.drives}}
+    read = figures(sheet)
+    assert [a.at for a in read] == [None, *([3] * len(r.drives))]
+    assert all(v.right for v in da.check_answers(m, read))
+    with pytest.raises(da.ModelError, match="positions; say which: at: 1, or at: 60 deg"):
+        da.check_answers(m, figures({k: v for k, v in sheet.items() if k != "at"}))
+
+
 @pytest.mark.parametrize(
     ("tree", "said"),
     [

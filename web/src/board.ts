@@ -42,7 +42,7 @@ export function bounds(points: Point[]): { x: Point; y: Point } | null {
   return Number.isFinite(x[0] + x[1] + y[0] + y[1]) ? { x, y } : null;
 }
 
-const rowsOf = (i: Item): Rows[] => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" || i.t === "pair" ? [i.p] : []);
+const rowsOf = (i: Item): Rows[] => (i.t === "hull" || i.t === "path" || i.t === "arc" ? i.p : i.t === "symbol" || i.t === "pair" ? [i.p] : []);
 
 interface Wheel { p: Rows; reach(value: (row: number) => number): number }
 
@@ -167,16 +167,34 @@ export function board(parent: Element, kernel: Source, d: Drawing & { middle?: P
     const spans = about ? poses().map(({ b }) => b) : [cycleBounds(paper, d, wheels)].filter((b) => b !== null);
     const room = about ? [46, 40] : [w - Math.max(0.22 * w, 34), h - Math.max(0.22 * h, 30)];
     const wide = Math.max(0, ...spans.flatMap((b) => [(b.x[1] - b.x[0]) / room[0], (b.y[1] - b.y[0]) / room[1]]));
-    if (!(keep && spans.length && suits(spans[0], wide))) {
-      if (!about && spans.length) fitted.middle = centre(spans[0]);
-      if (wide > 0) fitted.perMm = roundUp(wide / size.length) * size.length;
-    }
+    const stays = keep && spans.length > 0 && suits(spans[0], wide);
+    if (!stays && !about && spans.length) fitted.middle = centre(spans[0]);
+    if (!stays && wide > 0) fitted.perMm = roundUp(wide / size.length) * size.length;
     perMm = force ?? need();
+    if (!stays && !about && spans.length) reach(spans[0]);
     for (const s of speeds) {
       const most = kernel.largest((k) => Math.max(0, ...s.rows.map((f) => Math.hypot(...f.map((r) => kernel.value(r, k))))));
       s.perMm = most > 0 ? roundUp(most / RATE / s.unit.size) * s.unit.size : NaN;
     }
     look();
+  }
+
+  /** Makes room for arrows that would end beyond the paper: the middle moves, and where that is not enough the scale. */
+  function reach(b: NonNullable<ReturnType<typeof bounds>>): void {
+    const ends: [Point, Point][] = [[[b.x[0], b.y[0]], [0, 0]], [[b.x[1], b.y[1]], [0, 0]]], acting = forces.filter((a) => on(layerOf(a)));
+    for (let k = 0; k < kernel.count; k += step) {
+      const value = (r: number): number => kernel.value(r, k);
+      for (const { p, f } of kernel.good[k] ? acting : []) ends.push([paper.seen(p, value), paper.seen(f, value)]);
+    }
+    const room: [Point, Point] = [[w / 2 - 8, w / 2 - 8], [h / 2 - 12, h / 2 - 8]]; // below there are the scales
+    for (let tries = 0; tries < 9; tries++) {
+      const spans = [0, 1].map((c) => ends.map(([at, f]) => at[c] / fitted.perMm + f[c] / perMm).filter(Number.isFinite)).map((x) => [Math.min(...x), Math.max(...x)]);
+      if (spans.every(([low, high], c) => high - low <= room[c][0] + room[c][1])) {
+        fitted.middle = spans.map(([low, high], c) => Math.min(Math.max(fitted.middle[c] / fitted.perMm, high - room[c][1]), low + room[c][0]) * fitted.perMm) as Pair;
+        return;
+      }
+      fitted.perMm = roundUp((1.01 * fitted.perMm) / size.length) * size.length;
+    }
   }
 
   /** True if the drawing still lies on its paper, and is not much smaller than that. */

@@ -187,8 +187,7 @@ export function polar(parent: Element, kernel: Kernel, c: Curve, most: () => num
 /** Forces of links head to tail, with shared forces drawn once; the remaining gap is drawn. */
 export function polygon(parent: Element, data: Data, kernel: Kernel, title: string, links: Polygon[]): View & { figure: HTMLElement } {
   const figure = html("figure", parent, { class: "polygon" }), w = 110, h = 80, unit = data.units.force;
-  html("figcaption", figure, {}, title);
-  const svg = canvas(figure, w, h, title), lettered = make("g", svg), met = new Set<string>();
+  const caption = html("figcaption", figure, {}, title), svg = canvas(figure, w, h, title), lettered = make("g", svg), met = new Set<string>();
   const chains = links.map(({ sides }) => {
     const shared = sides.find((s) => s.kind === "joint" && met.has(s.of));
     for (const s of sides) if (s.kind === "joint") met.add(s.of);
@@ -219,6 +218,10 @@ export function polygon(parent: Element, data: Data, kernel: Kernel, title: stri
         return out;
       });
       const b = bounds(all) ?? { x: [0, 0], y: [0, 0] };
+      const none = !(Math.max(b.x[1] - b.x[0], b.y[1] - b.y[0]) > 1000 * data.noise.force);
+      say(caption, none ? `${title}: no forces` : title);
+      svg.toggleAttribute("hidden", none);
+      if (none) return;
       const perMm = roundUp(Math.max((b.x[1] - b.x[0]) / (w * 0.6), (b.y[1] - b.y[0]) / (h * 0.6)) / unit.size) * unit.size;
       const on = ([x, y]: Point): Point => [(x - (b.x[0] + b.x[1]) / 2) / perMm, (y - (b.y[0] + b.y[1]) / 2) / perMm];
       const placer = new Placer([-w / 2, -h / 2, w / 2, h / 2 - 4]);

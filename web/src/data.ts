@@ -27,8 +27,8 @@ export interface Reading {
 export interface Place { was?: string; of?: number[]; now: (string | Pair)[] }
 export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; along?: Rows; p: Rows; link: string }
 
-/** A drawn item: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle; ``of``: what it
- * is part of, by kind and name. ``size``: radius and half length in metres of a wheel or a worm; without it a pair of
+/** A drawn item: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle, an arc about its
+ * first point from the second to the third; ``of``: what it is part of, by kind and name. ``size``: radius and half length in metres of a wheel or a worm; without it a pair of
  * links has the size of a symbol. */
 export type Item = { of?: [string, string] } & (
   | { t: "symbol"; svg: string; p: Rows; e?: Rows; per_mm?: number }
@@ -36,6 +36,7 @@ export type Item = { of?: [string, string] } & (
   | { t: "span"; svg: string; length: number; p: [Rows, Rows] }
   | { t: "hull"; role: string; p: Rows[]; link: string }
   | { t: "path"; role: string; p: Rows[] }
+  | { t: "arc"; role: string; p: Rows[]; ccw: boolean }
   | { t: "trace"; role: string; p: [Rows] }
   | { t: "circle"; role: string; p: Rows; r: number });
 /** Velocity and acceleration of a joint's point or a mass centre. */

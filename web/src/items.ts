@@ -109,6 +109,7 @@ function drawn(parent: Element, i: Item, paper: Paper): Part {
   const line = make("path", parent, { class: `l-${i.role}`, style: "fill:none" });
   if (i.t === "trace") return { update: () => attr(line, "d", curve(paper.kernel, (k) => paper.pointAt(i.p[0], k), true)) };
   if (i.t === "hull") line.dataset.link = i.link;
+  if (i.t === "arc") return { update: () => attr(line, "d", arc(i.p.map((p) => paper.point(p)), i.ccw)) };
   let corners: Point[] = [], area = false;
   return {
     update() {
@@ -122,6 +123,13 @@ function drawn(parent: Element, i: Item, paper: Paper): Part {
       corners.forEach((c, n) => (n || area) && placer.line(corners.at(n - 1)!, c));
     },
   };
+}
+
+/** An arc about a centre from one point to another, counter-clockwise on paper or not. */
+function arc([c, a, b]: Point[], ccw: boolean): string {
+  const at = ([x, y]: Point): number => Math.atan2(c[1] - y, x - c[0]), turn = (at(b) - at(a)) * (ccw ? 1 : -1);
+  const r = short(Math.hypot(a[0] - c[0], a[1] - c[1])), large = (turn + 4 * Math.PI) % (2 * Math.PI) > Math.PI;
+  return `M${short(a[0])} ${short(a[1])}A${r} ${r} 0 ${+large} ${+!ccw} ${short(b[0])} ${short(b[1])}`;
 }
 
 /** A joint in space: a cylinder or a block along its axis, or a ball; with a size a wheel. */

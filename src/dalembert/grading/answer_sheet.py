@@ -43,7 +43,7 @@ class AnswerSheet:
 def read_sheet(tree: object, source: Locator | None = None) -> AnswerSheet:
     """The sheet of a file's tree; ModelError with file and line where it is wrong.
 
-    In the short form a single number for a vector is its magnitude.
+    In the short form a single number for a vector is its magnitude, and `at` is the position of all figures.
 
     >>> read_sheet({"tolerance": "3 %", "reactions": {"A": "155 N"}}).answers[0].component
     'magnitude'
@@ -100,7 +100,10 @@ def sheet_items(tree: object) -> Iterator[tuple[Path, Tree]]:
     if isinstance(tree, Mapping) and "answers" in tree:
         tree, base = tree["answers"], ("answers",)
     if isinstance(tree, Mapping):
-        yield from _short({key: value for key, value in tree.items() if key not in ABOUT})
+        place = {"at": tree["at"]} if "at" in tree else {}
+        short = {key: value for key, value in tree.items() if key not in (*ABOUT, "at")}
+        for path, item in _short(short):
+            yield path, item if item["quantity"] in WHOLE else item | place
         return
     if not isinstance(tree, list) or not all(isinstance(item, Mapping) for item in tree):
         what = "the answers are neither a mapping nor a list of mappings"
@@ -123,7 +126,7 @@ VECTORS = ("reaction", "center", "velocity", "position", "point")
 
 
 def _short(tree: Mapping[Any, object]) -> Iterator[tuple[Path, Tree]]:
-    """The figures of {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}, mobility: 1}."""
+    """The figures of {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}, mobility: 1}, without their position."""
     for name, values in tree.items():
         quantity = str(name).removesuffix("s") if name != "status" else name
         if quantity in (*WHOLE, *WORDS) and not isinstance(values, Mapping):

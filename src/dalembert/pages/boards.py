@@ -38,6 +38,7 @@ def whole(d: Items) -> list[Tree]:
     links, joints = d.known.links, d.known.mechanism.joints
     return [
         *d.traces(),
+        *d.axis(),
         *(x for link in links for x in of("link", link, d.link(link))),
         *d.spans(),
         *(x for n in sorted(joints, key=lambda n: joints[n].hinge) for x in of("joint", n, d.joint(n))),

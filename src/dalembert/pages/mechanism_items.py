@@ -19,15 +19,16 @@ from dalembert.analysis.friction.joint_friction import bearing_contact, friction
 from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Numeric, Tree
-from dalembert.core.branchless import root
 from dalembert.core.friction.contact_equations import strength
 from dalembert.model import GROUND, Mechanism
+from dalembert.pages.elements.wheel_items import belt, strand, wheels
 from dalembert.pages.rows import NodeRows
 from dalembert.pages.symbolic_result import SymbolicResult
 from dalembert.views.formats.svg import Writer
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Polygon
 from dalembert.views.plane.elements.cam_symbol import resting_follower
+from dalembert.views.plane.elements.turning_axis import BEYOND, axis_ends, ball, is_ball
 from dalembert.views.plane.elements.wedge_drawing import wedge_corners
 from dalembert.views.plane.joint_drawings import (
     DRAWINGS,
@@ -40,7 +41,7 @@ from dalembert.views.plane.joint_drawings import (
     round_slot,
     screw_length,
 )
-from dalembert.views.plane.outline import link_paths, wheel_paths
+from dalembert.views.plane.outline import link_paths
 from dalembert.views.symbols import plane_symbols
 
 SPAN = 20.0
@@ -109,7 +110,10 @@ class Items:
         corners = wedge_corners(self.known, link) if self.known._d == 2 else None
         if corners is not None:
             points = [self.rows.place(link, u.tolist()) for u in corners]
-        return [*out, self.path("hull", "link", points, link=link)]
+        out.append(self.path("hull", "link", points, link=link))
+        if self.known._d == 2 and is_ball(self.known.mechanism, link):
+            out.append(self.symbol(ball((0, 0)), self.rows.place(link, self.mechanism.center(link))))
+        return out
 
     def cylinder(self, name: str) -> CylinderSizes | None:
         """Sizes of a slide that is drawn as a cylinder; None for any other."""
@@ -132,6 +136,13 @@ class Items:
                 )
             out += of("load", name, mine)
         return out
+
+    def axis(self) -> list[Tree]:
+        """The axis of a plane that turns, over the whole cycle."""
+        beyond = BEYOND * self.frame.per_mm
+        ends = axis_ends(self.known, slice(None), beyond) if self.known._d == 2 else None
+        rows = [self.rows.place(GROUND, tuple(end.tolist())) for end in ends or ()]
+        return [self.path("path", "pitch", rows)] if rows else []
 
     def turns(self) -> list[Tree]:
         """Springs and dampers in the turn of a joint."""
@@ -273,50 +284,6 @@ def _weld(d: Items, name: str, link: str | None) -> list[Tree]:
     return [d.symbol(plane_symbols.weld((0, 0)), d.at(name))]
 
 
-def _wheels(d: Items, name: str, link: str | None) -> list[Tree]:
-    out = []
-    points = dict(zip(d.mechanism.joints[name].links, d.mechanism.joint_points(name), strict=True))
-    for on, _, radius in wheel_paths(d.known, name, d.known.mechanism.joints[name])[::-1]:
-        if link in (None, on):
-            wheel = plane_symbols.wheel((0, 0), d.frame.length(radius), 0.0)
-            out.append(d.symbol(wheel, d.rows.place(on, points[on]), d.rows.axis(on), sized=True))
-    if d.mechanism.joints[name].wheels == 1 and link is None:
-        at = d.rows.vector(joint_place(d.r, name)[0])
-        out.append(d.symbol(plane_symbols.hatch((0, 0), 0.0, 22.0), at, d.rows.direction(name)))
-    return out
-
-
-def _belt(d: Items, name: str, link: str | None) -> list[Tree]:
-    """Both wheels, and on the complete mechanism both strands."""
-    ri, rj = d.mechanism.joints[name].signed_radii  # type: ignore[union-attr]
-    strands = [] if link else [_tangent(d, name, side * ri, -side * rj) for side in (1.0, -1.0)]
-    return [*_wheels(d, name, link), *strands]
-
-
-def _strand(d: Items, name: str, link: str | None) -> list[Tree]:
-    """A line where a strand of a rope is, and the wheels at its ends."""
-    joint: Any = d.mechanism.joints[name]
-    if link is not None:
-        return []
-    if joint.direction is None:
-        return [*_wheels(d, name, None), _tangent(d, name, *joint.radii)]
-    places = [d.rows.place(on, u) for on, u in zip(joint.links, d.mechanism.joint_points(name), strict=True)]
-    return [d.path("path", "link", places)]
-
-
-def _tangent(d: Items, name: str, ra: Numeric, rb: Numeric) -> Tree:
-    """The line that touches circles of signed radii about a joint's points, on its left where a radius is positive."""
-    joint = d.mechanism.joints[name]
-    a, b = (
-        link_place(d.r, on, u)[0] for on, u in zip(joint.links, d.mechanism.joint_points(name), strict=True)
-    )
-    (x, y), apart = b - a, ra - rb
-    square = x * x + y * y
-    along = root(np.asarray(square - apart * apart))[()]
-    left = np.array([-(along * y - apart * x), along * x + apart * y]) / square
-    return d.path("path", "link", [d.rows.vector(a + ra * left), d.rows.vector(b + rb * left)])
-
-
 def _cam(d: Items, name: str, link: str | None) -> list[Tree]:
     """The outline in the axes of the cam, and what touches it in those of the follower."""
     m, points = d.known.mechanism, d.mechanism.joint_points(name)
@@ -381,13 +348,13 @@ SYMBOLS: dict[str, Callable[[Items, str, str | None], list[Tree]]] = {
     "slot": _slot,
     "circular_slot": _circular_slot,
     "weld": _weld,
-    "belt": _belt,
-    "strand": _strand,
+    "belt": belt,
+    "strand": strand,
     "sheave": _pin,
-    "gear": _wheels,
+    "gear": wheels,
     "one_way": _clutch,
     "ratchet": _clutch,
-    "rolling": _wheels,
+    "rolling": wheels,
     "cam": _cam,
     "shoe": _brake,
     "band": _brake,

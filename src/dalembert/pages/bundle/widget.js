@@ -606,7 +606,7 @@ var U = class e {
 	at(e, t = 0) {
 		return this.out[e * this.row + t];
 	}
-}, W = {
+}, ee = {
 	joint: 0,
 	point: 0,
 	tracer: 0,
@@ -615,7 +615,7 @@ var U = class e {
 	direction: 1,
 	link: 4,
 	trace: 5
-}, ee = (e) => {
+}, W = (e) => {
 	let t = e.indexOf(":");
 	return {
 		kind: e.slice(0, t),
@@ -633,10 +633,10 @@ function ne(e, t, n, r = 6) {
 			let l = c * Math.PI / 4;
 			for (let c of i.elementsFromPoint(t + o * r * Math.cos(l), n + o * r * Math.sin(l))) {
 				let t = e.contains(c) && c.closest("[data-item]")?.dataset.item;
-				t && !a.has(t) && a.set(t, 2 * s + (W[ee(t).kind] ?? 2));
+				t && !a.has(t) && a.set(t, 2 * s + (ee[W(t).kind] ?? 2));
 			}
 		}
-	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => ee(e));
+	}), [...a].sort((e, t) => e[1] - t[1]).map(([e]) => W(e));
 }
 function re(e, t) {
 	e.querySelectorAll(".chosen").forEach((e) => e.classList.remove("chosen")), t && e.querySelectorAll(`[data-item="${CSS.escape(`${t.kind}:${t.name}`)}"]`).forEach((e) => e.classList.add("chosen"));
@@ -645,7 +645,7 @@ function re(e, t) {
 var ie = 1 / 10;
 function ae(e, t) {
 	if (!t) return -1;
-	let { kind: n, name: r } = ee(t), { links: i, rows: a } = e.sketch;
+	let { kind: n, name: r } = W(t), { links: i, rows: a } = e.sketch;
 	return n === "link" || n === "center" ? i.indexOf(r) : (n === "joint" ? a.find((e) => e.joint === r)?.ends : void 0)?.find((e) => e < i.length) ?? -1;
 }
 function oe(e, t, n) {
@@ -788,7 +788,7 @@ var ce = 12, le = 1e6, G = .001, ue = 1e-5, K = 1e6, de = .5, q = 6, fe = 100, J
 	3,
 	4.5
 ];
-function X(e, t, n, r) {
+function he(e, t, n, r) {
 	return {
 		el: h(e, t, n, r),
 		text: n,
@@ -797,10 +797,10 @@ function X(e, t, n, r) {
 		choice: -1
 	};
 }
-function he(e, t) {
+function ge(e, t) {
 	e.text !== t && (e.text = t, u(e.el, t, e.size));
 }
-var ge = class {
+var _e = class {
 	bounds;
 	texts = [];
 	discs = [];
@@ -843,25 +843,25 @@ var ge = class {
 	cost(e, t) {
 		let [n, r, i, a] = this.bounds, o = e[0] < n || e[1] < r || e[2] > i || e[3] > a ? 60 : 0;
 		for (let t of this.texts) {
-			let n = _e(e, t);
+			let n = ve(e, t);
 			n > 0 && (o += 60 + 5 * n);
 		}
 		for (let t of this.discs) {
-			let n = _e(e, t);
+			let n = ve(e, t);
 			n > 0 && (o += 8 + n);
 		}
 		for (let [n, r] of this.lines) {
 			if (o >= t) return o;
-			ve(e, n, r) && (o += 6);
+			ye(e, n, r) && (o += 6);
 		}
 		return o;
 	}
 };
-function _e(e, t) {
+function ve(e, t) {
 	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
 	return n > 0 && r > 0 ? n * r : 0;
 }
-function ve(e, t, n) {
+function ye(e, t, n) {
 	if (Math.max(t[0], n[0]) < e[0] || Math.min(t[0], n[0]) > e[2] || Math.max(t[1], n[1]) < e[1] || Math.min(t[1], n[1]) > e[3]) return !1;
 	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
 	for (let n = 0; n < 2; n++) {
@@ -875,7 +875,7 @@ function ve(e, t, n) {
 	return r < i;
 }
 // src/items.ts
-var ye = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), be = class {
+var be = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), xe = class {
 	kernel;
 	perMm;
 	units;
@@ -909,10 +909,10 @@ var ye = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), be = class {
 		];
 	}
 	seen(e, t) {
-		return e.length < 3 ? [t(e[0]), t(e[1])] : [ye(this.axes[0], e, t), ye(this.axes[1], e, t)];
+		return e.length < 3 ? [t(e[0]), t(e[1])] : [be(this.axes[0], e, t), be(this.axes[1], e, t)];
 	}
 	depth(e) {
-		return ye(this.axes[2], e, (e) => this.kernel.here[e]);
+		return be(this.axes[2], e, (e) => this.kernel.here[e]);
 	}
 	here(e) {
 		return this.seen(e, (e) => this.kernel.here[e]);
@@ -936,11 +936,11 @@ var ye = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), be = class {
 		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
 	}
 };
-function xe(e, t, n) {
-	let r = Se(e, t, n);
+function Se(e, t, n) {
+	let r = Ce(e, t, n);
 	return t.of && (e.lastElementChild.dataset.item = t.of.join(":")), r;
 }
-function Se(t, i, o) {
+function Ce(t, i, o) {
 	let c = o.kernel.here;
 	if (i.t === "symbol") {
 		let n = r("g", t, i.per_mm ? { class: "span" } : {});
@@ -973,13 +973,13 @@ function Se(t, i, o) {
 			});
 		} };
 	}
-	if (i.t === "pair") return Ce(t, i, o);
+	if (i.t === "pair") return Te(t, i, o);
 	let l = r("path", t, {
 		class: `l-${i.role}`,
 		style: "fill:none"
 	});
-	if (i.t === "trace") return { update: () => e(l, "d", ke(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
-	i.t === "hull" && (l.dataset.link = i.link);
+	if (i.t === "trace") return { update: () => e(l, "d", je(o.kernel, (e) => o.pointAt(i.p[0], e), !0)) };
+	if (i.t === "hull" && (l.dataset.link = i.link), i.t === "arc") return { update: () => e(l, "d", we(i.p.map((e) => o.point(e)), i.ccw)) };
 	let u = [], d = !1;
 	return {
 		update() {
@@ -994,7 +994,11 @@ function Se(t, i, o) {
 		}
 	};
 }
-function Ce(t, n, i) {
+function we([e, t, n], r) {
+	let i = ([t, n]) => Math.atan2(e[1] - n, t - e[0]), o = (i(n) - i(t)) * (r ? 1 : -1), s = a(Math.hypot(t[0] - e[0], t[1] - e[1])), c = (o + 4 * Math.PI) % (2 * Math.PI) > Math.PI;
+	return `M${a(t[0])} ${a(t[1])}A${s} ${s} 0 ${+c} ${+!r} ${a(n[0])} ${a(n[1])}`;
+}
+function Te(t, n, i) {
 	let o = r("g", t), s = n.size ? "link-area" : n.fixed ? "support" : "block", c = r("path", o, { class: `l-${s}` }), l = r("path", o, { class: `l-${n.shape === "ball" || n.size ? s : "pin"}` }), u = n.shape === "block" ? 4.2 : 3.4, d = n.shape === "block" ? 2.2 : 1.7;
 	return {
 		update() {
@@ -1011,51 +1015,51 @@ function Ce(t, n, i) {
 		}
 	};
 }
-var we = 240, Te = .04, Ee = 12, De = 3;
-function Oe(e, t, n) {
+var Ee = 240, De = .04, Oe = 12, ke = 3;
+function Ae(e, t, n) {
 	let r = e[2 * t], i = e[2 * t + 1], a = e[2 * n] - r, o = e[2 * n + 1] - i, s = a * a + o * o;
 	for (let c = t + 1; c < n; c++) {
 		let t = e[2 * c] - r, n = e[2 * c + 1] - i, l = t * a + n * o;
-		if ((t * o - n * a) ** 2 > Te * Te * s || l < 0 || l > s) return !1;
+		if ((t * o - n * a) ** 2 > De * De * s || l < 0 || l > s) return !1;
 	}
 	return !0;
 }
-function ke(e, t, n = !1) {
-	let r = n && e.cyclic ? e.count : e.count - 1, i = e.count > we, o = i && e.coarse ? De : 1, s = Math.ceil(r / o), c = new Float64Array(2 * s + 2), l = "", u = -1, d = (e, t = "L") => {
+function je(e, t, n = !1) {
+	let r = n && e.cyclic ? e.count : e.count - 1, i = e.count > Ee, o = i && e.coarse ? ke : 1, s = Math.ceil(r / o), c = new Float64Array(2 * s + 2), l = "", u = -1, d = (e, t = "L") => {
 		l += `${t}${a(c[2 * e])} ${a(c[2 * e + 1])}`, u = e;
 	};
 	for (let n = 0; n <= s; n++) {
 		let a = Math.min(n * o, r) % e.count, s = !!e.good[a];
-		s && c.set(t(a), 2 * n), s && u < 0 ? d(n, "M") : u >= 0 && u < n - 1 && !(s && i && n - u <= Ee && Oe(c, u, n)) && d(n - 1), s ? e.reverses(a) && (u < n && d(n), c.set(e.onceAfter(() => t(a)), 2 * n), d(n)) : u = -1;
+		s && c.set(t(a), 2 * n), s && u < 0 ? d(n, "M") : u >= 0 && u < n - 1 && !(s && i && n - u <= Oe && Ae(c, u, n)) && d(n - 1), s ? e.reverses(a) && (u < n && d(n), c.set(e.onceAfter(() => t(a)), 2 * n), d(n)) : u = -1;
 	}
 	return u >= 0 && u < s && d(s), l;
 }
-function Ae(e, t, n, r, i) {
+function Me(e, t, n, r, i) {
 	let { unit: a, size: s } = i.units[r] ?? {
 		unit: "",
 		size: 1
 	};
-	he(e, i.values ? `${t} = ${o(n / s)} ${a}`.trim() : t);
+	ge(e, i.values ? `${t} = ${o(n / s)} ${a}`.trim() : t);
 }
-function je(e, t, n, r, i, a = "force") {
-	return t.t === "couple" ? Ie(e, t, n) : Pe(e, t, n, r, i, a);
+function Ne(e, t, n, r, i, a = "force") {
+	return t.t === "couple" ? Re(e, t, n) : Ie(e, t, n, r, i, a);
 }
-var Me = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Ne = 13;
-function Pe(t, n, r, i, a, o) {
-	let s = new g(t, n.role, n.name), c = n.t === "force" ? null : new g(t, n.role), l = n.t === "force" ? n.f : n.m, u = X(t, n.role, n.name, 3.4), d = [0, 0], f = [0, 0], p = [0, 0], m = !1;
-	for (let e of [s, c]) e && Me(e.g, n);
+var Pe = (e, t) => void (e.dataset.item = `${t.kind === "joint" ? "reaction" : t.kind}:${t.of}`), Fe = 13;
+function Ie(t, n, r, i, a, o) {
+	let s = new g(t, n.role, n.name), c = n.t === "force" ? null : new g(t, n.role), l = n.t === "force" ? n.f : n.m, u = he(t, n.role, n.name, 3.4), d = [0, 0], f = [0, 0], p = [0, 0], m = !1;
+	for (let e of [s, c]) e && Pe(e.g, n);
 	return {
 		label: u,
 		hide() {
 			m = s.set([0, 0], [0, 0]), c?.set([0, 0], [0, 0]), e(u.el, "visibility", "hidden");
 		},
 		update() {
-			let t = r.point(n.p), [h, g] = r.here(l), _ = c ? Math.hypot(...l.map((e) => r.kernel.here[e])) / Ne || 1 : i(), v = [h / _, -g / _], y = !1;
+			let t = r.point(n.p), [h, g] = r.here(l), _ = c ? Math.hypot(...l.map((e) => r.kernel.here[e])) / Fe || 1 : i(), v = [h / _, -g / _], y = !1;
 			if (a && a.length > 1 && !c) {
 				let e = a.map((e) => r.point(e)), n = [0, 1].map((t) => e.reduce((e, n) => e + n[t], 0) / e.length);
 				y = v[0] * (n[0] - t[0]) + v[1] * (n[1] - t[1]) > 1e-9;
 			}
-			[d, f] = y ? [[t[0] - v[0], t[1] - v[1]], t] : [t, [t[0] + v[0], t[1] + v[1]]], p = y ? d : f, m = s.set(d, f), c?.set(d, [d[0] + .78 * (f[0] - d[0]), d[1] + .78 * (f[1] - d[1])]), e(u.el, "visibility", m ? "visible" : "hidden"), m && Ae(u, n.name, Math.hypot(...l.map((e) => r.kernel.here[e])), c ? "moment" : o, r);
+			[d, f] = y ? [[t[0] - v[0], t[1] - v[1]], t] : [t, [t[0] + v[0], t[1] + v[1]]], p = y ? d : f, m = s.set(d, f), c?.set(d, [d[0] + .78 * (f[0] - d[0]), d[1] + .78 * (f[1] - d[1])]), e(u.el, "visibility", m ? "visible" : "hidden"), m && Me(u, n.name, Math.hypot(...l.map((e) => r.kernel.here[e])), c ? "moment" : o, r);
 		},
 		mark: (e) => m && e.line(d, f),
 		anchor() {
@@ -1069,9 +1073,9 @@ function Pe(t, n, r, i, a, o) {
 		}
 	};
 }
-var Fe = 4.6;
-function Ie(t, n, i) {
-	let o = i.kernel.here, s = r("g", t), c = X(t, n.role, n.name, 3.4);
+var Le = 4.6;
+function Re(t, n, i) {
+	let o = i.kernel.here, s = r("g", t), c = he(t, n.role, n.name, 3.4);
 	r("title", s).textContent = d(n.name), r("path", s, {
 		class: `l-${n.role}`,
 		style: "fill:none",
@@ -1081,32 +1085,32 @@ function Ie(t, n, i) {
 		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
 	});
 	let l = !1;
-	return Me(s, n), {
+	return Pe(s, n), {
 		label: c,
 		hide() {
 			l = !1, e(s, "display", "none"), e(c.el, "visibility", "hidden");
 		},
 		update() {
 			let [t, r] = i.point(n.p), u = o[n.m[0]];
-			l = Number.isFinite(u) && Math.abs(u) > 1e-9, e(s, "display", l ? "inline" : "none"), e(c.el, "visibility", l ? "visible" : "hidden"), e(s, "transform", `translate(${a(t)} ${a(r)}) scale(${u < 0 ? -1 : 1} 1)`), l && Ae(c, n.name, Math.abs(u), "moment", i);
+			l = Number.isFinite(u) && Math.abs(u) > 1e-9, e(s, "display", l ? "inline" : "none"), e(c.el, "visibility", l ? "visible" : "hidden"), e(s, "transform", `translate(${a(t)} ${a(r)}) scale(${u < 0 ? -1 : 1} 1)`), l && Me(c, n.name, Math.abs(u), "moment", i);
 		},
 		mark(e) {
-			l && e.disc(i.point(n.p), Fe);
+			l && e.disc(i.point(n.p), Le);
 		},
 		anchor() {
 			let [e, t] = i.point(n.p);
 			return l ? [
-				[e, t - Fe],
-				[e - Fe, t],
-				[e + Fe, t],
-				[e, t + Fe],
+				[e, t - Le],
+				[e - Le, t],
+				[e + Le, t],
+				[e, t + Le],
 				[0, -1]
 			] : null;
 		}
 	};
 }
 // src/branches.ts
-var Le = class {
+var ze = class {
 	data;
 	kernel;
 	shown;
@@ -1170,7 +1174,7 @@ var Le = class {
 			for (let e = 0; e < a; e++) i[e] = t[e] ? r.at(this.of.length + n, e) : NaN;
 		});
 	}
-}, Re = 8, ze = 120, Be = .3, Ve = 2 ** -7, He = class {
+}, Be = 8, Ve = 120, He = .3, Ue = 2 ** -7, We = class {
 	kernel;
 	values;
 	inputs;
@@ -1190,7 +1194,7 @@ var Le = class {
 	constructor(e, t, n, r, i, a) {
 		this.kernel = t, this.values = i, this.inputs = a;
 		let o = this.data = e.sketch;
-		this.sketch = new A(o, n), this.count = e.kernel.count, this.poses = Array(this.count).fill(null), this.branches = new Le(o, e.drives.map((e) => e.name), t, r, i, a, this.count), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
+		this.sketch = new A(o, n), this.count = e.kernel.count, this.poses = Array(this.count).fill(null), this.branches = new ze(o, e.drives.map((e) => e.name), t, r, i, a, this.count), this.phases = o.rows.flatMap((e, t) => e.kind === "phase" ? [t] : []);
 		let [s, c, l] = [
 			o.pose.point,
 			o.pose.rotation,
@@ -1207,7 +1211,7 @@ var Le = class {
 		}, this.sketch.values = this.first.values, this.phasesAtFirst = this.phases.map((e) => this.sketch.measure(e, this.first.pose)), this.held = this.first, this.base = {
 			place: o.place,
 			pose: this.first.pose
-		}, this.weakest = We(o), this.home();
+		}, this.weakest = Ke(o), this.home();
 	}
 	home() {
 		this.hold(this.phasesAtFirst), this.held = this.first, this.base = {
@@ -1243,7 +1247,7 @@ var Le = class {
 		return !!this.seen?.every((e, t) => e === this.values[t]);
 	}
 	update() {
-		this.current || Ue(this.updating());
+		this.current || Ge(this.updating());
 	}
 	*updating() {
 		this.seen = null;
@@ -1257,7 +1261,7 @@ var Le = class {
 		let e = this.values, t = this.kernel.drives(this.held.t), { sketch: n } = this;
 		if (this.loose) {
 			n.values = e;
-			let t = n.close(this.loose.pose, this.kernel.drives(this.loose.t), Be);
+			let t = n.close(this.loose.pose, this.kernel.drives(this.loose.t), He);
 			if (t && (this.held = {
 				values: e.slice(),
 				t: this.loose.t,
@@ -1268,13 +1272,13 @@ var Le = class {
 		for (; a < 1;) {
 			let o = Math.min(1, a + i), s = e.map((e, t) => o === 1 ? e : r[t] + o * (e - r[t]));
 			n.values = s;
-			let c = n.close(this.held.pose, t, Be);
+			let c = n.close(this.held.pose, t, He);
 			if (c) this.held = {
 				values: s,
 				t: this.held.t,
 				pose: c
 			}, [a, i] = [o, Math.min(1, 2 * i)];
-			else if ((i /= 2) < Ve) return !1;
+			else if ((i /= 2) < Ue) return !1;
 		}
 		return !0;
 	}
@@ -1289,7 +1293,7 @@ var Le = class {
 		return (n ? Math.ceil(e) : t.findIndex((e) => this.kernel.drives(e)[0] > r)) - .5;
 	}
 	*march(e, t, n, r) {
-		let { course: i } = this.data, a = this.count, o = this.data.dimension === 2 ? Math.ceil(a / ze) : 1, s = (r ?? []).map((e) => n * (r.length > 1 ? e : Math.abs(e))), c = this.counts((e) => s[this.data.drives.indexOf(e)] ?? 0), l = (e) => this.kernel.drives(i[e]).map((e, t) => e + (s[t] ?? 0)), u = (e, t) => {
+		let { course: i } = this.data, a = this.count, o = this.data.dimension === 2 ? Math.ceil(a / Ve) : 1, s = (r ?? []).map((e) => n * (r.length > 1 ? e : Math.abs(e))), c = this.counts((e) => s[this.data.drives.indexOf(e)] ?? 0), l = (e) => this.kernel.drives(i[e]).map((e, t) => e + (s[t] ?? 0)), u = (e, t) => {
 			r ? this.poses[i[e]] = {
 				point: t.point,
 				rotation: t.rotation,
@@ -1387,12 +1391,12 @@ var Le = class {
 	}
 	gapBetween(e) {
 		let [t, n] = [this.data.course[e], this.data.course[e + 1]];
-		for (let e = 1; e < Re; e++) if (!this.kernel.closesAt(t + e / Re * (n - t))) return !0;
+		for (let e = 1; e < Be; e++) if (!this.kernel.closesAt(t + e / Be * (n - t))) return !0;
 		return !1;
 	}
 	at(e) {
 		this.update();
-		let t = Math.floor(e) % this.count, n = e - Math.floor(e) === 0 && this.count <= ze ? this.poses[t] : null;
+		let t = Math.floor(e) % this.count, n = e - Math.floor(e) === 0 && this.count <= Ve ? this.poses[t] : null;
 		this.sketch.values = this.values;
 		for (let r of [t, (t + 1) % this.count]) {
 			let t = this.poses[r];
@@ -1454,7 +1458,7 @@ var Le = class {
 	take(e) {
 		let { data: t, sketch: n, kernel: r } = this, i = L(t, this.first.pose, e);
 		this.home(), n.values = this.values, n.count(this.phases, !1);
-		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, Be), s = o && this.placeOf(a);
+		let a = ((e) => t.drives.map((t) => n.measure(t, e)))(i), o = n.close(i, a, He), s = o && this.placeOf(a);
 		if (o && s !== null) {
 			let e = r.drives(s).map((e, n) => t.rows[t.drives[n]].angular ? a[n] + P(e - a[n]) : e);
 			o = n.walk(new M(o, a), e), o &&= this.wound(o, r.drives(s));
@@ -1505,10 +1509,10 @@ var Le = class {
 		}, [this.seen, this.loose] = [null, null];
 	}
 };
-function Ue(e) {
+function Ge(e) {
 	for (; !e.next().done;);
 }
-function We(e) {
+function Ke(e) {
 	let t = (t) => t.ends.filter((t) => t < e.links.length), n = new Set(e.drives.flatMap((n) => t(e.rows[n]))), r = (r) => {
 		let i = t(e.rows.find((e) => e.kind === "constraint" && e.joint === r) ?? { ends: [] });
 		return i.length - (i.some((e) => n.has(e)) ? .5 : 0);
@@ -1516,7 +1520,7 @@ function We(e) {
 	return e.gaps.map((e) => e.joint).reduce((e, t) => e && r(e) >= r(t) ? e : t, "");
 }
 // src/view.ts
-var Ge = [
+var qe = [
 	"loads",
 	"reactions",
 	"inertia",
@@ -1526,14 +1530,14 @@ var Ge = [
 	"traces",
 	"values",
 	"digits"
-], Ke = [
+], Je = [
 	.1,
 	.25,
 	.5,
 	1,
 	2,
 	4
-], qe = () => ({
+], Ye = () => ({
 	t: NaN,
 	shown: {},
 	window: null,
@@ -1546,18 +1550,18 @@ var Ge = [
 	drag: "shape",
 	tracers: []
 });
-function Je(e) {
-	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => Ge.filter((n) => e.shown[n] === t).join(" ");
+function Xe(e) {
+	let t = [], n = (e, n, r = "") => n !== r && t.push([`~${e}`, n]), r = (t) => qe.filter((n) => e.shown[n] === t).join(" ");
 	return n("show", r(!0)), n("hide", r(!1)), e.window && n("window", [e.window.perMm, ...e.window.middle].map((e) => +e.toPrecision(6)).join(" ")), n("tab", e.tab), n("speed", String(e.speed), "1"), n("drag", e.drag, "shape"), n("trace", e.tracers.map((e) => [e.link, ...e.u.map((e) => +e.toPrecision(6))].join(" ")).join("; ")), t;
 }
-function Ye(e, t) {
+function Ze(e, t) {
 	let n = (e) => t.get(`~${e}`) ?? "", r = (e) => e.split(" ").map(Number);
-	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of Ge) n(t).split(" ").includes(i) && (e.shown[i] = r);
+	for (let [t, r] of [["show", !0], ["hide", !1]]) for (let i of qe) n(t).split(" ").includes(i) && (e.shown[i] = r);
 	let [i, a, o] = r(n("window"));
 	i > 0 && Number.isFinite(i + a + o) && (e.window = {
 		perMm: i,
 		middle: [a, o]
-	}), e.tab = n("tab"), Ke.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
+	}), e.tab = n("tab"), Je.includes(+n("speed")) && (e.speed = +n("speed")), n("drag") === "turn" && (e.drag = "turn"), e.tracers = n("trace").split("; ").flatMap((e) => {
 		let [t, ...n] = e.split(" "), r = n.map(Number);
 		return r.length > 1 && r.every(Number.isFinite) ? [{
 			link: t,
@@ -1565,7 +1569,7 @@ function Ye(e, t) {
 		}] : [];
 	});
 }
-function Xe(e, t) {
+function Qe(e, t) {
 	return {
 		loads: !0,
 		reactions: !0,
@@ -1579,7 +1583,7 @@ function Xe(e, t) {
 	}[e];
 }
 // src/board.ts
-var Ze = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", Qe = [
+var $e = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.kind === "inertia" ? "inertia" : "loads", et = [
 	1,
 	1.25,
 	1.5,
@@ -1592,24 +1596,24 @@ var Ze = (e) => e.kind === "joint" || e.kind === "friction" ? "reactions" : e.ki
 	8,
 	10
 ];
-function $e(e) {
+function tt(e) {
 	if (!(e > 0) || !Number.isFinite(e)) return 1;
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (Qe.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+	return t * (et.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
 }
-function et(e) {
+function nt(e) {
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
 	return t * ([5, 2].find((n) => n * t <= e * (1 + 1e-12)) ?? 1);
 }
-function tt(e) {
+function rt(e) {
 	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
 	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
 		x: n,
 		y: r
 	} : null;
 }
-var nt = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function rt(e) {
+var it = (e) => e.t === "hull" || e.t === "path" || e.t === "arc" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function at(e) {
 	return e.items.flatMap((e) => {
 		if (e.t === "circle") return [{
 			p: e.p,
@@ -1626,17 +1630,17 @@ function rt(e) {
 		}] : [];
 	});
 }
-function it(e, t, n) {
-	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(nt);
+function ot(e, t, n) {
+	let r = e.kernel, i = Math.max(1, Math.floor(r.count / 72)), a = [], o = t.items.flatMap(it);
 	for (let t = 0; t < r.count; t += i) {
 		if (!r.good[t]) continue;
 		let i = (e) => r.value(e, t);
 		for (let t of o) a.push(e.seen(t, i));
-		a.push(...at(e, n, i));
+		a.push(...st(e, n, i));
 	}
-	return tt(a);
+	return rt(a);
 }
-var at = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), ot = (e) => e.items.some((e) => e.t === "pair"), st = class {
+var st = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.seen(t, n).map((e) => e + i * r(n)))), ct = (e) => e.items.some((e) => e.t === "pair"), lt = class {
 	arrow;
 	line;
 	text;
@@ -1654,42 +1658,42 @@ var at = (e, t, n) => t.flatMap(({ p: t, reach: r }) => [-1, 1].map((i) => e.see
 	set([r, i], c, l) {
 		let u = c / l.size, d = u > 0 && Number.isFinite(u);
 		if (e(this.line, "visibility", d ? "visible" : "hidden"), !d) return t(this.text, ""), r;
-		let f = et(26 * u), p = r + f / u, h = `${o(f)} ${l.unit}`, g = `M${a(r)} ${a(i - 1)}v2`, _ = this.arrow ? `M${a(p - 2.4)} ${a(i - .8)}L${a(p)} ${a(i)}L${a(p - 2.4)} ${a(i + .8)}` : `M${a(p)} ${a(i - 1)}v2`;
+		let f = nt(26 * u), p = r + f / u, h = `${o(f)} ${l.unit}`, g = `M${a(r)} ${a(i - 1)}v2`, _ = this.arrow ? `M${a(p - 2.4)} ${a(i - .8)}L${a(p)} ${a(i)}L${a(p - 2.4)} ${a(i + .8)}` : `M${a(p)} ${a(i - 1)}v2`;
 		return e(this.line, "d", g + s([[r, i], [p, i]]) + _), t(n(this.text, {
 			x: a(p + 1.4),
 			y: a(i + 1)
 		}), h), p + 1.4 + m(h, 2.8);
 	}
 };
-function ct(e, t, n, i) {
+function ut(e, t, n, i) {
 	return r("svg", e, {
 		viewBox: `${-t / 2} ${-n / 2} ${t} ${n}`,
 		role: "group",
 		"aria-label": i
 	});
 }
-var lt = 8, ut = 20;
-function dt(t, i, a, o, s, c, l, u, d, f = []) {
+var dt = 8, ft = 20;
+function pt(t, i, a, o, s, c, l, u, d, f = []) {
 	let p = {
 		length: l.length.size,
 		force: l.force.size
-	}, m = ct(t, s, c, u), h = new be(i, a.per_mm, l, ot(a) ? d.camera : null), g = [], _ = [], v = a.labels.filter((e) => e.kind === "joint").length > lt, y = (e) => o && e !== "values" ? !0 : d.shown[e] ?? Xe(e, v), b = a.force, x = {
+	}, m = ut(t, s, c, u), h = new xe(i, a.per_mm, l, ct(a) ? d.camera : null), g = [], _ = [], v = a.labels.filter((e) => e.kind === "joint").length > dt, y = (e) => o && e !== "values" ? !0 : d.shown[e] ?? Qe(e, v), b = a.force, x = {
 		perMm: a.per_mm,
 		middle: a.middle ?? [0, 0]
 	};
 	a.middle && (h.middle = a.middle);
 	let S = r("g", m), C = r("g", m), w = r("g", m), T = r("g", m);
-	for (let e of a.items) (e.t === "trace" ? g : _).push(xe(e.t === "trace" ? S : C, e, h));
+	for (let e of a.items) (e.t === "trace" ? g : _).push(Se(e.t === "trace" ? S : C, e, h));
 	let E = a.arrows.map((e) => ({
-		a: je(w, e, h, () => b, o ?? void 0),
-		layer: Ze(e)
-	})), D = new st(T), O = new st(T, !0), k = a.arrows.filter((e) => e.t === "force"), A = (f.length ? ["velocities", "accelerations"] : []).map((e) => {
+		a: Ne(w, e, h, () => b, o ?? void 0),
+		layer: $e(e)
+	})), D = new lt(T), O = new lt(T, !0), k = a.arrows.filter((e) => e.t === "force"), A = (f.length ? ["velocities", "accelerations"] : []).map((e) => {
 		let t = e === "velocities" ? "speed" : "acceleration", n = e === "velocities" ? "velocity" : "acceleration", r = n[0], i = {
 			layer: e,
 			unit: l[t],
 			rows: f.map((e) => r === "v" ? e.v : e.a),
 			perMm: NaN,
-			bar: new st(T, !0)
+			bar: new lt(T, !0)
 		};
 		return f.forEach((a, o) => {
 			let s = {
@@ -1703,21 +1707,21 @@ function dt(t, i, a, o, s, c, l, u, d, f = []) {
 				f: i.rows[o]
 			};
 			E.push({
-				a: je(w, s, h, () => i.perMm, void 0, t),
+				a: Ne(w, s, h, () => i.perMm, void 0, t),
 				layer: e
 			});
 		}), i;
 	}), j = a.labels.map((e) => ({
-		l: X(T, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
+		l: he(T, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
 		p: e.p,
 		q: e.q
-	})), M = rt(a), N = Math.max(1, Math.floor(i.count / 72)), P = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], F = o ? [
+	})), M = at(a), N = Math.max(1, Math.floor(i.count / 72)), P = (e) => [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2], F = o ? [
 		...o,
 		...a.arrows.map((e) => e.p),
 		...a.items.flatMap((e) => e.t === "symbol" ? [e.p] : [])
 	] : [];
 	function I(e) {
-		return tt([...F.map((t) => h.seen(t, e)), ...at(h, M, e)]);
+		return rt([...F.map((t) => h.seen(t, e)), ...st(h, M, e)]);
 	}
 	function L() {
 		return Array.from({ length: Math.ceil(i.count / N) }, (e, t) => t * N).flatMap((e) => {
@@ -1737,26 +1741,42 @@ function dt(t, i, a, o, s, c, l, u, d, f = []) {
 				e = Math.max(e, Math.abs(l[r]) / Math.max(a, 4));
 			});
 		}
-		return e > 0 ? $e(e / p.force) * p.force : b;
+		return e > 0 ? tt(e / p.force) * p.force : b;
 	}
 	function z(e, t = !1) {
-		let n = o ? L().map(({ b: e }) => e) : [it(h, a, M)].filter((e) => e !== null), r = o ? [46, 40] : [s - Math.max(.22 * s, 34), c - Math.max(.22 * c, 30)], l = Math.max(0, ...n.flatMap((e) => [(e.x[1] - e.x[0]) / r[0], (e.y[1] - e.y[0]) / r[1]]));
-		t && n.length && B(n[0], l) || (!o && n.length && (x.middle = P(n[0])), l > 0 && (x.perMm = $e(l / p.length) * p.length)), b = e ?? R();
+		let n = o ? L().map(({ b: e }) => e) : [ot(h, a, M)].filter((e) => e !== null), r = o ? [46, 40] : [s - Math.max(.22 * s, 34), c - Math.max(.22 * c, 30)], l = Math.max(0, ...n.flatMap((e) => [(e.x[1] - e.x[0]) / r[0], (e.y[1] - e.y[0]) / r[1]])), u = t && n.length > 0 && V(n[0], l);
+		!u && !o && n.length && (x.middle = P(n[0])), !u && l > 0 && (x.perMm = tt(l / p.length) * p.length), b = e ?? R(), !u && !o && n.length && B(n[0]);
 		for (let e of A) {
 			let t = i.largest((t) => Math.max(0, ...e.rows.map((e) => Math.hypot(...e.map((e) => i.value(e, t))))));
-			e.perMm = t > 0 ? $e(t / ut / e.unit.size) * e.unit.size : NaN;
+			e.perMm = t > 0 ? tt(t / ft / e.unit.size) * e.unit.size : NaN;
 		}
-		V();
+		H();
 	}
-	function B(e, t) {
+	function B(e) {
+		let t = [[[e.x[0], e.y[0]], [0, 0]], [[e.x[1], e.y[1]], [0, 0]]], n = k.filter((e) => y($e(e)));
+		for (let e = 0; e < i.count; e += N) {
+			let r = (t) => i.value(t, e);
+			for (let { p: a, f: o } of i.good[e] ? n : []) t.push([h.seen(a, r), h.seen(o, r)]);
+		}
+		let r = [[s / 2 - 8, s / 2 - 8], [c / 2 - 12, c / 2 - 8]];
+		for (let e = 0; e < 9; e++) {
+			let e = [0, 1].map((e) => t.map(([t, n]) => t[e] / x.perMm + n[e] / b).filter(Number.isFinite)).map((e) => [Math.min(...e), Math.max(...e)]);
+			if (e.every(([e, t], n) => t - e <= r[n][0] + r[n][1])) {
+				x.middle = e.map(([e, t], n) => Math.min(Math.max(x.middle[n] / x.perMm, t - r[n][1]), e + r[n][0]) * x.perMm);
+				return;
+			}
+			x.perMm = tt(1.01 * x.perMm / p.length) * p.length;
+		}
+	}
+	function V(e, t) {
 		let n = (e, t, n) => Math.max(...e.map((e) => Math.abs(e - t))) < x.perMm * n;
 		return t > .5 * x.perMm && n(e.x, x.middle[0], s / 2 - 8) && n(e.y, x.middle[1], c / 2 - 10);
 	}
-	function V() {
+	function H() {
 		let e = o ? x : d.window ?? x;
 		h.perMm = e.perMm, o || (h.middle = [...e.middle]);
 	}
-	function H() {
+	function U() {
 		let e = [
 			[
 				D,
@@ -1780,8 +1800,8 @@ function dt(t, i, a, o, s, c, l, u, d, f = []) {
 			e > t && (t = e + 5);
 		}
 	}
-	function U() {
-		let t = new ge([
+	function ee() {
+		let t = new _e([
 			-s / 2,
 			-c / 2,
 			s / 2,
@@ -1822,7 +1842,7 @@ function dt(t, i, a, o, s, c, l, u, d, f = []) {
 		parts: W,
 		fit: z,
 		need: R,
-		look: V,
+		look: H,
 		on: y,
 		force: () => b,
 		fitted: () => x.perMm,
@@ -1830,20 +1850,20 @@ function dt(t, i, a, o, s, c, l, u, d, f = []) {
 			[s, c] = [e, t], m.setAttribute("viewBox", `${-s / 2} ${-c / 2} ${s} ${c}`);
 		},
 		update(e) {
-			if (h.values = y("values"), n(S, { display: y("traces") ? "inline" : "none" }), e && Ue(W()), n(w, { visibility: i.solved ? "visible" : "hidden" }), H(), i.finite) {
+			if (h.values = y("values"), n(S, { display: y("traces") ? "inline" : "none" }), e && Ge(W()), n(w, { visibility: i.solved ? "visible" : "hidden" }), U(), i.finite) {
 				o && (h.middle = P(I((e) => i.here[e]) ?? {
 					x: [0, 0],
 					y: [0, 0]
 				}));
 				for (let e of _) e.update();
 				for (let { a: e, layer: t } of E) y(t) ? e.update() : e.hide();
-				U();
+				ee();
 			}
 		}
 	};
 }
 // src/menu.ts
-function ft(e, [t, n], r) {
+function mt(e, [t, n], r) {
 	if (e.querySelector(".menu")?.remove(), !r.length) return;
 	let a = document.activeElement, o = i("div", e, {
 		class: "menu",
@@ -1876,11 +1896,11 @@ function ft(e, [t, n], r) {
 	o.style.left = `${Math.max(4, Math.min(t, window.innerWidth - u - 4))}px`, o.style.top = `${Math.max(4, Math.min(n, window.innerHeight - d - 4))}px`, document.addEventListener("pointerdown", c, !0), l[0].focus({ preventScroll: !0 });
 }
 // src/viewport.ts
-var pt = 1e4, mt = 12, ht = 1.25;
-function gt(e, t, n, r, i, a) {
+var ht = 1e4, gt = 12, _t = 1.25;
+function vt(e, t, n, r, i, a) {
 	let { svg: o, paper: s } = e, c = /* @__PURE__ */ new Map(), u = !1, d = (n, r) => {
 		let i = e.fitted();
-		n > i / pt && n < i * pt && r.every(Number.isFinite) && (t.window = {
+		n > i / ht && n < i * ht && r.every(Number.isFinite) && (t.window = {
 			perMm: n,
 			middle: r
 		}, e.look(), a());
@@ -1914,14 +1934,14 @@ function gt(e, t, n, r, i, a) {
 	}), o.addEventListener("click", (e) => u && e.stopImmediatePropagation(), { capture: !0 }), o.tabIndex = 0, o.addEventListener("keydown", (e) => {
 		if (e.target !== o || e.ctrlKey || e.metaKey || e.altKey) return;
 		let t = {
-			ArrowLeft: [mt, 0],
+			ArrowLeft: [gt, 0],
 			ArrowRight: [-12, 0],
-			ArrowUp: [0, mt],
+			ArrowUp: [0, gt],
 			ArrowDown: [0, -12]
 		};
 		if (t[e.key]) f(t[e.key]);
-		else if (e.key === "+" || e.key === "=") p(ht);
-		else if (e.key === "-") p(1 / ht);
+		else if (e.key === "+" || e.key === "=") p(_t);
+		else if (e.key === "-") p(1 / _t);
 		else if (e.key === "0") m();
 		else return;
 		e.preventDefault(), e.stopPropagation();
@@ -1932,17 +1952,17 @@ function gt(e, t, n, r, i, a) {
 	};
 }
 // src/stage.ts
-var _t = 3.6, vt = 5.2, yt = 550, bt = 8;
-function xt(e, t, n, a, o, s) {
-	let c = i("div", e, { class: "paper" }), u = dt(c, t, n, null, 170, 119, a, "the mechanism", o, s.rates ?? []), { svg: d } = u, f = r("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
+var yt = 3.6, bt = 5.2, xt = 550, St = 8;
+function Ct(e, t, n, a, o, s) {
+	let c = i("div", e, { class: "paper" }), u = pt(c, t, n, null, 170, 119, a, "the mechanism", o, s.rates ?? []), { svg: d } = u, f = r("g", d, { class: "overlay" }), p = u.paper.axes.length > 2, m = (e) => {
 		let t = e.target.closest("[data-item]")?.dataset.item;
-		return t ? ee(t) : null;
+		return t ? W(t) : null;
 	}, h = (e) => !v(e.clientX, e.clientY, e.pointerType === "touch" ? 14 : 6).some(s.held), g = () => {
 		s.on?.({
 			type: "view",
 			view: o
 		}), s.again(!0);
-	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => ne(d, e, t, n), y = gt(u, o, !!s.full, h, _, g);
+	}, _ = p ? (e) => (u.paper.turn(-.045 * e[0], .045 * e[1]), g()) : null, v = (e, t, n = 6) => ne(d, e, t, n), y = vt(u, o, !!s.full, h, _, g);
 	p && (d.style.cursor = "move");
 	let b = (e, t) => u.paper.metres(l(d, {
 		clientX: e,
@@ -1966,7 +1986,7 @@ function xt(e, t, n, a, o, s) {
 			items: t,
 			at: n,
 			point: r
-		}) || ft(e.closest(".dalembert") ?? document.body, n, s.entries(t, r));
+		}) || mt(e.closest(".dalembert") ?? document.body, n, s.entries(t, r));
 	};
 	d.addEventListener("contextmenu", (e) => {
 		e.preventDefault();
@@ -1982,10 +2002,10 @@ function xt(e, t, n, a, o, s) {
 	});
 	let w = 0, T = [0, 0];
 	d.addEventListener("pointerdown", (e) => {
-		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), yt));
+		clearTimeout(w), e.pointerType === "touch" && e.isPrimary && (T = S(e), w = window.setTimeout(() => C(v(e.clientX, e.clientY, 14), T), xt));
 	}, { capture: !0 });
 	let E = () => clearTimeout(w);
-	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > bt && E(), { capture: !0 });
+	d.addEventListener("pointermove", (e) => Math.hypot(e.clientX - T[0], e.clientY - T[1]) > St && E(), { capture: !0 });
 	for (let e of ["pointerup", "pointercancel"]) d.addEventListener(e, E, { capture: !0 });
 	return {
 		m: u,
@@ -1998,13 +2018,13 @@ function xt(e, t, n, a, o, s) {
 		resize() {
 			let { width: e, height: t } = c.getBoundingClientRect();
 			if (!(e > 0 && t > 0)) return;
-			let n = Math.min(Math.max(Math.min(e / 170, t / 105), _t), vt);
+			let n = Math.min(Math.max(Math.min(e / 170, t / 105), yt), bt);
 			u.resize(e / n, t / n);
 		}
 	};
 }
 // src/switches.ts
-var St = {
+var wt = {
 	loads: ["loads", "loads, efforts of drives, weights, springs"],
 	reactions: ["reactions", "forces in the joints"],
 	inertia: ["inertia", "D'Alembert's inertia forces and couples"],
@@ -2015,22 +2035,22 @@ var St = {
 	values: ["values", "the value beside each arrow"],
 	digits: ["large digits", "the chosen curve's value, to be read from the last row"]
 };
-function Ct(e, t) {
+function Tt(e, t) {
 	let n = i("label", e, { title: t.title }), r = i("input", n, { type: "checkbox" });
 	r.checked = t.on, n.append(t.said), r.addEventListener("change", () => t.act(r.checked));
 }
-function wt(e, t, n, r, i) {
+function Et(e, t, n, r, i) {
 	for (let a of n) {
-		let [n, o] = St[a];
-		Ct(e, {
+		let [n, o] = wt[a];
+		Tt(e, {
 			said: n,
 			title: o,
-			on: t.shown[a] ?? Xe(a, r),
+			on: t.shown[a] ?? Qe(a, r),
 			act: (e) => (t.shown[a] = e, i())
 		});
 	}
 }
-function Tt(e, t, n, r, a) {
+function Dt(e, t, n, r, a) {
 	let o = i("span", e, {
 		class: "group",
 		role: "group",
@@ -2063,7 +2083,7 @@ function Tt(e, t, n, r, a) {
 	u();
 }
 // src/tools.ts
-var Et = class {
+var Ot = class {
 	b;
 	data;
 	kernel;
@@ -2083,7 +2103,7 @@ var Et = class {
 		return {
 			k: i,
 			size: r,
-			where: t.count > 1 ? ` at ${Dt(this.data, t, i)}` : ""
+			where: t.count > 1 ? ` at ${kt(this.data, t, i)}` : ""
 		};
 	}
 	update(e) {
@@ -2099,7 +2119,7 @@ var Et = class {
 			t.set([r, i], [r + 14 * a / l, i - 14 * o / l], .5);
 		});
 	}
-}, Dt = (e, t, n) => e.drives.map((e) => `${e.name} = ${o(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), Ot = class {
+}, kt = (e, t, n) => e.drives.map((e) => `${e.name} = ${o(t.position(e.name, n) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), At = class {
 	b;
 	kernel;
 	places;
@@ -2139,7 +2159,7 @@ var Et = class {
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, kt = class {
+}, jt = class {
 	kernel;
 	gate;
 	past = [];
@@ -2159,29 +2179,29 @@ var Et = class {
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function At(e, t) {
+function Mt(e, t) {
 	let n = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]), r = n.length ? t.motion.assembly() : [];
 	return Object.fromEntries([...n, ...r.map((t, n) => [e.sketch.assembly[n], t])]);
 }
-function jt(e, t, n) {
+function Nt(e, t, n) {
 	let r = new URLSearchParams({ t: String(+n.t.toFixed(4)) });
-	for (let [e, t] of Je(n)) r.set(e, t);
-	for (let [n, i] of Object.entries(At(e, t))) r.set(n, String(i));
+	for (let [e, t] of Xe(n)) r.set(e, t);
+	for (let [n, i] of Object.entries(Mt(e, t))) r.set(n, String(i));
 	return r.toString();
 }
-function Mt(e, t, n, r) {
+function Pt(e, t, n, r) {
 	let i = new Map(new URLSearchParams(r.replace(/^#/, ""))), a = {};
-	Ye(n, i);
+	Ze(n, i);
 	for (let [e, t] of i) e !== "t" && !e.startsWith("~") && (a[e] = t.trim() ? Number(t) : NaN);
 	t.change(a);
 	let o = Number(i.get("t") ?? NaN);
 	Number.isFinite(o) && (n.t = Math.min(Math.max(o, 0), e.end));
 }
-function Nt(e, t) {
+function Ft(e, t) {
 	let n = [...t.values, ...t.motion.assembly()], r = e.numbers.map((e, n) => e.value !== t.values[n]), i = r.includes(!0);
 	return e.template.map((e) => typeof e == "string" ? e : e.was !== void 0 && !e.of?.some((e) => r[e] ?? i) ? e.was : e.now.map((e) => typeof e == "string" ? e : String(n[e[0]] / e[1])).join("")).join("");
 }
-function Pt(e, t) {
+function It(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind]
@@ -2200,7 +2220,7 @@ function Pt(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function Ft(e, t) {
+function Lt(e, t) {
 	let i = e.cloneNode(!0), { width: a, height: o } = e.viewBox.baseVal;
 	i.querySelectorAll(".handles, .overlay").forEach((e) => e.remove()), n(i, {
 		xmlns: "http://www.w3.org/2000/svg",
@@ -2211,22 +2231,22 @@ function Ft(e, t) {
 	let s = r("style", null);
 	return s.textContent = t, i.prepend(s), new XMLSerializer().serializeToString(i);
 }
-var It = 300 / 25.4;
-async function Lt(e, t) {
-	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Ft(e, t)], { type: "image/svg+xml" }));
+var Rt = 300 / 25.4;
+async function zt(e, t) {
+	let { width: n, height: r } = e.viewBox.baseVal, i = new Image(), a = URL.createObjectURL(new Blob([Lt(e, t)], { type: "image/svg+xml" }));
 	try {
 		i.src = a, await i.decode();
 		let e = document.createElement("canvas"), t = e.getContext("2d");
-		return [e.width, e.height] = [Math.round(n * It), Math.round(r * It)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
+		return [e.width, e.height] = [Math.round(n * Rt), Math.round(r * Rt)], t.fillStyle = "#fff", t.fillRect(0, 0, e.width, e.height), t.drawImage(i, 0, 0, e.width, e.height), await new Promise((t, n) => e.toBlob((e) => e ? t(e) : n(/* @__PURE__ */ Error("the picture is too large")), "image/png"));
 	} finally {
 		URL.revokeObjectURL(a);
 	}
 }
-function Z(e, t, n) {
+function X(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var Rt = (e) => d(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", zt = class {
+var Bt = (e) => d(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", Vt = class {
 	data;
 	program;
 	here;
@@ -2268,13 +2288,13 @@ var Rt = (e) => d(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g,
 	largest(e) {
 		return e(0);
 	}
-}, Bt = .02, Vt = 2, Ht = 500;
-async function Ut(e, t, c, u) {
+}, Ht = .02, Ut = 2, Wt = 500;
+async function Gt(e, t, c, u) {
 	let [d, f] = await Promise.all([U.create(t.sketch.closure, 1), U.create(t.shown, 1)]), p = t.sketch, m = {
 		point: Float64Array.from(p.pose.point),
 		rotation: Float64Array.from(p.pose.rotation),
 		turn: Float64Array.from(p.pose.turn)
-	}, g = new zt(t, f), _ = new pe(p, d, L(p, m, u.pose ?? {})), b = [], x = new y(p.links, t.poses, g), S = [], C = [], w = null, T = [], E = "there", D = 0, O = _.pose;
+	}, g = new Vt(t, f), _ = new pe(p, d, L(p, m, u.pose ?? {})), b = [], x = new y(p.links, t.poses, g), S = [], C = [], w = null, T = [], E = "there", D = 0, O = _.pose;
 	g.show(_.pose);
 	let A = i("header", e);
 	i("h1", A, {}, t.title);
@@ -2296,17 +2316,17 @@ async function Ut(e, t, c, u) {
 	let F = i("section", i("main", e, { class: "one" }), {
 		class: "stage",
 		"aria-label": "sketch"
-	}), I = xt(F, g, t.views.mechanism, t.units, c, {
+	}), I = Ct(F, g, t.views.mechanism, t.units, c, {
 		full: u.full,
 		on: u.on,
 		entries: se,
 		chosen: () => J(),
 		again: () => J(),
 		held: (e) => ne(`${e.kind}:${e.name}`) >= 0
-	}), { m: R, paper: z } = I, B = v(R, t, g), V = r("g", R.svg, { class: "handles" }), W = r("g", R.svg, {
+	}), { m: R, paper: z } = I, B = v(R, t, g), V = r("g", R.svg, { class: "handles" }), ee = r("g", R.svg, {
 		class: "gaps",
 		"pointer-events": "none"
-	}), ee = re().map(({ link: e, point: t, p: n }) => {
+	}), W = re().map(({ link: e, point: t, p: n }) => {
 		let i = r("circle", V, {
 			class: "handle joint",
 			r: 2.2,
@@ -2326,7 +2346,7 @@ async function Ut(e, t, c, u) {
 			}[t.key];
 			if (!r) return;
 			t.preventDefault(), t.stopPropagation();
-			let i = Vt * (t.shiftKey ? 5 : 1), a = R.paper.point(n);
+			let i = Ut * (t.shiftKey ? 5 : 1), a = R.paper.point(n);
 			K(() => {
 				let t = {
 					link: p.links.indexOf(e),
@@ -2356,14 +2376,14 @@ async function Ut(e, t, c, u) {
 		});
 	}
 	function ie() {
-		let e = i("div", F, { class: "switches" }), n = Rt(t.title);
-		Tt(e, I.view, c, !1, () => J()), wt(e, c, t.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => J());
+		let e = i("div", F, { class: "switches" }), n = Bt(t.title);
+		Dt(e, I.view, c, !1, () => J()), Et(e, c, t.views.mechanism.arrows.length ? ["names", "loads"] : ["names"], !1, () => J());
 		let r = i("span", e, {
 			class: "group",
 			role: "group",
 			"aria-label": "save"
 		});
-		M(r, "Model file", "the file with the pose that is drawn", () => Z(`${n}.yaml`, le(), "text/yaml")), M(r, "SVG", "the drawing", () => Z(`${n}.svg`, Ft(R.svg, t.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void Lt(R.svg, t.style.light).then((e) => Z(`${n}.png`, e, "image/png")));
+		M(r, "Model file", "the file with the pose that is drawn", () => X(`${n}.yaml`, le(), "text/yaml")), M(r, "SVG", "the drawing", () => X(`${n}.svg`, Lt(R.svg, t.style.light), "image/svg+xml")), M(r, "PNG", "the drawing", () => void zt(R.svg, t.style.light).then((e) => X(`${n}.png`, e, "image/png")));
 	}
 	function se(e) {
 		return e.flatMap(({ kind: e, name: t }) => p.rows.flatMap((n, r) => e === "joint" && n.joint === t && n.kind === "freedom" ? [{
@@ -2376,7 +2396,7 @@ async function Ut(e, t, c, u) {
 			type: "offer",
 			offer: e
 		})) {
-			if (!e.page) return Z(`${Rt(t.title)}.yaml`, e.text, "text/yaml");
+			if (!e.page) return X(`${Bt(t.title)}.yaml`, e.text, "text/yaml");
 			await u.taken(JSON.parse(new TextDecoder().decode(await H(e.page))), G());
 		}
 	}
@@ -2395,12 +2415,12 @@ async function Ut(e, t, c, u) {
 			_.pose.turn[t]
 		]]));
 	}
-	let ue = () => Bt * R.paper.perMm / p.length;
+	let ue = () => Ht * R.paper.perMm / p.length;
 	function K(e) {
 		O = _.pose, e(), de();
 	}
 	function de() {
-		O !== _.pose && (S.push(O), S.length > Ht && S.shift(), C.length = 0), u.on?.({
+		O !== _.pose && (S.push(O), S.length > Wt && S.shift(), C.length = 0), u.on?.({
 			type: "pose",
 			pose: G(),
 			closed: _.closed
@@ -2443,7 +2463,7 @@ async function Ut(e, t, c, u) {
 			E !== "on the way" && _.closed || (E = _.frame(w, T, ue())), (E === "on the way" || E === "apart" && e !== _.pose) && J();
 		}
 		g.show(_.pose), R.update(!0);
-		for (let { knob: e, p: t } of ee) {
+		for (let { knob: e, p: t } of W) {
 			let [r, i] = R.paper.point(t);
 			n(e, {
 				cx: a(r),
@@ -2453,23 +2473,23 @@ async function Ut(e, t, c, u) {
 		B(), me(), [N.disabled, P.disabled] = [!S.length, !C.length];
 	}
 	function me() {
-		if (W.replaceChildren(), !w || E !== "nearest" || _.away < 3 * ue()) return;
+		if (ee.replaceChildren(), !w || E !== "nearest" || _.away < 3 * ue()) return;
 		let [e, i] = [_.at(w), T].map((e) => R.paper.of(...R.paper.project(e))), { unit: c, size: l } = t.units.length;
-		r("path", W, {
+		r("path", ee, {
 			class: "l-gap",
 			d: s([e, i]),
 			style: "fill:none"
-		}), n(h(W, "gap", `${o(_.away * p.length / l, 3)} ${c} too far`, 3.3, i[0] < e[0] == i[1] < e[1] ? "start" : "end"), {
+		}), n(h(ee, "gap", `${o(_.away * p.length / l, 3)} ${c} too far`, 3.3, i[0] < e[0] == i[1] < e[1] ? "start" : "end"), {
 			x: a((e[0] + i[0]) / 2 + (i[0] < e[0] == i[1] < e[1] ? 2.5 : -2.5)),
 			y: a((e[1] + i[1]) / 2 - 1.5)
 		});
 	}
-	let X = u.full ? document : e, he = (e) => {
+	let he = u.full ? document : e, ge = (e) => {
 		let t = e;
 		(t.ctrlKey || t.metaKey) && !t.altKey && /^[zy]$/i.test(t.key) && (t.preventDefault(), t.key.toLowerCase() === "z" && !t.shiftKey ? q(S, C) : q(C, S));
 	};
-	X.addEventListener("keydown", he);
-	let ge = () => {
+	he.addEventListener("keydown", ge);
+	let _e = () => {
 		I.resize(), R.fit(), J();
 	};
 	return {
@@ -2477,50 +2497,50 @@ async function Ut(e, t, c, u) {
 		times: b,
 		stage: I,
 		observed: [z],
-		resize: ge,
+		resize: _e,
 		redraw: J,
 		opened() {
-			ge(), Y(), I.choose(c.chosen);
+			_e(), Y(), I.choose(c.chosen);
 		},
 		set: () => void 0,
 		show: () => void 0,
 		text: le,
 		pose: G,
 		sketch: _,
-		remove: () => X.removeEventListener("keydown", he)
+		remove: () => he.removeEventListener("keydown", ge)
 	};
 }
 // src/reading.ts
-var Q = class extends Error {}, $ = (e, t) => e.replace(/\{(\w+)\}/g, (e, n) => t[n] ?? e);
-function Wt(e) {
+var Z = class extends Error {}, Q = (e, t) => e.replace(/\{(\w+)\}/g, (e, n) => t[n] ?? e);
+function $(e) {
 	if (/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(e)) return e;
 	let t = e.includes("'") && !e.includes("\"") ? "\"" : "'", n = t + e.replace(/\\/g, "\\\\") + t;
 	return n.length <= 60 ? n : n.slice(0, 57) + "...";
 }
-var Gt = {
+var Kt = {
 	"²": "^2",
 	"³": "^3",
 	"·": "*",
 	"⋅": "*",
 	"×": "*",
 	"−": "-"
-}, Kt = class {
+}, qt = class {
 	text;
 	reading;
 	units;
 	tokens;
 	constructor(e, t, n) {
 		this.text = e, this.reading = t, this.units = n;
-		let r = e.replace(/[²³·⋅×−]/g, (e) => Gt[e]).replaceAll("**", "^");
+		let r = e.replace(/[²³·⋅×−]/g, (e) => Kt[e]).replaceAll("**", "^");
 		r = r.replace(/\b(ft|in)-lb\b/g, "$1*lbf").replace(/\blb-(ft|in)\b/g, "lbf*$1").replace(/(?<=[a-zµμ])[-.](?=[a-zµμ])/gi, "*"), this.tokens = r.match(/\d+|[a-zµμ_]+|[°%]|[-*/^()]|\S/gi) ?? [];
 	}
 	read() {
 		let e = this.product(1);
-		return this.tokens.length && this.refuse(`unexpected ${Wt(this.tokens[0])}`), e;
+		return this.tokens.length && this.refuse(`unexpected ${$(this.tokens[0])}`), e;
 	}
 	refuse(e) {
-		throw new Q($(this.reading.sentences.form, {
-			unit: Wt(this.text),
+		throw new Z(Q(this.reading.sentences.form, {
+			unit: $(this.text),
 			why: e
 		}));
 	}
@@ -2545,12 +2565,12 @@ var Gt = {
 		let r = this.tokens.shift(), i;
 		if (r === "(" && n < 5) i = this.product(n + 1), this.tokens.shift() !== ")" && this.refuse("a bracket is not closed");
 		else if (r !== void 0 && /^[a-zµμ_°%]/i.test(r)) i = this.named(r);
-		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${Wt(r)}`);
+		else return this.refuse(r === void 0 ? "a name is missing" : `expected a name, not ${$(r)}`);
 		let a = 1;
 		if (this.tokens[0] === "^") {
 			this.tokens.shift();
 			let e = this.tokens[0] === "-" && this.tokens.shift() !== void 0, t = this.tokens.shift() ?? "";
-			if (!/^[1-6]$/.test(t)) throw new Q($(this.reading.sentences.power, { unit: Wt(this.text) }));
+			if (!/^[1-6]$/.test(t)) throw new Z(Q(this.reading.sentences.power, { unit: $(this.text) }));
 			a = e ? -t : +t;
 		}
 		let [o, s] = e * a < 0 ? [i.down, i.up] : [i.up, i.down];
@@ -2562,8 +2582,8 @@ var Gt = {
 	}
 	named(e) {
 		let t = Object.hasOwn(this.reading.units, e) ? this.reading.units[e] : null;
-		if (!t) throw new Q($(this.reading.sentences.no_unit, {
-			unit: Wt(e),
+		if (!t) throw new Z(Q(this.reading.sentences.no_unit, {
+			unit: $(e),
 			units: this.units
 		}));
 		let [n, r, ...i] = t;
@@ -2574,13 +2594,13 @@ var Gt = {
 		};
 	}
 };
-function qt(e, t, n) {
+function Jt(e, t, n) {
 	let { kinds: r, sentences: i } = n, a = r[t.kind] ?? r.number, o = e.trim(), s = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/is.exec(o.replaceAll("−", "-")), c = {
-		text: Wt(o),
+		text: $(o),
 		phrase: a.phrase,
 		remedy: a.remedy
 	}, l = (e, t = {}) => {
-		throw new Q($(e, {
+		throw new Z(Q(e, {
 			...c,
 			...t
 		}));
@@ -2594,12 +2614,12 @@ function qt(e, t, n) {
 	if (/^[\d/]/.test(d) && !/^1\/[^\W\d]/.test(d)) return l(i.several);
 	let f = (e) => Number.isFinite(e) ? e : l(i.finite);
 	if (!d || d === t.unit) return f(+u * t.size);
-	let p = new Kt(d, n, a.units).read(), m = [...p.dimension];
+	let p = new qt(d, n, a.units).read(), m = [...p.dimension];
 	if (a.per_radian && m[3] === 0 && (m[3] = a.dimension[3]), m.some((e, t) => e !== a.dimension[t])) {
-		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? Jt(p.dimension);
+		let e = Object.values(r).find((e) => e.dimension.every((e, t) => e === p.dimension[t]))?.phrase ?? Yt(p.dimension);
 		if (/\blb\b/.test(d) && a.force) return l(i.dimension, {
 			given: e,
-			remedy: $(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
+			remedy: Q(i.pounds.split("; ")[1], { unit: d.replaceAll("lb", "lbf") })
 		});
 		let n = t.kind === "angular_speed" && String(p.dimension) === "0,0,-1,0";
 		return l(i.dimension, {
@@ -2609,7 +2629,7 @@ function qt(e, t, n) {
 	}
 	return f(+u * p.up / p.down);
 }
-function Jt(e) {
+function Yt(e) {
 	return `in ${[
 		"m",
 		"kg",
@@ -2618,7 +2638,7 @@ function Jt(e) {
 	].flatMap((t, n) => e[n] ? [t + (e[n] === 1 ? "" : `^${e[n]}`)] : []).join("*")}`;
 }
 // src/gate.ts
-var Yt = class {
+var Xt = class {
 	data;
 	kernel;
 	sentence = "";
@@ -2630,10 +2650,10 @@ var Yt = class {
 	type(e, t) {
 		let n = this.data.numbers[e];
 		try {
-			let r = qt(t, n, this.data.reading);
-			this.check(n, r, Wt(t.trim())), this.kernel.values[e] = r;
+			let r = Jt(t, n, this.data.reading);
+			this.check(n, r, $(t.trim())), this.kernel.values[e] = r;
 		} catch (e) {
-			if (!(e instanceof Q)) throw e;
+			if (!(e instanceof Z)) throw e;
 			return e.message;
 		}
 		let r = this.pass() ? "" : this.sentence;
@@ -2665,10 +2685,10 @@ var Yt = class {
 	}
 	check(e, t, n) {
 		let { sentences: r } = this.data.reading, i = e.range;
-		if (!Number.isFinite(t)) throw new Q($(r.finite, { text: n }));
+		if (!Number.isFinite(t)) throw new Z(Q(r.finite, { text: n }));
 		let a = this.unmet(e, t, n);
-		if (a) throw new Q(a);
-		if (i && t !== e.value && (t < i[0] || t > i[1])) throw new Q($(r.range, {
+		if (a) throw new Z(a);
+		if (i && t !== e.value && (t < i[0] || t > i[1])) throw new Z(Q(r.range, {
 			text: n,
 			low: this.words(e, i[0]),
 			high: this.words(e, i[1])
@@ -2686,19 +2706,19 @@ var Yt = class {
 	}
 	unmet({ sign: e, counts: t }, n, r) {
 		let { sentences: i, signs: a } = this.data.reading;
-		return e && (n < 0 || e === "positive" && n === 0) ? $(a[e], { text: r }) : t && !Number.isInteger(n) ? $(i.count, { what: t }) : "";
+		return e && (n < 0 || e === "positive" && n === 0) ? Q(a[e], { text: r }) : t && !Number.isInteger(n) ? Q(i.count, { what: t }) : "";
 	}
 	words(e, t) {
 		return `${o(t / e.size, 6).replace("–", String(t))}${e.unit === "°" ? "" : " "}${e.unit}`.trim();
 	}
 };
 // src/handles.ts
-function Xt(e, t, n, i) {
-	let a = r("g", e.svg, { class: "handles" }), o = t.handles.map((t) => $t(a, e, t, n, i));
+function Zt(e, t, n, i) {
+	let a = r("g", e.svg, { class: "handles" }), o = t.handles.map((t) => en(a, e, t, n, i));
 	return () => n.finite && o.forEach((e) => e());
 }
-var Zt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function Qt(e, t, n, r, [i, a]) {
+var Qt = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function $t(e, t, n, r, [i, a]) {
 	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
 		e.other(c, s);
 		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
@@ -2726,7 +2746,7 @@ function Qt(e, t, n, r, [i, a]) {
 		}
 	}
 }
-function $t(e, t, i, o, s) {
+function en(e, t, i, o, s) {
 	let c = `${{
 		joint: "joint",
 		point: "point",
@@ -2761,11 +2781,11 @@ function $t(e, t, i, o, s) {
 			!0
 		], v = "about" in i && i.about ? p(i.about) : [];
 	}, C = (e) => d.vector([e[0] - g[0], e[1] - g[1]]), w = (e) => {
-		if ("by" in i && i.by) Qt(o, d, i.p, i.by, d.metres(e));
+		if ("by" in i && i.by) $t(o, d, i.p, i.by, d.metres(e));
 		else if ("ends" in i) E(i.ends, T(C(e)));
 		else if (i.kind === "direction") {
-			let t = d.point(i.p), n = [e[0] - t[0], t[1] - e[1]], [r, a] = m[0].axes.map((e) => Zt(e, n));
-			f[i.direction] = en(Math.atan2(a, r), f[i.direction]);
+			let t = d.point(i.p), n = [e[0] - t[0], t[1] - e[1]], [r, a] = m[0].axes.map((e) => Qt(e, n));
+			f[i.direction] = tn(Math.atan2(a, r), f[i.direction]);
 		} else D(i, C(e).map((e, n) => _[n] + e / d.perMm * t.force()));
 		s.changed();
 	}, T = (e) => {
@@ -2774,12 +2794,12 @@ function $t(e, t, i, o, s) {
 		return r.map((e, n) => t[n] + a * e - h[n]);
 	}, E = (e, t) => e.forEach((e, n) => {
 		let r = h.map((e, r) => e + t[r] - m[n].at[r]);
-		e.n.forEach((e, t) => f[e] = Zt(m[n].axes[t], r));
+		e.n.forEach((e, t) => f[e] = Qt(m[n].axes[t], r));
 	}), D = (e, t) => {
-		let n = m[0].axes.map((e) => Zt(e, t));
+		let n = m[0].axes.map((e) => Qt(e, t));
 		if (e.components) return e.components.forEach((e, t) => f[e] = n[t]);
 		let r = Math.sign(f[e.size]) || 1;
-		e.direction === void 0 ? f[e.size] = r * Zt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = en(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
+		e.direction === void 0 ? f[e.size] = r * Qt(t, _) / (Math.hypot(..._) || 1) : (f[e.direction] = tn(Math.atan2(r * n[1], r * n[0]), f[e.direction]), f[e.size] = r * Math.hypot(...n));
 	}, O = () => {
 		b && s.finished(), b = !1;
 	};
@@ -2812,7 +2832,7 @@ function $t(e, t, i, o, s) {
 		});
 	};
 }
-var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1, nn = 90, rn = 1e60, an = class {
+var tn = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), nn = 1, rn = 90, an = 1e60, on = class {
 	table;
 	breaks;
 	pieces;
@@ -2829,7 +2849,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, on = class e {
+}, sn = class e {
 	data;
 	whole;
 	one;
@@ -2860,7 +2880,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 	constructor(e, t, n, r, i, a) {
 		this.data = e, this.whole = t, this.one = n, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.hereAfter = new Float64Array(e.kernel.outputs + 1), this.side = e.kernel.channels.indexOf("side"), this.after = this.side < 0 ? this.rows : this.rows.slice(), [this.read, this.later] = [this.rows, this.after], this.positions = new Map(e.drives.map((e) => [e.name, V(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
 			values: V(e.values),
-			pieces: e.table && new an(e.table),
+			pieces: e.table && new on(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}]));
 		let o = /* @__PURE__ */ new Set([...e.sketch.branches, ...e.sketch.known]);
@@ -2872,7 +2892,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 			for (let e = 0; e < this.row; e++) t.path[n * this.row + e] = r[Math.min(e, this.count - 1)];
 		}), this.side >= 0 && t.path.fill(-1, this.side * this.row, (this.side + 1) * this.row);
 		let s = (e) => this.channels.get(e)?.values ?? new Float64Array(this.count);
-		this.motion = new He(e, this, r, i, this.values, s), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.isWholeTurn(e.name));
+		this.motion = new We(e, this, r, i, this.values, s), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.isWholeTurn(e.name));
 	}
 	static async create(t) {
 		let n = t.numbers.length, [r, i, a, o, s] = await Promise.all([
@@ -2911,7 +2931,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 		return i === 0 ? n.values[r] : n.values[r] + i * (a - n.values[r]);
 	}
 	cycle() {
-		Ue(this.cycling());
+		Ge(this.cycling());
 	}
 	*parts() {
 		let { values: e } = this, t = e.slice(), n = e.slice(), r = this.cycling();
@@ -2920,12 +2940,12 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 	*cycling() {
 		this.motion.current ? this.closes() : yield* this.motion.updating(), this.side >= 0 && this.bothSides();
 		let e = this.rows.length - this.row, t = 0, n = (e) => this.rows[e * this.row + t];
-		for (; t < this.count; t++) t % nn === 0 && (yield), this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], n) : tn, this.good[t] = +this.numbered(this.markAt(t));
+		for (; t < this.count; t++) t % rn === 0 && (yield), this.rows[e + t] = this.motion.poses[t] ? this.judged(this.rows[e + t], n) : nn, this.good[t] = +this.numbered(this.markAt(t));
 		this.cycles++;
 	}
 	closes() {
 		for (let { name: e, channel: t } of this.followed) this.whole.path.set(this.channels.get(e).values, t * this.row);
-		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== tn));
+		return this.whole.call(this.count), Uint8Array.from({ length: this.count }, (e, t) => +(this.markAt(t) !== nn));
 	}
 	bothSides() {
 		let { path: e, out: t } = this.whole, n = this.side * this.row, r = t.slice();
@@ -2938,8 +2958,8 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 	}
 	judged(e, t) {
 		if (this.data.statuses[e]?.status === "contact_lost" && this.forces.every((e) => Math.abs(t(e)) <= this.data.noise.force)) return 0;
-		if (e === tn || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
-		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > rn);
+		if (e === nn || !this.numbered(e) && this.data.statuses[e].status !== "undecided") return e;
+		let n = this.numbered(e) || this.values.some((e) => Math.abs(e) > an);
 		for (let e = 0; n && e < this.here.length - 1; e++) if (!Number.isFinite(t(e))) return this.marked("overflow");
 		return e;
 	}
@@ -2947,7 +2967,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 		return this.data.statuses.findIndex((t) => t.status === e);
 	}
 	closesAt(e) {
-		return this.run(e, null, this.motion.branches.model), this.one.at(this.here.length - 1) !== tn;
+		return this.run(e, null, this.motion.branches.model), this.one.at(this.here.length - 1) !== nn;
 	}
 	posed(e) {
 		return this.data.sketch.poses.map((t) => t.map((t) => this.value(t, e)));
@@ -2963,7 +2983,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 		this.run(e, t, t ? this.motion.branches.read(t, e) : this.motion.branches.model);
 		for (let e = 0; e < n.length; e++) [n[e], this.hereAfter[e]] = [this.one.at(e), this.one.at(e, 1)];
 		let r = n.length - 1, i = this.side >= 0 ? this.between(n[r], this.hereAfter[r], (e) => n[e] === this.hereAfter[e]) : n[r];
-		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = tn), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
+		n[r] = this.judged(i, (e) => n[e]), t || (n[n.length - 1] = nn), this.open = [], t && n.every(Number.isFinite) || this.stretch(t ?? this.motion.stretched(e), e), this.finite = this.data.sketch.drawn.every((e) => Number.isFinite(n[e]));
 	}
 	stretch(e, t) {
 		let { sketch: n } = this.data, r = this.motion.branches.look(e, t, this.motion.branches.model), i = n.branches.length + n.known.length;
@@ -3036,7 +3056,7 @@ var en = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI)), tn = 1
 	}
 };
 // src/panels.ts
-function sn(e, t, n, r, a) {
+function cn(e, t, n, r, a) {
 	let o = [], s = /* @__PURE__ */ new Map(), c = (t) => {
 		let n = s.get(t);
 		if (!n) {
@@ -3049,7 +3069,7 @@ function sn(e, t, n, r, a) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n: t } of l) {
-		let [s, l] = e.parameter ? ["Parameters", e.label] : cn(e.label), f = i("label", c(s), { title: e.about ?? e.path });
+		let [s, l] = e.parameter ? ["Parameters", e.label] : ln(e.label), f = i("label", c(s), { title: e.about ?? e.path });
 		i("span", f, {}, l);
 		let p = i("input", f, {
 			type: "text",
@@ -3077,7 +3097,7 @@ function sn(e, t, n, r, a) {
 		}), p.addEventListener("keydown", (e) => {
 			e.key === "Escape" && (g(""), p.value = u(h), p.blur());
 		}), e.parameter) {
-			let [r, o] = e.range ?? ln(e.value), s = i("input", f, {
+			let [r, o] = e.range ?? un(e.value), s = i("input", f, {
 				type: "range",
 				min: r / e.size,
 				max: o / e.size,
@@ -3101,15 +3121,15 @@ function sn(e, t, n, r, a) {
 		focus: (e) => o.find((t) => t.field.path === e)?.box.focus()
 	};
 }
-function cn(e) {
+function ln(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function ln(e) {
+function un(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function un(e, n, r) {
+function dn(e, n, r) {
 	let a = i("tbody", i("table", e, { class: "answers" })), s = n.views.table.map((e) => {
 		let t = i("tr", a), r = n.units[e.kind];
 		return i("th", t, { scope: "row" }, d(e.name)), {
@@ -3125,7 +3145,7 @@ function un(e, n, r) {
 		}
 	} };
 }
-function dn(e, t, n, r) {
+function fn(e, t, n, r) {
 	let { terms: a, about: s } = r.equations, { force: c, moment: l } = t.units, u = a[0]?.f.length ?? 2, f = [
 		"x",
 		"y",
@@ -3165,15 +3185,15 @@ function dn(e, t, n, r) {
 		}
 	} };
 }
-function fn(e, t) {
+function pn(e, t) {
 	i("p", e, {}, "One linear system per position gives forces and motion (D'Alembert's principle); everything shown is recomputed from the numbers beside it, in double precision.");
 	let n = i("dl", e);
 	for (let [e, r] of Object.entries(t.assumptions)) i("dt", n, {}, e), i("dd", n, {}, r);
 	t.source && i("p", e, {}, `Source: ${t.source}`), i("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/charts.ts
-var pn = 16, mn = 5, hn = 8, gn = 4;
-function _n(e, t) {
+var mn = 16, hn = 5, gn = 8, _n = 4;
+function vn(e, t) {
 	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
 	return r * ([
 		1,
@@ -3182,7 +3202,7 @@ function _n(e, t) {
 		10
 	].find((e) => e * r >= n) ?? 10);
 }
-function vn(e, t) {
+function yn(e, t) {
 	return [
 		1,
 		2,
@@ -3195,16 +3215,16 @@ function vn(e, t) {
 		90,
 		180,
 		360
-	].find((n) => n >= e / t) ?? 360 * _n(e / 360, t);
+	].find((n) => n >= e / t) ?? 360 * vn(e / 360, t);
 }
-function yn(e, t, n) {
+function bn(e, t, n) {
 	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
 	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
 }
-function bn(t, s, c, d, f, p) {
+function xn(t, s, c, d, f, p) {
 	let h = i("figure", t, { class: "chart" }), g = s.units[d.kind];
 	i("figcaption", h, {}, `${d.title}, ${g.unit}`);
-	let _ = s.views.charts.flatMap((e) => e.curves.map((e) => m(e.name, 3))), v = Math.max(44, 13 + gn * d.curves.length), y = ct(h, p, v, d.title), b = v - mn - hn, x = -v / 2 + mn, S = 0, C = 0, w = r("path", y, {
+	let _ = s.views.charts.flatMap((e) => e.curves.map((e) => m(e.name, 3))), v = Math.max(44, 13 + _n * d.curves.length), y = ut(h, p, v, d.title), b = v - hn - gn, x = -v / 2 + hn, S = 0, C = 0, w = r("path", y, {
 		class: "l-grid",
 		style: "fill:none"
 	}), T = r("path", y, {
@@ -3220,7 +3240,7 @@ function bn(t, s, c, d, f, p) {
 		let n = r("text", y, {
 			class: `l-${e.role}-t key`,
 			"font-size": 3,
-			y: x + 3 + gn * t,
+			y: x + 3 + _n * t,
 			tabindex: 0,
 			role: "button"
 		});
@@ -3238,7 +3258,7 @@ function bn(t, s, c, d, f, p) {
 			}
 			yield;
 		}
-		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), I = _n(t - e, 4), [e, t] = [Math.floor(e / I + 1e-9) * I, Math.ceil(t / I - 1e-9) * I], e === P && t === F ? !1 : ([P, F] = [e, t], !0);
+		return e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]), I = vn(t - e, 4), [e, t] = [Math.floor(e / I + 1e-9) * I, Math.ceil(t / I - 1e-9) * I], e === P && t === F ? !1 : ([P, F] = [e, t], !0);
 	}
 	function B() {
 		let t = s.drives[0], n = (e, t, n, i) => r("text", E, {
@@ -3250,10 +3270,10 @@ function bn(t, s, c, d, f, p) {
 		}).textContent = e;
 		E.replaceChildren();
 		let i = "";
-		for (let e of yn(P, F, I)) i += `M${C} ${a(R(e))}h${S}`, n(o(e, 5), C - 1.2, R(e) + .9, "end");
+		for (let e of bn(P, F, I)) i += `M${C} ${a(R(e))}h${S}`, n(o(e, 5), C - 1.2, R(e) + .9, "end");
 		if (t) {
 			let [e, r] = [0, A].map((e) => c.position(t.name, e) / t.size);
-			for (let s of yn(Math.min(e, r), Math.max(e, r), (t.unit === "°" ? vn : _n)(Math.abs(r - e), 6))) {
+			for (let s of bn(Math.min(e, r), Math.max(e, r), (t.unit === "°" ? yn : vn)(Math.abs(r - e), 6))) {
 				let c = C + (s - e) / (r - e || 1) * S;
 				i += `M${a(c)} ${x}v${b}`, n(o(s, 5) + (t.unit === "°" ? "°" : ""), c, x + b + 3.4, "middle");
 			}
@@ -3262,7 +3282,7 @@ function bn(t, s, c, d, f, p) {
 		e(w, "d", i), e(T, "d", `M${C} ${x}v${b}` + (P < 0 && F > 0 ? `M${C} ${a(R(0))}h${S}` : ""));
 	}
 	function V(e) {
-		p = e, [S, C] = [p - pn - Math.min(Math.max(..._) + 4, .3 * p), -p / 2 + pn], y.setAttribute("viewBox", `${-p / 2} ${-v / 2} ${p} ${v}`), M.forEach((e) => e.setAttribute("x", a(C + S + 2))), P = NaN;
+		p = e, [S, C] = [p - mn - Math.min(Math.max(..._) + 4, .3 * p), -p / 2 + mn], y.setAttribute("viewBox", `${-p / 2} ${-v / 2} ${p} ${v}`), M.forEach((e) => e.setAttribute("x", a(C + S + 2))), P = NaN;
 	}
 	V(p);
 	let H = (e) => f.seek((l(y, e)[0] - C) / S * A);
@@ -3271,14 +3291,14 @@ function bn(t, s, c, d, f, p) {
 	}), y.addEventListener("pointermove", (e) => e.buttons && y.hasPointerCapture(e.pointerId) && H(e));
 	function* U() {
 		(yield* z()) && B();
-		for (let [t, n] of D.entries()) yield, e(n, "d", ke(c, (e) => [L(e), R(N(d.curves[t], e))]));
+		for (let [t, n] of D.entries()) yield, e(n, "d", je(c, (e) => [L(e), R(N(d.curves[t], e))]));
 	}
 	return {
 		figure: h,
 		resize: V,
 		parts: U,
 		update(t) {
-			t && Ue(U());
+			t && Ge(U());
 			let r = a(L(Math.min(f.time(), A)));
 			e(O, "d", `M${r} ${x}v${b}`), d.curves.forEach((e, t) => {
 				let i = c.solved ? {
@@ -3293,14 +3313,14 @@ function bn(t, s, c, d, f, p) {
 		}
 	};
 }
-var xn = (e, { f: t }) => e.largest((n) => Math.hypot(e.value(t[0], n), e.value(t[1], n)));
-function Sn(e, t) {
+var Sn = (e, { f: t }) => e.largest((n) => Math.hypot(e.value(t[0], n), e.value(t[1], n)));
+function Cn(e, t) {
 	let n = -1, r = 0;
-	return () => (n !== e.cycles && ([n, r] = [e.cycles, Math.max(...t.map((t) => xn(e, t)))]), r);
+	return () => (n !== e.cycles && ([n, r] = [e.cycles, Math.max(...t.map((t) => Sn(e, t)))]), r);
 }
-var Cn = 1e-11;
-function wn(a, s, c, l, u) {
-	let d = i("figure", a, { class: "polar" }), [f, p] = c.f, m = i("figcaption", d), h = ct(d, 66, 66, `polar diagram of joint ${c.name}`);
+var wn = 1e-11;
+function Tn(a, s, c, l, u) {
+	let d = i("figure", a, { class: "polar" }), [f, p] = c.f, m = i("figcaption", d), h = ut(d, 66, 66, `polar diagram of joint ${c.name}`);
 	r("path", h, {
 		class: "l-grid",
 		style: "fill:none",
@@ -3313,110 +3333,110 @@ function wn(a, s, c, l, u) {
 	function* x() {
 		let r = l();
 		yield;
-		let i = xn(s, c);
-		b = !(i > Cn * r), n(h, { display: b ? "none" : "inline" });
-		let a = $e(i / u.size), d = `Joint ${c.name}: ${b ? "no force at any position" : `circles of ${o(a / 2)} and ${o(a)} ${u.unit}`}`;
-		t(m, d), b || (y = a / 30 * u.size, e(_, "d", ke(s, (e) => [s.value(f, e) / y, -s.value(p, e) / y], !0)));
+		let i = Sn(s, c);
+		b = !(i > wn * r), n(h, { display: b ? "none" : "inline" });
+		let a = tt(i / u.size), d = `Joint ${c.name}: ${b ? "no force at any position" : `circles of ${o(a / 2)} and ${o(a)} ${u.unit}`}`;
+		t(m, d), b || (y = a / 30 * u.size, e(_, "d", je(s, (e) => [s.value(f, e) / y, -s.value(p, e) / y], !0)));
 	}
 	return {
 		figure: d,
 		parts: x,
 		update(e) {
-			e && Ue(x()), v.set([0, 0], s.solved && !b ? [s.here[f] / y, -s.here[p] / y] : [0, 0]);
+			e && Ge(x()), v.set([0, 0], s.solved && !b ? [s.here[f] / y, -s.here[p] / y] : [0, 0]);
 		}
 	};
 }
-function Tn(t, n, a, o, c) {
-	let l = i("figure", t, { class: "polygon" }), u = n.units.force;
-	i("figcaption", l, {}, o);
-	let d = ct(l, 110, 80, o), f = r("g", d), p = /* @__PURE__ */ new Set(), m = c.map(({ sides: e }) => {
-		let t = e.find((e) => e.kind === "joint" && p.has(e.of));
-		for (let t of e) t.kind === "joint" && p.add(t.of);
+function En(n, a, o, c, l) {
+	let u = i("figure", n, { class: "polygon" }), d = a.units.force, f = i("figcaption", u, {}, c), p = ut(u, 110, 80, c), m = r("g", p), h = /* @__PURE__ */ new Set(), _ = l.map(({ sides: e }) => {
+		let t = e.find((e) => e.kind === "joint" && h.has(e.of));
+		for (let t of e) t.kind === "joint" && h.add(t.of);
 		return {
 			shared: t,
 			drawn: e.filter((e) => e !== t).map((e) => ({
 				s: e,
-				arrow: new g(d, e.role, e.name),
-				name: X(f, e.role, e.name, 3)
+				arrow: new g(p, e.role, e.name),
+				name: he(m, e.role, e.name, 3)
 			}))
 		};
-	}), h = r("path", d, {
+	}), v = r("path", p, {
 		class: "l-gap",
 		style: "fill:none"
-	}), _ = new st(d, !0);
+	}), y = new lt(p, !0);
 	return {
-		figure: l,
+		figure: u,
 		update() {
-			if (e(d, "visibility", a.solved ? "visible" : "hidden"), !a.solved) return;
-			let t = a.here, n = /* @__PURE__ */ new Map(), r = [], i = [], o = m.flatMap(({ shared: e, drawn: a }) => {
-				let o = tt(r)?.y[1] ?? 0, s = n.get(e?.of ?? "") ?? [0, o], c = (e) => [s[0] + t[e[0]], s[1] - t[e[1]]], l = s;
-				e && (s = c(e.f));
-				let u = a.map((e) => {
-					let t = s;
-					return s = c(e.s.f), e.s.kind === "joint" && !n.has(e.s.of) && n.set(e.s.of, s), r.push(t, s), {
+			if (e(p, "visibility", o.solved ? "visible" : "hidden"), !o.solved) return;
+			let n = o.here, r = /* @__PURE__ */ new Map(), i = [], l = [], u = _.flatMap(({ shared: e, drawn: t }) => {
+				let a = rt(i)?.y[1] ?? 0, o = r.get(e?.of ?? "") ?? [0, a], s = (e) => [o[0] + n[e[0]], o[1] - n[e[1]]], c = o;
+				e && (o = s(e.f));
+				let u = t.map((e) => {
+					let t = o;
+					return o = s(e.s.f), e.s.kind === "joint" && !r.has(e.s.of) && r.set(e.s.of, o), i.push(t, o), {
 						...e,
 						from: t,
-						to: s
+						to: o
 					};
 				});
-				return i.push([l, s]), u;
-			}), c = tt(r) ?? {
+				return l.push([c, o]), u;
+			}), m = rt(i) ?? {
 				x: [0, 0],
 				y: [0, 0]
-			}, l = $e(Math.max((c.x[1] - c.x[0]) / 66, (c.y[1] - c.y[0]) / 48) / u.size) * u.size, f = ([e, t]) => [(e - (c.x[0] + c.x[1]) / 2) / l, (t - (c.y[0] + c.y[1]) / 2) / l], p = new ge([
+			}, h = !(Math.max(m.x[1] - m.x[0], m.y[1] - m.y[0]) > 1e3 * a.noise.force);
+			if (t(f, h ? `${c}: no forces` : c), p.toggleAttribute("hidden", h), h) return;
+			let g = tt(Math.max((m.x[1] - m.x[0]) / 66, (m.y[1] - m.y[0]) / 48) / d.size) * d.size, b = ([e, t]) => [(e - (m.x[0] + m.x[1]) / 2) / g, (t - (m.y[0] + m.y[1]) / 2) / g], x = new _e([
 				-55,
 				-40,
 				55,
 				36
 			]);
-			for (let { from: e, to: t } of o) p.line(f(e), f(t));
-			for (let { arrow: t, name: n, from: r, to: i } of o) {
-				let [a, o] = [f(r), f(i)], s = t.set(a, o), c = [(a[0] + o[0]) / 2, (a[1] + o[1]) / 2];
-				e(n.el, "visibility", s ? "visible" : "hidden"), s && p.put({
+			for (let { from: e, to: t } of u) x.line(b(e), b(t));
+			for (let { arrow: t, name: n, from: r, to: i } of u) {
+				let [a, o] = [b(r), b(i)], s = t.set(a, o), c = [(a[0] + o[0]) / 2, (a[1] + o[1]) / 2];
+				e(n.el, "visibility", s ? "visible" : "hidden"), s && x.put({
 					label: n,
 					anchors: [c],
 					away: c,
 					leave: .9
 				});
 			}
-			e(h, "d", i.map(([e, t]) => s([f(e), f(t)])).join("")), _.set([-53, 37.4], l, u);
+			e(v, "d", l.map(([e, t]) => s([b(e), b(t)])).join("")), y.set([-53, 37.4], g, d);
 		}
 	};
 }
 // src/results.ts
-var En = 4.6, Dn = (e) => Math.min(Math.max(e / En, 72), 140), On = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
-function kn(e, t, n, r, a, o) {
+var Dn = 4.6, On = (e) => Math.min(Math.max(e / Dn, 72), 140), kn = (e) => !e.closest("[role=tabpanel]")?.hidden && (e.closest("details")?.open ?? !0);
+function An(e, t, n, r, a, o) {
 	let { charts: s, bodies: c, polygons: l } = t.views, u = [], d = [], f = [], p = /* @__PURE__ */ new Set(), m = new IntersectionObserver((e) => e.forEach((e) => e.isIntersecting ? p.add(e.target) : p.delete(e.target)));
 	function h(e) {
 		return f.push(e), m.observe(e.figure), e;
 	}
 	let g = n.count > 1 ? e.add("Curves", "forces and efforts over the cycle") : null;
-	for (let e of g ? s : []) u.push(h(bn(g, t, n, e, r, 120)));
+	for (let e of g ? s : []) u.push(h(xn(g, t, n, e, r, 120)));
 	let _ = n.count > 2 ? s.flatMap((e) => e.curves).filter((e) => e.f) : [];
 	if (g && _.length) {
 		i("h2", g, {}, "Polar diagrams");
-		let e = Sn(n, [..._, ...t.views.mechanism.arrows.filter((e) => e.t === "force")]);
+		let e = Cn(n, [..._, ...t.views.mechanism.arrows.filter((e) => e.t === "force")]);
 		for (let r of _) d.push({
 			box: g,
-			view: h(wn(g, n, r, e, t.units.force))
+			view: h(Tn(g, n, r, e, t.units.force))
 		});
 	}
 	let v = e.add("Forces", "free bodies, their equations, and force polygons"), y = i("select", v, { "aria-label": "link" }), b = c.map((e, r) => {
 		i("option", y, { value: r }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let o = i("div", v, { class: "body" }), s = dt(o, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
+		let o = i("div", v, { class: "body" }), s = pt(o, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`, a);
 		return d.push({
 			box: o,
 			view: s,
 			link: r
 		}, {
 			box: o,
-			view: dn(o, t, n, e),
+			view: fn(o, t, n, e),
 			link: r
 		}), s;
 	});
 	if (l.links.length) {
 		l.links.forEach((e, r) => {
-			let i = Tn(v, t, n, `Force polygon of link ${e.title}`, [e]);
+			let i = En(v, t, n, `Force polygon of link ${e.title}`, [e]);
 			d.push({
 				box: i.figure,
 				view: i,
@@ -3426,13 +3446,13 @@ function kn(e, t, n, r, a, o) {
 		let e = l.chain.map((e) => l.links[e]);
 		d.push({
 			box: v,
-			view: Tn(v, t, n, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
+			view: En(v, t, n, `In the order of solution: ${e.map((e) => e.title).join(" → ")}`, e)
 		});
 	}
 	let x = e.add("Numbers", "the numbers of this position");
 	d.push({
 		box: x,
-		view: un(x, t, n)
+		view: dn(x, t, n)
 	});
 	let S = () => void (a.body = c[+y.value]?.link ?? ""), C = (e) => {
 		let t = c.findIndex((t) => t.link === e);
@@ -3451,20 +3471,20 @@ function kn(e, t, n, r, a, o) {
 		*parts() {
 			for (let e of f) p.has(e.figure) && (yield* e.parts());
 		},
-		resize: (e) => u.forEach((t) => t.resize(Dn(e))),
+		resize: (e) => u.forEach((t) => t.resize(On(e))),
 		update(e) {
-			for (let t of u) On(g) && t.update(e);
-			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +y.value), (r === void 0 || r === +y.value) && On(t) && n.update(e);
+			for (let t of u) kn(g) && t.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +y.value), (r === void 0 || r === +y.value) && kn(t) && n.update(e);
 		}
 	};
 }
 // src/sentences.ts
-function An(e, t = 6) {
+function jn(e, t = 6) {
 	if (!Number.isFinite(e)) return Number.isNaN(e) ? "nan" : e > 0 ? "inf" : "-inf";
 	let [n, r] = e.toExponential(t - 1).split("e"), i = +r, a = (e) => e.includes(".") ? e.replace(/\.?0+$/, "") : e;
 	return i < -4 || i >= t ? `${a(n)}e${i < 0 ? "-" : "+"}${String(Math.abs(i)).padStart(2, "0")}` : a(e.toFixed(Math.max(t - 1 - i, 0)));
 }
-var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, Mn = class {
+var Mn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${e.at(-1)}`, Nn = class {
 	data;
 	kernel;
 	s;
@@ -3478,11 +3498,11 @@ var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	refusal() {
 		for (let { sentence: e, rows: t, error: n } of this.s.gears) {
 			let [r, i, a] = t.map((e) => this.kernel.here[e]), o = i + a;
-			if (Math.abs(r - o) > n * o) return $(e, {
-				found: An(r),
-				ri: An(Math.abs(i)),
-				rj: An(Math.abs(a)),
-				wanted: An(o)
+			if (Math.abs(r - o) > n * o) return Q(e, {
+				found: jn(r),
+				ri: jn(Math.abs(i)),
+				rj: jn(Math.abs(a)),
+				wanted: jn(o)
 			});
 		}
 		return "";
@@ -3499,7 +3519,7 @@ var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		].join();
 		return this.said.key !== s && (this.said = {
 			key: s,
-			text: r === "not_assembled" ? this.open(a, o) : $(a, this.places(r, o, e))
+			text: r === "not_assembled" ? this.open(a, o) : Q(a, this.places(r, o, e))
 		}), this.said.text;
 	}
 	run(e) {
@@ -3529,18 +3549,18 @@ var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 			...i,
 			figures: this.figures(t, n)
 		};
-		let { kernel: a, s: o } = this, s = o.unknowns.map((e) => e.name), c = o.contacts.filter((t) => e === "reversal" ? a.here[t.row] !== a.hereAfter[t.row] : a.here[t.row] === 0), l = [...new Set(c.map((e) => e.joint))], u = o.unknowns.map((e) => $(o.words.sides, {
+		let { kernel: a, s: o } = this, s = o.unknowns.map((e) => e.name), c = o.contacts.filter((t) => e === "reversal" ? a.here[t.row] !== a.hereAfter[t.row] : a.here[t.row] === 0), l = [...new Set(c.map((e) => e.joint))], u = o.unknowns.map((e) => Q(o.words.sides, {
 			name: e.name,
 			before: this.quantity(a.here[e.row], e.kind),
 			after: this.quantity(a.hereAfter[e.row], e.kind)
 		})), d = e === "reversal" ? l.length === 1 ? "reverses" : "reverse" : s.length === 1 ? "lies in an interval" : "each lie in an interval";
 		return {
 			...i,
-			joints: e === "reversal" ? jn(l) : l.join(", "),
+			joints: e === "reversal" ? Mn(l) : l.join(", "),
 			verb: d,
-			values: jn(u),
+			values: Mn(u),
 			name: s[0] ?? "",
-			names: jn(s)
+			names: Mn(s)
 		};
 	}
 	figures(e, t) {
@@ -3551,7 +3571,7 @@ var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		for (let t = e[0]; t <= e[1]; t++) {
 			n.at(t), n.other(a, o);
 			let e = r.unknowns.reduce((e, { row: t }) => e + Math.abs(n.here[t] - o[t]), 0);
-			e > c && ([c, l] = [e, t], u = r.unknowns.map(({ name: e, kind: t, row: i }) => $(r.words.needs, {
+			e > c && ([c, l] = [e, t], u = r.unknowns.map(({ name: e, kind: t, row: i }) => Q(r.words.needs, {
 				name: e,
 				rubbed: this.quantity(n.here[i], t),
 				bare: this.quantity(o[i], t)
@@ -3561,7 +3581,7 @@ var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 	}
 	quantity(e, t, n = 6) {
 		let { unit: r, size: i } = this.s.units[t];
-		return `${An(e / i, n)} ${r}`;
+		return `${jn(e / i, n)} ${r}`;
 	}
 	drive(e, t) {
 		return this.quantity(this.kernel.position(e.name, t), e.turns ? "angle" : "length");
@@ -3574,20 +3594,20 @@ var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let r = t === n ? t : t + (n - t + 1 >> 1), { pose: i, gaps: a } = this.kernel.motion.open(r), o = (e) => this.s.joints.indexOf(e), s = this.arc([t, n]).trim() || this.s.words.described;
 		a.sort((e, t) => o(e.joint) - o(t.joint));
 		let c = this.most(a.map((e) => [e.joint, e.length]), "length", this.data.sketch.length), l = [c, this.most(a.map((e) => [e.joint, e.angle]), "angle", 1)].filter(Boolean);
-		return l.length ? $(e, {
+		return l.length ? Q(e, {
 			span: s,
 			gap: `: ${t !== n && this.data.drives.length ? `${this.arc([r, r]).trim()} ` : ""}${l.join(" and ")}`,
 			datum: c ? "a length" : "a direction"
-		}) : this.loose(i) || $(this.s.words.unfollowed, { span: s });
+		}) : this.loose(i) || Q(this.s.words.unfollowed, { span: s });
 	}
 	loose(e) {
 		let { drives: t, sketch: n } = this.data, r = this.kernel.motion.sketch.mobility(e), i = r.freedoms - t.length;
 		if (n.dimension !== 2 || i <= 0) return "";
 		let a = r.joints.slice(0, 6).map((e) => `${e.joint} (${e.angular ? "turn" : "slide"})`), o = a.length ? ` at ${i === 1 ? "one" : "some"} of ${a.join(", ")}` : "", s = (e, t, n = `${t}s`) => e ? `${e} ${e > 1 ? n : t}` : `no ${t}`;
-		return `${$(this.s.words.counts, {
+		return `${Q(this.s.words.counts, {
 			freedoms: s(r.freedoms, "degree of freedom", "degrees of freedom"),
 			drives: s(t.length, "drive")
-		})}; ${$(this.s.words.add, {
+		})}; ${Q(this.s.words.add, {
 			drives: s(i, "drive"),
 			where: o,
 			loose: r.links.join(", ")
@@ -3597,16 +3617,16 @@ var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let { words: r, limits: i } = this.s, a = e.filter(([, e]) => e > i.shut * n);
 		if (!a.length) return "";
 		let [o, s] = a.reduce((e, t) => t[1] > e[1] ? t : e), c = this.quantity(s, t, 3);
-		if (a.length === 1) return $(r.one, {
+		if (a.length === 1) return Q(r.one, {
 			...r.kinds[t],
 			joint: o,
 			figure: c
 		});
-		let l = Math.min(...a.map(([, e]) => e)) > i.alike * s ? $(r.alike, { joints: a.map(([e]) => e).join(", ") }) : $(r.most, {
+		let l = Math.min(...a.map(([, e]) => e)) > i.alike * s ? Q(r.alike, { joints: a.map(([e]) => e).join(", ") }) : Q(r.most, {
 			joint: o,
 			figure: c
 		});
-		return $(r.several, {
+		return Q(r.several, {
 			...r.kinds[t],
 			total: this.quantity(e.reduce((e, [, t]) => e + t, 0), t, 3),
 			where: l
@@ -3616,16 +3636,16 @@ var jn = (e) => e.length < 2 ? e.join("") : `${e.slice(0, -1).join(", ")} and ${
 		let { overflow: e, words: t } = this.s, n = (e) => this.kernel.here[e], r = "";
 		for (let [i, a] of Object.entries(e)) {
 			let o = a.filter(([, ...t]) => !t.every((t) => Number.isFinite(n(t) * n(t)) || Number.isFinite(n(t)) && i !== Object.keys(e)[0])).map(([e]) => e);
-			if (o.length) return $(t.of, {
+			if (o.length) return Q(t.of, {
 				what: i,
 				names: o.join(", ")
 			});
-			r = $(t.checks, { what: i });
+			r = Q(t.checks, { what: i });
 		}
 		return r;
 	}
-}, Nn = 0;
-function Pn(e, t, n) {
+}, Pn = 0;
+function Fn(e, t, n) {
 	let r = i("div", e, {
 		class: "tabs",
 		role: "tablist",
@@ -3652,7 +3672,7 @@ function Pn(e, t, n) {
 		t < 0 || r === void 0 || (e.preventDefault(), e.stopPropagation(), c(o[r].name, !0));
 	}), {
 		add(e, n = e) {
-			let l = `dalembert-tab-${++Nn}`, u = i("button", r, {
+			let l = `dalembert-tab-${++Pn}`, u = i("button", r, {
 				type: "button",
 				role: "tab",
 				id: l,
@@ -3675,7 +3695,7 @@ function Pn(e, t, n) {
 	};
 }
 // src/toolbar.ts
-function Fn(e, n, r, a, o, s) {
+function In(e, n, r, a, o, s) {
 	let c = i("header", e);
 	i("h1", c, {}, n.title);
 	let l = i("div", c, {
@@ -3700,7 +3720,7 @@ function Fn(e, n, r, a, o, s) {
 		title: "speed of play; , and . step, with Shift by ten",
 		"aria-label": "speed of play"
 	});
-	for (let e of Ke) i("option", m, { value: e }, `${e}×`);
+	for (let e of Je) i("option", m, { value: e }, `${e}×`);
 	m.value = String(o.speed), m.addEventListener("change", () => o.speed = +m.value);
 	let h = u("↶", "undo (Ctrl+Z)", () => s.go(!0)), g = u("↷", "redo (Ctrl+Y)", () => s.go(!1));
 	s.back && u("Back", "back to the sketch: undo the last addition", s.back), u("Reset", "all numbers as in the file", s.reset);
@@ -3719,15 +3739,15 @@ function Fn(e, n, r, a, o, s) {
 		playing: (e) => d.textContent = e ? "❚❚" : "▶",
 		update(e, i, o) {
 			let s = [o, a.at(e)].filter(Boolean).join(" ");
-			t(_, s), f.value = String(e), t(p, Dt(n, r, e)), [h.disabled, g.disabled] = i.map((e) => !e);
+			t(_, s), f.value = String(e), t(p, kt(n, r, e)), [h.disabled, g.disabled] = i.map((e) => !e);
 		}
 	};
 }
 // src/tracers.ts
-function In(t, i, o, s) {
+function Ln(t, i, o, s) {
 	let c = r("g", null, { class: "tracers" });
 	t.svg.querySelector("g").before(c);
-	let l = [], u = () => s.tracers.filter((e) => i.links.includes(e.link)), d = (e) => ke(o, (n) => i.on(t.paper, i.links.indexOf(e.link), e.u, n), !0);
+	let l = [], u = () => s.tracers.filter((e) => i.links.includes(e.link)), d = (e) => je(o, (n) => i.on(t.paper, i.links.indexOf(e.link), e.u, n), !0);
 	function* f() {
 		for (let [t, n] of u().entries()) l[t] && e(l[t].line, "d", d(n)), yield;
 	}
@@ -3760,18 +3780,18 @@ function In(t, i, o, s) {
 	};
 }
 // src/solved.ts
-var Ln = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", Rn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", zn = 6, Bn = 10, Vn = 1, Hn = 8, Un = 4;
-async function Wn(e, n, r, a) {
-	let s = await on.create(n), c = [], l = new Yt(n, s);
-	a.changes && l.change(a.changes), a.address && Mt(s, l, r, location.hash);
+var Rn = "input:not([type=range],[type=checkbox]),textarea,[contenteditable]", zn = "button,summary,select,a,input[type=checkbox],[role=button],[role=tab]", Bn = 6, Vn = 10, Hn = 1, Un = 8, Wn = 4;
+async function Gn(e, n, r, a) {
+	let s = await sn.create(n), c = [], l = new Xt(n, s);
+	a.changes && l.change(a.changes), a.address && Pt(s, l, r, location.hash);
 	let u = a.pose && s.motion.take(a.pose);
 	u != null && (r.t = u), r.t = Math.min(Math.max(Number.isFinite(r.t) && !a.anew ? r.t : n.start, 0), s.end);
 	let f = 0, p = !0, m = 0, h = !1, g = !1, _ = null;
 	s.cycle();
-	let b = new kt(s, l), x = n.views.charts.flatMap((e) => e.curves.map((t) => ({
+	let b = new jt(s, l), x = n.views.charts.flatMap((e) => e.curves.map((t) => ({
 		curve: t,
 		unit: n.units[e.kind]
-	}))), S = x.find((e) => e.curve.of === r.curve) ?? x.find((e) => n.gradient?.curves.includes(e.curve.row)) ?? x[0], C = new Mn(n, s), w = Fn(e, n, s, C, r, {
+	}))), S = x.find((e) => e.curve.of === r.curve) ?? x.find((e) => n.gradient?.curves.includes(e.curve.row)) ?? x[0], C = new Nn(n, s), w = In(e, n, s, C, r, {
 		play: J,
 		show: q,
 		go: ue,
@@ -3780,7 +3800,7 @@ async function Wn(e, n, r, a) {
 	}), T = i("main", e), E = i("section", T, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), D = new y(n.sketch.links, n.sketch.poses, s), O = xt(E, s, n.views.mechanism, n.units, r, {
+	}), D = new y(n.sketch.links, n.sketch.poses, s), O = Ct(E, s, n.views.mechanism, n.units, r, {
 		full: a.full,
 		rates: n.views.rates,
 		on: a.on,
@@ -3791,7 +3811,7 @@ async function Wn(e, n, r, a) {
 	}), { m: k, paper: A } = O, j = i("output", A, {
 		class: "digits",
 		"aria-label": "value of the chosen curve"
-	}), M = new Et(k, n, s), N = In(k, D, s, r), P = new Ot(A, k, n, s, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), F = Xt(k, n, s, {
+	}), M = new Ot(k, n, s), N = Ln(k, D, s, r), P = new At(A, k, n, s, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), F = Zt(k, n, s, {
 		changed: ce,
 		finished: le
 	});
@@ -3802,16 +3822,16 @@ async function Wn(e, n, r, a) {
 	let I = v(k, n, s), L = i("section", T, {
 		class: "side",
 		"aria-label": "results"
-	}), R = Pn(L, r, () => Y(!0)), z = (e) => (S = x.find((t) => t.curve === e), r.curve = e.of, Y(!0)), B = kn(R, n, s, {
+	}), R = Fn(L, r, () => Y(!0)), z = (e) => (S = x.find((t) => t.curve === e), r.curve = e.of, Y(!0)), B = An(R, n, s, {
 		time: () => r.t,
 		seek: q,
 		pick: z,
 		picked: () => S?.curve
-	}, r, () => Y(!0)), V = U(), H = sn(R.add("Change", "every number of the file"), n, s, l, (e) => e ? le() : ce());
-	re(), fn(R.add("About", "method and assumptions"), n);
+	}, r, () => Y(!0)), V = U(), H = cn(R.add("Change", "every number of the file"), n, s, l, (e) => e ? le() : ce());
+	re(), pn(R.add("About", "method and assumptions"), n);
 	function U() {
 		let e = i("div", E, { class: "switches" }), { arrows: t, labels: a } = n.views.mechanism;
-		Tt(e, O.view, r, s.count > 1, () => Y(!0));
+		Dt(e, O.view, r, s.count > 1, () => Y(!0));
 		let o = (e) => t.some((t) => e.includes(t.kind)), c = n.views.rates.length > 0, l = [
 			["values", !0],
 			["digits", x.length > 0],
@@ -3829,28 +3849,28 @@ async function Wn(e, n, r, a) {
 			["names", !0],
 			["traces", n.views.mechanism.items.some((e) => e.t === "trace")]
 		];
-		return n.gradient && Ct(e, {
+		return n.gradient && Tt(e, {
 			said: "what lowers the peak",
 			title: "arrows: moving a joint in this direction lowers the peak of the chosen curve",
 			on: !1,
 			act: (e) => (M.on = e, Y(!0))
-		}), wt(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Hn, () => (ie(), Y(!0))), n.handles.some((e) => e.kind === "joint") && Ct(e, {
+		}), Et(e, r, l.flatMap(([e, t]) => t ? [e] : []), a.filter((e) => e.kind === "joint").length > Un, () => (ie(), Y(!0))), n.handles.some((e) => e.kind === "joint") && Tt(e, {
 			said: "tolerances",
 			title: "a thousand machines with points displaced by up to 0.5 % of the drawing's width",
 			on: !1,
 			act: (e) => (P.on = e, Y(!0))
 		}), k.paper.axes.length > 2 && i("span", e, {}, "drag to rotate the view"), i("span", e, { class: "spread" });
 	}
-	function W({ kind: e, name: t }) {
+	function ee({ kind: e, name: t }) {
 		return n.sketch.links[ae(n, `${e}:${t}`)] ?? n.views.mechanism.arrows.find((n) => n.of === t && n.kind === e)?.link;
 	}
-	function ee({ kind: e, name: t }) {
+	function W({ kind: e, name: t }) {
 		let r = n.handles.find((n) => n.kind === e && (n.name === t || n.name.startsWith(`${t}:`)));
 		return r ? k.paper.point(r.p) : null;
 	}
 	function te(e, t) {
 		let i = [], a = /* @__PURE__ */ new Set();
-		for (let o of e.slice(0, Un)) {
+		for (let o of e.slice(0, Wn)) {
 			let { kind: e, name: c } = o, l = ae(n, `${e}:${c}`), u = l < 0 ? void 0 : n.sketch.links[l], f = e === "joint" || e === "reaction" ? x.find((e) => e.curve.of === `reaction.${c}.magnitude`) : x.find((t) => t.curve.of.startsWith(`${e}.${c}.`));
 			f && i.push({
 				said: `Curve of ${d(f.curve.name)}`,
@@ -3871,7 +3891,7 @@ async function Wn(e, n, r, a) {
 				act: () => {
 					r.tracers.push({
 						link: u,
-						u: D.local(k.paper, l, ee(o) ?? k.paper.of(...t))
+						u: D.local(k.paper, l, W(o) ?? k.paper.of(...t))
 					}), ie(), Y(!0);
 				}
 			}));
@@ -3882,23 +3902,23 @@ async function Wn(e, n, r, a) {
 		}), i.filter((e, t) => i.findIndex((t) => t.said === e.said) === t);
 	}
 	function ne(e) {
-		e && e.kind !== "joint" && B.choose(W(e)), Y(!0);
+		e && e.kind !== "joint" && B.choose(ee(e)), Y(!0);
 	}
 	function re() {
-		let e = R.add("Save", "files to save, print, share"), t = Rt(n.title), o = (t, n) => i("button", e, { type: "button" }, t).addEventListener("click", n);
-		n.template.length && o("Model file", () => Z(`${t}.yaml`, Nt(n, s), "text/yaml")), o("Curves as CSV", () => Z(`${t}.csv`, Pt(n, s), "text/csv")), o("Drawing as SVG", () => Z(`${t}.svg`, Ft(k.svg, n.style.light), "image/svg+xml")), o("Drawing as PNG", () => void Lt(k.svg, n.style.light).then((e) => Z(`${t}.png`, e, "image/png"))), o("Print", () => window.print()), a.address && o("Copy link", () => {
-			location.hash = jt(n, s, r), navigator.clipboard?.writeText(location.href);
+		let e = R.add("Save", "files to save, print, share"), t = Bt(n.title), o = (t, n) => i("button", e, { type: "button" }, t).addEventListener("click", n);
+		n.template.length && o("Model file", () => X(`${t}.yaml`, Ft(n, s), "text/yaml")), o("Curves as CSV", () => X(`${t}.csv`, It(n, s), "text/csv")), o("Drawing as SVG", () => X(`${t}.svg`, Lt(k.svg, n.style.light), "image/svg+xml")), o("Drawing as PNG", () => void zt(k.svg, n.style.light).then((e) => X(`${t}.png`, e, "image/png"))), o("Print", () => window.print()), a.address && o("Copy link", () => {
+			location.hash = Nt(n, s, r), navigator.clipboard?.writeText(location.href);
 		});
 	}
 	function ie() {
-		a.address && window.history.replaceState(null, "", "#" + jt(n, s, r)), a.on?.({
+		a.address && window.history.replaceState(null, "", "#" + Nt(n, s, r)), a.on?.({
 			type: "view",
 			view: r
 		});
 	}
 	function oe() {
 		Y(!0), H.update();
-		let e = At(n, s);
+		let e = Mt(n, s);
 		a.edited?.(e), a.on?.({
 			type: "change",
 			changes: e
@@ -3936,7 +3956,7 @@ async function Wn(e, n, r, a) {
 	function J() {
 		if (w.playing(!m), m) return pe();
 		let e = performance.now(), t = r.t, n = (i) => {
-			t += (i - e) / 1e3 / zn * r.speed * s.end, e = i, t >= s.end && (t = 0), q(t), m = requestAnimationFrame(n);
+			t += (i - e) / 1e3 / Bn * r.speed * s.end, e = i, t >= s.end && (t = 0), q(t), m = requestAnimationFrame(n);
 		};
 		m = requestAnimationFrame(n);
 	}
@@ -3956,28 +3976,28 @@ async function Wn(e, n, r, a) {
 		let a = C.refusal();
 		a !== s.refused && (s.refused = a, s.cycle()), e.classList.toggle("unsolved", !s.solved), e.classList.toggle("turning", r.drag === "turn"), k.update(i), N.update(i), F(), I(), M.update(S?.curve);
 		let c = P.update(S?.curve.row), u = M.on && S && M.peak(S.curve), f = u && S ? `arrows lower the peak of ${d(S.curve.name)}, now ${o(u.size / S.unit.size)} ${S.unit.unit}${u.where}` : "";
-		t(V, [f, c && S ? `${d(S.curve.name)}: ${o(c.mean / S.unit.size)} ± ${o(c.sigma / S.unit.size, 2)} ${S.unit.unit} (1 σ)` : ""].filter(Boolean).join("; ")), j.hidden = !S || !k.on("digits"), S && !j.hidden && t(j, `${d(S.curve.name)} ${s.solved ? o(s.here[S.curve.row] / S.unit.size) : "–"} ${S.unit.unit}`), B.update(i), w.update(r.t, b.can, l.sentence), n && he();
+		t(V, [f, c && S ? `${d(S.curve.name)}: ${o(c.mean / S.unit.size)} ± ${o(c.sigma / S.unit.size, 2)} ${S.unit.unit} (1 σ)` : ""].filter(Boolean).join("; ")), j.hidden = !S || !k.on("digits"), S && !j.hidden && t(j, `${d(S.curve.name)} ${s.solved ? o(s.here[S.curve.row] / S.unit.size) : "–"} ${S.unit.unit}`), B.update(i), w.update(r.t, b.can, l.sentence), n && ge();
 	}
-	function* X() {
+	function* he() {
 		yield* s.parts(), yield* k.parts(), yield* N.parts(), yield* B.parts();
 	}
-	function he() {
-		let e = performance.now() + Vn;
+	function ge() {
+		let e = performance.now() + Hn;
 		do {
 			if (!_ && !h) return;
-			_ || ([_, h] = [X(), !1]), _.next().done && (_ = null);
+			_ || ([_, h] = [he(), !1]), _.next().done && (_ = null);
 		} while (performance.now() < e);
 		Y(!1);
 	}
 	e.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => Y(!0)));
-	let ge = a.full ? document : e, _e = (e) => ve(e);
-	ge.addEventListener("keydown", _e);
-	function ve(e) {
+	let _e = a.full ? document : e, ve = (e) => ye(e);
+	_e.addEventListener("keydown", ve);
+	function ye(e) {
 		let t = e.target;
-		if (!(e.defaultPrevented || t.closest?.(Ln))) {
+		if (!(e.defaultPrevented || t.closest?.(Rn))) {
 			if ((e.ctrlKey || e.metaKey) && !e.altKey && /^[zy]$/i.test(e.key)) e.preventDefault(), ue(e.key.toLowerCase() === "z" && !e.shiftKey);
 			else if (e.ctrlKey || e.metaKey || e.altKey || s.count < 2) return;
-			else e.key === " " && !t.closest?.(Rn) ? (e.preventDefault(), J()) : ".,><:;".includes(e.key) && fe((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Bn));
+			else e.key === " " && !t.closest?.(zn) ? (e.preventDefault(), J()) : ".,><:;".includes(e.key) && fe((".>:".includes(e.key) ? 1 : -1) * (".,".includes(e.key) ? 1 : Vn));
 		}
 	}
 	return s.at(r.t), K(), {
@@ -3992,29 +4012,29 @@ async function Wn(e, n, r, a) {
 		set(e) {
 			l.change(e), b.note(), K(!0), Y(!0), H.update();
 		},
-		text: () => Nt(n, s),
+		text: () => Ft(n, s),
 		pose: () => s.motion.placed(),
 		redraw: () => Y(!0),
 		observed: [A, L],
 		resize: de,
 		remove() {
-			pe(), g = !0, cancelAnimationFrame(f), ge.removeEventListener("keydown", _e);
+			pe(), g = !0, cancelAnimationFrame(f), _e.removeEventListener("keydown", ve);
 		}
 	};
 }
 // src/page.ts
-async function Gn(e, t, n = {}) {
-	let r = n.view ?? qe(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, n);
+async function Kn(e, t, n = {}) {
+	let r = n.view ?? Ye(), a = new ResizeObserver(() => s.resize()), o = [], s = await c(t, n);
 	async function c(t, s) {
 		let c = document.createElement("div");
 		c.className = n.full ? "dalembert full" : "dalembert", c.tabIndex = -1;
 		let f = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
 		i("style", c).textContent = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif;container-type:inline-size}.dalembert.full{height:100vh;flex-direction:column;height:100dvh;display:flex;overflow:hidden}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.3em .8em;position:sticky;top:0}.dalembert h1{text-overflow:ellipsis;white-space:nowrap;margin:0;font-size:1.1em;overflow:hidden}.dalembert .bar{align-items:center;gap:.5em;margin-top:.15em;display:flex}.dalembert .bar input{min-width:4em;accent-color:var(--accent);flex:1}.dalembert .readout{white-space:nowrap;font-variant-numeric:tabular-nums;min-width:8em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);background:var(--paper);margin:0;padding:.2em .9em;font-size:.92em;position:absolute;top:calc(100% + 1px);left:0;right:calc(clamp(22rem,36cqw,42rem) + 1.6em)}.dalembert .mark:empty{display:none}.dalembert main{grid-template-columns:minmax(0,1fr) clamp(22rem,36cqw,42rem);align-items:start;gap:.8em;padding:.6em .8em;display:grid}.dalembert.full main{flex:1;align-items:stretch;min-height:0;padding-bottom:0}.dalembert .stage{-webkit-user-select:none;user-select:none;flex-direction:column;min-width:0;display:flex;position:sticky;top:5em}.dalembert.full .stage{min-height:0;position:static}.dalembert .paper{aspect-ratio:10/7;min-height:14em;max-height:calc(100vh - 9em);position:relative}.dalembert.full .paper{aspect-ratio:auto;flex:1;min-height:0;max-height:none}.dalembert .side{min-width:0}.dalembert.full .side{flex-direction:column;min-height:0;display:flex}.dalembert .tabs{border-bottom:1px solid var(--rim);flex-wrap:wrap;gap:.15em;display:flex}.dalembert .tabs button{background:0 0;border:0;border-bottom:2px solid #0000;border-radius:0;padding:.2em .55em}.dalembert .tabs button[aria-selected=true]{border-color:var(--accent);font-weight:600}.dalembert .panels{outline:none;padding:.4em .4em 1em 0}.dalembert.full .panels{flex:1;min-height:0;overflow-y:auto}.dalembert h2{margin:.6em 0 .2em;font-size:.95em}.dalembert .group{display:inline-flex}.dalembert .group button{border-radius:0;min-width:2em;font-size:1em}.dalembert .group button+button{border-left:0}.dalembert .group button:first-child{border-radius:.4em 0 0 .4em}.dalembert .group button:last-child{border-radius:0 .4em .4em 0}.dalembert button[aria-pressed=true]{background:var(--accent);color:var(--paper);border-color:var(--accent)}.dalembert .digits{pointer-events:none;font-variant-numeric:tabular-nums;text-shadow:0 0 .2em var(--paper),0 0 .2em var(--paper);font-size:clamp(1.8rem,5cqw,4rem);font-weight:700;position:absolute;top:.1em;left:.25em}.dalembert main.one{flex-direction:column;display:flex}.dalembert main.one .stage{flex:1}.dalembert.full main.one .paper{aspect-ratio:auto;min-height:20em;max-height:none}.dalembert .missing{flex-wrap:wrap;gap:.3em;padding:.1em 0 .4em;display:flex}.dalembert .missing p{color:var(--warn);flex-basis:100%;margin:0;font-size:.92em}.dalembert .menu{z-index:9;background:var(--paper);border:1px solid var(--rim);border-radius:.4em;flex-direction:column;min-width:11em;max-width:min(22em,100vw - 8px);max-height:calc(100vh - 8px);padding:.25em;display:flex;position:fixed;overflow-y:auto;box-shadow:0 .3em 1.2em #00000040}.dalembert .menu button{text-align:left;background:0 0;border:0;border-radius:.3em;padding:.35em .6em}.dalembert .menu button:hover,.dalembert .menu button:focus{background:var(--soft);outline:none}.dalembert .chosen{filter:drop-shadow(0 0 .5px var(--accent)) drop-shadow(0 0 1px var(--accent))}.dalembert.turning .handles{display:none}.dalembert .tracer{fill:currentColor;color:var(--accent);cursor:pointer}.dalembert .paper svg:focus-visible{outline:2px solid var(--accent);outline-offset:-2px}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .paper svg{touch-action:none;outline:none;height:100%;position:absolute;inset:0}.dalembert .cloud{pointer-events:none;width:100%;height:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;align-items:center;gap:.2em .8em;padding:.3em 0;font-size:.88em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;padding-right:.6em;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=text]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert .wrong{color:var(--warn);grid-column:1/-1}.dalembert .wrong:empty{display:none}.dalembert input[aria-invalid]{border-color:var(--warn)!important}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-item]{cursor:pointer}.dalembert select.speed{padding:.1em}.dalembert.unsolved svg:not(.chart svg)>g:not(.gaps){opacity:.3}@container (width<=500px){.dalembert .bar{flex-wrap:wrap;gap:.3em}.dalembert .bar input{flex-basis:100%;order:-1}.dalembert .tabs button{padding:.2em .35em;font-size:.93em}.dalembert .readout{min-width:0;margin-right:auto}.dalembert button{padding:.15em .45em}}@container (width<=760px){.dalembert main{padding:.4em .6em;display:block}.dalembert .stage,.dalembert.full .stage{position:static}.dalembert .paper,.dalembert.full .paper{aspect-ratio:1;width:100%;max-height:56vh}.dalembert .polar{width:100%}.dalembert .mark{right:0}.dalembert.full main{overflow-y:auto}.dalembert.full .side{display:block}.dalembert.full .panels{overflow:visible}.dalembert .tabs{background:var(--paper);z-index:1;position:sticky;top:0}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert.full{height:auto;display:block;overflow:visible}.dalembert .paper,.dalembert.full .paper{aspect-ratio:10/7;max-height:none}.dalembert.full .side,.dalembert.full .panels{display:block;overflow:visible}.dalembert .mark{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert .tabs,.dalembert .menu,.dalembert [data-tab=Save],.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}" + t.style.light + f;
-		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Ut(c, t, r, {
+		let p = o.length ? () => void u() : void 0, m = t.format === "dalembert-sketch/1" ? await Gt(c, t, r, {
 			...s,
 			taken: l,
 			back: p
-		}) : t.format === "dalembert-page/1" ? await Wn(c, t, r, {
+		}) : t.format === "dalembert-page/1" ? await Gn(c, t, r, {
 			...s,
 			back: p
 		}) : null;
@@ -4090,9 +4110,9 @@ async function Gn(e, t, n = {}) {
 	};
 }
 // src/main.ts
-async function Kn(e, t) {
+async function qn(e, t) {
 	try {
-		return await Gn(e, JSON.parse(new TextDecoder().decode(await H(t))), {
+		return await Kn(e, JSON.parse(new TextDecoder().decode(await H(t))), {
 			address: location.protocol !== "about:",
 			full: !0
 		});
@@ -4100,13 +4120,13 @@ async function Kn(e, t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var qn = { async render({ model: e, el: t }) {
-	let n = "", r = qe(), a = (t) => {
+var Jn = { async render({ model: e, el: t }) {
+	let n = "", r = Ye(), a = (t) => {
 		n = JSON.stringify(t), e.set("changes", t), e.save_changes();
 	}, o = (t) => {
 		(t.type === "put" || t.type === "pose" || t.type === "change" && e.get("text")) && (e.set("text", c.text()), e.save_changes());
 	}, s = async () => {
-		let n = await Gn(t, e.get("data"), {
+		let n = await Kn(t, e.get("data"), {
 			edited: a,
 			on: o,
 			changes: e.get("changes"),
@@ -4120,4 +4140,4 @@ var qn = { async render({ model: e, el: t }) {
 		e.off("change:data", l), e.off("change:changes", u), c.remove();
 	};
 } };
-export { qn as default, Gn as mount, Kn as open };
+export { Jn as default, Kn as mount, qn as open };

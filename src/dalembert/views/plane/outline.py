@@ -15,6 +15,7 @@ from dalembert.model.joints.plane_joints import Joint
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Line, Point, Polygon
 from dalembert.views.plane.elements.cam_symbol import cam_reach
+from dalembert.views.plane.elements.turning_axis import ball, is_ball
 from dalembert.views.plane.elements.wedge_drawing import wedge_corners, wedge_items
 
 if TYPE_CHECKING:
@@ -103,9 +104,14 @@ def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[str, tuple[fl
 
 
 def link_shape(r: Result, link: str, k: int, frame: PaperFrame) -> list[Item]:
-    """A bar, or an area with its outline for more than two points, or a wedge; the block of a slider is a symbol."""
+    """A bar, or an area with its outline for more than two points, or a wedge; the block of a slider is a symbol. An
+    arm of a governor has its ball."""
     if wedge := wedge_items(r, link, k, frame):
         return wedge
+    return [*_bar(r, link, k, frame), *(ball(frame(r.center(link)[k])) if is_ball(r.mechanism, link) else [])]
+
+
+def _bar(r: Result, link: str, k: int, frame: PaperFrame) -> list[Item]:
     places = list(dict.fromkeys(_round(frame(p)) for p in link_points(r, link, k).values()))
     if len(places) == 1 and r.mechanism.mass(link):
         center = frame(r.center(link)[k])

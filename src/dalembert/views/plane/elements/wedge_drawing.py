@@ -9,6 +9,7 @@ import numpy as np
 
 from dalembert.algebra import plane
 from dalembert.analysis.methods.applied_forces import link_angle, link_place, slide_direction
+from dalembert.analysis.result.kept import kept
 from dalembert.arrays import Array
 from dalembert.views.paper.frame import PaperFrame
 from dalembert.views.paper.scene import Item, Point, Polygon
@@ -23,7 +24,20 @@ STEEPEST = 0.87
 
 def wedge_corners(r: Result, link: str) -> Array | None:
     """Corners (n, 2) of a wedge in its axes, m: the part of its inclined face that the cycle needs, and the
-    area from it to the other face; None for any other link."""
+    area from it to the other face; None for any other link. They are found once for all drawings of a result."""
+    found = _wedges(r)
+    if link not in found:
+        found[link] = _corners(r, link)
+    return found[link]
+
+
+@kept
+def _wedges(r: Result) -> dict[str, Array | None]:
+    """Links -> their corners, as far as they have been asked for."""
+    return {}
+
+
+def _corners(r: Result, link: str) -> Array | None:
     m = r.mechanism
     guides = [name for name, joint in m.joints.items() if joint.guides and link in joint.links]
     faces = [name for name in guides if m.joints[name].links[0] == link]
