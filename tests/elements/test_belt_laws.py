@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -9,7 +10,15 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.methods.applied_forces import Action, full_actions
+from dalembert.analysis.methods.elements.belt_strands import pulls_of
 from dalembert.errors import ModelError
+from dalembert.model.library import template_text
+from dalembert.pages.page_data import page_data
+from dalembert.pages.sweep import with_cycle
+from tests.elements.random_elements import FAMILIES
+from tests.elements.written_machines import Written
+from tests.pages.test_page_data import run_page
 from tests.tiers import over
 
 KEYS = ("tension", "tensioner", "tight", "slack")
@@ -286,3 +295,56 @@ def test_a_slipping_belt_says_what_it_needs_and_from_where() -> None:
         f"Belt belt needs {needed:.4g}, has 0.05; slips from {torque:.6g} N*m on, at the wheel of a at A = 0 deg. "
         "Raise its tension, its wrap or its coefficient, or lower the load.",
     )
+
+
+def wrapped(r: da.Result) -> list[Action]:
+    """The actions of belts and ropes on their wheels."""
+    return [a for a in full_actions(r) if a.kind == "joint" and r.mechanism.joints[a.of].WRAPPED]
+
+
+@pytest.mark.parametrize("family", ["belt", "idler", "tackle"])
+def test_a_free_body_shows_what_the_equations_have(family: str) -> None:
+    """The pulls of the strands, where they touch a wheel, have the force and the moment of the joint."""
+    seen = 0
+    for seed in range(6):
+        r = da.dynamics(da.mechanism(FAMILIES[family](seed, Written())[0]))
+        for a in wrapped(r) if r.ok.all() else ():
+            pulls, size = pulls_of(r, r, a), np.abs(a.force).max()
+            if getattr(r.mechanism.joints[a.of], "direction", None) is None:  # not drawn parallel to others
+                assert max(np.abs(pull.couple).max() for pull in pulls) < 1e-12 * size
+            assert np.allclose(sum(pull.force for pull in pulls), a.force, rtol=0, atol=1e-12 * size)
+            assert np.allclose(sum(pull.moment(a.at) for pull in pulls), a.couple, rtol=0, atol=1e-12 * size)
+            seen += len(pulls)
+    assert seen > 8
+
+
+@pytest.mark.parametrize("crossed", [False, True])
+@pytest.mark.parametrize("torque", ["15 N*m", "-15 N*m", "15*cos(A) N*m"])
+def test_pulls_are_tensions_less_the_centrifugal_one(crossed: bool, torque: str) -> None:
+    tree = da.belt_drive(torque="15 N*m").to_tree()
+    tree["joints"]["belt"]["crossed"] = crossed
+    tree["loads"]["work"]["value"] = torque
+    r = da.dynamics(da.mechanism(tree))
+    b, turns = r.belt("belt"), "cos" in torque
+    for a in wrapped(r):
+        pulls = {pull.part: np.hypot(*pull.force.T) for pull in pulls_of(r, r, a)}
+        assert set(pulls) == ({"left", "right"} if turns else {"tight", "slack"})
+        assert np.allclose(np.maximum(*pulls.values()), b.tight - b.centrifugal)
+        if not turns:
+            assert np.allclose(pulls["slack"], b.slack - b.centrifugal)
+
+
+@pytest.mark.parametrize("template", ["belt_drive", "hoist"])
+def test_a_page_has_the_same_pulls(template: str) -> None:
+    m = da.loads(template_text(template))
+    data, r = json.loads(json.dumps(page_data(m))), da.dynamics(with_cycle(m))
+    out, seen = run_page(data), 0
+    for body in data["views"]["bodies"]:
+        mine = [x for x in body["arrows"] if x["kind"] == "joint" and r.mechanism.joints[x["of"]].WRAPPED]
+        right = [pull for a in wrapped(r) if a.link == body["link"] for pull in pulls_of(r, r, a)]
+        assert [x["t"] for x in mine] == ["force"] * len(right)
+        for arrow, pull in zip(mine, right, strict=True):
+            assert np.allclose(out[arrow["f"]].T, pull.force, rtol=1e-9)
+            assert np.allclose(out[arrow["p"]].T, pull.at, rtol=0, atol=1e-12)
+        seen += len(mine)
+    assert seen >= 4

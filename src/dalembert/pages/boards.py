@@ -15,6 +15,7 @@ import numpy as np
 
 from dalembert.algebra import plane, space
 from dalembert.analysis.methods.applied_forces import Action, full_actions, joint_place, magnitude
+from dalembert.analysis.methods.elements.belt_strands import pulls_of
 from dalembert.analysis.methods.members import Member, members
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
 from dalembert.analysis.result.result import Result
@@ -158,7 +159,7 @@ class Boards:
             "title": f"Link {self.shown.heading(link)}",
             "member": self._members[link].kind if self._members else "",
             "per_mm": self._size(link),
-            "arrows": [x for k in mine for x in self.arrows(k, tangent=True)],
+            "arrows": [x for k in mine for x in self._arrows_apart(k)],
             "force": self.scale(26.0),
             "equations": self._equations(link, mine, self._joints(link)),
         }
@@ -195,9 +196,20 @@ class Boards:
         """True if any node is not identically zero."""
         return any((x.level != CONSTANT or x.value != 0) if isinstance(x, Node) else x != 0 for x in values)
 
+    def _arrows_apart(self, k: int) -> list[Tree]:
+        """The arrows of an action on a free body; those of belts and ropes as the pulls of their strands."""
+        a, real = self.actions[k], self.numbered[k]
+        if a.kind != "joint" or not self.known.mechanism.joints[a.of].WRAPPED:
+            return self.arrows(k, tangent=True)
+        pulls = zip(pulls_of(self.rows.r, self.known, a), pulls_of(self.known, self.known, real), strict=True)
+        return [x for one, number in pulls for x in self._arrows(one, number)]
+
     def arrows(self, k: int, tangent: bool = False) -> list[Tree]:
         """Force and couple of an action; ``tangent``: a pin's force on its friction circle, without the couple."""
-        a, real, out = self.actions[k], self.numbered[k], list[Tree]()
+        return self._arrows(self.actions[k], self.numbered[k], tangent)
+
+    def _arrows(self, a: Action, real: Action, tangent: bool = False) -> list[Tree]:
+        out = list[Tree]()
         role = role_of(a.kind)
         self.items.roles.add(role)
         at, force, couple = a.at[0], a.force[0], np.ravel(a.couple)

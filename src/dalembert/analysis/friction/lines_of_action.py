@@ -26,6 +26,7 @@ from dalembert.analysis.methods.applied_forces import (
     magnitude,
     slide_direction,
 )
+from dalembert.analysis.methods.elements.belt_strands import pulls_of
 from dalembert.arrays import Array
 
 if TYPE_CHECKING:
@@ -55,8 +56,9 @@ def acting_lines(r: Result, k: int) -> tuple[Action, ...]:
     """Everything that acts on the links, each joint's reaction unsplit and on its line of action.
 
     The reaction of a pin touches its friction circle; that of a slider acts on the face that bears, or, where two
-    corners bear at position ``k``, as two forces. Where a guide of no given length would bear far away, its force
-    is left at j's point with its couple. Without friction these are ``actions(r)``.
+    corners bear at position ``k``, as two forces; those of belts and ropes are the pulls of their strands.
+    Where a guide of no given length would bear far away, its force is left at j's point with its couple. Without
+    friction and belts these are ``actions(r)``.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import cases
@@ -68,7 +70,9 @@ def acting_lines(r: Result, k: int) -> tuple[Action, ...]:
 
 
 def _acting(r: Result, a: Action, k: int) -> list[Action]:
-    """One unsplit reaction on its line, or at its corners."""
+    """One unsplit reaction on its line, at its corners, or in its strands."""
+    if r.mechanism.joints[a.of].WRAPPED:
+        return [*pulls_of(r, r, a)]
     if r.friction is None:
         return [a]
     if r.mechanism.joints[a.of].wheels:  # the teeth's friction is a couple

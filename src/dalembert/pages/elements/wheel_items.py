@@ -81,7 +81,7 @@ def belt(d: Drawer, name: str, link: str | None) -> list[Tree]:
 def strand(d: Drawer, name: str, link: str | None) -> list[Tree]:
     """A straight strand of a rope, the wheels at its ends, and the arc on the wheel at which it begins."""
     if link is not None:
-        return []
+        return wheels(d, name, link)
     joint: Any = d.known.mechanism.joints[name]
     mine, ends = _strands(d, joint.rope), _ends(d, name)
     k = mine.index(name)

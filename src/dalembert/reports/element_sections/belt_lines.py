@@ -56,8 +56,10 @@ def _belt_words(c: ReportContext, name: str, belt: Any) -> str:
     kind = "chain" if belt.chain else "crossed belt" if belt.crossed else "open belt"
     key, value = belt.stated_tension
     given = f"{SUMS[key][1]}: {c.shown.text('force', float(value))}"
+    less = ", the tension less $T_c$" if float(c.r.belt(name).centrifugal[c.k]) else ""
     return (
-        f"{name} is {'a' if kind != 'open belt' else 'an'} {kind}; $C$ is the distance of its axes. {given}."
+        f"{name} is {'a' if kind != 'open belt' else 'an'} {kind}; $C$ is the distance of its axes. {given}. A free "
+        f"body shows its pull in each strand{less}; the equations have their sum."
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from dalembert.analysis.friction.friction_circles import friction_circles
 from dalembert.analysis.friction.lines_of_action import acting_lines
 from dalembert.analysis.methods.applied_forces import Action, full_actions, joint_place, link_place, on_link
+from dalembert.analysis.methods.elements.belt_strands import wheel_place
 from dalembert.analysis.methods.members import Member, components_along, members
 from dalembert.views.not_shown import doubts, on_one
 from dalembert.views.notation import Notation, Shown, load_sign
@@ -106,7 +107,8 @@ def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: PaperFrame, 
     for name, joint in m.joints.items():
         if link not in joint.links:
             continue
-        end, at = joint.links.index(link), frame(joint_place(r, name)[k])
+        place = wheel_place(r, name, link) if joint.WRAPPED else joint_place(r, name)
+        end, at = joint.links.index(link), frame(place[k])
         if name in with_rough_guide(r, [name]) and end == 1 and wedge_corners(r, link) is None:
             canvas.add(guide_block(r, name, k, frame))
         elif joint.guides and end == 1 and (middle := block_place(r, name, k, at)):
