@@ -13,7 +13,7 @@ export interface NumberField extends Required {
   path: string; label: string; value: number; unit: string; size: number;
   parameter?: boolean; about?: string; range?: Rows; kind: string;
 }
-/** What the model requires of a number: its sign; an integer where it counts things. */
+/** Requirements of the model on a number: its sign; an integer where it counts things. */
 export interface Required { sign?: Sign; counts?: string }
 /** Sign that the model requires of a number. */
 export type Sign = "positive" | "not negative";

@@ -77,8 +77,8 @@ export class Gate {
   private check(field: NumberField, value: number, text: string): void {
     const { sentences } = this.data.reading, range = field.range;
     if (!Number.isFinite(value)) throw new Refused(fill(sentences.finite, { text }));
-    const said = this.unmet(field, value, text);
-    if (said) throw new Refused(said);
+    const problem = this.unmet(field, value, text);
+    if (problem) throw new Refused(problem);
     if (range && value !== field.value && (value < range[0] || value > range[1]))
       throw new Refused(fill(sentences.range, { text, low: this.words(field, range[0]), high: this.words(field, range[1]) }));
   }
@@ -90,8 +90,8 @@ export class Gate {
     this.kernel.other(u, this.out);
     for (const { row, path, ...required } of limits) {
       const value = this.out[row], place = path.lastIndexOf(".");
-      const said = this.unmet(required, value, Number.isInteger(value) ? value.toFixed(1) : String(value));
-      if (said) return `${path.slice(0, place)}: ${path.slice(place + 1)}: ${said}`;
+      const problem = this.unmet(required, value, Number.isInteger(value) ? value.toFixed(1) : String(value));
+      if (problem) return `${path.slice(0, place)}: ${path.slice(place + 1)}: ${problem}`;
     }
     return "";
   }

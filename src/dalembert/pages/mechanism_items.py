@@ -138,7 +138,7 @@ class Items:
         return out
 
     def axis(self) -> list[Tree]:
-        """The axis of a plane that turns, over the whole cycle."""
+        """The axis of a plane that turns, over the cycle."""
         beyond = BEYOND * self.frame.per_mm
         ends = axis_ends(self.known, slice(None), beyond) if self.known._d == 2 else None
         rows = [self.rows.place(GROUND, tuple(end.tolist())) for end in ends or ()]

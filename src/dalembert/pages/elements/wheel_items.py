@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Drawer(Protocol):
-    """What draws the parts of a mechanism: ``r`` in nodes, ``known`` the same in the file's numbers."""
+    """Drawing of the parts of a mechanism: ``r`` in nodes, ``known`` the same in the file's numbers."""
 
     r: SymbolicResult
     known: Result
@@ -105,7 +105,7 @@ def _centers(d: Drawer, name: str) -> list[list[int]]:
 
 
 def _ends(d: Drawer, name: str) -> Ends:
-    """Where a strand of a rope touches its wheels; one that is drawn parallel to others, beside their centres."""
+    """Points at which a strand of a rope touches its wheels; of one that is drawn parallel to others, beside them."""
     joint: Any = d.mechanism.joints[name]
     if joint.direction is None:
         return _tangent(d, name, *joint.radii)
@@ -117,7 +117,7 @@ def _ends(d: Drawer, name: str) -> Ends:
 
 
 def _tangent(d: Drawer, name: str, ra: Numeric, rb: Numeric) -> Ends:
-    """Where a line touches circles of signed radii about a joint's points, on its left where a radius is positive."""
+    """Points at which a line touches circles about a joint's points, on its left where a radius is positive."""
     joint = d.mechanism.joints[name]
     a, b = (
         link_place(d.r, on, u)[0] for on, u in zip(joint.links, d.mechanism.joint_points(name), strict=True)

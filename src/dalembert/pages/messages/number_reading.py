@@ -27,7 +27,7 @@ from dalembert.units import KINDS, PER_RADIAN, quantity
 
 
 def required_of(m: Mechanism, path: str) -> Tree:
-    """What the field of a path's number requires: its sign, `positive` or `not negative`; what it counts.
+    """Requirements of the field of a path's number: its sign, `positive` or `not negative`; the things it counts.
 
     >>> from dalembert.model.library import four_bar
     >>> required_of(four_bar(), "links.crank.mass"), required_of(four_bar(), "links.crank.points.A.0")
@@ -145,7 +145,7 @@ def _message(text: str, kind: str) -> str:
 
 
 def _refused(check: Callable[[], object]) -> str:
-    """The message with which the model refuses what is wrong."""
+    """The message with which the model refuses a wrong value."""
     try:
         check()
     except ModelError as error:

@@ -66,7 +66,7 @@ def _belt_pulls(r: Result, known: Result, a: Action) -> tuple[Action, ...]:
 
 
 def _names(r: Result, joint: str) -> tuple[str, str]:
-    """Of the strand on the left of the line from i to j, and of that on its right."""
+    """Names of the strand on the left of the line from i to j, and of that on its right."""
     belt: Any = r.mechanism.joints[joint]
     difference = -r.moment_array[:, r.joints.index(joint)].ravel() / belt.signed_radii[1]
     size = 1e-9 * float(np.abs(np.nan_to_num(difference)).max(initial=0.0))

@@ -24,7 +24,7 @@ STEEPEST = 0.87
 
 def wedge_corners(r: Result, link: str) -> Array | None:
     """Corners (n, 2) of a wedge in its axes, m: the part of its inclined face that the cycle needs, and the
-    area from it to the other face; None for any other link. They are found once for all drawings of a result."""
+    area from it to the other face; None for any other link. They are computed once for all drawings of a result."""
     found = _wedges(r)
     if link not in found:
         found[link] = _corners(r, link)
