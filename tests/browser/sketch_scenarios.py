@@ -204,6 +204,24 @@ def a_truss_does_not_move(s: Studio) -> None:
         assert np.allclose(list(old["points"].values()), list(new["points"].values()), atol=1e-9)
 
 
+def a_scissor_lift_is_pulled_flat_and_up_again(s: Studio) -> None:
+    """Five stages without a drive stay together on the way, and come back to the same place."""
+    m = da.scissor(5)
+    bare = m.model_copy(update={"drives": {}, "loads": {}})
+    give(s, text_of(bare, "yaml"))
+    top = names(s)[-1]
+    before, high = s.drawing()["links"][-1]["points"], s.drawing()["links"][-1]["pose"][1]
+    hold = along(s, top, 0.5)
+    pull(s, hold, (hold[0], hold[1] - 0.4 * high), (hold[0], hold[1] - 0.8 * high))
+    assert s.drawing()["closed"]
+    assert s.drawing()["links"][-1]["pose"][1] == pytest.approx(0.2 * high, abs=0.02 * high)
+    low = along(s, top, 0.5)
+    pull(s, low, (low[0], low[1] + 0.4 * high), (low[0], low[1] + 0.8 * high))
+    assert s.drawing()["closed"]
+    for name, place in s.drawing()["links"][-1]["points"].items():
+        assert place == pytest.approx(before[name], abs=0.02 * high)
+
+
 def drives_of_one_position_go_along_and_others_keep_the_first(s: Studio) -> None:
     """A crank that is driven at one position, with a unit or not, is driven where it was pulled; of several, not."""
     for position in ("60 deg", "60"):
@@ -367,6 +385,7 @@ SKETCHES = [
         both_cranks_of_a_five_bar_by_turns,
         a_truss_does_not_move,
         a_wheel_rolls,
+        a_scissor_lift_is_pulled_flat_and_up_again,
         drives_of_one_position_go_along_and_others_keep_the_first,
         a_link_too_short_leaves_a_gap,
     ),

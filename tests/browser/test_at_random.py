@@ -32,9 +32,9 @@ TEMPLATES = (
     "planetary_train",
 )
 TEMPLATES += ("watt_1", "belt_drive", "disc_cam")
-TOGETHER, LOOKS = 50, (4, 12, 25, 0)
-"""Actions after which the mechanism, by then in pieces, is opened anew, as it is after a letter that makes its file
-wrong; and those of them after which its file and its numbers are looked at."""
+LOOK = 5
+"""Actions after which the file and its numbers are looked at. A mechanism without numbers, by then in pieces, is opened
+anew, as it is after a letter that makes its file wrong."""
 
 
 class Forces:
@@ -90,9 +90,12 @@ def test_after_any_actions_what_is_saved_has_the_numbers_shown(
     with serving(path, solver=Solver()) as served:  # one that gives up in time
         s = tabs(served)
         for k in range(count):
-            if k and k % TOGETHER in LOOKS:
-                compared += looked_at(s, path)
-            if k and (k % TOGETHER == 0 or s.page.evaluate("studio.state().error")):
+            anew = bool(s.page.evaluate("studio.state().error"))
+            if k and k % LOOK == 0:
+                numbers = looked_at(s, path)
+                compared += numbers
+                anew = not numbers
+            if anew:
                 s.send({"edit": [[0, len(s.text), text]], "base": s.page.evaluate("studio.state().hash")})
                 settled(s)
             r.choice(ACTIONS)(s, r)

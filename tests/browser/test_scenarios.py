@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
 
 import dalembert as da
+from dalembert.cli import main
 from dalembert.studio.document import EMPTY
 from dalembert.studio.problems import problem_text
 from tests.browser.sketch_scenarios import SKETCHES, every_problem_is_ticked
@@ -198,13 +200,25 @@ def shares_of_loads(s: Studio) -> None:
 
 
 def reports_downloaded(s: Studio) -> None:
-    """Worked solution, design report and page are downloads."""
+    """Worked solution, design report and page are downloads: those of the command line."""
     s.open("template", "four_bar")
-    for button, name in (("Report", "m_report.html"), ("Page", "m.html")):
-        with s.page.expect_download() as waiting:
-            s.page.click(f"header button:text-is('{button}')")
-        assert waiting.value.suggested_filename == name
-        assert "Four-bar linkage" in Path(waiting.value.path()).read_text(encoding="utf-8")
+    asked = (
+        ("Report", "m_report.html", ["report"]),
+        ("Design", "m_design.html", ["report", "--design"]),
+        ("Page", "m.html", ["page"]),
+    )
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "m.yaml"
+        file.write_text(s.text, encoding="utf-8")
+        for button, name, command in asked:
+            with s.page.expect_download() as waiting:
+                s.page.click(f"header button:text-is('{button}')")
+            assert waiting.value.suggested_filename == name
+            there = Path(folder) / name
+            assert main([*command, str(file), "-o", str(there)]) == 0
+            own = Path(waiting.value.path()).read_text(encoding="utf-8")
+            assert "Four-bar linkage" in own
+            assert own == there.read_text(encoding="utf-8")
 
 
 def joints_of_each_kind(s: Studio) -> None:
@@ -259,6 +273,41 @@ def a_cam_with_typed_values(s: Studio) -> None:
     assert joint.profile.base == 0.06
 
 
+def a_cam_swings_a_slotted_lever_against_a_spring(s: Studio) -> None:
+    """Cam, roller, slot and spring, all drawn; the torque is that of the file."""
+    s.see(0.05, 0.05, 3000)
+    for typed in ("0 Tab 0", "100 Tab 0", "0 Tab 100"):
+        s.changes(lambda typed=typed: keys(s, f"Escape x {typed} Enter"))  # type: ignore[misc]
+    s.line("b", (0, 0), (0.02, 0.03), "40", "60")
+    s.line("b", (0.1, 0), (0.06, 0.04), "50", "135")
+    s.line("b", (0, 0.1), (0.08, 0.02), "120", "-45")
+    end = s.point("link3")
+    s.line("o", end, (end[0] + 0.007, end[1] - 0.007))
+    aim(s, "link2", "A")
+    keys(s, "j Enter")
+    aim(s, "link3", s.second("link3"))
+    s.changes(lambda: keys(s, "Enter"))
+    s.choose("joints", s.drawing()["joints"][-1]["name"])
+    s.type("follower", "{roller: 4 mm}")
+    s.type(
+        "profile",
+        "{base: 60, segments: [{to: 6 deg, in: 120, by: cycloidal}, {to: 0, in: 120, by: cycloidal}, {dwell: rest}]}",
+    )
+    s.line("k", s.point("link4"), (0.1, 0.0), "2 N/mm")
+    s.choose("loads", s.drawing()["loads"][-1]["name"])
+    s.type("free_length", "50 mm")
+    s.click("d", 0, 0)
+    m = da.loads(s.text)
+    kinds = sorted(j.type for j in m.joints.values())
+    assert kinds == ["cam", "pin", "pin", "pin", "slot"]
+    assert [x.type for x in m.loads.values()] == ["spring"]
+    r = da.statics(m)
+    assert r.ok.all()
+    (drive,) = m.drives
+    assert s.effort() == pytest.approx(float(r.effort(drive)[0]), rel=1e-9)
+    assert abs(s.effort()) > 1e-4
+
+
 def crlf_is_kept(s: Studio) -> None:
     """A file with CRLF keeps it through gestures."""
     text = FOUR_BAR.replace("\n", "\r\n")
@@ -288,7 +337,7 @@ LONG: list[Callable[[Studio], None]] = [
         joints_of_each_kind,
         loads_of_each_kind,
     ),
-    *(a_cam_with_typed_values, crlf_is_kept, a_hundred_steps),
+    *(a_cam_with_typed_values, a_cam_swings_a_slotted_lever_against_a_spring, crlf_is_kept, a_hundred_steps),
     *SKETCHES,
 ]
 
