@@ -143,6 +143,7 @@ def test_numbers_of_the_page_that_the_text_refuses_come_back(studio: Studio) -> 
     s = studio
     before = s.effort()
     s.page.click("[role=tab][data-pane=Forces]")
+    s.page.evaluate(FRAMES)  # it has its size
     s.page.evaluate(
         """() => { const gesture = studio.socket.gesture.bind(studio.socket);
         studio.socket.gesture = a => gesture(a.op === 'changes' ? { op: 'changes', values: { nothing: 1 } } : a); }"""
