@@ -281,6 +281,7 @@ async function ticks(): Promise<void> {
   ticking = true;
   const a = /answers/.test(state.text) ? await socket.send({ ask: "check" }) : { of: state.analysed };
   ticking = false;
+  if (a.refused) return void setTimeout(() => void ticks(), 1000); // other questions come first
   if (a.of !== state.analysed) return void ticks();
   tickedOf = a.of;
   ticked.replaceChildren();
