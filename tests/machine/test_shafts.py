@@ -184,3 +184,69 @@ def test_a_notch_lowers_the_safety_where_it_is() -> None:
         safety({"Z": 2})
     with pytest.raises(da.ModelError, match=r"a notch factor of 0\.5 is below 1; write K_f"):
         safety(0.5)
+
+
+STEPPED = """
+gravity: standard
+links:
+  ground: {points: {A: [0, 0], B: [0.7, 0]}}
+  thick: {points: {A: [0, 0], S: [0.3, 0]}, section: {circle: 40 mm, elasticity: 210 GPa}}
+  thin: {points: {S: [0, 0], T: [0.4, 0]}, section: {circle: THIN, elasticity: 210 GPa}, members: [[S, T]]}
+  disc: {points: {DISC: [0, 0]}, mass: 10}
+joints:
+  A: {type: KIND, links: [ground, thick]}
+  S: {type: weld, links: [thick, thin]}
+  DISC: {type: weld, links: [HOLDS, disc]}
+"""
+
+
+def stepped(**words: str) -> str:
+    """The text of a shaft of two sections."""
+    text = STEPPED
+    for word, new in words.items():
+        text = text.replace(word, new)
+    return text
+
+
+@pytest.mark.parametrize("name", ["thick", "thin"])
+@pytest.mark.parametrize("ends", ["[[S, T]]", "[[T, S]]"])
+def test_a_cantilever_of_two_sections(name: str, ends: str) -> None:
+    """By hand: y = P int (L - s)^2/(E I) ds, w = sqrt(P/(m y)); whichever of its pieces is named."""
+    text = stepped(THIN="25 mm", DISC="T", KIND="weld", HOLDS="thin").replace("[[S, T]]", ends)
+    c = da.critical_speeds(da.statics(da.loads(text)), name)
+    thick, thin = (210e9 * np.pi / 64 * d**4 for d in (0.04, 0.025))
+    ease = (0.7**3 - 0.4**3) / (3 * thick) + 0.4**3 / (3 * thin)
+    assert c.speeds[0] == pytest.approx(1 / np.sqrt(10 * ease), rel=1e-8)
+    assert np.abs(c.sag).max() == pytest.approx(10 * 9.80665 * ease, rel=1e-8)
+
+
+def test_a_shaft_cut_in_two_is_the_same_shaft() -> None:
+    """Of one section, with bearings on both pieces and a mass at the cut."""
+    text = stepped(THIN="40 mm", DISC="D", KIND="pin", HOLDS="thick").replace(
+        "S: [0.3, 0]}", "S: [0.3, 0], D: [0.2, 0]}"
+    )
+    text = text.replace("T: [0.4, 0]", "B: [0.4, 0]").replace("[[S, T]]", "[[S, B]]")
+    text += "  B: {type: slot, links: [ground, thin]}\n"
+    one = """
+links:
+  ground: {points: {A: [0, 0], B: [0.7, 0]}}
+  shaft: {points: {A: [0, 0], B: [0.7, 0], D: [0.2, 0]}, section: {circle: 40 mm, elasticity: 210 GPa}}
+  disc: {points: {D: [0, 0]}, mass: 10}
+joints:
+  A: {type: pin, links: [ground, shaft]}
+  B: {type: slot, links: [ground, shaft]}
+  D: {type: weld, links: [shaft, disc]}
+gravity: standard
+"""
+    cut, whole = (da.critical_speeds(da.statics(da.loads(x)), n) for x, n in ((text, "thin"), (one, "shaft")))
+    assert cut.speeds[0] == pytest.approx(whole.speeds[0], rel=1e-8)
+    assert cut.supports == pytest.approx(whole.supports)
+
+
+def test_pieces_that_leave_a_gap_are_refused() -> None:
+    text = stepped(THIN="25 mm", DISC="T", KIND="weld", HOLDS="thin")
+    text = text.replace("S: [0, 0], T: [0.4, 0]", "S: [0, 0], U: [0.1, 0], T: [0.4, 0]").replace(
+        "[[S, T]]", "[[U, T]]"
+    )
+    with pytest.raises(da.ModelError, match="links 'thick' and 'thin' of a shaft do not meet end to end"):
+        da.critical_speeds(da.statics(da.loads(text)), "thick")

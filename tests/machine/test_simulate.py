@@ -310,8 +310,8 @@ WEIGHTLESS = {
 
 
 ENDS = ("at rest from", "dead centre or a change point", "the machine jams", "does not close")
-"""Where a motion with friction may end before its time; 4, 45 and 177 at dead centres of groups that Newton closes, 42
-and 57 at rest."""
+"""Where a motion with friction may end before its time; 4, 45 and 177 at dead centres of groups that Newton closes, 42,
+57 and 123 at rest."""
 
 
 @pytest.mark.parametrize("seed", tiers([], [196], sorted(set(range(200)) - WEIGHTLESS)))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, effort_actions, full_actions, state
+from dalembert.analysis.output.summary.printed_units import scale_for
 from dalembert.answer.answer import Drawn, Labelled
 from dalembert.answer.column import Axes, Column, Scale, UnitChoice
 from dalembert.arrays import Array, Tree
@@ -91,7 +92,8 @@ class PowerFlow(Labelled, Drawn):
 
     def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterable[Part]:
         """Powers of the first position: sources, joints, links, and what circulates."""
-        to = self.scale(units)
+        most = {"power": max(float(self.input[0]), float(self.rolling[0]), float(self.circulating[0]))}
+        to = scale_for(None if units == "SI" else self.result.mechanism.units, most)
         unit = to.text("power")
 
         def shown(value: float) -> str:

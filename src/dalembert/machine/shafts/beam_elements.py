@@ -41,10 +41,11 @@ class SpreadMass:
 
 @dataclass(frozen=True)
 class Beam:
-    """A beam of one stiffness E I, N m2, from 0 to ``length``, held in place at ``pins`` and clamped at ``clamps``."""
+    """A beam from 0 to ``length``, held in place at ``pins`` and clamped at ``clamps``; ``steps``: ends of its pieces,
+    and their stiffness E I, N m2."""
 
     length: float
-    stiffness: float
+    steps: Sequence[tuple[float, float]]
     pins: Sequence[float]
     clamps: Sequence[float] = ()
     points: Sequence[PointMass] = ()
@@ -54,9 +55,14 @@ class Beam:
         """Ends of about ``count`` elements, among them all places where something begins."""
         fixed = [0.0, self.length, *self.pins, *self.clamps, *(p.place for p in self.points)]
         fixed += [x for m in self.spread for x in (m.start, m.end)]
+        fixed += [end for end, _ in self.steps[:-1]]
         some = np.unique(np.round(np.array(fixed) / self.length, 12)) * self.length
         parts = [np.linspace(a, b, 2 + int(count * (b - a) / self.length))[:-1] for a, b in pairwise(some)]
         return np.concatenate([*parts, some[-1:]])
+
+    def stiffness_at(self, s: float) -> float:
+        """E I at a place."""
+        return next((of for end, of in self.steps if s <= end), self.steps[-1][1])
 
 
 @dataclass(frozen=True)
@@ -98,7 +104,7 @@ def beam_model(beam: Beam, count: int) -> BeamModel:
     stiffness, carried, tilting = (np.zeros((n, n)) for _ in range(3))
     for k, (a, b) in enumerate(pairwise(x)):
         h, at = b - a, slice(2 * k, 2 * k + 4)
-        stiffness[at, at] += beam.stiffness / h**3 * _bent(h)
+        stiffness[at, at] += beam.stiffness_at((a + b) / 2) / h**3 * _bent(h)
         for m in beam.spread:
             if m.start <= (a + b) / 2 <= m.end:
                 carried[at, at] += m.density * h / 420 * _moved(h)

@@ -23,9 +23,8 @@ from dalembert.errors import ModelError
 from dalembert.machine.link_axes import LinkAxes
 from dalembert.machine.members.end_conditions import carrying_joints
 from dalembert.machine.members.mass_along import mass_layout
-from dalembert.machine.members.member_forces import member_forces
-from dalembert.machine.members.struts import PlacedMember
 from dalembert.machine.shafts.beam_elements import Beam, BeamModel, PointMass, SpreadMass, beam_model
+from dalembert.machine.shafts.shaft_pieces import ShaftPiece, shaft_pieces
 from dalembert.printing import Part, TextTable, number
 
 if TYPE_CHECKING:
@@ -139,9 +138,10 @@ class CriticalSpeeds(Labelled, Drawn, Worked):
 def critical_speeds(r: Result, link: str, count: int = 3) -> CriticalSpeeds:
     """Critical speeds of a link as a shaft: one straight member with a section and its Young's modulus.
 
-    Its bearings are its joints, at their places along it; a weld clamps it. Its masses are the shaft's mass along it
-    (`mass_along: uniform` or `shape`) and links welded to it that have no other joint. Raises ModelError for a link of
-    several members, for one that is not held, and for one with mass whose place along it is not given.
+    A stepped shaft is several such links, welded end to end in one line, each with a section; any of them names it. Its
+    bearings are its joints, at their places along it; a weld to another link clamps it. Its masses are the shaft's mass
+    along it (`mass_along: uniform` or `shape`) and links welded to it that have no other joint. Raises ModelError for a
+    link of several members, for one that is not held, and for one with mass whose place along it is not given.
 
     >>> import dalembert as da
     >>> tube = {"circle": "50 mm", "elasticity": "210 GPa"}
@@ -153,33 +153,22 @@ def critical_speeds(r: Result, link: str, count: int = 3) -> CriticalSpeeds:
     >>> speeds.round(1)                                      # pi^2 sqrt(E I / (m L^3)), then 4, 9 times
     array([ 638.4, 2553.5, 5745.4])
     """
-    forces = member_forces(r, link)
     section = r.mechanism.links[link].section
     where = ("links", link)
     if section is None or section.elasticity is None:
         what = f"link {link!r} has no section with elasticity"
         raise ModelError(what, "give section: {circle: 50 mm, elasticity: 210 GPa}", where)
-    if len(forces.curves) > 1:
-        raise ModelError(
-            f"link {link!r} has several members, and a shaft is one line",
-            "name its ends: members: [A, B]",
-            where,
-        )
-    e = forces.curves[0].member
-    placed = {n: float(np.nanmean(s)) for n, s in PlacedMember(forces, forces.curves[0]).joints.items()}
-    masses, carrying = _welded(r, link, e)
-    joints = r.mechanism.joints
-    supports = {n: s for n, s in placed.items() if n in joints and n not in carrying and not joints[n].wheels}
+    pieces = shaft_pieces(r, link)
+    masses, spread, placed = _carried(r, pieces)
+    joints, length = r.mechanism.joints, pieces[-1].ends[1]
+    supports = {n: s for n, s in placed.items() if n in joints and not joints[n].wheels}
     clamps = [s for n, s in supports.items() if not joints[n].freedoms]
     pins = [s for n, s in supports.items() if joints[n].freedoms]
-    if not clamps and len({round(s / e.length, 9) for s in pins}) < 2:
+    if not clamps and len({round(s / length, 9) for s in pins}) < 2:
         names = ", ".join(supports) or "no joint"
         raise ModelError(f"shaft {link!r} is held at {names} alone", "give it two bearings, or a weld", where)
-    own, spread = _own_mass(r, link, e)
-    masses |= own
-    beam = Beam(
-        e.length, section.elasticity * min(section.second_moments), pins, clamps, [*masses.values()], spread
-    )
+    steps = [(p.ends[1], p.stiffness) for p in pieces]
+    beam = Beam(length, steps, pins, clamps, [*masses.values()], spread)
     if not masses and not spread:
         what = f"shaft {link!r} carries no mass"
         raise ModelError(what, "give its mass with mass_along: uniform, or weld links with mass to it", where)
@@ -267,10 +256,29 @@ def _about(inertia: Array, e: Straight) -> tuple[float, float]:
     return (y + z) / 2, t
 
 
-def _welded(r: Result, link: str, e: Straight) -> tuple[dict[str, PointMass], list[str]]:
-    """Links welded to the shaft that have no other joint, as masses, and their joints."""
+def _carried(
+    r: Result, pieces: list[ShaftPiece]
+) -> tuple[dict[str, PointMass], list[SpreadMass], dict[str, float]]:
+    """Masses at places and along a shaft of pieces, and the places of the joints that may hold it."""
+    masses, spread, placed = dict[str, PointMass](), list[SpreadMass](), dict[str, float]()
+    names = {p.link for p in pieces}
+    for piece in pieces:
+        points, carrying = _welded(r, piece.link, piece.member, names)
+        own, along = _own_mass(r, piece.link, piece.member)
+        for name, point in {**points, **own}.items():
+            masses[name] = replace(point, place=piece.place(point.place))
+        for m in along:
+            start, end = sorted((piece.place(m.start), piece.place(m.end)))
+            spread.append(replace(m, start=start, end=end))
+        inside = {n for n, j in r.mechanism.joints.items() if set(j.links) <= names}
+        placed |= {n: piece.place(s) for n, s in piece.joints.items() if n not in inside | {*carrying}}
+    return masses, spread, placed
+
+
+def _welded(r: Result, link: str, e: Straight, pieces: set[str]) -> tuple[dict[str, PointMass], list[str]]:
+    """Links welded to the shaft that have no other joint, except its pieces, as masses, and their joints."""
     m, out = r.mechanism, dict[str, PointMass]()
-    carrying = carrying_joints(m, link)
+    carrying = {n: other for n, other in carrying_joints(m, link).items() if other not in pieces}
     for other in carrying.values():
         local = LinkAxes(r, link)
         place = local.to_link(r.center(other) - r.position(link))[0]

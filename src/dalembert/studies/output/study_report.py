@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.named_quantities import quantity
-from dalembert.answer.column import Scale
 from dalembert.errors import ModelError
 from dalembert.printing import number
 from dalembert.reports.sheet import ReportSheet
@@ -61,7 +61,7 @@ def study_sheet(r: StudyResult) -> ReportSheet:
 
 
 def _numbers(sheet: ReportSheet, r: StudyResult) -> None:
-    to, kinds, plan = Scale(r.study.mechanism.units), r.study.number_kinds, r.study.plan
+    to, kinds, plan = Printed(r.study.mechanism.units), r.study.number_kinds, r.study.plan
     rows = []
     for path, s in zip(plan.paths, plan.spreads, strict=False):
         ends = [f"{to(kinds[path], x):.6g}" for x in (*s.ends, s.sigma)]
@@ -95,7 +95,7 @@ class _Output:
 
     def text(self, value: float) -> str:
         """A value of the output with its unit."""
-        to, kind = Scale(self.r.study.mechanism.units), self.r.kinds[self.name]
+        to, kind = Printed(self.r.study.mechanism.units), self.r.kinds[self.name]
         return f"{number(float(to(kind, value)), 5)} {to.text(kind)}".strip()
 
     def _contributions(self) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from dalembert.answer.column import Scale
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.errors import NUMBERED
 from dalembert.printing import Part, TextTable, number, table
 from dalembert.studies.design_study import Study
@@ -72,7 +72,7 @@ def failure_text(r: StudyResult, f: Failure) -> str:
 def _difference_text(r: StudyResult, d: Difference | None) -> str:
     if d is None:
         return ""
-    kind, to = r.study.number_kinds[d.path], Scale(r.study.mechanism.units)
+    kind, to = r.study.number_kinds[d.path], Printed(r.study.mechanism.units)
     value = f"{float(to(kind, d.value)):.4g} {to.text(kind)}".strip()
     side = "above" if d.above else "below"
     return (
@@ -98,7 +98,7 @@ def left_out(r: StudyResult) -> str:
 
 def output_rows(r: StudyResult) -> tuple[list[str], list[list[str]]]:
     """Heads, and a row for each output with one number per design: mean, sigma, percentiles, least and greatest."""
-    to, rows = Scale(r.study.mechanism.units), []
+    to, rows = Printed(r.study.mechanism.units), []
     for name in r.study.outputs:
         if r.arrays[name].ndim > 1 or not len(values := r.values(name)):
             continue
@@ -128,7 +128,7 @@ def _outputs(r: StudyResult) -> list[str]:
 
 
 def _histogram(r: StudyResult, name: str) -> list[str]:
-    to, kind = Scale(r.study.mechanism.units), r.kinds[name]
+    to, kind = Printed(r.study.mechanism.units), r.kinds[name]
     counts, edges = r.histogram(name)
     line = "".join(BLOCKS[round(8 * n / counts.max())] for n in counts.tolist())
     low, high = (to(kind, edges[k]) for k in (0, -1))
@@ -150,7 +150,7 @@ def _limits(r: StudyResult) -> list[str]:
 
 def extreme_rows(r: StudyResult, name: str) -> list[list[str]]:
     """Number, unit, value in the model file, in the designs with the least and greatest of an output."""
-    study, to = r.study, Scale(r.study.mechanism.units)
+    study, to = r.study, Printed(r.study.mechanism.units)
     designs = [study.design(n) for n in (r.best(name), r.worst(name))]
     in_file = {n.path: n.value for path in study.paths for n in varied_numbers(study.mechanism, path)}
     kinds = study.number_kinds | {name: r.kinds[name]}
@@ -165,7 +165,7 @@ def extreme_rows(r: StudyResult, name: str) -> list[list[str]]:
 
 def design_text(study: Study, n: int) -> str:
     """The numbers of a design, in the units of the model file."""
-    to, kinds = Scale(study.mechanism.units), study.number_kinds
+    to, kinds = Printed(study.mechanism.units), study.number_kinds
     rows = [
         [path, f"{to(kinds[path], value):.12g}", to.text(kinds[path])]
         for path, value in study.design(n).items()
@@ -175,7 +175,7 @@ def design_text(study: Study, n: int) -> str:
 
 def contributions_text(study: Study, by: str) -> str:
     """Shares of the variance of each output of one number, the largest first."""
-    to, parts = Scale(study.mechanism.units), []
+    to, parts = Printed(study.mechanism.units), []
     kinds = study.kinds
     for name in study.outputs:
         contributions = study.contributions(name, by)

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.answer.column import Scale
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
@@ -34,7 +35,7 @@ def axis_label(to: Scale, name: str, kind: str) -> str:
 
 def histogram_scene(r: StudyResult, name: str) -> Scene:
     """Number of designs with an output in each of some equal intervals, its percentiles and limits."""
-    to, kind, canvas = Scale(r.study.mechanism.units), r.kinds[name], Canvas()
+    to, kind, canvas = Printed(r.study.mechanism.units), r.kinds[name], Canvas()
     counts, edges = r.histogram(name)
     x = to(kind, edges)
     ends = [to(kind, e) for limit in r.study.limits if limit.output == name for e in (limit.low, limit.high)]
@@ -56,7 +57,7 @@ def histogram_scene(r: StudyResult, name: str) -> Scene:
 
 def scatter_scene(r: StudyResult, name: str, path: str) -> Scene:
     """An output over one of the numbers, of the first designs that have both."""
-    to, kind = Scale(r.study.mechanism.units), r.kinds[name]
+    to, kind = Printed(r.study.mechanism.units), r.kinds[name]
     count = min(DOTS, r.study.count)
     over = r.study.plan.values(0, count)[:, r.study.paths.index(path)]
     number_kind = r.study.number_kinds[path]
@@ -73,7 +74,7 @@ def scatter_scene(r: StudyResult, name: str, path: str) -> Scene:
 
 def response_scene(r: StudyResult, of: ResponseCurve) -> Scene:
     """A curve over one number; over two, lines of equal value, grey where unsolved."""
-    to, kind = Scale(r.study.mechanism.units), r.kinds[of.output]
+    to, kind = Printed(r.study.mechanism.units), r.kinds[of.output]
     z = to(kind, of.values)
     kinds = [r.study.number_kinds[path] for path in of.paths]
     axes = [to(k, a) for k, a in zip(kinds, of.axes, strict=True)]

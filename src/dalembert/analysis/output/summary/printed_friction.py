@@ -92,13 +92,13 @@ def cycle_table(result: Result, to: Printed) -> Part:
     values = efficiency(result)
     if not np.isfinite(values.cycle):
         return ""
-    unit = to("moment", 1.0)
+    unit = to("energy", 1.0)
     rows = [
         [joint, number(share * values.put_in * unit), f"{number(100 * share, 4)} %"]
         for joint, share in values.share.items()
         if joint in friction_joints(result)
     ]
-    heads = ["friction over\nthe positions", f"work lost\n{to.text('moment')}", "of the work\nput in"]
+    heads = ["friction over\nthe positions", f"work lost\n{to.text('energy')}", "of the work\nput in"]
     cycle = 0.0 if abs(values.cycle) < NOTHING else 100 * values.cycle
     words = f"Efficiency over the positions, inertia and all: {number(cycle, 4)} %."
     return TextTable(heads, rows, 1, words)
