@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.model.library import template_text
 from tests.tiers import over, over_seeds
 
 FILE = """units: {length: mm, mass: kg, force: N, moment: N*m, angle: rad}
@@ -174,3 +175,14 @@ def test_it_holds_beside_brakes_and_ropes(name: str) -> None:
     )
     assert r.status == ("ok",)
     assert r.effort("A")[0] == pytest.approx(120 + torque)
+
+
+def test_a_ratchet_beside_a_rope_moves_under_forces() -> None:
+    """A rope is counted with its strands and pulleys: what a torque on the shaft lifts, and what it lets down."""
+    tree = da.loads(template_text("ratchet")).to_tree()
+    tree["start"] = {"A": {"position": 0, "speed": "20 rpm"}}
+    inertia = 0.05 + 0.4 + 120 * 0.1**2
+    for torque in (200.0, 100.0):
+        tree["drives"]["A"] = {"effort": f"{torque} N*m"}
+        s = da.simulate(da.mechanism(tree), "0.05 s", count=3)
+        assert s.acceleration("A")[0] == pytest.approx((torque - 120 * 9.80665 * 0.1) / inertia, rel=1e-9)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.analysis.compile import plane_rows
+from dalembert.analysis.compile.elements.rope_parts import with_rope_parts
 from dalembert.errors import ModelError
 from dalembert.model import Joint, Mechanism
 from dalembert.model.joints.elements.clutches import Faces
@@ -17,8 +18,9 @@ def with_clutches(m: Mechanism, drives: int) -> Mechanism:
     clutches = {n: j for n, j in m.joints.items() if isinstance(j, Clutch) and not j.RELEASED}
     if not clutches or m.dimension != 2:
         return m
-    held = sum(_constraint_count(joint) for joint in m.joints.values() if not isinstance(joint, Clutch))
-    left = 3 * sum(name != "ground" for name in m.links) - held - drives
+    whole = with_rope_parts(m)
+    held = sum(_constraint_count(joint) for joint in whole.joints.values() if not isinstance(joint, Clutch))
+    left = 3 * sum(name != "ground" for name in whole.links) - held - drives
     if left >= len(clutches):
         return m
     if left > 0:
