@@ -16,6 +16,7 @@ from dalembert.machine.elements import cam_files
 from dalembert.machine.elements.cam_files import outline
 from dalembert.machine.elements.hertz_contact import LineContact
 from dalembert.model.library import template_text
+from dalembert.pages.page_data import page_data
 from dalembert.views.paper.scene import Arrow, Circle, Polygon
 from tests.elements.random_cams import Case
 from tests.elements.test_cam_cases import sliding
@@ -401,3 +402,19 @@ def test_sizes_of_a_cam_that_a_kernel_can_vary() -> None:
         da.compile(text, vary=["rise"])
     assert "the curve of cam 'F' is computed from 'joints.F.profile.segments" in str(caught.value)
     assert "vary its base or its roller, or solve each design by da.sweep" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "profile", [{"eccentric": "12 mm", "radius": "40 mm"}, {"base": "40 mm", "segments": FULL}]
+)
+@pytest.mark.parametrize("follower", ["flat", "knife"])
+def test_the_direction_of_a_guide_varies_in_a_kernel_and_on_a_page(follower: str, profile: Any) -> None:
+    load = {"P": {"type": "force", "on": "stem", "at": "F", "value": [0, -300]}}
+    m = da.mechanism(sliding(follower, profile, drive=dict(TURN), stem={"mass": 0.5}, loads=load))
+    kernel = da.compile(m, "joints.guide.direction", "effort.O")
+    y = kernel([[1.5], [1.6]])
+    for k, angle in enumerate((1.5, 1.6)):
+        r = da.dynamics(m.with_values({"joints.guide.direction": angle}), method="careful")
+        assert set(r.status) == {"ok"}
+        assert y["effort.O"][k] == pytest.approx(r.effort("O"), rel=1e-9, abs=1e-12)
+    assert "joints.guide.direction" in {one["path"] for one in page_data(m)["numbers"]}

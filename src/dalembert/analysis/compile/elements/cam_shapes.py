@@ -71,7 +71,7 @@ def cam_shape(m: Mechanism, name: str) -> CamShape:
         return replace(shape, gamma=shape.gamma - joint.profile.start)
     kind = FLAT if joint.flat else SLIDES
     normal = _face_normal(name, joint, carrier) if joint.flat else np.zeros(2)
-    turned = math.atan2(normal[1], normal[0]) if joint.flat else 0.0
+    turned = arctan2(normal[1], normal[0]) if joint.flat else 0.0
     zero = 0.0
     if joint.profile.tangent is not None:  # its flank begins at the follower
         zero = (
