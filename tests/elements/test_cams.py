@@ -407,10 +407,12 @@ def test_sizes_of_a_cam_that_a_kernel_can_vary() -> None:
 @pytest.mark.parametrize(
     "profile", [{"eccentric": "12 mm", "radius": "40 mm"}, {"base": "40 mm", "segments": FULL}]
 )
-@pytest.mark.parametrize("follower", ["flat", "knife"])
-def test_the_direction_of_a_guide_varies_in_a_kernel_and_on_a_page(follower: str, profile: Any) -> None:
+@pytest.mark.parametrize("face", [None, "8 deg", "190 deg"])
+def test_the_direction_of_a_guide_varies_in_a_kernel_and_on_a_page(face: str | None, profile: Any) -> None:
     load = {"P": {"type": "force", "on": "stem", "at": "F", "value": [0, -300]}}
-    m = da.mechanism(sliding(follower, profile, drive=dict(TURN), stem={"mass": 0.5}, loads=load))
+    tree = sliding("flat", profile, drive=dict(TURN), stem={"mass": 0.5}, loads=load)
+    tree["joints"]["F"] |= {"face": face} if face else {}
+    m = da.mechanism(tree)
     kernel = da.compile(m, "joints.guide.direction", "effort.O")
     y = kernel([[1.5], [1.6]])
     for k, angle in enumerate((1.5, 1.6)):

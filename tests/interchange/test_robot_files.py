@@ -60,7 +60,7 @@ def test_files_of_others_are_read(name: str) -> None:
     ),
 )
 def test_their_freedoms_are_counted_by_rank(name: str) -> None:
-    with pytest.raises(ModelError, match=f"the mechanism has {READ[name][2]} freedoms? and"):
+    with pytest.raises(ModelError, match=f"the mechanism has {READ[name][2]} degrees? of freedom and"):
         da.mobility(read_foreign(FILES / name)[0])
 
 

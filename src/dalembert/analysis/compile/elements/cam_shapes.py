@@ -173,7 +173,7 @@ def _face_normal(name: str, joint: Cam, carrier: CamCarrier | None) -> Array:
                 "write face: its direction in the follower's axes, the cam on its right",
                 ("joints", name),
             )
-        return np.array([-math.sin(joint.face), math.cos(joint.face)])
+        return np.array([-np.sin(joint.face), np.cos(joint.face)])
     outward = carrier.sign * np.array([-carrier.arm[1], carrier.arm[0]])
     if not carrier.swings:
         outward = _turned(carrier.way, -carrier.turn)
@@ -183,12 +183,12 @@ def _face_normal(name: str, joint: Cam, carrier: CamCarrier | None) -> Array:
             return np.asarray(outward / size)
         what = f"cam {name!r}: the face passes through the follower's axis, and its direction is not given"
         raise ModelError(what, "write face: its direction in the follower's axes", ("joints", name))
-    face = np.array([-math.sin(joint.face), math.cos(joint.face)])
-    along = float(face @ outward)
-    if abs(along) < 1e-6:
+    face = np.array([-np.sin(joint.face), np.cos(joint.face)])
+    along = face[0] * outward[0] + face[1] * outward[1]
+    if isinstance(along, float) and abs(along) < 1e-6:
         what = f"cam {name!r}: the face is along the motion of the follower, which does not lift it"
         raise ModelError(what, "turn the face", ("joints", name, "face"))
-    return face if along > 0 else -face
+    return np.asarray(face * (along / np.sqrt(along * along)))
 
 
 # profiles by the lift
