@@ -118,6 +118,22 @@ def test_a_signal_from_outside_ends_long_work_quietly(tmp_path: Path) -> None:
     assert set(tmp_path.iterdir()) <= {path}
 
 
+WITHIN_EXEC = """
+import dalembert.cli
+def run(arguments):
+    exec("raise KeyboardInterrupt")
+dalembert.cli._run = run
+raise SystemExit(dalembert.cli.main([]))
+"""
+
+
+def test_a_signal_within_exec_ends_with_the_same_status(tmp_path: Path) -> None:
+    (tmp_path / "within_exec.py").write_text(WITHIN_EXEC, encoding="utf-8")
+    command = [sys.executable, "-m", "within_exec"]
+    done = subprocess.run(command, capture_output=True, timeout=HANGS, cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (130, b"")
+
+
 ON_A_TERMINAL = """
 import os, signal, sys, time
 import dalembert.progress, dalembert.analysis.solution as solution

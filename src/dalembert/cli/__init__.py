@@ -39,18 +39,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
         return status
     except KeyboardInterrupt:
-        return INTERRUPTED
+        return _interrupted()
     except BrokenPipeError:
         _let_go()
         return 0
     except RuntimeError as error:  # an interrupt while a class is made is the cause of another error
         if not isinstance(error.__cause__, KeyboardInterrupt):
             raise
-        return INTERRUPTED
+        return _interrupted()
     except OSError as error:
         _let_go()
         print(f"standard output: {(error.strerror or str(error)).lower()}", file=sys.stderr)
         return WRONG_INPUT
+
+
+def _interrupted() -> int:
+    """The exit status; Python would end by the signal instead if it came within `exec`, by which dataclasses are made,
+    unless another one has ended well since."""
+    exec("")
+    return INTERRUPTED
 
 
 def _let_go() -> None:
