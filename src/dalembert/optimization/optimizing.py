@@ -116,8 +116,8 @@ def problem_of(
     varied, low, high, steps = bounds_of(m, vary)
     rules: list[Any] = [where] if isinstance(where, str) or callable(where) else list(where)
     functions = named([f for f in dict.fromkeys((least, *rules)) if callable(f)])
-    for key, given in (("positions", positions), ("static", static)):
-        if motion is not None and given:
+    for key, value in (("positions", positions), ("static", static)):
+        if motion is not None and value:
             raise ModelError(f"{key} is given, and forces move the designs", f"leave {key} out", (key,))
     with errors_at("positions"):
         at = positions if motion else over_a_turn(m, positions)

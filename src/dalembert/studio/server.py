@@ -155,12 +155,12 @@ class StudioServer:
 
         async def answer() -> None:
             try:
-                found = await self._solved(question)
+                answer_text = await self._solved(question)
             except Exception as error:
-                found = json.dumps({"error": sentence(error)})
+                answer_text = json.dumps({"error": sentence(error)})
             if ws in self.tabs:
                 self.tabs[ws] -= 1
-            await self._send_text(ws, joined({"n": n, "ask": ask, "of": question.of}, found))
+            await self._send_text(ws, joined({"n": n, "ask": ask, "of": question.of}, answer_text))
 
         task = asyncio.create_task(answer())
         self._answers.add(task)
@@ -205,13 +205,13 @@ class StudioServer:
         while True:
             await self._wanted.wait()
             self._wanted.clear()
-            asked, digest = self.session.analysed, self.session.document.hash
+            analysed, digest = self.session.analysed, self.session.document.hash
             try:
                 answer = await self._answer(self.session)
             except Exception as error:
                 answer = json.dumps({"missing": sentence(error)})
-            if asked == self.session.analysed:  # a text that has come meanwhile is solved next
-                solved = joined({"hash": digest, "of": asked}, answer)
+            if analysed == self.session.analysed:  # a text that has come meanwhile is solved next
+                solved = joined({"hash": digest, "of": analysed}, answer)
                 await asyncio.gather(*(self._send_text(ws, solved) for ws in self.tabs))
 
     async def _answer(self, session: Session) -> str:

@@ -183,8 +183,8 @@ def _lines(m: Mechanism, moves: Actuation) -> Array:
     """``ROWS`` (6, D) of the drives: numbers, or symbols."""
     lines = np.zeros((6, len(moves.names)), object)
     for k, (name, drive) in enumerate(m.drives.items()):
-        given = 0.0 if drive.effort is None or hasattr(drive.effort, "at") else drive.effort
-        start, line = m.start.get(name), (given, np.inf)
+        effort = 0.0 if drive.effort is None or hasattr(drive.effort, "at") else drive.effort
+        start, line = m.start.get(name), (effort, np.inf)
         if drive.motor is not None and drive.effort is None:
             motor = drive.motor.at_drive
             line = motor.effort[0], motor.speed[1] if motor.straight else np.inf

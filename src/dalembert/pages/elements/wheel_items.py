@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import joint_place, link_place
+from dalembert.analysis.methods.elements.belt_strands import left_of_tangent
 from dalembert.arrays import Numeric, Tree
-from dalembert.core.branchless import root
 from dalembert.views.plane.outline import wheel_paths
 from dalembert.views.symbols import plane_symbols
 
@@ -122,8 +122,5 @@ def _tangent(d: Drawer, name: str, ra: Numeric, rb: Numeric) -> Ends:
     a, b = (
         link_place(d.r, on, u)[0] for on, u in zip(joint.links, d.mechanism.joint_points(name), strict=True)
     )
-    (x, y), apart = b - a, ra - rb
-    square = x * x + y * y
-    along = root(np.asarray(square - apart * apart))[()]
-    left = np.array([-(along * y - apart * x), along * x + apart * y]) / square
+    left = left_of_tangent((b - a)[None], ra - rb)[0]
     return d.rows.vector(a + ra * left), d.rows.vector(b + rb * left)

@@ -40,9 +40,9 @@ def required_of(m: Mechanism, path: str) -> Tree:
             name = next((n for n, f in type(part).model_fields.items() if (f.alias or n) == key), "")
             part, field = getattr(part, name), type(part).model_fields[name]
             if _is_number(part, keys[place + 1 :]):
-                found = list(_inside([*field.metadata, field.annotation]))
-                wanted = {key: [getattr(x, key, "") for x in found] for key in ("sign", "counts")}
-                return {key: next(filter(None, said)) for key, said in wanted.items() if any(said)}
+                rules = list(_inside([*field.metadata, field.annotation]))
+                wanted = {key: [getattr(x, key, "") for x in rules] for key in ("sign", "counts")}
+                return {key: next(filter(None, texts)) for key, texts in wanted.items() if any(texts)}
         elif isinstance(part, Mapping):
             part = part[key]
         elif isinstance(part, tuple):

@@ -18,9 +18,11 @@ def with_clutches(m: Mechanism, drives: int) -> Mechanism:
     clutches = {n: j for n, j in m.joints.items() if isinstance(j, Clutch) and not j.RELEASED}
     if not clutches or m.dimension != 2:
         return m
-    whole = with_rope_parts(m)
-    held = sum(_constraint_count(joint) for joint in whole.joints.values() if not isinstance(joint, Clutch))
-    left = 3 * sum(name != "ground" for name in whole.links) - held - drives
+    expanded = with_rope_parts(m)
+    held = sum(
+        _constraint_count(joint) for joint in expanded.joints.values() if not isinstance(joint, Clutch)
+    )
+    left = 3 * sum(name != "ground" for name in expanded.links) - held - drives
     if left >= len(clutches):
         return m
     if left > 0:

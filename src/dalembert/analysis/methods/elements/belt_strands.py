@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, link_place
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.core.branchless import larger, root
 
 if TYPE_CHECKING:
@@ -33,6 +33,17 @@ def wheel_place(r: Result, joint: str, link: str) -> Array:
     return link_place(r, link, r.mechanism.joint_points(joint)[end])
 
 
+def left_of_tangent(line: Array, difference: Numeric) -> Array:
+    """Unit normal (..., 2), on its left, of the line that touches two circles; ``line``: from centre to centre,
+    ``difference``: of their radii, each positive where its circle is on the right. Numbers or nodes."""
+    x, y = line[..., 0], line[..., 1]
+    square = x * x + y * y
+    along = root(np.asarray(square - difference * difference))
+    return np.asarray(
+        np.stack([difference * x - along * y, along * x + difference * y], axis=-1) / square[..., None]
+    )
+
+
 def _rope_pull(r: Result, a: Action) -> Action:
     """The pull of a strand where it touches a wheel or ends at a point: a force without a couple."""
     joint: Any = r.mechanism.joints[a.of]
@@ -50,14 +61,13 @@ def _belt_pulls(r: Result, known: Result, a: Action) -> tuple[Action, ...]:
     pi, pj = (wheel_place(r, a.of, link) for link in belt.links)
     end, line = belt.links.index(a.link), pj - pi
     center, sense, radius = (pi, pj)[end], (1.0, -1.0)[end], belt.signed_radii[end]
-    apart, square = sum(belt.signed_radii), (line * line).sum(axis=-1)
-    along = root(np.asarray(square - apart * apart))
+    between = sum(belt.signed_radii)
+    along = root(np.asarray((line * line).sum(axis=-1) - between * between))
     total = sense * (a.force * line).sum(axis=-1) / along
     difference = -a.moment(center) / radius
-    out, (x, y) = [], (line[..., 0], line[..., 1])
+    out = []
     for side, part in zip((1.0, -1.0), _names(known, a.of), strict=True):
-        shift = side * apart
-        left = np.stack([shift * x - along * y, along * x + shift * y], axis=-1) / square[..., None]
+        left = left_of_tangent(line, side * between)
         pull = (sense * (total + side * difference) / 2)[..., None]
         force = pull * np.stack([left[..., 1], -left[..., 0]], axis=-1)
         at = center + side * sense * radius * left

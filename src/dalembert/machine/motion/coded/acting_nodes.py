@@ -87,9 +87,9 @@ def trace_acting(
     for ((joint, freedom), stops), (x, rate, _, *slopes) in zip(
         joint_stops(ends).items(), rows, strict=False
     ):
-        if way := getattr(m.joints[joint], "way", 0.0):
-            away = [-way * n for n in slopes]
-            out.stops.append(StopNodes(way * rate, away, graph.zero, -1, clutch=True))
+        if sign := getattr(m.joints[joint], "way", 0.0):
+            away = [-sign * n for n in slopes]
+            out.stops.append(StopNodes(sign * rate, away, graph.zero, -1, clutch=True))
             continue
         place = _counted(graph, out, stops, x) if freedom == "turn" else x
         if not stops.stiffness:

@@ -49,8 +49,8 @@ def axis_ends(r: Result, positions: slice, beyond: float) -> tuple[Array, Array]
     places = [r.point(link, p)[positions] for link in r.links for p in m.links[link].points]
     places += [np.array(p, float)[None] for p in (m.points(GROUND) if GROUND in m.links else {}).values()]
     heights = (np.concatenate([at[None], *places]) - at) @ along
-    found = heights[1:][np.isfinite(heights[1:])]
-    low, high = (found.min(), found.max()) if found.size else (0.0, 0.0)
+    known = heights[1:][np.isfinite(heights[1:])]
+    low, high = (known.min(), known.max()) if known.size else (0.0, 0.0)
     return at + (low - beyond) * along, at + (high + beyond) * along
 
 

@@ -25,10 +25,10 @@ STEEPEST = 0.87
 def wedge_corners(r: Result, link: str) -> Array | None:
     """Corners (n, 2) of a wedge in its axes, m: the part of its inclined face that the cycle needs, and the
     area from it to the other face; None for any other link. They are computed once for all drawings of a result."""
-    found = _wedges(r)
-    if link not in found:
-        found[link] = _corners(r, link)
-    return found[link]
+    corners = _wedges(r)
+    if link not in corners:
+        corners[link] = _corners(r, link)
+    return corners[link]
 
 
 @kept

@@ -98,20 +98,20 @@ class CourseRest(CourseState):
             return
         machine, d, contacts = self.machine, self.machine.drives, self.machine.code.contacts
         self.y[k, d + machine.free] = 0.0
-        ways = []
-        for way in (1.0, -1.0):
-            self.toward[k] = way
+        accelerations = []
+        for sense in (1.0, -1.0):
+            self.toward[k] = sense
             self._brake(k)
             values, ahead = self.values[k], 0.0 * self.y[k]
             if contacts:
-                ahead[:, :d], ahead[:, d + machine.free] = self.y[k, :d], way
+                ahead[:, :d], ahead[:, d + machine.free] = self.y[k, :d], sense
                 pushed = look(machine.code.steps, values, self.t[k], ahead)[1][:, :contacts]
                 values[:, self._senses] = np.where(pushed != 0, np.sign(pushed), values[:, self._senses])
             senses = values[:, self._senses].copy()
             values[:, -1] = 1.0
             a = look(machine.code.steps, values, self.t[k], self.y[k])[0][:, d + machine.free]
-            ways.append((a, senses))
-        (ahead, one), (back, other) = ways
+            accelerations.append((a, senses))
+        (ahead, one), (back, other) = accelerations
         size, stop = EVEN * np.abs(ahead - back), self.on_stop[k]
         doubt = ~np.isfinite(ahead - back) | (np.abs(ahead) < size) & (stop <= 0)
         doubt |= (np.abs(back) < size) & (stop >= 0)
