@@ -271,6 +271,31 @@ def test_a_contact_is_lost_where_it_would_pull() -> None:
         assert ("contact_lost" in da.dynamics(da.mechanism(tree)).status) is lost
 
 
+@pytest.mark.parametrize("seed", [1, 3, 5])
+def test_a_contact_that_nothing_loads_is_not_lost_by_rounding(seed: int) -> None:
+    """In a dwell without weight every force is rounding, whatever mass, speed, direction and place; where the follower
+    slows down the contact is lost. A compiled program says the same."""
+    rng = np.random.default_rng(seed)
+    at, towards = rng.uniform(-1, 1, 2).tolist(), float(rng.uniform(0, 360))
+    drive = TURN | {"speed": f"{10 ** rng.uniform(-1, 3)} rad/s"}
+    tree = sliding(
+        {"roller": "8 mm"},
+        {"base": "40 mm", "segments": FULL},
+        drive=drive,
+        stem={"mass": 10 ** rng.uniform(-3, 4)},
+    )
+    tree["links"]["ground"]["points"]["O"] = at
+    tree["joints"]["guide"]["direction"] = towards
+    m = da.mechanism(tree)
+    r = da.dynamics(m)
+    falls = r.freedom("guide", "slide")[2] < -1e-9 * np.abs(r.freedom("guide", "slide")[2]).max()
+    assert 0 < falls.sum() < len(falls)
+    assert [s == "contact_lost" for s in r.status] == falls.tolist()
+    assert da.compile(m, ["links.stem.mass"])([[m.links["stem"].mass]]).status.ravel().tolist() == list(
+        r.status
+    )
+
+
 def test_a_spring_keeps_the_least_force() -> None:
     """The stiffness with a preload, and the softest spring, both at their limit."""
     tree = machine({"roller": "8 mm"}, contact="holds")

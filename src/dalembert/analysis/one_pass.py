@@ -89,7 +89,9 @@ def _along(followed: Positions, path: Path, inertia: bool, forces: bool, method:
         _blocks(c, pose, inertia, forces) if program is None else _with_careful(c, pose, inertia, program)
     )
     moved, solved, behind, jumps = _with_jumps(c, pose, inertia, forces, moved, solved)
-    status, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, solved, forces, jumps)
+    status, reasons = statuses(
+        followed, moved.twist, moved.acceleration, moved.rcond, solved, forces, inertia, jumps
+    )
     _blank_without_answer(~path.reached, status, moved, solved)
     return _result(followed, moved, solved, inertia, status, reasons, behind)
 

@@ -16,7 +16,7 @@ from dalembert.arrays import Array
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import measure
 from dalembert.core.elements.cam_rows import jump_margins
-from dalembert.core.elements.pushing import Pushing, contact_margins
+from dalembert.core.elements.pushing import Pushing, contact_margins, forces_at_speed
 from dalembert.core.elements.turning_frame import turning_square
 from dalembert.core.equilibrium import (
     Equilibrium,
@@ -176,7 +176,7 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
         unit = load_rows(layout, p.known, pose)
         sources["asked"] = WrenchSource(unit.j, unit.on_j * balance.load[:, None])
     force, moment = force + friction.force, couple.reshape(friction.moment.shape) + friction.moment
-    pushes = contact_margins(layout, p.pushing, pose, force, moment, largest(g, trace_array(g, force)))
+    heavy = forces_at_speed(layout, p.forcing.inertia.mass, moving.twist if p.inertia else 0.0 * moving.twist)
     return Traced(
         pose=pose,
         twist=trace_array(g, moving.twist),
@@ -202,7 +202,7 @@ def _trace_at(p: TracedProblem, layout: Layout, placed: PlacedPose, gaps: list[N
             *unheld(p.graph, layout, spins, friction.total),
             *unmet(p.forcing.turning, square, effort, layout.length * largest(g, trace_array(g, force))),
         ],
-        contacts=list(trace_array(g, pushes)),
+        contacts=list(trace_array(g, contact_margins(layout, p.pushing, pose, force, moment, heavy))),
         friction=friction,
         flips=placed.flips,
         sources=sources,

@@ -16,7 +16,7 @@ from dalembert.analysis.methods.cam_contacts import cam_contact, is_cam, normal_
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
-from dalembert.core.elements.pushing import LOST, contact_forces
+from dalembert.core.elements.pushing import LOST, contact_forces, contact_margins, forces_at_speed
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.wording import closest
@@ -184,9 +184,11 @@ def _forces(r: Result, holding: Mechanism, factor: float, ahead: float | None = 
     other = at_schedule(holding, schedule, r.inertia)
     c = r.compiled
     assert c.pushing is not None
-    force = contact_forces(c.layout, c.pushing, full_pose(other), other.force_array, other.moment_array)
-    largest = np.abs(other.force_array).max(axis=(1, 2), initial=0.0)[:, None]
-    return np.where(np.abs(force) <= LOST * largest, 0.0, force)  # rounding, as the status has it
+    pose, wrenches = full_pose(other), (other.force_array, other.moment_array)
+    force = contact_forces(c.layout, c.pushing, pose, *wrenches)
+    heavy = forces_at_speed(c.layout, c.forcing.inertia.mass, other.twist_array) if r.inertia else np.zeros(1)
+    rounding = contact_margins(c.layout, c.pushing, pose, *wrenches, heavy) - force  # as the status has it
+    return np.where(np.abs(force) <= rounding, 0.0, force)
 
 
 def _lift_factor(parts: Array, size: float) -> float:

@@ -13,7 +13,7 @@ from dalembert.analysis.friction.friction_status import Check, arc
 from dalembert.analysis.status.brake_verdicts import lifting
 from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Array, Ints
-from dalembert.core.elements.pushing import LOST, contact_forces
+from dalembert.core.elements.pushing import contact_forces, contact_margins, forces_at_speed
 from dalembert.core.layout import Pose
 
 if TYPE_CHECKING:
@@ -40,11 +40,11 @@ CORNERS = {
 }
 
 
-def contact_checks(c: Compiled, pose: Pose, f: SolvedForces) -> list[Check]:
+def contact_checks(c: Compiled, pose: Pose, twist: Array, f: SolvedForces, inertia: bool) -> list[Check]:
     """Checks for lost contacts; none if every joint holds in both senses."""
     if c.pushing is None:
         return []
-    lacking, limits = lacking_forces(c, pose, f), c.pushing.slips
+    lacking, limits = _lacking_forces(c, pose, twist, f, inertia), c.pushing.slips
     lost, slipping = np.where(limits, 0.0, lacking), np.where(limits, lacking, 0.0)
     checks: list[Check] = [
         ("contact_lost", (lost > 0).any(axis=1), lambda k: _lost_sentence(c, lost, k)),
@@ -53,16 +53,16 @@ def contact_checks(c: Compiled, pose: Pose, f: SolvedForces) -> list[Check]:
     return checks if limits.any() else checks[:1]
 
 
-def lacking_forces(c: Compiled, pose: Pose, f: SolvedForces) -> Array:
+def _lacking_forces(c: Compiled, pose: Pose, twist: Array, f: SolvedForces, inertia: bool) -> Array:
     """Force with which each contact (P, K) would have to pull; 0 where it pushes or its force is not determined."""
     assert c.pushing is not None
-    force = contact_forces(c.layout, c.pushing, pose, f.force, f.moment)
-    largest = np.abs(f.force).max(axis=(1, 2), initial=0.0)[:, None]
-    couples = np.abs(f.moment).reshape(len(force), -1).max(axis=1, initial=0.0)[:, None]
-    lost = force < -LOST * np.where(c.pushing.force == 0, couples, largest)
+    heavy = np.zeros(len(twist))
+    if inertia:
+        heavy = forces_at_speed(c.layout, c.forcing.inertia.mass, twist)
+    lost = contact_margins(c.layout, c.pushing, pose, f.force, f.moment, heavy) < 0
     if f.unique is not None:
         lost &= f.unique[:, c.pushing.joint].all(axis=-1)
-    return np.where(lost, -force, 0.0)
+    return np.where(lost, -contact_forces(c.layout, c.pushing, pose, f.force, f.moment), 0.0)
 
 
 def _slip_sentence(c: Compiled, slipping: Array, pose: Pose, f: SolvedForces, run: Ints) -> str:

@@ -52,10 +52,11 @@ def statuses(
     rcond: Array,
     f: SolvedForces,
     forces: bool,
+    inertia: bool,
     jumps: Flags | None = None,
 ) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
-    """Status and sentence of each position; ``rcond`` is that of the closure equations, ``forces`` asked for or not;
-    ``jumps`` (P,) of accelerations."""
+    """Status and sentence of each position; ``rcond`` is that of the closure equations, ``forces`` and
+    ``inertia`` asked for or not; ``jumps`` (P,) of accelerations."""
     c, path = followed.compiled, followed.path
     assert path is not None
     limit = singular_below(c.layout)
@@ -80,7 +81,7 @@ def statuses(
         checks += [
             ("overflow", not_finite(f) & held, lambda k: overflow_sentence(c, FORCES, c.joints, loaded, k)),
             ("no_balance", unbalanced, lambda k: no_balance_sentence(c, k)),
-            *contact_checks(c, path.pose, f),
+            *contact_checks(c, path.pose, twist, f, inertia),
             *(belt_checks(c, path.pose, twist, f) if c.mechanism.has_limits else ()),
             *(rope_checks(c, path.pose, f) if c.mechanism.has_limits else ()),
             *grip_checks(c, f),

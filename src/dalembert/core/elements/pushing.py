@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from dalembert.algebra import plane
-from dalembert.arrays import Array, Flags, Ints, Numeric
-from dalembert.core.branchless import root
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.branchless import larger, root, top
 from dalembert.core.constraints import wrenches
 from dalembert.core.elements import cam_rows
 from dalembert.core.elements.cam_family import CamRow
@@ -23,6 +23,9 @@ SLIP = 2
 """Instead of a corner: a limit of friction along the track."""
 LOST = 1e-9
 """Part of the largest force of a position that a contact may lack: rounding."""
+AT_SPEED = 1e-5
+"""Part of the inertia forces that the speeds of a position can bring about, added to its largest force: where nothing
+else loads a contact, as in a dwell without weight, all forces there are rounding of these."""
 
 
 @dataclass(frozen=True)
@@ -81,12 +84,26 @@ def normals(layout: Layout, pose: Pose, row: Ints) -> Array:
 
 
 def contact_margins(
-    layout: Layout, p: Pushing | None, pose: Pose, force: Array, moment: Array, largest: Numeric
+    layout: Layout, p: Pushing | None, pose: Pose, force: Array, moment: Array, heavy: Array
 ) -> Array:
-    """Forces (..., K) of contacts with the rounding of the largest force: below 0 where a contact is lost."""
+    """Forces (..., K) of contacts and what of them may be rounding: below 0 where a contact is lost.
+
+    ``heavy`` (...,): ``forces_at_speed``, or 0 where masses have no part.
+    """
     if p is None:
         return np.zeros(0)
-    return np.asarray(contact_forces(layout, p, pose, force, moment) + LOST * largest)
+    largest = top(abs(force), 2) + AT_SPEED * heavy
+    couple = top(abs(moment), moment.ndim - force.ndim + 2) + AT_SPEED * layout.length * heavy
+    size = np.where(p.force == 0, np.asarray(couple)[..., None], np.asarray(largest)[..., None])
+    return np.asarray(contact_forces(layout, p, pose, force, moment) + LOST * size)
+
+
+def forces_at_speed(layout: Layout, mass: Array, twist: Array) -> Array:
+    """Force (...,) that gives the largest mass the largest acceleration of the links' speeds over the characteristic
+    length: w^2 L or v^2 / L."""
+    d = layout.algebra.d
+    turning = larger(top(abs(twist[..., d:]), 2), top(abs(twist[..., :d]), 2) / layout.length)
+    return np.asarray(top(abs(mass), 1) * layout.length * turning * turning)
 
 
 def contact_forces(layout: Layout, p: Pushing, pose: Pose, force: Array, moment: Array) -> Array:
