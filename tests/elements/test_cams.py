@@ -15,6 +15,7 @@ from dalembert.errors import ModelError
 from dalembert.machine.elements import cam_files
 from dalembert.machine.elements.cam_files import outline
 from dalembert.machine.elements.hertz_contact import LineContact
+from dalembert.model import read_file
 from dalembert.model.library import template_text
 from dalembert.pages.page_data import page_data
 from dalembert.views.paper.scene import Arrow, Circle, Polygon
@@ -66,6 +67,17 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ),
     (machine(face="10 deg"), "face of joint 'F': a knife has no face; leave it out"),
 ]
+
+
+def written(keys: dict[str, Any]) -> dict[str, Any]:
+    """The machine with other keys of its cam."""
+    tree = machine(keys.pop("follower", "knife"), keys.pop("segments", None))
+    tree["joints"]["F"] |= keys
+    return tree
+
+
+ROWS: Any = read_file(Path(__file__).with_name("wrong_cams.yaml"))[0]["cams"]
+WRONG += [(written(row["keys"]), row["says"]) for row in ROWS]
 
 
 @pytest.mark.parametrize(("tree", "says"), WRONG)

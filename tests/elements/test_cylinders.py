@@ -78,6 +78,11 @@ def test_a_wrong_cylinder_is_told_where_and_what(keys: str) -> None:
             "joints: {C: {type: weld, links: [ground, boom], at: O}, O:",
             "joint 'C' exists, and the cylinder",
         ),
+        (
+            "boom.B",
+            "ground.O",
+            "both ends of the cylinder are on ground, so that its length is fixed; name points of two links",
+        ),
     ],
 )
 def test_what_a_cylinder_joins_is_checked(old: str, new: str, says: str) -> None:
@@ -85,6 +90,19 @@ def test_what_a_cylinder_joins_is_checked(old: str, new: str, says: str) -> None
         da.loads(BOOM.replace(old, new), name="b.yaml")
     assert says in str(caught.value)
     assert str(caught.value).startswith("b.yaml:7: ")
+
+
+def test_a_link_of_its_own_cannot_have_another_mass() -> None:
+    text = BOOM.replace(SIZES, f"{SIZES}, closed: 700, stroke: 290, mass: [3, 2]")
+    heavy = text.replace("  boom:", "  C_rod: {points: {head: [0, 0]}, mass: 3}\n  boom:")
+    with pytest.raises(da.ModelError) as caught:
+        da.loads(heavy, name="b.yaml")
+    assert str(caught.value) == (
+        "b.yaml:8: link 'C_rod' exists, and the cylinder gives its rod and barrel their masses; leave out that link, "
+        "or the masses of the cylinder"
+    )
+    m = da.loads(text)
+    assert [m.mass(link) for link in ("C_barrel", "C_rod")] == [3.0, 2.0]
 
 
 def test_out_of_stroke_says_by_how_much() -> None:

@@ -521,3 +521,81 @@ def test_wrong_copies_in_space_are_refused_with_their_line(
     (tmp_path / "h.yaml").write_text(text.replace(old, new), encoding="utf-8")
     with pytest.raises(da.ModelError, match=rf"h\.yaml:\d+: copies 1: .*{says}"):
         da.load(tmp_path / "h.yaml")
+
+
+RSSR = (
+    (Path(__file__).parents[1] / "model" / "rssr.yaml").read_text(encoding="utf-8").partition("answers:")[0]
+)
+BAR = "{type: bar, between: [A, B], area: 50, density: 7850 kg/m^3}"
+SHAPES = """[{type: sphere, radius: 15, center: [-10, 40, 20], density: 7850 kg/m^3},
+    {type: cylinder, radius: 4, axis: [1, 2, 3], length: 60, center: [5, 6, 7], density: 2700 kg/m^3},
+    {type: bar, between: [A, B], area: 50, density: 7850 kg/m^3},
+    {type: box, size: [10, 60, 20], center: [3, 0, 9], density: 2 g/cm^3, axes: {x: [1, 1, 0], z: [0, 0, 1]}}]"""
+MORE = """
+  pull: {type: force, on: rod, at: [-10, 40, 30], value: [3, -4, 5]}
+  twist: {type: couple, on: crank, value: [300, 200, -100]}
+  along: {type: force, on: crank, at: A, axes: link, value: [3, 7, 5]}
+"""
+OF_ALL = "copies: [{of: [crank, rod, rocker], count: 2, phase: {ground: 35}}]\n"
+
+
+def test_a_copy_in_space_turns_with_all_that_is_on_it() -> None:
+    """Shapes of every kind, inertias, vectors of loads, axes and poses: its forces are those of the original, turned."""
+    text = RSSR.replace(BAR, SHAPES).replace("\n\nassembly", f"{MORE}\nassembly")
+    text = text.replace(
+        "axes: {i: {x: [1, 0, 0]}, j: {x: [1, 0, 0], z: [0, 0, 1]}}, damping", "axis: [1, 0, 0], damping"
+    )
+    r = da.dynamics(da.loads(text + OF_ALL))
+    assert r.ok.all()
+    angle = math.radians(35)
+    turn = np.array(
+        [[math.cos(angle), -math.sin(angle), 0], [math.sin(angle), math.cos(angle), 0], [0, 0, 1.0]]
+    )
+    for link in ("crank", "rod", "rocker"):
+        assert r.center(f"{link}_2") == pytest.approx(r.center(link) @ turn.T, abs=1e-9)
+    one, two = (np.array(r.mechanism.links[n].mass_properties().inertia) for n in ("rod", "rod_2"))
+    assert two == pytest.approx(turn @ one @ turn.T, rel=1e-12, abs=1e-15)
+    for joint in "OABC":
+        on = r.mechanism.joints[joint].links[1]
+        for read in (r.reaction, r.reaction_moment):
+            one, two = read(joint, on), read(f"{joint}_2", f"{on}_2")
+            assert np.abs(one).max() > 1e-3 or (read == r.reaction_moment and joint == "A")
+            assert two == pytest.approx(one @ turn.T, rel=1e-6, abs=1e-7 * np.abs(one).max(initial=1.0))
+    for drive in ("O", "slide of C"):
+        assert r.effort(f"{drive}_2") == pytest.approx(r.effort(drive), rel=1e-6, abs=1e-9)
+        assert np.abs(r.effort(drive)).max() > 1e-3
+
+
+WRONG_ON_A_COPY = [
+    (BAR, "{type: box, size: [1, 2, 3], density: 3 kg/m^3}", "a box without axes is not turned; give mass, center and "
+     "inertia instead of its shape"),
+    (BAR, "{type: mesh, file: a.stl, density: 3 kg/m^3}", "a mesh is not turned; give mass, center and inertia instead "
+     "of its shape"),
+    ("C: [0, 150, 0]}", "C: [0, 150, 0], C_2: [1, 2, 3]}", "link 'ground' has a point 'C_2' already; give the copies "
+     "other names: names: [...]"),
+    ("inertia: [10, 250, 255]", "inertia: ['10*k', 250, 255]", "an inertia that follows from parameters is not turned; "
+     "give the copies a shape, or one number"),
+    ("B: {type: universal", "G: {type: gear, at: [A, C], radii: [1, 2], axis: [0, 0, 1], links: [rod, rocker]}\n  B: {type: "
+     "universal", "'G' is a gear or a band, which is not copied in space; write its copies out"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "says"), WRONG_ON_A_COPY)
+def test_what_cannot_be_turned_in_space_is_refused(old: str, new: str, says: str) -> None:
+    assert old in RSSR
+    with pytest.raises(da.ModelError) as caught:
+        da.loads(RSSR.replace(old, new) + OF_ALL + "parameters: {k: 1}\n", name="r.yaml")
+    assert str(caught.value).endswith(says)
+    assert "copies 1: " in str(caught.value)
+
+
+def test_one_axis_in_links_turned_differently_is_refused() -> None:
+    hinge = "A: {type: revolute, axis: [0, 0, 1], links"
+    text = RSSR.replace("A: {type: spherical, links", hinge)
+    text += "copies: [{of: [crank], count: 2, phase: {ground: 35, rod: 10}}]\n"
+    with pytest.raises(da.ModelError) as caught:
+        da.loads(text, name="r.yaml")
+    assert str(caught.value).endswith(
+        "copies 1: 'A' has one axis in links that are turned by different angles; give both links the same angle in "
+        "phase, or write axes"
+    )

@@ -162,9 +162,8 @@ def _ends(
     for key in keys:
         pair = at_item(key, numbers, keys[key], rate_kind(kind, key), rules)
         if len(pair) != 2:
-            raise ModelError(
-                f"{quote_value(keys[key])} are not the rates at both ends", f"write {key}: [a, b]", (key,)
-            )
+            what = f"{len(pair)} {'value is' if len(pair) == 1 else 'values are'} not the rates at both ends"
+            raise ModelError(what, f"write {key}: [a, b]", (key,))
         out.append((key, pair))
     return tuple(sorted(out, key=lambda item: RATES.index(item[0])))
 

@@ -87,12 +87,15 @@ def place(path: Sequence[str | int]) -> str:
 
     >>> place(("links", "crank", "points", "A", "at", 0))
     "item 1 of at of point 'A' of link 'crank'"
+    >>> place(("joints", "F", "profile", "points", "angle", 2))
+    "item 3 of angle of points of profile of joint 'F'"
     """
     words: list[str] = []
     keys = list(path)
     while keys:
         key = keys.pop(0)
-        if key in SINGULAR and keys and not (key == "links" and isinstance(keys[0], int)):
+        listed = key == "links" and keys and isinstance(keys[0], int)
+        if key in SINGULAR and keys and not listed and words[-1:] != ["profile"]:
             member = keys.pop(0)
             words.append(f"{SINGULAR[str(key)]} {member + 1 if isinstance(member, int) else repr(member)}")
         else:

@@ -99,7 +99,7 @@ def table(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Table:
     along = along_of(against, rules.freedoms) or _kind_of(first)
     points = (_from_file if "file" in keys else _from_lists)(keys, kind, along, rules)
     period = at_item("periodic", _period, keys.get("periodic", False), along, points.x, rules)
-    shift = at_item("shift", rules.quantity, keys.get("shift", 0), along)
+    shift = at_item("shift", rules.quantity, keys["shift"], along) if "shift" in keys else 0.0
     interpolate = keys.get("interpolate", "linear")
     try:
         known = (interpolate, period, along, points.times, shift)

@@ -16,8 +16,8 @@ from dalembert.model.files.copies.copying import Copying, Path
 from dalembert.model.links.link import GROUND
 from dalembert.model.quantities.figures import unit_vector
 
-TURNED_KEYS = ("center", "axis", "x", "z", "from", "to")
-"""Vectors of a shape."""
+TURNED = {"center": "length", "axis": "number"}
+"""Vectors of a shape, and their kinds."""
 
 
 class SpaceCopying(Copying):
@@ -70,7 +70,7 @@ class SpaceCopying(Copying):
         if "file" in shape or (shape.get("type") == "box" and "axes" not in shape and angle % (math.pi / 2)):
             what = "a mesh" if "file" in shape else "a box without axes"
             raise ModelError(f"{what} is not turned", "give mass, center and inertia instead of its shape")
-        new = {k: self.vector(v, angle) if k in TURNED_KEYS else v for k, v in shape.items()}
+        new = {k: self.vector(v, angle, TURNED[k]) if k in TURNED else v for k, v in shape.items()}
         if isinstance(axes := shape.get("axes"), Mapping):
             new["axes"] = {k: self.vector(v, angle, "number") for k, v in axes.items()}
         return new

@@ -138,7 +138,7 @@ class Arcs(ValueField):
         if isinstance(value, tuple):
             return value
         if isinstance(value, str) or not isinstance(value, Sequence) or len(value) < 2:
-            raise ModelError(f"{quote_value(value)} are not two arcs or more", f"write {self.EXAMPLE}")
+            raise ModelError(f"{quote_value(value)} is not two arcs or more", f"write {self.EXAMPLE}")
         rules = reading(info)
         result = tuple(at_item(k, self._arc, item, rules) for k, item in enumerate(value))
         if any(b.to <= a.to for a, b in pairwise(result)):
