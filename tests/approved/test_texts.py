@@ -21,6 +21,7 @@ import dalembert as da
 from dalembert.exams.question_sheet import ExamText, question_sheet
 from dalembert.machine.members.member_table import member_table
 from dalembert.model.library import TEMPLATES
+from tests.approved.design_parts import DESIGNED
 from tests.approved.read_out import READ, model
 
 TEXTS = Path(__file__).with_name("texts")
@@ -114,6 +115,7 @@ TEXT: dict[str, Callable[[], str]] = {
     "question-four_bar": asked,
     "design-toggle_press": designed("toggle_press"),
     "design-quick_return": designed("quick_return"),
+    **{f"design-{n}": call for n, call in DESIGNED.items()},
     "shaking": answered(da.shaking, positions=24),
     "balance": answered(lambda r: da.balance(r, ["crank", "rocker"]), positions=24),
     "flywheel": answered(lambda r: da.flywheel(r, Cs=0.02), "fw-04-flywheel-of-a-double-acting-engine"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,6 @@ from dalembert.analysis.output.summary.printed_elements import element_parts as 
 from dalembert.machine.elements.cam_design import cam
 from dalembert.model.joints.elements.belts import Belt
 from dalembert.model.joints.elements.cams import Cam
-from dalembert.model.joints.elements.ropes import Rope
 from dalembert.reports.design.verdict import (
     DesignContext,
     DesignPart,
@@ -125,25 +124,23 @@ def _contacts(c: DesignContext) -> Iterator[DesignPart]:
     yield part
 
 
-def _strands(c: DesignContext) -> Iterator[DesignPart]:
-    """Belts and ropes: the coefficient of friction that they need."""
-    reads: tuple[tuple[type, Callable[[str], Any]], ...] = ((Belt, c.r.belt), (Rope, c.r.rope))
-    for kind, read in reads:
-        names = [n for n, j in c.r.mechanism.joints.items() if isinstance(j, kind)]
-        part = DesignPart("Belts" if kind is Belt else "Ropes")
-        for name in names:
-            a = read(name)
-            if kind is Belt:
-                part.verdicts.append(_belt(c, name, a))
-            else:
-                tight = np.asarray(a.tension, float).reshape(len(c.r.status), -1).max(axis=1)
-                k = most_place(tight)
-                value = c.text("force", float(tight[k]))
-                part.verdicts.append(
-                    not_judged(f"tension of {name}", "the file has no limit of it", value, c.at(k))
-                )
-        if names:
-            yield part
+def _belts(c: DesignContext) -> Iterator[DesignPart]:
+    """The coefficient of friction that belts need."""
+    names = [n for n, j in c.r.mechanism.joints.items() if isinstance(j, Belt)]
+    if names:
+        yield DesignPart("Belts", [_belt(c, name, c.r.belt(name)) for name in names])
+
+
+def _ropes(c: DesignContext) -> Iterator[DesignPart]:
+    """The largest tension of ropes, and of belts with idlers."""
+    part = DesignPart("Ropes")
+    for name in c.r.mechanism.ropes:
+        tight = np.asarray(c.r.rope(name).tension, float).reshape(len(c.r.status), -1).max(axis=1)
+        k = most_place(tight)
+        value = c.text("force", float(tight[k]))
+        part.verdicts.append(not_judged(f"tension of {name}", "the file has no limit of it", value, c.at(k)))
+    if part.verdicts:
+        yield part
 
 
 def _belt(c: DesignContext, name: str, a: Any) -> DesignVerdict:
@@ -202,7 +199,8 @@ ELEMENTS = (
     ("Cylinders", _cylinders),
     ("Cams", _cams),
     ("Contacts", _contacts),
-    ("Belts", _strands),
+    ("Belts", _belts),
+    ("Ropes", _ropes),
     ("Brakes and clutches", _brakes),
     ("Power screws", _screws),
 )

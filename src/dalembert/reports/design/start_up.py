@@ -29,10 +29,10 @@ def start_up_part(c: DesignContext) -> Iterator[DesignPart]:
     curve = m.drives[drive].motor
     assert curve is not None
     working = float(np.nanmax(np.abs(r.drive_speed(drive)), initial=0.0))
-    working = NEARLY * working if working else NEARLY * curve.at_drive.fastest
+    working = float(f"{NEARLY * (working or curve.at_drive.fastest):.6g}")  # as it is written below
     sign = -1.0 if np.nanmean(r.drive_speed(drive)) < 0 else 1.0
     unit = "rad/s" if m.drives[drive].turns else "m/s"
-    until: list[str | float] = [LONGEST, f"{drive}.speed = {sign * working:.6g} {unit}"]
+    until: list[str | float] = [LONGEST, f"{drive}.speed = {sign * working!r} {unit}"]
     start = None if m.start else {drive: {"position": float(r.drive_position(drive)[0]), "speed": 0.0}}
     s = simulate(m, until, start, count=INSTANTS, tolerance=TOLERANCE)
     if s.time[-1] < LONGEST / 4:  # few of the instants are before its end

@@ -123,4 +123,5 @@ def _stress(c: DesignContext, t: MemberTable, link: str) -> Iterator[DesignVerdi
         if f.safety is None:
             yield not_judged(f"fatigue of {link}", "no endurance and ultimate stress in the section", value)
         else:
-            yield judged(f"fatigue of {link}", f.safety, value, remark="Goodman, no notches")
+            remark = f"Goodman, {'with its' if s.section.notch else 'no'} notches"
+            yield judged(f"fatigue of {link}", f.safety, value, remark=remark)
