@@ -540,7 +540,7 @@ OF_ALL = "copies: [{of: [crank, rod, rocker], count: 2, phase: {ground: 35}}]\n"
 
 
 def test_a_copy_in_space_turns_with_all_that_is_on_it() -> None:
-    """Shapes of every kind, inertias, vectors of loads, axes and poses: its forces are those of the original, turned."""
+    """Shapes of every kind, inertias, vectors of loads, axes and poses: its forces are those of the original turned."""
     text = RSSR.replace(BAR, SHAPES).replace("\n\nassembly", f"{MORE}\nassembly")
     text = text.replace(
         "axes: {i: {x: [1, 0, 0]}, j: {x: [1, 0, 0], z: [0, 0, 1]}}, damping", "axis: [1, 0, 0], damping"
@@ -575,8 +575,8 @@ WRONG_ON_A_COPY = [
      "other names: names: [...]"),
     ("inertia: [10, 250, 255]", "inertia: ['10*k', 250, 255]", "an inertia that follows from parameters is not turned; "
      "give the copies a shape, or one number"),
-    ("B: {type: universal", "G: {type: gear, at: [A, C], radii: [1, 2], axis: [0, 0, 1], links: [rod, rocker]}\n  B: {type: "
-     "universal", "'G' is a gear or a band, which is not copied in space; write its copies out"),
+    ("B: {type: universal", "G: {type: gear, at: [A, C], radii: [1, 2], axis: [0, 0, 1], links: [rod, rocker]}\n"
+     "  B: {type: universal", "'G' is a gear or a band, which is not copied in space; write its copies out"),
 ]  # fmt: skip
 
 
