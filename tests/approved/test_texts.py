@@ -22,6 +22,7 @@ from dalembert.exams.question_sheet import ExamText, question_sheet
 from dalembert.machine.members.member_table import member_table
 from dalembert.model.library import TEMPLATES
 from tests.approved.design_parts import DESIGNED
+from tests.approved.foreign_files import FOREIGN
 from tests.approved.read_out import READ, model
 
 TEXTS = Path(__file__).with_name("texts")
@@ -123,6 +124,7 @@ TEXT: dict[str, Callable[[], str]] = {
     "study": studied,
     "workbook": in_cells,
     **READ,
+    **FOREIGN,
 }
 
 

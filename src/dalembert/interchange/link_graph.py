@@ -152,8 +152,9 @@ def _link(link: LinkPart, points: Tree) -> Tree:
     if link.mass:
         tree |= {"mass": link.mass, "center": clean(link.center)}
     if link.inertia.any():
-        diagonal = not (link.inertia - np.diag(np.diag(link.inertia))).any()
-        rows = np.diag(link.inertia).tolist() if diagonal else link.inertia.tolist()
+        inertia = (link.inertia + link.inertia.T) / 2  # of a turned one the two sides differ by rounding
+        diagonal = not (inertia - np.diag(np.diag(inertia))).any()
+        rows = np.diag(inertia).tolist() if diagonal else inertia.tolist()
         tree |= {"inertia": rows, "center": clean(link.center)}
     return tree
 
