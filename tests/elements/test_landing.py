@@ -122,7 +122,9 @@ def test_a_ball_bounces_to_rest(e: float) -> None:
     s = da.simulate(da.loads(BALL % e), "10 s", count=21)
     first = math.sqrt(2 * 1.5 / G)
     assert s.event("rest")[0].time == pytest.approx(first * (1 + e) / (1 - e), rel=1e-12)
-    assert s.event("landing")[0].sentence.startswith("floor lands with 5.42402 m/s and rebounds at ")
+    first_landing = s.event("landing")[0]
+    assert first_landing.sentence.startswith("floor lands with 5.42402 m/s and rebounds at ")
+    assert first_landing.of == "floor"
     assert s["normal.floor"][-1] == s.result.reaction("floor")[-1, 1] == pytest.approx(G)
     signs(s)
 

@@ -376,7 +376,8 @@ class StopState(ClutchState):
         rough = self.equation.dry and self.acting.free.sum() > 1
         left: Words = (" (friction during the impact is left out)",) if rough else ()
         words: Words = (*stated, *back, "; ", ("energy", lost), " are lost", *left)
-        self.events.append(Event(t, "landing" if stop.contact else "impact", words, stop.name, before, lost))
+        name, who = ("landing", stop.contact.name) if stop.contact else ("impact", stop.name)
+        self.events.append(Event(t, name, words, who, before, lost))
 
 
 def _stays(stop: Stop) -> str:
