@@ -124,7 +124,7 @@ def _joints(s: Simulation, to: Printed) -> TextTable:
     known = {joint: both for joint, both in largest.items() if np.isfinite(both[0])}
     sizes = round_components([f for f, _ in known.values()], max((f for f, _ in known.values()), default=0.0))
     rows = [
-        [n, to.number("force", f), to.number("time", s.time[k])]
+        [n, to.number("force", f), to.number("time", s.time[k]) if f else ""]
         for (n, (_, k)), f in zip(known.items(), sizes, strict=True)
     ]
     heads = ["joint", f"greatest force\n{to.text('force')}", f"at\n{to.text('time')}"]
