@@ -43,6 +43,40 @@ def test_a_slide_belongs_to_a_group_in_closed_form() -> None:
     assert way.closed
 
 
+@pytest.mark.parametrize(
+    ("name", "groups", "modes"),
+    [
+        ("four_bar", "4p 2p 2a", 1),
+        ("inverted_slider_crank", "4p 2p 1a/", 1),
+        ("watt_1", "4p 2p 2a 4p 2a", 1),
+        ("stephenson_2", "4p 4p 2p4a*", 1),
+        ("scotch_yoke", "3p 1p", 1),
+        ("press_with_flywheel", "2p 2p 2p1a", 2),
+        ("five_bar", "4p 2p 2p2a", 1),
+        ("v_engine", "2p 4p 2p1a 2p1a", 2**2),
+        ("radial_engine", "3p 10p 1a 1p 2p1a 2p1a 2p1a 2p1a", 2**5),
+        ("excavator", "4p 2p2a//* 4p 2p2a//* 6p 2p2a//* 2p 2a", None),
+        ("scissor_lift", "4p 2a 4p 2a 4p 2a 2p 1a/", 2**4),
+    ],
+)
+def test_links_are_placed_group_by_group(name: str, groups: str, modes: int | None) -> None:
+    """Places and angles that are found together, / for each slide that turns with them, * where there is no closed
+    form; and in how many ways the groups close where the file leaves it open, two for each dyad."""
+    m = getattr(da, name)() if hasattr(da, name) else da.load(examples()[name])
+    c = compile_mechanism(m, m.schedule(1))
+    way = plan(c.layout)
+    assert way is not None
+    found = [
+        f"{len(g.link) or ''}{'p' * bool(len(g.link))}{len(g.turning) or ''}{'a' * bool(g.turning)}"
+        f"{'/' * g.sliding}{'*' * (not g.closed)}"
+        for g in way.groups
+    ]
+    assert " ".join(found) == groups
+    ways = c.guess.modes(c.layout, c.targets[0])
+    assert ways is not None
+    assert modes is None or len(ways.pose.turn) == modes
+
+
 def test_an_assembly_with_the_crank_says_at_which_position_it_stands() -> None:
     """A shaper whose crank closes in two ranges, on another branch in each: as given at 125 deg, or as found first."""
     m = da.load(examples()["quick_return"]).with_values(
