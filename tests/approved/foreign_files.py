@@ -67,13 +67,13 @@ WRITTEN: dict[str, tuple[Callable[[], Any], tuple[str, ...]]] = {
 """Mechanisms and the formats that they are written in."""
 
 
-def rounded(text: str) -> str:
+def rounded(text: str, least: float = LEAST) -> str:
     """Its numbers with six digits; rounding is 0.
 
     >>> rounded('"0.19999999999999998 m", -1e-17, 12.0, 3')
     '"0.2 m", 0, 12, 3'
     """
-    return FLOAT.sub(lambda found: f"{x:.{DIGITS}g}" if abs(x := float(found[0])) > LEAST else "0", text)
+    return FLOAT.sub(lambda found: f"{x:.{DIGITS}g}" if abs(x := float(found[0])) > least else "0", text)
 
 
 def lines(tree: Any) -> Iterator[str]:

@@ -23,6 +23,7 @@ from dalembert.machine.members.member_table import member_table
 from dalembert.model.library import TEMPLATES
 from tests.approved.design_parts import DESIGNED
 from tests.approved.foreign_files import FOREIGN
+from tests.approved.gestures import GESTURES
 from tests.approved.read_out import READ, model
 from tests.approved.simulated import MOVED
 
@@ -127,6 +128,7 @@ TEXT: dict[str, Callable[[], str]] = {
     **READ,
     **FOREIGN,
     **MOVED,
+    **GESTURES,
 }
 
 

@@ -66,8 +66,9 @@ class PoseLinks(Gesture):
             if link in d.entries("links") and link != GROUND:
                 d.assemble(link, x, y, angle, not isinstance(d.entries("assembly").get(link), list))
         for drive, position in self.drives.items():
-            written = (d.entries("drives").get(drive) or {}).get("position")
-            slides = joint_type(d, drive) == "slider"
+            keys = d.entries("drives").get(drive) or {}
+            written = keys.get("position")
+            slides = joint_type(d, drive) == "slider" or keys.get("freedom") == "slide" or "cylinder" in keys
             kind = "length" if slides else "angle"
             text: object = d.number(position, kind, 6) if slides else d.angle_text(position)
             if isinstance(written, str) and (unit := NUMBER_WITH_UNIT.fullmatch(written)):
@@ -256,7 +257,7 @@ def move_end(
         other = d.world(ends[1] if end == ends[0] else ends[0])
         a, b = (to, other) if end == ends[0] else (other, to)
         long = math.dist(a, b)
-        if not long > 0:
+        if not long > STILL * d.width:
             raise ModelError("a bar needs two ends that are apart", "move the point elsewhere")
         values["links", link, "points", ends[1][1]] = [d.number(long, "length", 8), 0]
         poses[link] = (*a, math.atan2(b[1] - a[1], b[0] - a[0]))
