@@ -21,6 +21,7 @@ import dalembert as da
 from dalembert.exams.question_sheet import ExamText, question_sheet
 from dalembert.machine.members.member_table import member_table
 from dalembert.model.library import TEMPLATES
+from tests.approved.commands import COMMANDS
 from tests.approved.design_parts import DESIGNED
 from tests.approved.foreign_files import FOREIGN
 from tests.approved.gestures import GESTURES
@@ -129,6 +130,7 @@ TEXT: dict[str, Callable[[], str]] = {
     **FOREIGN,
     **MOVED,
     **GESTURES,
+    **COMMANDS,
 }
 
 

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import math
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+from threading import Event, Thread
 
 import numpy as np
 import pytest
@@ -14,7 +18,8 @@ from dalembert.studio.document import Document
 from dalembert.studio.editing.gestures import gesture
 from dalembert.studio.problems import problem_text
 from dalembert.studio.side_answers import assembly_modes, resting_positions, shares
-from dalembert.studio.solver import ASKED, Question, answered
+from dalembert.studio.solver import _ASKED, ASKED, Question, Solver, _serve, answered, written
+from tests.approved.commands import BROKEN
 
 
 def off(a: dict[str, list[float]], b: dict[str, tuple[float, float, float]]) -> float:
@@ -80,3 +85,102 @@ def test_the_design_report_is_that_of_the_command(tmp_path: object) -> None:
     asked = Question("design", problem_text("example", "four_bar"), "yaml", "m.yaml")
     told = answered(asked)
     assert told["ending"] == "html"
+
+
+def test_files_and_answers_to_download_are_those_of_the_text() -> None:
+    """The page and the report as HTML; the published answers, each met; a static answer has no inertia."""
+    asked = Question("check", problem_text("example", "rssr"), "yaml", "m.yaml")
+    rows = answered(asked)["rows"]
+    assert len(rows) == 6
+    assert all(row["ok"] for row in rows)
+    assert rows[3]["quantity"] == "effort of O, at 30 deg"
+    assert rows[3]["published"].startswith("1045.39")
+    assert rows[3]["computed"].startswith("1045.39")
+    asked = asked._replace(text=problem_text("example", "four_bar"))
+    for ask, word in (("page", "<title>Four-bar linkage, dynamic"), ("report", "Mobility 1, drives 1")):
+        told = answered(asked._replace(ask=ask))
+        assert told["ending"] == "html"
+        assert word in base64.b64decode(told["file"]).decode()
+    still = answered(asked._replace(ask="superposition", static=True))
+    assert still["sources"] == ["F_P", "T_4"]
+
+
+def test_friction_is_left_out_where_the_tab_says_so() -> None:
+    text = problem_text("problem", "seed-002-7a-engine-friction-circles")
+    asked = Question("superposition", text, "yaml", "m.yaml", friction=False)
+    told = answered(asked)
+    m = loads(text).with_values({"friction.enabled": False})
+    r = da.solve(m)
+    effort = next(row for row in told["rows"] if row["name"].startswith("effort"))
+    assert effort["unit"] == "N·m"
+    assert effort["sum"] == pytest.approx(r.effort(r.drives[0])[told["position"]], rel=1e-6)
+    assert "error" in answered(asked._replace(friction=True))
+
+
+def test_what_cannot_be_answered_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    no_drive = (
+        "links: {a: {points: {A: [0, 0], B: [1, 0]}}}\njoints: {A: {type: pin, links: [ground, a], at: A}}\n"
+    )
+    no_drive = no_drive.replace("links: {", "links: {ground: {points: {A: [0, 0]}}, ", 1)
+    asked = Question("equilibria", no_drive, "yaml", "m.yaml")
+    assert "sought along a drive; add a drive where it moves" in answered(asked)["error"]
+    assert (
+        "the linkage does not close at the first position"
+        in answered(asked._replace(ask="modes", text=BROKEN))["error"]
+    )
+    assert "links" in answered(asked._replace(ask="data", text="links: 3"))["missing"]
+
+    def full(*_: object) -> None:
+        raise MemoryError
+
+    for fault, said in (
+        (full, "too little memory"),
+        (lambda *_: 1 // 0, "the analysis failed (ZeroDivisionError)"),
+    ):
+        monkeypatch.setitem(_ASKED, "modes", fault)
+        assert said in answered(asked._replace(ask="modes"))["error"]
+
+
+class Piped(Solver):
+    """A solver whose process is a thread of this one."""
+
+    def _connection(self) -> Connection:
+        if self._pipe is None:
+            self._pipe, there = Pipe()
+            Thread(target=_serve, args=(there,)).start()
+        return self._pipe
+
+
+def test_the_process_of_a_solver_answers_until_its_pipe_is_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("_limit_memory", "collect_rarely", "signal.signal"):
+        monkeypatch.setattr(f"dalembert.studio.solver.{name}", lambda *_: None)
+    asked = Question("modes", problem_text("example", "four_bar"), "yaml", "m.yaml")
+    solver = Piped()
+    for ask in ("modes", "nothing"):
+        assert json.loads(solver.ask(asked._replace(ask=ask))) == json.loads(
+            written(answered(asked._replace(ask=ask)))
+        )
+    held = Event()
+    monkeypatch.setitem(_ASKED, "check", lambda *_: held.wait(20) or {})
+    solver.seconds = 0.01
+    late = json.loads(solver.ask(asked._replace(ask="check")))
+    held.set()
+    assert late["error"] == "no answer within 0.01 s; use fewer positions or a smaller mechanism"
+    solver.seconds = 5.0
+    assert len(json.loads(solver.ask(asked))["modes"]) == 2, "a new one is started"
+    solver.close()
+
+
+class Ended(Solver):
+    """A solver whose process has ended."""
+
+    def _connection(self) -> Connection:
+        here, there = Pipe()
+        there.close()
+        return here
+
+
+def test_a_process_that_ended_is_said() -> None:
+    asked = Question("data", "", "yaml", "m.yaml")
+    told = json.loads(Ended().ask(asked))
+    assert told["missing"] == "the solver ended: out of memory; use fewer positions or a smaller mechanism"

@@ -60,11 +60,10 @@ def _values(s: Shaking, to: Printed) -> Part:
         rows.append([name, to.text(kind), *cells, *[""] * (d - len(components))])
     axes = list("xyz"[:d])
     heads = axes if single else ["greatest", "at", "rms", *(f"mean {a}" for a in axes)]
-    return (
-        TextTable(["", "unit", *heads], rows, 2)
-        if rows
-        else f"Force and moment on {'the ground' if s.whole else 'everything else'} are zero."
-    )
+    if rows:
+        return TextTable(["", "unit", *heads], rows, 2)
+    are = "are zero" if np.isfinite(s.force).all() else "have no value"
+    return f"Force and moment on {'the ground' if s.whole else 'everything else'} {are}."
 
 
 def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> list[Part]:
