@@ -210,7 +210,7 @@ def a_hub_changes_nothing(x: Made) -> None:
         tree["links"][link]["points"]["W"] = off
         tree["links"]["hub"] = {"points": {at: place, "W": off}}
         tree["joints"][name]["links"] = ["ground", "hub"]
-        tree["joints"]["W"] = {"type": "weld", "links": ["hub", link]}
+        tree["joints"] = {"W": {"type": "weld", "links": ["hub", link]}, **tree["joints"]}
         other, r, (force, moment) = da.dynamics(da.mechanism(tree), method="careful"), x.answer, x.size
         assert other.status == r.status
         for n in r.joints:
@@ -238,6 +238,27 @@ LAWS = {
 def test_a_machine_keeps_the_law(family: str, law: str) -> None:
     for seed in SEEDS.get(family, (0,)):
         LAWS[law](made(family, seed))
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_what_a_brake_holds_moves_as_what_carries_it(seed: int) -> None:
+    """The lever of a band is at rest; a shoe on a frame that turns faster and faster turns as the frame does, with the
+    acceleration of its point of it."""
+    r = made("band", seed).answer
+    assert np.abs([r["angle.lever.speed"], r["angle.lever.acceleration"]]).max() < 1e-12
+    tree = deepcopy(made("shoe", seed).tree)
+    tree["links"]["frame"] = tree["links"]["ground"] | {
+        "points": tree["links"]["ground"]["points"] | {"P": [0.3, -0.2]}
+    }
+    tree["links"]["ground"] = {"points": {"P": [0.3, -0.2]}}
+    for joint in tree["joints"].values():
+        joint["links"] = ["frame" if link == "ground" else link for link in joint["links"]]
+    tree["joints"] = {"P": {"type": "pin", "links": ["ground", "frame"]}, **tree["joints"]}
+    tree["drives"]["P"] = Written().spins(0.0, 3.0, 5.0)
+    r = da.dynamics(da.mechanism(tree), method="careful")
+    assert (r["angle.shoe.speed"][0], r["angle.shoe.acceleration"][0]) == pytest.approx((3, 5), rel=1e-12)
+    x, y = r["point.shoe.Q"][0] - [0.3, -0.2]
+    assert r["point.shoe.Q.acceleration"][0] == pytest.approx([-9 * x - 5 * y, -9 * y + 5 * x], rel=1e-9)
 
 
 @pytest.mark.exhaustive
