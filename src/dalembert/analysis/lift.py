@@ -90,6 +90,7 @@ class _Lift:
     def mechanism(self) -> Mechanism:
         """The lifted mechanism."""
         from dalembert.model.description import mechanism
+        from dalembert.model.drives.starting import StartValue
 
         m = self.m
         joints = {name: self._joint(name) for name in m.joints}
@@ -108,6 +109,7 @@ class _Lift:
             "loads": loads,
             "friction": m.friction.model_dump(mode="json", exclude_none=True),
             "assembly": self._assembly(),
+            "start": StartValue().write(m.start),
         }
         return mechanism(tree).model_copy(update={"units": m.units})
 
