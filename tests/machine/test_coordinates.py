@@ -120,6 +120,16 @@ def test_two_drives_tumble_with_a_five_bar() -> None:
     assert s.closure < 1e-12
 
 
+def test_a_lifted_machine_goes_through_its_dead_centre_too() -> None:
+    """In space its crank leads as in the plane, and its forces are the same."""
+    m = da.loads(SLIDER_CRANK % ("none", "{guide: {effort: -40*time}}", "{guide: {position: 0.22, speed: -1}}"))
+    flat, lifted = (da.simulate(x, "0.12 s", count=3) for x in (m, da.lifted(m)))
+    assert [changes(flat), changes(lifted)] == [1, 1]
+    assert lifted.events[0].time == pytest.approx(flat.events[0].time, rel=1e-3)
+    assert lifted.position("guide")[-1] == pytest.approx(flat.position("guide")[-1], rel=1e-8)
+    assert lifted.result.reaction("A")[-1, :2] == pytest.approx(flat.result.reaction("A")[-1], rel=1e-6)
+
+
 @pytest.mark.long
 def test_in_space_a_rocker_leads() -> None:
     text = Path(examples()["rssr"]).read_text(encoding="utf-8").partition("loads:")[0]
