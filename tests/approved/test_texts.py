@@ -27,10 +27,11 @@ from tests.approved.foreign_files import FOREIGN
 from tests.approved.gestures import GESTURES
 from tests.approved.read_out import READ, model
 from tests.approved.simulated import MOVED
+from tests.approved.worked import WORKED_OUT
 
 TEXTS = Path(__file__).with_name("texts")
 ROUNDING = re.compile(
-    r"\b\d(?:\.\d+)?e[-−](?:1[0-9]|[23]\d)(?!\d)|(?<=within )0(?![\d.])"
+    r"\b\d(?:\.\d+)?e[-−][1-9]\d{1,2}(?!\d)|(?<=within )0(?![\d.])"
     r"|(?<=Date)[ ]+\d{4}-\d\d-\d\d|[\d.]+ s of core time"
     r"|Out-of-balance force.*?(?=\n\n|\Z)",
     re.M | re.S,
@@ -114,6 +115,7 @@ LOOSE = "bennett", "rccc", "spherical_four_bar"
 """Overconstrained in space: a step may take another of several directions, by rounding."""
 TEXT: dict[str, Callable[[], str]] = {
     **{f"solution-{n}": worked(n) for n in WORKED},
+    **WORKED_OUT,
     **{f"template-{t}": of_template(t) for t in TEMPLATES if t not in LOOSE},
     **{f"latex-{n}": in_latex(n) for n in ("four_bar", "rssr")},
     "question-four_bar": asked,

@@ -122,7 +122,9 @@ def test_two_drives_tumble_with_a_five_bar() -> None:
 
 def test_a_lifted_machine_goes_through_its_dead_centre_too() -> None:
     """In space its crank leads as in the plane, and its forces are the same."""
-    m = da.loads(SLIDER_CRANK % ("none", "{guide: {effort: -40*time}}", "{guide: {position: 0.22, speed: -1}}"))
+    m = da.loads(
+        SLIDER_CRANK % ("none", "{guide: {effort: -40*time}}", "{guide: {position: 0.22, speed: -1}}")
+    )
     flat, lifted = (da.simulate(x, "0.12 s", count=3) for x in (m, da.lifted(m)))
     assert [changes(flat), changes(lifted)] == [1, 1]
     assert lifted.events[0].time == pytest.approx(flat.events[0].time, rel=1e-3)

@@ -12,6 +12,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
+from dalembert.errors import ModelError
 from dalembert.reports.sections.kinematics import acceleration_lines, loops, velocity_lines
 from dalembert.reports.sheet import Drawings, Equations, Matrix, ReportSheet, SheetTable
 from dalembert.reports.working import working
@@ -204,3 +205,8 @@ def test_every_term_of_a_loop_means_its_figure(name: str) -> None:
 def test_what_has_no_worked_solution_is_refused() -> None:
     with pytest.raises(da.ModelError, match=r"no worked solution of dict .*give a result of da\.solve"):
         da.report({"crank": 1})  # type: ignore[arg-type]
+
+
+def test_an_unknown_method_is_refused() -> None:
+    with pytest.raises(ModelError, match="unknown method 'matrices'; did you mean 'matrix'"):
+        da.report(da.statics(da.four_bar(positions=1)), methods=["steps", "matrices"])

@@ -34,9 +34,9 @@ loads:
 assembly: {rod: 0, piston: 0}
 """
 INLINE = (
-    "{against: O, x: [0, 90, 180, 270], y: [1 bar, 5.5 bar, 3 bar, 2 bar], times: 50 cm^2, periodic: true}"
+    "{against: O, x: [0, 90, 180, 270], y: [1 bar, 5.25 bar, 3 bar, 2 bar], times: 50 cm^2, periodic: true}"
 )
-POINTS = [("0", "1"), ("90", "5.5"), ("180", "3"), ("270", "2")]
+POINTS = [("0", "1"), ("90", "5.25"), ("180", "3"), ("270", "2")]
 WRITTEN = {
     "head": "angle [deg],pressure [bar]\n" + "\n".join(map(",".join, POINTS)),
     "brackets, blanks, quotes": '# measured\n\n"angle (deg)" , "pressure (bar)"\n'

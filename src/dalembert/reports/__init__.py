@@ -119,5 +119,9 @@ def report(
     from dalembert.analysis.methods.solved.step_choice import read_choice
     from dalembert.reports.report_context import METHODS
     from dalembert.reports.working import working
+    from dalembert.wording import closest
 
+    for method in methods or ():
+        if method not in METHODS:
+            raise ModelError(f"unknown method {method!r}", closest(str(method), list(METHODS)))
     return Report(working(r, at, tuple(methods or METHODS), notation, read_choice(r, begin, about, along)))

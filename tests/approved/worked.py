@@ -1,0 +1,62 @@
+"""Worked solutions of what the bundled machines do not have: friction in space, unknown loads there, screws at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from tests.elements.test_cylinders import BOOM
+
+RSSR = (
+    (Path(__file__).parents[1] / "model" / "rssr.yaml").read_text(encoding="utf-8").partition("answers:")[0]
+)
+ROUGH = RSSR.replace(
+    "A: {type: spherical, links: [crank, rod]}",
+    "A: {type: spherical, links: [crank, rod], friction: {coefficient: 0.1, radius: 12}}",
+).replace("position: {from: 0, to: 360, count: 12}", "position: 30")
+SOUGHT = RSSR.replace(
+    "O: {position: {from: 0, to: 360, count: 12}, speed: 300 rpm}",
+    "O: {position: 40, speed: 300 rpm, effort: 3000}",
+).replace("value: 2000}", "value: unknown}")
+PENDULUM = """
+units: {length: mm}
+gravity: standard
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], P: [300, 0]}, mass: 2 kg, center: 150 @ 0, inertia: 0.02 kg*m^2}
+joints: {O: {type: pin, links: [ground, arm], damping: 0.3 N*m*s/rad}}
+drives: {O: {position: 30 deg, speed: 4 rad/s, acceleration: -10 rad/s^2}}
+loads:
+  F: {type: force, on: arm, at: P, value: 20 N, direction: 200 deg}
+  T: {type: couple, on: arm, value: 3*sin(O) N*m}
+parameters: {push: 3 N, lean: 20 deg}
+"""
+ROUGH_BOOM = BOOM.replace(
+    "links: [ground, boom]}", "links: [ground, boom], friction: {coefficient: 0.15, radius: 40}}"
+).replace("position: 1000", "position: 1000, speed: 50 mm/s")
+
+
+def report(m: Any, at: int | None = None, **options: Any) -> Callable[[], str]:
+    def written() -> str:
+        made = m() if callable(m) else da.loads(m)
+        return str(da.report(da.dynamics(made), **({} if at is None else {"at": at}), **options))
+
+    return written
+
+
+WORKED_OUT: dict[str, Callable[[], str]] = {
+    "solution-rough-ball": report(ROUGH),
+    "solution-sought-couple-in-space": report(SOUGHT),
+    "solution-damped-arm": report(PENDULUM),
+    "solution-damped-arm-by-virtual-work": report(PENDULUM, methods=["virtual-work"]),
+    "solution-jack-at-rest": report(lambda: da.screw_jack().with_values({"drives.S.speed": 0.0})),
+    "solution-boom": report(BOOM),
+    "solution-rough-boom": report(ROUGH_BOOM),
+    "solution-four-bar-otherwise": report(
+        lambda: da.load(examples()["four_bar"]), methods=["steps"], about="A", begin="coupler", along="30 deg"
+    ),
+    "solution-ladder": report(lambda: da.load(cases()["sp-11-ladder-on-two-rails"])),
+}  # fmt: skip
