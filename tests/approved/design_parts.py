@@ -9,6 +9,7 @@ from typing import Any
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.reports.design.element_parts import element_parts
+from dalembert.reports.design.force_part import force_part
 from dalembert.reports.design.power_parts import balance_part
 from dalembert.reports.design.start_up import start_up_part
 from dalembert.reports.design.strength_parts import bearing_part, member_part, pin_part
@@ -16,6 +17,7 @@ from dalembert.reports.design.verdict import DesignContext
 from dalembert.reports.sheet import ReportSheet
 from dalembert.reports.writers.plain_writer import plain_text
 from tests.elements.test_cylinders import BOOM, SIZES
+from tests.space.machines import door
 
 Find = Callable[[DesignContext], Any]
 ELEMENTS = Path(__file__).parents[1] / "elements"
@@ -89,4 +91,5 @@ DESIGNED: dict[str, Callable[[], str]] = {
     ),
     "start-up": lambda: sections(start_up_part, *motors()),
     "balance": lambda: sections(balance_part, crank()),
+    "forces": lambda: sections(force_part, crank(), da.dynamics(door())),
 }

@@ -53,7 +53,7 @@ def test_numbers_by_name_are_those_of_the_answers() -> None:
 def test_a_dead_link_has_no_fatigue() -> None:
     bare = {k: v for k, v in SECTION.items() if k not in ("endurance", "ultimate")}
     r = crank(links__rod__section=bare)
-    with pytest.raises(ModelError, match="unknown quantity 'fatigue.rod'"):
+    with pytest.raises(ModelError, match=r"unknown quantity 'fatigue\.rod'"):
         r["fatigue.rod"]
 
 

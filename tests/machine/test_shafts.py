@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.polynomial import Polynomial
 
 import dalembert as da
+from dalembert.machine.shafts.beam_elements import _bent, _moved, _tilted
 from tests.tiers import tiers
 
 SHAFT = """
@@ -250,3 +252,17 @@ def test_pieces_that_leave_a_gap_are_refused() -> None:
     )
     with pytest.raises(da.ModelError, match="links 'thick' and 'thin' of a shaft do not meet end to end"):
         da.critical_speeds(da.statics(da.loads(text)), "thick")
+
+
+def test_matrices_of_an_element_are_integrals_of_its_cubic_shapes() -> None:
+    """N'' N'', N N and N' N' along an element of length h, times 1, 420 and 30, and h^3, 1/h and h."""
+    h = 0.7
+    shapes = [Polynomial(c) for c in ((1, 0, -3, 2), (0, h, -2 * h, h), (0, 0, 3, -2), (0, 0, -h, h))]
+
+    def integrals(order: int) -> list[list[float]]:
+        some = [shape.deriv(order) if order else shape for shape in shapes]
+        return [[float((a * b).integ()(1.0)) for b in some] for a in some]
+
+    assert _bent(h) == pytest.approx(np.array(integrals(2)))
+    assert _moved(h) == pytest.approx(420 * np.array(integrals(0)))
+    assert _tilted(h) == pytest.approx(30 * np.array(integrals(1)))

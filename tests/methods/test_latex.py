@@ -9,6 +9,8 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
+from dalembert.reports.sheet import ReportSheet
+from dalembert.reports.writers.latex_writer import LONGEST, latex_text
 from tests.methods.latex_source import problems
 from tests.tiers import crossed, tiers
 
@@ -124,3 +126,13 @@ def test_numbers_with_powers_of_ten() -> None:
 def test_the_reader_finds_what_is_wrong(wrong: str, said: str) -> None:
     document = "\\documentclass{article}\n\\begin{document}\n" + wrong + "\n\\end{document}\n"
     assert any(said in problem for problem in problems(document)), problems(document)
+
+
+def test_a_long_table_is_in_parts_with_its_heads_and_each_row_once() -> None:
+    sheet = ReportSheet("Long")
+    sheet.table(["row", "value"], [[f"r{k}", f"{k}"] for k in range(LONGEST + 1)], "caption", total=True)
+    text = latex_text(sheet)
+    assert text.count(r"\begin{tabular}{ll}") == text.count(r"row & value \\") == 2
+    assert [text.count(f"r{k} & {k} ") for k in range(LONGEST + 1)] == [1] * (LONGEST + 1)
+    assert text.count(r"\midrule") == 3
+    assert f"\\midrule\nr{LONGEST} & " in text

@@ -39,6 +39,7 @@ from dalembert.model.library import (
     watt_1,
     whitworth,
 )
+from dalembert.model.library.from_files import template_function
 
 NAMES = list(TEMPLATES)
 ROUGH = radians(1.0)
@@ -424,3 +425,68 @@ def test_unknown_template() -> None:
 def test_bennett_is_determinate_unless_it_is_asked_to_be_overconstrained() -> None:
     assert set(da.dynamics(bennett(positions=4)).status) == {"ok"}
     assert set(da.dynamics(bennett(positions=4, determinate=False)).status) == {"redundant"}
+
+
+WEDGE = """A wedge is pushed under a block in a guide and lifts its load; all three faces rub.
+
+       | load |
+       |__v___|     block in its guide
+       |   __/|
+  ____ |__/  /
+ /___________    <- wedge
+ ------------- floor
+
+Numbers are SI, angles of `sweep` radians and other angles degrees; texts carry their unit. A point or a
+range (`NAME_x`, `NAME_y`; `NAME_start`, `NAME_end`) is one argument `NAME`. It is the file of
+`dalembert new wedge`.
+
+    slope: angle of the wedge (default 10 deg)
+    coefficient: of friction on all three faces (default 0.18)
+    mass: of load and block (default 400 kg)
+    wedge_mass: of the wedge (default 0 kg)
+    width: from the end of the wedge to the guide (default 100 mm)
+    speed: of the wedge; negative draws it out (default 10 mm/s)
+    sweep_start: first position of the wedge (default 0 mm)
+    sweep_end: last one (default 100 mm)
+    positions: over the range of the drive
+
+>>> import dalembert as da
+>>> da.wedge(positions=3).schedule().count
+3"""
+
+
+def test_a_template_of_a_file_is_a_function_of_its_parameters() -> None:
+    made = template_function("wedge")
+    assert (made.__name__, made.__qualname__) == ("wedge", "wedge")
+    assert made.__doc__ == da.wedge.__doc__ == WEDGE
+    assert (
+        str(inspect.signature(made))
+        == str(inspect.signature(da.wedge))
+        == (
+            "(*, slope='10 deg', coefficient='0.18', mass='400 kg', wedge_mass='0 kg', width='100 mm', "
+            "speed='10 mm/s', sweep=('0 mm', '100 mm'), positions=41)"
+        )
+    )
+    assert made(positions=3).schedule().count == 3
+
+
+@pytest.mark.parametrize(
+    ("values", "says"),
+    [
+        ({"slop": "3 deg"}, "wedge has no dimension 'slop'; did you mean 'slope'?"),
+        ({"sweep": 3}, "wedge: sweep is 3, not 2 values; give sweep as (a, b)"),
+        ({"sweep": (1, 2, 3)}, "wedge: sweep is (1, 2, 3), not 2 values; give sweep as (a, b)"),
+        ({"slope": None}, "wedge: slope is None, not a number; give it in deg"),
+        ({"sweep": (0, None)}, "wedge: sweep_end is None, not a number; give it in m"),
+        ({"coefficient": True}, "wedge: coefficient is True, not a number; give it in numbers"),
+        (
+            {"mass": float("inf")},
+            "wedge: mass is inf kg, and must be greater than 0; give mass a finite value in kg",
+        ),
+        ({"slope": float("inf")}, "wedge: slope is inf; give a finite value"),
+    ],
+)
+def test_a_wrong_dimension_of_a_template_is_named(values: Any, says: str) -> None:
+    with pytest.raises(ModelError) as caught:
+        da.wedge(**values)
+    assert str(caught.value) == says

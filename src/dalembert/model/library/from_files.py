@@ -171,18 +171,19 @@ def _members(
 def _text(name: str, parameter: str, value: Any, default: Parameter) -> Any:
     """A value as in the file: a number of SI units; degrees for an angle that is not a range."""
     unit = si_unit(default.dimension)
+    own = "deg" if unit == "rad" and "sweep" not in parameter else unit
     number = (
         read_parameters({parameter: value}, UNITS, {})[parameter].value if isinstance(value, str) else value
     )
     if not isinstance(number, (int, float)) or isinstance(number, bool):
-        raise ModelError(f"{name}: {parameter} is {value!r}, not a number", f"give it in {unit or 'numbers'}")
+        raise ModelError(f"{name}: {parameter} is {value!r}, not a number", f"give it in {own or 'numbers'}")
     if unit in POSITIVE and default.value > 0 and not parameter.endswith(("_x", "_y", "_z")):
         positive(name, unit, **{parameter: number})
     if not isfinite(number):
         raise ModelError(f"{name}: {parameter} is {number}", "give a finite value")
     if isinstance(value, str):
         return value
-    return f"{float(value)!r} {'deg' if unit == 'rad' and 'sweep' not in parameter else unit}"
+    return f"{float(value)!r} {own}"
 
 
 def _first_angles(name: str, parameters: Parameters) -> dict[str, float] | None:

@@ -50,7 +50,8 @@ def force_part(c: DesignContext) -> Iterator[DesignPart]:
         )
     elif r.joints and r.ok.any():
         part.verdicts.append(DesignVerdict("reactions are unique", "ok"))
-    unknown = [j for j in r.joints if not np.isfinite(r.reaction(j)).all(axis=-1).any()]
+    others = [j for j in r.joints if j not in several]
+    unknown = [j for j in others if not np.isfinite(r.reaction(j)).all(axis=-1).any()]
     if unknown:
         sentence = "not known at any position" if r.ok.any() else "no position has an answer"
         part.verdicts.append(not_judged(", ".join(unknown), sentence))
