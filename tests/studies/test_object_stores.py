@@ -9,6 +9,8 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -229,3 +231,122 @@ def test_killed_runs_are_taken_over_and_resumed_bit_by_bit(
     for seed in seeds:
         study.run(f"file://{tmp_path}/{seed}.zarr")
         assert chunks_of(stored(f"file://{tmp_path}/{seed}.zarr")) == answers, seed
+
+
+class Kept:
+    """obstore's functions on files of a folder."""
+
+    class exceptions:
+        BaseError = type("BaseError", (Exception,), {})
+        AlreadyExistsError = type("AlreadyExistsError", (BaseError,), {})
+
+    class Found:
+        def __init__(self, data: bytes) -> None:
+            self.data = data
+
+        def bytes(self) -> bytes:
+            return self.data
+
+    store = SimpleNamespace(from_url=lambda address: Path(address.partition("://")[2]))
+
+    def get(self, store: Path, key: str) -> Kept.Found:
+        return self.Found((store / key).read_bytes())
+
+    def put(self, store: Path, key: str, data: bytes, mode: str) -> None:
+        if mode == "create" and (store / key).exists():
+            raise self.exceptions.AlreadyExistsError
+        (store / key).parent.mkdir(parents=True, exist_ok=True)
+        (store / key).write_bytes(data)
+
+    def delete(self, store: Path, key: str) -> None:
+        (store / key).unlink()
+
+    def list(self, store: Path, prefix: str) -> list[list[dict[str, str]]]:
+        found = [str(p.relative_to(store)) for p in store.rglob("*") if p.is_file()]
+        return [[{"path": path}] for path in found if path.startswith(prefix)]
+
+
+@pytest.mark.parametrize("kind", ["memory", "file", "obstore"])
+def test_objects_are_written_whole_once_and_listed(
+    kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each kind of store alike: none is there, created only once, overwritten, listed in order, removed twice."""
+    monkeypatch.setitem(sys.modules, "obstore", Kept())
+    address = f"memory://{time.time_ns()}" if kind == "memory" else f"file://{tmp_path}"
+    kept = object_store.ByObstore(address) if kind == "obstore" else object_store.ByFsspec(address)
+    assert (kept.read("a/2"), kept.keys("a/")) == (None, [])
+    for key in ("a/2", "a/1", "b/1"):
+        kept.write(key, key.encode(), new=True)
+    with pytest.raises(FileExistsError):
+        kept.write("a/1", b"other", new=True)
+    assert kept.read("a/1") == b"a/1"
+    kept.write("a/1", b"more")
+    assert kept.read("a/1") == b"more"
+    assert kept.keys("a/") == ["a/1", "a/2"]
+    kept.remove(["a/9", "a/1"])
+    assert (kept.read("a/1"), kept.keys("a/"), kept.read("b/1")) == (None, ["a/2"], b"b/1")
+    assert issubclass(FileNotFoundError, kept.errors)
+    if kind != "memory":
+        assert sorted(p.name for p in tmp_path.rglob("*") if p.is_file()) == ["1", "2"]
+
+
+def test_obstore_serves_a_cloud_without_its_package_of_fsspec(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(address: str) -> None:
+        raise ImportError("Install s3fs to access S3")
+
+    monkeypatch.setitem(sys.modules, "obstore", Kept())
+    monkeypatch.setattr(object_store, "ByFsspec", missing)
+    monkeypatch.setattr(object_store, "find_spec", lambda name: name == "obstore")
+    assert isinstance(Objects("s3://b/s.zarr").objects, object_store.ByObstore)
+    with pytest.raises(
+        da.ModelError, match=r"needs a package \(install s3fs to access s3\), which is not inst.*; pip"
+    ):
+        Objects("hdfs://b/a/s.zarr")
+
+
+def test_a_store_that_cannot_be_reached_is_said(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    place = Objects(address)
+    for error, said in ((OSError("no route\nmore"), "no route"), (RuntimeError(), "RuntimeError")):
+
+        def fail(key: str, error: Exception = error) -> bytes:
+            raise error
+
+        monkeypatch.setattr(place.objects, "read", fail)
+        with pytest.raises(
+            da.ModelError, match=f"cannot be reached: {said}; see the address, the credentials"
+        ):
+            place.exists()
+
+
+def test_a_lease_that_another_run_creates_first_is_refused(address: str) -> None:
+    kept = Objects(address).objects
+    until = {"until": time.time() + 60, "who": "process 7 on host since noon", "token": "other"}
+
+    class Late:
+        """Another run writes the lease just before this one, in a store with or without exclusive creation."""
+
+        def __init__(self, exclusive: bool) -> None:
+            self.exclusive = exclusive
+
+        def __getattr__(self, name: str) -> object:
+            return getattr(kept, name)
+
+        def write(self, key: str, data: bytes, new: bool = False) -> None:
+            kept.write(key, json.dumps(until).encode())
+            if self.exclusive:
+                raise FileExistsError(key)
+
+    for exclusive in (True, False):
+        late: Any = Late(exclusive)
+        with pytest.raises(
+            da.ModelError, match="is being written by process 7 on host since noon, whose lease ends"
+        ):
+            object_store.Lease(address, late, "s.zarr.lock/")
+        kept.remove(kept.keys("s.zarr.lock/"))
+    kept.write("s.zarr.lock/00000004", b'{"cut')
+    lease = object_store.Lease(address, kept, "s.zarr.lock/")
+    lease.release()
+    assert kept.keys("s.zarr.lock/") == ["s.zarr.lock/00000005"], (
+        "the numbers go on behind a record that is cut"
+    )
+    assert float(json.loads(kept.read("s.zarr.lock/00000005") or b"")["until"]) < time.time()

@@ -282,7 +282,7 @@ class Study:
             )
         require("designs", designs)
         if designs < self.count:
-            raise ModelError(f"the study has {self.count} designs already", f"ask for more than {designs}")
+            raise ModelError(f"the study has {self.count} designs already", f"ask for more than {self.count}")
         return replace(self, plan=replace(self.plan, designs=designs), cache=self.cache)
 
     @cached_property
