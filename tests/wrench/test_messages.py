@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from dalembert.errors import AnalysisError, ModelError
-from dalembert.wrench import Axis, Couple, Force, System, components, parallel_center
+from dalembert.wrench import Axis, Couple, Force, System, components, loads, parallel_center
 
 plane = Force([1, 0], at=[0, 1])
 WRONG: list[tuple[Callable[[], Any], str]] = [
@@ -54,6 +54,14 @@ WRONG: list[tuple[Callable[[], Any], str]] = [
         lambda: Axis([0, 0, 1], [1, 0, 0]).crossing(z=0),
         "the line runs at a constant z; cut it at another coordinate",
     ),
+    (
+        lambda: loads("{space: space, forces: {F: {size: 3, direction: 30}}}"),
+        "text:1: direction of force 'F': 30 is not a direction in space; write [x, y, z], or angles: [a, b, c]",
+    ),
+    (lambda: loads("[1, 2]"), "text:1: a list is not a mapping; write forces: ..."),
+    (lambda: Force.directed(5, 30, at=[0, 0, 0]), "a vector has 3 components where 2 are needed; "
+     "the plane takes [x, y], space [x, y, z], in all parts of one system"),
+    (lambda: Force(3), "3 is not a vector; write [x, y] or [x, y, z]"),
     (lambda: System(plane)["F"], "the system has no part 'F'; there is none"),
     (
         lambda: Force([1, 2, 3]).angle,
@@ -105,3 +113,13 @@ def test_units_of_bare_numbers() -> None:
     assert f.size == pytest.approx(6e5)
     assert Couple(12, units={"length": "mm", "force": "kN"}).moment == pytest.approx(12.0)
     assert Force("[1 kN, 20 N]", at=["1 in", "20 mm"]).at.tolist() == [0.0254, 0.02]
+
+
+def test_a_system_says_what_it_is_and_equals_its_like() -> None:
+    flat, solid = System(plane, Couple(3)), System(Force([1, 0, 2]))
+    assert repr(flat) == "System(1 forces and 1 couples in plane)"
+    assert repr(solid) == "System(1 forces and 0 couples in space)"
+    assert (len(flat), len(solid)) == (2, 1)
+    assert flat == System(plane, Couple(3))
+    assert flat != System(plane, Couple(4))
+    assert flat != System(plane, Couple(3), units={"length": "mm"})
