@@ -207,3 +207,10 @@ def test_a_toggle_whose_knee_swings_is_no_engine() -> None:
     assert "4 cylinders" in str(
         da.shaking(da.dynamics(da.in_line_engine(cylinders=4, firing_order=(1, 3, 4, 2))))
     )
+
+
+@pytest.mark.parametrize("offset", [0.01, -0.01])
+def test_an_offset_piston_has_no_series(offset: float) -> None:
+    r = da.dynamics(da.slider_crank(crank=0.05, rod=0.2, offset=offset), positions=4)
+    with pytest.raises(da.ModelError, match=r"the line of piston passes the crank by 0\.01 m"):
+        da.engine_series(r)

@@ -599,3 +599,26 @@ def test_numbers_stand_beside_the_diagrams(name: str) -> None:
                 assert abs(np.angle(away[1:] / away[:-1]).sum()) < 1, text.text
             outlines += 1
     assert outlines > 1
+
+
+TURNING = """
+gravity: none
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], A: [0.5, 0]}, mass: 2, center: [0.25, 0], inertia: 0.04, mass_along: MASS}
+joints: {O: {type: pin, links: [ground, arm]}}
+drives: {O: {position: 30 deg}}
+turning: {axis: y, speed: 8 rad/s}
+"""
+
+
+def test_in_a_plane_that_turns_a_lumped_mass_pulls_from_its_centre_on() -> None:
+    """m w^2 r of the centre, along the arm m w^2 r cos(30 deg), and none beyond it; a mass along it is refused."""
+    inner = da.member_forces(da.dynamics(da.loads(TURNING.replace("MASS", "lumped"))), "arm")
+    pull = 2 * 8**2 * 0.25 * math.cos(math.radians(30))
+    for s, axial, shear in ((0.1, pull * math.cos(math.radians(30)), pull / 2), (0.4, 0.0, 0.0)):
+        at = inner.at(s)
+        assert at["axial"][0] == pytest.approx(axial, abs=1e-9)
+        assert abs(at["shear"][0]) == pytest.approx(shear, abs=1e-9)
+    with pytest.raises(da.ModelError, match="lies along it, and in a plane that turns"):
+        da.member_forces(da.dynamics(da.loads(TURNING.replace("MASS", "uniform"))), "arm")

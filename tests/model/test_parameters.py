@@ -13,6 +13,7 @@ from dalembert.model import loads
 from dalembert.model.description import mechanism
 from dalembert.model.files.conversion import convert
 from dalembert.model.files.model_files import load
+from dalembert.model.quantities.parameters import Parameter
 
 ENGINE = """\
 title: Engine
@@ -255,3 +256,9 @@ def test_a_unit_stands_beside_its_number_or_behind_it(text: str) -> None:
     tree["parameters"] = {"r": text}
     tree["links"]["crank"]["points"]["A"] = ["r", 0]
     assert da.mechanism(tree).links["crank"].points["A"][0] == pytest.approx(0.07, rel=1e-12)
+
+
+def test_a_parameter_is_its_value_whatever_its_unit() -> None:
+    length = (1, 0, 0, 0)
+    assert Parameter(0.045, length, "mm") == Parameter(0.045, length, "m")
+    assert Parameter(0.045, length, "mm") != Parameter(0.046, length, "mm")

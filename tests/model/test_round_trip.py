@@ -150,3 +150,14 @@ def test_a_mechanism_is_pickled_with_its_source() -> None:
     other = pickle.loads(pickle.dumps(mechanism))
     assert other == mechanism
     assert other.source.line(("loads", "F_P")) == 28
+
+
+def test_a_file_has_each_entry_of_a_mixed_list_on_its_own_line() -> None:
+    """Plain values beside mappings: open at the top of the file; what is only plain stays on one line."""
+    tree = {"units": {"length": "mm"}, "parameters": {"r": "45 mm", "k": {"value": "2 kg", "about": "mass"}}}
+    assert tree_text(tree).splitlines() == [
+        "units: {length: mm}",
+        "parameters:",
+        "  r: 45 mm",
+        "  k: {value: 2 kg, about: mass}",
+    ]

@@ -34,7 +34,13 @@ def machines() -> dict[str, Any]:
     turned = plane_machine(Seen(), friction=True)
     position = {"from": 20, "to": 80, "count": 5}
     swept = turned.with_values({"drives.O.position": position, "drives.O.acceleration": 0.0})
-    return {"arm": swept, "rssr": da.load(examples()["rssr"]), "worm": da.worm_gear(positions=3)}
+    return {
+        "arm": swept,
+        "rssr": da.load(examples()["rssr"]),
+        "worm": da.worm_gear(positions=3),
+        "ratchet": da.ratchet(positions=3),
+        "follower": da.disc_cam(positions=3),
+    }
 
 
 def lines(value: Any, path: str = "") -> Iterator[str]:
@@ -95,7 +101,7 @@ def checked() -> dict[str, list[str]]:
     return {name: rest for name, *rest in (part.strip().splitlines() for part in parts)}
 
 
-@pytest.mark.parametrize("name", ["arm", "rssr", "worm"])
+@pytest.mark.parametrize("name", ["arm", "rssr", "worm", "ratchet", "follower"])
 def test_a_page_is_told_what_it_was(name: str) -> None:
     told = list(lines(written_out(page_data(machines()[name]))))
     for now, before in zip(told, checked()[name], strict=False):
