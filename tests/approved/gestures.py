@@ -7,6 +7,7 @@ import json
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from dalembert.bundled import examples
 from dalembert.errors import ModelError
 from dalembert.model.files.rewriting import text_of
 from dalembert.studio.document import EMPTY, Document
@@ -260,7 +261,41 @@ def saved(form: str) -> str:
     return text_of(model("four_bar"), form)
 
 
+LOADED = """links:
+  ground: {points: {A: [0, 0], D: [1 m, 0]}}
+  crank: {points: {A: [0, 0], B: [0.3 m, 0]}, mass: 2 kg, center: [0.1 m, 0]}
+  rod: {points: {B: [0, 0], C: [1 m, 0]}, mass: 3 kg, center: [0.5 m, 0.1 m]}
+  lever: {points: {D: [0, 0], C: [0.8 m, 0]}}
+joints:
+  A: {type: pin, links: [ground, crank]}
+  B: {type: pin, links: [crank, rod]}
+  C: {type: pin, links: [rod, lever]}
+  D: {type: pin, links: [ground, lever]}
+drives: {A: {position: 60 deg}}
+loads:
+  wound: {type: torsion_spring, joint: D, stiffness: 3 N*m/rad}
+  K: {type: spring, between: [ground.D, rod.C], stiffness: 100 N/m, free_length: 0.2 m}
+  F: {type: force, on: rod, at: C, value: 5 N @ 30 deg, axes: link}
+  G: {type: force, on: rod, at: center, value: [3 N, -4 N]}
+  H: {type: force, on: lever, at: [0.4 m, 0], value: unknown, direction: 90 deg}
+  P: {type: force, on: lever, at: C, value: "3*sin(A)", direction: 45 deg}
+assembly: {rod: 20 deg, lever: 70 deg}
+"""
+
+
+def drawn(text: str) -> Callable[[], str]:
+    """What a tab draws of a text."""
+    return lambda: rounded("\n".join(shown(Document(text))), 1e-7) + "\n"
+
+
+def bundled(name: str) -> str:
+    return examples()[name].read_text(encoding="utf-8")
+
+
 GESTURES = {
+    "drawn-loads": drawn(LOADED),
+    "drawn-gear-train": lambda: drawn(bundled("gear_train"))(),
+    "drawn-in-space": lambda: drawn(bundled("rssr"))(),
     "gestures-four-bar": told(EMPTY, "yaml", FOUR_BAR),
     "gestures-guides": told(EMPTY, "yaml", GUIDES),
     "gestures-joins": told(EMPTY, "yaml", JOINS),
