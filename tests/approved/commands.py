@@ -65,6 +65,9 @@ SHELL = {
         "solve four_bar.yaml --method virtual-work",
         "check empty",
         "check four_bar.yaml",
+        "check rssr.yaml",
+        "draw broken.yaml -o b.svg",
+        "draw gear_train.yaml -o g.svg",
         "check four_bar.yaml rssr.yaml --all",
         "check-answers four_bar.yaml",
         "grade --key key.csv answers.csv --columns nothing",
@@ -89,7 +92,7 @@ def told(commands: tuple[str, ...]) -> Callable[[], str]:
             mock.patch.dict(os.environ, COLUMNS="80"),
         ):
             files = {**cases(), **examples()}
-            for name in ("four_bar", "rssr", "cam_and_follower"):
+            for name in ("four_bar", "rssr", "cam_and_follower", "gear_train"):
                 Path(f"{name}.yaml").write_text(files[name].read_text(encoding="utf-8"), encoding="utf-8")
             Path("broken.yaml").write_text(BROKEN, encoding="utf-8")
             Path("pendulum.yaml").write_text(PENDULUM, encoding="utf-8")

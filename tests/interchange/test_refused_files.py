@@ -36,6 +36,9 @@ ADAMS = {
         "a motion given by its acceleration is not read; give displacement or velocity"
     ),
     'constraint modify motion_generator motion_name = .M.motion_O function = "x"': "the function 'x' is not read",
+    "constraint modify motion_generator motion_name = .M.motion_O function = \"sqrt(time)\"": (
+        "the function 'sqrt(time)' is not read"
+    ),
     "force create direct single_component_force single_component_force_name = .M.F i_marker_name = .M.arm.i "
     'j_marker_name = .M.ground.j type_of_freedom = translational function = "1"': (
         "a force between two parts along the line of their markers is not read"
