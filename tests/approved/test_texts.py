@@ -25,6 +25,7 @@ from tests.approved.commands import COMMANDS
 from tests.approved.design_parts import DESIGNED
 from tests.approved.foreign_files import FOREIGN
 from tests.approved.gestures import GESTURES
+from tests.approved.printed import PRINTED
 from tests.approved.read_out import READ, model
 from tests.approved.simulated import MOVED
 from tests.approved.worked import WORKED_OUT
@@ -133,6 +134,7 @@ TEXT: dict[str, Callable[[], str]] = {
     **MOVED,
     **GESTURES,
     **COMMANDS,
+    **PRINTED,
 }
 
 

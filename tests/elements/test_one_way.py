@@ -8,7 +8,11 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.result.named_quantities import quantity
 from dalembert.model.library import template_text
+from dalembert.reports.design.element_parts import element_parts
+from dalembert.reports.design.verdict import DesignContext
+from dalembert.views.notation import Notation
 from tests.tiers import over, over_seeds
 
 FILE = """units: {length: mm, mass: kg, force: N, moment: N*m, angle: rad}
@@ -43,6 +47,22 @@ def test_it_holds_one_way() -> None:
     k = da.compile(m, vary=["loads.T.value"], outputs=["effort.A"])
     assert k([[-7.0], [7.0]]).status[:, 0].tolist() == ["ok", "contact_lost"]
     assert da.loads(str(m)) == m
+
+
+def test_what_it_pushes_with_is_a_couple_in_every_unit() -> None:
+    """120 N m are 1200 N dm."""
+    r = da.dynamics(da.loads(FILE.replace("moment: N*m", "moment: N*dm").replace("-120", "-1200")))
+    assert quantity(r, "normal.K").kind == "moment"
+    assert r["normal.K"][0] == pytest.approx(120)
+    rows = [line.split() for line in r.text().splitlines()]
+    k = rows.index(["contact", "least", "couple", "greatest", "lost", "from"])
+    assert (rows[k + 1], rows[k + 3]) == (["N*dm", "N*dm"], ["K", "1200", "1200"])
+    (contacts,) = [
+        part for part in element_parts(DesignContext(r, 0, Notation())) if part.title == "Contacts"
+    ]
+    assert [(v.item, v.state, v.value) for v in contacts.verdicts] == [
+        ("contact K", "ok", "least couple 1200 N·dm")
+    ]
 
 
 def test_it_freewheels_where_drives_turn_both_links() -> None:

@@ -6,6 +6,7 @@ after a look at the drawings that change. Labels are in it without their places,
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Iterator
@@ -22,13 +23,23 @@ from dalembert.bundled import cases, examples
 from dalembert.machine.members.member_table import member_table
 from dalembert.model.joints.pairs import PAIRS
 from dalembert.model.library import TEMPLATES, template
+from dalembert.views.charts import chart_scenes
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Item, Line, Polygon, Scene, Text
+from tests.answers.every_answer import MADE, made
+from tests.approved.printed import rubs as rubbing_engine
+from tests.elements.test_one_way import FILE as ONE_WAY
 from tests.friction.engines import engine
 from tests.methods import space_machines, test_space_friction_drawings
 from tests.methods.test_drawn_alike import Seen, plane_machine
 
 CHECKED = Path(__file__).with_name("drawn_numbers.txt")
+
+CHARTED = (
+    *("Flywheel", "MotorChoice", "BearingTable", "Simulation", "RotorBalance", "PinTable"),
+    *("CriticalSpeeds", "CamDesign"),
+)
+ELEMENTS = Path(__file__).parents[1] / "elements"
 
 NEAR = 0.011
 """Millimetres: what is written has two digits after the point."""
@@ -126,7 +137,59 @@ def element_views() -> Iterator[tuple[str, Scene]]:
     yield "four-link linkage, motion", da.draw.motion(r)
 
 
-DRAWN = {"plane": plane_views, "space": space_views, "machine": machine_views, "elements": element_views}
+def answer_views() -> Iterator[tuple[str, Scene]]:
+    """What answers draw of themselves."""
+    flat = json.loads((ELEMENTS / "cam_cases.json").read_text(encoding="utf-8"))[3]["file"]
+    governors = {"Porter": da.porter_governor(), "Hartnell": da.hartnell_governor()}
+    some: dict[str, Any] = {
+        **{f"{name} governor": da.governor(m) for name, m in governors.items()},
+        "governor with friction": da.governor(da.load(cases()["gov-12-porter-governor-with-friction"])),
+        "power in a planetary train": da.solve(template("planetary_train")).power_flow(),
+        **{name: made(name) for name in MADE if name in CHARTED},
+        "flat follower": da.cam(da.loads(flat), "F"),
+    }
+    for name, answer in some.items():
+        for k, scene in enumerate(answer.drawings()[:4], 1):
+            yield f"{name}, drawing {k}", scene
+
+
+def solved_views() -> Iterator[tuple[str, Scene]]:
+    """Further views of results, and machines that have symbols of their own."""
+    d, r = da.draw, example("quick_return")
+    yield "quick return, accelerations", d.acceleration_polygon(r, at=4)
+    yield from charts("quick return", r, 0, 1, -1)
+    r = da.dynamics(template("scotch_yoke"), positions=7)
+    yield "yoke, velocities", d.velocity_polygon(r, at=2)
+    yield "yoke, accelerations", d.acceleration_polygon(r, at=2)
+    r = da.dynamics(template("inverted_slider_crank"), positions=7)
+    yield "swinging block, velocities", d.velocity_polygon(r, at=2)
+    yield "swinging block, accelerations", d.acceleration_polygon(r, at=2)
+    yield from charts("gear train", da.solve(da.load(examples()["gear_train"])), 0)
+    yield "superposition", d.superposition(example("seed-002-3-four-link-three-forces"))
+    yield "brakes", d.mechanism(da.solve(da.load(ELEMENTS / "brakes.yaml")), forces=True)
+    pads = "{radius: 20, at: 80}"
+    text = (ELEMENTS / "brakes.yaml").read_text(encoding="utf-8")
+    text = text.replace("radii: [50, 100], force", f"button: {pads}, force")
+    yield "brake with pads", d.mechanism(da.statics(da.loads(text)))
+    yield "one-way clutch", d.mechanism(da.statics(da.loads(ONE_WAY)), forces=True)
+    yield from charts("linkage in space", space_machines.solved("rssr"), 0, -1)
+    yield from charts("engine that rubs", da.solve(rubbing_engine()), 0, 1)
+
+
+def charts(name: str, r: Any, *which: int) -> Iterator[tuple[str, Scene]]:
+    some = chart_scenes(r)
+    for k in which:
+        yield f"{name}, chart {k % len(some) + 1} of {len(some)}", some[k]
+
+
+DRAWN = {
+    "plane": plane_views,
+    "space": space_views,
+    "machine": machine_views,
+    "elements": element_views,
+    "answers": answer_views,
+    "solved": solved_views,
+}
 
 
 def digest(scene: Scene) -> Iterator[str]:

@@ -51,6 +51,11 @@ def load_kind(result: Result, load: str) -> str:
     return "force" if result.mechanism.loads[load].ON in ("point", "span") else "moment"
 
 
+def contact_kind(result: Result, joint: str) -> str:
+    """Kind of what a contact pushes with: force, or moment of a one-way clutch."""
+    return "moment" if hasattr(result.mechanism.joints[joint], "RELEASED") else "force"
+
+
 def in_plane(result: Result) -> bool:
     """True if a result is planar."""
     return result.mechanism.dimension == 2

@@ -16,7 +16,7 @@ import numpy as np
 from dalembert.algebra import plane
 from dalembert.analysis.methods.elements.cylinder_quantities import cylinders, flow_in, working_pressure
 from dalembert.analysis.methods.elements.screw_torques import drive_torque
-from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
+from dalembert.analysis.result.number_kinds import contact_kind, drive_kinds, load_kind
 from dalembert.analysis.result.transmission_lines import (
     LinkLine,
     OfLines,
@@ -230,7 +230,7 @@ CATALOGUE: dict[str, QuantityWord] = {
     "load": QuantityWord("loads", _bounded(load_kind, _LOAD)),
     "reaction": QuantityWord("joints", _bounded("force", _method("reaction"))),
     "reaction_moment": QuantityWord("joints", _bounded("moment", _method("reaction_moment"))),
-    "normal": QuantityWord("contacts", {"": QuantityReading("force", _normal)}, False, False),
+    "normal": QuantityWord("contacts", {"": QuantityReading(contact_kind, _normal)}, False, False),
     "friction_force": QuantityWord(
         "joints", _bounded("force", _method("friction_force")), False, friction=True
     ),

@@ -10,8 +10,9 @@ import numpy as np
 
 from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
 from dalembert.analysis.methods.elements.screw_torques import screws
-from dalembert.analysis.output.summary.printed_contacts import contact_parts
+from dalembert.analysis.output.summary.printed_contacts import LEAST, contact_parts
 from dalembert.analysis.output.summary.printed_elements import element_parts as printed_elements
+from dalembert.analysis.result.number_kinds import contact_kind
 from dalembert.machine.elements.cam_design import cam
 from dalembert.model.joints.elements.belts import Belt
 from dalembert.model.joints.elements.cams import Cam
@@ -115,7 +116,8 @@ def _contacts(c: DesignContext) -> Iterator[DesignPart]:
             part.verdicts.append(not_judged(f"contact {name}", "its force is not known"))
             continue
         k = least_place(force)
-        value = f"least normal force {c.text('force', float(force[k]))}"
+        kind = contact_kind(c.r, name)
+        value = f"{LEAST[kind]} {c.text(kind, float(force[k]))}"
         lost = bool((force < 0).any())
         part.verdicts.append(
             DesignVerdict(f"contact {name}", "exceeded" if lost else "ok", value, at=c.at(k))

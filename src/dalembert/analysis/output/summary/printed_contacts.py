@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.output.summary.printed_units import Printed
-from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.analysis.result.number_kinds import contact_kind, drive_kinds
 from dalembert.arrays import Array
 from dalembert.printing import Part, TextTable, wrap
 
@@ -19,28 +19,36 @@ if TYPE_CHECKING:
 MOST_NAMED = 8
 """Places that are named one by one."""
 
+LEAST = {"force": "least normal force", "moment": "least couple"}
+"""What a contact pushes with, and a one-way clutch turns with."""
+
 ENDS = (("behind", ", rear end"), ("ahead", ", front end"))
 
 
 def contact_parts(r: Result, to: Printed) -> Iterator[Part]:
-    """A row for each contact, of a guide with lengths for each end; and up to which speed one that is lost stays on."""
+    """A row for each contact, of a guide with lengths for each end, of a one-way clutch its couple; and up to which
+    speed one that is lost stays on."""
     yield from _held_parts(r, to)
     pushing = r.compiled.pushing
     if pushing is None or not r.inertia or not np.isfinite(r.force_array).any():
         return
     out = {joint: r.contact(joint) for joint in dict.fromkeys(r.joints[k] for k in pushing.joint)}
-    rows, lost = [], []
+    rows: dict[str, list[list[str]]] = {kind: [] for kind in LEAST}
+    lost = []
     for joint, c in out.items():
         speed = _speed(r, c, to) if c.lift_factor > 0 else ""
+        kind = contact_kind(r, joint)
         for name, force in _forces(joint, c):
             ends = [float(np.nanmin(force)), float(np.nanmax(force))] if np.isfinite(force).any() else []
-            rows.append([name, *(to.number("force", x) for x in ends or (np.nan, np.nan)), speed])
+            rows[kind].append([name, *(to.number(kind, x) for x in ends or (np.nan, np.nan)), speed])
         if 0 < c.lift_factor < 1:
             lost.append(
                 f"{joint} stays in contact up to {speed} (now {_speed(r, c, to, 1 / c.lift_factor)})."
             )
-    unit = to.text("force")
-    yield TextTable(["contact", f"least normal force\n{unit}", f"greatest\n{unit}", "lost from"], rows)
+    for kind, some in rows.items():
+        if some:
+            unit = to.text(kind)
+            yield TextTable(["contact", f"{LEAST[kind]}\n{unit}", f"greatest\n{unit}", "lost from"], some)
     if lost:
         yield "\n".join(map(wrap, lost))
 
