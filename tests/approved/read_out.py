@@ -211,6 +211,36 @@ def mistakes(name: str) -> Any:
     return found
 
 
+WRONG = {
+    "four-bar": ("seed-003-norton-11-3-gravity", 0),
+    "quick return": ("quick_return", 8),
+    "engine with friction": ("seed-002-7a-engine-friction-circles", 0),
+    "teeth": ("gear_train", 3),
+    "space": ("sp-11-ladder-on-two-rails", 0),
+    "lever": ("st-08-two-levers", 0),
+}
+"""Machines and a position of each at which every wrong problem is solved."""
+
+
+def wrongs(name: str) -> str:
+    """A line for every wrong problem: how usual it is, its extent, its words, what it gives for the first unknown and
+    two of the joints."""
+    case, place = WRONG[name]
+    r = solved(case)
+    lines = []
+    for wrong in WrongProblems(r, [place]):
+        other = wrong.solution()
+        if other is None or not other.ok[0]:
+            lines.append(f"{wrong.order} {wrong.weight} {wrong.sentence}: {other and other.status[0]}")
+            continue
+        some = [*(other.effort(d)[0] for d in r.drives), *(other.unknown_load(n)[0] for n in r.unknown_loads)]
+        some += [x for j in (r.joints[0], r.joints[-2]) for x in other.reaction(j)[0]]
+        size = max(1.0, float(np.nanmax(np.abs(some))))
+        numbers = " ".join(number(x, size) for x in some)
+        lines.append(f"{wrong.order} {wrong.weight} {wrong.sentence}: {numbers}")
+    return "\n".join(lines)
+
+
 def studied() -> Any:
     s = da.study(
         da.four_bar(), {"links.coupler.mass": "± 5 %", ROCKER: "± 1 mm"}, ["effort.O2"], designs=64, seed=5
@@ -273,5 +303,6 @@ SOUGHT = "CamDesign", "Front"
 """A least base that is sought for seconds, and designs as near to the best as their search ends: tested elsewhere."""
 READ: dict[str, Callable[[], str]] = {
     **{f"answer-{n}": lambda n=n: told(made(n)) for n in MADE if n not in SOUGHT},  # type: ignore[misc]
+    **{f"wrong-{n.replace(' ', '-')}": lambda n=n: wrongs(n) for n in WRONG},  # type: ignore[misc]
     **{f"fields-{n.replace(' ', '-')}": lambda call=call: told(call()) for n, call in CALLS.items()},  # type: ignore[misc]
 }

@@ -53,6 +53,15 @@ def test_a_braked_crate_tips_about_its_front_end() -> None:
     assert da.dynamics(crate(-30, contact="holds")).status == ("ok",)
 
 
+def test_the_acceleration_that_tips_is_that_of_the_positions_that_accelerate() -> None:
+    """With a dwell behind the stroke: at either end of the stroke the crate tips from the same acceleration on."""
+    rise = {"segments": [{"to": 0.02, "in": 0.1, "by": "parabolic"}, {"dwell": 0.1}], "count": 9}
+    m = da.mechanism(crate(0).to_tree() | {"drives": {"floor": {"law": rise}}})
+    r = da.dynamics(m)
+    assert {0.0, 8.0} == set(np.abs(r.drive_acceleration("floor")).round(9))
+    assert r.contact("floor").lift_acceleration == pytest.approx(G * 0.25 / 0.6)
+
+
 def loop(speed: float, **keys: object) -> Any:
     """A point in a circular track of 0.5 m, led round by an arm in which it slides: v^2/R against g."""
     track = {"type": "circular_slot", "links": ["ground", "ball"], "at": ["O", "P"], "radius": 0.5}
