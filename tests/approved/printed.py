@@ -132,6 +132,12 @@ def numbers(r: da.Result, **choice: Any) -> Iterator[str]:
             yield f"{c.name} [{c.kind}]: {' '.join(shown)}"
 
 
+def kind(name: str) -> str:
+    """Templates with elements are printed apart from linkages."""
+    linkage = {"pin", "slider", "slot", "revolute", "prismatic", "cylindrical", "spherical", "universal"}
+    return "printed" if {j.type for j in template(name).joints.values()} <= linkage else "element"
+
+
 def of_template(name: str) -> Callable[[], str]:
     m = template(name)
     return lambda: printed(m, "joint" if "space" in m.to_tree() else "link")
@@ -163,8 +169,8 @@ def troubled(name: str) -> Callable[[], str]:
 
 
 PRINTED: dict[str, Callable[[], str]] = {
-    **{f"printed-{name}": of_template(name) for name in TEMPLATES if name not in PLAIN},
-    **{f"printed-cases-{name.replace(' ', '-')}": of_cases(some) for name, some in CASES.items()},
-    **{f"printed-{name.replace('_', '-')}": of_written(name, some) for name, some in WRITTEN.items()},
-    **{f"printed-{name.replace(' ', '-')}": troubled(name) for name in TROUBLED},
+    **{f"{kind(name)}-{name}": of_template(name) for name in TEMPLATES if name not in PLAIN},
+    **{f"cases-{name.replace(' ', '-')}": of_cases(some) for name, some in CASES.items()},
+    **{f"element-{name.replace('_', '-')}": of_written(name, some) for name, some in WRITTEN.items()},
+    **{f"troubled-{name.replace(' ', '-')}": troubled(name) for name in TROUBLED},
 }

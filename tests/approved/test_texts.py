@@ -169,7 +169,10 @@ def changed(name: str) -> list[str]:
     return unlike((TEXTS / f"{name}.txt").read_text(encoding="utf-8"), TEXT[name]())
 
 
-GROUPS = "solution-", "template-", "design-", "simulated-", "answer-", "fields-"
+GROUPS = (
+    *("solution-", "template-", "design-", "simulated-", "answer-", "fields-"),
+    *("wrong-", "cases-", "printed-", "element-", "troubled-"),
+)
 
 
 def texts_of(*groups: str) -> Any:
@@ -203,6 +206,31 @@ def test_answers_are_as_they_were_read(name: str) -> None:
 
 @texts_of("fields-")
 def test_fields_are_as_they_were_read(name: str) -> None:
+    assert changed(name) == []
+
+
+@texts_of("wrong-")
+def test_wrong_problems_are_as_they_were_read(name: str) -> None:
+    assert changed(name) == []
+
+
+@texts_of("cases-")
+def test_printed_cases_are_as_they_were_read(name: str) -> None:
+    assert changed(name) == []
+
+
+@texts_of("printed-")
+def test_printed_linkages_are_as_they_were_read(name: str) -> None:
+    assert changed(name) == []
+
+
+@texts_of("element-")
+def test_printed_elements_are_as_they_were_read(name: str) -> None:
+    assert changed(name) == []
+
+
+@texts_of("troubled-")
+def test_printed_troubles_are_as_they_were_read(name: str) -> None:
     assert changed(name) == []
 
 

@@ -14,8 +14,8 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.grading.figure import NOTHING, floor
 from dalembert.grading.file_answers import computed_text
-from dalembert.grading.marking.rubric import SHARES, Rubric, read_rubric
-from dalembert.grading.marking.student_marks import NAMED
+from dalembert.grading.marking.rubric import SHARES, Rubric, load_rubric, read_rubric
+from dalembert.grading.marking.student_marks import NAMED, Mark
 from dalembert.grading.quantities import Series
 from dalembert.grading.tolerance import Closeness
 from dalembert.grading.value_errors import of_units
@@ -235,3 +235,20 @@ def test_an_inertia_couple_is_that_of_its_link(factor: float) -> None:
     assert np.any(before.inertia[r.links.index("coupler")])
     assert np.array_equal(after.inertia, np.where(of, factor * before.inertia, before.inertia))
     assert np.array_equal(after.mass, before.mass)
+
+
+def test_one_mistake_costs_half_a_figure_at_least_and_its_cap_at_most(tmp_path: Path) -> None:
+    """0.2 + 0.1 of figures of 4 and 2 is raised to half of the 2; 12 of 16 is lowered to 8."""
+
+    def left(*rows: tuple[str, str, float, float]) -> list[float]:
+        marks = [Mark("effort", "", "", outcome, words, got, most) for outcome, words, got, most in rows]
+        return [m.marks for m in Rubric().capped(marks)]
+
+    raised = left(("datum", "x", 3.8, 4), ("datum", "x", 1.9, 2), ("right", "", 2, 2))
+    assert raised == pytest.approx([4 - 2 / 3, 2 - 1 / 3, 2])
+    lowered = left(*[("concept", "y", 0.0, 4.0)] * 3, ("right", "", 4, 4))
+    assert lowered == pytest.approx([4 / 3] * 3 + [4])
+    (tmp_path / "rubric.yaml").write_text("share: {named: 0.6, datum: 0.9}\ncap: 0.25\n", encoding="utf-8")
+    rubric = load_rubric(tmp_path / "rubric.yaml")
+    kept = {k: rubric.shares[k] for k in ("named", "datum", "concept", "sign")}
+    assert (kept, rubric.cap) == ({"named": 0.6, "datum": 0.9, "concept": 0.6, "sign": 0.5}, 0.25)
