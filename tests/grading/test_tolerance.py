@@ -226,15 +226,17 @@ def test_components_that_are_rounding_are_shown_as_zero_whatever_the_sign_of_the
 
 
 @pytest.mark.parametrize("factor", [0.0, -1.0])
-def test_an_inertia_couple_is_that_of_its_link(factor: float) -> None:
+@pytest.mark.parametrize(("part", "of"), [("couple", "inertia"), ("force", "mass")])
+def test_an_inertia_couple_and_force_are_those_of_their_link(part: str, of: str, factor: float) -> None:
     r = da.dynamics(da.load(examples()["four_bar"]))
-    change = _scaling(r, ["inertia couple of coupler"], factor)
+    change = _scaling(r, [f"inertia {part} of coupler"], factor)
     assert change is not None
     before, after = r.compiled.forcing.inertia, change(r.compiled).forcing.inertia
-    of = (np.array(r.links) == "coupler").reshape(-1, *[1] * (np.ndim(before.inertia) - 1))
-    assert np.any(before.inertia[r.links.index("coupler")])
-    assert np.array_equal(after.inertia, np.where(of, factor * before.inertia, before.inertia))
-    assert np.array_equal(after.mass, before.mass)
+    for name in ("inertia", "mass"):
+        was, now = getattr(before, name), getattr(after, name)
+        mine = (np.array(r.links) == "coupler").reshape(-1, *[1] * (np.ndim(was) - 1))
+        assert np.any(was[r.links.index("coupler")])
+        assert np.array_equal(now, np.where(mine & (name == of), factor * was, was))
 
 
 def test_one_mistake_costs_half_a_figure_at_least_and_its_cap_at_most(tmp_path: Path) -> None:
