@@ -260,6 +260,10 @@ CALLS: dict[str, Callable[[], Any]] = {
     "power flow": lambda: of("planetary_train").power_flow(),
     "porter governor": lambda: da.governor(da.porter_governor()),
     "hartnell governor": lambda: da.governor(da.hartnell_governor()),
+    "governor with friction": lambda: da.governor(model("gov-12-porter-governor-with-friction")),
+    "isochronous governor": lambda: da.governor(
+        da.hartnell_governor(preload="1400 N", sweep=("30 deg", "-40 deg"), positions=15)
+    ),
     "engine series": lambda: {
         n: da.engine_series(da.dynamics(m, positions=24)) for n, m in engines().items()
     },

@@ -139,3 +139,19 @@ def test_effort_and_power_tend_to_the_books() -> None:
     )  # fmt: skip
     assert g.stable.all()
     assert g.isochronous == ()
+
+
+def test_the_isochronous_place_is_where_the_speed_is_greatest() -> None:
+    """Found between coarse positions, against a parabola through fine ones; and the governor is drawn."""
+
+    def made(positions: int, sweep: tuple[str, str]) -> Any:
+        return da.governor(da.hartnell_governor(preload="1400 N", sweep=sweep, positions=positions))
+
+    (coarse,) = made(15, ("30 deg", "-40 deg")).isochronous
+    fine = made(41, ("-33 deg", "-37 deg"))
+    q = np.radians(np.linspace(-33, -37, len(fine.speed)))
+    a, b, _ = np.polyfit(q - q.mean(), fine.speed, 2)
+    assert a < 0
+    assert coarse == pytest.approx(q.mean() - b / (2 * a), abs=1e-3)
+    assert fine.isochronous == pytest.approx((coarse,), abs=1e-6)
+    assert len(fine.drawings(da.Notation())) == 1
