@@ -89,3 +89,17 @@ def test_half_a_turn_is_about_an_axis_across(sign: float, other: float) -> None:
             assert r @ r.T == pytest.approx(np.eye(3), abs=1e-12)
             assert np.linalg.det(r) == pytest.approx(1.0)
             assert (np.trace(r) - 1) / 2 == pytest.approx(float(a @ b), abs=1e-12)
+
+
+def test_the_least_turn_brings_each_of_several_vectors_onto_its_own() -> None:
+    """Beside others those that are opposite too, which turn by half a turn about an axis across."""
+    rng = np.random.default_rng(4)
+    a, b = (v / np.linalg.norm(v, axis=1)[:, None] for v in rng.normal(size=(2, 9, 3)))
+    b[::4], b[1] = -a[::4], a[1]
+    for some in (slice(None), slice(0, 1), slice(1, 4)):
+        turn = space.least_turn(a[some], b[some])
+        np.testing.assert_allclose(space.rotate(turn, a[some]), b[some], atol=1e-12)
+        angle = np.arccos(np.clip((a[some] * b[some]).sum(axis=1), -1, 1))
+        matrices = turn.reshape(-1, 3, 3)
+        np.testing.assert_allclose(np.trace(matrices, axis1=1, axis2=2), 1 + 2 * np.cos(angle), atol=1e-12)
+        np.testing.assert_allclose(np.linalg.det(matrices), 1.0, atol=1e-12)
