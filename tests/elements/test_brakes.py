@@ -27,6 +27,16 @@ def test_a_wrong_brake_is_told_where_and_what(case: dict[str, str]) -> None:
     assert str(caught.value) == case["says"]
 
 
+def test_a_drum_may_have_its_axis_anywhere_in_its_own_axes() -> None:
+    moved = BRAKES.replace("drum:   {points: {O: [0, 0]}}", "drum:   {points: {O: [30, 20]}}")
+    assert moved != BRAKES
+    here, there = (da.statics(da.loads(text)) for text in (BRAKES, moved))
+    assert abs(here.effort("O")[0]) > 100
+    assert there.effort("O") == pytest.approx(here.effort("O"), rel=1e-9)
+    for joint in here.joints:
+        assert there.reaction(joint) == pytest.approx(here.reaction(joint), abs=1e-6)
+
+
 def random_shoe(seed: int, **changes: Any) -> dict[str, Any]:
     """A drum and a long shoe pinned beside it, turned and mirrored at will."""
     rng = np.random.default_rng(seed)
