@@ -27,6 +27,10 @@ joints:
   D: {type: pin, links: [ground, lever]}
 drives: {A: {position: 60 deg, speed: 2 rad/s}}
 """
+HALF = BROKEN.replace("C: [0.1 m, 0]", "C: [0.6 m, 0]").replace(
+    "position: 60 deg", "position: [60 deg, 180 deg]"
+)
+"""It closes at the first of two positions."""
 SHELL = {
     "machines": (
         "cam cam_and_follower.yaml",
@@ -67,6 +71,8 @@ SHELL = {
         "check four_bar.yaml",
         "check rssr.yaml",
         "draw broken.yaml -o b.svg",
+        "report half.yaml -o h.txt --at 1",
+        "draw half.yaml -o h.svg --at 1",
         "draw gear_train.yaml -o g.svg",
         "check four_bar.yaml rssr.yaml --all",
         "check-answers four_bar.yaml",
@@ -95,6 +101,7 @@ def told(commands: tuple[str, ...]) -> Callable[[], str]:
             for name in ("four_bar", "rssr", "cam_and_follower", "gear_train"):
                 Path(f"{name}.yaml").write_text(files[name].read_text(encoding="utf-8"), encoding="utf-8")
             Path("broken.yaml").write_text(BROKEN, encoding="utf-8")
+            Path("half.yaml").write_text(HALF, encoding="utf-8")
             Path("pendulum.yaml").write_text(PENDULUM, encoding="utf-8")
             Path("empty").mkdir()
             for command in commands:

@@ -196,7 +196,7 @@ JOINS: list[tuple[str, dict[str, Any]]] = [
     ("rename", {"kind": "links", "name": "arm", "to": "lever"}),
     ("delete", {"kind": "points", "link": "lever", "name": "C"}),
     ("set", {"path": ["links", "follower", "points", "I", 1], "value": "-20"}),
-    ("move", {"link": "follower", "point": "I", "to": (0.65, 0.15)}),
+    ("move", {"link": "follower", "point": "I", "to": (0.65, 0.2)}),
     ("set", {"path": ["parameters", "long"], "value": "100"}),
     ("set", {"path": ["links", "crank", "points", "B"], "value": ["long", 0]}),
     ("set", {"path": ["links", "crank", "points", "B", 0], "value": "long"}),

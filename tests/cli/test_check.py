@@ -10,6 +10,8 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.result.quantity_catalogue import CATALOGUE
+from dalembert.bundled import examples
+from dalembert.cli.check_command import _print_verdict
 from dalembert.model.stated_answers import StatedAnswer
 from tests.cli.conftest import Run
 from tests.progress_lines import only_progress
@@ -239,3 +241,14 @@ def test_the_comparison_as_json(run: Run, folder: Path, monkeypatch: pytest.Monk
     written = json.loads((folder / "all.json").read_text(encoding="utf-8"))
     assert (written["passed"], written["not_read"], written["answers"]) == (False, 1, printed["answers"])
     assert run("validate", "--json", "all.json").status == 2
+
+
+def test_a_verdict_has_a_line_for_each_answer_and_its_counts(capsys: pytest.CaptureFixture[str]) -> None:
+    from dalembert.grading.file_answers import check
+
+    rows = check(da.load(examples()["rssr"]))
+    _print_verdict(rows, 3, 1, 1.25, False)
+    said = capsys.readouterr().out
+    assert "effort of O, at 30 deg" in said
+    assert "6 answers, 0 with an exact value; all met." in said
+    assert said.endswith("FAILED: 3 problems, 1 of them not read, 6 answers, 1.2 s\n")

@@ -89,14 +89,15 @@ def test_what_an_earlier_run_did_not_save_is_kept_or_forgotten(session: Session,
 def test_a_pull_goes_on_from_the_last_one_and_leaves_the_text(session: Session) -> None:
     """The crank turns to where it is pulled; its drive follows; a new pull begins at the text's pose."""
     at = [5 * 0.0254, 0.0]
-    far, up = [0.0, 9.0], [-9.0, 0.0]
+    far, back, down = [0.0, 9.0], [-9.0, 0.0], [0.0, -9.0]
     first = session.handle({"pull": {"link": "crank", "at": at, "path": [far]}})
     assert first["pose"]["crank"][2] == pytest.approx(np.pi / 2, abs=0.1)
     assert first["drives"]["O2"] == pytest.approx(first["pose"]["crank"][2])
-    more = session.handle({"pull": {"link": "crank", "at": at, "path": [up], "on": True}})
-    anew = session.handle({"pull": {"link": "crank", "at": at, "path": [far]}})
-    assert anew["pose"]["crank"] == pytest.approx(first["pose"]["crank"])
-    assert more["pose"]["crank"][2] > first["pose"]["crank"][2] + 0.1
+    session.handle({"pull": {"link": "crank", "at": at, "path": [back]}})
+    on = session.handle({"pull": {"link": "crank", "at": at, "path": [down], "on": True}})
+    anew = session.handle({"pull": {"link": "crank", "at": at, "path": [down]}})
+    assert on["pose"]["crank"][2] == pytest.approx(3 * np.pi / 2, abs=0.1), "round by the left"
+    assert anew["pose"]["crank"][2] == pytest.approx(-np.pi / 2, abs=0.1)
     assert session.document.text == FOUR_BAR
     for wrong in ({"link": "crank", "at": [float("nan"), 0], "path": [far]}, {"link": "crank"}, 3):
         with pytest.raises(ModelError, match="the pull cannot be read; reload the page"):
