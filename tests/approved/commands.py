@@ -85,6 +85,8 @@ SHELL = {
     ),
 }
 """Commands by the text that keeps them."""
+STATUS = {0: "0, done", 1: "1: no answer, or some are missing", 2: "2: wrong input"}
+"""In words, as a number that differs by one counts as rounding."""
 DONE = re.compile(r": \d[\d,]* of \d")
 """How far something is, which only what takes long says."""
 
@@ -110,7 +112,7 @@ def told(commands: tuple[str, ...]) -> Callable[[], str]:
                     status = main(command.split())
                 out += [f"$ dalembert {command}", streams[0].getvalue().rstrip()]
                 out += [f"! {line}" for line in streams[1].getvalue().splitlines() if not DONE.search(line)]
-                out += [f"= {status}", ""]
+                out += [f"= {STATUS[status]}", ""]
         return rounded("\n".join(out)) + "\n"
 
     return printed
