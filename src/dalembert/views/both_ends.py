@@ -9,7 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.friction.joint_friction import joints_at_limit, reversing_joints, unknown_names
+from dalembert.analysis.friction.joint_friction import (
+    NO_END,
+    joints_at_limit,
+    reversing_joints,
+    unknown_names,
+)
 from dalembert.analysis.result.number_kinds import unknown_kinds
 from dalembert.views.notation import Shown
 from dalembert.views.paper.lettering import BOLD, break_lines
@@ -26,7 +31,7 @@ def end_words(r: Result, name: str, end: Result, which: str, k: int, shown: Show
     """Sentence such as 'Low end of O, −7304 N·m: friction is at its limit in O, A', or that no value exists."""
     value = float((end.effort(name) if name in r.drives else end.unknown_load(name))[k])
     if not math.isfinite(value):
-        return f"{which} end of {name}: no value is large enough to move the mechanism in this sense"
+        return f"{which} end of {name}: {NO_END}"
     figure = shown.text(unknown_kinds(r)[name], value)
     joints = ", ".join(joints_at_limit(end, k))
     return f"{which} end of {name}, {figure}: friction is at its limit in {joints or 'no joint'}"

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.compile.contacts import friction_on
-from dalembert.analysis.friction.joint_friction import holds_beyond
+from dalembert.analysis.friction.joint_friction import NO_END, holds_beyond
 from dalembert.analysis.status.closure_failure import drive_text, quantity_text
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.errors import ModelError
@@ -125,7 +125,13 @@ LOCKED = "Self-locking{arc}{side}: the load cannot drive the machine against its
 NEEDS = "{name} needs {rubbed} and without friction {bare}"
 REVERSAL = "{joints} {verb}{arc}, so friction in it changes sense: {values}."
 BOTH_SIDES = "{name} is {before} just before and {after} just after"
-REST = "At rest{arc}: any value of {name} between the two impending motions holds the machine"
+REST = "At rest{arc}: any value of {name} {range} holds the machine"
+RANGES = {
+    (True, True): "between the two impending motions",
+    (True, False): "from the low end on",
+    (False, True): "up to the high end",
+    (False, False): "",
+}
 NO_RATE = (
     "No relative motion in {joints}{arc}: its friction may have any value within the limits, "
     "and {names} {verb}."
@@ -209,7 +215,8 @@ def _open_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
 def _rest_sentence(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str:
     """At rest: what holds the machine, and where friction is at its limit."""
     if len(names) == 1:
-        held = REST.format(arc=arc(c, run), name=names[0])
+        there = tuple(bool(x) for x in _there(c, f.ends[:2], run))
+        held = REST.format(arc=arc(c, run), name=names[0], range=RANGES[there]).replace("  ", " ")
         return f"{held}{_limits(c, f.ends[:2], run)}.{_histories(c, f, run, names)}"
     limits = "".join(
         f" For {name}{_limits(c, f.ends[2 * n : 2 * n + 2], run).replace(';', ',', 1)}."
@@ -260,17 +267,29 @@ def _and(names: list[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
+def _there(c: Compiled, ends: tuple[SolvedForces, ...], run: Ints) -> list[bool]:
+    """Whether the ends of an unknown's interval have a value at some of these positions."""
+    values = [np.concatenate([e.effort[:, c.known.requested], e.load], axis=1)[run] for e in ends]
+    return [bool(np.isfinite(v).all(axis=1).any()) for v in values]
+
+
 def _limits(c: Compiled, ends: tuple[SolvedForces, ...], run: Ints) -> str:
     """Joints that are at their friction limit at the ends of an unknown's interval."""
     assert c.contacts is not None
     parts = []
-    for end, name in zip(ends, ("low", "high"), strict=False):
+    for end, name, there in zip(ends, ("low", "high"), _there(c, ends, run), strict=False):
         assert end.friction is not None
+        if not there:
+            parts.append(f"at the {name} end {NO_END}")
+            continue
         at_limit = (end.friction.sense[run] != 0).any(axis=0) & ~c.contacts.fixed
         joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[at_limit]))
         parts.append(f"at the {name} end friction is at its limit in {joints or 'no joint'}")
-    same = len(parts) == 2 and parts[0].split(" in ")[1] == parts[1].split(" in ")[1]
-    if same:
+    if (
+        len(parts) == 2
+        and NO_END not in "".join(parts)
+        and parts[0].split(" in ")[1] == parts[1].split(" in ")[1]
+    ):
         return f"; at both ends friction is at its limit in {parts[0].split(' in ')[1]}"
     return "".join(f"; {part}" for part in parts)
 

@@ -75,6 +75,10 @@ def holds_beyond(ends: Array, held: Array) -> Array:
     return np.asarray((held[..., 0] < known[..., 0]) | (held[..., 1] > known[..., 1]))
 
 
+NO_END = "no value is large enough to move the mechanism in this sense"
+"""Of an end of an interval that is none."""
+
+
 def unknown_names(result: Result) -> list[str]:
     """Unknown efforts and loads, in the order of ``result.ends``."""
     requested = result.compiled.known.requested

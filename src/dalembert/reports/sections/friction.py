@@ -30,6 +30,7 @@ from dalembert.analysis.methods.applied_forces import link_speed
 from dalembert.analysis.output.columns import friction_joints
 from dalembert.analysis.result.number_kinds import unknown_kinds
 from dalembert.model import GROUND
+from dalembert.printing import range_text
 from dalembert.reports.pictures import friction_pictures
 from dalembert.reports.report_context import ReportContext, figure
 from dalembert.reports.sheet import ReportSheet, Working
@@ -251,8 +252,8 @@ def intervals(c: ReportContext) -> list[Working]:
     r, shown, out = c.r, c.shown, []
     for name in unknown_names(r):
         kind = unknown_kinds(r)[name]
-        low, high = (shown.number(kind, float(v)) for v in r.interval(name)[c.k])
-        out.append(Working(f'"{name}: {low} to {high} {shown.unit(kind)}"'))
+        ends = (shown.number(kind, float(v)) if math.isfinite(v) else None for v in r.interval(name)[c.k])
+        out.append(Working(f'"{name}: {range_text(*ends, shown.unit(kind))}"'))
         held = r.holding(name)[c.k]
         if holds_beyond(r.interval(name)[c.k], held):
             low, high = (shown.number(kind, float(v)) if math.isfinite(v) else "any value" for v in held)

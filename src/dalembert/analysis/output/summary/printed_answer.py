@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.friction.joint_friction import reversing_joints
+from dalembert.analysis.friction.joint_friction import NO_END, reversing_joints
 from dalembert.analysis.output.columns import reactions
 from dalembert.analysis.output.summary.printed_belts import belt_tables
 from dalembert.analysis.output.summary.printed_brakes import brake_parts
@@ -172,7 +172,10 @@ def _load_table(result: Result, to: Printed) -> TextTable:
 def _ends(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
     """Reactions at both ends of each unknown that friction leaves open."""
     for name, ends in zip(unknown_kinds(result), result.ends, strict=True):
-        for which, end in zip(("low", "high"), ends, strict=True):
+        for which, end, value in zip(("low", "high"), ends, result.interval(name)[0], strict=True):
+            if not np.isfinite(value):
+                yield f"At the {which} end of {name} {NO_END}."
+                continue
             yield f"At the {which} end of {name}:"
             yield from _reactions(end, to, axes)
 

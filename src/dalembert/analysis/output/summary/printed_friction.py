@@ -12,17 +12,21 @@ from dalembert.analysis.output.columns import friction_joints
 from dalembert.analysis.output.summary.printed_units import Printed, significant
 from dalembert.analysis.result.number_kinds import unknown_kinds
 from dalembert.answer.column import Scale
-from dalembert.printing import Part, TextTable, number, with_unit
+from dalembert.arrays import Array
+from dalembert.printing import Part, TextTable, number, range_text, with_unit
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
 def ends_text(result: Result, name: str, to: Printed, position: int = 0) -> str:
-    """'-7304 to -4522 N*m'; a dash where no value holds."""
+    """'-7304 to -4522 N*m', or '18006.1 N or more' where none is large enough to move the machine."""
     kind = unknown_kinds(result)[name]
-    low, high = (number(float(v)) for v in to(kind, result.interval(name)[position]))
-    return f"{low} to {high} {to.text(kind)}"
+    return range_text(*_ends(to(kind, result.interval(name)[position])), to.text(kind))
+
+
+def _ends(ends: Array, digits: int = 6) -> list[str | None]:
+    return [number(float(end), digits) if np.isfinite(end) else None for end in ends]
 
 
 def open_text(result: Result, name: str, to: Printed) -> str:
@@ -45,7 +49,7 @@ def with_ends(result: Result, to: Printed, position: int, cells: list[str]) -> l
     for k, name in enumerate(names, len(result.drives)):
         if result.ends and name in unknown_kinds(result):
             ends = to(unknown_kinds(result)[name], result.interval(name)[position])
-            out[k] = " to ".join(number(float(end), 5) for end in ends)
+            out[k] = range_text(*_ends(ends, 5)) if np.isfinite(ends).any() else out[k]
     return out
 
 
