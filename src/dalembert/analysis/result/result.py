@@ -212,7 +212,7 @@ class Result(LinkMotion, ElementAnswers, NamedAnswer, Labelled, Drawn, Worked):
 
     def unknown_load(self, name: str) -> Array:
         """Value of an unknown load (P,), N along its direction, or N m."""
-        k = place_of(self.unknown_loads, name, "unknown load")
+        k = place_of(self.unknown_loads, name, "load")
         efforts = int(self.compiled.known.requested.sum())
         return self._masked_unknown(self.load_array[..., k], efforts + k)
 

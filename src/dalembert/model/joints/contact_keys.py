@@ -113,7 +113,7 @@ def refuse_contact(keys: object, kind: str) -> None:
     if isinstance(keys, Mapping) and "contact" in keys:
         article = "an" if kind[0] in "aeiou" else "a"
         raise ModelError(
-            f"{article} {kind} transmits forces in all directions",
+            f"{article} {kind} joint transmits forces in all directions",
             "use a slot with contact: pushes",
             ("contact",),
         )

@@ -137,7 +137,7 @@ class Catalogue(LinkMotion):
         return speed
 
     def unknown_load(self, name: str) -> Numeric:
-        return self.traced.load[place_of(self.unknown_loads, name, "unknown load")]
+        return self.traced.load[place_of(self.unknown_loads, name, "load")]
 
     def reaction(self, joint: str) -> Array:
         return np.asarray(self.traced.force[place_of(self.joints, joint, "joint")])
