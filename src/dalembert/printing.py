@@ -26,16 +26,17 @@ def number(value: float, digits: int = 6) -> str:
     return format(value + 0.0, f".{digits}g")
 
 
-def range_text(low: str | None, high: str | None, unit: str = "") -> str:
+def range_text(ends: Iterable[str | None], unit: str = "") -> str:
     """'3 to 7 N'; where an end is None: '3 N or more', '7 N or less', 'any value'.
 
-    >>> range_text("3", None, "N"), range_text(None, "7"), range_text(None, None, "N")
+    >>> range_text(("3", None), "N"), range_text((None, "7")), range_text((None, None), "N")
     ('3 N or more', '7 or less', 'any value')
     """
+    low, high = ends
     if low is None and high is None:
         return "any value"
-    ends = f"{low} to {high}" if low and high else low or high
-    return f"{ends} {unit}".rstrip() + ("" if low and high else " or more" if low else " or less")
+    values = f"{low} to {high}" if low and high else low or high
+    return f"{values} {unit}".rstrip() + ("" if low and high else " or more" if low else " or less")
 
 
 def with_unit(value: float, unit: str, digits: int = 6) -> str:

@@ -126,7 +126,7 @@ NEEDS = "{name} needs {rubbed} and without friction {bare}"
 REVERSAL = "{joints} {verb}{arc}, so friction in it changes sense: {values}."
 BOTH_SIDES = "{name} is {before} just before and {after} just after"
 REST = "At rest{arc}: any value of {name} {range} holds the machine"
-RANGES = {
+RANGES: dict[tuple[bool, ...], str] = {
     (True, True): "between the two impending motions",
     (True, False): "from the low end on",
     (False, True): "up to the high end",

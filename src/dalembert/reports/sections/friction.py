@@ -253,7 +253,7 @@ def intervals(c: ReportContext) -> list[Working]:
     for name in unknown_names(r):
         kind = unknown_kinds(r)[name]
         ends = (shown.number(kind, float(v)) if math.isfinite(v) else None for v in r.interval(name)[c.k])
-        out.append(Working(f'"{name}: {range_text(*ends, shown.unit(kind))}"'))
+        out.append(Working(f'"{name}: {range_text(ends, shown.unit(kind))}"'))
         held = r.holding(name)[c.k]
         if holds_beyond(r.interval(name)[c.k], held):
             low, high = (shown.number(kind, float(v)) if math.isfinite(v) else "any value" for v in held)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def ends_text(result: Result, name: str, to: Printed, position: int = 0) -> str:
     """'-7304 to -4522 N*m', or '18006.1 N or more' where none is large enough to move the machine."""
     kind = unknown_kinds(result)[name]
-    return range_text(*_ends(to(kind, result.interval(name)[position])), to.text(kind))
+    return range_text(_ends(to(kind, result.interval(name)[position])), to.text(kind))
 
 
 def _ends(ends: Array, digits: int = 6) -> list[str | None]:
@@ -49,7 +49,7 @@ def with_ends(result: Result, to: Printed, position: int, cells: list[str]) -> l
     for k, name in enumerate(names, len(result.drives)):
         if result.ends and name in unknown_kinds(result):
             ends = to(unknown_kinds(result)[name], result.interval(name)[position])
-            out[k] = range_text(*_ends(ends, 5)) if np.isfinite(ends).any() else out[k]
+            out[k] = range_text(_ends(ends, 5)) if np.isfinite(ends).any() else out[k]
     return out
 
 
