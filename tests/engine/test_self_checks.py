@@ -128,7 +128,7 @@ def test_a_position_has_the_status_of_what_is_wrong_with_it(name: str) -> None:
     change, status = WRONG[name]
     followed, moved, forces = found_of(da.four_bar(positions=COUNT))
     moved, forces = change(moved, forces)
-    found, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, forces, True)
+    found, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, forces, True, True)
     assert found == ("ok", "ok", status, "ok", "ok", "ok")
     assert [bool(x) for x in reasons] == [s != "ok" for s in found]
 
@@ -136,14 +136,14 @@ def test_a_position_has_the_status_of_what_is_wrong_with_it(name: str) -> None:
 def test_each_run_of_positions_has_the_sentence_of_its_first() -> None:
     followed, moved, forces = found_of(da.four_bar(positions=COUNT))
     moved = moved._replace(rcond=with_one(moved.rcond, 0.0, [0, 1, 4]))
-    found, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, forces, True)
+    found, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, forces, True, True)
     assert [s == "singular" for s in found] == [True, True, False, False, True, False]
     at = ["O2 = 0 deg", "O2 = 0 deg", "", "", "O2 = 240 deg", ""]
     assert [
         (r or "")[: len("Dead centre or change point at ") + len(a)] for r, a in zip(reasons, at, strict=True)
     ] == [a and f"Dead centre or change point at {a}" for a in at]
     assert (
-        statuses(followed, moved.twist, moved.acceleration, moved.rcond + 1, forces, False)[0]
+        statuses(followed, moved.twist, moved.acceleration, moved.rcond + 1, forces, False, True)[0]
         == ("ok",) * COUNT
     )
 
@@ -152,8 +152,8 @@ def test_forces_that_nobody_asks_for_are_not_judged() -> None:
     followed, moved, forces = found_of(da.four_bar(positions=COUNT))
     bad = forces._replace(residual=forces.residual + 1)
     v = moved.twist, moved.acceleration, moved.rcond
-    assert set(statuses(followed, *v, bad, True)[0]) == {"no_balance"}
-    assert set(statuses(followed, *v, bad, False)[0]) == {"ok"}
+    assert set(statuses(followed, *v, bad, True, True)[0]) == {"no_balance"}
+    assert set(statuses(followed, *v, bad, False, True)[0]) == {"ok"}
 
 
 def test_a_key_knows_the_size_of_a_machine() -> None:
