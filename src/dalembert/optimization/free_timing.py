@@ -56,10 +56,9 @@ class FreeTiming(TargetErrors):
             )
         q = m.schedule(over_a_turn(m)).position if positions is None else drive_values(m, positions)
         q = k.course(q).schedule.position[:, 0]
-        turns, step = m.drives[drives[0]].turns, q[-1] - q[0]
-        step = step / max(len(q) - 1, 1)
+        step = (q[-1] - q[0]) / max(len(q) - 1, 1)
         target, spread = wanted(k, targets, None)
-        closed = bool(turns and abs(q[-1] - q[0]) > TURN - 1.01 * abs(step))
+        closed = bool(m.drives[drives[0]].turns and goes_round(q))
         count = max(STATIONS, 6 * len(target))
         ends = (q[0], q[0] + np.sign(step) * TURN) if closed else (q[0], q[-1])
         samples = OwnPositions(k, np.linspace(*ends, count, endpoint=not closed))
@@ -129,6 +128,17 @@ class FreeTiming(TargetErrors):
 
     def places(self, x: Array) -> Array:
         return self.sense * x[len(self.span) :, None]
+
+
+def goes_round(q: Array) -> bool:
+    """Whether positions are those of a whole turn, with its end or without; two of them are ends of a range.
+
+    >>> q = np.linspace(0, TURN, 13)
+    >>> goes_round(q), goes_round(q[:-1]), goes_round(q[:-2]), goes_round(q[[9, 0]]), goes_round(q[[0, 5, 10]])
+    (True, True, False, False, False)
+    """
+    span, evenly = abs(q[-1] - q[0]), len(q) > 2
+    return bool(span > 0.99 * TURN or (evenly and abs(span * len(q) / (len(q) - 1) - TURN) < 0.01 * TURN))
 
 
 def _in_order(cost: Array) -> tuple[Array, Ints]:

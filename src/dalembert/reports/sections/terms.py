@@ -170,8 +170,9 @@ class ActionVector:
 
     @property
     def turned(self) -> bool:
-        """In the plane: whether it has a couple to speak of."""
-        return abs(self.couple[0]) > self.s.floors[1] * self.s.shown.value("moment", 1.0)
+        """In the plane: whether it has a couple to speak of. Where moments are shown clockwise, the factor is
+        negative."""
+        return abs(self.couple[0]) > self.s.floors[1] * abs(self.s.shown.value("moment", 1.0))
 
     @property
     def counts(self) -> bool:
