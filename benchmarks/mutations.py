@@ -39,17 +39,7 @@ EDGE = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 _PAIRS = "min max", "sin cos", "any all", "argmin argmax", "minimum maximum", "floor ceil", "zeros ones"
 EXCHANGED = {a: b for pair in _PAIRS for a, b in (pair.split(), pair.split()[::-1])}
 SYMMETRIC = {
-    "isinstance",
-    "dist",
-    "min",
-    "max",
-    "minimum",
-    "maximum",
-    "hypot",
-    "isclose",
-    "allclose",
-    "add",
-    "gcd",
+    *["isinstance", "dist", "min", "max", "minimum", "maximum", "hypot", "isclose", "allclose", "add", "gcd"]
 }
 """Calls whose first two arguments may be exchanged (or never are)."""
 SILENT = {"repr", "frozen", "strict", "slots", "kw_only", "copy"}

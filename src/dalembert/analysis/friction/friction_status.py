@@ -125,11 +125,11 @@ LOCKED = "Self-locking{arc}{side}: the load cannot drive the machine against its
 NEEDS = "{name} needs {rubbed} and without friction {bare}"
 REVERSAL = "{joints} {verb}{arc}, so friction in it changes sense: {values}."
 BOTH_SIDES = "{name} is {before} just before and {after} just after"
-REST = "At rest{arc}: any value of {name} {range} holds the machine"
+REST = "At rest{arc}: any value of {name}{range} holds the machine"
 RANGES: dict[tuple[bool, ...], str] = {
-    (True, True): "between the two impending motions",
-    (True, False): "from the low end on",
-    (False, True): "up to the high end",
+    (True, True): " between the two impending motions",
+    (True, False): " from the low end on",
+    (False, True): " up to the high end",
     (False, False): "",
 }
 NO_RATE = (
@@ -215,8 +215,7 @@ def _open_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
 def _rest_sentence(c: Compiled, f: SolvedForces, run: Ints, names: list[str]) -> str:
     """At rest: what holds the machine, and where friction is at its limit."""
     if len(names) == 1:
-        there = tuple(bool(x) for x in _there(c, f.ends[:2], run))
-        held = REST.format(arc=arc(c, run), name=names[0], range=RANGES[there]).replace("  ", " ")
+        held = REST.format(arc=arc(c, run), name=names[0], range=RANGES[tuple(_there(c, f.ends[:2], run))])
         return f"{held}{_limits(c, f.ends[:2], run)}.{_histories(c, f, run, names)}"
     limits = "".join(
         f" For {name}{_limits(c, f.ends[2 * n : 2 * n + 2], run).replace(';', ',', 1)}."

@@ -16,7 +16,7 @@ from dalembert.analysis.methods.cam_contacts import cam_contact, is_cam, normal_
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.joint_freedoms import full_pose
 from dalembert.arrays import Array
-from dalembert.core.elements.pushing import LOST, contact_forces, contact_margins, forces_at_speed
+from dalembert.core.elements.pushing import LOST, contact_forces, forces_at_speed, rounding
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.wording import closest
@@ -187,8 +187,8 @@ def _forces(r: Result, holding: Mechanism, factor: float, ahead: float | None = 
     pose, wrenches = full_pose(other), (other.force_array, other.moment_array)
     force = contact_forces(c.layout, c.pushing, pose, *wrenches)
     heavy = forces_at_speed(c.layout, c.forcing.inertia.mass, other.twist_array) if r.inertia else np.zeros(1)
-    rounding = contact_margins(c.layout, c.pushing, pose, *wrenches, heavy) - force  # as the status has it
-    return np.where(np.abs(force) <= rounding, 0.0, force)
+    small = rounding(c.layout, c.pushing, *wrenches, heavy)  # as the status has it
+    return np.where(np.abs(force) <= small, 0.0, force)
 
 
 def _lift_factor(parts: Array, size: float) -> float:

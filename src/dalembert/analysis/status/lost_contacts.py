@@ -13,7 +13,7 @@ from dalembert.analysis.friction.friction_status import Check, arc
 from dalembert.analysis.status.brake_verdicts import lifting
 from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Array, Ints
-from dalembert.core.elements.pushing import contact_forces, contact_margins, forces_at_speed
+from dalembert.core.elements.pushing import contact_forces, forces_at_speed, rounding
 from dalembert.core.layout import Pose
 
 if TYPE_CHECKING:
@@ -59,10 +59,11 @@ def _lacking_forces(c: Compiled, pose: Pose, twist: Array, f: SolvedForces, iner
     heavy = np.zeros(len(twist))
     if inertia:
         heavy = forces_at_speed(c.layout, c.forcing.inertia.mass, twist)
-    lost = contact_margins(c.layout, c.pushing, pose, f.force, f.moment, heavy) < 0
+    force = contact_forces(c.layout, c.pushing, pose, f.force, f.moment)
+    lost = force < -rounding(c.layout, c.pushing, f.force, f.moment, heavy)
     if f.unique is not None:
         lost &= f.unique[:, c.pushing.joint].all(axis=-1)
-    return np.where(lost, -contact_forces(c.layout, c.pushing, pose, f.force, f.moment), 0.0)
+    return np.where(lost, -force, 0.0)
 
 
 def _slip_sentence(c: Compiled, slipping: Array, pose: Pose, f: SolvedForces, run: Ints) -> str:

@@ -86,16 +86,18 @@ def normals(layout: Layout, pose: Pose, row: Ints) -> Array:
 def contact_margins(
     layout: Layout, p: Pushing | None, pose: Pose, force: Array, moment: Array, heavy: Array
 ) -> Array:
-    """Forces (..., K) of contacts and what of them may be rounding: below 0 where a contact is lost.
-
-    ``heavy`` (...,): ``forces_at_speed``, or 0 where masses have no part.
-    """
+    """Forces (..., K) of contacts and what of them may be rounding: below 0 where a contact is lost."""
     if p is None:
         return np.zeros(0)
+    return contact_forces(layout, p, pose, force, moment) + rounding(layout, p, force, moment, heavy)
+
+
+def rounding(layout: Layout, p: Pushing, force: Array, moment: Array, heavy: Array) -> Array:
+    """What of the forces (..., K) of contacts may be rounding; ``heavy`` (...,): ``forces_at_speed``, or 0 where masses
+    have no part."""
     largest = top(abs(force), 2) + AT_SPEED * heavy
     couple = top(abs(moment), moment.ndim - force.ndim + 2) + AT_SPEED * layout.length * heavy
-    size = np.where(p.force == 0, np.asarray(couple)[..., None], np.asarray(largest)[..., None])
-    return np.asarray(contact_forces(layout, p, pose, force, moment) + LOST * size)
+    return LOST * np.where(p.force == 0, np.asarray(couple)[..., None], np.asarray(largest)[..., None])
 
 
 def forces_at_speed(layout: Layout, mass: Array, twist: Array) -> Array:
