@@ -38,9 +38,8 @@ OTHER: dict[type[ast.AST], tuple[str, type[ast.AST]]] = {
 EDGE = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 _PAIRS = "min max", "sin cos", "any all", "argmin argmax", "minimum maximum", "floor ceil", "zeros ones"
 EXCHANGED = {a: b for pair in _PAIRS for a, b in (pair.split(), pair.split()[::-1])}
-SYMMETRIC = {
-    *["isinstance", "dist", "min", "max", "minimum", "maximum", "hypot", "isclose", "allclose", "add", "gcd"]
-}
+SYMMETRIC = {"isinstance", "dist", "hypot", "isclose", "allclose", "add", "gcd", "min", "max"}
+SYMMETRIC |= {"minimum", "maximum"}
 """Calls whose first two arguments may be exchanged (or never are)."""
 SILENT = {"repr", "frozen", "strict", "slots", "kw_only", "copy"}
 """Arguments that say how a record is made or prints itself: no number depends on them."""
