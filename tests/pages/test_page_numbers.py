@@ -64,7 +64,7 @@ def short(value: Any) -> str | None:
     if isinstance(value, (bool, int, float)) or value is None:
         return f"{value:.6g}" if isinstance(value, float) else str(value)
     if isinstance(value, str):
-        return repr(value) if len(value) < 40 or decoded(value) is None else summary(decoded(value))
+        return repr(value) if not value or decoded(value) is None else summary(decoded(value))
     if isinstance(value, list) and all(isinstance(x, (int, float)) for x in value):
         return f"[{' '.join(f'{x + 0.0:.6g}' for x in value)}]" if len(value) <= LONG else summary(value)
     if isinstance(value, list) and all(isinstance(x, str) for x in value) and len(" ".join(value)) < 200:
