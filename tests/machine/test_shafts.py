@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -147,24 +148,59 @@ joints: {O: {type: weld, links: [ground, bar]}}
     assert 0 < c.change < 1e-6
 
 
-WRONG = [
+SECTION = "section: {circle: 1, elasticity: 30e6 lbf/in^2}"
+GEARS = re.search(r"  gear_1: .*\n  gear_2: .*\n", SHAFT)[0]  # type: ignore[index]
+WELDS = re.search(r"  C: .*\n  D: .*\n", SHAFT)[0]  # type: ignore[index]
+MASSLESS = (
+    "shaft 'shaft' carries no mass away from its bearings; give its mass with mass_along: uniform, or weld links with "
+    "mass to it"
+)
+WRONG: list[tuple[dict[str, str], str]] = [
     (
-        "section: {circle: 1, elasticity: 30e6 lbf/in^2}",
-        "section: {circle: 1}",
-        "has no section with elasticity",
+        {SECTION: "section: {circle: 1}"},
+        "link 'shaft' has no section with elasticity; give section: {circle: 50 mm, elasticity: 210 GPa}",
     ),
-    ("  B: {type: slot, links: [ground, shaft]}\n", "", "is held at A alone; give it two bearings"),
-    ("    section: {circle", "    weight: 10 lbf\n    section: {circle", "has no place along it"),
+    (
+        {"  B: {type: slot, links: [ground, shaft]}\n": "", "welded": "drives: {A: {position: 0}}\n"},
+        "shaft 'shaft' is held at A alone; give it two bearings, or a weld",
+    ),
+    (
+        {SECTION: f"weight: 10 lbf\n    {SECTION}"},
+        "the mass of shaft 'shaft' has no place along it; write mass_along: uniform or shape, or give masses as links "
+        "welded to it",
+    ),
+    (
+        {SECTION: f"{SECTION}\n    members: [[A, C], [C, B]]"},
+        "link 'shaft' has several members, and a shaft is one line; name its ends: members: [A, B]",
+    ),
+    ({GEARS: "", WELDS: ""}, MASSLESS),
+    ({", weight: 35 lbf": "", ", weight: 55 lbf": ""}, MASSLESS),
+    ({", weight: 35 lbf": "", "D: [20, 0]": "D: [31, 0]"}, MASSLESS),
 ]
 
 
-@pytest.mark.parametrize(("old", "new", "says"), WRONG)
-def test_what_a_shaft_needs(old: str, new: str, says: str) -> None:
-    assert old in SHAFT
-    text = SHAFT.replace(old, new) + ("drives: {A: {position: 0}}\n" if not new else "")
+@pytest.mark.parametrize(("changes", "says"), WRONG)
+def test_what_a_shaft_needs(changes: dict[str, str], says: str) -> None:
+    text = f"{SHAFT}welded"
+    for old, new in {**changes, "welded": changes.get("welded", "")}.items():
+        assert old in text
+        text = text.replace(old, new)
     with pytest.raises(da.ModelError) as refused:
         da.critical_speeds(da.statics(da.loads(text)), "shaft")
-    assert says in str(refused.value)
+    assert re.sub(r"^text:\d+: ", "", str(refused.value)) == says
+
+
+def test_a_disc_that_only_tilts_swings_on_its_shaft() -> None:
+    """In the middle of a span it turns against k = 12 E I / l, and is not carried: its weight is none."""
+    text = SHAFT.replace(GEARS, "  gear_1: {points: {C: [0, 0]}, inertia: 0.1 kg*m^2}\n").replace(
+        "7, 0", "15.5, 0"
+    )
+    c = da.critical_speeds(da.statics(da.loads(re.sub(r"\n  D: .*", "", text))), "shaft")
+    inch, pound = 0.0254, 4.4482216152605
+    stiff = 12 * 30e6 * pound / inch**2 * np.pi / 64 * inch**4 / (31 * inch)
+    assert c.speeds == pytest.approx([np.sqrt(stiff / 0.1)], rel=1e-9)
+    assert (c.dunkerley, c.rayleigh, np.abs(c.sag).max()) == (np.inf, np.inf, 0.0)
+    assert "Dunkerley - rpm (low), Rayleigh - rpm (high)." in c.text()
 
 
 def test_a_notch_lowers_the_safety_where_it_is() -> None:

@@ -169,9 +169,6 @@ def critical_speeds(r: Result, link: str, count: int = 3) -> CriticalSpeeds:
         raise ModelError(f"shaft {link!r} is held at {names} alone", "give it two bearings, or a weld", where)
     steps = [(p.ends[1], p.stiffness) for p in pieces]
     beam = Beam(length, steps, pins, clamps, [*masses.values()], spread)
-    if not masses and not spread:
-        what = f"shaft {link!r} carries no mass"
-        raise ModelError(what, "give its mass with mass_along: uniform, or weld links with mass to it", where)
     return _solved(r, link, beam, supports, masses, count)
 
 
@@ -181,6 +178,10 @@ def _solved(
     fine, coarse = beam_model(beam, ELEMENTS), beam_model(beam, ELEMENTS // 2)
     plain = replace(fine, tilting=_plain_tilting(beam))
     speeds, shapes = plain.modes(plain.carried + plain.tilting, count)
+    if not len(speeds):
+        what = f"shaft {link!r} carries no mass away from its bearings"
+        remedy = "give its mass with mass_along: uniform, or weld links with mass to it"
+        raise ModelError(what, remedy, ("links", link))
     check, _ = coarse.modes(coarse.carried + beam_model(_without_spin(beam), ELEMENTS // 2).tilting, 1)
     whirl, _ = fine.modes(fine.carried + fine.tilting, count)
     whirl = np.concatenate([whirl, np.full(max(0, len(speeds) - len(whirl)), np.inf)])[: len(speeds)]
