@@ -305,6 +305,9 @@ class CamDesign(Drawn, Labelled, Worked):
             for n, r in zip(self.force, radii, strict=True)
             if n > 0
         ]
+        if not out:
+            what = f"nothing presses the follower on cam {self.joint!r} at any position"
+            raise ModelError(what, "give force, or a spring that keeps it on: spring_for")
         return max(out, key=lambda x: x.pressure)
 
     def turns_of(self, r: Result) -> Array:
