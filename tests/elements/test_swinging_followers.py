@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import numpy as np
@@ -188,3 +189,30 @@ def test_a_lever_that_rubs_and_stays_is_as_if_it_were_held(follower: str) -> Non
     largest = np.abs(holds.force_array).max()
     assert pushes.force_array == pytest.approx(holds.force_array, abs=1e-8 * largest)
     assert pushes.moment_array == pytest.approx(holds.moment_array, abs=1e-8 * largest)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_torsion_spring_keeps_a_lever_on_its_cam(mirrored: bool) -> None:
+    """Its moment P + k h has to exceed what stops the lever's rise, -J h'' w^2, at every position."""
+    turn = "drives: {O: {position: {from: 0, to: 360, count: 36}, speed: 130 rad/s}}\n"
+    text = re.sub("drives.*\nloads.*\nstart.*\n", turn, FILE.replace("FOLLOWER", "{roller: 10}"))
+    assert "loads" not in text
+    if mirrored:
+        text = re.sub(
+            r"P: \[-120", "P: [120", text.replace("[110, -10]", "[-110, -10]").replace("[60, 0]", "[-60, 0]")
+        )
+        text = (
+            text.replace("speed: 130", "speed: -130")
+            .replace("to: 360", "to: -360")
+            .replace("12 deg", "-12 deg")
+        )
+    c = da.cam(da.loads(text), "F")
+    value, _, bend = np.array([lift(x) for x in np.radians(np.linspace(0, 350, 36))]).T
+    need = -LEVER * bend * 130**2
+    stiffness, preload = c.spring_for(preload=1.0)
+    on = value > 1e-9
+    assert preload == 1.0
+    assert stiffness == pytest.approx(((need - 1.0)[on] / value[on]).max(), rel=1e-9)
+    soft, first = c.spring_for()
+    assert (first + soft * value - need).min() == pytest.approx(0, abs=1e-9 * need.max())
+    assert first + soft * value.max() <= 1.0 + stiffness * value.max()
