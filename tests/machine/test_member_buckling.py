@@ -581,3 +581,17 @@ def test_a_cylinder_in_space_is_that_of_the_plane(turned: bool) -> None:
     b = member_table(da.statics(da.mechanism(tree))).buckling["rod"]
     assert b.criticals == pytest.approx(plane.criticals, rel=1e-9)
     assert b.safety == pytest.approx(plane.safety, rel=1e-9)
+
+
+def test_a_stress_that_does_not_change_has_no_amplitude_nor_a_place_that_rounding_chooses() -> None:
+    """The rod is pressed evenly at every position, with figures that differ in their last digits."""
+    table = member_table(da.statics(da.loads(CYLINDER.format(**STEPPED))))
+    rod, barrel = (table.stress[name].fatigue() for name in ("rod", "barrel"))
+    even = -60e3 / (PI / 4 * 0.045**2)
+    assert (rod.place, rod.amplitude, rod.sampling) == (0.65 / 128, 0.0, 0.0)  # of equal ones the first
+    assert rod.mean == pytest.approx(even, rel=1e-12)
+    pressed = -60e3 / (PI / 4 * (0.095**2 - 0.08**2))
+    assert (barrel.mean, barrel.amplitude) == pytest.approx((pressed / 2, -pressed / 2), rel=1e-12)
+    said = " ".join(table.text().split())
+    assert "with every other position they differ by 0 % at most (barrel)." in said
+    assert "barrel, rod: one stepped column, K with EI of the weaker part over the full length." in said

@@ -32,6 +32,8 @@ STATIONS = 129
 """Places along a member where fatigue is looked at, three times, closer each time about the worst."""
 ANYWHERE = -1.0
 """Key of a notch factor that holds at every place."""
+STEADY = 1e-12
+"""Part of the largest stress of a member below which what changes over the cycle is rounding."""
 FIBRES = 72
 """Fibres round a circle that bends in both planes, looked at three times as the stations."""
 
@@ -216,6 +218,7 @@ def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
             factors = [notches.get(x, notches.get(ANYWHERE, 1.0)) for x in inner.tolist()]
             sigma = fibre_stress(s, curve.at(inner, side), plane, at) * np.array(factors)[:, None]
             mean, swing = (sigma.max(axis=0) + sigma.min(axis=0)) / 2, np.ptp(sigma, axis=0) / 2
+            swing = np.where(swing <= STEADY * np.abs(sigma).max(), 0.0, swing)
             use = _utilisation(s, mean, swing)
             if np.isnan(use).any():
                 return Fatigue(curve.name, math.nan, math.nan, math.nan, None)
@@ -227,6 +230,8 @@ def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
         step = (high - low) / (STATIONS - 1)
         low, high = max(0.0, best[1] - step), min(length, best[1] + step)
         round_it = round_it[0], round_it[1] * 2 / FIBRES
+    if not best[3]:
+        worst = np.full_like(worst, best[2])
     goodman = s.endurance is not None and s.ultimate is not None
     safety = (1 / best[0] if best[0] > 0 else math.inf) if goodman else None
     peaks = {"range": worst - (worst.min() + worst.max()) / 2}
