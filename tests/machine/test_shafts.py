@@ -11,6 +11,7 @@ from numpy.polynomial import Polynomial
 
 import dalembert as da
 from dalembert.machine.shafts.beam_elements import _bent, _moved, _tilted
+from tests.elements.test_pins import hung
 from tests.tiers import tiers
 
 SHAFT = """
@@ -302,3 +303,63 @@ def test_matrices_of_an_element_are_integrals_of_its_cubic_shapes() -> None:
     assert _bent(h) == pytest.approx(np.array(integrals(2)))
     assert _moved(h) == pytest.approx(420 * np.array(integrals(0)))
     assert _tilted(h) == pytest.approx(30 * np.array(integrals(1)))
+
+
+def test_a_beam_measured_from_other_supports_differs_by_a_straight_line() -> None:
+    """One joint: from the tangent at it; both, in either order: from their chord."""
+    m, (a, b, length, *_) = beam(np.random.default_rng(3), spread=True)
+    f = da.member_forces(da.statics(m), "shaft")
+    x = np.linspace(0, length, 41)
+    (chord,) = f.deflection().members
+    v, slope = (of(x)[0, :, 0] for of in (chord.at, chord.slope))
+    for name, at in (("A", a), ("B", b)):
+        d = f.deflection(supports=[name])
+        (one,) = d.members
+        turned = chord.slope(at)[0, 0, 0]
+        largest = np.abs(v).max()
+        assert one.at(x)[0, :, 0] == pytest.approx(v - turned * (x - at), rel=1e-9, abs=1e-12 * largest)
+        assert one.slope(x)[0, :, 0] == pytest.approx(slope - turned, rel=1e-9, abs=1e-12)
+        assert (one.supports, d.slopes()[name].tolist()) == ((name,), [0.0])
+        assert d.largest == pytest.approx(np.abs(v - turned * (x - at)).max(), rel=0.02)
+    (back,) = f.deflection(supports=["B", "A"]).members
+    assert back.supports == ("B", "A")
+    assert back.at(x) == pytest.approx(chord.at(x), rel=1e-9, abs=1e-12 * np.abs(v).max())
+
+
+def test_two_joints_at_one_place_give_a_tangent() -> None:
+    """Three bars meet in a pin: the chord of their two joints there has no direction."""
+    tree = hung({"diameter": "30 mm"}).to_tree()
+    tree["links"]["right"]["points"]["M"] = [0.4, 0.8]
+    tree["loads"]["N"] = {"type": "force", "on": "right", "at": "M", "value": [200, -100]}
+    section = {"circle": 0.03, "elasticity": 210e9}
+    f = da.member_forces(da.statics(da.mechanism(tree)), "right")
+    x = np.linspace(0, np.sqrt(5), 9)
+    both, one, default = (f.deflection(section, supports=s).members[0] for s in ("AB", "A", ()))
+    assert (both.supports, one.supports, default.supports) == (("A",), ("A",), ("B",))  # B is driven
+    assert np.abs(one.at(x)).max() > 1e-5
+    assert both.at(x).tolist() == one.at(x).tolist()
+    assert default.at(x) == pytest.approx(one.at(x), rel=1e-9, abs=1e-15)
+
+
+def test_the_arms_of_a_bent_cantilever_are_each_measured_from_where_they_begin() -> None:
+    """F1 L^3 / 3 E I of the far arm; of the near one the far arm's force and couple, F2 L^3 / 3 - F1 a L^2 / 2."""
+    text = """
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], A: [1, 0], P: [1, 0.5]}, members: [[O, A], [A, P]],
+        section: {rectangle: [20 mm, 40 mm], elasticity: 200 GPa}}
+joints: {O: {type: weld, links: [ground, arm]}}
+loads: {F: {type: force, on: arm, at: P, value: [300 N, 50 N]}}
+"""
+    d = da.member_forces(da.statics(da.loads(text)), "arm").deflection()
+    bend = 200e9 * 0.02 * 0.04**3 / 12
+    near, far = (50 / 3 - 300 * 0.5 / 2) / bend, -300 * 0.5**3 / 3 / bend
+    assert [e.curve.name for e in d.members] == ["O-A", "A-P"]
+    assert [float(e.at(e.curve.member.length)[0, 0, 0]) for e in d.members] == pytest.approx(
+        [near, far], rel=1e-12
+    )
+    assert [float(e.slope(e.curve.member.length)[0, 0, 0]) for e in d.members] == pytest.approx(
+        [(50 / 2 - 300 * 0.5) / bend, -300 * 0.5**2 / 2 / bend], rel=1e-12
+    )
+    assert (d.member, d.largest) == (("O-A",), pytest.approx(-near, rel=1e-12))
+    assert d.place.tolist() == [1.0]

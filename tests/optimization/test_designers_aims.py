@@ -137,6 +137,96 @@ def test_compiled_stress_and_buckling_are_those_of_the_tables(seed: int) -> None
         )
 
 
+LOADED = """
+gravity: [1, -9.81]
+links:
+  ground: {points: {O: [0, 0], C: [0.4, 0.02]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0.02], M: [0.04, -0.03]}, mass: 2, center: [0.03, 0.01], inertia: 0.02,
+          section: &bar {rectangle: [0.02, 0.03], elasticity: 2e11, yield_stress: 3e8}, effective_length: [0.9, 0.6]}
+  rod: {points: {A: [0, 0], B: [0.35, 0]}, mass: 1, center: [0.2, 0.02], inertia: 0.01, section: *bar}
+  rocker: {points: {B: [0.3, 0.05], C: [0, 0]}, mass: 1.5, center: [0.1, 0], inertia: 0.02, section: *bar,
+           effective_length: 0.8}
+joints: {O: {type: pin, links: %s}, A: {type: pin, links: %s}, B: {type: pin, links: [rod, rocker]},
+         C: {type: pin, links: [rocker, ground]}}
+drives: {O: {position: {from: 0, to: 360, count: 12}, speed: 20 rad/s, acceleration: 50 rad/s^2}}
+loads:
+  F: {type: force, on: crank, at: M, value: [300, -900]}
+  M: {type: couple, on: crank, value: 25}
+  G: {type: force, on: rod, at: center, value: [-40, 700]}
+  N: {type: couple, on: rocker, value: -60}
+  H: {type: force, on: rocker, at: B, value: [2000, -5000]}
+assembly: {rod: 40, rocker: 90}
+"""
+
+
+@pytest.mark.parametrize("links", [("[ground, crank]", "[rod, crank]"), ("[crank, ground]", "[crank, rod]")])
+def test_compiled_stress_of_driven_links_with_loads_is_that_of_the_tables(links: tuple[str, str]) -> None:
+    """Whichever way its joints name them; with lengths of buckling that the file gives, in the plane and across."""
+    m = da.loads(LOADED % links)
+    assert {
+        n: not_compiled(da.dynamics(m), "buckling", n) for n in ("crank", "rod", "rocker")
+    } == dict.fromkeys(("crank", "rod", "rocker"), "")
+    vary = {"links.crank.points.A.1": -0.01, "loads.M.value": -15.0, "links.rod.section.rectangle.0": 0.011}
+    names = [f"{word}.{n}" for n in ("crank", "rod", "rocker") for word in ("stress", "buckling")]
+    b = da.compile(m, [*vary], names)([[*vary.values()]])
+    other = da.dynamics(m.with_values(vary))
+    for name in names:
+        assert np.ptp(other[name]) > 0.01 * other[name].max()
+        assert b.value(name)[0] == pytest.approx(other[name], rel=1e-9, abs=1e-12 * other[name].max())
+
+
+NOT_COMPILED = {
+    "it has friction or a plane that turns": {
+        "joints": {"A": {"friction": {"coefficient": 0.1, "radius": 0.01}}}
+    },
+    "the mass of 'rod' lies along it": {"links": {"rod": {"mass_along": "uniform"}}},
+    "it is loaded by 'A' otherwise than by forces at points and couples": {"joints": {"A": {"damping": 0.1}}},
+    "it is loaded by 'S' otherwise than by forces at points and couples": {
+        "loads": {"S": {"type": "spring", "between": ["ground.O", "rod.B"], "stiffness": 10}}
+    },
+    "it is loaded by 'T' otherwise than by forces at points and couples": {
+        "loads": {"T": {"type": "torsion_spring", "joint": "B", "stiffness": 10}}
+    },
+    "link 'rod' is not one member between two of its points": {
+        "links": {"rod": {"points": {"Q": [0.2, 0.1]}, "members": [["A", "B"], ["A", "Q"]]}}
+    },
+}
+LENGTH = "its effective length may depend on the design, unless the file gives it"
+
+
+def merged(tree: dict[str, Any], more: dict[str, Any]) -> dict[str, Any]:
+    inner = {
+        k: merged(tree[k], v)
+        for k, v in more.items()
+        if isinstance(v, dict) and isinstance(tree.get(k), dict)
+    }
+    return {**tree, **more, **inner}
+
+
+@pytest.mark.parametrize("why", NOT_COMPILED)
+def test_why_the_forces_inside_a_link_are_not_compiled_is_said(why: str) -> None:
+    tree = da.loads(LOADED % ("[ground, crank]", "[rod, crank]")).to_tree()
+    r = da.dynamics(da.mechanism(merged(tree, NOT_COMPILED[why])))
+    assert (not_compiled(r, "stress", "rod"), not_compiled(r, "buckling", "rod")) == (why, why)
+    assert (not_compiled(r, "deflection", "rod"), not_compiled(r, "mass", "rod")) == (
+        "deflection is not compiled",
+        "",
+    )
+
+
+def test_without_a_given_length_the_buckling_of_a_driven_link_is_not_compiled() -> None:
+    text = (LOADED % ("[ground, crank]", "[rod, crank]")).replace(", effective_length: [0.9, 0.6]", "")
+    r = da.dynamics(da.loads(text))
+    assert [not_compiled(r, "buckling", n) for n in ("crank", "rod", "rocker")] == [
+        f"the forces inside 'crank' are not compiled: {LENGTH}",
+        "",
+        "",
+    ]
+    assert not_compiled(r, "stress", "crank") == ""
+    space = da.dynamics(da.rssr().with_values({"links.rod.section": {"circle": 0.02}}))
+    assert not_compiled(space, "stress", "rod") == "the mechanism is in space"
+
+
 def test_designs_by_compiled_numbers_are_those_one_by_one() -> None:
     """Aims and conditions with stress, buckling and life, of a design and their derivatives by differences."""
     m = da.load(DOCS / "lightest-press.yaml").with_values(
