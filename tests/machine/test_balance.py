@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.machine.balance.cone_programme import minimise
+from dalembert.printing import number
 from tests.machine.cranks import crank_machine
 from tests.random_space import random_case as random_in_space
 from tests.random_space import tree as tree_in_space
@@ -450,3 +452,42 @@ def test_the_command_prints_draws_and_writes(tmp_path: Path, capsys: pytest.Capt
     assert "counterweight is missing on rod" in " ".join(capsys.readouterr().out.split())
     assert main(["balance", str(file), "--on", "crank:radius"]) == 2
     assert "write --on crank:radius=80mm,mass=2kg" in capsys.readouterr().err
+
+
+def last(b: da.Balance) -> str:
+    return " ".join(b.text().split("\n\n")[-1].split())
+
+
+def test_a_yoke_is_balanced_by_half_and_no_more() -> None:
+    """What goes to and fro is A = m r w^2; least is left with half of it turning against the pin: A / sqrt 2."""
+    m = da.scotch_yoke()
+    b = da.balance(m, ["crank"])
+    yoke, crank = 1.5 * 0.06, 0.12 * 0.03
+    assert b.placed["crank"].moment == pytest.approx(crank + yoke / 2, rel=1e-9)
+    assert abs(b.placed["crank"].angle or 0) == pytest.approx(math.pi, rel=1e-12)
+    part = yoke / math.sqrt(2) / math.hypot(yoke + crank, crank)
+    assert (b.value, b.bound) == pytest.approx((part, part), rel=1e-9)
+    percent = number(100 * part)
+    assert re.sub(r"agrees to \S+\.$", "", last(b)) == (
+        f"Least rms force: {percent} % of the unbalanced value. No counterweights within the bounds leave less than "
+        f"{percent} % (dual value). Full force balance is impossible: some link has no path to ground through turning "
+        "joints. Check: re-analysis with the counterweights "
+    )
+    assert b.missing() == []
+
+
+def test_a_rotor_without_an_inertia_force_is_told_so() -> None:
+    text = """
+links: {ground: {points: {O: [0, 0]}}, rotor: {points: {O: [0, 0]}, mass: 2, inertia: 0.3}}
+joints: {O: {type: pin, links: [ground, rotor]}}
+drives: {O: {position: {from: 0, to: 360, count: 12}, speed: 20 rad/s, acceleration: 30 rad/s^2}}
+"""
+    b = da.balance(
+        da.loads(text), {"rotor": da.Counterweight(radius=0.1, mass=3)}, of={"force": 1, "moment": 1}
+    )
+    assert b.sizes(after=False)["moment"] == pytest.approx([9.0, 9.0])
+    assert last(b) == (
+        "Least rms force + moment: 100 % of the unbalanced value. No counterweights within the bounds leave less than "
+        "100 % (dual value). The force, 0 before, did not count. The inertia force is zero without counterweights. "
+        "Check: re-analysis with the counterweights agrees to 0."
+    )

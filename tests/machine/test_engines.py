@@ -214,3 +214,50 @@ def test_an_offset_piston_has_no_series(offset: float) -> None:
     r = da.dynamics(da.slider_crank(crank=0.05, rod=0.2, offset=offset), positions=4)
     with pytest.raises(da.ModelError, match=r"the line of piston passes the crank by 0\.01 m"):
         da.engine_series(r)
+
+
+BOXER = """
+links:
+  ground: {points: {O: [0, 0]}}
+  throw: {points: {O: [0, 0], A: [0.05, 0]}, mass: 2, center: [0.01, 0], inertia: 0.01}
+  other: {points: {O: [0, 0], B: [-0.05, 0]}, mass: 2, center: [-0.01, 0], inertia: 0.01}
+  rod_1: {points: {A: [0, 0], P: [0.2, 0]}, mass: 0.6, center: [0.06, 0], inertia: 0.003}
+  rod_2: {points: {B: [0, 0], P: [0.2, 0]}, mass: SECOND, center: [0.06, 0], inertia: 0.003}
+  piston_1: {points: {P: [0, 0]}, mass: 1}
+  piston_2: {points: {P: [0, 0]}, mass: 1}
+joints:
+  O: {type: pin, links: [ground, throw]}
+  W: {type: weld, links: WELDED, at: O}
+  A: {type: pin, links: [throw, rod_1]}
+  B: {type: pin, links: [other, rod_2]}
+  P_1: {type: pin, links: [rod_1, piston_1], at: P}
+  P_2: {type: pin, links: [rod_2, piston_2], at: P}
+  G_1: {type: slider, links: [ground, piston_1], at: [O, P]}
+  G_2: {type: slider, links: [ground, piston_2], at: [O, P]}
+drives: {O: {position: {from: 0, to: 360, count: 36}, speed: 300 rad/s}}
+assembly: {rod_2: 180, piston_1: [0.25, 0, 0], piston_2: [-0.25, 0, 0]}
+"""
+
+
+@pytest.mark.parametrize("welded", ["[throw, other]", "[other, throw]"])
+def test_a_throw_welded_to_the_shaft_is_one_of_the_engine(welded: str) -> None:
+    """Opposed cylinders on opposite throws leave no force; with a lighter rod, that of the part in its place."""
+    m = da.loads(BOXER.replace("WELDED", welded).replace("SECOND", "0.6"))
+    e = da.engine_series(da.dynamics(m))
+    assert [(c.piston, c.rod, c.crank, c.pin, c.gudgeon, c.guide, c.axis) for c in e.cylinders] == [
+        ("piston_1", "rod_1", "throw", "A", "P_1", "G_1", "O"),
+        ("piston_2", "rod_2", "other", "B", "P_2", "G_2", "O"),
+    ]
+    assert np.abs(e.force).max() < 1e-9
+    text = " ".join(da.shaking(e.exact.result).text().split())
+    assert "2 cylinders, by the book's two harmonics: no inertia force is left." in text
+    light = da.engine_series(da.dynamics(m.with_values({"links.rod_2.mass": 0.2})))
+    q, pin, gudgeon = (
+        turn(36),
+        0.4 * 0.7,
+        0.4 * 0.3,
+    )  # what the lighter rod lacks, at its pin and at its gudgeon
+    going = 0.05 * 300**2 * (np.cos(q) + 0.25 * np.cos(2 * q))
+    expected = pin * 0.05 * 300**2 * np.stack([np.cos(q), np.sin(q)], -1)
+    expected[:, 0] += gudgeon * going
+    assert light.force == pytest.approx(expected, abs=1e-9 * np.abs(expected).max())
