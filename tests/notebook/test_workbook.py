@@ -137,3 +137,93 @@ def test_charts_of_very_many_positions_are_thinned(tmp_path: Path, monkeypatch: 
     values = sheet(written(r, tmp_path), "chart values")
     assert len(values) == 10
     assert [row[1] for row in values[1:]] == pytest.approx(r.effort("O2")[::4] / 0.1129848290276167)
+
+
+def axes(chart: Any) -> list[tuple[str, Any, Any, Any]]:
+    """Title, least, greatest and large step of both axes."""
+    both = (chart.x_axis, chart.y_axis)
+    titles = ["".join(run.t for p in a.title.tx.rich.p for run in p.r) for a in both]
+    return [(title, a.scaling.min, a.scaling.max, a.majorUnit) for title, a in zip(titles, both, strict=True)]
+
+
+RANGES = {  # of a drive's position in degrees: the ends of the axis, and its large step
+    (40.0, 100.0): (30, 105, 15),
+    (-25.0, 100.0): (-30, 105, 15),
+    (10.0, 200.0): (0, 210, 30),
+    (0.0, 330.0): (0, 360, 45),
+    (-20.0, 400.0): (-60, 420, 60),
+    (0.0, 700.0): (0, 720, 90),
+    (50.0, 1000.0): (0, 1080, 180),
+    (-90.0, 3000.0): (-360, 3240, 360),
+}
+
+
+@pytest.mark.parametrize("ends", RANGES)
+def test_angles_have_an_axis_of_round_parts_of_a_turn(ends: tuple[float, float], tmp_path: Path) -> None:
+    tree = da.four_bar().to_tree()
+    tree["drives"]["O2"]["position"] = {"from": ends[0], "to": ends[1], "count": 5}
+    r = da.dynamics(da.mechanism(tree))
+    effort, forces, polar, *_ = written(r, tmp_path)["charts"]._charts
+    for chart, name in ((effort, "Effort [N*m]"), (forces, "Joint forces [N]")):
+        assert axes(chart) == [("O2 [deg]", *RANGES[ends]), (name, None, None, None)]
+        assert chart.legend is not None
+    largest = np.abs(r.reaction("O2")).max()
+    step = 10.0 ** np.floor(np.log10(largest))
+    end = np.ceil(largest / step) * step
+    assert axes(polar) == [(f"O2, force {x} [N]", -end, end, end / 2) for x in "xy"]
+    assert polar.legend is None
+    assert [c.anchor._from.row for c in (effort, forces, polar)] == [0, 21, 42]
+
+
+def test_what_has_no_drive_is_drawn_over_its_rows(tmp_path: Path) -> None:
+    """From 1; designs of a study are numbered from 0, and lengths have an axis from the first to the last."""
+    c = da.cam(da.disc_cam(positions=12), "F", count=13)
+    c.save(tmp_path / "cam.xlsx")
+    book = openpyxl.load_workbook(tmp_path / "cam.xlsx")
+    count = len(c.turn)
+    assert [axes(chart)[0] for chart in book["charts"]._charts] == [("place", 1, count, None)] * 2
+    heads, *values = sheet(book, "chart values")
+    assert heads[:2] == ["place", "turn [deg]"]
+    assert [row[0] for row in values] == [*range(1, count + 1)]
+    of = {head: [row[k] for row in values] for k, head in enumerate(heads)}
+    assert of["turn [deg]"] == pytest.approx(np.degrees(c.turn))
+    assert of["jerk [m]"] == pytest.approx(c.lift(c.turn)[3])
+    lengths = heads[heads.index("place", 1) + 1 :]
+    assert lengths == sorted(lengths, key=lambda head: -max(abs(x) for x in of[head]))
+    s = da.study(
+        da.four_bar(positions=3), {"links.coupler.mass": ["1 kg", "2 kg"]}, ["effort.O2"], draw="factorial"
+    )
+    s.run().save(tmp_path / "study.xlsx")
+    first, *_ = openpyxl.load_workbook(tmp_path / "study.xlsx")["charts"]._charts
+    assert axes(first)[0] == ("design", 0, 1, None)
+
+
+def test_a_slide_has_an_axis_from_its_first_position_to_its_last(tmp_path: Path) -> None:
+    tree = {
+        "links": {"ground": {"points": {"O": [0, 0]}}, "ram": {"points": {"O": [0, 0]}, "mass": 2}},
+        "joints": {"S": {"type": "slider", "links": ["ground", "ram"], "at": "O"}},
+        "drives": {"S": {"position": {"from": 0.07, "to": -0.43, "count": 6}, "acceleration": 2.0}},
+    }
+    book = written(da.dynamics(da.mechanism(tree)), tmp_path)
+    assert [axes(c)[0] for c in book["charts"]._charts] == [("S [m]", -0.43, 0.07, None)] * 2
+
+
+def test_more_positions_than_a_sheet_holds_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(workbook, "MOST_ROWS", 12)
+    written(da.dynamics(FOUR_BAR, positions=12), tmp_path)
+    with pytest.raises(da.ModelError) as refused:
+        da.dynamics(FOUR_BAR, positions=13).to_xlsx(tmp_path / "more.xlsx")
+    assert str(refused.value) == "13 positions do not fit a worksheet of 12 rows; write CSV or netCDF"
+    assert [path.name for path in tmp_path.iterdir()] == ["r.xlsx"]
+
+
+def test_an_interrupted_workbook_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: Any) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(workbook, "_chart", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        da.dynamics(FOUR_BAR, positions=12).to_xlsx(tmp_path / "r.xlsx")
+    assert list(tmp_path.iterdir()) == []
