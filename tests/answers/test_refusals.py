@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from tempfile import mkdtemp
+from tempfile import gettempdir, mkdtemp
 from typing import Any
 
 import pytest
@@ -53,7 +53,29 @@ def keyed(text: str) -> Path:
     return path
 
 
-RUBS, BAR = "seed-002-7a-engine-friction-circles", "four_bar"
+EFFORT = {"quantity": "effort", "of": "O2", "value": 243.2376, "unit": "lbf*in"}
+
+
+def in_folder(files: dict[str, str]) -> Path:
+    """A new folder with files."""
+    folder = Path(mkdtemp())
+    for name, text in files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+def class_table(decisions: str | None = None, **more: Any) -> Any:
+    """The marks of two students by a table, with cells decided by a second one."""
+    folder = in_folder({"class.csv": "student,effort.O2\nAnn,243.2\nBo,1\n", "read.csv": decisions or ""})
+    decide = None if decisions is None else folder / (decisions if decisions == "read.xlsx" else "read.csv")
+    return da.grade(folder / "class.csv", [EFFORT], decide=decide, **more)
+
+
+def checked(**keys: Any) -> Any:
+    return da.check_answers(at(BAR).mechanism, [da.Answer(**keys)])
+
+
+RUBS, BAR, BEAM = "seed-002-7a-engine-friction-circles", "four_bar", "st-09-beam-on-a-strut"
 REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "an unknown interval": (
         lambda: at("seed-002-7d-engine-at-rest").interval("guide"),
@@ -268,6 +290,66 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: read_rubric([1, 2], None),
         "the rubric is not a mapping; write marks: {effort: 4, reaction: 2}",
     ),
+    "a class that is nowhere": (
+        lambda: da.grade(in_folder({}) / "class", [EFFORT]),
+        "class: file not found; name a folder of answers, or a table",
+    ),
+    "a workbook that is nowhere": (
+        lambda: da.grade(in_folder({}) / "class.xlsx", [EFFORT]),
+        "class.xlsx: file not found; name a folder of answers, or a table",
+    ),
+    "cells decided in a workbook that is nowhere": (
+        lambda: class_table(decisions="read.xlsx"),
+        "read.xlsx: file not found; name a table (.csv, .xlsx)",
+    ),
+    "cells decided in a table without rows": (
+        lambda: class_table(""),
+        "read.csv:1: the table has no rows; write a heading and one row per figure",
+    ),
+    "a class without sheets": (
+        lambda: da.grade(in_folder({"notes.txt": "", ".hidden.csv": ""}), [EFFORT]),
+        "FOLDER has no answer files; their names end in .yaml, .yml, .json, .toml, .csv, .xlsx",
+    ),
+    "a workbook that is none": (
+        lambda: da.grade(in_folder({"class.xlsx": "student"}) / "class.xlsx", [EFFORT]),
+        "class.xlsx: the file is not a workbook; save it as .xlsx or CSV",
+    ),
+    "a decision without its value": (
+        lambda: class_table("student,figure\nAnn,effort.O2\n"),
+        "read.csv:2: the row has no value; the columns are student, figure and value",
+    ),
+    "a decision on an unknown student": (
+        lambda: class_table("student,figure,value\nAn,effort.O2,3\n"),
+        "read.csv:2: unknown student 'An'; there are Ann, Bo",
+    ),
+    "a decision on an unknown figure": (
+        lambda: class_table("student,figure,value\nAnn,effort.O2,3\nAnn,effort.O,3\n"),
+        "read.csv:3: unknown figure 'effort.O' on the sheet of Ann; there are effort.O2",
+    ),
+    "a column that is not in the table": (
+        lambda: class_table(columns={"Answer 1": "effort.O2"}),
+        "class.csv:1: unknown column 'Answer 1'; the columns are 'student', 'effort.O2'",
+    ),
+    "a variant of two files": (
+        lambda: read_key(
+            [EFFORT | {"variant": v, "file": f} for v, f in (("1", "a.yaml"), ("01", "b.yaml"))]
+        ),
+        "the key:2: variant '01' has two files; it had 'a.yaml'",
+    ),
+    "a tolerance below nothing": (
+        lambda: checked(quantity="effort", of="O2", value="3 N*m", tolerance="-1 N*m"),
+        "'-1 N*m' is below 0; write one of 0 or more, for example 3 %",
+    ),
+    "the energy that a flywheel stores at no drive": (
+        lambda: checked(quantity="energy_fluctuation", of="O4", value="3 J"),
+        "unknown drive 'O4'; the only one is 'O2'",
+    ),
+    "a figure at a position of a structure": (
+        lambda: da.check_answers(
+            da.load(cases()[BEAM]), [da.Answer(quantity="reaction", of="A", value="3 N", at="2 m")]
+        ),
+        "the mechanism has no drive to name a position by; number the position: at: 1",
+    ),
     "marks of no number": (
         lambda: read_rubric({"marks": 4}, None),
         "marks is not a mapping; write marks: {NAME: NUMBER}",
@@ -281,4 +363,5 @@ def test_what_is_asked_in_vain_is_told_why(name: str) -> None:
     ask, says = REFUSED[name]
     with pytest.raises(ModelError) as refused:
         ask()
-    assert re.sub(r"^\S+key\.json", "key.json", str(refused.value)) == says
+    said = re.sub(rf"{gettempdir()}/\w+/", "", str(refused.value))
+    assert re.sub(rf"{gettempdir()}/\w+", "FOLDER", said) == says

@@ -120,7 +120,9 @@ def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, object]], st
     if isinstance(source, Mechanism):
         return Key([_of_model(source, static)])
     if not isinstance(source, (str, Path)):
-        return _of_rows([TableRow(k + 1, _cells(row)) for k, row in enumerate(source)], Path(), "", static)
+        return _of_rows(
+            [TableRow(k + 1, _cells(row)) for k, row in enumerate(source)], Path(), "the key", static
+        )
     path = Path(source)
     if path.suffix.lower() == ".csv":
         return _of_rows(read_table(path), path.parent, str(path), static)
