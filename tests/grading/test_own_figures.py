@@ -100,6 +100,36 @@ def test_sizes_alone_need_one_violated_equation() -> None:
     assert len(found.follows) == 2
 
 
+@pytest.mark.parametrize("off", [(60.0, 0.0), (-60.0, 0.0), (0.0, 45.0), (0.0, -45.0)])
+@pytest.mark.parametrize("part", ["x", "y", "magnitude", "direction", "effort"])
+def test_one_figure_settles_a_violated_equation(part: str, off: tuple[float, float]) -> None:
+    """A sum of the coupler is out: a component along it, a size and the effort say by how much, a direction nothing."""
+    r = da.dynamics(machine())
+    arm = r.position("coupler")[0] - r.position("crank")[0]
+    a, o = r.reaction("A", on="crank")[0] + off, r.reaction("O2", on="crank")[0] - off
+    of_a = {"x": a[0], "y": a[1], "magnitude": np.hypot(*a), "direction": np.degrees(np.arctan2(a[1], a[0]))}
+    sheet = [
+        given(r, "effort", "O2", float(r.effort("O2")[0]) - cross(arm, off)),
+        given(r, "reaction", "O2", np.hypot(*o), on="crank", component="magnitude"),
+        given(r, "reaction", "B", np.hypot(*r.reaction("B")[0]), component="magnitude"),
+    ]
+    if part == "effort":
+        sheet.append(given(r, "reaction", "A", np.hypot(*a), on="crank", component="magnitude"))
+    else:
+        sheet.insert(0, given(r, "reaction", "A", of_a[part], on="crank", component=part))
+    wrong = [n for n, f in enumerate(sheet) if not f.met]
+    found = own_figures(SheetEquations(r), sheet)
+    link = "crank" if part in ("x", "y") and 0 not in wrong else "coupler"
+    words = f"sum of forces along {'x' if off[0] else 'y'} on {link}"
+    if part == "direction":
+        assert (found.slip, found.follows) == ("", {})
+    else:
+        (first,) = found.first
+        assert (found.slip, {first, *found.follows}) == (words, set(wrong))
+        assert set(found.follows.values()) == {f"equations, all but one slip in the {words}"}
+        assert found.numbers == {first: 1}
+
+
 def test_own_accelerations_move_the_inertia() -> None:
     r = da.dynamics(machine())
     m, change = r.mechanism, 400.0
@@ -109,6 +139,35 @@ def test_own_accelerations_move_the_inertia() -> None:
         "T": given(r, "effort", "O2", float(r.effort("O2")[0]) + m.inertia("rocker") * change * share),
     }
     assert judged(r, sheet) == ({"T": "powers of all links"}, ["alpha"])
+
+
+@pytest.mark.parametrize("link", ["crank", "coupler", "rocker"])
+def test_own_accelerations_of_a_mass_centre_move_its_inertia_force(link: str) -> None:
+    """By the powers of all links: the effort takes the mass times the change, times its velocity at unit speed."""
+    r = da.dynamics(machine())
+    change = np.array([35.0, -20.0])
+    velocity = r.center_velocity(link)[0] / r.speed("crank")[0]
+    own = [f"{x:.6g} m/s^2" for x in r.center_acceleration(link)[0] + change]
+    sheet = {
+        "a": figure(r, da.Answer(quantity="center_acceleration", of=link, value=own)),
+        "T": given(r, "effort", "O2", float(r.effort("O2")[0]) + r.mechanism.mass(link) * change @ velocity),
+    }
+    assert judged(r, sheet) == ({"T": "powers of all links"}, ["a"])
+
+
+def test_own_accelerations_move_the_moments_about_a_joint() -> None:
+    """The crank turned by its torque alone: moments about its bearing of its own inertia force at its centre."""
+    r = da.dynamics(machine(**{"links.crank.center": (0.02, 0.015)}))
+    change = np.array([90.0, 50.0])
+    arm = r.center("crank")[0] - r.position("crank")[0]
+    own = [f"{x:.6g} m/s^2" for x in r.center_acceleration("crank")[0] + change]
+    torque = float(r.effort("O2")[0]) + r.mechanism.mass("crank") * cross(arm, change)
+    sheet = {
+        "a": figure(r, da.Answer(quantity="center_acceleration", of="crank", value=own)),
+        "A": given(r, "reaction", "A", r.reaction("A", on="crank")[0], on="crank"),
+        "T": given(r, "effort", "O2", torque),
+    }
+    assert judged(r, sheet) == ({"T": "moments about O2 on crank"}, ["a"])
 
 
 def test_friction_teeth_and_space_have_own_figures_too() -> None:

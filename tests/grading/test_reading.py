@@ -15,7 +15,7 @@ from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import read_sheet
 from dalembert.grading.marking.figure_names import FigureNames, columns_of
-from dalembert.grading.written_figure import decimal_comma, read_written
+from dalembert.grading.written_figure import decimal_comma, read_written, readings_of
 
 FOUR_BAR = examples()["four_bar"]
 
@@ -71,6 +71,25 @@ WRITTEN: dict[str, list[Any]] = {
 @pytest.mark.parametrize("text", WRITTEN)
 def test_a_cell_has_the_readings_that_a_person_would_give_it(text: str) -> None:
     assert list(read_written(text).readings) == WRITTEN[text]
+
+
+LISTED: list[tuple[Any, list[Any], list[Any]]] = [
+    ([1, "2 N"], [["1 N", "2 N"]], [[1, "2 N"]]),
+    (["1,5", "2,5"], [["1.5", "2.5"]], [["1.5", "2.5"]]),
+    ((3.5, -4), [["3.5", "-4"]], [[3.5, -4]]),
+    (["?", 2], [], []),
+    (["1,234", 2], [["1.234", "2"], ["1234", "2"]], []),
+    ("[229,496,3]", [["229", "496", "3"]], [["229", "496", "3"]]),
+    ("(229,-49) N", [["229 N", "-49 N"]], [["229 N", "-49 N"]]),
+    ("155 @ 40 deg N deg", [], ["155 @ 40 deg N deg"]),
+]
+"""Lists and what is written like them: their readings as a cell, and as a value of a file."""
+
+
+@pytest.mark.parametrize(("value", "cell", "of_file"), LISTED, ids=str)
+def test_a_list_is_read_part_by_part(value: Any, cell: list[Any], of_file: list[Any]) -> None:
+    assert list(read_written(value).readings) == cell
+    assert list(readings_of(value).readings) == of_file
 
 
 def test_the_table_tells_whether_a_comma_is_a_decimal_mark() -> None:
@@ -179,6 +198,61 @@ def test_two_readings_are_listed_and_the_nearer_counts(tmp_path: Path) -> None:
     assert cy.total == 1.0
 
 
+def test_words_and_counts_of_a_key_are_compared(tmp_path: Path) -> None:
+    table = tmp_path / "class.csv"
+    table.write_text("student,mobility,status\nAnn,1,ok\nBo,2,jammed\nCy,1,\n", encoding="utf-8")
+    key = [{"quantity": "mobility", "value": 1, "marks": 3}, {"quantity": "status", "value": "ok", "at": 1}]
+    found = da.grade(table, key).students
+    assert [[(m.quantity, m.outcome, m.marks, m.sentence, m.given) for m in s.marks] for s in found] == [
+        [("mobility", "right", 3, "", "1"), ("status, at no. 1", "right", 1, "", "ok")],
+        [
+            ("mobility", "unknown", 0, "another count", "2"),
+            ("status, at no. 1", "unknown", 0, "another word", "jammed"),
+        ],
+        [("mobility", "right", 3, "", "1"), ("status, at no. 1", "missing", 0, "no answer is given", "")],
+    ]
+
+
+def test_what_is_not_asked_and_has_no_reading_is_read_by_hand(tmp_path: Path) -> None:
+    (tmp_path / "ann.yaml").write_text("efforts: {O2: 1234, O9: about ten, O8: 3}\n", encoding="utf-8")
+    key = [{"quantity": "effort", "of": "O2", "value": 1234, "unit": "N*m"}]
+    (ann,) = da.grade(tmp_path, key).students
+    assert [(m.outcome, m.marks) for m in ann.marks] == [("right", 1.0)]
+    where = f"{tmp_path / 'ann.yaml'}:1: effort"
+    assert ann.problems == [
+        f"{where} O9: 'about ten' has no reading: it is read by hand",
+        f"{where} O8: not asked",
+    ]
+
+
+def test_what_equilibrium_leaves_open_has_no_marks(tmp_path: Path) -> None:
+    """A bar in two pins: their forces along it are not unique; those across are half the load each."""
+    points = {"A": [0, 0], "B": [2, 0]}
+    m = da.mechanism(
+        {
+            "links": {"ground": {"points": points}, "bar": {"points": points | {"C": [1, 0]}}},
+            "joints": {p: {"type": "pin", "links": ["ground", "bar"]} for p in "AB"},
+            "loads": {"F": {"type": "force", "on": "bar", "at": "C", "value": [0, -10]}},
+        }
+    )
+    m.save(tmp_path / "m.yaml")
+    key, table = tmp_path / "key.csv", tmp_path / "class.csv"
+    key.write_text(
+        "variant,file,quantity,of,component\n1,m.yaml,reaction,A,\n1,m.yaml,reaction,B,y\n", encoding="utf-8"
+    )
+    table.write_text('student,reaction.A,reaction.B.y\nAnn,"[3, 5]",5\n', encoding="utf-8")
+    (ann,) = da.grade(table, key).students
+    assert [(m.outcome, m.marks, m.most, m.given, m.computed) for m in ann.marks] == [
+        ("open", 0, 0, "[3, 5]", ""),
+        ("right", 1, 1, "5", "5"),
+    ]
+    assert ann.marks[0].sentence == (
+        "it cannot be judged: 1 constraint is redundant among joints A, B: reactions that are not unique are left "
+        "out, their least-norm values given beside."
+    )
+    assert (ann.total, ann.most) == (1, 1)
+
+
 def test_a_whole_class_of_zeros_is_refused(tmp_path: Path) -> None:
     key = [{"quantity": "effort", "of": "O2", "value": 1234, "unit": "N*m"}]
     table = tmp_path / "class.csv"
@@ -200,6 +274,11 @@ def test_the_figures_of_a_neighbour_are_noticed(tmp_path: Path) -> None:
     ann, bo = da.grade(table, key).students
     assert ann.problems == [f"{table}:2: the figures are those of variant 2"]
     assert bo.problems == []
+    table.write_text("student,variant,effort.O2,drive.O2\nAnn,1,31 N*m,8 rad\n", encoding="utf-8")
+    for other, said in ((key[2:], 1), (key[2:3], 0), ([key[2], key[3] | {"unit": "m"}], 0)):
+        (ann,) = da.grade(table, [*key[:2], *other]).students
+        assert len(ann.problems) == said
+        assert ann.total == 0
 
 
 def test_a_sheet_for_check_answers_may_have_decimal_commas() -> None:

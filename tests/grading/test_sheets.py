@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,10 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.grading.answer_sheet import read_sheet
+from dalembert.grading.figure import values_of
 from dalembert.grading.mistakes import SolvedProblem
+from dalembert.grading.two_mistakes import two_mistakes
+from dalembert.grading.value_slips import coincidence
 from dalembert.model.files.model_files import read_file
 from tests.grading.marked_sheets import mistaken_sheets, named_first, slipped_sheets, true_sheet
 from tests.tiers import tiers
@@ -150,6 +154,47 @@ def test_a_machine_at_rest_is_compared_with_its_interval() -> None:
     assert [v.right for v in smooth] == [False, True]
 
 
+@pytest.mark.parametrize(("exchanged", "named"), [("AB", True), (("A", "B", "O4"), False)])
+def test_forces_of_many_other_joints_are_a_coincidence(exchanged: Any, named: bool) -> None:
+    """Two exchanged forces are named; three different slips of this kind on one sheet are not believed."""
+    r = solved("four_bar").result
+    turned = dict(zip(exchanged, [*exchanged[1:], exchanged[0]], strict=True))
+    sheet = {j: [f"{x:.5g} N" for x in r.reaction(other)[0].tolist()] for j, other in turned.items()}
+    found = verdicts("four_bar", {"reactions": sheet})
+    words = [f"this is joint {other}" for other in turned.values()]
+    nothing = ["none of the usual mistakes explains it"] * len(turned)
+    assert [v.mistake for v in found] == (words if named else nothing)
+    assert [v.kind for v in found] == ["named" if named else "unknown"] * len(turned)
+
+
+@pytest.mark.parametrize(
+    ("of", "asked", "value", "said"),
+    [
+        ("B", "x", "y", "the angle is counted from the other axis: x for y"),
+        ("B", "y", "x", "the angle is counted from the other axis: x for y"),
+        ("A", "x", "magnitude", "this is the magnitude, not the component"),
+        ("A", "y", "magnitude", "this is the magnitude, not the component"),
+        ("A", "x", "-x", "the sense is opposite: action mistaken for reaction"),
+    ],
+)
+def test_a_component_is_taken_for_another(of: str, asked: str, value: str, said: str) -> None:
+    x, y = solved("four_bar").result.reaction(of)[0]
+    given = {"x": x, "y": y, "-x": -x, "magnitude": np.hypot(x, y)}[value]
+    figure = {"quantity": "reaction", "of": of, "component": asked, "value": f"{given:.5g} N"}
+    (found,) = verdicts("four_bar", [figure])
+    assert found.mistake == said
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_number_has_a_magnitude(sense: float) -> None:
+    m = da.load(BUNDLED["four_bar"]).with_values({"loads.F_P.value": [-sense * 3000.0, 0.0]})
+    effort = float(da.dynamics(m).effort("O2")[0])
+    assert np.sign(effort) == -sense
+    figure = {"quantity": "effort", "of": "O2", "component": "magnitude", "value": f"{abs(effort):.6g} N*m"}
+    (found,) = SolvedProblem(m).verdicts(read_sheet([figure]).answers)
+    assert (found.right, found.quantity) == (True, "effort of O2, magnitude")
+
+
 def test_what_has_no_number_is_not_judged() -> None:
     jammed, held = verdicts(
         "seed-f-2d-rod-at-45-deg-12",
@@ -241,6 +286,29 @@ def test_mistakes_are_printed_with_their_lines(tmp_path: Path, capsys: pytest.Ca
     assert capsys.readouterr().out.endswith("0 of 2 right.\n")
 
 
+def _chance_is_that_of_the_least_telling_numbers(problem: Any, sheet: Any, wrong: Any) -> None:
+    """As many as are independent, each as near by chance as its figure is, for every pair of mistakes that is tried."""
+    figures = [problem.compare(answer) for answer in read_sheet(sheet).answers]
+    tried = list(problem.wrong_problems(figures).linear())
+    values = [wrong.effort("O2")[0], *(wrong.reaction(j)[0] for j in wrong.joints)]
+    each = sorted(
+        coincidence(f, np.asarray(v), f.close.off(np.asarray(v)))
+        for f, v in zip(figures, values, strict=True)
+        for _ in range(np.size(v))
+    )
+
+    def of_problem(one: Any, n: int) -> tuple[Any, ...]:
+        return values_of(one.solution(), figures[n].answer, 0)[0]
+
+    numbers = range(len(figures))
+    assert two_mistakes(figures, numbers, tried, of_problem, 2) is None
+    for independent in (3, 4, len(each)):
+        pair = two_mistakes(figures, numbers, tried, of_problem, independent)
+        assert pair is not None
+        expected = math.prod(each[-independent:]) * math.comb(len(tried), 2)
+        assert pair.chance == pytest.approx(expected, rel=1e-9)
+
+
 def test_two_mistakes_are_named_together() -> None:
     """The weight of the coupler forgotten and the couple reversed; with one random figure more nothing is named."""
     m = da.load(BUNDLED["seed-003-norton-11-3-gravity"])
@@ -259,6 +327,7 @@ def test_two_mistakes_are_named_together() -> None:
     (said,) = {v.mistake for v in found if not v.right}
     assert "the weight of coupler is left out" in said
     assert f"load {couple} has the wrong sense" in said
+    _chance_is_that_of_the_least_telling_numbers(problem, sheet, wrong)
     sheet["reactions"]["B"] = ["12.3 N", "-45.6 N"]
     again = problem.verdicts(read_sheet(sheet).answers)
     assert not any(v.kind == "named" for v in again)
