@@ -91,11 +91,20 @@ def difference(r: Any, s: Any) -> float:
     assert (r.friction is None, r.after is None) == (s.friction is None, s.after is None)
     if r.after is not None:
         worst = max(worst, difference(r.after, s.after))
-    return worst if r.friction is None else max(worst, _friction_difference(r.friction, s.friction))
+    if r.friction is None:
+        return worst
+    # of friction that bears nothing there is nothing but rounding to compare
+    least = {
+        "force": force,
+        "viscous_force": force,
+        "moment": force * length,
+        "viscous_moment": force * length,
+    }
+    return max(worst, _friction_difference(r.friction, s.friction, least))
 
 
-def _friction_difference(f: Any, g: Any) -> float:
-    """Largest difference of what friction does, over the largest value of its kind."""
+def _friction_difference(f: Any, g: Any, least: dict[str, float]) -> float:
+    """Largest difference of what friction does, over the largest value of its kind, or the least size of it."""
     for name in FRICTION_SAME:
         assert np.array_equal(getattr(f, name), getattr(g, name), equal_nan=True), name
     assert (f.single >= g.single).all()  # programs prove more solutions to be the only ones
@@ -103,7 +112,8 @@ def _friction_difference(f: Any, g: Any) -> float:
     for name in FRICTION:
         mine, other = getattr(f, name), getattr(g, name)
         assert (np.isnan(mine) == np.isnan(other)).all(), name
-        off, size = np.nanmax(np.abs(mine - other), initial=0.0), np.nanmax(np.abs(other), initial=0.0)
+        off = np.nanmax(np.abs(mine - other), initial=0.0)
+        size = max(np.nanmax(np.abs(other), initial=0.0), least.get(name, 0.0))
         worst = max(worst, float(off / size) if off else 0.0)
     return worst
 

@@ -321,3 +321,31 @@ def test_other_solutions_on_the_command_line(capsys: pytest.CaptureFixture[str])
         main(["solve", str(CASES / f"{name}.yaml"), "--other-solutions"])
         assert said in capsys.readouterr().out.replace("\n", " ")
     assert main(["solve", str(CASES / "seed-001-a-four-bar-rocker-force.yaml"), "--other-solutions"]) == 2
+
+
+def test_what_idle_links_lose_is_printed_as_nothing() -> None:
+    """Two massless links that bear no load turn with the rod: their pins lose 0 J, where rounding is 1e-50 J."""
+    pin = {"type": "pin", "friction": {"radius": "1 cm", "coefficient": 0.2}}
+    links = {
+        "ground": {"O": [0, 0], "R": [0.9, 0.3]},
+        "crank": {"O": [0, 0], "A": [0.1, 0]},
+        "rod": {"A": [0, 0], "B": [0.4, 0], "C": [0.2, 0.05]},
+        "block": {"B": [0, 0]},
+        "idle": {"C": [0, 0], "D": [0.5, 0]},
+        "last": {"D": [0, 0], "R": [0.7, 0]},
+    }
+    pairs = {"O": "ground crank", "A": "crank rod", "B": "rod block", "C": "rod idle", "D": "idle last"}
+    joints = {name: pin | {"links": pair.split()} for name, pair in (pairs | {"R": "last ground"}).items()}
+    guide = {"S": {"type": "slider", "links": ["ground", "block"], "at": ["O", "B"], "direction": 0}}
+    tree = {
+        "units": {"length": "m"},
+        "links": {name: {"points": points} for name, points in links.items()},
+        "joints": joints | guide,
+        "drives": {"O": {"position": {"from": 0, "to": 330, "count": 12}, "speed": "10 rad/s"}},
+        "loads": {"P": {"type": "force", "on": "block", "at": "B", "value": [-100, 0]}},
+    }
+    r = da.dynamics(da.mechanism(tree))
+    assert np.abs(np.array([r.power_lost(j) for j in "CDR"])).max() < 1e-40 < r.power_lost("A").max()
+    table = r.text().partition("friction over")[2].splitlines()[3:9]
+    assert [line.split()[:3] for line in table[3:]] == [[j, "0", "0"] for j in "CDR"]
+    assert [float(line.split()[1]) > 0.1 for line in table[:3]] == [True] * 3

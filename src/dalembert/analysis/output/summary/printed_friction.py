@@ -97,11 +97,12 @@ def cycle_table(result: Result, to: Printed) -> Part:
     if not np.isfinite(values.cycle):
         return ""
     unit = to("energy", 1.0)
-    rows = [
-        [joint, number(share * values.put_in * unit), f"{number(100 * share, 4)} %"]
+    shares = {
+        joint: share if abs(share) >= NOTHING else 0.0
         for joint, share in values.share.items()
         if joint in friction_joints(result)
-    ]
+    }
+    rows = [[j, number(x * values.put_in * unit), f"{number(100 * x, 4)} %"] for j, x in shares.items()]
     heads = ["friction over\nthe positions", f"work lost\n{to.text('energy')}", "of the work\nput in"]
     cycle = 0.0 if abs(values.cycle) < NOTHING else 100 * values.cycle
     words = f"Efficiency over the positions, inertia and all: {number(cycle, 4)} %."
@@ -115,13 +116,16 @@ def friction_table(result: Result, to: Printed) -> TextTable:
     rows = []
     for joint in friction_joints(result):
         part = result.mechanism.joints[joint]
-        force = float(to("force", np.linalg.norm(result.friction_force(joint)[0])))
         turning = result.friction_moment(joint)[0]
-        couple = float(to("moment", np.linalg.norm(turning) if np.ndim(turning) else turning))
-        lost = float(to("power", significant(result, "power", result.power_lost(joint))[0]))
+        shown = {
+            "force": np.linalg.norm(result.friction_force(joint)[0]),
+            "moment": np.linalg.norm(turning) if np.ndim(turning) else turning,
+            "power": result.power_lost(joint)[0],
+        }
+        cells = [number(float(to(k, significant(result, k, np.array([x]))[0]))) for k, x in shown.items()]
         bears = guide_contact(result, joint).mode[0] if bears_on_faces(result, joint) else ""
         law = ", ".join(part for part in (friction_text(result, joint, to), bears) if part)
-        rows.append([joint, part.links[1], number(force), number(couple), number(lost), law])
+        rows.append([joint, part.links[1], *cells, law])
     return TextTable(heads, rows, 2)
 
 
