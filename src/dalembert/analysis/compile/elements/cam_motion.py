@@ -262,8 +262,7 @@ class CamMotion:
 
 def lift_sign(c: CamMotion) -> float:
     """1 where the lift has the sign of y, outward, else -1."""
-    law = c.joint.profile.segments
-    return 1.0 if law is None else law.sign
+    return c.carrier.up
 
 
 def _mean_radius(table: Array) -> float:

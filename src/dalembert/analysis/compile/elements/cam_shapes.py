@@ -24,7 +24,7 @@ class CamCarrier:
     In the carrier's axes from the cam's axis: at (2,) the follower's point at freedom 0 of a slide, and ``way`` (2,) in
     which it slides out as its freedom grows by ``sign``; of one that swings, ``at`` is its axis, and ``arm`` (2,) goes
     from there to its point in its own axes. turn: the follower's angle on the carrier at rest; freedom: its joint;
-    pin: the cam's.
+    pin: the cam's; up: 1 where its freedom grows as it goes out, else -1.
     """
 
     link: str
@@ -36,6 +36,7 @@ class CamCarrier:
     sign: float
     turn: Numeric = 0.0
     arm: Array = field(default_factory=lambda: np.zeros(2))
+    up: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -139,9 +140,10 @@ def _on_carrier(m: Mechanism, name: str, joint: Cam, link: str, pin: str, freedo
                 "write lifts as angles, with their unit: {to: 20 deg, ...}",
                 ("joints", name, "profile", "segments"),
             )
-        return CamCarrier(
-            link, pin, freedom, True, near - axis, np.zeros(2), up * (1 if first else -1), 0.0, point - far
-        )
+        onto = 1.0 if first else -1.0
+        sign = up * onto if lift else _side_of_lever(m, joint, link, axis - near, point - far, onto)
+        at, arm = near - axis, point - far
+        return CamCarrier(link, pin, freedom, True, at, np.zeros(2), sign, 0.0, arm, sign * onto)
     if lift is not None and lift.kind == "angle":
         raise ModelError(
             f"cam {name!r}: its lift is an angle, and its follower slides in joint {freedom!r}",
@@ -151,8 +153,41 @@ def _on_carrier(m: Mechanism, name: str, joint: Cam, link: str, pin: str, freedo
     fixed = guide.direction + guide.angle
     turn = fixed if first else -fixed
     along = guide.direction if first else -guide.angle + math.pi
-    way = np.array([np.cos(along), np.sin(along)])
-    return CamCarrier(link, pin, freedom, False, near - axis + _turned(point - far, turn), up * way, up, turn)
+    way, at = np.array([np.cos(along), np.sin(along)]), near - axis + _turned(point - far, turn)
+    if lift is None:
+        up = _side_of_stem(m, joint, link, axis, point, at, way)
+    return CamCarrier(link, pin, freedom, False, at, up * way, up, turn, up=up)
+
+
+# a follower on a cam given by its form touches it on either side: on the one on which the file assembles it
+
+
+def _side_of_lever(m: Mechanism, joint: Cam, link: str, cam: Array, arm: Array, default: float) -> float:
+    """1 where the assembled lever goes out as it turns counter-clockwise, else -1; the default of one not assembled."""
+    follower = joint.links[1]
+    u = _turned(arm, _assembled(m, follower)[2] - _assembled(m, link)[2])
+    if joint.flat or follower not in m.assembly or object in (cam.dtype, u.dtype):
+        return default
+    return -1.0 if cam[0] * u[1] < cam[1] * u[0] else 1.0
+
+
+def _side_of_stem(
+    m: Mechanism, joint: Cam, link: str, axis: Array, point: Array, at: Array, way: Array
+) -> float:
+    """1 where the assembled stem goes out as it slides along ``way``, else -1; 1 of one not assembled."""
+    follower = joint.links[1]
+    if joint.flat or follower not in m.assembly or object in (axis.dtype, at.dtype, way.dtype):
+        return 1.0
+    x, y, angle = _assembled(m, follower)
+    if isinstance(m.assembly[follower], tuple) and link == "ground":
+        at = np.array([x, y]) + _turned(point, angle) - axis
+    return -1.0 if at @ way < 0 else 1.0
+
+
+def _assembled(m: Mechanism, link: str) -> tuple[float, float, float]:
+    """Pose of a link at which the file assembles it, 0 where it gives none."""
+    pose = m.assembly.get(link, 0.0)
+    return pose if isinstance(pose, tuple) else (0.0, 0.0, pose)
 
 
 def _differ(a: Array, b: Array) -> bool:
