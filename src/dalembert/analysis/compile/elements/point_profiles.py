@@ -77,15 +77,20 @@ def flat_points(name: str, p: CamPoints) -> Array:
 
 
 def _undercut(name: str, angle: Array, rho: Array, roller: float) -> None:
-    bad = (rho < 0) & (-rho <= roller)
-    if bad.any():
-        worst = float(np.min(-rho[rho < 0]))
-        where = math.degrees(angle[int(np.flatnonzero(bad)[0])]) % 360
-        raise ModelError(
-            f"cam {name!r}: the roller does not fit the hollow at {where:.4g} deg, of radius {worst * 1e3:.4g} mm",
-            "make the roller smaller than that",
-            ("joints", name, "follower"),
-        )
+    hollow = np.where(rho < 0, -rho, np.inf)
+    k = int(np.argmin(hollow))
+    if hollow[k] <= roller:
+        raise roller_too_large(name, float(angle[k]), float(hollow[k]))
+
+
+def roller_too_large(name: str, angle: float, radius: float) -> ModelError:
+    """Why a roller does not fit a hollow, in a direction of the cam's axes, of this radius."""
+    where = f"{round(math.degrees(angle), 6) % 360:.4g} deg"
+    return ModelError(
+        f"cam {name!r}: the roller does not fit the hollow at {where}, of radius {radius * 1e3:.4g} mm",
+        "make the roller smaller than that",
+        ("joints", name, "follower"),
+    )
 
 
 def _hermite(x: Array, value: Array, slope: Array, bend: Array) -> Array:

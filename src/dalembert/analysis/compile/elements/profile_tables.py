@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.analysis.compile.elements.point_profiles import flat_points, polar_points
+from dalembert.analysis.compile.elements.point_profiles import flat_points, polar_points, roller_too_large
 from dalembert.arrays import Array, Numeric
 from dalembert.core.elements.cam_curves import POWERS, TURN, piece
 from dalembert.errors import ModelError
@@ -108,6 +108,8 @@ def _arc_table(joint: Cam, name: str, arcs: tuple[CamArc, ...]) -> Array:
             phase = math.pi / 2 + angle - direction
             rows.append(piece(angle, c0=arc.radius, amplitude=far, frequency=1.0, phase=phase))
             continue
+        if arc.radius < 0 and -arc.radius <= joint.follower.roller:
+            raise roller_too_large(name, (start + arc.to) / 2, -arc.radius)
         size, r = arc.radius + joint.follower.roller, _radius_at(arc, start)
         at = (
             r * math.cos(start) + joint.follower.roller * n[0],
