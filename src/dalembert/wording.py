@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 
@@ -21,7 +22,10 @@ def quote_value(value: object) -> str:
 
 def _number(value: int | float) -> str:
     if isinstance(value, int) and abs(value) > 10**15:
-        return f"a number of {value.bit_length() * 3 // 10} digits"
+        digits = int(math.log10(abs(value)))
+        while abs(value) >= 10**digits:
+            digits += 1
+        return f"a number of {digits} digits"
     return repr(value)
 
 

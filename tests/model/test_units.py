@@ -116,7 +116,7 @@ def test_a_text_is_worth(value: str, kind: str) -> None:
         ("inf", "length", "'inf' is not a length; write one, for example '127 mm'"),
         ("1e999 m", "length", "'1e999 m' is not a finite number; write a finite one"),
         (math.nan, "length", "nan is not a finite number; write a finite one"),
-        (10**400, "length", "a number of 398 digits is too large; write a number below 1e300"),
+        (10**400, "length", "a number of 401 digits is too large; write a number below 1e300"),
         ("", "length", "'' is not a length; write one, for example '127 mm'"),
         (False, "length", "false is not a length; write one, for example '127 mm'"),
     ],

@@ -18,7 +18,9 @@ from dalembert.wording import nearest, quote_value
 def test_values_are_quoted_short() -> None:
     assert quote_value("x" * 100) == "'" + "x" * 56 + "..."
     assert quote_value("x" * 58) == "'" + "x" * 58 + "'"
-    assert quote_value(10**20) == quote_value(-(10**20)) == "a number of 20 digits"
+    for digits in (16, 17, 21, 31, 401, 5001):
+        for value in (10 ** (digits - 1) + 1, 10**digits - 1):
+            assert quote_value(value) == quote_value(-value) == f"a number of {digits} digits"
     assert [quote_value(v) for v in (10**15, -3, 2.5, True, None, [], [1], {})] == [
         "1000000000000000", "-3", "2.5", "true", "nothing", "an empty list", "a list", "a mapping",
     ]  # fmt: skip
