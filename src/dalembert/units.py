@@ -271,6 +271,8 @@ def _bare(number: float, kind: str, units: Units | None, value: object) -> float
     if units is None or (isinstance(units, TextUnits) and not isinstance(value, str)):
         return number
     if units.refuses_bare(kind):
+        if number == 0:  # in whichever unit
+            return number
         raise ModelError(
             f"{quote_value(value)} is {KINDS[kind].phrase} without a unit",
             f"write {REFUSED_BARE[kind]}",

@@ -19,7 +19,6 @@ from dalembert.model.drives.laws import law as read_law
 from dalembert.model.drives.motors import MotorCurve, motor_curve, motor_schema
 from dalembert.model.drives.written_programmes import count
 from dalembert.model.part import Part, ReadingRules, mapping, reading
-from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.figures import in_units
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -110,8 +109,6 @@ def _range(value: Mapping[str, object], kind: str, rules: ReadingRules) -> Range
 
 def _rates(value: object, kind: str, rules: ReadingRules) -> Rates:
     """Speeds or accelerations: one value or a list."""
-    if value == 0 and not isinstance(value, (str, bool, Dependent)):
-        return 0.0
     return numbers(value, kind, rules) if isinstance(value, (list, tuple)) else rules.quantity(value, kind)
 
 

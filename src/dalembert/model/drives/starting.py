@@ -74,11 +74,7 @@ class StartValue(ValueField):
         if "position" not in keys:
             raise ModelError("its position is missing", f"write {EXAMPLE}")
         position = at_item("position", rules.quantity, keys["position"], kinds[""])
-        speed = keys.get("speed", 0)
-        still = speed == 0 and not isinstance(speed, (str, bool))
-        return Start(
-            position, 0.0 if still else at_item("speed", rules.quantity, speed, kinds["speed"]), turns
-        )
+        return Start(position, at_item("speed", rules.quantity, keys.get("speed", 0), kinds["speed"]), turns)
 
     def write(self, value: Mapping[str, Start]) -> object:
         return {name: self._tree(start) for name, start in value.items()}

@@ -181,8 +181,8 @@ def _si(values: tuple[float, ...], name: str, kind: str, units: Units | None) ->
     elif units is None:
         return values
     else:
-        if units.refuses_bare(kind):
-            quantity(values[0] if values else 0, kind, units)
+        for value in values if units.refuses_bare(kind) else ():
+            quantity(value, kind, units)
         named = units.unit(kind)
     return tuple(named.si(value) for value in values)
 
