@@ -16,6 +16,7 @@ from dalembert.model.quantities.values import (
     list_schema,
     numbers,
     object_schema,
+    stated_text,
     value_text,
 )
 
@@ -133,7 +134,7 @@ class MotorCurve:
         tree: dict[str, object] = line if self.straight else {"curve": curve}
         for key, of in (("on", self.on), ("off", self.off)):
             if of is not None:
-                tree[key] = value_text(of[1], kinds[of[0]] if of[0] != "speed" else of_kind(kind)["speed"])
+                tree[key] = stated_text(of[1], kinds[of[0]] if of[0] != "speed" else of_kind(kind)["speed"])
         for key, default, unit in (
             ("ratio", 1.0, "number"),
             ("inertia", 0.0, "inertia"),
@@ -238,12 +239,10 @@ def _curve(value: object, kinds: Mapping[str, str], rules: ReadingRules) -> tupl
 
 
 def _numbers(value: object, kind: str, rules: ReadingRules) -> tuple[float, ...]:
-    """Numbers of a list; a bare 0 is a speed in any unit."""
+    """Numbers of a list."""
     if not isinstance(value, Sequence) or isinstance(value, str):
         raise ModelError("a curve is two lists", f"write motor: {EXAMPLE}")
-    return tuple(
-        0.0 if x == 0 and not isinstance(x, (str, bool)) else numbers([x], kind, rules)[0] for x in value
-    )
+    return numbers(value, kind, rules) if value else ()
 
 
 def switch(value: object, kinds: Mapping[str, str], rules: ReadingRules) -> Switch:

@@ -117,6 +117,12 @@ def value_text(number: float, kind: str) -> object:
     return plain(number, kind, units) if KINDS[kind].si else without_fraction(number)
 
 
+def stated_text(number: float, kind: str) -> object:
+    """As ``value_text``, with a unit also where it is the file's: of a value whose unit says which kind it is of."""
+    value, units = value_text(number, kind), FILE_UNITS.get()
+    return value if units is None or isinstance(value, str) else f"{value} {units.text(kind)}"
+
+
 def vector_text(vector: Vector, kind: str) -> object:
     """The components, or polar text, as `value_text` has them."""
     units = FILE_UNITS.get()
