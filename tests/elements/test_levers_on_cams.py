@@ -56,7 +56,7 @@ def lever_angle(kind: str, side: float, turn: Array) -> Array:
     if kind in ("knife", "roller"):
         rod, arm = RADIUS + (ROLLER if kind == "roller" else 0.0), float(np.hypot(*ARM))
         between = np.arccos((arm**2 + far**2 - rod**2) / (2 * arm * far))
-        return np.arctan2(-to[:, 1], -to[:, 0]) + math.pi + side * between - along
+        return np.asarray(np.arctan2(-to[:, 1], -to[:, 0]) + math.pi + side * between - along)
     normal = FACE + math.pi / 2 if kind == "flat" else along
     outward = np.array([-ARM[1], ARM[0]]) * side
     if kind != "flat":
@@ -64,7 +64,7 @@ def lever_angle(kind: str, side: float, turn: Array) -> Array:
     elif outward @ [math.cos(normal), math.sin(normal)] < 0:
         normal += math.pi
     height = float(ARM @ [math.cos(normal), math.sin(normal)])
-    return np.arctan2(-to[:, 1], -to[:, 0]) - side * np.arccos((RADIUS - height) / far) - normal
+    return np.asarray(np.arctan2(-to[:, 1], -to[:, 0]) - side * np.arccos((RADIUS - height) / far) - normal)
 
 
 @crossed("kind, turned, sense, assembled", FOLLOWERS, [False, True], ["ccw", "cw"], [None, 1.0, -1.0])

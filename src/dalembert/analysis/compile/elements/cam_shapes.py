@@ -184,7 +184,7 @@ def _side_of_stem(
     return -1.0 if at @ way < 0 else 1.0
 
 
-def _assembled(m: Mechanism, link: str) -> tuple[float, float, float]:
+def _assembled(m: Mechanism, link: str) -> tuple[Any, Any, Any]:
     """Pose of a link at which the file assembles it, 0 where it gives none."""
     pose = m.assembly.get(link, 0.0)
     return pose if isinstance(pose, tuple) else (0.0, 0.0, pose)
