@@ -360,6 +360,15 @@ def test_so_it_does_in_space(seed: int) -> None:
     check_cuts(da.mechanism(tree_in_space(random_in_space(seed))), seed)
 
 
+def test_a_link_that_carries_only_rounding_is_in_balance() -> None:
+    """Its forces do not sum to nothing beside themselves, but do beside those of the mechanism."""
+    r = da.dynamics(da.mechanism(tree_in_space(random_in_space(11010))))
+    f = da.member_forces(r, "L7")
+    most = max(float(np.abs(c.at(x)).max()) for c in f.curves for x in (0.0, c.member.length))
+    assert 0 < most < 1e-25 < 1 < np.abs(r.force_array).max()
+    assert f.residual.max() < 1e-9
+
+
 def test_in_space_they_stand_along_the_axes_of_the_members() -> None:
     """Six inner forces of an RSSR: five panels, for no torsion is in it; what is not unique has the reason."""
     table = member_table(da.dynamics(da.load(examples()["rssr"])))

@@ -26,7 +26,7 @@ FUNCTIONS = {"cos": math.cos, "sin": math.sin, "tan": math.tan, "arcsin": math.a
 SLACK = 1.1
 
 LEADS = {
-    r"F\b(?!_)|cos θ|x R_y": "",
+    r"F\b(?!_)|cos θ|x R_y|e_\d+$": "",
     r"R$|R_[xyz]$|R · M": "force",
     r"\(?T_1\)?/\(?T_2": "",
     r"[dpr]$": "arm|length",

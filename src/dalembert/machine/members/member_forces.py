@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.answer.column import Column, Scale
 from dalembert.arrays import Array, Flags, Tree
 from dalembert.core.equilibrium import UNIQUE
@@ -112,7 +113,8 @@ def _stationary(c: Array) -> tuple[Array, Array]:
 class MemberForces:
     """Internal forces of a link: a curve for each straight member; ``residual`` (P,), the equilibrium error.
 
-    ``residual``: force and moment that do not close at the end, over the largest on the link; NaN where unknown.
+    ``residual``: force and moment that do not close at the end, over the largest on the link, or over 1e-12 of the
+    largest in the mechanism where that is more; NaN where unknown.
     ``brackets``: joints and loads beside the members, with the distance in m; the bracket is not analysed.
 
     >>> import dalembert as da
@@ -326,13 +328,15 @@ def _add_couple(cubics: Array, edges: Array, couple: Array) -> None:
 
 def _residual(body: LinkBalance, curves: tuple[MemberCurve, ...], loads: Loads, far: Flags) -> Array:
     """Sum of all forces and moments on the link about its centre, and at both ends of each member the difference of
-    its curves from all that acts beyond; over the largest of these forces and moments."""
+    its curves from all that acts beyond; over the largest of these forces and moments. Where these are rounding beside
+    the forces of the mechanism, over what is."""
     wrenches = [*loads.seated, *(w for _, w in loads.spread)]
     forces = np.array([w.force for w in wrenches])
     moments = np.array([w.about(body.center) for w in wrenches])
     length = body.r.compiled.layout.length
     largest = [float(np.nanmax(np.abs(x), initial=0.0)) for x in (forces, moments)]
-    size = max(largest[0], largest[1] / length) or 1.0
+    rounding = PART * float(np.nanmax(sizes(body.r)["force"], initial=0.0))
+    size = max(largest[0], largest[1] / length, rounding) or 1.0
     off = [np.abs(x.sum(axis=0)).max(axis=1) for x in (forces, moments)]
     gaps = [off[0], off[1] / length]
     for k, curve in enumerate(curves):
