@@ -217,6 +217,16 @@ WRONG = {
     'constraint modify motion_generator motion_name = .M.motion_O function = "STEP(time,0,0,1,1)"': "function 'STEP",
     'constraint modify motion_generator motion_name = .M.motion_O function = ""': "there is no function",
     "model create model_name = N": "the file makes two models",
+    "marker create marker_name = .M.arm.k location = 1, 0, 0 relative_to = .M.leg": "there is no part 'leg'; make",
+    "marker create marker_name = .M.arm.far location = 1, 0, 0\n"
+    "part modify rigid_body mass_properties part_name = .M.arm mass = 1 center_of_mass_marker = .M.arm.i "
+    "inertia_marker = .M.arm.far ixx = 1 iyy = 1 izz = 1": "the inertia marker is not at the mass centre; put it at",
+    "part create rigid_body name_and_position part_name = .M.leg\n"
+    "marker create marker_name = .M.leg.i\n"
+    "force create direct single_component_force single_component_force_name = .M.F i_marker_name = .M.arm.i "
+    "j_marker_name = .M.leg.i type_of_freedom = translational action_only = on function = 1": (
+        "its direction turns with a third part; fix J to ground or the part"
+    ),
 }
 
 

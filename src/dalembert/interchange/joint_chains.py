@@ -31,9 +31,8 @@ def cuttable_tree(graph: LinkGraph) -> SpanningTree:
 def split(graph: LinkGraph, joint: Connection) -> None:
     """Replace a joint by a chain of joints with one freedom each; raises ModelError for a driven one."""
     if joint.name in {drive.joint for drive in graph.drives.values()}:
-        raise ModelError(
-            f"joint {joint.name!r}, a driven {joint.kind}, closes a loop", "drive a pin or a slide"
-        )
+        what = f"joint {joint.name!r}, a driven {joint.kind}, would become a chain of joints"
+        raise ModelError(what, "drive a pin or a slide")
     if joint.more.get("damping"):
         graph.lose(f"damping of {joint.name!r}")
     one, at, speeds = coordinates(joint.kind), values(graph, joint), rates(graph, joint)

@@ -21,6 +21,9 @@ KINDS = {
 }
 """Type here -> type of SDFormat; others become chains of these."""
 
+DAMPED = ("revolute", "prismatic")
+"""Kinds whose <dynamics> is that of their one freedom."""
+
 
 def write_sdf(graph: LinkGraph) -> str:
     """The text of an SDFormat file; what it does not keep is noted in the graph."""
@@ -57,9 +60,12 @@ def write_sdf(graph: LinkGraph) -> str:
         text.end()
     for name in graph.drives:
         graph.lose(f"drive {name!r}: SDFormat prescribes no motion")
+    springs = [_spring(graph, joint) for joint in graph.joints.values()]
     for name, load in graph.loads.items():
-        if load["type"] != "torsion_spring":
-            graph.lose(f"load {name!r} ({load['type']}): SDFormat cannot state forces")
+        if name not in springs:
+            twist = load["type"] == "torsion_spring"
+            why = "has one spring for a pin, and for no other joint" if twist else "cannot state forces"
+            graph.lose(f"load {name!r} ({load['type']}): SDFormat {why}")
     return str(text)
 
 
@@ -78,6 +84,8 @@ def _joint(text: XmlText, graph: LinkGraph, joint: Connection) -> None:
     if j == GROUND:
         joint = Connection(joint.name, joint.kind, (j, i), joint.places[::-1], joint.more)
         i, j = joint.links
+    if joint.more.get("damping") and joint.kind not in DAMPED:
+        graph.lose(f"damping of {joint.name!r}")
     text.begin("joint", name=joint.name, type=KINDS[joint.kind])
     text.add("parent", "world" if i == GROUND else i)
     text.add("child", j)
@@ -98,18 +106,28 @@ def _joint(text: XmlText, graph: LinkGraph, joint: Connection) -> None:
 
 
 def _dynamics(text: XmlText, graph: LinkGraph, joint: Connection) -> None:
-    springs = [load for load in graph.loads.values() if load.get("joint") == joint.name]
-    damping = joint.more.get("damping", {})
-    if joint.kind == "universal" or not (damping or springs):
+    """Damping and torsion spring of a pin, damping of a slide."""
+    spring = graph.loads.get(_spring(graph, joint))
+    damping = joint.more.get("damping", {}) if joint.kind in DAMPED else {}
+    if not (damping or spring):
         return
     text.begin("dynamics")
     for freedom, value in damping.items():
         kind = "torsion_damping" if freedom.startswith("turn") else "damping"
         text.add("damping", digits(number(value, kind)))
-    for load in springs:
-        if load["type"] == "torsion_spring":
-            turn = relative(graph, joint)[:3, :3]
-            drawn = float(np.arctan2(turn[1, 0], turn[0, 0]))
-            text.add("spring_stiffness", digits(number(load["stiffness"], "torsion_stiffness")))
-            text.add("spring_reference", digits(number(load.get("free_angle", 0.0), "angle") - drawn))
+    if spring:
+        turn = relative(graph, joint)[:3, :3]
+        drawn, free = (
+            float(np.arctan2(turn[1, 0], turn[0, 0])),
+            number(spring.get("free_angle", 0.0), "angle"),
+        )
+        turned = graph.joints[joint.name].links != joint.links
+        text.add("spring_stiffness", digits(number(spring["stiffness"], "torsion_stiffness")))
+        text.add("spring_reference", digits((-free if turned else free) - drawn))
     text.end()
+
+
+def _spring(graph: LinkGraph, joint: Connection) -> str:
+    """Name of the torsion spring of a pin; empty without one."""
+    loads = graph.loads.items() if joint.kind == "revolute" else ()
+    return next((n for n, x in loads if x["type"] == "torsion_spring" and x["joint"] == joint.name), "")
