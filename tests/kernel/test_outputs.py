@@ -26,6 +26,7 @@ PLANE = [
     "atan2(shaking_force.y, shaking_force.x)",
     "power.O2",
     "reaction.A.magnitude^2 - 2*reaction.B.magnitude",
+    "effort.O2^0 + 3*effort.O2^-2 - reaction.A.magnitude^1.5",
 ]
 
 

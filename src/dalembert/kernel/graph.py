@@ -88,7 +88,9 @@ class Node:
     def __pow__(self, power: float) -> Node:
         if power == 0.5:
             return self.sqrt()
-        if not 0 < abs(power) <= 16:
+        if power == 0:
+            return self.graph.one
+        if not abs(power) <= 16:
             raise TypeError(f"a traced value to the power {power}")
         out: Node = power_by_roots(self, abs(power))
         return out if power > 0 else 1.0 / out
