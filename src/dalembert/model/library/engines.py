@@ -100,7 +100,8 @@ def v_engine(
     count = cylinders // 2
     angles = list(throws) or [360.0 * k / count for k in range(count)]
     if len(angles) != count:
-        raise ModelError(f"v_engine: {len(angles)} throws for {count} pairs of cylinders", "give one a pair")
+        what = f"v_engine: the number of throws is {len(angles)}, that of pairs of cylinders {count}"
+        raise ModelError(what, "give one a pair")
     lines = [angle / 2, -angle / 2] * count
     each = [t for t in angles for _ in range(2)]
     fires = [

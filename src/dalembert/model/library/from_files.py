@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from inspect import Parameter as Argument
 from inspect import Signature
-from math import isfinite
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +14,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.library import closures
 from dalembert.model.library.compass import angle, start_points
-from dalembert.model.library.tree_parts import positive
+from dalembert.model.library.tree_parts import finite, positive
 from dalembert.model.paths import with_dependents
 from dalembert.model.quantities.dimensions import si_unit
 from dalembert.model.quantities.parameters import Parameter, Parameters, read_parameters
@@ -179,8 +178,7 @@ def _text(name: str, parameter: str, value: Any, default: Parameter) -> Any:
         raise ModelError(f"{name}: {parameter} is {value!r}, not a number", f"give it in {own or 'numbers'}")
     if unit in POSITIVE and default.value > 0 and not parameter.endswith(("_x", "_y", "_z")):
         positive(name, unit, **{parameter: number})
-    if not isfinite(number):
-        raise ModelError(f"{name}: {parameter} is {number}", "give a finite value")
+    finite(name, **{parameter: number})
     if isinstance(value, str):
         return value
     return f"{float(value)!r} {own}"

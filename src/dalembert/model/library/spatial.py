@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN
-from dalembert.model.library.tree_parts import build_mechanism, positive, turning
+from dalembert.model.library.tree_parts import build_mechanism, finite, positive, turning
 from dalembert.model.quantities.vectors import Vector, cross, dot, less, plus, times
 
 if TYPE_CHECKING:
@@ -116,6 +116,7 @@ def bennett(
         what = f"bennett: twists {twists[0]:g} and {twists[1]:g}, start {start:g} degrees"
         raise ModelError(what, "give two different twists and a start, all below 180 degrees")
     positive("bennett", "kg/m", mass_per_length=mass_per_length)
+    finite("bennett", sweep_start=sweep[0], sweep_end=sweep[1])
     alpha, beta = (radians(t) for t in twists)
     other, theta = length * sin(beta) / sin(alpha), radians(start)
     half = sin((beta + alpha) / 2) / sin((beta - alpha) / 2) / (sin(theta / 2) / cos(theta / 2))
@@ -180,6 +181,7 @@ def _cone_axes(
 ) -> list[Vector]:
     """Axes through one point with these angles (degrees) between neighbours, as drawn: ground's in the plane x z."""
     positive(name, "degrees", **dict(zip(("crank", "coupler", "rocker", "ground"), arcs, strict=True)))
+    finite(name, sweep_start=sweep[0], sweep_end=sweep[1])
     crank, coupler, rocker, ground = (radians(arc) for arc in arcs)
     last = (sin(ground), 0.0, cos(ground))
 

@@ -90,6 +90,13 @@ def tidy(tree: object) -> Any:
     return [tidy(value) for value in tree] if isinstance(tree, list) else tree
 
 
+def finite(template: str, /, **values: float) -> None:
+    """Refuse what is not a finite number, by name."""
+    for name, value in values.items():
+        if not isfinite(value):
+            raise ModelError(f"{template}: {name} is {value}", "give a finite value")
+
+
 def positive(template: str, unit: str = "m", /, **values: float) -> None:
     """Refuse what is not a finite number greater than 0, by name."""
     for name, value in values.items():
