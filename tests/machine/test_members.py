@@ -631,3 +631,42 @@ def test_in_a_plane_that_turns_a_lumped_mass_pulls_from_its_centre_on() -> None:
         assert abs(at["shear"][0]) == pytest.approx(shear, abs=1e-9)
     with pytest.raises(da.ModelError, match="lies along it, and in a plane that turns"):
         da.member_forces(da.dynamics(da.loads(TURNING.replace("MASS", "uniform"))), "arm")
+
+
+def paragraphs(table: Any) -> list[str]:
+    """What is printed behind title and assumptions, each paragraph on a line."""
+    return [" ".join(part.split()) for part in table.text().split("\n\n")[1:]]
+
+
+def test_a_machine_that_nothing_loads_is_told_so() -> None:
+    text = "links: {ground: {points: {O: [0, 0]}}, arm: {points: {O: [0, 0], A: [1, 0]}}}"
+    r = da.statics(
+        da.loads(text + "\njoints: {O: {type: pin, links: [ground, arm]}}\ndrives: {O: {position: 0}}")
+    )
+    assert paragraphs(member_table(r)) == [
+        "The links carry no internal forces.",
+        "N tension +; the distance is from the first end of the member. Equilibrium of every link holds to 0.",
+    ]
+
+
+def test_positions_without_an_answer_say_why() -> None:
+    """One of four, and the only one: then nothing is said of equilibrium either."""
+    m = da.four_bar(positions=4).with_values({"links.coupler.points.B.0": 0.12})
+    r = da.dynamics(m)
+    assert r.status == ("ok", "ok", "not_assembled", "ok")
+    said = paragraphs(member_table(r))
+    assert said[1:-1] == [f"At position 3 forces inside links are not known: {r.reasons[2]}"]
+    assert said[-1].startswith(
+        "N tension +; the distance is from the first end of the member. Equilibrium of every"
+    )
+    lone = da.dynamics(m.with_values({"drives.O2.position": math.pi}))
+    assert paragraphs(member_table(lone)) == [
+        f"At position 1 forces inside links are not known: {lone.reasons[0]}",
+        "N tension +; the distance is from the first end of the member.",
+    ]
+    for link in r.links:
+        f = da.member_forces(r, link)
+        assert np.isnan(f.residual).tolist() == [False, False, True, False]
+        for place in (0.0, f.curve().member.length):  # at the far end nothing is beyond: no force, where all is known
+            known = np.isfinite(f.curve().at(place)[:, 0])
+            assert known.tolist() == [[True] * 6] * 2 + [[False] * 6] + [[True] * 6]
