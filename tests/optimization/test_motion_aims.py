@@ -74,3 +74,36 @@ def test_what_is_not_compiled_is_simulated() -> None:
 def test_positions_beside_a_motion_are_refused() -> None:
     with pytest.raises(da.ModelError, match="positions is given, and forces move the designs"):
         da.optimize(da.loads(WHEEL), {"n": (1, 14)}, "final time", positions=5, simulate=UNTIL)
+
+
+BOUNCE = """
+links: {ground: {points: {O: [0, 0]}}, wheel: {points: {O: [0, 0]}, inertia: j}}
+joints: {O: {type: pin, links: [ground, wheel]}}
+parameters: {j: 2 kg*m^2}
+drives: {O: {effort: -1 N*m, stops: {from: 0, to: 400, restitution: 0.5}}}
+start: {O: {position: 1 rad, speed: 0}}
+"""
+
+
+def test_a_mean_along_a_motion_is_that_of_even_instants() -> None:
+    """A wheel falls on its stop after sqrt(2 j) s and rises again with half its speed: that instant is not counted."""
+    best = da.optimize(
+        da.loads(BOUNCE), {"j": (1, 4)}, "mean drive.O", simulate={"until": "2.4 s", "count": 13}, starts=1
+    )
+    (j,) = best.values
+    assert j == pytest.approx(1.0, rel=1e-6)  # the lightest is down soonest
+    t, hit = np.linspace(0, 2.4, 13), np.sqrt(2 * j)
+    after = np.maximum(t - hit, 0)
+    angle = np.where(t < hit, 1 - t**2 / (2 * j), 0.5 * hit / j * after - after**2 / (2 * j))
+    assert best.values_of(best.after, "drive.O") == pytest.approx(angle, abs=1e-9)
+    assert best.value == pytest.approx(angle.mean(), rel=1e-9)
+    time = best.after.schedule.time
+    assert time is not None
+    assert len(time) > 13
+    assert [time[best.place(best.after, k) - 1] for k in range(13)] == pytest.approx(t, abs=1e-12)
+    assert np.isnan(best.sampled(best.after, np.full(len(time), np.nan))).tolist() == [True] * 13
+    plain = da.optimize(
+        da.four_bar(positions=3), {"links.rocker.points.B.0": (0.2, 0.28)}, "effort.O2", starts=1
+    )
+    assert [plain.place(plain.after, k) for k in range(3)] == [1, 2, 3]
+    assert plain.sampled(plain.after, np.arange(3.0)).tolist() == [0, 1, 2]

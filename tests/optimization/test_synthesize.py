@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Any
 
@@ -185,3 +186,50 @@ def test_free_timing_begins_where_a_design_comes_nearest_either_way_round(
     assert (np.diff(far[0, 1:]) > 0).all()
     if not turned:
         assert far[0, 1] > min(sense * np.array(ends)) - 1e-12
+
+
+SHAPES: list[tuple[dict[str, Any], str]] = [
+    (
+        {"point.coupler.P": [1, 2, 3, 4]},
+        "point.coupler.P have shape (4,), or are not all finite; give 4 positions of 2 components",
+    ),
+    (
+        {"point.coupler.P": [[1, 2, 3]] * 4},
+        "point.coupler.P have shape (4, 3), or are not all finite; give 4 positions of 2 components",
+    ),
+    (
+        {"angle.rocker": [[1, 2]] * 4},
+        "angle.rocker have shape (4, 2), or are not all finite; give 4 positions",
+    ),
+    (
+        {"angle.rocker": [1, 2, 3, np.nan]},
+        "angle.rocker have shape (4,), or are not all finite; give 4 positions",
+    ),
+    ({"angle.rocker": 1.0}, "angle.rocker have shape (), or are not all finite; give 4 positions"),
+    (
+        {"angle.rocker": [1, 2, 1, 2], "angle.coupler": [1, 2]},
+        "angle.coupler have shape (2,), or are not all finite; give 4 positions",
+    ),
+]
+
+
+@pytest.mark.parametrize(("targets", "says"), SHAPES)
+def test_targets_that_do_not_fit_the_positions_are_refused(targets: dict[str, Any], says: str) -> None:
+    for timing in ("given",) if targets == {"angle.rocker": 1.0} else ("given", "free"):
+        with pytest.raises(da.ModelError) as refused:
+            da.synthesize(made(), VARY, targets, np.radians([20.0, 60, 100, 140]), timing=timing, starts=1)
+        assert str(refused.value) == f"targets of {says}"
+
+
+def test_the_first_start_is_the_mechanism_itself() -> None:
+    """Of many designs that do what is wanted, it is the one that is found, if it is one of them."""
+    m = made()
+    wave = "cos(900*links.crank.points.A.0)*cos(700*links.coupler.points.B.0)"
+    wanted = {wave: np.full(4, math.cos(900 * 0.09) * math.cos(700 * 0.3))}
+    vary = {k: VARY[k] for k in ("links.crank.points.A.0", "links.coupler.points.B.0")}
+    fixed = {**vary, "links.rocker.points.B.0": (0.25, 0.25)}
+    for some in (vary, fixed):
+        found = da.synthesize(m, some, wanted, np.radians([20.0, 60, 100, 140]), starts=1)
+        assert found.started == 2  # and a drawn one
+        assert found.error < 1e-14
+        assert found.values[:2] == pytest.approx([0.09, 0.3], rel=1e-14)
