@@ -667,6 +667,9 @@ def test_positions_without_an_answer_say_why() -> None:
     for link in r.links:
         f = da.member_forces(r, link)
         assert np.isnan(f.residual).tolist() == [False, False, True, False]
-        for place in (0.0, f.curve().member.length):  # at the far end nothing is beyond: no force, where all is known
+        for place in (
+            0.0,
+            f.curve().member.length,
+        ):  # at the far end nothing is beyond: no force, where all is known
             known = np.isfinite(f.curve().at(place)[:, 0])
             assert known.tolist() == [[True] * 6] * 2 + [[False] * 6] + [[True] * 6]
