@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from dalembert.core.constraints import measure, system
 from dalembert.core.elements.cam_family import CamGap
 from dalembert.core.layout import Pose
 from dalembert.machine.motion.stops.gap_contacts import GapContact
-from dalembert.model import Mechanism, Schedule
+from dalembert.model import GROUND, Mechanism, Schedule
 
 
 def normal_size(r: Result, c: GapContact) -> Array:
@@ -36,6 +37,12 @@ def _about_point(c: Compiled, pose: Pose, row: int, force: Array) -> Array:
     f, n = next((f, n) for f in cams for n, of in enumerate(f.row) if of == row)
     arm = plane.rotate(pose.rotation[:, int(f.j[n])], f.uj[n])
     return np.asarray(plane.cross(arm, force)[:, 0])
+
+
+def _end_of_guide(r: Result, guide: Any, pose: Pose, reach: float) -> Array:
+    """Where an end of a guide is (T, 2) from its point: it turns with j, which may tip."""
+    along = reach * np.array([np.cos(guide.angle), -np.sin(guide.angle)])
+    return plane.rotate(pose.rotation[:, (*r.links, GROUND).index(guide.links[1])], along)
 
 
 @dataclass(frozen=True)
@@ -81,7 +88,7 @@ class OpenedMotion:
                 moment[:, k] += value * rows.on_j[:, row, 2] - _about_point(opened, pose, row, push)
             if freedom in ("gap_behind", "gap_ahead") and guide is not None:
                 reach = -guide[0] if freedom == "gap_behind" else guide[1]
-                moment[:, k] += reach * value
+                moment[:, k] += plane.cross(_end_of_guide(r, own.joints[joint], pose, reach), push)[:, 0]
         c = compile_mechanism(own, schedule)
         mobility = replace(r.mobility, freedoms=count, drives=count) if r.mobility else None
         ends = tuple(
