@@ -86,7 +86,9 @@ def test_axes_of_a_store_of_a_space_mechanism_are_named(tmp_path: Path) -> None:
 
     m = da.rssr(positions=3)
     joint = next(iter(m.joints))
-    da.study(m, {"links.rod.mass": "± 5 %"}, [f"reaction.{joint}"], "envelope", designs=4).run(tmp_path / "s.zarr")
+    da.study(m, {"links.rod.mass": "± 5 %"}, [f"reaction.{joint}"], "envelope", designs=4).run(
+        tmp_path / "s.zarr"
+    )
     group: Any = zarr.open_group(str(tmp_path / "s.zarr"))
     array = group[f"reaction.{joint}"]
     assert (array.metadata.dimension_names, array.shape) == (("design", "component", "side"), (4, 3, 2))
