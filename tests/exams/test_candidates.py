@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.bundled import examples
+from dalembert.bundled import cases, examples
 from dalembert.exams.asked import ExpectedValue, blanks, figure, key_value, requested_quantities, stated_value
 from dalembert.exams.candidates import (
     ASIDE,
@@ -286,6 +286,43 @@ def test_a_mistake_counts_at_the_position_that_is_asked(solved: tuple[Any, Any, 
         assert both.mistakes[sentence] == pytest.approx(max(x.get(sentence, 0.0) for x in alone))
     (half,) = (v for s, v in alone[1].items() if s.startswith("the sense is opposite"))
     assert half > CLEAR
+
+
+def test_beside_a_position_without_forces_nothing_grows() -> None:
+    """A linkage without masses and loads: neither a size nor its growth says anything."""
+    still = {
+        f"links.{link}.{key}": 0.0 for link in ("crank", "coupler", "rocker") for key in ("mass", "inertia")
+    }
+    m = da.four_bar(positions=1).with_values(still | {"loads.torque.value": 0.0})
+    assert _beside(da.dynamics(m), 0, "O2", False) == []
+    assert len(_beside(da.dynamics(m.with_values({"loads.torque.value": 1.0})), 0, "O2", False)) == 3
+
+
+@pytest.mark.parametrize("ask", [(), ["efforts"], ["reactions"]])
+def test_at_rest_both_ends_of_an_effort_are_asked_and_no_reaction(ask: list[str]) -> None:
+    r = da.solve(da.load(cases()["seed-002-7d-engine-at-rest"]))
+    assert [(a.quantity, a.of) for a in requested_quantities(r, ask, None)] == [
+        ("effort_low", "O"),
+        ("effort_high", "O"),
+    ]
+
+
+def test_an_answer_is_asked_as_it_is_and_where_there_is_no_force_nothing() -> None:
+    tree: dict[str, Any] = {
+        "links": {"ground": {"points": {"O": [0, 0]}}, "arm": {"points": {"O": [0, 0], "P": [2, 0]}}},
+        "joints": {"O": {"type": "weld", "links": ["ground", "arm"]}},
+        "loads": {"F": {"type": "force", "on": "arm", "at": "P", "value": [3, 0]}},
+    }
+    r = da.statics(da.mechanism(tree))
+    answer = Answer(quantity="moment", of="O", by="arm")
+    (asked,) = requested_quantities(r, [answer, answer], None)
+    assert asked == Answer(quantity="moment", of="O", on="ground")
+    tree["loads"]["F"]["value"] = [0, 0]
+    said = (
+        "there is nothing to ask: no effort, no unknown load and no reaction; write effort.O2, reaction.A, "
+    )
+    with pytest.raises(da.ModelError, match=f"^{said}"):
+        requested_quantities(da.statics(da.mechanism(tree)), (), None)
 
 
 def test_beside_a_slide_the_force_counts_and_no_moment() -> None:

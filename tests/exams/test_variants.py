@@ -17,7 +17,7 @@ from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.exams import exam_folder
 from dalembert.exams.asked import figure
-from dalembert.exams.choices import read_choices
+from dalembert.exams.choices import read_choices, read_option
 from dalembert.exams.question_sheet import ExamText, key_sheet, question_sheet
 from dalembert.grading.file_answers import check
 from dalembert.reports.sheet import Blanks, Drawings, Heading, Paragraph, ReportSheet, SheetTable
@@ -76,6 +76,19 @@ def test_values_that_are_none(given: str, said: str) -> None:
         read_choices({"x": given})
 
 
+FORMS = "; write PATH=40..60 mm step 5 mm, or PATH=[400 N, 500 N, 600 N]"
+
+
+def test_values_of_the_command_line() -> None:
+    assert read_option("x = 3 ") == ("x", "3")
+    assert read_option(" a.b =[1,2]") == ("a.b", "[1,2]")
+    for text in ("x=", "x", "=3", " = "):
+        with pytest.raises(da.ModelError, match=re.escape(f"--vary {text!r} names no values{FORMS}")):
+            read_option(text)
+    with pytest.raises(da.ModelError, match=re.escape(f"no number varies{FORMS}")):
+        read_choices({})
+
+
 def test_they_are_sound_different_and_the_same_for_a_seed() -> None:
     some = four_bar()
     drawn = [
@@ -124,6 +137,21 @@ def test_no_usual_mistake_stays_hidden() -> None:
     )
     with pytest.raises(da.ModelError, match=re.escape(said)):
         da.variants(m, vary, count=5, seed=1, ask=["reaction.O"])
+
+
+def test_why_there_are_too_few_is_said_by_its_most_frequent_reasons() -> None:
+    """Of 7 forces in two directions one is near zero, 100.1 N and 100.2 N are 100 N; half of them show no x for y, not
+    most."""
+    vary = {
+        "loads.F.value": [1.0, 2.0, 90.0, 100.0, 100.1, 100.2, 110.0],
+        "loads.F.direction": ["30 deg", "45 deg"],
+    }
+    said = (
+        "8 of 12 variants were drawn from 14 sets of values, of 14 possible ones; rejected: 4 where the figures are "
+        "those of another one; 2 where reaction of O on arm is near zero; give other values, or ask for fewer"
+    )
+    with pytest.raises(da.ModelError, match=f"^{re.escape(said)}$"):
+        da.variants(bracket(value=100, direction="30 deg"), vary, count=12, seed=1, ask=["reaction.O"])
 
 
 def test_no_figure_is_near_zero_and_none_is_there_twice() -> None:
@@ -329,7 +357,9 @@ def test_marks_stand_on_the_key_and_every_question_in_one_file(tmp_path: Path) -
         assert (out / name).read_bytes().startswith(b"%PDF")
     values = {v.name: [figure(v.result, a) for a in some.asked] for v in some}
     sheet = key_sheet(some[0].result, values, some.asked, ExamText(marks={"effort": 4})).sheet
-    _, answers = (b for b in sheet.blocks if isinstance(b, SheetTable))
+    questions, answers = (b for b in sheet.blocks if isinstance(b, SheetTable))
+    assert (questions.words, answers.words) == (True, True)
+    assert [row[0] for row in questions.rows] == ["1", "2"]
     size, angle = some[1].key[1]["value"].split(" @ ")
     assert answers.rows[1][2] == f"{float(size):.4g} ∠ {float(angle):.2f}°".replace("-", "−")
     some.save(out, overwrite=True)

@@ -53,8 +53,8 @@ def _unit(name: str) -> Unit | None:
 
 def _size(m: Mechanism, path: str) -> tuple[float, tuple[float | None, ...]] | None:
     """The SI number at a path, of a vector its length, and its dimension; None if it is not a number."""
-    if path in m.parameters:
-        return float(m.parameters[path].value), tuple(m.parameters[path].dimension)
+    if parameter := m.parameters.get(path.removeprefix("parameters.")):
+        return float(parameter.value), tuple(parameter.dimension)
     tree: Any = m.to_tree()
     for key in path.split("."):
         tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
