@@ -150,6 +150,38 @@ def test_sketches_of_freecad(tmp_path: Path) -> None:
         read_foreign(tmp_path / "y.FCStd")
 
 
+FIRST = "ground,input,R,0,0,0,tfff\ninput,coupler,R,1,2,0,tfff\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        (
+            "x.pmks",
+            LINKS["4-Bar"].replace("GB,B", "OB,B"),
+            ":1: joint 'B' is welded; join its links into one in PMKS+",
+        ),
+        (
+            "x.txt",
+            FIRST + "coupler,rocker,RP,1,1,0,tfff\n",
+            ":3: a joint RP has no counterpart; use R and P",
+        ),
+        (
+            "x.pmks",
+            json.dumps({"Joints": [{"TypeOfJoint": "G", "X": 1, "Y": 2, "Links": ["ground", "input"]}]}),
+            ":1: the linkage of PMKS is not complete: a joint G has no counterpart here; use R and P; copy all of it",
+        ),
+    ],
+)
+def test_joints_of_pmks_without_a_counterpart_are_refused(
+    name: str, text: str, said: str, tmp_path: Path
+) -> None:
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(ModelError) as refused:
+        read_foreign(tmp_path / name)
+    assert str(refused.value) == f"{tmp_path / name}{said}"
+
+
 def test_a_zip_bomb_is_refused(tmp_path: Path) -> None:
     """Thirty million bytes in thirty thousand: only as much is unpacked as a file may have."""
     out = io.BytesIO()

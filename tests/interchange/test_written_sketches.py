@@ -6,6 +6,7 @@ import json
 import math
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -80,6 +81,54 @@ def test_pylinkage_files_keep_every_joint(name: str, tmp_path: Path) -> None:
         at = ours.point(j, m.joint_points(joint["id"])[1])[0]
         assert theirs.point(link, joint["id"])[0] == pytest.approx(at, abs=1e-12)
     assert any(note.startswith("masses, gravity and speeds") for note in lost)
+
+
+@pytest.mark.parametrize("rpm", [200.0, -200.0, 0.0, 12.5, -12.5])
+def test_a_link_has_the_sense_and_whole_turns_of_its_drive(rpm: float, tmp_path: Path) -> None:
+    m = da.four_bar(positions=1).with_values({"drives.O2.speed": rpm * math.pi / 30})
+    read, lost = back(m, tmp_path / "x.pmks")
+    (drive,) = read.drives.values()
+    assert float(drive.speed) * 30 / math.pi == pytest.approx(math.copysign(round(abs(rpm)), rpm), abs=1e-9)
+    whole = rpm == round(rpm)
+    assert [note for note in lost if note.startswith("speed")] == (
+        [] if whole else [f"speed {abs(rpm):g} rpm: PMKS+ has whole numbers"]
+    )
+
+
+def test_a_link_has_no_more_joints_than_letters() -> None:
+    def cranks(count: int) -> da.Mechanism:
+        names = [f"c{k}" for k in range(count)]
+        tree: dict[str, Any] = {
+            "links": {"ground": {"points": {n: [k, 0] for k, n in enumerate(names)}}}
+            | {n: {"points": {n: [0, 0], f"t{n}": [1, 0]}} for n in names},
+            "joints": {n: {"type": "pin", "links": ["ground", n]} for n in names},
+            "drives": {n: {"position": 0} for n in names},
+        }
+        return da.mechanism(tree)
+
+    assert foreign_bytes(cranks(52), "x.pmks")[0]
+    with pytest.raises(ModelError, match=r"^a link of PMKS\+ holds 52 joints, not 53; leave some out$"):
+        foreign_bytes(cranks(53), "x.pmks")
+
+
+def test_names_of_joints_keep_their_letters(tmp_path: Path) -> None:
+    tree: Any = da.four_bar(positions=1).to_tree()
+    tree["joints"]["Öse"] = tree["joints"].pop("A") | {"at": "A"}
+    text = foreign_bytes(da.mechanism(tree), "x.pylinkage.json")[0].decode()
+    assert '"id": "Öse"' in text
+    read, _ = back(da.mechanism(tree), tmp_path / "x.pylinkage.json")
+    assert "Öse" in read.joints
+
+
+@pytest.mark.parametrize("listed", [True, False])
+def test_a_joint_of_pylinkage_is_on_the_ground_by_its_type_or_its_link(listed: bool, tmp_path: Path) -> None:
+    tree = json.loads(foreign_bytes(da.load(examples()["four_bar"]), "x.pylinkage.json")[0])
+    if not listed:
+        tree["links"] = [link for link in tree["links"] if link["type"] != "ground"]
+    (tmp_path / "x.pylinkage.json").write_text(json.dumps(tree), encoding="utf-8")
+    m, _ = read_foreign(tmp_path / "x.pylinkage.json")
+    assert {name for name, j in m.joints.items() if "ground" in j.links} == {"O2", "O4"}
+    assert da.mobility(m).freedoms == 1
 
 
 @pytest.mark.long

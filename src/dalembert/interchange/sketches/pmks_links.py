@@ -66,8 +66,8 @@ def read_pmks(content: bytes, file: str) -> PlaneSketch:
             one = "give one: app.pmksplus.com/?...; the name of a model file ends with .yaml, .json or .toml"
             raise ModelError(what, one, (), file, 1)
         return _link(links[0].strip())
-    except ModelError:
-        raise
+    except ModelError as error:
+        raise error if error.file else error.at_line(file, error.line or 1) from None
     except (ValueError, IndexError, KeyError, TypeError, StopIteration) as error:
         raise ModelError(
             f"the linkage of PMKS is not complete: {error}", "copy all of it", (), file, 1
@@ -164,7 +164,7 @@ def _first_pmks(text: str) -> PlaneSketch:
         if kind is None:
             continue
         if words[kind] not in ("R", "P"):
-            raise ModelError(f"line {number}: a joint {words[kind]} has no counterpart", "use R and P")
+            raise ModelError(f"a joint {words[kind]} has no counterpart", "use R and P", line=number)
         x, y, angle = (float(word) for word in [*words[kind + 1 : kind + 4], "0"][:3] if not word.isalpha())
         on = sorted((_link_name(word) for word in words[:kind]), key=lambda w: w != GROUND)
         joint = SketchJoint(f"J{len(sketch.joints) + 1}", x, y, on, line=number)
