@@ -109,6 +109,20 @@ def test_beside_a_position_the_drive_is_a_little_before_and_behind(solved: tuple
     assert sizes == pytest.approx(own)
 
 
+@pytest.mark.parametrize("static", [False, True])
+def test_beside_each_position_of_a_turn_it_is_on_the_same_branch_at_its_speed(static: bool) -> None:
+    """Crossed, and faster and faster: the middle one of the three is the position itself."""
+    turn = np.arange(8) * np.pi / 4 + 0.1
+    tree = da.four_bar(positions=1).to_tree() | {"assembly": {"coupler": "-60 deg", "rocker": "-100 deg"}}
+    m = da.mechanism(tree).with_values({"loads.torque.value": 3.0})
+    rates = {"speed": [5.0 + k for k in range(8)], "acceleration": [3.0 * k for k in range(8)]}
+    m = m.with_values({"drives.O2": {"position": turn.tolist(), **rates}})
+    r = da.statics(m) if static else da.dynamics(m)
+    for k in range(8):
+        largest = max(float(np.hypot(*r.reaction(j)[k])) for j in r.joints)
+        assert _beside(r, k, "O2", static)[1] == pytest.approx(largest, rel=1e-7)
+
+
 def test_what_is_not_sound_is_left_out_with_its_reason(solved: tuple[Any, Any, Any]) -> None:
     m, _, asked = solved
     with pytest.raises(Unfit, match="the problem cannot be solved: "):
