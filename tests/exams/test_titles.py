@@ -22,7 +22,7 @@ from tests.exams.test_variants import ENGINE, bracket
         ("300 N, 300 mm and 300 W", "loads.F.value", [0, -250], "250 N, 300 mm and 300 W"),
         ("300 N at 2 m, 2 s", "links.arm.points.P.0", "1.5 m", "300 N at 1.5 m, 2 s"),
         ("300 N", "loads.F.at", "O", "300 N"),
-        ("1.300 N and 300.5 N", "loads.F.value", "400 N @ 90 deg", "1.300 N and 300.5 N"),
+        ("1.300 N and 300.01 N", "loads.F.value", "400 N @ 90 deg", "1.300 N and 300.01 N"),
         ("A bracket", "loads.F.value", "400 N @ 90 deg", "A bracket"),
     ],
 )  # fmt: skip

@@ -154,6 +154,19 @@ def test_why_there_are_too_few_is_said_by_its_most_frequent_reasons() -> None:
         da.variants(bracket(value=100, direction="30 deg"), vary, count=12, seed=1, ask=["reaction.O"])
 
 
+def test_values_that_make_no_problem_are_counted_with_the_others() -> None:
+    """A coupler of 10 mm joins nothing; of 300 mm and of 300.1 mm they are one problem."""
+    vary = {"links.coupler.points.B.0": [0.01, 0.011, 0.3, 0.3001, 0.4]}
+    said = (
+        "2 of 5 variants were drawn from 5 sets of values, of 5 possible ones; rejected: "
+        "2 where the linkage does not close at this position, or the solver did not reach a closed pose; "
+        "1 where the figures are those of another one; give other values, or ask for fewer"
+    )
+    m = da.four_bar(positions=1).with_values({"drives.O2.position": 1.0})
+    with pytest.raises(da.ModelError, match=f"^{re.escape(said)}$"):
+        da.variants(m, vary, count=5, seed=1, ask=["effort.O2"], static=True)
+
+
 def test_no_figure_is_near_zero_and_none_is_there_twice() -> None:
     m = bracket(value=100, direction="30 deg")
     some = da.variants(

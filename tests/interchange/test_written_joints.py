@@ -92,6 +92,42 @@ def test_a_pin_with_a_spring_and_damping_comes_back(
     assert sense * theirs.effort("W")[0] == pytest.approx(ours.effort("W")[0], rel=1e-12)
 
 
+def test_a_universal_joint_with_a_slide_on_it_comes_back_from_sdformat(tmp_path: Path) -> None:
+    """Both its pins, the damping of the slide, and every point, with the link before its name."""
+    joints = {
+        "U": joint("universal", "ground", "a", axes=PINS),
+        "S": joint("prismatic", "a", "b", at="Q", axis=[1, 2, 0], damping={"slide": 4}),
+    }
+    moved = {
+        "U1": {"joint": "U", "freedom": "turn1", "position": "0.3 rad", "speed": "2 rad/s"},
+        "U2": {"joint": "U", "freedom": "turn2", "position": "-0.4 rad", "speed": "1 rad/s"},
+        "S": {"position": "0.1 m", "speed": "0.5 m/s"},
+    }
+    m = machine(joints, moved, {"F": {"type": "force", "on": "b", "at": "O", "value": [1, 0, 0]}}, b=BODY)
+    back, lost = read_back(m, tmp_path / "x.sdf")
+    assert lost == [
+        *(f"drive {name!r}: SDFormat prescribes no motion" for name in moved),
+        "load 'F' (force): SDFormat cannot state forces",
+    ]
+    points = {f"{link}_{name}": (float(name == "Q"), 0, 0) for link in ("ground", "a", "b") for name in "OQ"}
+    for link in ("ground", "a", "b"):
+        own = {n: at for n, at in points.items() if n.startswith(link)}
+        for name, at in own.items():
+            assert back.points(link)[name] == pytest.approx(at, abs=1e-14)
+    bare = da.Mechanism.model_validate(m.to_tree() | {"loads": {}})
+    ends = {"U 1": ("ground", "U cross"), "U 2": ("U cross", "a"), "S": ("a", "b")}
+    assert {name: j.links for name, j in back.joints.items()} == ends
+    tree: Any = back.to_tree()
+    tree["drives"] = {
+        "U1": {"joint": "U 1", "position": "0 rad", "speed": "2 rad/s"},
+        "U2": {"joint": "U 2", "position": "0 rad", "speed": "1 rad/s"},
+        "S": {"position": "0 m", "speed": "0.5 m/s"},
+    }
+    ours, theirs = da.dynamics(bare), da.dynamics(da.mechanism(tree))
+    for name in moved:
+        assert theirs.effort(name)[0] == pytest.approx(ours.effort(name)[0], rel=1e-9), name
+
+
 def test_a_second_weld_is_an_equality(tmp_path: Path) -> None:
     m = machine({"W": joint("weld", "ground", "a"), "V": joint("weld", "ground", "a", at="Q")}, {})
     text = foreign_bytes(m, "x.xml")[0].decode()
