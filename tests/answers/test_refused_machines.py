@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import pytest
@@ -205,7 +206,8 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     ),
     **{
         f"a motor switched by {off}": (
-            lambda off=off: changed(
+            partial(
+                changed,
                 FOUR_BAR,
                 (
                     MOTION + "}",
@@ -219,7 +221,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     },
     **{
         f"a sweep of {build.__name__} to {end}": (
-            lambda build=build, end=end: build(sweep=(0.0, end)),
+            partial(build, sweep=(0.0, end)),
             f"{build.__name__}: sweep_end is {end}; give a finite value",
         )
         for build in (bennett, rccc, spherical_four_bar)
@@ -227,7 +229,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     },
     **{
         f"twists {one} and {two} from {start}": (
-            lambda one=one, two=two, start=start: bennett(twists=(one, two), start=start),
+            partial(bennett, twists=(one, two), start=start),
             f"bennett: twists {one} and {two}, start {start} degrees; give two different twists and a start, all below "
             "180 degrees",
         )
