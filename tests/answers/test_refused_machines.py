@@ -180,6 +180,14 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: da.rssr(axis=(0.0, 0.0, 0.0)),
         "rssr: axis has no direction; give one component other than 0",
     ),
+    **{
+        f"a slide passed at {offset}": (
+            partial(da.inverted_slider_crank, ground=0.1, crank=0.12, offset=offset),
+            f"inverted_slider_crank: the crank pin passes O4 at 0.02 m, not farther than the slide's offset of {shown} "
+            "m; let ground and crank differ by more, or take a smaller offset",
+        )
+        for offset, shown in ((-0.03, "0.03"), (0.03, "0.03"), (-0.02, "0.02"))
+    },
     "a dimension of no template": (
         lambda: da.rssp(axis=(0, 0, 1)),
         "rssp has no dimension 'axis'; choose among crank, rod, guide, direction, load, slider_mass, mass_per_length, "

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.methods.applied_forces import actions
 from dalembert.analysis.methods.solved.closed_motion import ClosedMotion
 from dalembert.analysis.methods.solved.solution_by_steps import PaperSolution
+from dalembert.analysis.result.reaction_components import components, remainder
 from dalembert.bundled import cases, examples
 from dalembert.errors import FORCED, ModelError
 
@@ -161,6 +163,89 @@ def test_the_four_bar_closes_by_the_cosine_law() -> None:
     assert "(15.00^2 + 17.06^2 − 10.00^2)/(2 · 15.00 · 17.06), ψ = 35.62 °" in text
     assert "87.47 + ω_3 · 14.90 = 0, ω_3 = −5.869 rad/s" in text
     assert "a_A,O4B − (ω_3^2 AB)_O4B + ω_4^2 O4B + (α_3 × AB)_O4B = 0" in text
+
+
+SLOTTED = """links:
+  ground: {points: {O: [0, 0], C: [0, -0.2], S: [0.05, 0.02]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}}
+  arm: {points: {C: [0, 0], A: [0, 0], S: [0.05, 0.02]}}
+joints:
+  O: {type: pin, links: [ground, crank]}
+ENDS
+drives: {O: {position: 30, speed: 3 rad/s, acceleration: 4 rad/s^2}}
+"""
+CARRIED = [
+    "  A: {type: slot, links: [arm, crank], at: [S, A], direction: 10}",
+    "  C: {type: pin, links: [ground, arm]}",
+]
+FIXED = ["  S: {type: slot, links: [ground, arm], direction: 10}", "  A: {type: pin, links: [crank, arm]}"]
+LED = [
+    'd = "CA" = sqrt((x_{A} − x_{C})^{2} + (y_{A} − y_{C})^{2})',
+    "tan delta = frac(y_{A} − y_{C}; x_{A} − x_{C})",
+    "sin beta = frac(h; d)",
+    "theta_{A} = delta − beta",
+    "−(v_{A})_{n} + omega_{<2>} s = 0",
+    "−(v_{A})_{t} − omega_{<2>} h + v_{A} = 0",
+    "−(a_{A})_{n} + 2 omega_{<2>} v_{A} − omega_{<2>}^{2} h + alpha_{<2>} s = 0",
+]
+GUIDED = [
+    'sin beta = frac(h; "AS")',
+    "theta_{AS} = gamma + beta",
+    's = sqrt("AS"^{2} − h^{2})',
+    'v_{A,n} + (omega_{<2>} times "AS")_{n} = 0',
+    'v_{S} = v_{A,t} + (omega_{<2>} times "AS")_{t}',
+    'a_{A,n} − (omega_{<2>}^{2} "AS")_{n} + (alpha_{<2>} times "AS")_{n} = 0',
+    'a_{S} = a_{A,t} − (omega_{<2>}^{2} "AS")_{t} + (alpha_{<2>} times "AS")_{t}',
+]
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize(("ends", "words", "letters"), [
+    (CARRIED, "<2>, with the line of A, between C and A:", LED),
+    (FIXED, "<2> between the pin A and the line of S:", GUIDED),
+])  # fmt: skip
+def test_a_link_between_a_pin_and_a_slot_is_one_step(
+    ends: list[str], words: str, letters: list[str], turned: bool
+) -> None:
+    """The slot in the link itself, or in another, whichever of its joints comes first in the file."""
+    r = da.kinematics(da.loads(SLOTTED.replace("ENDS", "\n".join(ends[::-1] if turned else ends))))
+    motion = ClosedMotion(r)
+    assert motion.left == []
+    assert [step.words for step in motion.steps] == ["<1> is driven at O:", words]
+    assert [line.letters for line in motion.steps[1].lines] == letters
+    assert max(line.gap for step in motion.steps for line in step.lines) < 1e-12
+
+
+def test_sets_of_links_are_looked_at_up_to_a_number() -> None:
+    s = solved("four_bar")
+    assert s is not None
+    e, found = s.forces.equations, [(0,), (1,), (2,), (0, 1), (1, 2), (0, 1, 2)]
+    assert [list(e.connected(3, limit)) for limit in (2, 3, 4)] == [[], found, found]
+
+
+SCREW = """space: space
+links:
+  ground: {points: {S: [0, 0, 0]}}
+  nut: {points: {S: [0, 0, 0], P: [0.1, 0.05, 0.2]}, mass: 2}
+joints:
+  S: {type: screw, links: [ground, nut], axis: [1, 2, 2], lead: LEAD}
+drives: {S: {position: 30, freedom: turn}}
+loads: {F: {type: force, on: nut, at: P, value: [300, -200, 500]}}
+"""
+
+
+@pytest.mark.parametrize("lead", [0.05, -0.02])
+def test_the_unknowns_of_a_screw_make_its_whole_reaction(lead: float) -> None:
+    """The couple of its thread goes with the force along it, so that five numbers are all there is."""
+    r = da.statics(da.loads(SCREW.replace("LEAD", str(lead))))
+    for a in (a for a in actions(r) if a.of == "S" and a.kind == "joint"):
+        some = components(r, a, 0, np.eye(3))
+        assert [(c.turning, c.axis) for c in some] == [
+            (False, "x'"), (False, "y'"), (False, "z'"), (True, "y'"), (True, "z'")
+        ]  # fmt: skip
+        assert np.abs(np.concatenate(remainder(a, 0, some))).max() < 1e-11
+        assert some[0].couple == pytest.approx(-lead / (2 * np.pi) * some[0].force)
+        assert np.abs(some[0].couple).max() > 1e-3
 
 
 @pytest.mark.parametrize("part", [0.5e-10, 2e-10])

@@ -35,6 +35,15 @@ def test_every_key_is_described() -> None:
     assert bare == []
 
 
+def test_what_has_a_type_says_it_first() -> None:
+    """An editor that completes a joint or a load asks for its type."""
+    of_types = [part for part in SCHEMA["$defs"].values() if "type" in part.get("properties", {})]
+    assert len(of_types) > 30
+    assert {part["required"][0] for part in of_types} == {"type"}
+    assert [part["required"].count("type") for part in of_types] == [1] * len(of_types)
+    assert SCHEMA["$defs"]["Pin"]["required"] == ["type", "links"]
+
+
 def test_it_is_json_and_closed() -> None:
     assert json.loads(json.dumps(SCHEMA)) == SCHEMA
     assert SCHEMA["additionalProperties"] is False

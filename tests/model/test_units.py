@@ -127,6 +127,13 @@ def test_what_is_no_quantity(value: object, kind: str, says: str) -> None:
     assert str(caught.value) == says
 
 
+def test_a_unit_has_sixty_characters_at_most() -> None:
+    assert unit("m" + " " * 59) == unit("m")
+    with pytest.raises(ModelError) as caught:
+        unit("m" + " " * 60)
+    assert str(caught.value) == f"'m{' ' * 55}... is not a unit; write one such as lbf*in*s^2"
+
+
 def test_bare_numbers_take_the_product_of_the_files_units() -> None:
     units = file_units({"length": "in", "force": "lbf", "mass": "blob"})
     inch, lbf = 0.0254, 4.4482216152605

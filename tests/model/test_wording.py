@@ -84,6 +84,13 @@ def test_whole_numbers_of_many_digits_in_json() -> None:
     assert [type(v) for v in found.values()] == [int, float, int]
 
 
+def test_a_scissor_lift_says_its_stages() -> None:
+    assert [scissor(k).title for k in (1, 2)] == [
+        "Scissor lift of 1 stage",
+        "Scissor lift of 2 stages",
+    ]
+
+
 def test_gravity_is_written_as_it_was_read() -> None:
     m = four_bar({"gravity": [0, -1.62]})
     assert da.mechanism(m.to_tree()).gravity == m.gravity == (0.0, -1.62)

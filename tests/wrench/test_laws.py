@@ -359,6 +359,21 @@ def test_what_zero_is_judged_against() -> None:
     assert System(Force([3, 0], at=[1, 1]), Couple(5), Couple(-7)).scales() == (3.0, 7.0)
 
 
+@pytest.mark.parametrize("part", [1e-10, 1e-8])
+def test_what_is_nothing_unless_it_is_said(part: float) -> None:
+    """A part of 1e-9 of the largest force, or moment."""
+    pair = [
+        Force([3, 0], at=[0, 1]),
+        Force([-3, 0], at=[0, 1]),
+        Force([0, 1], at=[0, 0]),
+        Force([0, -1], at=[0, 0]),
+    ]
+    for odd in (Force([0, 3 * part], at=[0, 0]), Couple(3 * part)):
+        s = System(*pair, odd)
+        assert s.equilibrium().holds == (part < 1e-9)
+        assert (s.kind() == "zero") == (part < 1e-9)
+
+
 def test_answers_cannot_be_changed_by_accident() -> None:
     s = System(Force([3, 0], at=[0, 1]))
     for answer in (s.resultant, s.point([1, 2]), s.forces[0].vector):

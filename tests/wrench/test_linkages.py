@@ -52,6 +52,13 @@ def test_a_reaction_is_the_results() -> None:
     assert da.wrench.arrangement(da.wrench.on(da.statics(r.mechanism), "crank")) == "parallel"
 
 
+def test_a_title_has_the_position_where_there_are_several() -> None:
+    m = da.load(examples()["four_bar"])
+    one, two = da.dynamics(m), da.dynamics(m, positions=2)
+    assert da.wrench.on(one, "coupler", "crank").title == "coupler and crank"
+    assert da.wrench.on(two, "coupler", at=2).title == "coupler, position 2"
+
+
 def test_what_cannot_be_asked() -> None:
     r = da.dynamics(da.load(examples()["four_bar"]))
     with pytest.raises(da.ModelError, match="unknown link 'cuopler'; did you mean 'coupler'"):
