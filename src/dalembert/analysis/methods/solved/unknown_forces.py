@@ -213,12 +213,6 @@ class ForceEquations:
         """Moments as forces, by the machine's length (n,)."""
         return np.concatenate([np.ones(self.d), np.full(self.n - self.d, 1 / self.length)])
 
-    @property
-    def gap(self) -> float:
-        """Residual of the equations with the answer's numbers, over its largest force."""
-        left = self.wrenches + sum((u.columns @ u.value for u in self.unknowns), np.zeros_like(self.wrenches))
-        return float(np.abs(left * self.scale).max(initial=0.0)) / (self.largest_force or 1.0)
-
     def connected(self, most: int, limit: int = 400) -> Iterator[tuple[int, ...]]:
         """Sets of links that joints connect, the small ones first."""
         near: dict[int, set[int]] = {n: set() for n in range(len(self.links))}

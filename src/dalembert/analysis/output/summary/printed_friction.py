@@ -138,9 +138,6 @@ def friction_text(result: Result, joint: str, to: Scale) -> str:
         return f"efficiency {efficiency:.6g}"
     if friction is None:
         return "viscous"
-    efficiency = getattr(part, "efficiency", None)
-    if efficiency is not None:
-        return f"efficiency {efficiency:.6g}"
     sizes = {
         "friction circle": friction_circle_radius(result, joint),
         "thread": friction.radius if part.pair.threaded else None,
