@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import dalembert as da
 from dalembert.analysis import equilibria
 
 Q = np.linspace(0.0, 10.0, 41)
@@ -41,6 +42,39 @@ def test_roots_where_the_sign_changes(sign: float) -> None:
     assert crossings(lambda q: 1.0 + 0 * q).size == 0
     hole = crossings(lambda q: np.where((q > 3.26) & (q < 3.3), np.nan, sign * (q - 3.4)))
     assert hole == pytest.approx([3.4], abs=1e-14)
+
+
+HANGING = """gravity: standard
+links: {ground: {points: {O: [0, 0]}}, rod: {points: {O: [0, 0]}, mass: 2, center: [CENTER, 0]}}
+joints: {O: {type: pin, links: [ground, rod]}}
+drives: {O: {position: unknown, effort: 0, range: RANGE}}
+"""
+
+
+@pytest.mark.parametrize(("low", "high", "found"), [
+    (-90, 270, [-90, 90]), (-91, 269, [-90, 90]), (-90, 90, [-90, 90]), (0, 90, [90]), (90, 180, [90]),
+    (90, 450, [90, 270]), (-90, 0, [-90]), (-450, -90, [-450, -270]), (-89, 89, []), (-90 + 1e-6, 90 - 1e-6, []),
+])  # fmt: skip
+@pytest.mark.parametrize("center", [0.1, -0.1])
+def test_a_rod_hangs_or_stands_also_at_the_ends_of_its_range(
+    low: float, high: float, found: list[float], center: float
+) -> None:
+    """A turn has them once; below its pin it is stable."""
+    r = da.statics(da.loads(HANGING.replace("RANGE", f"[{low!r}, {high!r}]").replace("CENTER", str(center))))
+    if not found:
+        assert (r.status, r.stability) == (("no_balance",), (None,))
+        return
+    assert np.degrees(r.drive_position("O")) == pytest.approx(found, abs=1e-9)
+    below = [np.sin(np.radians(q)) * center < 0 for q in found]
+    assert r.stability == tuple("stable" if b else "unstable" for b in below)
+    assert r.status == ("ok",) * len(found)
+
+
+def test_a_rod_pinned_in_its_centre_stays_where_it_is_put() -> None:
+    r = da.statics(da.loads(HANGING.replace("RANGE", "[20, 90]").replace("CENTER", "0")))
+    assert (r.status, r.stability) == (("ok",), ("neutral",))
+    assert r.reasons == ("Every position of the range is an equilibrium (indifferent): the first is given.",)
+    assert np.degrees(r.angle("rod")) == pytest.approx([20.0])
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])

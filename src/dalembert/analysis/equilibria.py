@@ -113,12 +113,14 @@ def select_positions(result: Result, where: Ints) -> Result:
 
 
 def _crossings(scan: _Scan, q: Array, g: Array, scale: float) -> Array:
-    """Roots between neighbours of different sign, all refined together.
+    """Roots between neighbours of different sign, all refined together, and those at the ends of the range.
 
     By secants that keep the root between them (Illinois: an end that stays twice counts with half its value), every
     fourth step halving the interval, because a pole is not a root.
     """
-    exact = q[g == 0]
+    zero = g == 0
+    zero[[0, -1]] = np.abs(g[[0, -1]]) <= EQUAL * scale  # beyond an end no sign is seen that could change
+    exact = q[zero]
     k = np.flatnonzero(g[:-1] * g[1:] < 0)
     a, b, ga, gb = q[k].copy(), q[k + 1].copy(), g[k].copy(), g[k + 1].copy()
     fa, fb, side, x = ga.copy(), gb.copy(), np.zeros(len(k)), a.copy()
