@@ -1,4 +1,4 @@
-"""Lines of printed answers that few machines have, with their numbers by hand; and what is read from answers by name."""
+"""Lines of printed answers that few machines have, with numbers by hand; and what is read from answers by name."""
 
 from __future__ import annotations
 
