@@ -61,7 +61,7 @@ def rests(seed: int) -> bool:
     return r.status == ("at_rest",) and all(np.isfinite(r.holding(d)).all() for d in r.drives)
 
 
-@over(12, 1000)
+@over(8, 1000)
 def test_solved_or_a_verdict_and_no_wrong_number(seed: int) -> None:
     """Links balance, every contact obeys its law; what is not solved has no number, and a sentence."""
     r = answered(seed)
@@ -83,7 +83,7 @@ def scale(r: Any) -> float:
     return float(np.nanmax(np.abs(r.force_array)) * np.nanmax(np.abs(r.twist_array)) + 1e-300)
 
 
-@over(12, 200)
+@over(8, 200)
 def test_virtual_work_with_the_losses_of_friction(seed: int) -> None:
     r = answered(nth(seed, rubs))
     assert np.max(da.virtual_work(r).gap[solved(r)]) < 1e-10

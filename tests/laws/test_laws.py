@@ -61,7 +61,7 @@ def answered(seed: int) -> Any:
     return dynamics(random_case(seed).tree)
 
 
-@over(20)
+@over(10)
 def test_every_number_is_that_of_the_lagrange_oracle(seed: int) -> None:
     quantity, size = worst(disagreement(answered(seed), random_case(seed).answer))
     assert size < TOLERANCE, quantity
@@ -75,7 +75,7 @@ def test_statics_is_that_of_the_lagrange_oracle(seed: int) -> None:
     assert size < TOLERANCE, quantity
 
 
-@over(12)
+@over(8)
 def test_every_link_is_in_equilibrium(seed: int) -> None:
     r, answer = answered(seed), random_case(seed).answer
     out_of_balance = (joint_wrenches(r, answer) + known_wrenches(r, answer))[:, 1:]
@@ -84,7 +84,7 @@ def test_every_link_is_in_equilibrium(seed: int) -> None:
     assert np.max(r.residual) < TOLERANCE
 
 
-@over(12)
+@over(8)
 def test_power_of_efforts_loads_and_inertia_is_balanced(seed: int) -> None:
     r, answer = answered(seed), random_case(seed).answer
     v = state(r, answer.machine.links)[1]
@@ -94,7 +94,7 @@ def test_power_of_efforts_loads_and_inertia_is_balanced(seed: int) -> None:
     assert np.max(np.abs(r.power_balance)) < TOLERANCE
 
 
-@over(12)
+@over(8)
 def test_reactions_do_no_work(seed: int) -> None:
     answer = random_case(seed).answer
     for joint, power in joint_powers(answered(seed), answer).items():

@@ -53,7 +53,7 @@ def undamped(d: Drawing) -> Drawing:
 # positions and rates
 
 
-@over(12)
+@over(8)
 def test_every_joint_closes_and_every_drive_stands_where_it_is_told(seed: int) -> None:
     d, r = random_case(seed), answered(seed)
     assert max(gaps(d, seen(r, d)).values()) < 1e-11
@@ -68,7 +68,7 @@ def test_every_joint_closes_and_every_drive_stands_where_it_is_told(seed: int) -
         assert np.max(np.abs(second - drive.acceleration)) < 1e-8
 
 
-@over(12)
+@over(8)
 def test_speeds_are_those_of_the_joints_screws(seed: int) -> None:
     d, r = random_case(seed), answered(seed)
     s = seen(r, d)
@@ -119,28 +119,28 @@ def _moving(d: Drawing, at: Places, link: str, k: int) -> list[tuple[Array, Arra
 # forces
 
 
-@over(12)
+@over(8)
 def test_every_link_is_in_equilibrium(seed: int) -> None:
     b = balance(seed)
     assert np.max(np.abs(b.out)) < TOLERANCE * b.scale
     assert np.max(b.r.residual) < TOLERANCE
 
 
-@over(12)
+@over(8)
 def test_reactions_do_no_work_on_any_motion_that_the_joint_allows(seed: int) -> None:
     b = balance(seed)
     for joint in b.d.joints:
         assert np.max(np.abs(b.work(joint)), initial=0.0) < TOLERANCE * b.scale, joint
 
 
-@over(12)
+@over(8)
 def test_power_of_efforts_loads_and_inertia_is_balanced(seed: int) -> None:
     b = balance(seed)
     assert np.max(np.abs(b.power())) < TOLERANCE * b.scale * max(np.max(np.abs(b.s.twist)), 1.0)
     assert np.max(b.r.power_balance) < TOLERANCE
 
 
-@over(12)
+@over(8)
 def test_efforts_are_those_of_virtual_work(seed: int) -> None:
     b = balance(seed)
     for drive, effort in b.virtual_work().items():
@@ -155,7 +155,7 @@ def test_methods_on_paper_agree_with_the_matrix(seed: int) -> None:
     assert np.max(da.superposition(r).gap) < TOLERANCE
 
 
-@over(12)
+@over(8)
 def test_every_link_is_in_equilibrium_without_inertia(seed: int) -> None:
     """Dampers act at the drives' speeds; of a motion, statics asks nothing else."""
     d = random_case(seed)
