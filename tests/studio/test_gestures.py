@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from random import Random
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.errors import ModelError
+from dalembert.model.files.model_files import read_text
 from dalembert.model.library.from_files import file_text
 from dalembert.studio.document import EMPTY, STEPS, Document
 from dalembert.studio.editing.entries import add_entries
@@ -195,6 +197,92 @@ def test_a_wrong_text_names_its_line_and_keeps_the_drawing() -> None:
         d.edit([(0, 10**6, "")])
     assert d.undo()
     assert not d.reading.error
+
+
+STARTED = """links:
+  ground: {points: {O: [0, 0], Q: [1, 0]}}
+  crank: {points: {O: [0, 0], A: [0.1, 0]}}
+  slab: {points: {P: [0, 0]}}
+joints: {O: {type: pin, links: [ground, crank]}}
+drives: {O: {effort: 0}}
+start: {O: {position: 0, speed: 1 rad/s}}
+assembly: {slab: [0.3, 0.2, 10]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "left"),
+    [
+        ("drives", "O", ["links", "joints", "assembly"]),
+        ("joints", "O", ["links", "assembly"]),
+        ("links", "crank", ["links", "assembly"]),
+        ("links", "slab", ["links", "joints", "drives", "start"]),
+    ],
+)
+def test_what_needs_a_thing_goes_with_it(kind: str, name: str, left: list[str]) -> None:
+    """A drive's start with the drive, the drive with its joint, the joint with its link; a pose with its link."""
+    d = Document(STARTED)
+    d.do(gesture({"op": "delete", "kind": kind, "name": name}))
+    assert [line.partition(":")[0] for line in d.text.splitlines() if line[0] != " "] == left
+
+
+@pytest.mark.parametrize("stated", [True, False])
+@pytest.mark.parametrize("second", [True, False])
+def test_a_loose_link_is_where_it_was_dragged(stated: bool, second: bool) -> None:
+    """A link of one point as it lies, a bar with its other end where it was: no joint holds it."""
+    text = STARTED if stated else STARTED.partition("assembly")[0]
+    d = Document(text.replace("{P: [0, 0]}", "{P: [0, 0], R: [0.1, 0]}") if second else text)
+
+    def drawn() -> Any:
+        return next(x for x in d.reading.drawing["links"] if x["name"] == "slab")["points"]
+
+    before = dict(drawn())
+    d.do(gesture({"op": "move", "link": "slab", "point": "P", "to": [0.5, -0.1]}))
+    assert drawn()["P"] == pytest.approx((0.5, -0.1), abs=1e-7)
+    if second:
+        assert drawn()["R"] == pytest.approx(before["R"], abs=1e-5)  # the file has 6 digits
+    else:
+        pose = f"[0.5, -0.1, {10 if stated else 0}]"
+        assert yaml_of(d.text)["assembly"] == {"slab": yaml_of(f"x: {pose}")["x"]}
+
+
+def yaml_of(text: str) -> Any:
+    return read_text(text)[0]
+
+
+def test_a_pose_that_was_not_left_changes_nothing() -> None:
+    d = drawn_four_bar()
+    before = d.text
+    links = {link["name"]: link["pose"] for link in d.reading.drawing["links"] if link["name"] != "ground"}
+    d.do(gesture({"op": "pose", "links": links, "drives": {}}))
+    assert d.text == before
+    (x, y, angle) = links["link2"]
+    d.do(gesture({"op": "pose", "links": links | {"link2": (x, y, angle + 0.1)}, "drives": {}}))
+    assert d.text != before
+
+
+def test_gears_turn_about_two_places() -> None:
+    """The two ends of a pin are one place, however they are rounded."""
+    d = drawn_four_bar()
+    before = d.text
+    with pytest.raises(ModelError, match=r"^the axes of two gears are apart; draw them at two places$"):
+        d.do(gesture({"op": "gear", "first": at(d, "link2", "C"), "second": at(d, "link3", "C")}))
+    assert d.text == before
+
+
+def test_what_is_edited_as_text_and_names_that_are_taken() -> None:
+    text = examples()["four_cylinder"].read_text(encoding="utf-8")
+    d = Document(
+        re.sub(r"value: \{file: .*\}", "value: 100", text.partition("# The exact")[0]).replace(
+            "    shift:", "#"
+        )
+    )
+    assert d.reading.error == ""
+    said = "a mechanism with copies is edited as text; change the original or the copies in the text"
+    with pytest.raises(ModelError, match=rf"^{said}$"):
+        d.do(gesture({"op": "ground", "where": {"at": [1.0, 0.0]}}))
+    with pytest.raises(ModelError, match=r"^the name 'crank' is already used in links; choose another name$"):
+        add_entries(STARTED, "yaml", {("links", "crank"): {}})
 
 
 def test_a_dragged_point_keeps_bars_straight_and_joints_closed() -> None:

@@ -35,6 +35,7 @@ def test_each_assembly_mode_can_be_taken(name: str, count: int) -> None:
     modes = assembly_modes(loads(text))["modes"]
     assert len(modes) == count
     assert [mode["here"] for mode in modes] == [True] + [False] * (count - 1)
+    assert all(off(modes[0]["links"], mode["links"]) > 0.01 for mode in modes[1:])
     for mode in modes:
         assert all(mode["svg"][theme].startswith("<svg") for theme in ("light", "dark"))
         d = Document(text)

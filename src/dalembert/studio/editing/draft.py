@@ -27,6 +27,8 @@ DIGITS = 4
 """Figures of a drawn length beside the width of the drawing."""
 FINE = 12
 """Significant figures of typed numbers."""
+STILL = 1e-7
+"""Turn, and way over the width of the drawing, below which a link has not moved and two places are one."""
 
 
 class Draft:

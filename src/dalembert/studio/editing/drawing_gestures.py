@@ -7,7 +7,7 @@ from typing import Literal
 
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
-from dalembert.studio.editing.draft import Draft, End, Point
+from dalembert.studio.editing.draft import STILL, Draft, End, Point
 from dalembert.studio.editing.entries import remove
 from dalembert.studio.editing.gesture import Gesture, Place, Text, Where
 
@@ -192,7 +192,7 @@ class Wheels(Gesture):
                 "gears turn about points of two links", "drag from the axis of one to that of the other"
             )
         apart = math.dist(d.world(a), d.world(b))
-        if not apart > 0:
+        if not apart > STILL * d.width:
             raise ModelError("the axes of two gears are apart", "draw them at two places")
         radius = apart / (1 + abs(self.ratio or 1.0))
         radii = [d.number(radius, "length", 8), d.number(apart - radius, "length", 8)]

@@ -15,8 +15,8 @@ from dalembert.model.files.rewriting import text_of
 from dalembert.model.files.source import Path
 from dalembert.model.files.splicing import REMOVED
 from dalembert.model.files.yaml_text import read
-from dalembert.studio.editing.draft import Draft, End, Point
-from dalembert.studio.editing.drawing_gestures import snapped
+from dalembert.studio.editing.draft import STILL, Draft, End, Point
+from dalembert.studio.editing.drawing_gestures import rooted, snapped
 from dalembert.studio.editing.entries import remove
 from dalembert.studio.editing.gesture import Coordinate, Gesture, Place, Text
 from dalembert.studio.editing.references import rename, rename_point
@@ -24,8 +24,6 @@ from dalembert.units import quantity
 
 HOLDING = ("pin", "weld", "slot", "slider")
 """Joints whose points move together."""
-STILL = 1e-7
-"""Turn, and way over the width of the drawing, below which a link has not moved."""
 NUMBER_WITH_UNIT = re.compile(r"\s*[-+\d.eE]+\s*([^\W\d_]+|°)\s*")
 
 
@@ -46,8 +44,7 @@ class Move(Gesture):
             move_end(d, end, to, values, poses)
         d.splice(values)
         for link, pose in poses.items():
-            stated = d.entries("assembly").get(link)
-            d.assemble(link, *pose, joined=not isinstance(stated, list))
+            d.assemble(link, *pose, joined=_joined(d, link))
         repose_drives(d, poses)
 
 
@@ -64,7 +61,7 @@ class PoseLinks(Gesture):
             return
         for link, (x, y, angle) in self.links.items():
             if link in d.entries("links") and link != GROUND:
-                d.assemble(link, x, y, angle, not isinstance(d.entries("assembly").get(link), list))
+                d.assemble(link, x, y, angle, _joined(d, link))
         for drive, position in self.drives.items():
             keys = d.entries("drives").get(drive) or {}
             written = keys.get("position")
@@ -86,6 +83,11 @@ class PoseLinks(Gesture):
             math.hypot(x - u, y - v) > STILL * d.width
             or abs(math.remainder(angle - before, math.tau)) > STILL
         )
+
+
+def _joined(d: Draft, link: str) -> bool:
+    """True if the angle of a link is enough: joints lead from it to the ground, and its place is not stated."""
+    return rooted(d, link) and not isinstance(d.entries("assembly").get(link), list)
 
 
 class SetValue(Gesture):
