@@ -193,6 +193,14 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         "rssp has no dimension 'axis'; choose among crank, rod, guide, direction, load, slider_mass, mass_per_length, "
         "speed, sweep, positions",
     ),
+    "a number beside a parameter": (
+        lambda: loads("parameters: {r: 2 kg, w: 3 r}\nlinks: {a: {mass: r}}"),
+        "text:1: parameter 'w': '3 r' has a number beside 'r'; write 3*r",
+    ),
+    "a parameter named as a unit": (
+        lambda: loads("parameters: {m: 2 kg}\nlinks: {a: {mass: m}}"),
+        "text:1: parameter 'm': its name is that of a unit; call it otherwise, for example m_1",
+    ),
     "a start that is a number": (
         lambda: changed(FOUR_BAR, ("loads:", "start: 3\nloads:")),
         "text:27: start: a start has a position and a speed by drive; write start: {O2: {position: 60 deg, speed: 0}}",

@@ -348,3 +348,37 @@ def test_a_page_has_the_same_pulls(template: str) -> None:
             assert np.allclose(out[arrow["p"]].T, pull.at, rtol=0, atol=1e-12)
         seen += len(mine)
     assert seen >= 4
+
+
+BELT = """units: {length: mm}
+links:
+  ground: {points: {A: [0, 0], B: [800, 0]}}
+  one: {points: {A: [0, 0]}}
+  two: {points: {B: [0, 0]}}
+joints:
+  A: {type: pin, links: [ground, one]}
+  B: {type: pin, links: [ground, two]}
+  belt: {type: belt, links: [one, two], at: [A, B], radii: [100, 250], tight: 128, friction: {coefficient: 0.3}}
+drives: {A: {position: 0, speed: 3 rad/s}}
+loads: {T: {type: couple, on: two, value: TORQUE N*m}}
+"""
+
+
+@pytest.mark.parametrize("torque", [-32, -16, 0, 16, 31, 32, 33])
+def test_a_belt_whose_slack_strand_pulls_nothing_needs_more_than_any_coefficient(torque: float) -> None:
+    """ln(T1/T2) over the wrap of the small wheel, without end where T2 is 0, or would push."""
+    r = da.statics(da.loads(BELT.replace("TORQUE", str(torque))))
+    slack = 128 - abs(torque) / 0.25
+    assert r.belt("belt").slack == pytest.approx([slack], abs=1e-12)
+    wrap = math.pi - 2 * math.asin(150 / 800)
+    needed = math.log(128 / slack) / wrap if slack > 0 else math.inf
+    assert r.belt("belt").slip_coefficient == pytest.approx([needed], rel=1e-12)
+    if slack > 0 and needed <= 0.3:
+        assert (r.status, r.reasons) == (("ok",), (None,))
+        return
+    most = 128 * (1 - math.exp(-0.3 * wrap)) * 100
+    word = f"{needed:.4g}" if slack > 0 else "more than any coefficient"
+    assert r.reasons == (
+        f"Belt belt needs {word}, has 0.3; slips from {most:.6g} N*mm on, at the wheel of one at A = 0 deg. Raise its "
+        "tension, its wrap or its coefficient, or lower the load.",
+    )

@@ -103,3 +103,30 @@ start: {S: {position: 0, speed: 0.1}}
     k = int(np.flatnonzero(s.time == end.time)[0])
     assert s.position("S")[k] == pytest.approx(0.5, rel=1e-9)
     assert s.speed("S")[k] == pytest.approx(math.sqrt(0.01 + 1.5), rel=1e-9)
+
+
+LED_ONCE = """links:
+  ground: {points: {O: [0, 0], S: [1, 0]}}
+  a: {points: {O: [0, 0]}}
+  b: {points: {S: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, a]}
+  S: {type: slider, links: [ground, b]}
+drives:
+  O: {position: [-30, -1, 0, 30, 45, 90, 91, 400], speed: SPEED rad/s, acceleration: 3 rad/s^2}
+  S: {law: {over: O, segments: [{to: 25 mm, in: 90 deg, by: harmonic}], periodic: false}}
+"""
+
+
+@pytest.mark.parametrize("speed", [2.0, -2.0])
+def test_a_law_that_is_gone_through_once_rests_before_and_behind(speed: float) -> None:
+    """s = h/2 (1 - cos 2 th); where it begins and ends the acceleration has two values, before and after."""
+    r = da.kinematics(da.loads(LED_ONCE.replace("SPEED", str(speed))))
+    th = np.clip(r.drive("O"), 0, math.pi / 2)
+    assert r.drive("S") == pytest.approx(0.0125 * (1 - np.cos(2 * th)), abs=1e-15)
+    assert r.drive("S", "speed") == pytest.approx(0.025 * np.sin(2 * th) * speed, abs=1e-15)
+    bend = 0.05 * np.cos(2 * th) * speed**2 + 0.025 * np.sin(2 * th) * 3
+    for side, ahead in ((r.before, False), (r.after, True)):
+        moves = np.array([False, False, (speed > 0) == ahead, True, True, (speed < 0) == ahead, False, False])
+        assert side is not None
+        assert side.drive("S", "acceleration") == pytest.approx(np.where(moves, bend, 0.0), abs=1e-15)

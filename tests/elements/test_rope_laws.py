@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from typing import Any
 
@@ -257,3 +258,38 @@ def test_parallel_strands_need_one_direction() -> None:
         da.statics(da.loads(text.replace("type: rope,", "type: rope, parallel: true,")))
     r = da.statics(da.loads(text.replace("type: rope,", "type: rope, parallel: 90 deg,")))
     np.testing.assert_allclose(r.rope("rope").wrap, math.pi)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_rope_over_a_fixed_wheel_has_the_ratio_of_its_wrap_on_either_side(mirrored: bool, way: int) -> None:
+    """Strands that are not parallel, tangents by complex numbers; the rope is pulled over the wheel, and let back."""
+    radius, mu, a, b, side = 0.1, 0.3, -0.4 - 0.3j, 0.5 - 0.6j, -1 if mirrored else 1
+    wheel = {"round": "ground.O", "radius": radius, "friction": {"coefficient": mu}}
+    wheel["side"] = "right" if mirrored else "left"
+    places = {"O": [0, 0], "A": [side * a.real, a.imag], "B": [side * b.real, b.imag]}
+    tree = {
+        "links": {
+            "ground": {"points": places},
+            "a": {"points": {"P": [0, 0]}},
+            "b": {"points": {"Q": [0, 0]}},
+        },
+        "joints": {
+            "a": {
+                "type": "slider",
+                "links": ["ground", "a"],
+                "at": ["A", "P"],
+                "direction": "180 deg" if mirrored else 0,
+            },
+            "b": {"type": "slider", "links": ["ground", "b"], "at": ["B", "Q"], "direction": "90 deg"},
+            "R": {"type": "rope", "through": ["a.P", wheel, "b.Q"]},
+        },
+        "drives": {"a": {"position": 0, "speed": way}},
+        "loads": {"F": {"type": "force", "on": "b", "at": "Q", "value": [0, -200]}},
+    }
+    r = da.statics(da.mechanism(tree))
+    towards = cmath.phase(-a) + math.asin(radius / abs(a))
+    onwards = cmath.phase(b) - math.asin(radius / abs(b))
+    wrap = (towards - onwards) % (2 * math.pi)
+    pull = 200 / -math.sin(onwards) * math.exp(-way * mu * wrap)  # a goes towards the wheel, and b falls
+    assert r.effort("a") == pytest.approx([-pull * math.cos(towards)], rel=1e-12)
