@@ -345,3 +345,51 @@ def test_a_follower_jumps_off_its_cam_and_lands(roller: float | None) -> None:
     on_cam = da.simulate(m, "0.004 s").result
     assert on_cam.force_array == pytest.approx(held.force_array, abs=1e-8 * pushed.max())
     assert on_cam.moment_array == pytest.approx(held.moment_array, abs=1e-8 * pushed.max())
+
+
+GUIDED = """gravity: standard
+links:
+  ground: {points: {O: [0, 0]}}
+  block: {points: {B: [0, 0], P: [AT, 0]}, mass: 2, inertia: 0.01}
+joints:
+  S: {type: slider, links: [ground, block], at: [O, B], contact: pushes,
+      friction: {coefficient: MU, guide: [0.1, 0.12]}}
+loads: {P: {type: force, on: block, at: P, direction: -90, value: 300*time}}
+start: {S: {position: 0, speed: 0}}
+"""
+
+
+@pytest.mark.parametrize(("at", "end", "lifts"), [(0.25, 0.12, "rear"), (-0.25, -0.1, "front")])
+def test_a_block_on_a_guide_of_two_ends_tips_about_one_of_them(at: float, end: float, lifts: str) -> None:
+    """From P (at - end) = m g end on, by Lagrange's equation of the block whose end stays on the guide."""
+    s = da.simulate(da.loads(GUIDED.replace("AT", str(at)).replace("MU", "0")), "0.12 s", count=7)
+    weight, inertia = 2 * 9.80665, 0.01
+    begins = weight * end / (300 * (at - end))
+    assert [e.sentence for e in s.events] == [f"S lifts off at its {lifts} end"]
+    assert s.events[0].time == pytest.approx(begins, rel=1e-9)
+
+    def rates(t: float, state: Any) -> list[float]:
+        turn, rate = state
+        c, sine = math.cos(turn), math.sin(turn)
+        moment = weight * end * c - 300 * t * (at - end) * c + 2 * end**2 * sine * c * rate**2
+        return [rate, moment / (inertia + 2 * end**2 * c**2)]
+
+    times = s.time[s.time > begins]
+    motion = solve_ivp(rates, (begins, 0.12), [0.0, 0.0], t_eval=times, rtol=1e-11, atol=1e-13).y
+    assert s.result.angle("block")[s.time > begins] == pytest.approx(motion[0], rel=1e-7, abs=1e-10)
+    assert s.result.speed("block")[s.time > begins] == pytest.approx(motion[1], rel=1e-7, abs=1e-9)
+    open_ = {"rear": ("S.behind", -0.1), "front": ("S.ahead", 0.12)}[lifts]
+    assert s.gaps[open_[0]][s.time > begins] == pytest.approx(
+        (open_[1] - end) * np.sin(motion[0]), rel=1e-7, abs=1e-10
+    )
+    stays = "S.ahead" if lifts == "rear" else "S.behind"
+    assert np.abs(s.gaps[stays]).max() < 1e-12
+
+
+@pytest.mark.long
+def test_a_block_that_tips_where_its_guide_rubs_is_not_followed() -> None:
+    s = da.simulate(da.loads(GUIDED.replace("AT", "0.25").replace("MU", "0.2")), "0.12 s", count=3)
+    assert s.ended == (
+        "stopped at 0.06 s: S tips, and its guide has friction, which is not followed on one end; write two slots with "
+        "contact: pushes and friction, one at each end"
+    )
