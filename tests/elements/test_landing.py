@@ -386,6 +386,13 @@ def test_a_block_on_a_guide_of_two_ends_tips_about_one_of_them(at: float, end: f
     assert np.abs(s.gaps[stays]).max() < 1e-12
 
 
+def test_a_block_rubs_with_the_forces_at_both_ends_of_its_guide() -> None:
+    """As both push, their sum is what presses: weight and load, wherever it acts."""
+    text = GUIDED.replace("AT", "0.25").replace("MU", "0.2").replace("speed: 0", "speed: 1")
+    s = da.simulate(da.loads(text), "0.05 s", count=4)
+    assert s.speed("S") == pytest.approx(1 - 0.2 * (9.80665 * s.time + 300 * s.time**2 / 4), rel=1e-9)
+
+
 @pytest.mark.long
 def test_a_block_that_tips_where_its_guide_rubs_is_not_followed() -> None:
     s = da.simulate(da.loads(GUIDED.replace("AT", "0.25").replace("MU", "0.2")), "0.12 s", count=3)
