@@ -370,3 +370,44 @@ def test_a_prescribed_drive_has_no_stops() -> None:
         ModelError, match=r"text:\d+: drive 'O' is prescribed, and its stops would be gone through"
     ):
         da.simulate(da.loads(text), "1 s")
+
+
+TURNED = """
+links:
+  ground: {points: {O: [0, 0], P: [150 mm, 0]}}
+  a: {points: {O: [0, 0]}, inertia: 0.1}
+  b: {points: {P: [0, 0]}, inertia: 0.2}
+joints:
+  O: {type: pin, links: [ground, a]}
+  P: {type: pin, links: [ground, b], stops: STOPS}
+  G: {type: gear, links: [a, b], at: [O, P], radii: [50 mm, 100 mm]}
+drives: {O: {effort: 0}}
+start: {O: {position: 0, speed: SPEED rad/s}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("stops", "speed", "turn", "end"),
+    [
+        ("{to: -100 deg, restitution: 0.5}", -10, 260, -100),  # it stands at -360 deg
+        ("{from: 100 deg, restitution: 0.5}", 10, -260, 100),  # at 360 deg
+        ("{from: 100 deg, to: 500 deg, restitution: 0.5}", -10, 140, 500),
+        ("{from: -500 deg, to: -100 deg, restitution: 0.5}", 10, -140, -500),
+        ("{from: 900 deg, to: 1100 deg, restitution: 0.5}", -10, 20, 1100),  # at 1080 deg
+    ],
+)
+def test_a_joint_starts_as_many_turns_away_as_lie_between_its_stops(
+    stops: str, speed: float, turn: float, end: float
+) -> None:
+    """The wheel b turns with half the speed of a, the other way, until it has come from a full turn to its stop."""
+    s = da.simulate(da.loads(TURNED.replace("STOPS", stops).replace("SPEED", str(speed))), "1.2 s", count=3)
+    hit = s.event("impact")[0]
+    assert hit.time == pytest.approx(math.radians(turn) / (-speed / 2), rel=1e-12)
+    assert hit.sentence.startswith(f"P strikes its stop at {math.radians(end):.6g} rad with 5 rad/s")
+
+
+def test_a_joint_that_no_turn_brings_between_its_stops_is_refused() -> None:
+    text = TURNED.replace("STOPS", "{from: 100 deg, to: 200 deg}").replace("SPEED", "1")
+    with pytest.raises(ModelError) as refused:
+        da.simulate(da.loads(text), "1 s")
+    assert str(refused.value) == "text:8: P starts beyond its stops, at 0 deg; start between them"

@@ -108,10 +108,10 @@ class StopState(ClutchState):
         at = [x + n for x in ends for n in (0.0, 2 * np.pi, -2 * np.pi) if n == 0 or x != stop.near(x, x + n)]
         within = [x for x in at if least - small <= x <= greatest + small]
         if not within and np.isfinite(x):
-            kind = kind_of(stop.freedom, "")
+            kind, place = kind_of(stop.freedom, ""), x if abs(x) > small else 0.0
             path = ("joints", stop.name, "stops") if stop.joint >= 0 else ("start", stop.name, "position")
             raise ModelError(
-                f"{stop.name} starts beyond its stops, at {say(((kind, x),), Scale(self.m.units))}",
+                f"{stop.name} starts beyond its stops, at {say(((kind, place),), Scale(self.m.units))}",
                 "start between them",
                 path,
             )
