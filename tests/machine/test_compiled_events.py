@@ -126,3 +126,24 @@ def test_what_is_in_doubt_is_simulated_alone() -> None:
 def test_what_may_stick_several_ways_is_refused(seed: int, sentence: str) -> None:
     with pytest.raises(ModelError, match=sentence):
         da.compile_motion(da.mechanism(machine(seed)), "0.1 s")
+
+
+BRAKED = """
+links: {ground: {points: {O: [0, 0]}}, a: {points: {O: [0, 0]}, mass: 2}, b: {points: {O: [0, 0]}, mass: 1}}
+joints:
+  S: {type: slider, links: [ground, a], at: O}
+  T: {type: slider, links: [ground, b], at: O, direction: 90}
+parameters: {f: 3 N}
+drives: {S: {effort: 1, brake: f}, T: {position: 0}}
+start: {S: {position: 0, speed: 4}}
+"""
+
+
+def test_a_brake_beside_a_drive_that_stands_stops_in_closed_form() -> None:
+    """2 kg from 4 m/s by f - 1 N: it stays behind t = 8/(f - 1) and s = 16/(f - 1)."""
+    brake = np.array([3.0, 5.0, 9.0])
+    r = da.compile_motion(da.loads(BRAKED), "9 s", ["f"], ["effort.S"], "final")(brake[:, None])
+    assert r.redone == 0
+    assert r.position == pytest.approx(np.stack([16 / (brake - 1), [0, 0, 0]], axis=1), rel=1e-9)
+    assert r.ended == tuple(f"at rest from {8 / (f - 1):g} s on" for f in brake)
+    assert (r.speed == 0).all()

@@ -150,3 +150,44 @@ def test_what_is_still_refused_says_why() -> None:
     lossy = late.ROTOR.replace("time_constant: 2 ms", "ratio: 3, efficiency: 0.9")
     with pytest.raises(da.ModelError, match="the gear of the motor of drive 'O' has losses"):
         da.compile_motion(da.loads(lossy), "1 s")
+
+
+CART = """
+gravity: standard
+links: {ground: {points: {O: [0, 0]}}, cart: {points: {O: [0, 0]}, mass: 2}}
+joints: {S: {type: slider, links: [ground, cart], at: O, friction: {coefficient: mu}}}
+parameters: {mu: 0.1}
+drives: {S: {effort: 0, stops: {from: 0 m, restitution: 0.5}}}
+start: {S: {position: 0.2 m, speed: -0.8}}
+"""
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_cart_that_rubs_bounces_once_and_slides_to_rest(way: float) -> None:
+    """v^2 - 2 mu g s to the stop, a quarter of it back, and s = v^2/(2 mu g): friction turns round with the cart."""
+    text = CART
+    if way < 0:
+        text = text.replace("from: 0 m", "to: 0 m").replace("0.2 m, speed: -0.8", "-0.2 m, speed: 0.8")
+    mu = np.array([0.1, 0.05, 0.16])
+    r = da.compile_motion(da.loads(text), "5 s", ["mu"], ["reaction.S"], "peak")(mu[:, None])
+    brake = mu * 9.80665
+    before = np.sqrt(0.8**2 - 2 * brake * 0.2)
+    assert r.redone == 0
+    assert r.position[:, 0] == pytest.approx(way * (before / 2) ** 2 / (2 * brake), rel=1e-9)
+    rest = (0.8 - before) / brake + before / 2 / brake
+    assert [float(text.split()[3]) for text in r.ended] == pytest.approx(rest, rel=1e-5)
+    assert np.abs(r.speed).max() == 0
+
+
+def test_bounces_of_many_designs_end_at_their_limits() -> None:
+    """Pushed to the wall by F = m a: v (1 + e)/(1 - e)/a behind the first time there, infinitely many bounces later."""
+    text = CART.replace(", friction: {coefficient: mu}", "").replace("mu: 0.1", "f: 20 N, e: 0.5")
+    text = text.replace("effort: 0,", "effort: -f,").replace("restitution: 0.5", "restitution: e")
+    values = np.array([[20.0, 0.5], [39.0, 0.5], [20.0, 0.7], [30.0, 0.0]])
+    r = da.compile_motion(da.loads(text.replace("speed: -0.8", "speed: -0.1")), "5 s", ["f", "e"])(values)
+    a, e = values[:, 0] / 2, values[:, 1]
+    v = np.sqrt(0.1**2 + 2 * a * 0.2)
+    rest = (v - 0.1) / a + 2 * v * e / (1 - e) / a
+    assert r.ended == tuple(f"at rest from {t:.6g} s on" for t in rest)
+    assert not r.position.any()
+    assert r.redone == 0

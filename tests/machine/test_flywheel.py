@@ -299,8 +299,14 @@ def test_what_has_no_flywheel_is_refused() -> None:
     m = da.load(examples()["engine"])
     with pytest.raises(ModelError, match=r"give one of them: Cs=0\.02"):
         da.flywheel(da.dynamics(m, positions=72))
-    with pytest.raises(ModelError, match="does not turn at constant speed"):
-        da.flywheel(da.dynamics(m.with_values({"drives.O2.acceleration": 3.0}), positions=72), Cs=0.02)
+    for values in ({"acceleration": 3.0}, {"acceleration": -3.0}, {"speed": 0.0}):
+        turned = m.with_values({f"drives.O2.{key}": value for key, value in values.items()})
+        with pytest.raises(ModelError) as refused:
+            da.flywheel(da.dynamics(turned, positions=72), Cs=0.02)
+        assert str(refused.value) == (
+            "drive 'O2' does not turn at constant speed, which sizing a flywheel assumes; give it a speed other than "
+            "0, and no acceleration"
+        )
     with pytest.raises(ModelError, match="not a whole number of turns"):
         da.flywheel(da.dynamics(m.with_values({"drives.O2.position": [0.0, 0.1, 0.2]})), Cs=0.02)
     with pytest.raises(ModelError, match="a machine with one drive"):

@@ -673,3 +673,14 @@ def test_positions_without_an_answer_say_why() -> None:
         ):  # at the far end nothing is beyond: no force, where all is known
             known = np.isfinite(f.curve().at(place)[:, 0])
             assert known.tolist() == [[True] * 6] * 2 + [[False] * 6] + [[True] * 6]
+
+
+def test_a_link_that_carries_nothing_is_safe_without_limit() -> None:
+    text = ARM.replace("speed: 100 rad/s, acceleration: 500 rad/s^2", "speed: 0")
+    section = "rectangle: [20 mm, 40 mm], yield_stress: 250 MPa"
+    full = f"{section}, elasticity: 206 GPa, endurance: 100 MPa, ultimate: 400 MPa"
+    r = da.dynamics(da.loads(text.replace(section, full)))
+    stress = da.member_forces(r, "arm").stress()
+    assert (stress.largest, stress.safety, stress.fatigue().safety) == (0.0, math.inf, math.inf)
+    assert da.member_forces(r, "arm").deflection().largest == 0.0
+    assert paragraphs(member_table(r))[0] == "The links carry no internal forces."

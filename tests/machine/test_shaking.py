@@ -282,3 +282,15 @@ def test_its_drawing_in_space_has_three_components_of_force_and_moment() -> None
     assert {"Shaking force on the ground", about, "Harmonics of the force"} <= set(words)
     assert s.moment.shape == (72, 3)
     assert sum(w in ("x", "y", "z") for w in words) >= 6
+
+
+def test_a_load_that_is_rounding_beside_the_forces_of_the_cycle_is_none() -> None:
+    """Below 1e-12 of the largest single force, whatever the length of the machine; and so it is printed as 0."""
+    m = da.slider_crank(crank=0.02, rod=0.06)
+    largest = 2000.0
+    for size, outside in ((1.1e-12 * largest, ("load", "more")), (0.9e-12 * largest, ("load",))):
+        more = {"type": "force", "on": "piston", "at": "B", "value": [size, 0]}
+        tree = m.to_tree()
+        tree["loads"] = {"load": {**tree["loads"]["load"], "value": [-largest, 0]}, "more": more}
+        tree["drives"]["O2"]["speed"] = "1 rad/s"
+        assert da.shaking(da.dynamics(da.mechanism(tree), positions=12)).outside == outside

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,18 @@ FILES = {
 AFTER = {"vary": "least", "where": "starts"}
 REFUSED: dict[str, Callable[[], Any]] = {
     "'peak ' is not an aim; write one like peak effort.O2": lambda: parse_aim("peak "),
+    "the bounds of 'links.rocker.points.B.0' go from 0.2 to inf; use (low, high, step) with low <= high and step > 0": (
+        lambda: da.optimize(M, {"links.rocker.points.B.0": (0.2, math.inf)}, "effort.O2")
+    ),
+    "the bounds of 'links.rocker.points.B.0' go from nan to 0.3; use (low, high, step) with low <= high and step > 0": (
+        lambda: da.optimize(M, {"links.rocker.points.B.0": (math.nan, 0.3)}, "effort.O2")
+    ),
+    "the bounds of 'links.rocker.points.B.0' go from 0.3 to 0.2; use (low, high, step) with low <= high and step > 0": (
+        lambda: da.optimize(M, {"links.rocker.points.B.0": (0.3, 0.2)}, "effort.O2")
+    ),
+    "the bounds of 'links.rocker.points.B.0' go from 0.2 to 0.3; use (low, high, step) with low <= high and step > 0": (
+        lambda: da.optimize(M, {"links.rocker.points.B.0": (0.2, 0.3, 0.0)}, "effort.O2")
+    ),
     "a front is between two aims, of 2 points or more": lambda: da.pareto(M, BOX, ["effort.O2"], points=3),
 }  # fmt: skip
 

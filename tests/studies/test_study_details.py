@@ -37,6 +37,13 @@ def test_numbers_are_idle_about_the_middle_of_their_spreads() -> None:
     assert study(vary, ["effort.O2"]).idle() == ()
 
 
+def test_a_number_of_one_level_has_no_share() -> None:
+    vary = {"links.coupler.mass": ["1 kg"], "links.rocker.mass": ["1 kg", "2 kg"]}
+    found = study(vary, draw="factorial").contributions("effort.O2")
+    assert found.shares == {"links.coupler.mass": 0.0, "links.rocker.mass": 1.0}
+    assert found.sigma > 0
+
+
 def test_a_spread_may_be_given_as_it_is_read() -> None:
     normal = Spread("normal", 1.0, 0.1)
     assert study({"links.coupler.mass": normal}).plan.spreads == (normal,)
