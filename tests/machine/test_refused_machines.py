@@ -112,8 +112,8 @@ REFUSED: dict[str, Callable[[], Any]] = {
     ),
     "3 of two: plane; give one for each of the two planes": lambda: da.balance_rotor(
         da.rotating_shaft(),
-        (0.1, 0.2, 0.3),
-        (0.1, 0.1),  # type: ignore[arg-type]
+        (0.1, 0.2, 0.3),  # type: ignore[arg-type]
+        (0.1, 0.1),
     ),
     "1 of two: radius; give one for each of the two planes": lambda: da.balance_rotor(
         da.rotating_shaft(), (0.1, 0.2), (0.1,)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.answer.column import plain
+from dalembert.answer.column import Scale, plain
 from dalembert.answer.equality import equal
 from dalembert.errors import AnalysisError
 from dalembert.machine.bearings.compiled_life import life_expression
@@ -123,8 +123,9 @@ def test_what_is_too_rough_has_no_flywheel() -> None:
 
 def test_a_flywheel_of_a_given_inertia_has_no_other_in_its_record() -> None:
     r = da.dynamics(da.slider_crank(), positions=24)
-    sizes: tuple[dict[str, float], ...] = ({"inertia": 2.0}, {"Cs": 0.05})
-    one, other = (da.flywheel(r, **size).record(lambda kind, x: x)["flywheel"] for size in sizes)
+    one, other = (
+        f.record(Scale(None))["flywheel"] for f in (da.flywheel(r, inertia=2.0), da.flywheel(r, Cs=0.05))
+    )
     assert one["for_Cs"] is None
     assert other["for_Cs"]["Cs"] == pytest.approx(0.05, rel=1e-9)
     assert one["exact"]["inertia"] == 2.0

@@ -175,7 +175,7 @@ def test_compiled_stress_of_driven_links_with_loads_is_that_of_the_tables(links:
         assert b.value(name)[0] == pytest.approx(other[name], rel=1e-9, abs=1e-12 * other[name].max())
 
 
-NOT_COMPILED = {
+NOT_COMPILED: dict[str, dict[str, Any]] = {
     "it has friction or a plane that turns": {
         "joints": {"A": {"friction": {"coefficient": 0.1, "radius": 0.01}}}
     },
