@@ -16,7 +16,7 @@ from dalembert.analysis.batch.batch_result import SOLVED
 from dalembert.analysis.batch.kernel_export import WasmModule
 from dalembert.analysis.methods.applied_forces import full_actions
 from dalembert.bundled import cases, examples
-from dalembert.model.library import TEMPLATES, template_text
+from dalembert.model.library import TEMPLATES, template, template_text
 from dalembert.pages.html_page import html_text
 from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
@@ -178,6 +178,41 @@ def saved_text(data: Any, changed: bool = True) -> str:
         return "".join(x if isinstance(x, str) else repr(values[x[0]] / x[1]) for x in part["now"])
 
     return "".join(map(said, data["template"]))
+
+
+@pytest.mark.parametrize(("name", "crossed"), [("belt_drive", False), ("belt_drive", True), ("hoist", False)])
+def test_strands_touch_their_wheels_wherever_the_machine_stands(name: str, crossed: bool) -> None:
+    """Each end at its wheel's radius and across it; moved with the ground, all that is drawn of them is moved."""
+    drawn = []
+    for away in ((0.0, 0.0), (0.7, -0.4)):
+        tree: Any = template(name).to_tree()
+        for point, at in tree["links"]["ground"]["points"].items():
+            tree["links"]["ground"]["points"][point] = [
+                float(str(x).removesuffix(" m")) + d for x, d in zip(at, away, strict=True)
+            ]
+        for link, pose in tree.get("assembly", {}).items():
+            if isinstance(pose, list):
+                near = [float(str(x).removesuffix(" m")) + d for x, d in zip(pose[:2], away, strict=True)]
+                tree["assembly"][link] = [*near, pose[2]]
+        if crossed:
+            tree["joints"]["belt"]["crossed"] = True
+        data = page_data(with_cycle(da.mechanism(tree)))
+        rows = run_page(data)
+        items = [x for x in data["views"]["mechanism"]["items"] if x["t"] in ("path", "arc") and "of" in x]
+        drawn.append([np.array([rows[p][:, 0] for p in item["p"]]) - away for item in items])
+    kinds = [item["t"] for item in items]
+    assert len(kinds) == {"belt_drive": 4, "hoist": 5}[name]
+    for one, other in zip(*drawn, strict=True):
+        assert other == pytest.approx(one, abs=1e-9)
+    wheels = {"belt_drive": [(0, 0, 0.06), (0.5, 0, 0.18)], "hoist": [(0, 0, 0.12), (0.8, 0, 0.06)]}[name]
+    for points in (p for p, kind in zip(drawn[0], kinds, strict=True) if kind == "path"):
+        along = (points[1] - points[0]) / np.hypot(*(points[1] - points[0]))
+        for (x, y, radius), end in (
+            zip(wheels, points, strict=True) if name != "hoist" or points[0][1] > 0.1 else ()
+        ):
+            out = end - (x, y)
+            assert np.hypot(*out) == pytest.approx(radius)
+            assert out @ along == pytest.approx(0, abs=1e-9)
 
 
 def test_saved_text_is_the_mechanism() -> None:

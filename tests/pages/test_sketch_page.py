@@ -70,6 +70,84 @@ def test_each_offer_is_a_file_and_one_step_further(text: str, kinds: list[str], 
             assert da.statics(after).ok.all()
 
 
+BESIDE = """
+links:
+  ground: {points: {O2: [0, 0], O4: [100 mm, 0], Q: [1, 0], P: [2, 0]}}
+  crank: {points: {O2: [0, 0], A: [40 mm, 0]}}
+  coupler: {points: {A: [0, 0], B: [100 mm, 0]}}
+  rocker: {points: {O4: [0, 0], B: [80 mm, 0]}}
+  arm: {points: {Q: [0, 0]}}
+joints:
+  O2: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, coupler]}
+  B: {type: pin, links: [coupler, rocker]}
+  O4: {type: pin, links: [ground, rocker]}
+  Q: {type: pin, links: [ground, arm]}
+drives: {O2: {position: 60 deg}, O4: {position: 100 deg}}
+assembly: {coupler: 20 deg, rocker: 100 deg}
+"""
+"""A four-bar with two drives, and an arm with none: as many drives as freedoms, in the wrong place."""
+BLOCK = """
+  bar: {points: {P: [0, 0], R: [0.5, 0]}}
+joints:
+  S: {type: slot, links: [ground, bar], at: [P, P], direction: 0}"""
+
+
+@pytest.mark.parametrize(
+    ("text", "offered"),
+    [
+        (
+            OPEN,
+            [
+                ("joint", "pin B of coupler to B of rocker", "joints", "B"),
+                ("drive", "drive the turn of O4", "drives", "O4"),
+                ("drive", "drive the turn of A", "drives", "A"),
+            ],
+        ),
+        (BESIDE, [("drive", "drive the turn of Q", "drives", "Q")]),
+        (
+            BESIDE.replace("\njoints:", BLOCK),
+            [
+                ("drive", "drive the slide of S", "drives", "S"),
+                ("drive", "drive the turn of S", "drives", "S"),
+                ("drive", "drive the turn of Q", "drives", "Q"),
+            ],
+        ),
+    ],
+    ids=["open", "beside", "slot"],
+)
+def test_what_is_offered_adds_one_thing(text: str, offered: list[tuple[str, ...]]) -> None:
+    """A joint where two points of one name are loose; a drive of what still moves, with its freedom."""
+    offers = page_or_sketch(da.loads(text), inside=0)["missing"]["offers"]
+    assert [(o["kind"], o["said"]) for o in offers] == [row[:2] for row in offered]
+    before = da.loads(text)
+    for offer, (kind, said, section, name) in zip(offers, offered, strict=True):
+        after = da.loads(offer["text"])
+        assert set(getattr(after, section)) - set(getattr(before, section)) == {name}
+        if kind == "drive":
+            assert after.drives[name].freedom == said.split()[2]
+
+
+def test_more_pins_than_are_offered_are_six() -> None:
+    """Eight bars at one place each of two points of one name, of which none is joined."""
+    bars = "".join(f"  b{k}: {{points: {{P: [0, 0]}}}}\n" for k in range(8))
+    text = f"links:\n  ground: {{points: {{P: [0, 0]}}}}\n{bars}joints: {{}}\n"
+    offers = page_or_sketch(da.loads(text), inside=0)["missing"]["offers"]
+    pins = [o["said"] for o in offers if o["kind"] == "joint"]
+    assert pins == [f"pin P of ground to P of b{k}" for k in range(6)]
+
+
+@pytest.mark.parametrize("axes", ["", ", axes: link"])
+def test_a_force_by_its_size_and_direction_is_drawn_like_its_components(axes: str) -> None:
+    """In degrees: 10 N at 30 deg are 8.66 N and 5 N; all the rest of the sketch is the same."""
+    found = []
+    for value in ("10, direction: 30", "[8.660254037844387, 4.999999999999999]"):
+        data = page_or_sketch(da.loads(LOOSE.replace("[10, -20]", value + axes)), inside=0)
+        assert data["views"]["mechanism"]["arrows"]
+        found.append({k: v for k, v in data.items() if k not in ("text", "missing")})
+    assert found[0] == found[1]
+
+
 def test_a_bar_is_grounded_then_driven() -> None:
     """By offers alone; the last one gives the torque that holds its weight."""
     data = page_or_sketch(da.loads(BAR.replace("0.1, 0]}", "0.1, 0]}, mass: 2, center: [0.05, 0]") + GRAVITY))
