@@ -180,6 +180,12 @@ def saved_text(data: Any, changed: bool = True) -> str:
     return "".join(map(said, data["template"]))
 
 
+def turned(arc: Any, ccw: bool) -> float:
+    """Angle by which an arc turns: its centre, its start, its end."""
+    start, end = (complex(*(p - arc[0])) for p in arc[1:])
+    return float(np.angle(end / start) % (2 * np.pi) if ccw else np.angle(start / end) % (2 * np.pi))
+
+
 @pytest.mark.parametrize(("name", "crossed"), [("belt_drive", False), ("belt_drive", True), ("hoist", False)])
 def test_strands_touch_their_wheels_wherever_the_machine_stands(name: str, crossed: bool) -> None:
     """Each end at its wheel's radius and across it; moved with the ground, all that is drawn of them is moved."""
@@ -204,6 +210,16 @@ def test_strands_touch_their_wheels_wherever_the_machine_stands(name: str, cross
     assert len(kinds) == {"belt_drive": 4, "hoist": 5}[name]
     for one, other in zip(*drawn, strict=True):
         assert other == pytest.approx(one, abs=1e-9)
+    if name == "belt_drive":
+        swept = [
+            turned(points, item["ccw"]) for points, item in zip(drawn[0], items, strict=True) if "ccw" in item
+        ]
+        assert swept == pytest.approx(da.solve(da.mechanism(tree)).belt("belt").wrap.tolist())
+        ends = [p[1:] for p, kind in zip(drawn[0], kinds, strict=True) if kind == "arc"]
+        strands = [p for p, kind in zip(drawn[0], kinds, strict=True) if kind == "path"]
+        assert np.array(ends)[[0, 0, 1, 1], [0, 1, 1, 0]] == pytest.approx(
+            np.array(strands)[[0, 1, 0, 1], [0, 0, 1, 1]]
+        )
     wheels = {"belt_drive": [(0, 0, 0.06), (0.5, 0, 0.18)], "hoist": [(0, 0, 0.12), (0.8, 0, 0.06)]}[name]
     for points in (p for p, kind in zip(drawn[0], kinds, strict=True) if kind == "path"):
         along = (points[1] - points[0]) / np.hypot(*(points[1] - points[0]))
