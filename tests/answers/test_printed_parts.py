@@ -12,6 +12,7 @@ import dalembert as da
 from dalembert.model import loads
 from dalembert.printing import number
 from tests.elements.test_cam_cases import sliding
+from tests.model.parts import FOUR_BAR
 
 CONE = """units: {length: mm, mass: kg, force: N, moment: N*m}
 links: {ground: {points: {O: [0, 0]}}, disc: {points: {O: [0, 0]}}}
@@ -185,3 +186,98 @@ def test_a_batch_is_read_as_a_result_is() -> None:
     )
     for found, wanted in pairs:
         assert found == pytest.approx(wanted, rel=1e-10, abs=1e-12 * np.abs(wanted).max())
+
+
+IN_SPACE = """space: space
+links:
+  ground: {points: {O: [0, 0, 0]}}
+  rod: {points: {O: [0, 0, 0], P: [0.4, 0.1, 0.2]}, mass: 2, center: [0.2, 0, 0]}
+joints: {O: {type: revolute, links: [ground, rod], axis: [0, 0, 1]}}
+drives: {O: {position: [0, 50, 200], effort: 3}}
+loads: {F: {type: KIND, on: rod, direction: [1, 2, 2], value: unknown}}
+gravity: [0, -9.81, 0]
+"""
+
+
+@pytest.mark.parametrize("follows", [False, True])
+@pytest.mark.parametrize("kind", ["force", "couple"])
+def test_an_unknown_load_in_space_has_its_direction_in_the_link_or_in_the_ground(
+    kind: str, follows: bool
+) -> None:
+    """What is missing about the axis of the hinge, over the arm of one unit."""
+    words = kind + (", at: P" if kind == "force" else "") + (", axes: link" if follows else "")
+    r = da.statics(loads(IN_SPACE.replace("KIND", words)))
+    turn = np.exp(1j * np.radians([0, 50, 200]))
+    place, along = (0.4 + 0.1j) * turn, (1 + 2j) / 3 * (turn if follows else 1.0)
+    arm = (place.conj() * along).imag if kind == "force" else np.full(3, 2 / 3)
+    assert r.unknown_load("F") == pytest.approx((2 * 9.81 * 0.2 * turn.real - 3) / arm, rel=1e-10)
+    for k in (1, 2, 3):
+        assert da.wrench.on(r, "rod", at=k).equilibrium().holds
+
+
+def test_how_far_a_linkage_is_from_opening() -> None:
+    """Links in line, stretched or folded; of a slide, the line that just touches the rocker's circle."""
+    m = da.four_bar(positions=7)
+    r = da.kinematics(m)
+    a, b = (np.linalg.norm(r.point(i, p) - r.point(j, q), axis=1)
+            for i, p, j, q in (("crank", "A", "coupler", "B"), ("rocker", "O4", "coupler", "B")))  # fmt: skip
+    d = np.linalg.norm(r.point("crank", "A") - r.point("rocker", "O4"), axis=1)
+    assert r["closure.B"] == pytest.approx(np.minimum(a + b - d, d - np.abs(a - b)), rel=1e-12)
+    slide = da.kinematics(loads(SLIDING.replace("ANGLES", "[10, 30, -20, 36]")))
+    assert slide["closure.B"] == pytest.approx(0.3 - np.abs(0.5 * np.sin(slide.drive("O"))), abs=1e-12)
+
+
+SLIDING = """links:
+  ground: {points: {O: [0, 0], C: [0.5, 0]}}
+  crank: {points: {O: [0, 0], S: [0.1, 0]}}
+  rocker: {points: {C: [0, 0], S: [0.3, 0]}}
+  block: {points: {B: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  C: {type: pin, links: [ground, rocker]}
+  B: {type: pin, links: [block, rocker], at: [B, S]}
+  S: {type: slider, links: [crank, block], at: [S, B]}
+drives: {O: {position: ANGLES}}
+"""
+
+
+def test_an_unknown_load_is_the_sum_of_its_parts() -> None:
+    text = FOUR_BAR.replace("value: 120}", "value: unknown}").replace(
+        "acceleration: -40 rad/s^2}", "effort: 3}"
+    )
+    r = da.dynamics(loads(text))
+    parts = da.superposition(r).unknown_load("T_4")
+    assert set(parts) >= {"F_P", "effort of O2"}
+    assert sum(parts.values()) == pytest.approx(r.unknown_load("T_4"), rel=1e-10)
+    twice = da.dynamics(loads(text.replace("effort: 3}", "effort: 6}")))
+    grown = twice.unknown_load("T_4") - r.unknown_load("T_4")
+    assert grown == pytest.approx(parts["effort of O2"], rel=1e-10)
+
+
+GUIDED_TWICE = """links:
+  ground: {points: {A: [0, 0], B: [0, 1]}}
+  block: {points: {A: [0, 0], B: [0, 1], P: [0.5, 0.2]}}
+joints:
+  A: {type: slider, links: [ground, block]}
+  B: {type: SECOND, links: [ground, block]}
+drives: {A: {position: POSITIONS}}
+loads: {F: {type: force, on: block, at: P, value: [3, -4]}}
+"""
+
+
+@pytest.mark.parametrize(("second", "positions", "said"), [
+    ("slider", "[0, 1, 2]", True), ("slider", "[0, 1]", True), ("slot", "[0, 1, 2]", True), ("slider", "0", False),
+])  # fmt: skip
+def test_a_table_of_positions_says_what_is_not_unique(second: str, positions: str, said: bool) -> None:
+    text = GUIDED_TWICE.replace("SECOND", second).replace("POSITIONS", positions)
+    r = da.statics(loads(text))
+    lines = r.text().splitlines()
+    if second == "slider" and said:  # each has its part along the guides alone
+        head = next(k for k, line in enumerate(lines) if line.startswith("no.  "))
+        assert lines[head].split("  ")[-2:] == ["F A x", "F B x"]
+        assert lines[head + 3].split() == ["1", "redundant", "0", "-3", "0", "0"]
+    assert ("Least-norm values of what is not unique: --csv, --json, or a single position." in lines) == said
+    alone = da.statics(
+        loads(text.replace("  B: {type: " + second + ", links: [ground, block]}\n", ""))
+    ).text()
+    assert "Least-norm" not in alone

@@ -110,7 +110,7 @@ def _sizes(name: str, vectors: Array) -> list[tuple[str, Array]]:
     if known.all() or not known.any():
         letter, _, joint = name.partition(" ")
         return [(f"|{letter}| {joint}", np.linalg.norm(vectors, axis=-1))]
-    return [(f"{name} {axis}", vectors[:, k]) for k, axis in enumerate("xyz") if known[k]]
+    return [(f"{name} {axis}", vectors[:, k]) for k, axis in enumerate("xyz"[: len(known)]) if known[k]]
 
 
 class Extreme(NamedTuple):
