@@ -26,6 +26,19 @@ PIN, MOTION = (
 CONE = "cone: {type: cone, links: [ground, disc], at: O, radii: [50, 60], force: "
 
 
+TURNING = """links:
+  ground: {points: {O: [0.3, 0]}}
+  rod: {points: {O: [0, 0]}, mass: 2, center: [0.5, 0], inertia: 0.1}
+joints: {O: {type: pin, links: [ground, rod], friction: {coefficient: 0.1, radius: 0.01}}}
+turning: {axis: y, speed: unknown}
+drives: {O: {position: -40 deg, effort: 0}}
+gravity: [0, -9.81]
+"""
+HELD = """links: {ground: {points: {O: [0, 0], P: [1, 0]}}, rod: {points: {O: [0, 0], P: [1, 0]}}}
+joints: {O: {type: pin, links: [ground, rod]}, P: {type: slot, links: [ground, rod]}}
+"""
+
+
 def changed(text: str, *changes: tuple[str, str]) -> da.Mechanism:
     """The machine of a file with other words in it."""
     for old, new in changes:
@@ -141,6 +154,35 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
             [[1.0]], positions=[[0.1]]
         ),
         "the drives' speeds change along the file's positions; leave positions out",
+    ),
+    "a table of too many points": (
+        lambda: compiled(
+            changed(
+                FOUR_BAR,
+                (
+                    "value: 120}",
+                    f"value: {{against: links.crank.angle, x: {[k / 9 for k in range(1026)]}, y: {[1] * 1026}}}}}",
+                ),
+            )
+        ),
+        "text:1: a table of 1026 points is not compiled against 'links.crank.angle'; give it at most 1024, or use "
+        "da.dynamics, da.statics or da.sweep",
+    ),
+    "a start that varies": (
+        lambda: da.compile(
+            changed(FOUR_BAR, (MOTION + "}", MOTION + "}\nstart: {O2: {position: 60}}")),
+            ["start.O2.position"],
+        ),
+        "text:26: 'start.O2.position' is of a motion under forces; compile one: da.compile_motion",
+    ),
+    "an unknown speed of turning with friction": (
+        lambda: da.compile(loads(TURNING), ["links.rod.mass"]),
+        "text:5: with friction an unknown speed of turning cannot be compiled; give the speed and read the effort, or "
+        "use da.statics",
+    ),
+    "a place by the value of no drive": (
+        lambda: da.draw.mechanism(da.statics(loads(HELD)), at="3 deg"),
+        "the mechanism has no drive to name a position by; give the number of the position",
     ),
     "torsion of a section of numbers": (
         lambda: da.Section(area=1e-4, modulus=1e-6, inertia=1e-8).torsion,

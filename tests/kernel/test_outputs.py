@@ -14,6 +14,7 @@ from dalembert.analysis.result.named_quantities import quantity
 from dalembert.bundled import examples
 from tests.kernel.machines import four_bar
 from tests.kernel.test_derivatives import checked
+from tests.model.parts import FOUR_BAR
 
 PLANE = [
     "reaction.O2.x + reaction.O4.x",
@@ -67,6 +68,18 @@ def test_expressions_of_parameters_and_comparisons() -> None:
     ):
         with pytest.raises(da.ModelError, match=what):
             longer[text]
+
+
+@pytest.mark.parametrize("more", ["outside: zero", "outside: hold", "outside: zero, interpolate: cubic, shift: 5",
+                                  "outside: zero, times: -2", "periodic: true, shift: 20"])  # fmt: skip
+def test_a_table_is_compiled_within_its_points_and_outside(more: str) -> None:
+    table = f"{{against: O2, x: [0, 60, 90], y: [1, 5, 2], {more}}}"
+    text = FOUR_BAR.replace("value: 120}", f"value: {table}}}").replace(
+        "position: 60 deg, speed: 25 rad/s, acceleration: -40 rad/s^2",
+        "position: [-60, -10, 3, 30, 89, 100], speed: 1 rad/s",
+    )
+    m = da.loads(text)
+    agree(m, ["effort.O2", "reaction.B.x"])
 
 
 def test_derivatives_of_expressions() -> None:

@@ -82,6 +82,7 @@ def test_roots_that_touch(sign: float) -> None:
     for g, expected in (
         (lambda q: sign * (1 - np.cos(q - 2.1)), [2.1, 2.1 + 2 * np.pi]),
         (lambda q: sign * (1.001 - np.cos(q - 2.1)), []),
+        (lambda q: sign * (q - 2.125) ** 2 / 9, [2.125]),  # midway between two
         (lambda q: sign * np.sin(q), []),
         (lambda q: sign * (2 + q), []),
     ):

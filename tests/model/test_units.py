@@ -127,6 +127,23 @@ def test_what_is_no_quantity(value: object, kind: str, says: str) -> None:
     assert str(caught.value) == says
 
 
+@pytest.mark.parametrize(("value", "kind", "si"), [
+    ("1 dyne", "force", 1e-5), ("2 hp", "power", 2 * 550 * 0.3048 * 4.4482216152605),
+    ("1 stone", "mass", 14 * 0.45359237), ("1 arcminute", "angle", math.pi / 10800),
+    ("3 fortnight", "time", 3 * 14 * 86400), ("1 knot", "speed", 1852 / 3600),
+    ("1 psi", "pressure", 4.4482216152605 / 0.0254**2), ("1 erg", "moment", 1e-7),
+])  # fmt: skip
+def test_a_unit_that_pint_knows_is_worth(value: str, kind: str, si: float) -> None:
+    assert quantity(value, kind) == pytest.approx(si, rel=1e-14)
+
+
+def test_electric_units_are_none_of_mechanics() -> None:
+    """One of them even has a root of a length."""
+    for name in ("ampere", "statcoulomb", "kelvin"):
+        with pytest.raises(ModelError, match=f"^unknown unit '{name}'; "):
+            unit(name)
+
+
 def test_a_unit_has_sixty_characters_at_most() -> None:
     assert unit("m" + " " * 59) == unit("m")
     with pytest.raises(ModelError) as caught:
