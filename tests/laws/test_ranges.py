@@ -64,7 +64,9 @@ def test_a_four_bar_closes_in_both_its_ranges(seed: int) -> None:
         closes = (abs(a - ground) < coupler + rocker) & (abs(a - ground) > abs(coupler - rocker))
         np.testing.assert_array_equal(r.ok, closes, err_msg=order)
         b = r.point("rocker", "B") @ [1, 1j]
-        assert np.abs(b - meeting(a, coupler, ground, rocker, side))[closes].max() < 1e-6, order
+        # where the first position is in the other range the stated angles are no mode's
+        off = [np.abs(b - meeting(a, coupler, ground, rocker, way))[closes].max() for way in (side, -side)]
+        assert (min(off) if order in ("random", "one position") else off[0]) < 1e-6, order
         entered = r.mode is not None and "beyond a gap" in r.mode
         assert entered == (order != "one position")
 

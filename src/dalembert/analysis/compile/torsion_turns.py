@@ -297,7 +297,7 @@ def _note(c: Compiled, n: Count, turn: Array) -> str:
 
 
 def _angle(c: Compiled, value: float) -> str:
-    return quantity_text(c, "angle", float(value))
+    return quantity_text(c, "angle", float(value) if abs(value) > 1e-12 else 0.0)  # not the rounding of 0
 
 
 def two_directions(c: Compiled, n: Count, turn: Array) -> bool:
