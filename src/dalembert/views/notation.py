@@ -7,6 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
@@ -230,11 +231,17 @@ class Shown(Figures):
 
     def link(self, link: str) -> str:
         """A link's number or name."""
+        return self._signs[link]
+
+    @cached_property
+    def _signs(self) -> dict[str, str]:
+        """Number of each link, the own one of a link that is named by a number; names where two had the same."""
+        names = {link: link for link in self.order}
         if self.notation.links == "name":
-            return link
-        if re.fullmatch(r"\d+", link) or all(re.fullmatch(r"\d+", n) for n in self.r.links):
-            return "1" if link == GROUND and "1" not in self.r.links else link
-        return str(self.order.index(link) + 1)
+            return names
+        numbered = {link for link in self.order if re.fullmatch(r"\d+", link)}
+        signs = {n: n if n in numbered else str(k) for k, n in enumerate(self.order, 1)}
+        return signs if len(set(signs.values())) == len(signs) else names
 
     def heading(self, link: str) -> str:
         """A link as a heading: 2 crank."""
