@@ -314,3 +314,26 @@ def test_pressure_and_flow_have_exact_derivatives() -> None:
             assert slope[row, j] == pytest.approx(change, rel=1e-6, abs=1e-9)
     r = da.dynamics(m)
     assert k([at])["pressure.C"][0, 0] == pytest.approx(r["pressure.C"][0], rel=1e-12)
+
+
+@pytest.mark.parametrize("ends", FORMS)
+def test_a_cylinder_shorter_than_its_barrel_is_a_column_of_its_section(ends: tuple[str, str]) -> None:
+    """E pi (D^4 - d^4)/64 (pi/K L)^2 there; longer it has the rod's section too, and carries less than the barrel."""
+    text = BOOM.replace(
+        "rod: 45}, position: 1000}",
+        f"rod: 45, barrel: 95, barrel_length: 1100, ends: [{', '.join(ends)}]"
+        "}, position: [950, 1000, 1200]}",
+    )
+    c = da.statics(da.loads(text)).cylinder("C")
+    barrel = 206e9 * math.pi / 64 * (0.095**4 - 0.08**4)
+    rod = 206e9 * math.pi / 64 * 0.045**4
+    assert c.critical[:2] == pytest.approx([euler(x, barrel, ends) for x in (0.95, 1.0)], rel=1e-12)
+    assert c.critical[2] == pytest.approx(critical_load(1.1, 0.1, barrel, rod, ends), rel=1e-12)
+    assert c.critical_barrel == pytest.approx([euler(x, barrel, ends) for x in (0.95, 1.0, 1.2)], rel=1e-12)
+    assert c.critical_rod == pytest.approx([euler(x, rod, ends) for x in (0.95, 1.0, 1.2)], rel=1e-12)
+    assert c.critical[2] < c.critical_barrel[2]
+    assert c.critical[2] > c.critical_rod[2]
+    pushes = c.force > 0
+    assert c.safety[pushes] == pytest.approx((c.critical / c.force)[pushes], rel=1e-12)
+    assert np.isinf(c.safety[~pushes]).all()
+    assert critical_load(0.0, 2.0, barrel, rod, ends) == euler(2.0, rod, ends)

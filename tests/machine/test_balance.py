@@ -491,3 +491,22 @@ drives: {O: {position: {from: 0, to: 360, count: 12}, speed: 20 rad/s, accelerat
         "100 % (dual value). The force, 0 before, did not count. The inertia force is zero without counterweights. "
         "Check: re-analysis with the counterweights agrees to 0."
     )
+
+
+def test_a_counterweight_on_a_link_that_stands_still_balances_nothing() -> None:
+    text = """
+links: {ground: {points: {O: [0, 0]}}, wheel: {points: {O: [0, 0]}, mass: 2, center: [0.1, 0], inertia: 0.3},
+        idle: {points: {O: [0, 0], Q: [0.3, 0]}, mass: 1, center: [0.2, 0]}}
+joints: {O: {type: pin, links: [ground, wheel]}, I: {type: pin, links: [ground, idle], at: O}}
+drives: {O: {position: {from: 0, to: 360, count: 12}, speed: 20 rad/s}, I: {position: 30}}
+"""
+    m = da.loads(text)
+    b = da.balance(m, {"idle": da.Counterweight(radius=0.1, mass=3)})
+    assert (b.placed["idle"].mass, b.value, b.bound) == (0.0, pytest.approx(1), pytest.approx(1))
+    assert b.missing() == ["wheel"]
+    both = da.balance(
+        m, {"idle": da.Counterweight(radius=0.1, mass=3), "wheel": da.Counterweight(radius=0.3, mass=9)}
+    )
+    assert both.placed["idle"].mass == 0.0
+    assert both.placed["wheel"].moment == pytest.approx(0.2, rel=1e-9)
+    assert both.complete

@@ -291,3 +291,21 @@ def test_the_lightest_press_is_that_of_equations_by_hand() -> None:
     )
     np.testing.assert_allclose(best.values, [r, rod, d, web], rtol=2e-4)
     assert best.feasible
+
+
+def test_a_front_of_two_functions_is_that_of_the_words_they_stand_for() -> None:
+    """A lighter beam sags more, h^3 = 4 F L^3/(E b y); the middle of a front is bounded by the second function."""
+
+    def weight(r: da.Result) -> float:
+        return sum(r.mechanism.mass(n) for n in r.links)
+
+    def sag(r: da.Result) -> float:
+        return float(r["deflection.beam"].max())
+
+    vary = {"high": ("30 mm", "90 mm")}
+    front = da.pareto(da.loads(CANTILEVER), vary, [weight, sag], points=3, starts=1, static=True)
+    assert front.aims == ("weight", "sag")
+    ends = 4 * 2000 * 0.5**3 / (210e9 * 0.015 * np.array([0.03, 0.09]) ** 3)
+    assert front.values[:, 1] == pytest.approx([ends[0], ends.mean(), ends[1]], rel=1e-6)
+    h = (4 * 2000 * 0.5**3 / (210e9 * 0.015 * front.values[:, 1])) ** (1 / 3)
+    assert front.values[:, 0] == pytest.approx(7850 * 0.015 * 0.5 * h, rel=1e-9)
