@@ -225,3 +225,48 @@ def test_what_has_no_inertia_is_not_moved() -> None:
     with pytest.raises(ModelError) as refused:
         da.simulate(da.loads(text), "1 s")
     assert "forces that move O move no mass; give its links masses" in str(refused.value)
+
+
+PRESSED = """
+links: {ground: {points: {O: [0, 0]}}, one: {points: {O: [0, 0]}, mass: 3}, two: {points: {O: [0, 0]}, mass: 1}}
+joints:
+  A: {type: slider, links: [ground, one], at: O}
+  B: {type: slider, links: [one, two], at: O}
+  D: {type: slider, links: [ground, two], at: O, stops: {from: 0 m, restitution: 0}}
+drives: {A: {effort: 0, brake: 5 N}, B: {effort: "-3 - 10*time"}}
+start: {A: {position: 1, speed: 0}, B: {position: -0.98, speed: 0}}
+"""
+
+
+def test_a_braked_cart_pushes_another_to_its_stop_and_is_then_pushed_itself() -> None:
+    """3 N + 10 N/s t between them: 0.02 m = 1.5 t^2 + 5/3 t^3 to its stop; at 0.2 s the brake gives way."""
+    s = da.simulate(da.loads(PRESSED), "0.4 s", count=5)
+    (root,) = (x.real for x in np.roots([5 / 3, 1.5, 0, -0.02]) if abs(x.imag) < 1e-12 and x.real > 0)
+    speed = 3 * root + 5 * root**2
+    events = {(e.name, e.of): e.time for e in s.events}
+    assert [(e.name, e.of) for e in s.events] == [
+        ("rest", "A"), ("impact", "D"), ("rest", "D"), ("rest", "A"), ("start", "A"),
+    ]  # fmt: skip
+    assert [events["impact", "D"], events["start", "A"]] == pytest.approx([root, 0.2], rel=1e-9)
+    hit = s.event("impact")[0]
+    assert (hit.speed, hit.lost) == (pytest.approx(speed, rel=1e-9), pytest.approx(speed**2 / 2, rel=1e-9))
+    t = s.time
+    one = 1 + 10 * np.maximum(t - 0.2, 0) ** 3 / 18
+    two = np.maximum(0.02 - 1.5 * t**2 - 5 / 3 * t**3, 0)
+    assert s.position("A") == pytest.approx(one, abs=1e-10)
+    assert s.position("B") == pytest.approx(two - one, abs=1e-10)
+    pushed = np.where(t >= root * (1 - 1e-12), 3 + 10 * t, 0)
+    assert s.joint_stop_force["D"] == pytest.approx(pushed, rel=1e-9, abs=1e-9)
+    held = [e.sentence for e in s.events if (e.name, e.of) == ("rest", "A")]
+    assert held == [
+        f"A comes to rest and stays: friction holds it; effort 0 N, held from {-8 - 10 * x:.6g} N to {2 - 10 * x:.6g} N"
+        for x in (0.0, root)
+    ]
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
+def test_a_motion_without_end_is_looked_at_for_some_time_only() -> None:
+    """At a milliradian a second a step takes long: the time is the limit, not the steps."""
+    s = da.simulate(rotor("{effort: 0}", "0.001 rad/s"), "O.speed = 1 rad/s")
+    assert (s.status, s.ended) == ("not_met", "O.speed = 1 rad/s is not met until 100000 s")
+    assert (s.time[-1], s.position("O")[-1]) == (1e5, pytest.approx(100, rel=1e-9))
