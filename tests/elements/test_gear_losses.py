@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.printing import number
 from tests.tiers import over
 
 PLANETARY = {
@@ -188,3 +189,45 @@ def test_a_held_wheel_is_named_with_its_torque() -> None:
     text = da.statics(m).text()
     assert "R holds ring with 30 N*m." in text
     assert math.isclose(da.statics(m).effort("R")[0], 30, rel_tol=1e-12)
+
+
+COUPLED = """links:
+  ground: {points: {O: [0, 0], L: [0.22, 0]}}
+  sun: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], P: [0.1, 0]}}
+  planet: {points: {P: [0, 0]}}
+  ring: {points: {O: [0, 0]}}
+  lay: {points: {L: [0, 0]}}
+joints:
+  S: {type: pin, links: [ground, sun], at: O}
+  A: {type: pin, links: [ground, arm], at: O}
+  R: {type: pin, links: [ground, ring], at: O}
+  L: {type: pin, links: [ground, lay]}
+  P: {type: pin, links: [arm, planet]}
+  SP: {type: gear, links: [sun, planet], at: [O, P], radii: [0.05, 0.05]}
+  RP: {type: gear, links: [ring, planet], at: [O, P], radii: [0.15, 0.05], internal: true}
+  AL: {type: gear, links: [arm, lay], at: [O, L], radii: [FIRST]}
+  LR: {type: gear, links: [lay, ring], at: [L, O], radii: [SECOND]}
+drives: {S: {position: 0, speed: 40 rad/s}}
+loads: {load: {type: couple, on: arm, value: -200}}
+"""
+
+
+@pytest.mark.parametrize(("first", "second"), [((0.11, 0.11), (0.12, 0.10)), ((0.11, 0.11), (0.10, 0.12))])
+def test_a_ring_geared_to_its_own_arm_lets_power_circulate(
+    first: tuple[float, float], second: tuple[float, float]
+) -> None:
+    """With w_ring = k w_arm and torques as the radii, the ring carries 3 k/(4 - 3 k) of the input, the arm 1 more."""
+    text = COUPLED.replace("FIRST", f"{first[0]}, {first[1]}").replace("SECOND", f"{second[0]}, {second[1]}")
+    r = da.statics(da.loads(text))
+    found, k = r.power_flow(), first[0] / first[1] * second[0] / second[1]
+    arm = 40 / (4 - 3 * k)
+    assert r.speed("arm") == pytest.approx([arm], rel=1e-12)
+    assert found.input == pytest.approx([200 * arm], rel=1e-12)
+    ring = 3 * k / (4 - 3 * k)
+    assert found.links["ring"] == pytest.approx([ring * 200 * arm], rel=1e-12)
+    assert found.links["arm"] == pytest.approx([(1 + ring) * 200 * arm], rel=1e-12)
+    assert found.circulating == pytest.approx([ring * 200 * arm], rel=1e-12)
+    assert (found.lost, found.output) == (pytest.approx([0], abs=1e-9), pytest.approx([200 * arm]))
+    said = f"Power circulates: arm carries {number(1 + ring, 4)} times the power that is put in."
+    assert said in found.text().splitlines()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import dalembert as da
+from dalembert.arrays import Array
 from dalembert.cli.documents.position_argument import _pose
 
 ARM = """
@@ -70,3 +72,29 @@ drives: {O: {position: [0, 0.4, AT]}}
         np.testing.assert_allclose(turned, own, atol=1e-12)
     flat = da.kinematics(da.four_bar(positions=5))
     assert _pose(flat, "rocker") == flat.angle("rocker")[-1]
+
+
+LAW = """
+links: {ground: {points: {S: [0, 0]}}, b: {points: {S: [0, 0]}}}
+joints: {S: {type: slider, links: [ground, b]}}
+drives: {S: {law: {expression: TEXT, duration: 2 s, count: 9}}}
+"""
+
+
+@pytest.mark.parametrize(("text", "rates"), [
+    ("10 mm - 3 mm/(1 + time/(1 s))", lambda t: (10e-3 - 3e-3 / (1 + t), 3e-3 / (1 + t) ** 2, -6e-3 / (1 + t) ** 3)),
+    ("3 mm - 2*(1 mm*time/(1 s))", lambda t: (3e-3 - 2e-3 * t, -2e-3 + 0 * t, 0 * t)),
+    ("1 m/(2 - time/(4 s))", lambda t: (4 / (8 - t), 4 / (8 - t) ** 2, 8 / (8 - t) ** 3)),
+    ("-(5 mm)*sin(time*2/(1 s)) - 1 mm",
+     lambda t: (-5e-3 * np.sin(2 * t) - 1e-3, -1e-2 * np.cos(2 * t), 2e-2 * np.sin(2 * t))),
+    ("(1 + time/(1 s))^2.5*1 mm - (time/(2 s))^3*1 m",
+     lambda t: (1e-3 * (1 + t) ** 2.5 - t**3 / 8, 2.5e-3 * (1 + t) ** 1.5 - 3 * t**2 / 8,
+                3.75e-3 * (1 + t) ** 0.5 - 6 * t / 8)),
+])  # fmt: skip
+def test_a_law_by_an_expression_has_its_exact_rates(
+    text: str, rates: Callable[[Array], tuple[Array, ...]]
+) -> None:
+    r = da.kinematics(da.loads(LAW.replace("TEXT", text)))
+    assert r.time == pytest.approx(np.linspace(0, 2, 9))
+    for rate, wanted in zip(("", "speed", "acceleration"), rates(np.linspace(0, 2, 9)), strict=True):
+        assert r.drive("S", rate) == pytest.approx(wanted, rel=1e-12, abs=1e-15)  # type: ignore[arg-type]

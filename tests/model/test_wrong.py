@@ -89,6 +89,15 @@ FILES = {
         b"title: a",
         "mine.txt:1: the file has 0 links of PMKS+; give one: app.pmksplus.com/?...; the name of a model file ",
     ),
+    "top.json": (
+        b'{"links": {},\n"title": "links",\n "links": {}}',
+        "top.json:3: the key 'links' occurs twice; leave one of them out",
+    ),
+    "beside.json": (
+        b'{"links": {"a": {"points": {"A": [0, {"mass": 1}]}, "mass": 1}},\n'
+        b'"mass": {},\n"k": [{"a": 1}, {"a": 2,\n"b": 1,\n"b": 2}]}',
+        "beside.json:5: the key 'b' occurs twice; leave one of them out",
+    ),
     "twice.json": (b'{"a": 1,\n"b": {"c": 1,\n"c": 2}}', "twice.json:3: the key 'c' occurs twice"),
     "nan.json": (
         b'{"links":\n{"a": {"mass": NaN}}}',
