@@ -154,7 +154,7 @@ def test_a_mirrored_wrench_is_drawn_to_the_same_scale_of_moments() -> None:
     """Two skew forces, and the same with the second one as far below: a couple about their axis of the other sense."""
     found = []
     for height in (0.3, -0.3):
-        system = System(Force([100, 0, 0]), Force([0, 50, 0], at=[0, 0, height]))
+        system = System(Force([1e4, 0, 0]), Force([0, 5e3, 0], at=[0, 0, height]))
         found.append((system.central_axis().moment, force_system_scene(system).scales["moment-seen"]))
     (right, one), (left, other) = found
     assert (right, one) == (pytest.approx(-left), pytest.approx(other))
