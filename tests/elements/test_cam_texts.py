@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -93,3 +94,42 @@ def test_a_cam_that_presses_nowhere_has_no_hertzian_pressure() -> None:
     assert str(refused.value) == (
         "nothing presses the follower on cam 'F' at any position; give force, or a spring that keeps it on: spring_for"
     )
+
+
+@pytest.mark.parametrize("unit", ["mm", "m", "in"])
+def test_files_of_a_cam_have_its_outline_and_the_cutter_beside_it(unit: str, tmp_path: Path) -> None:
+    """The cutter's centre is its radius away along the normal; by angle, counter-clockwise, each once."""
+    tree = cam_machine({"roller": "8 mm"}) | {"units": {"length": unit}}
+    tree["links"]["ground"]["points"]["top"] = [0, "1 m"]
+    c = da.cam(da.mechanism(tree), "F")
+    size = {"mm": 1e3, "m": 1.0, "in": 1 / 0.0254}[unit]
+    c.save(tmp_path / "cam.csv", tolerance=1e-5, cutter=0.006)
+    head, *rows = (tmp_path / "cam.csv").read_text().splitlines()
+    names = [f"radius [{unit}]", f"x [{unit}]", f"y [{unit}]", f"cutter.x [{unit}]", f"cutter.y [{unit}]"]
+    assert head.split(",") == ["angle [deg]", *names]
+    angle, radius, x, y, *center = np.array([[float(cell) for cell in row.split(",")] for row in rows]).T
+    assert (np.diff(angle) > 0).all()
+    assert 0 <= angle[0] < angle[-1] < 360
+    assert np.stack([x, y]) == pytest.approx(
+        radius * np.stack([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    )
+    outline = np.stack([x, y], -1) / size
+    away = np.stack(center, -1) / size - outline
+    assert np.hypot(*away.T) == pytest.approx(0.006, rel=1e-9)
+    assert ((away * outline).sum(axis=1) > 0).all()
+    along = np.roll(outline, -1, axis=0) - np.roll(outline, 1, axis=0)
+    normal = np.abs((away * along).sum(axis=1)) / 0.006 / np.hypot(*along.T)
+    assert np.median(normal) < 1e-3  # chords of an outline to 0.01 mm
+    c.save(tmp_path / "cam.dxf", tolerance=1e-5, cutter=0.006)
+    import ezdxf
+
+    drawing = ezdxf.readfile(tmp_path / "cam.dxf")  # type: ignore[attr-defined]
+    assert drawing.header["$INSUNITS"] == {"mm": 4, "m": 6, "in": 1}[unit]
+    lines = {line.dxf.layer: line for line in drawing.modelspace()}
+    assert {name: line.closed for name, line in lines.items()} == {"cam": True, "cutter": True}
+    found = {name: np.array(line.get_points("xy")) for name, line in lines.items()}
+    order = np.argsort(np.mod(np.degrees(np.arctan2(*found["cam"].T[::-1])), 360))
+    assert len(order) >= len(x)
+    kept = {tuple(np.round(row, 9)) for row in found["cam"][order]}
+    assert {tuple(np.round(row, 9)) for row in outline * size} <= kept
+    assert np.hypot(*(found["cutter"] - found["cam"]).T) == pytest.approx(0.006 * size, rel=1e-9)

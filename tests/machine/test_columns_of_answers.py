@@ -216,3 +216,55 @@ drives: {S: {position: unknown, effort: 0, range: [0.05 m, 1 m]}}
     r = da.statics(da.loads(mass))
     assert r.drive_position("S") == pytest.approx([0.3 - 20 / 500], abs=1e-9)
     assert da.small_swings(r) == pytest.approx([math.sqrt(250)], rel=1e-8)
+
+
+TABLE = """name,C [kN],C0 [kN],d [mm]
+light,20,9,15
+medium,45,25,20
+stiff,45.5,26,22
+heavy,60,40,30
+"""
+
+
+def test_a_bearing_is_chosen_by_its_life_and_its_static_load(tmp_path: Any) -> None:
+    """C = f P (60 n h/1e6)^(1/3); the smallest row that has it, and C0 of so many times the largest load."""
+    (tmp_path / "table.csv").write_text(TABLE)
+    r = da.dynamics(da.slider_crank(), positions=24)
+    load = da.bearing(r, "A")
+    rpm = load.speed * 30 / math.pi
+    needed = load.equivalent * (60 * rpm * 2000 / 1e6) ** (1 / 3)
+    assert 37e3 < needed < 38e3
+    row = {"none": ["none", "is", "enough"], "medium": ["medium", "45000", "25000", "0.02"]}
+    row |= {"stiff": ["stiff", "45500", "26000", "0.022"], "heavy": ["heavy", "60000", "40000", "0.03"]}
+    largest = float(np.abs(load.load).max())
+    for factor, safety, name in (
+        (1.0, 1.0, "medium"), (1.2, 1.0, "medium"), (1.215, 1.0, "stiff"), (1.0, 25.5e3 / largest, "stiff"),
+        (1.3, 1.0, "heavy"), (1.0, 39e3 / largest, "heavy"), (2.0, 1.0, "none"), (1.0, 41e3 / largest, "none"),
+    ):  # fmt: skip
+        t = da.bearings(r, ["A"], hours=2000, table=tmp_path / "table.csv", factor=factor, safety=safety)
+        chosen = t.chosen["A"]
+        assert (chosen.name if chosen else "none") == name
+        said = next(part for part in t.text().split("\n\n") if "C needed" in part).splitlines()
+        assert said[3].split() == ["A", number(factor * needed), *row[name]]
+        assert (
+            said[-1] == f"For 2000 hours{'' if factor == 1 else f', with {number(factor)} times the load'}."
+        )
+    bare = da.bearings(r, ["A"], hours=2000).text()
+    assert ["A", number(needed), "no", "table", "given"] in [line.split() for line in bare.splitlines()]
+
+
+def test_conditions_of_forces_velocities_and_energies_are_met_where_they_are() -> None:
+    """A ball of 1 kg that falls: v = g t, E = v^2/2; a ladder by the laws of its analysis at those instants."""
+    from tests.elements.test_landing import BALL, LADDER, G
+
+    names = ["time = 0.2 s", "point.ball.B.velocity.y = -2 m/s", "energy.kinetic = 5 J"]
+    s = da.simulate(da.loads(BALL % 0.0), "0.5 s", events=names, count=3)
+    assert [e.sentence for e in s.event("condition")] == names
+    assert [e.time for e in s.event("condition")] == pytest.approx([0.2, 2 / G, math.sqrt(10) / G], rel=1e-9)
+    names = ["reaction.floor.y = 150 N", "normal.wall = 40 N", "reaction.wall.magnitude = 30 N"]
+    s = da.simulate(da.loads(LADDER % (4 * math.cos(math.radians(70)))), "1.1 s", events=names, count=3)
+    met = {e.sentence: int(np.flatnonzero(s.time == e.time)[0]) for e in s.event("condition")}
+    assert {*met} == {*names}
+    assert s.result.reaction("floor")[met[names[0]], 1] == pytest.approx(150, rel=1e-9)
+    assert s.normals["wall"][met[names[1]]] == pytest.approx(40, rel=1e-9)
+    assert np.hypot(*s.result.reaction("wall")[met[names[2]]]) == pytest.approx(30, rel=1e-9)
