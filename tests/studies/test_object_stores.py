@@ -121,7 +121,8 @@ def test_a_half_made_store_is_none_and_is_made_anew(
 
 def test_what_is_no_study_is_left_alone(study: Study, address: str) -> None:
     kept = Objects(address).objects
-    for key, data in (("s.zarr/mine.txt", b"precious"), ("s.zarr/zarr.json", b'{"attributes": {}}')):
+    others = (("mine.txt", b"precious"), ("zarr.json", b'{"attributes": {}}'), ("zarr.json", b'{"cut'))
+    for key, data in ((f"s.zarr/{name}", data) for name, data in others):
         kept.write(key, data)
         with pytest.raises(da.ModelError, match=r"s\.zarr exists and is not a study; give another name"):
             study.run(address)
@@ -350,3 +351,38 @@ def test_a_lease_that_another_run_creates_first_is_refused(address: str) -> None
         "the numbers go on behind a record that is cut"
     )
     assert float(json.loads(kept.read("s.zarr.lock/00000005") or b"")["until"]) < time.time()
+
+
+def test_a_lease_is_tried_again_while_its_store_is_gone(
+    address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is kept as long as it lasts, renewed when the store is back, and let go in silence where it is not."""
+    monkeypatch.setattr(object_store, "LEASE", 1.6)
+    kept = Objects(address).objects
+    gone = list[int]()
+
+    class Away:
+        def __getattr__(self, name: str) -> object:
+            return getattr(kept, name)
+
+        def keys(self, prefix: str) -> list[str]:
+            if gone:
+                gone.append(1)
+                raise OSError("no route")
+            return kept.keys(prefix)
+
+    lease = object_store.Lease(address, Away(), "s.zarr.lock/")  # type: ignore[arg-type]
+    first = lease.until
+    gone.append(1)
+    time.sleep(0.55)
+    assert (len(gone) > 1, lease.until, lease.lost) == (True, first, "")
+    lease.check()
+    gone.clear()
+    time.sleep(0.55)
+    lease.check()
+    assert lease.until > first
+    gone.append(1)
+    lease.release()
+    assert not lease._thread.is_alive()
+    (key,) = kept.keys("s.zarr.lock/")
+    assert json.loads(kept.read(key) or b"")["token"] == lease.token
