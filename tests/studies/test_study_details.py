@@ -249,3 +249,54 @@ def test_one_by_one_motions_have_the_instants_of_their_plan() -> None:
     s = da.study(da.loads(text), {"torque": "± 1 %"}, ["time"], simulate={**WAY, "count": 7}, designs=2)
     assert s.engine.why.endswith("has losses")
     assert s.engine.positions == 7
+
+
+LEVEL = """
+units: {angle: rad}
+gravity: standard
+parameters: {heavy: 2 kg, reach: 0.3 m, pull: 5 N*m}
+links: {ground: {points: {O: [0, 0]}}, arm: {points: {O: [0, 0]}, mass: heavy, center: [reach, 0]}}
+joints: {O: {type: pin, links: [ground, arm]}}
+drives: {O: {position: [0, 1, 1.5707963267948966, 2.5]}}
+loads: {F: {type: couple, on: arm, by: ground, value: -pull}}
+"""
+
+
+def test_shares_along_a_cycle_are_those_of_each_position() -> None:
+    """T = m g c cos q + M: the weight's parts go with cos^2 q, where the arm hangs upright only M scatters."""
+    vary = {"heavy": "uniform ± 10 %", "reach": "uniform ± 10 %", "pull": "normal 0.2 N*m"}
+    s = da.study(da.loads(LEVEL), vary, ["effort.O"], designs=64, static=True)
+    found = s.contributions_along("effort.O", 2048)
+    turned = np.cos([0, 1, np.pi / 2, 2.5]) ** 2
+    big, both, small = (
+        (2 * 9.80665 * 0.3) ** 2 / 300 * turned,
+        (2 * 9.80665 * 0.3) ** 2 / 300**2 * turned,
+        0.04,
+    )
+    total = 2 * big + both + small
+    assert found.output == "effort.O"
+    assert found.lost == 0
+    assert found.sigma == pytest.approx(np.sqrt(total), rel=3e-3)  # of 2048 designs
+    assert found.mean == pytest.approx(2 * 9.80665 * 0.3 * np.cos([0, 1, np.pi / 2, 2.5]) + 5, abs=1e-2)
+    for name, first, whole in (
+        ("heavy", big, big + both),
+        ("reach", big, big + both),
+        ("pull", small, small),
+    ):
+        assert found.shares[name] == pytest.approx(first / total, abs=6e-3)
+        assert found.total[name] == pytest.approx(whole / total, abs=6e-3)
+
+
+def test_shares_along_a_cycle_leave_out_designs_that_do_not_close() -> None:
+    """With the crank away from the rocker's pivot at 180 deg: a row is lost where either sample's coupler is short."""
+    m = da.four_bar(positions=2)
+    points = {n: m.links[n].points for n in ("ground", "crank", "rocker")}
+    far, rocker = points["ground"]["O4"][0] + points["crank"]["A"][0], points["rocker"]["B"][0]  # type: ignore[index]
+    least = far - rocker
+    vary = {
+        "links.coupler.points.B.0": f"{least - 0.02!r}..{least + 0.06!r} m",
+        "links.coupler.mass": "± 5 %",
+    }
+    found = da.study(m, vary, ["effort.O2"], designs=64, static=True).contributions_along("effort.O2", 256)
+    assert found.lost / 256 == pytest.approx(1 - 0.75**2, abs=0.02)  # of 256 designs
+    assert np.isfinite(found.mean).all()
