@@ -194,6 +194,8 @@ def test_printed(capsys: pytest.CaptureFixture[str]) -> None:
 def test_the_taught_table_printed(capsys: pytest.CaptureFixture[str]) -> None:
     main(["solve", str(CASES / "seed-002-7a-engine-friction-circles.yaml"), "--method", "fixed-point"])
     out = capsys.readouterr().out
+    smooth, table = "-5873.1362", out.partition("step")[2].splitlines()
+    assert table[3].split() == ["0", smooth, *"0000", "-"]  # without friction, and no change yet
     assert "1     -4486.6005" in out
     assert "The textbook iteration converges after 11 steps; each step leaves 0.0588 of the" in out
 

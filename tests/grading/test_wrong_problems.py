@@ -292,6 +292,19 @@ def test_one_part_left_out_is_the_sum_of_its_parts_left_out() -> None:
     assert words == {f"the inertia of {link} is left out" for link in ("coupler", "rocker")}
 
 
+def test_what_is_more_usual_is_tried_first() -> None:
+    """A position counted from elsewhere before one misread by tens of degrees, and lengths that are exchanged."""
+    orders = [
+        (x.order, x.sentence.removeprefix("the position of O2 "))
+        for x in misread_geometry(da.statics(da.four_bar(positions=1)))
+    ]
+    position = [order for order, words in orders if words.startswith("is ")]
+    assert position == [2] * 4 + [3] * 4
+    assert {
+        order for order, words in orders if "exchanged" in words or words.startswith("the length of")
+    } == {3}
+
+
 def test_links_of_three_joints_are_misread_by_their_first_two() -> None:
     """Lengths by the first two joints of a link, in the order of the file; none of one joint or of the ground."""
     r = da.solve(da.load(examples()["scissor_lift"]))

@@ -5,12 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
 from dalembert.errors import ModelError
 from dalembert.interchange.file_formats import foreign_bytes, read_foreign
+from dalembert.interchange.link_graph import inertia_matrix
 from tests.interchange.test_ondsel import SCREW
 from tests.interchange.written_files import largest_difference, read_back
 
@@ -298,6 +300,23 @@ def test_masses_are_of_inertials_or_of_geoms(rule: str, masses: tuple[float, flo
     (tmp_path / "arm.v2.xml").write_text(f"<mujoco>{inside}</mujoco>", encoding="utf-8")
     m, _ = read_foreign(tmp_path / "arm.v2.xml")
     assert (m.mass("a"), m.mass("b")) == pytest.approx(masses)
+    moments = [2 / 6 if mass == 2 else float(mass == 3) for mass in masses]  # of a cube; as given; of nothing
+    for link, moment in zip("ab", moments, strict=True):
+        assert inertia_matrix(m.inertia(link)) == pytest.approx(moment * np.eye(3), abs=1e-15)
+
+
+@pytest.mark.parametrize("first", ["P", "B"])
+def test_the_turn_of_a_ball_is_no_motor_of_mujoco(first: str) -> None:
+    """A pin and a ball about one place; the drive of the ball turns about the pin's axis."""
+    pair = {
+        "P": joint("revolute", "ground", "a"),
+        "B": {"type": "spherical", "links": ["ground", "a"], "at": "O"},
+    }
+    moved = {"B": {"joint": "B", "freedom": "turn", "position": 0, "axis": Z}}
+    m = machine({name: pair[name] for name in (first, "B" if first == "P" else "P")}, moved)
+    text, lost = foreign_bytes(m, "x.xml")
+    assert lost == ["drive 'B', the turn of a ball about an axis"]
+    assert b"<motor" not in text
 
 
 def test_a_link_of_others_that_is_called_ground_gets_another_name(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from dalembert.reports.design.element_parts import element_parts
 from dalembert.reports.design.given_parts import stated
 from dalembert.reports.design.power_parts import balance_part
 from dalembert.reports.design.verdict import DesignContext
-from dalembert.reports.sheet import Equations, SheetTable, Working
+from dalembert.reports.sheet import Equations, Paragraph, SheetTable, Working
 
 
 def lines(r: da.Result) -> list[Working]:
@@ -173,3 +173,29 @@ def test_values_of_a_description_are_stated_with_their_units() -> None:
     assert stated(c, {"plate_size": ["w", "0.02 m"]}) == "plate size [0.025 m, 0.02 m]"
     assert stated(c, [{"a": "w"}, "1 m"]) == "[a 0.025 m; 1 m]"
     assert stated(c, [{"a": "w"}, {"b": "1 m"}]) == "[a 0.025 m; b 1 m]"
+
+
+@pytest.mark.parametrize("hinges", [2, 3])
+def test_all_unknowns_of_a_system_solved_as_one_are_listed(hinges: int) -> None:
+    """A flap on hinges in a row, of which each carries five numbers, and a torque: three abreast, none left out."""
+    points = {f"H{k}": [0, 0, 0.5 * k] for k in range(hinges)}
+    flap = {"points": points, "mass": 3, "center": [0.4, 0, 0.5], "inertia": [0.1, 0.2, 0.3]}
+    m = da.mechanism(
+        {
+            "space": "space",
+            "gravity": [0, -9.81, 0],
+            "links": {"ground": {"points": points}, "flap": flap},
+            "joints": {
+                h: {"type": "revolute", "links": ["ground", "flap"], "axis": [0, 0, 1]} for h in points
+            },
+            "drives": {"H0": {"position": 0.3}},
+        }
+    )
+    blocks = da.report(da.statics(m)).sheet.blocks
+    count = 5 * hinges + 1
+    said = f"All links: 6 equations with {count} unknowns, assembled from those above and solved as one."
+    assert [b.text for b in blocks if isinstance(b, Paragraph) and "solved as one" in b.text] == [said]
+    (table,) = [b for b in blocks if isinstance(b, SheetTable) and list(b.heads) == ["Unknown", "Value"] * 3]
+    names = [cell for column in (0, 2, 4) for row in table.rows if (cell := row[column])]
+    assert len(set(names)) == len(names) == count
+    assert all(bool(row[c]) is bool(row[c + 1]) for row in table.rows for c in (0, 2, 4))

@@ -226,6 +226,20 @@ def test_what_needs_a_thing_goes_with_it(kind: str, name: str, left: list[str]) 
     assert [line.partition(":")[0] for line in d.text.splitlines() if line[0] != " "] == left
 
 
+def test_a_new_name_is_quoted_as_the_old_one_was() -> None:
+    text = """links:
+  ground: {points: {O: [0, 0]}}
+  'crank': {points: {O: [0, 0], A: [1, 0]}}
+joints:
+  O: {type: pin, links: [ground, "crank"]}
+loads:
+  F: {type: force, on: 'crank', at: A, value: [1, 0]}
+  G: {type: force, on: crank, at: A, value: [1, 0]}
+"""
+    expected = text.replace("'crank':", "arm:").replace("crank", "arm")
+    assert rename(text, "yaml", "links", "crank", "arm") == expected
+
+
 @pytest.mark.parametrize("stated", [True, False])
 @pytest.mark.parametrize("second", [True, False])
 def test_a_loose_link_is_where_it_was_dragged(stated: bool, second: bool) -> None:
