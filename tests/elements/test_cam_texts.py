@@ -35,7 +35,7 @@ def test_a_harmonic_cam_prints_its_steepest_place_its_nose_and_where_its_acceler
     """y = 48 mm + h/2 (1 - cos(pi x)): tan of the pressure angle is y'/y, the nose y^2/(y - y'')."""
     up = {"to": "20 mm", "in": "90 deg", "by": "harmonic"}
     segments = [up, {"dwell": "40 deg"}, {**up, "to": 0, "in": "110 deg"}, {"dwell": "rest"}]
-    c = da.cam(da.mechanism(cam_machine({"roller": "8 mm"}, segments=segments)), "F")
+    c = da.cam(da.mechanism(cam_machine({"roller": "8 mm"}, segments=segments)), "F", count=91)
     angles = []
     for turn in (math.pi / 2, math.radians(110)):
         x = np.linspace(0, 1, 100_001)
@@ -57,7 +57,7 @@ def test_a_hollow_cam_prints_the_largest_cutter() -> None:
     """Of a cycloidal rise from a small base: the outline's least hollow radius at the places of the answer."""
     up = {"to": "30 mm", "in": "60 deg", "by": "cycloidal"}
     segments = [up, {**up, "to": 0}, {"dwell": "rest"}]
-    c = da.cam(da.mechanism(cam_machine({"roller": "8 mm"}, segments=segments)), "F")
+    c = da.cam(da.mechanism(cam_machine({"roller": "8 mm"}, segments=segments)), "F", count=91)
     outline = c.profile(c.turn)
     (row,) = [row for row in stripped(lines(c)) if "hollow" in row[0]]
     assert [row[0], row[2]] == ["largest cutter radius in hollows", "m"]

@@ -11,6 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.errors import ModelError
 from tests.elements.test_landing import LADDER, G, box
+from tests.tiers import crossed
 
 BLOCK = """
 gravity: [{gx!r}, {gy!r}]
@@ -76,12 +77,10 @@ TIPS = {  # force over time: when and where it lifts off, and the arm of the end
 }
 
 
-@pytest.mark.parametrize(("direction", "angle"), [(0.0, 0.0), (-50.0, 110.0)])
-@pytest.mark.parametrize("force", TIPS)
-def test_a_block_that_tips_turns_about_the_end_that_is_left(
-    force: str, direction: float, angle: float
-) -> None:
+@crossed("force, place", TIPS, [(0.0, 0.0), (-50.0, 110.0)])
+def test_a_block_that_tips_turns_about_the_end_that_is_left(force: str, place: tuple[float, float]) -> None:
     """Its normal force acts there, perpendicular to the guide, however far it has tipped."""
+    direction, angle = place
     s = da.simulate(block(force, direction=direction, angle=angle), "0.17 s", count=9)
     when, end, reach = TIPS[force]
     (event, *more) = s.events
