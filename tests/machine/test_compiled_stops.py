@@ -191,3 +191,20 @@ def test_bounces_of_many_designs_end_at_their_limits() -> None:
     assert r.ended == tuple(f"at rest from {t:.6g} s on" for t in rest)
     assert not r.position.any()
     assert r.redone == 0
+
+
+@pytest.mark.parametrize("place", [0.0, -10.0])
+@pytest.mark.parametrize(("off", "first", "then", "back"), [(0.1, -1, -1, 0.6), (0.0, 0, -4, 2.4)])
+def test_two_stops_that_are_met_at_once_are_left_to_one_design_alone(
+    place: float, off: float, first: float, then: float, back: float
+) -> None:
+    """Wall and cart in one instant, or a cart that stands at the wall, wherever that is: A stays, B goes back."""
+    carts = rigid.TWO_CARTS.replace("stops: {from: 0 m}}", f"stops: {{from: {place} m}}}}")
+    carts = carts.replace("B: {position: 0.1 m", f"B: {{position: {2 * place + 0.1} m")
+    carts = carts.replace("stops: {from: 0 m, restitution", f"stops: {{from: {2 * place} m, restitution")
+    m = da.loads(carts % (f"{place + off} m", f"{first} m/s", f"{then} m/s"))
+    r = da.compile_motion(m, "0.15 s", ["links.one.mass"], [], "final")([[3.0], [2.0]])
+    assert r.redone == 2
+    gone = back * (0.15 - 0.1 / -then)
+    assert r.position == pytest.approx(np.array([[place, 2 * place + gone]] * 2), abs=1e-9)
+    assert r.speed == pytest.approx(np.array([[0, back]] * 2), abs=1e-9)
