@@ -16,6 +16,7 @@ from dalembert.reports.design.element_parts import element_parts
 from dalembert.reports.design.given_parts import stated
 from dalembert.reports.design.power_parts import balance_part
 from dalembert.reports.design.verdict import DesignContext
+from dalembert.reports.sections.terms import about
 from dalembert.reports.sheet import Equations, Paragraph, SheetTable, Working
 
 
@@ -162,6 +163,22 @@ def test_counterweights_are_put_on_links_with_a_mass_that_turn_about_the_ground(
     said = "no link with a mass turns about the ground, where a counterweight is put"
     with pytest.raises(da.ModelError, match=f"^{said}$"):
         list(balance_part(DesignContext(r, 0, da.Notation())))
+
+
+@pytest.mark.parametrize(
+    ("place", "axis", "index"),
+    [
+        ("A", "x", "Ax"),
+        ("AB", "y", "ABy"),
+        ("piston", "x", "piston,x"),
+        ("piston", "", "piston"),
+        ("O2b", "z", "O2b,z"),
+    ],
+)
+def test_an_axis_stands_behind_a_place_by_a_comma_where_it_is_a_word(
+    place: str, axis: str, index: str
+) -> None:
+    assert about(place, axis) == index
 
 
 def test_values_of_a_description_are_stated_with_their_units() -> None:

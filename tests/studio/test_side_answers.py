@@ -13,12 +13,15 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.errors import AnalysisError, ModelError
 from dalembert.model.files.model_files import loads, read_text
+from dalembert.studio.access import Access
 from dalembert.studio.document import Document
 from dalembert.studio.editing.gestures import gesture
 from dalembert.studio.problems import problem_text
 from dalembert.studio.side_answers import assembly_modes, resting_positions, shares
 from dalembert.studio.solver import _ASKED, ASKED, Question, Solver, _serve, answered, written
+from dalembert.studio.tab_messages import sentence
 from tests.approved.commands import BROKEN
 
 
@@ -69,6 +72,62 @@ def test_the_shares_of_the_loads_add_up() -> None:
     assert sum(effort["values"]) == pytest.approx(effort["sum"])
     force = [row["sum"] * 4.4482216152605 for row in rest]
     assert np.allclose(force, r.force_array[0].ravel(), rtol=1e-9)
+
+
+def test_the_shares_of_an_unknown_load_are_its_own() -> None:
+    """A couple that holds 3 N m at the crank against a force: each in proportion, and none where nothing is solved."""
+    tree = da.four_bar(positions=1).to_tree()
+    tree["drives"]["O2"] |= {"position": 1.0, "effort": 3.0}
+    tree["loads"] = {
+        "F": {"type": "force", "on": "coupler", "at": "B", "value": [50, -20]},
+        "T": {"type": "couple", "on": "rocker", "value": "unknown"},
+    }
+    m = da.mechanism(tree)
+    told = shares(da.statics(m))
+    row = next(row for row in told["rows"] if row["name"] == "T")
+    by = dict(zip(told["sources"], row["values"], strict=True))
+    alone = {
+        "F": da.statics(m.with_values({"drives.O2.effort": 0.0})),
+        "effort of O2": da.statics(m.with_values({"loads.F.value": [0.0, 0.0]})),
+    }
+    assert row["unit"] == "N·m"
+    assert {name: by[name] for name in by if abs(by[name]) > 1e-12} == pytest.approx(
+        {name: float(r.unknown_load("T")[0]) for name, r in alone.items()}, rel=1e-9
+    )
+    assert row["sum"] == pytest.approx(float(da.statics(m).unknown_load("T")[0]), rel=1e-9)
+    with pytest.raises(
+        da.ModelError, match=r"^no position is solved; look at the sentence below the drawing$"
+    ):
+        shares(da.statics(m.with_values({"links.coupler.points.B.0": 0.01})))
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (ModelError("it is wrong", "mend it", (), "m.yaml", 3), "it is wrong; mend it"),
+        (ModelError("it is wrong"), "it is wrong"),
+        (AnalysisError("position 1: jammed"), "position 1: jammed"),
+        (ZeroDivisionError("x"), "the studio failed (ZeroDivisionError); please report what you did"),
+    ],
+)
+def test_an_error_is_told_without_its_file(error: Exception, said: str) -> None:
+    assert sentence(error) == said
+
+
+@pytest.mark.parametrize(
+    ("host", "origin", "socket", "said"),
+    [
+        ("127.0.0.1:80", "", False, ""),
+        ("localhost:80", "http://127.0.0.1:80", True, ""),
+        ("127.0.0.1:80", "", True, "the origin of the page is missing"),
+        ("127.0.0.1:80", "http://else", False, "pages of 'http://else' may not speak to this server"),
+        ("else:80", "http://else:80", True, "this server is 127.0.0.1:80, not 'else:80'"),
+        ("", "", False, "this server is 127.0.0.1:80, not ''"),
+    ],
+)
+def test_who_may_speak_to_the_studio(host: str, origin: str, socket: bool, said: str) -> None:
+    headers = {k: v for k, v in (("host", host), ("origin", origin)) if v}
+    assert Access(80).refused(headers, socket) == said
 
 
 def test_every_question_of_a_tab_is_answered_or_refused_with_a_sentence(tmp_path: object) -> None:

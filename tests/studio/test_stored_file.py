@@ -27,6 +27,12 @@ def test_what_changed_outside_is_never_overwritten(tmp_path: Path) -> None:
     assert file.path.read_text() == "c"
 
 
+def test_what_is_no_file_cannot_be_read(tmp_path: Path) -> None:
+    (tmp_path / "m.yaml").mkdir()
+    with pytest.raises(ModelError, match=r"^m\.yaml cannot be read: Is a directory; check its permissions$"):
+        StoredFile(tmp_path / "m.yaml").read()
+
+
 def test_what_was_not_saved_is_kept_beside_it(tmp_path: Path) -> None:
     file = StoredFile(tmp_path / "m.yaml")
     file.save("a")
