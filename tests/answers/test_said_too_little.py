@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,11 +15,13 @@ import dalembert as da
 from dalembert.analysis.friction.fixed_point import contacts_in_motion
 from dalembert.bundled import cases
 from dalembert.errors import AnalysisError, ModelError
-from dalembert.model import loads
+from dalembert.model import loads, tree_text
 from dalembert.model.library import bennett, in_line_engine, rccc, spherical_four_bar, v_engine
+from dalembert.saving import check_new_folder, new_folder
 from tests.elements.test_brakes import BAND, BRAKES, SHOE
 from tests.elements.test_one_way import FILE as CLUTCH
 from tests.model.parts import FOUR_BAR
+from tests.model.test_wrong import RSSR
 
 PIN, MOTION = (
     "B:  {type: pin, links: [coupler, rocker]}",
@@ -311,3 +315,70 @@ def test_the_forces_on_a_link_of_an_open_linkage_are_refused_with_its_reason() -
     with pytest.raises(AnalysisError) as refused:
         da.wrench.on(r, "coupler", at=1)
     assert str(refused.value) == f"position 1: {r.reasons[0]}"
+
+
+LACKING: dict[str, tuple[str, Callable[[], Any], str]] = {
+    "TOML": (
+        "tomli_w",
+        lambda: tree_text(da.four_bar().to_tree(), "toml"),
+        "TOML is written by the package tomli-w; install it: pip install tomli-w",
+    ),
+    "casadi": (
+        "casadi",
+        lambda: da.compile(da.four_bar(), ["links.coupler.mass"], ["effort.O2"]).to_casadi(),
+        "casadi is not installed; pip install 'dalembert[fast]'",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LACKING)
+def test_a_package_that_lacks_is_named(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    package, ask, says = LACKING[name]
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(ModelError) as refused:
+        ask()
+    assert str(refused.value) == says
+
+
+def test_stops_of_a_joint_in_space_are_of_its_only_freedom() -> None:
+    text = RSSR.replace("C: {type: cylindrical", "C: {type: cylindrical, stops: {from: 1}")
+    with pytest.raises(ModelError) as refused:
+        loads(text, name="r.yaml")
+    assert str(refused.value) == (
+        "r.yaml:17: stops of joint 'C': stops are of a joint with one freedom, and this one has slide, turn; let a "
+        "drive of that freedom go, and give the stops to the drive"
+    )
+
+
+def test_folders_of_sheets_are_made_beside_what_is_there(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("mine")
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "a").write_text("mine")
+    for name, says in {
+        "none/sheets": f"cannot write {tmp_path}/none/sheets: folder {tmp_path}/none does not exist; create it, or "
+        "name another",
+        "file": f"{tmp_path}/file is a file; name a folder",
+        "full": f"{tmp_path}/full has files; name another folder, or overwrite: --force, in Python overwrite=True",
+    }.items():
+        with pytest.raises(ModelError) as refused:
+            check_new_folder(tmp_path / name, overwrite=False)
+        assert str(refused.value) == says
+    assert [check_new_folder(tmp_path / name, overwrite=True) for name in ("full", "new")] == [True, False]
+
+
+def test_a_folder_is_replaced_whole_or_not_at_all(tmp_path: Path) -> None:
+    folder = tmp_path / "sheets"
+    folder.mkdir()
+    (folder / "old").write_text("mine")
+
+    def half() -> None:
+        with new_folder(folder) as beside:
+            (beside / "new").write_text("half")
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        half()
+    assert [p.name for p in tmp_path.rglob("*")] == ["sheets", "old"]
+    with new_folder(folder) as beside:
+        (beside / "new").write_text("whole")
+    assert [p.name for p in tmp_path.rglob("*")] == ["sheets", "new"]

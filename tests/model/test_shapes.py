@@ -247,6 +247,39 @@ def test_meshes_that_are_no_solids(tmp_path: Path) -> None:
         assert says in str(caught.value)
 
 
+FACES = (("000", "010", "100"), ("000", "100", "001"), ("000", "001", "010"), ("100", "010", "001"))
+
+
+@pytest.mark.parametrize("inside_out", [False, True])
+@pytest.mark.parametrize(("unit", "size"), [
+    ("", 1.0), (", unit: cm", 0.01), (", unit: 2 mm", 0.002), (", unit: in", 0.0254), (", unit: 3", 3.0),
+])  # fmt: skip
+def test_a_corner_of_a_cube_has_its_integrals(
+    tmp_path: Path, inside_out: bool, unit: str, size: float
+) -> None:
+    """Also where the triangles of the file are all turned the wrong way; its unit has a number, or is one alone."""
+    lines = ["solid corner"]
+    for face in FACES:
+        corners = [" ".join(corner) for corner in (face[::-1] if inside_out else face)]
+        lines += [
+            "facet normal 0 0 0",
+            "outer loop",
+            *(f"vertex {c}" for c in corners),
+            "endloop",
+            "endfacet",
+        ]
+    (tmp_path / "corner.stl").write_text("\n".join([*lines, "endsolid corner", ""]))
+    shape = f"{{type: mesh, file: corner.stl, density: 1200{unit}}}"
+    (tmp_path / "m.yaml").write_text(
+        f"space: space\nunits: {{length: m}}\nlinks: {{ground: {{}}, a: {{shape: {shape}}}}}\n"
+    )
+    m = load(tmp_path / "m.yaml")
+    assert m.mass("a") == pytest.approx(200 * size**3)
+    assert m.center("a") == pytest.approx([size / 4] * 3)
+    about = np.where(np.eye(3, dtype=bool), 3 / 40, 1 / 80) * 200 * size**5
+    assert np.array(m.inertia("a")) == pytest.approx(about)
+
+
 def test_without_the_package_the_message_says_how_to_install_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
