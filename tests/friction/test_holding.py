@@ -144,6 +144,23 @@ def test_what_holds_beyond_impending_motion_is_said() -> None:
     )
 
 
+@pytest.mark.parametrize(("floor", "wall", "slope", "says"), [
+    (0.3, 0.0, 10.0, "any value of floor between the two impending motions holds the machine; at both ends friction is "
+     "at its limit in floor."),
+    (0.3, 1.3, 40.0, "any value of floor up to the high end holds the machine; at the low end no value is large enough "
+     "to move the mechanism in this sense; at the high end friction is at its limit in floor, wall."),
+])  # fmt: skip
+def test_what_is_said_of_a_wedge_at_rest(floor: float, wall: float, slope: float, says: str) -> None:
+    r = da.statics(wedge(floor, wall, slope))
+    low, high = r.interval("floor")[0]
+    assert r.reasons == ("At rest at floor = 0.1 m: " + says,)
+    assert high == pytest.approx(wedge_effort(floor, -wall, slope), rel=1e-12)
+    if wall:
+        assert (np.isnan(low), r.holding("floor")[0, 0]) == (True, -np.inf)
+    else:
+        assert low == pytest.approx(wedge_effort(-floor, wall, slope), rel=1e-12)
+
+
 def test_what_holds_beyond_is_counted_over_positions() -> None:
     m = wedge(0.6, 0.5, 20.0).with_values({"drives.floor.position": [0.1, 0.2, 0.3]})
     said = (

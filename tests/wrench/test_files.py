@@ -50,6 +50,18 @@ def test_a_plate() -> None:
     )
 
 
+def test_a_direction_is_a_vector_of_any_length() -> None:
+    plane = loads("forces: {F: {size: 20, direction: [3, -4], at: [1, 2]}}")
+    assert plane["F"].vector == pytest.approx([12, -16])
+    space = loads("space: space\nforces: {F: {size: 6 kN, direction: [2, 4, -4], at: [0, 0, 0]}}")
+    assert space["F"].vector == pytest.approx([2000, 4000, -4000])
+    with pytest.raises(ModelError) as refused:
+        loads("space: space\nforces: {F: {size: 6, direction: 30, at: [0, 0, 0]}}")
+    assert str(refused.value) == (
+        "text:2: direction of force 'F': 30 is not a direction in space; write [x, y, z], or angles: [a, b, c]"
+    )
+
+
 def test_a_box() -> None:
     s = loads(BOX)
     assert s["F1"].vector == pytest.approx(np.array([2, 1, 1]) * 20000 / np.sqrt(6))
