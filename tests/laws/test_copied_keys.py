@@ -15,7 +15,8 @@ parameters: {k: 2 mm, f: 2 N}
 links:
   ground: {points: {O: [0, 0], S: [10, 20]}}
   crank: {points: {O: [0, 0], A: [50, 20]}, mass: 2}
-  drum: {points: {S: [0, 0]}}
+  drum: {points: {S: [0, 0], C: [0, 0]}}
+  carrier: {points: {S: [0, 0], C: [60, 0]}}
 joints:
   O: {type: pin, links: [ground, crank]}
 drives: {O: {position: 20}}
@@ -38,6 +39,18 @@ PLACES = ("A: [50, 20]", "A: [50, 20], B: {from: A, at: [3, 4]}, C: {from: A, tu
 SIDE = ("O: {type: pin, links: [ground, crank]}", "O: {type: pin, links: [ground, crank]}\n  W: {type: pin, links: "
         "[ground, drum], at: S}\n  P: {type: shoe, links: [drum, crank], at: [S, A], radius: 5, from: 20, to: 50, "
         "pressure: cosine, side: left, friction: {coefficient: 0.3}}")  # fmt: skip
+
+
+BOTH = ("of: [crank]", "of: [crank, drum]")
+CAM = (
+    "O: {type: pin, links: [ground, crank]}",
+    """O: {type: pin, links: [ground, crank]}
+  G: {type: pin, links: [ground, carrier], at: S}
+  Q: {type: pin, links: [carrier, crank], at: [S, A]}
+  D: {type: pin, links: [carrier, drum], at: C}
+  F: {type: cam, links: [drum, crank], at: [C, O], follower: knife, profile: {base: 30, start: 15, segments: [
+      {to: 0.35 rad, in: 90 deg, by: cycloidal}, {dwell: 90 deg}, {to: 0, in: 180 deg, by: cycloidal}]}}""",
+)
 
 
 def couple(value: str) -> tuple[str, str]:
@@ -177,6 +190,53 @@ KEYS: dict[str, tuple[str, tuple[tuple[str, str], ...], str, Any]] = {
         "loads.T_2.value",
         {"against": "O_2", "x": deg(-90, 0), "y": ["2.0 N*m", "1.0 N*m"], "times": -1.0, "shift": deg(50)},
     ),
+    **{
+        f"a force in a line {how}": (
+            how,
+            (force("[3, 4]"),),
+            "loads.T_2.value",
+            [f"{x}.0 N", f"{y}.0 N"],
+        )
+        for how, x, y in (
+            ("phase: {ground: 90}", -4, 3), ("phase: {ground: 180}", -3, -4), ("phase: {ground: 270}", 4, -3),
+            ("phase: {ground: 360}", 3, 4), ("mirror: {ground: 0}", 3, -4), ("mirror: {ground: 45}", 4, 3),
+            ("mirror: {ground: 90}", -3, 4), ("mirror: {ground: -45}", -4, -3),
+        )
+    },
+    "a turned size and direction": (
+        PHASE, (force("5 @ 10"),), "loads.T_2",
+        {"type": "force", "on": "crank_2", "at": "A", "value": "5.0 N", "direction": deg(40)},
+    ),
+    "a mirrored size and direction": (
+        MIRROR, (force("5 @ 10"),), "loads.T_2",
+        {"type": "force", "on": "crank_2", "at": "A", "value": "5.0 N", "direction": deg(50)},
+    ),
+    "a force that follows its link": (
+        MIRROR, (("loads: {}", "loads: {T: {type: force, on: crank, at: [3, 4], axes: link, value: [5, 6]}}"),),
+        "loads.T_2",
+        {"type": "force", "on": "crank_2", "at": ["0.003 m", "-0.004 m"], "axes": "link", "value": ["5.0 N", "-6.0 N"]},
+    ),
+    "a mirrored direction": (
+        MIRROR, (("loads: {}", "loads: {T: {type: force, on: crank, at: A, value: 5, direction: 10}}"),),
+        "loads.T_2", {"type": "force", "on": "crank_2", "at": "A", "value": "5.0 N", "direction": deg(50)},
+    ),
+    "a mirrored couple": (MIRROR, (couple("5"),), "loads.T_2.value", "-5.0 N*m"),
+    "a turned couple": (PHASE, (couple("5"),), "loads.T_2.value", "5.0 N*m"),
+    "a mirrored couple of parameters": (MIRROR, (couple("f*3 m"),), "loads.T_2.value", "-(f*3 m)"),
+    "a mirrored spring about a pin": (
+        MIRROR, (("loads: {}", "loads: {T: {type: torsion_spring, joint: O, stiffness: 7, free_angle: 10}}"),),
+        "loads.T_2",
+        {"type": "torsion_spring", "joint": "O_2", "stiffness": "7.0 N*m/rad", "free_angle": deg(50)},
+    ),
+    "a turned cam": (
+        "phase: {ground: 30, carrier: 20}", (CAM, BOTH), "joints.F_2.profile.start", deg(35),
+    ),
+    "a mirrored cam": (
+        "mirror: {ground: 30, carrier: 20}", (CAM, BOTH), "joints.F_2.profile",
+        {"segments": [{"to": "-0.35 rad", "by": "cycloidal", "in": deg(90)}, {"dwell": deg(90)},
+                      {"to": "0.0 rad", "by": "cycloidal", "in": deg(180)}],
+         "base": "0.03 m", "start": deg(25), "sense": "cw"},
+    ),
     "a turned table": (
         PHASE,
         (couple("{against: O, x: [0, 90], y: [1, 2], shift: 10}"),),
@@ -242,53 +302,53 @@ ROPE = ("  O: {type: pin", "  R: {type: rope, through: [ground.S, crank.A, groun
 SHAPE = ("mass: 2", "shape: {type: mesh, file: a.stl, density: 3 kg/m^3}")
 REFUSED: dict[str, tuple[str, tuple[str, str], str]] = {
     "a mirrored mesh": (
-        MIRROR, SHAPE, "11: copies 1: a mesh cannot be mirrored; give mass, center and inertia instead of its shape"
+        MIRROR, SHAPE, "12: copies 1: a mesh cannot be mirrored; give mass, center and inertia instead of its shape"
     ),
     "a point of the copy's name": (
         MIRROR,
         ("S: [10, 20]", "S: [10, 20], O_2: [1, 2]"),
-        "11: copies 1: link 'ground' has a point 'O_2' already; give the copies other names: names: [...]",
+        "12: copies 1: link 'ground' has a point 'O_2' already; give the copies other names: names: [...]",
     ),
     "a rope": (
         PHASE,
         ROPE,
-        "12: copies 1: rope 'R' touches copied links, and ropes are not copied; write the copies of its links out",
+        "13: copies 1: rope 'R' touches copied links, and ropes are not copied; write the copies of its links out",
     ),
     "parameters beside a coordinate": (
         PHASE,
         force("['3*O', 'f*4']"),
-        "11: copies 1: one component of a rotated vector uses parameters or units, and the other does not; write each "
+        "12: copies 1: one component of a rotated vector uses parameters or units, and the other does not; write each "
         "component as a separate load, a value with a direction",
     ),
     "a table as a component": (
         PHASE,
         force("[{against: O, x: [0, 90], y: [1, 2]}, 4]"),
-        "11: copies 1: a component of a rotated vector is a table; write each component as a separate load, a value "
+        "12: copies 1: a component of a rotated vector is a table; write each component as a separate load, a value "
         "with a direction",
     ),
     "columns of a file": (
         MIRROR,
         couple("{against: O, file: a.csv}"),
-        "11: copies 1: the columns of a file are not mirrored; write that load's table as x and y, or as an expression",
+        "12: copies 1: the columns of a file are not mirrored; write that load's table as x and y, or as an expression",
     ),
-    "a wrong component": (PHASE, force("['3*(', 4]"), f"10: item 1 of value of load 'T': {INCOMPLETE}"),
-    "a wrong couple": (MIRROR, couple("3*("), f"10: value of load 'T': {INCOMPLETE}"),
+    "a wrong component": (PHASE, force("['3*(', 4]"), f"11: item 1 of value of load 'T': {INCOMPLETE}"),
+    "a wrong couple": (MIRROR, couple("3*("), f"11: value of load 'T': {INCOMPLETE}"),
     "a wrong switch": (
         MIRROR,
         ("{position: 20}", "{motor: {stall: 3, no_load: 10 rad/s, on: 3 kg}}"),
-        "9: on of motor of drive 'O': '3 kg' says neither when, nor where, nor at which speed; write 0.5 s, 90 deg or "
+        "10: on of motor of drive 'O': '3 kg' says neither when, nor where, nor at which speed; write 0.5 s, 90 deg or "
         "300 rpm",
     ),
     "a motor that is a number": (
         MIRROR,
         ("{position: 20}", "{motor: 3}"),
-        "9: motor of drive 'O': expected a mapping, not 3; write motor: {stall: 40 N*m, no_load: 30 rad/s}, or {curve: "
-        "{speed: [0 rpm, 900 rpm], torque: [40, 0]}}",
+        "10: motor of drive 'O': expected a mapping, not 3; write motor: {stall: 40 N*m, no_load: 30 rad/s}, or "
+        "{curve: {speed: [0 rpm, 900 rpm], torque: [40, 0]}}",
     ),
     "a pose of no length": (
         PHASE,
         ("loads: {}", "assembly: {crank: [x, 2, 30]}"),
-        "10: item 1 of crank of assembly: 'x' uses 'x', which is not a parameter; choose among k, f",
+        "11: item 1 of crank of assembly: 'x' uses 'x', which is not a parameter; choose among k, f",
     ),
 }  # fmt: skip
 
