@@ -4,6 +4,7 @@ land, prescribed machines that drive against a stop."""
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -270,3 +271,90 @@ def test_a_motion_without_end_is_looked_at_for_some_time_only() -> None:
     s = da.simulate(rotor("{effort: 0}", "0.001 rad/s"), "O.speed = 1 rad/s")
     assert (s.status, s.ended) == ("not_met", "O.speed = 1 rad/s is not met until 100000 s")
     assert (s.time[-1], s.position("O")[-1]) == (1e5, pytest.approx(100, rel=1e-9))
+
+
+def test_a_brake_gives_way_while_another_cart_is_on_its_way() -> None:
+    """3 N + 10 N/s t push two away from one, whose brake of 5 N holds until 0.2 s; two is moved by them alone."""
+    s = da.simulate(da.loads(PRESSED.replace("position: -0.98", "position: -0.5")), "0.35 s", count=8)
+    assert [(e.name, e.of) for e in s.events] == [("rest", "A"), ("start", "A")]
+    assert s.events[1].time == pytest.approx(0.2, rel=1e-9)
+    t = s.time
+    one = 1 + 10 * np.maximum(t - 0.2, 0) ** 3 / 18
+    two = 0.5 - 1.5 * t**2 - 5 / 3 * t**3
+    assert s.position("A") == pytest.approx(one, abs=1e-10)
+    assert s.position("B") == pytest.approx(two - one, abs=1e-10)
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
+CURVE = "{speed: [10 rad/s, 30 rad/s, 80 rad/s, 100 rad/s], torque: [6 N*m, 8 N*m, 3 N*m, 0 N*m]}"
+
+
+@pytest.mark.parametrize("begin", [0.0, -5.0, 20.0])
+def test_many_designs_run_up_along_the_curve_of_a_motor(begin: float) -> None:
+    """J w' = T(w) in straight pieces, level before the first point: t = J/b ln(T2/T1) of each, behind a gear too."""
+    text = ROTOR % (f"{begin} rad/s", f"{{motor: {{curve: {CURVE}, ratio: 2}}}}")
+    m = da.loads(text)
+    inertia = np.array([0.5, 0.8, 3.0])
+    k = da.compile_motion(m, ["60 s", "O.speed = 45 rad/s"], ["links.rotor.inertia"], ["effort.O"], "final")
+    r = k(inertia[:, None])
+    w, torque = np.array([10.0, 30, 80, 90]), np.array([6.0, 8, 3, 1.5])
+
+    def at(speed: float) -> float:
+        return float(np.interp(speed, w, torque))
+
+    points = [2 * begin, *(x for x in w if x > 2 * begin)]
+    taken = 0.0  # time on the motor's shaft for a unit inertia there
+    for a, b in pairwise(points):
+        slope = (at(b) - at(a)) / (b - a)
+        taken += math.log(at(b) / at(a)) / slope if slope else (b - a) / at(a)
+    assert r.time == pytest.approx(inertia * taken / 4, rel=1e-8)
+    assert r.value("effort.O") == pytest.approx([3.0] * 3, rel=1e-9)
+    for one, time in zip(inertia, r.time, strict=True):
+        s = da.simulate(m.with_values({"links.rotor.inertia": float(one)}), ["60 s", "O.speed = 45 rad/s"])
+        assert s.time[-1] == pytest.approx(time, rel=1e-8)
+
+
+def test_a_stop_that_is_only_just_met_within_a_step_is_not_stepped_over() -> None:
+    """v = 1 - t: up to 0.49 m of the 0.5 m that it would go, back with half the speed; alone and among many."""
+    text = """
+links: {ground: {points: {O: [0, 0]}}, cart: {points: {O: [0, 0]}, mass: heavy}}
+parameters: {heavy: 1 kg}
+joints: {S: {type: slider, links: [ground, cart], at: O}}
+drives: {S: {effort: -1 N, stops: {to: 0.49 m, restitution: 0.5}}}
+start: {S: {position: 0, speed: 1}}
+"""
+    mass = np.array([1.0, 1.015, 0.97])
+    r = da.compile_motion(da.loads(text), "1.5 s", ["heavy"])(mass[:, None])
+    meets = 1 - 0.98 / mass
+    hit = mass * (1 - np.sqrt(np.maximum(meets, 0)))
+    back = -np.sqrt(np.maximum(meets, 0)) / 2
+    after = np.where(meets > 0, 1.5 - hit, np.nan)
+    place = np.where(meets > 0, 0.49 + back * after - after**2 / 2 / mass, 1.5 - 1.5**2 / 2 / mass)
+    speed = np.where(meets > 0, back - after / mass, 1 - 1.5 / mass)
+    assert (meets > 0).tolist() == [True, True, False]
+    assert r.position[:, 0] == pytest.approx(place, abs=1e-9)
+    assert r.speed[:, 0] == pytest.approx(speed, abs=1e-9)
+    assert r.redone == 0
+    for one, x in zip(mass, place, strict=True):
+        s = da.simulate(da.loads(text).with_values({"heavy": float(one)}), "1.5 s", count=2)
+        assert s.position("S")[-1] == pytest.approx(x, abs=1e-10)
+
+
+def test_two_carts_of_many_designs_bounce_off_each_other() -> None:
+    """Momentum is kept, the speed between them comes back with 0.6 of it; drives are one's place and two's from one."""
+    text = """
+links: {ground: {points: {O: [0, 0]}}, one: {points: {O: [0, 0]}, mass: 3 kg}, two: {points: {O: [0, 0]}, mass: 1 kg}}
+joints: {A: {type: slider, links: [ground, one], at: O}, B: {type: slider, links: [one, two], at: O}}
+drives: {A: {effort: 0}, B: {effort: 0, stops: {from: 0 m, restitution: 0.6}}}
+start: {A: {position: 0.2 m, speed: 0.5}, B: {position: 0.1 m, speed: -4}}
+"""
+    one = np.array([3.0, 2.0, 9.0])
+    r = da.compile_motion(da.loads(text), "0.15 s", ["links.one.mass"])(one[:, None])
+    common = (one * 0.5 + 1 * (0.5 - 4)) / (one + 1)
+    apart = 0.6 * 4
+    after = common - apart / (one + 1)  # one; two has ``apart`` more
+    assert r.speed == pytest.approx(np.stack([after, np.full(3, apart)], 1), rel=1e-9)
+    meets = 0.1 / 4
+    places = np.stack([0.2 + 0.5 * meets + after * (0.15 - meets), np.full(3, apart * (0.15 - meets))], 1)
+    assert r.position == pytest.approx(places, rel=1e-9)
+    assert r.redone == 0
