@@ -224,6 +224,13 @@ _lost(
     ["damping of 'W', where a loop is closed"],
     b=BODY,
 )
+_lost(
+    "screw",
+    ".urdf",
+    {"W": joint("screw", "ground", "a", lead=0.02)},
+    drives("W", turn=0.2),
+    ["thread of 'W': URDF has its turn and its slide, each by itself"],
+)
 _lost("chain", ".cmd .asmt", {"W": joint("plane", "ground", "a", damping={"turn": 2}),
                               "V": joint("cylindrical", "ground", "a")},
       {"V": {"freedom": "turn", "position": 0}}, ["damping of 'W'"])  # fmt: skip
@@ -232,7 +239,7 @@ _lost("chain", ".cmd .asmt", {"W": joint("plane", "ground", "a", damping={"turn"
 @pytest.mark.parametrize("name", LOST)
 def test_damping_and_springs_that_are_not_kept_are_said(name: str) -> None:
     m, suffix, notes = LOST[name]
-    others = ("drive ", "acceleration of drive", "the name ")
+    others = ("drive ", "acceleration of drive", "the name ", "positions: URDF", "gravity: that of")
     assert [note for note in foreign_bytes(m, f"x{suffix}")[1] if not note.startswith(others)] == notes
 
 

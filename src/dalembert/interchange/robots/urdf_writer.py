@@ -32,6 +32,8 @@ def write_urdf(graph: LinkGraph) -> str:
         axes[joint.links[1]] = joint.places[1]
         _branch(text, joint, joint.name in tree.turned, axes, names)
         _link(text, graph.links[joint.links[1]], inverse(joint.places[1]))
+        if joint.kind == "screw":
+            graph.lose(f"thread of {joint.name!r}: URDF has its turn and its slide, each by itself")
     text.end()
     for joint in tree.cut:
         graph.lose(f"joint {joint.name!r} ({joint.kind}), which closes a loop: URDF has none")
