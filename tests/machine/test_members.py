@@ -20,7 +20,7 @@ from dalembert.machine.members.link_balance import LinkBalance
 from dalembert.machine.members.link_balance import acting as acting_on
 from dalembert.machine.members.mass_along import mass_layout
 from dalembert.machine.members.member_table import member_table
-from dalembert.printing import number
+from dalembert.printing import number, remainder
 from dalembert.views.machine.member_views import member_scenes
 from dalembert.views.notation import Notation
 from dalembert.views.paper.scene import Line
@@ -684,3 +684,27 @@ def test_a_link_that_carries_nothing_is_safe_without_limit() -> None:
     assert (stress.largest, stress.safety, stress.fatigue().safety) == (0.0, math.inf, math.inf)
     assert da.member_forces(r, "arm").deflection().largest == 0.0
     assert paragraphs(member_table(r))[0] == "The links carry no internal forces."
+
+
+def test_what_is_not_unique_inside_a_link_is_named_beside_what_is() -> None:
+    """A bar between two pins: its axial force may be anything, F a b / L in the middle of it is known all the same."""
+    text = """
+links:
+  ground: {points: {A: [0, 0], B: [1, 0]}}
+  bar: {points: {A: [0, 0], M: [0.4, 0], B: [1, 0]}, section: {rectangle: [0.02, 0.04], yield_stress: 250 MPa}}
+joints: {A: {type: pin, links: [ground, bar]}, B: {type: pin, links: [ground, bar]}}
+loads: {F: {type: force, on: bar, at: M, value: [100, -300]}}
+"""
+    r = da.statics(da.loads(text))
+    t = member_table(r)
+    assert (t.unknown, t.links["bar"].unknown()) == ({"1": r.reasons[0]}, {"1": ["axial"]})
+    shear, bend = (t.links["bar"].largest(of) for of in ("shear", "bending"))
+    assert [abs(shear[0]), abs(bend[0]), bend[2]] == pytest.approx(
+        [300 * 0.6, 300 * 0.4 * 0.6, 0.4], rel=1e-12
+    )
+    assert math.isnan(t.stress["bar"].largest)
+    assert paragraphs(t)[1:3] == [
+        "At position 1 these are not known, nor the stress: bar N. 1 constraint is redundant among joints A, B.",
+        "N tension +; the distance is from the first end of the member. Equilibrium of every link holds to "
+        f"{remainder(float(t.links['bar'].residual[0]))}.",
+    ]

@@ -10,7 +10,13 @@ import pytest
 import dalembert as da
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.machine.harmonics import EVEN, whole_turns
-from dalembert.machine.whole_cycle import durations, over_a_turn, refuse_unknown, turning_angle
+from dalembert.machine.whole_cycle import (
+    durations,
+    over_a_turn,
+    refuse_unknown,
+    solved_over_a_turn,
+    turning_angle,
+)
 
 
 def at(positions: Any, speed: float = 4.0) -> Any:
@@ -105,3 +111,19 @@ def test_an_unknown_number_is_refused_with_its_position() -> None:
     np.testing.assert_array_equal(turning_angle(r), r.drive_position("O2"))
     with pytest.raises(ModelError, match=r"over the turn of a drive, and \w+ slides; drive a crank"):
         turning_angle(da.statics(da.scissor()))
+
+
+def test_a_file_of_one_position_is_solved_over_a_turn_where_it_turns() -> None:
+    """Not at rest, nor where a turn does not close everywhere, nor where positions are asked for."""
+    m = da.slider_crank(crank=0.05, rod=0.2).with_values({"drives.O2.position": 0.5})
+    turned = solved_over_a_turn(m)
+    assert len(turned.status) == 72
+    assert turned.effort("O2") == pytest.approx(da.dynamics(m, positions=72).effort("O2"), rel=1e-12)
+    still = solved_over_a_turn(m, static=True)
+    assert still.effort("O2") == pytest.approx(da.statics(m, positions=72).effort("O2"), rel=1e-12, abs=1e-12)
+    for other in (m.with_values({"drives.O2.speed": 0.0}), m.with_values({"links.rod.points.B.0": 0.045})):
+        alone = solved_over_a_turn(other)
+        assert alone.drive_position("O2").tolist() == [0.5]
+        assert alone.ok.all()
+    assert len(solved_over_a_turn(m, positions=5).status) == 5
+    assert len(solved_over_a_turn(da.slider_crank(positions=8)).status) == 8
