@@ -6,6 +6,7 @@ import math
 import re
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dalembert as da
@@ -216,3 +217,40 @@ def test_all_unknowns_of_a_system_solved_as_one_are_listed(hinges: int) -> None:
     names = [cell for column in (0, 2, 4) for row in table.rows if (cell := row[column])]
     assert len(set(names)) == len(names) == count
     assert all(bool(row[c]) is bool(row[c + 1]) for row in table.rows for c in (0, 2, 4))
+
+
+TAPPET = """units: {length: mm, mass: kg, force: N}
+links: {ground: {points: {O: [0, 0]}}, cam: {points: {O: [0, 0]}}, stem: {points: {F: [0, 0]}, mass: 0.5}}
+joints:
+  O: {type: pin, links: [ground, cam]}
+  guide: {type: slider, links: [ground, stem], at: [O, F], direction: 90}
+  F: {type: cam, links: [cam, stem], at: [O, F], follower: flat, contact: pushes,
+      profile: {base: 30, segments: [{to: 10, in: 90, by: cycloidal}, {to: 0, in: 90, by: cycloidal}, {dwell: rest}]}}
+drives: {O: {position: {from: 0, to: 180, count: 37}, speed: SPEED rad/s}}
+loads: {S: {type: force, on: stem, at: F, value: [0, -60]}}
+"""
+
+
+@pytest.mark.parametrize(("speed", "holds"), [(20, True), (90, False)])
+def test_a_flat_tappet_is_judged_by_its_curvature_and_its_least_force(speed: int, holds: bool) -> None:
+    """No undercut where base, lift and its second derivative by the turn are positive together: s is cycloidal."""
+    r = da.solve(da.loads(TAPPET.replace("SPEED", str(speed))))
+    found = [v for part in element_parts(DesignContext(r, 0, da.Notation())) for v in part.verdicts]
+    base, contact = found
+    x, beta, h = np.linspace(0, 1, 200_001), math.pi / 2, 0.01
+    lift, second = (
+        h * (x - np.sin(2 * math.pi * x) / (2 * math.pi)),
+        h * 2 * math.pi / beta**2 * np.sin(2 * math.pi * x),
+    )
+    least = float((-(lift + second)).max())
+    assert base.item == "base radius of F, no undercut"
+    assert base.margin == pytest.approx(0.03 / least, rel=1e-6)
+    assert (base.state, base.value) == ("ok", f"least {1000 * least:.4f} mm")
+    turn = np.arange(37) * 5.0
+    rise, fall = (np.interp(some, np.degrees(x * beta), second) for some in (turn, turn - 90))
+    push = 60 + 0.5 * np.where(turn <= 90, rise, -fall) * speed**2
+    assert bool((push > 0).all()) is holds
+    assert (contact.item, contact.state) == ("contact F", "ok" if holds else "exceeded")
+    k = int(push.argmin())
+    assert contact.value == f"least normal force {push[k]:.4f} N"
+    assert contact.at.endswith(f"(no. {k + 1})")
