@@ -191,7 +191,9 @@ def test_a_zip_bomb_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ModelError, match="more than 5000000 bytes"):
         read_foreign(tmp_path / "x.FCStd")
     (tmp_path / "y.FCStd").write_bytes(b"no zip")
-    with pytest.raises(ModelError, match=r"y\.FCStd:1: the file is not a FreeCAD document: .*; save it in FreeCAD as"):
+    with pytest.raises(
+        ModelError, match=r"y\.FCStd:1: the file is not a FreeCAD document: .*; save it in FreeCAD as"
+    ):
         read_foreign(tmp_path / "y.FCStd")
 
 
