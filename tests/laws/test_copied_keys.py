@@ -229,7 +229,12 @@ KEYS: dict[str, tuple[str, tuple[tuple[str, str], ...], str, Any]] = {
         {"type": "torsion_spring", "joint": "O_2", "stiffness": "7.0 N*m/rad", "free_angle": deg(50)},
     ),
     "a turned cam": (
-        "phase: {ground: 30, carrier: 20}", (CAM, BOTH), "joints.F_2.profile.start", deg(35),
+        "phase: {ground: 30, carrier: 20}", (CAM, BOTH), "joints.F_2.profile",
+        {"segments": [{"to": "0.35 rad", "by": "cycloidal", "in": deg(90)}, {"dwell": deg(90)},
+                      {"to": "0.0 rad", "by": "cycloidal", "in": deg(180)}], "base": "0.03 m", "start": deg(35)},
+    ),
+    "a turned cam that begins at 0": (
+        "phase: {ground: 30, carrier: 20}", (CAM, BOTH, ("start: 15, ", "")), "joints.F_2.profile.start", deg(20),
     ),
     "a mirrored cam": (
         "mirror: {ground: 30, carrier: 20}", (CAM, BOTH), "joints.F_2.profile",
@@ -359,3 +364,16 @@ def test_what_is_not_copied_is_refused_at_its_line(name: str) -> None:
     with pytest.raises(da.ModelError) as refused:
         copied(how, change)
     assert str(refused.value) == f"m.yaml:{says}"
+
+
+@pytest.mark.parametrize("form", ["arcs: [{center: [0, 0], radius: 30, to: 90}, {center: [0, 0], radius: 30, to: 360}]",
+                                  "points: {angle: [0, 90, 180, 270], radius: [30, 31, 30, 29]}"])  # fmt: skip
+def test_a_cam_of_arcs_or_points_is_turned_as_it_is_and_not_mirrored(form: str) -> None:
+    cam = CAM[0], CAM[1][: CAM[1].index("profile")] + f"profile: {{{form}}}}}"
+    with pytest.raises(da.ModelError) as refused:
+        copied("mirror: {ground: 30, carrier: 20}", cam, BOTH)
+    assert str(refused.value) == (
+        "m.yaml:16: copies 1: the arcs or points of a cam are not mirrored; write that cam out"
+    )
+    tree = copied("phase: {ground: 30, carrier: 20}", cam, BOTH).to_tree()
+    assert tree["joints"]["F_2"]["profile"] == tree["joints"]["F"]["profile"]
