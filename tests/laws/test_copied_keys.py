@@ -24,6 +24,8 @@ loads: {}
 copies: [{of: [crank], count: 2, HOW}]
 """
 MIRROR, PHASE = "mirror: {ground: 30}", "phase: {ground: 30}"
+PIN = "O: {type: pin, links: [ground, crank]}"
+WELDED = (PIN, "O: {type: weld, links: [ground, crank], angle: 10}"), ("{O: {position: 20}}", "{}")
 SLIDER = ("O: {type: pin, links: [ground, crank]}", "O: {type: slider, links: [ground, crank], direction: 20, "
           "stops: {from: -3, to: 5}}")  # fmt: skip
 MOTOR = ("{position: 20}", "{motor: {stall: 3, no_load: 10 rad/s, on: 10 deg, off: 50 rad/s}}")
@@ -158,6 +160,18 @@ KEYS: dict[str, tuple[str, tuple[tuple[str, str], ...], str, Any]] = {
          ("loads: {}", "start: {O: {position: 10, speed: 3 m/s}}")),
         "drives.O_2",
         {"freedom": "slide", "motor": {"stall": "3.0 N", "no_load": "10.0 m/s", "on": "0.01 m", "off": "3.0 m/s"}},
+    ),
+    "mirrored stops of a pin": (
+        MIRROR, ((PIN, PIN[:-1] + ", stops: {from: 10, to: 20}}"),), "joints.O_2.stops",
+        {"from": deg(40), "to": deg(50)},
+    ),
+    "turned stops of a pin": (
+        PHASE, ((PIN, PIN[:-1] + ", stops: {from: 10}}"),), "joints.O_2.stops", {"from": deg(40)}
+    ),
+    "a mirrored weld": (MIRROR, WELDED, "joints.O_2.angle", deg(50)),
+    "a turned weld": (PHASE, WELDED, "joints.O_2.angle", deg(40)),
+    "a turned guide along the x axis": (
+        PHASE, ((PIN, "O: {type: slider, links: [ground, crank]}"),), "joints.O_2.direction", deg(30)
     ),
     "a mirrored guide": (
         MIRROR,
