@@ -13,6 +13,7 @@ import pytest
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.wrench import load, loads
+from dalembert.wrench.reading import direction
 
 PLATE = """\
 dalembert: 1
@@ -60,6 +61,37 @@ def test_a_direction_is_a_vector_of_any_length() -> None:
     assert str(refused.value) == (
         "text:2: direction of force 'F': 30 is not a direction in space; write [x, y, z], or angles: [a, b, c]"
     )
+
+
+def test_numbers_of_a_file_are_replaced_by_their_paths(tmp_path: Path) -> None:
+    path = tmp_path / "plate.yaml"
+    path.write_text(PLATE)
+    s = load(path, {"forces.F1.value.1": 7, "forces.F4.size": "90 N", "couples.M": -3, "title": "Other"})
+    assert s["F1"].vector.tolist() == [40, 7]
+    assert s["F4"].size == pytest.approx(90)
+    assert (s["M"].moment, s.title) == (-3, "Other")
+    assert s["F2"].vector == pytest.approx(loads(PLATE)["F2"].vector)
+    for name, says in {
+        "forces.F9.value": "the file has no 'forces.F9.value'; choose among F1, F2, F3, F4",
+        "forces.F1.value.2": "the file has no 'forces.F1.value.2'; choose among 0, 1",
+        "couples.M.x": "the file has no 'couples.M.x'; there is none",
+    }.items():
+        with pytest.raises(ModelError) as refused:
+            load(path, {name: 1})
+        assert str(refused.value) == says
+
+
+def test_no_zero_is_negative() -> None:
+    s = loads("forces: {F: {value: [-0.0, 2], at: [-0.0, 0]}}")
+    assert not np.signbit(s["F"].vector).any()
+    assert not np.signbit(s["F"].at).any()
+
+
+def test_a_direction_in_space_is_no_angle() -> None:
+    for value in (30.0, "30 deg"):
+        with pytest.raises(ModelError) as refused:
+            direction(value, 3)
+        assert str(refused.value) == f"{value!r} is not a direction in space; write [x, y, z]"
 
 
 def test_a_box() -> None:
