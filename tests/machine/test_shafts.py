@@ -364,3 +364,27 @@ loads: {F: {type: force, on: arm, at: P, value: [300 N, 50 N]}}
     assert d.member == ("O-A",)
     assert d.largest == pytest.approx(-near, rel=1e-12)
     assert d.place.tolist() == [1.0]
+
+
+def test_an_even_shaft_has_as_many_critical_speeds_as_are_asked_for() -> None:
+    """pi^2 n^2 sqrt(E I/(m L^3)): the 36th is 1296 times the first; those of elements are a little higher."""
+    shaft: Any = {
+        "points": {"A": [0, 0], "B": [1, 0]},
+        "mass": 15.4,
+        "center": [0.5, 0],
+        "mass_along": "uniform",
+    }
+    shaft["section"] = {"circle": "50 mm", "elasticity": "210 GPa"}
+    tree = {
+        "links": {"ground": {"points": {"A": [0, 0], "B": [1, 0]}}, "shaft": shaft},
+        "joints": {
+            n: {"type": kind, "links": ["ground", "shaft"]} for n, kind in (("A", "pin"), ("B", "slot"))
+        },
+    }
+    c = da.critical_speeds(da.statics(da.mechanism(tree)), "shaft", count=36)
+    n = np.arange(1, 37)
+    exact = np.pi**2 * n**2 * np.sqrt(210e9 * np.pi / 64 * 0.05**4 / 15.4)
+    assert len(c.speeds) == 36
+    assert (c.speeds[:4] / exact[:4]) == pytest.approx([1] * 4, rel=1e-5)  # of cubic elements
+    assert (c.speeds >= exact * (1 - 1e-9)).all()
+    assert c.speeds[-1] / exact[-1] < 1.2
