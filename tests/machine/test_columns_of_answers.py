@@ -268,3 +268,41 @@ def test_conditions_of_forces_velocities_and_energies_are_met_where_they_are() -
     assert s.result.reaction("floor")[met[names[0]], 1] == pytest.approx(150, rel=1e-9)
     assert s.normals["wall"][met[names[1]]] == pytest.approx(40, rel=1e-9)
     assert np.hypot(*s.result.reaction("wall")[met[names[1]]]) == pytest.approx(40, rel=1e-9)
+
+
+def test_a_shaft_and_a_flywheel_are_columns_and_records() -> None:
+    """In the units of the file, of the shaft of a book; E(q) is the integral of the effort beyond its mean."""
+    from tests.machine.test_shafts import SHAFT
+
+    c = da.critical_speeds(da.statics(da.loads(SHAFT)), "shaft", count=2)
+    of = {x.name: (x.kind, x.values.tolist()) for x in c.columns()}
+    assert of == {
+        "critical_speed.shaft": ("angular_speed", c.speeds.tolist()),
+        "critical_speed.shaft.whirl": ("angular_speed", c.whirl.tolist()),
+    }
+    inch = Scale({"length": "in", "mass": "lb", "angle": "rad"})
+    pound = 0.45359237
+    out: Any = c.record(inch)["shaft"]
+    assert (out["link"], out["change"]) == ("shaft", c.change)
+    assert [out["dunkerley"], out["rayleigh"]] == pytest.approx([c.dunkerley, c.rayleigh], rel=1e-12)
+    assert out["sag"] == pytest.approx(np.abs(c.sag).max() / 0.0254, rel=1e-12)
+    assert out["supports"] == {"A": 0.0, "B": pytest.approx(31, rel=1e-12)}
+    assert out["masses"] == {"gear_1": pytest.approx(35, rel=1e-9), "gear_2": pytest.approx(55, rel=1e-9)}
+    assert [p.mass for p in c.masses.values()] == pytest.approx([35 * pound, 55 * pound], rel=1e-9)
+
+    r = da.dynamics(da.slider_crank(), positions=720)
+    f = da.flywheel(r, Cs=0.02)
+    columns = {x.name: x for x in f.columns()}
+    kinds = {"drive.O2": "angle", "effort.O2": "moment", "energy.flywheel": "energy"}
+    assert {n: x.kind for n, x in columns.items()} == {**kinds, "drive.O2.speed": "angular_speed"}
+    q, effort = r.drive_position("O2"), r.effort("O2")
+    assert columns["drive.O2"].values.tolist() == q.tolist()
+    assert columns["effort.O2"].values.tolist() == effort.tolist()
+    above = effort - effort.mean()
+    energy = np.concatenate([[0], np.cumsum((above[1:] + above[:-1]) / 2 * (q[1] - q[0]))])
+    assert columns["energy.flywheel"].values == pytest.approx(energy, abs=2e-3 * np.ptp(energy))  # trapezoids
+    speed = columns["drive.O2.speed"].values
+    assert f.exact is not None
+    assert 2 * np.ptp(speed) / (speed.max() + speed.min()) == pytest.approx(
+        f.exact.fluctuation, rel=1e-4
+    )  # at 720
