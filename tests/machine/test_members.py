@@ -708,3 +708,25 @@ loads: {F: {type: force, on: bar, at: M, value: [100, -300]}}
         "N tension +; the distance is from the first end of the member. Equilibrium of every link holds to "
         f"{remainder(float(t.links['bar'].residual[0]))}.",
     ]
+
+
+@pytest.mark.parametrize("joints", [("A", "B"), ("B", "A")])
+@pytest.mark.parametrize("points", [("A", "B"), ("B", "A"), ("A", "M", "B"), ("M", "B", "A")])
+def test_a_member_begins_at_the_point_that_is_named_first(
+    points: tuple[str, ...], joints: tuple[str, str]
+) -> None:
+    """In whichever order its joints are; of several on its line the outermost ones, from the side of the first."""
+    places = {"A": [0, 0], "M": [0.4, 0], "B": [1, 0]}
+    kinds = {"A": "pin", "B": "slot"}
+    tree = {
+        "links": {
+            "ground": {"points": {"A": [0, 0], "B": [1, 0]}},
+            "bar": {"points": {n: places[n] for n in points}},
+        },
+        "joints": {n: {"type": kinds[n], "links": ["ground", "bar"]} for n in joints},
+    }
+    (curve,) = da.member_forces(da.statics(da.mechanism(tree)), "bar").curves
+    first = "A" if points.index("A") < points.index("B") else "B"
+    assert curve.member.ends == ((first, "AB".replace(first, "")))
+    assert curve.member.start.tolist() == [*places[first], 0]
+    assert curve.member.along == pytest.approx([1 if first == "A" else -1, 0, 0])
