@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.compile.elements import cam_limits
 from dalembert.analysis.compile.elements.cam_motion import outline
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
@@ -254,8 +255,9 @@ def test_a_lift_that_no_base_makes_room_for() -> None:
         assert (c.least_base, math.isnan(c.least_base_at)) == (math.inf, True)
 
 
-def test_a_base_is_no_smaller_than_the_offset_leaves_it() -> None:
+def test_a_base_is_no_smaller_than_the_offset_leaves_it(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a small lift the roller's centre needs the offset for its circle, and nothing else."""
+    monkeypatch.setattr(cam_limits, "PLACES", 73)
     tree = machine(
         {"roller": "5 mm"}, segments=[{"to": "0.2 mm", "in": "90 deg", "by": "cycloidal"}, *FULL[1:]]
     )
