@@ -293,3 +293,28 @@ def test_a_rope_over_a_fixed_wheel_has_the_ratio_of_its_wrap_on_either_side(mirr
     wrap = (towards - onwards) % (2 * math.pi)
     pull = 200 / -math.sin(onwards) * math.exp(-way * mu * wrap)  # a goes towards the wheel, and b falls
     assert r.effort("a") == pytest.approx([-pull * math.cos(towards)], rel=1e-12)
+
+
+HELD = """links:
+  ground: {points: {C: [0, 0], G: [0.9, 2], S: [3, 2]}}
+  arm: {points: {C: [0, 0], W: [1, 0], P: [1.5, 0]}}
+  hand: {points: {S: [0, 0]}}
+joints:
+  C: {type: pin, links: [ground, arm]}
+  S: {type: slider, links: [ground, hand], direction: 0}
+  R: {type: rope, through: [ground.G, {round: arm.W, radius: 0.1, side: left}, hand.S]}
+drives: {S: {position: 0}}
+loads: {F: {type: force, on: arm, at: P, value: [0, -100]}}
+assembly: {arm: 0}
+"""
+
+
+@pytest.mark.parametrize("coordinate", [0, 1])
+def test_the_place_of_a_wheel_may_vary_along_one_axis(coordinate: int) -> None:
+    """The other coordinate is a number: the wheel stays one that is not the arm's pin."""
+    m, path = da.loads(HELD), f"links.arm.points.W.{coordinate}"
+    values = np.array([[1.0], [1.05], [0.97]]) - coordinate
+    found = da.compile(m, [path], ["effort.S"])(values).value("effort.S")[:, 0]
+    each = [da.statics(m.with_values({path: float(v)})).effort("S")[0] for v in values[:, 0]]
+    assert found == pytest.approx(each, rel=1e-10)
+    assert np.ptp(each) > 1
