@@ -293,6 +293,7 @@ def test_the_lightest_press_is_that_of_equations_by_hand() -> None:
     assert best.feasible
 
 
+@pytest.mark.long
 def test_a_front_of_two_functions_is_that_of_the_words_they_stand_for() -> None:
     """A lighter beam sags more, h^3 = 4 F L^3/(E b y); the middle of a front is bounded by the second function."""
 
