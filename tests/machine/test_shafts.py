@@ -388,3 +388,38 @@ def test_an_even_shaft_has_as_many_critical_speeds_as_are_asked_for() -> None:
     assert (c.speeds[:4] / exact[:4]) == pytest.approx([1] * 4, rel=1e-5)  # of cubic elements
     assert (c.speeds >= exact * (1 - 1e-9)).all()
     assert c.speeds[-1] / exact[-1] < 1.2
+
+
+IN_SPACE = """
+space: space
+links:
+  ground: {points: {A: [0, 0, 0], B: [1, 0, 0]}}
+  shaft: {points: {A: [0, 0, 0], B: [1, 0, 0], C: [0.4, 0, 0]}, section: {circle: 40 mm, elasticity: 210 GPa},
+          members: [[A, B]]}
+  disc: {points: {C: [0, 0, 0]}, mass: 20, inertia: %s}
+joints:
+  A: {type: spherical, links: [ground, shaft]}
+  B: {type: slotted_sphere, links: [ground, shaft], axis: [1, 0, 0]}
+  C: {type: weld, links: [shaft, disc]}
+"""
+
+
+@pytest.mark.parametrize(
+    "inertia",
+    [
+        "[0.8, 0.4, 0.4]",
+        "[[0.8, 0, 0], [0, 0.4, 0], [0, 0, 0.4]]",
+        "[[0.8, 0, 0], [0, 0.3, 0.05], [0, 0.05, 0.5]]",
+    ],
+)
+def test_a_disc_between_bearings_tilts_and_whirls(inertia: str) -> None:
+    """Influence numbers a^2 b^2, a b (b - a) and a^2 - a b + b^2 over 3 E I l; whirl has J_d - J_p, here below zero."""
+    c = da.critical_speeds(da.statics(da.loads(IN_SPACE % inertia)), "shaft")
+    a, b, stiff = 0.4, 0.6, 210e9 * np.pi / 64 * 0.04**4
+    across = a * b * (b - a)
+    influence = np.array([[a**2 * b**2, across], [across, a**2 - a * b + b**2]]) / (3 * stiff)
+    for found, tilting in ((c.speeds, 0.4), (c.whirl, 0.4 - 0.8)):
+        squares = np.linalg.eigvals(influence @ np.diag([20.0, tilting]))
+        known = np.sort(1 / np.sqrt(squares[squares > 0]))
+        assert found[: len(known)] == pytest.approx(known, rel=1e-9)
+        assert np.isinf(found[len(known) :]).all()
