@@ -148,11 +148,8 @@ def _beside(r: Result, k: int, drive: str, static: bool) -> list[float]:
     turns = drive_kinds(r, drive)["position"] == "angle"
     step = ASIDE["turn"] if turns else ASIDE["slide"] * r.compiled.layout.length
     at = values.pop(f"drives.{drive}.position")
-    values[f"drives.{drive}.position"] = [
-        at - step,
-        at,
-        at + step,
-    ]  # behind the rates, which may have been lists
+    # behind the rates, which may have been lists
+    values[f"drives.{drive}.position"] = [at - step, at, at + step]
     try:
         beside = solve(m.with_values(values), static=static)
     except DalembertError:

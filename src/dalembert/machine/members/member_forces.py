@@ -284,9 +284,8 @@ def _curve(body: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> 
         _add_couple(cubics, edges, covered[..., None] * couple[:, None, :])
     for moved in free:
         cubics[(np.abs(moved) > UNIQUE).any(axis=-1)] = np.nan
-    cubics[~np.all([np.isfinite(w.foot) for w in loads.seated], axis=0)] = (
-        np.nan
-    )  # nor is it known where they act
+    placed = np.all([np.isfinite(w.foot) for w in loads.seated], axis=0)
+    cubics[~placed] = np.nan  # nor is it known where they act
     return MemberCurve(e, edges, cubics)
 
 
