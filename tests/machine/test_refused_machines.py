@@ -145,6 +145,17 @@ REFUSED: dict[str, Callable[[], Any]] = {
     ),
     "a flywheel at 0 rad/s keeps no energy; give the mean speed": lambda: da.flywheel_size(100.0, 0.0, 0.02),
     "unknown drive 'Q'; the only one is 'O2'": lambda: da.flywheel(engine(), drive="Q"),
+    "drive 'S' slides, and a flywheel turns; drive the shaft": lambda: da.flywheel(
+        da.dynamics(da.loads(f"{SLIDE}drives: {{S: {{position: {{from: 0, to: 1, count: 4}}, speed: 1}}}}"))
+    ),
+    (
+        "a flywheel needs a machine with one drive, whose effort is unknown; leave one drive, without effort, and no "
+        "unknown load"
+    ): lambda: da.flywheel(da.dynamics(da.five_bar(), positions=4)),
+    "unknown motion curve 'cycloid'; did you mean 'cycloidal'?": lambda: da.law(
+        da.four_bar(), "O2", by="cycloid"
+    ),
+    "drive 'O2' has no law of motion; write law: {segments: [...]}": lambda: da.law(da.four_bar(), "O2"),
     "unknown drive 'O3'; the only one is 'O2'": lambda: da.law(da.four_bar(), "O3"),
     "the law of drive 'S' is an expression, which has no segments; read its motion from a result": lambda: (
         da.law(
