@@ -92,7 +92,7 @@ def test_a_cam_that_presses_nowhere_has_no_hertzian_pressure() -> None:
     with pytest.raises(da.ModelError) as refused:
         c.hertz(0.01)
     assert str(refused.value) == (
-        "nothing presses the follower on cam 'F' at any position; give force, or a spring that keeps it on: spring_for"
+        "no force presses the follower on cam 'F' at any position; give force, or a spring that keeps it on: spring_for"
     )
 
 

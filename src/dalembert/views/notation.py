@@ -235,7 +235,7 @@ class Shown(Figures):
 
     @cached_property
     def _signs(self) -> dict[str, str]:
-        """Number of each link, the own one of a link that is named by a number; names where two had the same."""
+        """Sign of each link: its name if that is a number, else its place in the order; names where two were the same."""
         names = {link: link for link in self.order}
         if self.notation.links == "name":
             return names

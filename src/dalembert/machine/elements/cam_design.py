@@ -306,7 +306,7 @@ class CamDesign(Drawn, Labelled, Worked):
             if n > 0
         ]
         if not out:
-            what = f"nothing presses the follower on cam {self.joint!r} at any position"
+            what = f"no force presses the follower on cam {self.joint!r} at any position"
             raise ModelError(what, "give force, or a spring that keeps it on: spring_for")
         return max(out, key=lambda x: x.pressure)
 

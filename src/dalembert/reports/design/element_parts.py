@@ -111,15 +111,15 @@ def _contacts(c: DesignContext) -> Iterator[DesignPart]:
         return
     part = DesignPart("Contacts")
     for name in dict.fromkeys(c.r.joints[k] for k in pushing.joint):
-        found = c.r.contact(name)
-        force = found.needed  # below 0 where it is lost
+        contact = c.r.contact(name)
+        force = contact.needed  # below 0 where it is lost
         if not np.isfinite(force).any():
             part.verdicts.append(not_judged(f"contact {name}", "its force is not known"))
             continue
         k = least_place(force)
         kind = contact_kind(c.r, name)
         value = f"{LEAST[kind]} {c.text(kind, float(force[k]))}"
-        ends = [x for x in (force, found.behind, found.ahead) if x is not None]
+        ends = [x for x in (force, contact.behind, contact.ahead) if x is not None]
         lost = any(bool((x < 0).any()) for x in ends)
         part.verdicts.append(
             DesignVerdict(f"contact {name}", "exceeded" if lost else "ok", value, at=c.at(k))

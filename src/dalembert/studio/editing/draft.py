@@ -28,7 +28,7 @@ DIGITS = 4
 FINE = 12
 """Significant figures of typed numbers."""
 STILL = 1e-7
-"""Turn, and way over the width of the drawing, below which a link has not moved and two places are one."""
+"""Turn, and distance over the width of the drawing, below which a link has not moved and two places are one."""
 
 
 class Draft:

@@ -153,10 +153,10 @@ def _on_carrier(m: Mechanism, name: str, joint: Cam, link: str, pin: str, freedo
     fixed = guide.direction + guide.angle
     turn = fixed if first else -fixed
     along = guide.direction if first else -guide.angle + math.pi
-    way, at = np.array([np.cos(along), np.sin(along)]), near - axis + _turned(point - far, turn)
+    slide, at = np.array([np.cos(along), np.sin(along)]), near - axis + _turned(point - far, turn)
     if lift is None:
-        up = _side_of_stem(m, joint, link, axis, point, at, way)
-    return CamCarrier(link, pin, freedom, False, at, up * way, up, turn, up=up)
+        up = _side_of_stem(m, joint, link, axis, point, at, slide)
+    return CamCarrier(link, pin, freedom, False, at, up * slide, up, turn, up=up)
 
 
 # a follower on a cam given by its form touches it on either side: on the one on which the file assembles it
@@ -172,16 +172,16 @@ def _side_of_lever(m: Mechanism, joint: Cam, link: str, cam: Array, arm: Array, 
 
 
 def _side_of_stem(
-    m: Mechanism, joint: Cam, link: str, axis: Array, point: Array, at: Array, way: Array
+    m: Mechanism, joint: Cam, link: str, axis: Array, point: Array, at: Array, slide: Array
 ) -> float:
-    """1 where the assembled stem goes out as it slides along ``way``, else -1; 1 of one not assembled."""
+    """1 where the assembled stem goes out as it slides along ``slide``, else -1; 1 of one not assembled."""
     follower = joint.links[1]
-    if joint.flat or follower not in m.assembly or object in (axis.dtype, at.dtype, way.dtype):
+    if joint.flat or follower not in m.assembly or object in (axis.dtype, at.dtype, slide.dtype):
         return 1.0
     x, y, angle = _assembled(m, follower)
     if isinstance(m.assembly[follower], tuple) and link == "ground":
         at = np.array([x, y]) + _turned(point, angle) - axis
-    return -1.0 if at @ way < 0 else 1.0
+    return -1.0 if at @ slide < 0 else 1.0
 
 
 def _assembled(m: Mechanism, link: str) -> tuple[Any, Any, Any]:

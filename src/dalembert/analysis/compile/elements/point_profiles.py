@@ -84,7 +84,7 @@ def _undercut(name: str, angle: Array, rho: Array, roller: float) -> None:
 
 
 def roller_too_large(name: str, angle: float, radius: float) -> ModelError:
-    """Why a roller does not fit a hollow, in a direction of the cam's axes, of this radius."""
+    """The error of a roller larger than the radius of a hollow, which is in a direction of the cam's axes."""
     where = f"{round(math.degrees(angle), 6) % 360:.4g} deg"
     return ModelError(
         f"cam {name!r}: the roller does not fit the hollow at {where}, of radius {radius * 1e3:.4g} mm",

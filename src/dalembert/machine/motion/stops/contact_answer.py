@@ -40,7 +40,7 @@ def _about_point(c: Compiled, pose: Pose, row: int, force: Array) -> Array:
 
 
 def _end_of_guide(r: Result, guide: Any, pose: Pose, reach: float) -> Array:
-    """Where an end of a guide is (T, 2) from its point: it turns with j, which may tip."""
+    """Vectors (T, 2) from the point of a guide to one of its ends: they turn with j, which may tip."""
     along = reach * np.array([np.cos(guide.angle), -np.sin(guide.angle)])
     return plane.rotate(pose.rotation[:, (*r.links, GROUND).index(guide.links[1])], along)
 
