@@ -235,7 +235,7 @@ class Shown(Figures):
 
     @cached_property
     def _signs(self) -> dict[str, str]:
-        """Sign of each link: its name if that is a number, else its place in the order; names where two were the same."""
+        """Sign of each link: its name if that is a number, else its place in the order; names where two agree."""
         names = {link: link for link in self.order}
         if self.notation.links == "name":
             return names
