@@ -53,8 +53,9 @@ def test_a_load_that_goes_by_the_pose_is_its_value_there(where: str, seed: int) 
     )
     one, other = (names[(seed * k) % len(names)] for k in (1, 3))
     text = f"2*sin({one}) - 3*{other}^2"
-    values = np.ravel(Expression(text).at(at))
     found = da.dynamics(loaded(tree, link, text), method="careful")
+    # at its own coordinates: an angle that a load reads is counted from the assembly, whole turns included
+    values = np.ravel(Expression(text).at(coordinates(m, found)))
     for k, value in list(enumerate(values))[:: max(len(values) // 2, 1)]:
         alone = da.dynamics(loaded(tree, link, float(value)), method="careful")
         for mine, other_ in (
