@@ -169,7 +169,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
                 ),
             )
         ),
-        "text:1: a table of 1026 points is not compiled against 'links.crank.angle'; give it at most 1024, or use "
+        "text:1: a table of 1026 points is not compiled against 'links.crank.angle'; give it at most 1025, or use "
         "da.dynamics, da.statics or da.sweep",
     ),
     "a start that varies": (

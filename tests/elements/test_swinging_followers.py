@@ -216,3 +216,17 @@ def test_a_torsion_spring_keeps_a_lever_on_its_cam(mirrored: bool) -> None:
     soft, first = c.spring_for()
     assert (first + soft * value - need).min() == pytest.approx(0, abs=1e-9 * need.max())
     assert first + soft * value.max() <= 1.0 + stiffness * value.max()
+
+
+def test_an_undercut_cam_of_a_flat_lever_names_no_endless_radius() -> None:
+    """The radius that the face would need has a pole where the lift is steep: -3.7e48 mm."""
+    steep = (
+        FILE.replace("FOLLOWER", "flat")
+        .replace("base: 60", "base: 30")
+        .replace("to: 12 deg, in: 110", "to: 40 deg, in: 60")
+    )
+    with pytest.raises(da.ModelError) as caught:
+        da.dynamics(da.loads(steep))
+    where = "cam 'F' is undercut from 30 to 57 deg of its turn"
+    assert caught.value.what == f"{where}: the outline that a flat face needs turns back on itself there"
+    assert caught.value.remedy == "take a smaller lift"

@@ -28,7 +28,7 @@ def table_function(graph: Graph) -> Callable[[Table, Scalar], Node]:
         breaks, coefficients = _pieces(table)
         if len(breaks) - 1 > MOST:
             what = f"a table of {len(breaks)} points is not compiled against {table.against!r}"
-            raise ModelError(what, f"give it at most {MOST}, or use da.dynamics, da.statics or da.sweep")
+            raise ModelError(what, f"give it at most {MOST + 1}, or use da.dynamics, da.statics or da.sweep")
         place = _inside(graph, table, node(graph, position) - table.shift, breaks)
         chosen = _choose(graph, place, breaks, [breaks[:-1].tolist(), *coefficients])
         step, result = place - chosen[0], chosen[1]

@@ -50,11 +50,11 @@ def refuse_undercut(m: Mechanism, name: str) -> None:
     size = f"a base radius from {least * 1e3:.6g} mm on" if np.isfinite(least) else "a smaller lift"
     where = f"cam {name!r} is undercut from {low} to {high} deg of its turn"
     path = ("joints", name, "profile")
-    radius = float(worst[run].min()) + c.joint.follower.roller
     if c.joint.flat:
         raise ModelError(
-            f"{where}: a flat face would need a radius of {radius * 1e3:.4g} mm", f"take {size}", path
+            f"{where}: the outline that a flat face needs turns back on itself there", f"take {size}", path
         )
+    radius = float(worst[run].min()) + c.joint.follower.roller
     raise ModelError(
         f"{where}: the curve of the roller's centre has a radius of {radius * 1e3:.4g} mm there, and the roller "
         f"{c.joint.follower.roller * 1e3:.4g} mm",
