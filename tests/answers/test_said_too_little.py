@@ -348,6 +348,12 @@ def test_stops_of_a_joint_in_space_are_of_its_only_freedom() -> None:
         "r.yaml:17: stops of joint 'C': stops are of a joint with one freedom, and this one has slide, turn; let a "
         "drive of that freedom go, and give the stops to the drive"
     )
+    with pytest.raises(ModelError) as refused:
+        loads(RSSR.replace("A: {type: spherical", "A: {type: spherical, stops: {to: 10 deg}"), name="r.yaml")
+    assert (
+        refused.value.what
+        == "stops of joint 'A': a ball turns about any axis, so no one position of it has stops"
+    )
 
 
 def test_folders_of_sheets_are_made_beside_what_is_there(tmp_path: Path) -> None:

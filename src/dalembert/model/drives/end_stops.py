@@ -127,6 +127,10 @@ class JointStops(ValueField):
     def read(self, value: object, info: ValidationInfo) -> Stops:
         pair = PAIRS.get(str(info.data.get("type")))
         freedoms = pair.freedoms if pair else ()
+        if pair and pair.ball and freedoms == ("turn",):
+            raise ModelError(
+                "a ball turns about any axis, so no one position of it has stops", "leave them out"
+            )
         if not self.kind and len(freedoms) != 1:
             raise ModelError(
                 f"stops are of a joint with one freedom, and this one has {', '.join(freedoms) or 'none'}",
