@@ -34,7 +34,7 @@ DRAGS = 6
 IN_SPACE = "in space a page and its file may enter different ranges behind gaps, which no closed form locates"
 OPEN = {
     **{("rssr", k): IN_SPACE for k in (2, 3, 4, 6)},
-    (CHANGE_POINT, 6): "beside a dead centre the page's motion ends one position before the file's",
+    (CHANGE_POINT, 6): "at positions that are dead centres whether it closes is a matter of rounding",
 }
 """Drags whose page and file have answers at different positions."""
 HANDLES = """[...document.querySelectorAll('.stage .handle.joint, .stage .handle.point, .stage .handle.direction')]
