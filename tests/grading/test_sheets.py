@@ -281,9 +281,12 @@ def test_mistakes_are_printed_with_their_lines(tmp_path: Path, capsys: pytest.Ca
     assert main(["check-answers", str(BUNDLED["four_bar"]), str(mine)]) == 1
     out = capsys.readouterr().out
     assert f"{mine}:5: reaction of A, magnitude: " in out
+    assert "154.805  off by 29 %\n" in out
     assert out.endswith("1 of 2 right.\n")
     assert main(["check-answers", str(BUNDLED["four_bar"]), str(mine), "--tolerance", "1%"]) == 1
-    assert capsys.readouterr().out.endswith("0 of 2 right.\n")
+    out = capsys.readouterr().out
+    assert "238  243.2376  off by 2.2 %\n" in out
+    assert out.endswith("0 of 2 right.\n")
 
 
 def _chance_is_that_of_the_least_telling_numbers(problem: Any, sheet: Any, wrong: Any) -> None:

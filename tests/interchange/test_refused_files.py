@@ -17,6 +17,7 @@ from dalembert.errors import DalembertError, ModelError
 from dalembert.interchange.file_formats import foreign_bytes, read_foreign
 from dalembert.interchange.sketches.dxf_skeletons import join_shapes
 from dalembert.interchange.sketches.plane_sketch import PlaneSketch, sketch_tree
+from dalembert.interchange.xml_tree import parse
 from tests.approved.commands import BROKEN
 from tests.interchange.test_adams import ARM, arm
 
@@ -227,3 +228,11 @@ def test_what_a_sketch_does_not_keep() -> None:
     assert "dry friction" in foreign_bytes(rough, "x.sdf")[1]
     still = da.four_bar(positions=1)
     assert not [note for note in foreign_bytes(still, "x.pmks")[1] if "positions" in note]
+
+
+@pytest.mark.parametrize("content", [b"", b"<mujoco><worldbody>", b"<mujoco></worldbody>"])
+def test_a_file_that_breaks_off_is_no_xml(content: bytes) -> None:
+    with pytest.raises(ModelError) as refused:
+        parse(content, "x.xml")
+    words = "mismatched tag" if b"/" in content else "no element found"
+    assert str(refused.value) == f"x.xml:1: the file is not XML: {words}; save it again"
