@@ -185,6 +185,15 @@ def test_motions_by_position_and_by_speed_in_other_units(tmp_path: Path) -> None
     assert other.gravity_vector[1] == pytest.approx(-9810e3)
 
 
+@pytest.mark.parametrize("angle", ["30D", "30d", "0.5235987755982988"])
+def test_an_angle_with_a_d_is_in_degrees_also_in_a_file_in_radians(angle: str, tmp_path: Path) -> None:
+    text = ARM.replace("M\n", "M\ndefaults units angle = radians length = mm\n", 1)
+    m, lost = arm(tmp_path, text.replace("orientation = 30D", f"orientation = {angle}"))
+    assert not lost
+    right = da.dynamics(arm(tmp_path, ARM)[0])
+    assert da.dynamics(m).effort("O") == pytest.approx(right.effort("O"), rel=1e-12)
+
+
 def test_a_motion_with_more_than_an_acceleration_is_kept_at_its_beginning(tmp_path: Path) -> None:
     text = ARM.replace('"10D + 0.5*", "time + 2*TIME**2"', '"0.2 + 0.1*sin(5*time)"')
     m, lost = arm(tmp_path, text)

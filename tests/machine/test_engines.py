@@ -184,7 +184,9 @@ def test_what_the_series_leaves_out_falls_with_the_third_power_of_crank_over_rod
     off = []
     for rod in (0.5, 5.0):
         numbers = {"speed": 3.0, "acceleration": 70.0}
-        m = da.slider_crank(crank=0.05, rod=rod).with_values({f"drives.O2.{k}": v for k, v in numbers.items()})
+        m = da.slider_crank(crank=0.05, rod=rod).with_values(
+            {f"drives.O2.{k}": v for k, v in numbers.items()}
+        )
         m = m.with_values({"links.rod.mass": 0.4, "links.crank.mass": 0.0})
         e = da.engine_series(da.dynamics(m, positions=24))
         exact = e.exact.parts["inertia"][0]
