@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.bundled import examples
 from dalembert.machine.elements.pin_stresses import moment_along
 
 FORK = {"diameter": "30 mm", "eye": "40 mm", "cheeks": "22 mm", "gap": "1 mm"}
@@ -145,3 +146,17 @@ def test_a_stack_names_the_links_of_its_bolt() -> None:
         da.pin(r, "A")
     with pytest.raises(da.ModelError, match="joint 'P' has no pin; give it pin"):
         da.pin(r, "P")
+
+
+def test_positions_without_an_answer_leave_the_largest_of_the_others() -> None:
+    """A crank so long that the linkage does not close all round: the table has the largest moment of the rest."""
+    tree = da.load(examples()["four_bar"]).to_tree()
+    tree["joints"]["A"]["pin"] = FORK
+    tree["drives"]["O2"] |= {"position": {"from": 0, "to": 330, "count": 12}}
+    r = da.dynamics(da.mechanism(tree).with_values({"links.crank.points.A": (0.25, 0.0)}))
+    assert set(r.status) == {"ok", "not_assembled"}
+    table = da.pins(r)
+    largest = float(np.nanmax(table.bolts["A"].force)) * (0.011 + 0.001 + 0.02 / 2) / 2
+    inches = largest / (4.4482216152605 * 0.0254)
+    row = next(line.split() for line in table.text().splitlines() if line.startswith("A  "))
+    assert float(row[7]) == pytest.approx(inches, rel=2e-4)
