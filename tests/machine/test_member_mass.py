@@ -35,6 +35,18 @@ def test_torsion_falls_evenly_along_a_shaft() -> None:
     assert f.residual.max() < 1e-14
 
 
+@pytest.mark.parametrize("ends", ["A, B", "B, A"])
+def test_a_solid_lies_along_its_member_whichever_of_its_ends_is_first(ends: str) -> None:
+    """A cylinder of 0.6 m on a bar of 1 m, from either of its ends: J alpha up to its beginning, then less."""
+    text = SHAFT.replace("between: [A, B]", f"between: [{', '.join(x + '_' for x in ends.split(', '))}]")
+    text = text.replace("shaft: {points: {", "shaft: {points: {A_: [0, 0, 0.3], B_: [0, 0, 0.9], ")
+    f = da.member_forces(da.dynamics(da.loads(text)), "shaft")
+    couple = 0.6 * 7850 * np.pi * 0.05**4 / 2 * 100
+    for s, share in ((0, 1), (0.2, 1), (0.45, 0.75), (0.6, 0.5), (0.9, 0), (1, 0)):
+        assert f.at(s)["torsion"][0] == pytest.approx(-couple * share, abs=1e-12 * couple)
+    assert f.residual.max() < 1e-14
+
+
 class ThickBar:
     """A bar A-B of random solids on one or two turning joints, loaded at B; ``cut(s)``: the same of two, welded."""
 
