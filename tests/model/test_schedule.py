@@ -184,6 +184,22 @@ def test_a_periodic_table_of_time_does_not_repeat_its_first_instant() -> None:
     assert found.speed[0, 0] == pytest.approx(-found.speed[2, 0])
 
 
+@pytest.mark.parametrize(
+    ("key", "says"),
+    [
+        ("count", "the key 'count' is missing; write {type: table, time: [...], position: [...], count: 50}"),
+        ("time", "the key 'time' is missing; write {type: table, time: [...], position: [...], count: 50}"),
+        ("tim", "unknown key 'tim' in law of drive 'A'; did you mean 'time'?"),
+    ],
+)
+def test_a_table_of_time_has_its_keys_and_no_others(key: str, says: str) -> None:
+    keys = {"type": "table", "time": "[0, 1, 2]", "position": "[0, 9, 0]", "count": "4"}
+    keys = {k: v for k, v in keys.items() if k != key} | ({key: "3"} if key == "tim" else {})
+    with pytest.raises(ModelError) as refused:
+        two(f"law: {{{', '.join(f'{k}: {v}' for k, v in keys.items())}}}", "position: 1")
+    assert str(refused.value).endswith(says)
+
+
 def test_an_unknown_position() -> None:
     found = two("position: unknown, effort: 3", "position: 1").schedule()
     assert found.unknown == "A"
