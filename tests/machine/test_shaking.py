@@ -96,6 +96,14 @@ def test_chosen_links_add_up_to_the_machine() -> None:
     assert all(s.residual.max() < 1e-12 for s in some)
 
 
+def test_what_counts_as_rounding_is_a_part_of_the_largest_force_and_of_its_moment() -> None:
+    """Of a moment at the length of the mechanism, here 0.31 m."""
+    s = da.shaking(da.dynamics(da.load(examples()["four_bar"])))
+    assert s.floor("force") == pytest.approx(1e-12 * s.largest, rel=1e-12)
+    assert s.floor("moment") == pytest.approx(s.floor("force") * s.result.compiled.layout.length, rel=1e-12)
+    assert s.floor("moment") < 0.7 * s.floor("force")
+
+
 def test_a_slider_crank_is_that_of_its_closed_form() -> None:
     m = da.slider_crank(crank=0.05, rod=0.2)
     values = {"links.rod.mass": 0.6, "links.rod.center": [0.06, 0.0], "drives.O2.speed": 300.0}
