@@ -228,5 +228,5 @@ def test_an_undercut_cam_of_a_flat_lever_names_no_endless_radius() -> None:
     with pytest.raises(da.ModelError) as caught:
         da.dynamics(da.loads(steep))
     where = "cam 'F' is undercut from 30 to 57 deg of its turn"
-    assert caught.value.what == f"{where}: the outline that a flat face needs turns back on itself there"
+    assert caught.value.what == f"{where}: the outline that a flat face needs turns back on itself"
     assert caught.value.remedy == "take a smaller lift"

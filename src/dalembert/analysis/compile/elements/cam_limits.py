@@ -52,7 +52,7 @@ def refuse_undercut(m: Mechanism, name: str) -> None:
     path = ("joints", name, "profile")
     if c.joint.flat:
         raise ModelError(
-            f"{where}: the outline that a flat face needs turns back on itself there", f"take {size}", path
+            f"{where}: the outline that a flat face needs turns back on itself", f"take {size}", path
         )
     radius = float(worst[run].min()) + c.joint.follower.roller
     raise ModelError(
