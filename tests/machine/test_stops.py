@@ -268,21 +268,25 @@ def test_two_stops_at_once_are_not_gone_through(
     assert max(s.energy_residual, s.law_residual) < 1e-9
 
 
-def test_the_angle_of_a_joint_counts_whole_turns() -> None:
-    """A wheel of half the speed, backwards: three turns after six of the other, and a half of the speed after."""
-    s = da.simulate(
-        da.loads("""
+TURNED = """
 links:
   ground: {points: {O: [0, 0], P: [150 mm, 0]}}
   a: {points: {O: [0, 0]}, inertia: 0.1}
   b: {points: {P: [0, 0]}, inertia: 0.2}
 joints:
   O: {type: pin, links: [ground, a]}
-  P: {type: pin, links: [ground, b], stops: {from: -1080 deg, to: 720 deg, restitution: 0.5}}
+  P: {type: pin, links: [ground, b], stops: STOPS}
   G: {type: gear, links: [a, b], at: [O, P], radii: [50 mm, 100 mm]}
 drives: {O: {effort: 0}}
-start: {O: {position: 0, speed: 10 rad/s}}
-"""),
+start: {O: {position: 0, speed: SPEED rad/s}}
+"""
+
+
+def test_the_angle_of_a_joint_counts_whole_turns() -> None:
+    """A wheel of half the speed, backwards: three turns after six of the other, and a half of the speed after."""
+    stops = "{from: -1080 deg, to: 720 deg, restitution: 0.5}"
+    s = da.simulate(
+        da.loads(TURNED.replace("STOPS", stops).replace("SPEED", "10")),
         "5 s",
         count=3,
     )
@@ -370,20 +374,6 @@ def test_a_prescribed_drive_has_no_stops() -> None:
         ModelError, match=r"text:\d+: drive 'O' is prescribed, and its stops would be gone through"
     ):
         da.simulate(da.loads(text), "1 s")
-
-
-TURNED = """
-links:
-  ground: {points: {O: [0, 0], P: [150 mm, 0]}}
-  a: {points: {O: [0, 0]}, inertia: 0.1}
-  b: {points: {P: [0, 0]}, inertia: 0.2}
-joints:
-  O: {type: pin, links: [ground, a]}
-  P: {type: pin, links: [ground, b], stops: STOPS}
-  G: {type: gear, links: [a, b], at: [O, P], radii: [50 mm, 100 mm]}
-drives: {O: {effort: 0}}
-start: {O: {position: 0, speed: SPEED rad/s}}
-"""
 
 
 @pytest.mark.parametrize(

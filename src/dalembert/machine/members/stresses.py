@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.link_axes import in_space
@@ -32,8 +33,6 @@ STATIONS = 129
 """Places along a member where fatigue is looked at, three times, closer each time about the worst."""
 ANYWHERE = -1.0
 """Key of a notch factor that holds at every place."""
-STEADY = 1e-12
-"""Part of the largest stress of a member below which what changes over the cycle is rounding."""
 FIBRES = 72
 """Fibres round a circle that bends in both planes, looked at three times as the stations."""
 
@@ -218,7 +217,7 @@ def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
             factors = [notches.get(x, notches.get(ANYWHERE, 1.0)) for x in inner.tolist()]
             sigma = fibre_stress(s, curve.at(inner, side), plane, at) * np.array(factors)[:, None]
             mean, swing = (sigma.max(axis=0) + sigma.min(axis=0)) / 2, np.ptp(sigma, axis=0) / 2
-            swing = np.where(swing <= STEADY * np.abs(sigma).max(), 0.0, swing)
+            swing = np.where(swing <= PART * np.abs(sigma).max(), 0.0, swing)
             use = _utilisation(s, mean, swing)
             if np.isnan(use).any():
                 return Fatigue(curve.name, math.nan, math.nan, math.nan, None)
