@@ -17,8 +17,8 @@ from dalembert.core.position.assembly_modes import NEAR
 from tests.laws.test_branches import four_bar_tree, meeting
 from tests.tiers import over
 
-WIDE = 8
-"""Positions of a range in space that is found: one in twelve of the missing ones is asked there."""
+WIDE = 2
+"""Positions of a range in space that is found: of up to 71 missing ones every second is tried."""
 
 ORDERS = ("as listed", "descending", "random", "one position")
 

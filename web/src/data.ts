@@ -66,7 +66,7 @@ export type Handle =
 
 /** A row that is held, between links i and j (the ground's number is that of the moving links): a constraint, a
  * phase of meshing wheels, a freedom; outputs of the closure program. */
-export interface SketchRow { kind: "constraint" | "phase" | "freedom"; joint: string; ends: Pair; angular: boolean; value: number; period?: number }
+export interface SketchRow { kind: "constraint" | "phase" | "freedom"; joint: string; ends: Pair; angular: boolean; value: number; period?: number; count?: number }
 /** Closing of the linkage and its motion: see `pages/sketch_data.py`. */
 export interface SketchData {
   dimension: 2 | 3; length: number; links: string[]; order: number[];

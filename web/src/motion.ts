@@ -191,11 +191,17 @@ export class Motion {
     return trail;
   }
 
-  /** Further turns of links, radians, so that rows that hold an angle reach their targets; in space turns are
-   * counted by the rows. */
+  /** Further turns of links, radians, so that rows that hold an angle reach their targets; in space of the relative
+   * turns that the drives' rows count. */
   private counts(more: (row: number) => number): Float64Array {
     const { data } = this, out = new Float64Array(this.held.pose.turn.length), known = new Set([data.links.length]);
-    if (data.dimension !== 2) return out;
+    if (data.dimension !== 2) {
+      for (const row of data.drives) {
+        const { count } = data.rows[row];
+        if (count !== undefined) out[count] += more(row);
+      }
+      return out;
+    }
     const left = new Set(data.rows.flatMap((r, k) => (r.angular && (r.kind === "constraint" || data.drives.includes(k)) ? [k] : [])));
     while (left.size) {
       const next = [...left].find((k) => data.rows[k].ends.some((link) => known.has(link)));

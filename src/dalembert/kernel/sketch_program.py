@@ -15,7 +15,7 @@ import numpy as np
 
 from dalembert.arrays import Array
 from dalembert.core.constraints import measure, wrenches
-from dalembert.core.layout import Layout, Mesh, Pose, Rows
+from dalembert.core.layout import Angle, Layout, Mesh, Pose, Rows
 from dalembert.core.rotation_rows import counted_turns
 from dalembert.kernel.graph import Graph, Node, is_zero, trace_array
 
@@ -67,7 +67,7 @@ def pose_inputs(graph: Graph, layout: Layout, like: Layout, known: Pose) -> Pose
 class SketchRow:
     """A row: its residual is its target minus ``value``. The target is 0 for a constraint, the value at which the
     wheels met for a ``phase``, and the requested value for a freedom. ``period``: the measure is defined up to integer
-    multiples of it."""
+    multiples of it. ``count``: in space, index of the relative turn that the row counts."""
 
     kind: str  # "constraint" | "phase" | "freedom"
     joint: int
@@ -76,6 +76,7 @@ class SketchRow:
     value: int
     freedom: int | None = None
     period: int | None = None
+    count: int | None = None
 
 
 @dataclass
@@ -112,7 +113,7 @@ def _add_rows(
     graph: Graph, layout: Layout, rows: Rows, pose: Pose, out: Sketch, target: Array | None, phased: set[int]
 ) -> None:
     values = trace_array(graph, measure(layout.algebra, rows, pose))
-    periods = dict(_periods(rows))
+    periods, counts = dict(_periods(rows)), dict(_counts(rows))
     entries = _entries(graph, layout, rows, pose)
     ends = np.transpose(rows.ends).tolist()
     for k in range(rows.count):
@@ -127,10 +128,18 @@ def _add_rows(
                 value=out.output(graph, values[k] if free or target is None else values[k] - target[k]),
                 freedom=k if target is None else None,
                 period=out.output(graph, periods[k]) if k in periods else None,
+                count=counts.get(k),
             )
         )
         row = len(out.rows) - 1
         out.entries += [(row, column, out.output(graph, x)) for column, x in entries[k]]
+
+
+def _counts(rows: Rows) -> Iterator[tuple[int, int]]:
+    """Rows that measure a relative turn, and the turn that each counts."""
+    for f in rows.families:
+        if isinstance(f, Angle):
+            yield from zip(f.row.tolist(), f.count.tolist(), strict=True)
 
 
 def _periods(rows: Rows) -> Iterator[tuple[int, object]]:

@@ -167,7 +167,7 @@ def solver_data(c: Compiled, layout: Layout, s: Sketch) -> Tree:
     rows = [
         {"kind": row.kind, "joint": c.joints[row.joint] if row.joint >= 0 else "", "angular": row.angular}
         | {"value": row.value, "ends": list(row.ends)}
-        | ({} if row.period is None else {"period": row.period})
+        | {key: value for key, value in (("period", row.period), ("count", row.count)) if value is not None}
         for row in s.rows
     ]
     return {

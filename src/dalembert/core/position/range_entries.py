@@ -8,7 +8,7 @@ Mechanics: docs/theory.md 3.2.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Final, Literal, NamedTuple, Protocol
 
 import numpy as np
 
@@ -35,6 +35,11 @@ STEADY = 1e-6
 
 MOST_GAPS = 64
 """Largest number of entries behind gaps that no closed form locates."""
+
+SAMPLED = 36
+"""Largest number of positions at once where an entry is sought; a range that lies between them is not met."""
+
+NOWHERE: Final = "nowhere"
 
 Entry = tuple[int, Pose]
 """Index of a position in the list, and its pose."""
@@ -177,20 +182,20 @@ def _sought(
     if not kinds:
         return
     sense, tried = senses(layout, kinds, first.at(None)), np.zeros(len(along.s), bool)
-    fast = Fast(on_independent_rows(layout, first), held, kinds, sense)
+    fast, never = Fast(on_independent_rows(layout, first), held, kinds, sense), np.zeros(len(along.s), bool)
     for _ in range(MOST_GAPS):
         missing = along.order[~(now()[1] | tried)[along.order]]
-        if not missing.size:
-            return
-        sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
-        targets = ((int(k), along.target(along.at(int(k)))[0]) for k in sample)
         guess = _spread(along, *now())
-        candidates = ((k, _entry(layout, fast, target, guess, search)) for k, target in targets)
-        place, entry = next(((k, e) for k, e in candidates if e is not None), (0, None))
-        if entry is None:
+        for k in missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), SAMPLED)).astype(int))]:
+            target = along.target(along.at(int(k)))[0]
+            entry = _entry(layout, fast, target, guess, None if never[k] else search)
+            if isinstance(entry, Pose):
+                break
+            never[k] |= entry is NOWHERE
+        else:
             return
-        tried[place] = True
-        yield place, entry
+        tried[k] = True
+        yield int(k), entry
 
 
 def _spread(along: PathSamples, pose: Pose, reached: Flags) -> Pose:
@@ -199,9 +204,11 @@ def _spread(along: PathSamples, pose: Pose, reached: Flags) -> Pose:
     return pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
 
 
-def _entry(layout: Layout, fast: Fast, target: Array, guess: Pose, search: Ways | None) -> Pose | None:
+def _entry(
+    layout: Layout, fast: Fast, target: Array, guess: Pose, search: Ways | None
+) -> Pose | Literal["nowhere"] | None:
     """A pose at one target with the groups' given senses: from the nearest known pose that converges, else the only
-    mode that a search finds. In space the number of turns of meshing wheels is unknown."""
+    mode that a search finds; NOWHERE where it finds none. In space the number of turns of meshing wheels is unknown."""
     pose, _ = close_loops(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
     fits = _fitting(layout, fast, pose, target, 0.0)
     if fits.any():
@@ -210,7 +217,7 @@ def _entry(layout: Layout, fast: Fast, target: Array, guess: Pose, search: Ways 
         return None
     modes = search.every(fast.held.layout, fast.held.targets(target[None])[0])
     if modes is None:
-        return None
+        return NOWHERE
     pose, _ = close_loops(
         fast.layout, modes.pose, np.broadcast_to(target, (len(modes.pose.point), len(target))).copy()
     )

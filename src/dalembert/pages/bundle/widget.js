@@ -1313,7 +1313,13 @@ var ze = class {
 	}
 	counts(e) {
 		let { data: t } = this, n = new Float64Array(this.held.pose.turn.length), r = /* @__PURE__ */ new Set([t.links.length]);
-		if (t.dimension !== 2) return n;
+		if (t.dimension !== 2) {
+			for (let r of t.drives) {
+				let { count: i } = t.rows[r];
+				i !== void 0 && (n[i] += e(r));
+			}
+			return n;
+		}
 		let i = new Set(t.rows.flatMap((e, n) => e.angular && (e.kind === "constraint" || t.drives.includes(n)) ? [n] : []));
 		for (; i.size;) {
 			let a = [...i].find((e) => t.rows[e].ends.some((e) => r.has(e)));
