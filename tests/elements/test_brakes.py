@@ -27,6 +27,14 @@ def test_a_wrong_brake_is_told_where_and_what(case: dict[str, str]) -> None:
     assert str(caught.value) == case["says"]
 
 
+@pytest.mark.parametrize("arc", ["from: 0, to: 180", "from: -70, to: 110, pressure: cosine"])
+def test_a_lining_may_reach_to_where_its_pressure_ends(arc: str) -> None:
+    """The pressure there is 0, so that the torque is that of a lining a little shorter."""
+    ends = arc.replace("180", "179.999").replace("-70", "-69.999").replace("110", "109.999")
+    here, near = (da.statics(da.loads(BRAKES.replace("from: 15, to: 120", a))) for a in (arc, ends))
+    assert near.effort("O")[0] == pytest.approx(here.effort("O")[0], rel=1e-8) != 0
+
+
 def test_a_drum_may_have_its_axis_anywhere_in_its_own_axes() -> None:
     moved = BRAKES.replace("drum:   {points: {O: [0, 0]}}", "drum:   {points: {O: [30, 20]}}")
     assert moved != BRAKES

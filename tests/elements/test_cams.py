@@ -323,6 +323,20 @@ def test_a_spring_keeps_the_least_force() -> None:
     assert free[1] + free[0] * 0.02 <= 50.0 + c.spring_for(preload=50.0, least=20.0)[0] * 0.02 + 1e-9
 
 
+def test_a_follower_heavy_enough_needs_no_spring() -> None:
+    tree = machine({"roller": "8 mm"})  # its load presses with 300 N
+    c = da.cam(da.mechanism(tree), "F")
+    assert c.force.min() > 250.0
+    assert c.spring_for(least=200.0) == c.spring_for(preload=0.0, least=200.0) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("sense", ["ccw", "cw"])
+def test_a_flat_face_is_as_wide_as_the_follower_is_fast(sense: str) -> None:
+    """Its contact is ds/dq aside: most in the cycloidal rise, 2 h over its angle, on either side by the sense."""
+    c = da.cam(da.mechanism(machine("flat", profile={"base": "80 mm", "sense": sense})), "F")
+    assert c.face_half_width == pytest.approx(2 * 0.02 / math.radians(90), rel=1e-9)
+
+
 def test_friction_of_a_knife_edge_is_against_its_slip() -> None:
     """mu N along the tangent; the drive pays what is lost."""
     r = da.dynamics(da.mechanism(machine("knife", friction={"coefficient": 0.2})))

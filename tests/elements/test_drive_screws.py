@@ -62,6 +62,26 @@ def test_at_rest_it_is_held_within_an_interval() -> None:
     assert rest.torque[0] == pytest.approx(6400 * 0.008 / (2 * math.pi), rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("speed", "row"),
+    [
+        ("10 mm/s", ["0 mm", "3 kN", "12.1525 N*m", "0.3143"]),
+        ("-10 mm/s", ["100 mm", "-6 kN", "-24.305 N*m", "0.3143"]),
+        ("0 mm/s", ["100 mm", "-6 kN", "-24.305 to 8.86122 N*m", "-"]),
+    ],
+)
+def test_the_table_has_the_position_of_its_greatest_torque(speed: str, row: list[str]) -> None:
+    """In either sense; the load on the nut is -3 kN at 0 and 6 kN at the end. At rest no power goes in."""
+    text = FILE.replace("SCREW", SCREW).replace("position: 0,", "position: {from: 0, to: 100, count: 3},")
+    text = text.replace("value: [0, -6.4]", "direction: 90, value: {expression: 90*S - 3, unit: kN}")
+    said = da.statics(da.loads(text.replace("10 mm/s", speed))).text().splitlines()
+    assert [" ".join(line.split()) for line in said if line.startswith("S ")][-1] == " ".join(["S", *row])
+    force = 1e3 * abs(float(row[1].split()[0]))
+    size = flank_torque(force, 8e-3, 15e-3, math.radians(15), 0.1)
+    torque = float(row[2].split()[0])
+    assert abs(torque) == pytest.approx(size + 0.02 * 0.06 * force, rel=1e-5)
+
+
 def test_its_torque_is_a_quantity_with_exact_derivatives() -> None:
     m = da.loads(FILE.replace("SCREW", SCREW))
     paths = [

@@ -155,3 +155,35 @@ def test_the_isochronous_place_is_where_the_speed_is_greatest() -> None:
     assert coarse == pytest.approx(q.mean() - b / (2 * a), abs=1e-3)
     assert fine.isochronous == pytest.approx((coarse,), abs=1e-6)
     assert len(fine.drawings(da.Notation())) == 1
+
+
+SPRUNG = """gravity: standard
+links: {ground: {points: {O: [0, 0]}}, bob: {points: {O: [0, 0]}, mass: 2, center: [0.5, 0]}}
+joints: {O: {type: pin, links: [ground, bob]}}
+drives: {O: {position: unknown, effort: 0, range: RANGE}}
+loads: {S: {type: torsion_spring, joint: O, stiffness: 1 N*m/rad, free_angle: FREE}}
+turning: {speed: 8 rad/s}
+"""
+
+
+@pytest.mark.parametrize("ends", [(-171, -10), (-170, -90), (-90, -10), (-80, 80), (-170, -100)])
+@pytest.mark.parametrize("free", [-90, -88, -92])
+def test_a_bob_leaves_its_lowest_place_only_if_its_spring_is_at_rest_in_it(
+    ends: tuple[float, float], free: float
+) -> None:
+    """(m g c + k)/(m c^2) = W^2 where the spring is free below; else the bob hangs beside it from the first, and two
+    more equilibria appear on the other side, at the least W^2 = -(m g c cos q + k (q - q_0))/(m c^2 sin q cos q)."""
+    text = SPRUNG.replace("RANGE", f"[{ends[0]}, {ends[1]}]").replace("FREE", f"{free} deg")
+    t = da.turning_range(da.loads(text))
+    q = np.radians(np.linspace(*ends, 200_001)[1:-1])
+    with np.errstate(all="ignore"):
+        squares = -(9.80665 * np.cos(q) + q - math.radians(free)) / (0.5 * np.sin(q) * np.cos(q))
+    least = (squares[1:-1] < squares[:-2]) & (squares[1:-1] < squares[2:]) & (squares[1:-1] > 0)
+    if free == -90:
+        here = ends[0] <= -90 <= ends[1]
+        assert t.folds == ()
+        assert np.degrees(t.at) == pytest.approx([-90.0] if here else [])
+        assert t.bifurcation == pytest.approx([math.sqrt(10.80665 / 0.5)] if here else [])
+    else:
+        assert t.bifurcation == t.at == ()
+        assert t.folds == pytest.approx(np.sqrt(squares[1:-1][least]).tolist(), rel=1e-6)

@@ -136,6 +136,8 @@ def test_every_number_of_a_motor_is_that_of_its_formula() -> None:
         (((0.0, 80.0), (4.04, 0.0)), True),  # 2 N m at 40 rad/s
         (((0.0, 80.0), (3.96, 0.0)), False),
         (((0.0, 80.0), (-4.04, 0.0)), True),
+        (((-80.0, 0.0), (0.0, 3.96)), False),
+        (((-80.0, -20.0), (0.0, -3.04)), True),  # 2.03 N m
     ],
 )
 def test_a_curve_is_enough_from_its_limits_on(
@@ -250,6 +252,8 @@ def test_a_motor_is_judged_by_its_line_and_not_beyond_its_speed(
     for pull in (load, -load):  # driving and braking alike
         assert spun(sense * speed, f"{pull} N*m").needs["direct"].enough is enough
     assert spun(sense * speed / 4, f"{4 * load} N*m", ratio=4).needs["given"].enough is enough
+    against = LINE.replace("40 N*m", "-40 N*m").replace("100 rad/s", "-100 rad/s")
+    assert da.motor(da.dynamics(da.loads(against % (speed, f"{load} N*m")))).needs["direct"].enough is enough
 
 
 def test_the_rated_torque_is_held_against_the_rms_and_negative_peaks_count() -> None:

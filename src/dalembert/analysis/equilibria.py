@@ -180,8 +180,7 @@ def _stability(scan: _Scan, roots: Array, scale: float) -> tuple[str | None, ...
 
 def _none(scan: _Scan, q: Array, g: Array) -> Result:
     """No root: one position without values, and the range of efforts that would be met."""
-    nearest = int(np.nanargmin(np.abs(g))) if np.isfinite(g).any() else 0
-    result = scan.at(q[[nearest]])
+    result = scan.at(q[[int(np.isfinite(g).argmax())]])
     arrays = {n: v for n, v in vars(result).items() if isinstance(v, np.ndarray) and v.dtype.kind == "f"}
     blank: Tree = {n: np.full_like(v, np.nan) for n, v in arrays.items()}
     position = np.full_like(result.schedule.position, np.nan)

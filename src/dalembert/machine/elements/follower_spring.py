@@ -49,7 +49,7 @@ def _softest(need: Array, lift: Array, high: float) -> tuple[float, float]:
     """The spring with the least greatest force."""
     from scipy.optimize import linprog
 
-    size = max(float(np.abs(need).max()), 1e-300)
+    size = max(float(need.max()), 1e-300)
     value = linprog(
         [1.0, 1.0],
         A_ub=np.stack([-np.ones_like(lift), -lift / high], axis=1),

@@ -60,20 +60,24 @@ def turning_range(m: ModelOrPath, drive: str | None = None, count: int = 361) ->
     curve = _Efforts(m, name)
     q = np.linspace(*limits(m, name, None), count)
     loads, unit = curve(q)
-    least = 1e-9 * np.abs(loads).max(initial=0.0)
+    side = np.where(np.abs(unit) > 1e-9 * np.abs(unit).max(), np.sign(unit), 0.0)
     one, places = [], []
-    for k in np.flatnonzero((unit[:-1] * unit[1:] < 0) | (unit[:-1] == 0)):
-        x = _root(lambda x: curve(np.array([x]))[1][0], q[k], q[k + 1])
-        if abs(curve(np.array([x]))[0][0]) <= max(least, 1e-7 * np.abs(loads).max(initial=0.0)):
-            square = curve.limit(x, abs(q[1] - q[0]))
+    for k in np.flatnonzero(np.append(side[:-1] * side[1:] < 0, False) | (side == 0)):
+        x = _root(lambda x: curve(np.array([x]))[1][0], q[k], q[k + 1]) if side[k] else float(q[k])
+        if abs(curve(np.array([x]))[0][0]) <= 1e-7 * np.abs(loads).max():
+            square = curve.limit(x, q[1] - q[0])
             if square > 0:
                 one.append(math.sqrt(square))
-                places.append(float(x))
+                places.append(x)
     with np.errstate(all="ignore"):
-        squares = np.where(np.abs(unit) > 1e-9 * np.abs(unit).max(), -loads / unit, np.nan)
-    steps = np.diff(squares)
-    inner = np.flatnonzero(steps[:-1] * steps[1:] < 0)
-    folds = [math.sqrt(squares[k + 1]) for k in inner if squares[k + 1] > 0]
+        squares = -loads / unit
+    falls, beside = np.diff(squares) < 0, side[:-1] * side[1:] > 0
+    folds = []
+    for k in np.flatnonzero((falls[:-1] != falls[1:]) & beside[:-1] & beside[1:]):
+        before, square, behind = squares[k : k + 3]
+        square -= (behind - before) ** 2 / (before - 2 * square + behind) / 8  # the vertex of their parabola
+        if square > 0:
+            folds.append(math.sqrt(square))
     return TurningRange(tuple(one), tuple(places), tuple(folds))
 
 
@@ -108,8 +112,7 @@ def _extrapolated(rows: list[float]) -> float:
 def _root(function: Any, low: float, high: float) -> float:
     from scipy.optimize import brentq
 
-    at_low = function(low)
-    return float(low) if at_low == 0 else float(brentq(function, low, high, xtol=1e-14))
+    return float(brentq(function, low, high, xtol=1e-14))
 
 
 def small_swings(r: Result) -> Array:

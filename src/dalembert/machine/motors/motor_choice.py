@@ -121,8 +121,9 @@ class MotorChoice(MachineAnswer):
         torque, speed = self.torque(ratio), ratio * np.abs(self.speed)
         rms, enough = self.rms(torque), None
         if self.curve is not None:
-            inside = speed <= self.curve.fastest
-            enough = bool((inside & (np.abs(torque) <= np.abs(self.curve.at(speed)) * (1 + 1e-12))).all())
+            most = self.curve.fastest
+            limit = np.abs(self.curve.at(np.copysign(speed, most)))
+            enough = bool(((speed <= abs(most)) & (np.abs(torque) <= limit * (1 + 1e-12))).all())
         if self.rated is not None:
             enough = enough is not False and rms <= self.rated * (1 + 1e-12)
         return Need(ratio, rms, float(np.abs(torque).max()), float(speed.max()), enough)

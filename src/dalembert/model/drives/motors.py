@@ -91,8 +91,8 @@ class MotorCurve:
 
     @property
     def fastest(self) -> float:
-        """The greatest speed that it has an effort for, in size."""
-        return max(abs(self.speed[0]), abs(self.speed[-1]))
+        """The speed furthest from 0 that it has an effort for, with its sign."""
+        return max(self.speed, key=abs)
 
     def at(self, speed: Array | float) -> Array | float:
         """Effort at a speed, switched on.
@@ -171,7 +171,7 @@ def motor_curve(value: object, kind: str, rules: ReadingRules) -> MotorCurve:
         return MotorCurve(speed, effort, False, on, off, *further)
     stall = at_item("stall", rules.quantity, keys["stall"], kinds["effort"])
     free = at_item("no_load", rules.quantity, keys["no_load"], kinds["speed"])
-    if not stall or not free or (stall > 0) != (free > 0):
+    if not stall * free > 0:
         raise ModelError(
             f"a motor that stalls at {keys['stall']} and runs free at {keys['no_load']} does not drive",
             "give both the same sign, and neither 0: negative ones drive against the freedom",

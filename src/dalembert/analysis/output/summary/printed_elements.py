@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
 from dalembert.analysis.methods.elements.screw_torques import ScrewAnswer, screws
 from dalembert.analysis.output.summary.printed_units import Printed
-from dalembert.printing import Part, TextTable, with_unit, wrap
+from dalembert.printing import Part, TextTable, number, with_unit, wrap
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -52,25 +52,26 @@ def locking_sentence(s: ScrewAnswer) -> str:
 
 def _screw_parts(result: Result, to: Printed) -> Iterator[Part]:
     """Torque and efficiency of screws, where they turn most heavily."""
-    rows, notes = [], []
+    rows, notes, many = [], [], len(result.status) > 1
     for name in screws(result.mechanism):
         s = result.screw(name)
         if np.isfinite(s.torque).any():
-            k = int(np.nanargmax(np.maximum(np.abs(s.torque_low), np.abs(s.torque_high))))
+            k = int(np.nanargmax(np.maximum(-s.torque_low, s.torque_high)))
             ends = [to.number("moment", float(x[k])) for x in (s.torque_low, s.torque_high)]
             torque = ends[0] if ends[0] == ends[1] else f"{ends[0]} to {ends[1]}"
             rows.append(
                 [
                     name,
+                    *([to.quantity("length", float(result.drive_position(name)[k]))] if many else []),
                     to.quantity("force", float(s.force[k])),
                     f"{torque} {to.text('moment')}",
-                    f"{s.efficiency[k]:.4g}",
+                    number(s.efficiency[k], 4),
                 ]
             )
             notes.append(wrap(locking_sentence(s)))
     if rows:
-        many = "greatest\n" if len(result.status) > 1 else ""
-        yield TextTable(["screw", f"{many}force", f"{many}torque", "efficiency"], rows, 1)
+        heads = ["screw", "at", "force", "greatest\ntorque"] if many else ["screw", "force", "torque"]
+        yield TextTable([*heads, "efficiency"], rows, 1)
         yield from notes
 
 

@@ -70,7 +70,7 @@ class ClutchState(ElasticRestState):
             x = stop.end(-stop.way) + stop.way * stop.pitch
             return lambda t, y: stop.way * (x - stop.near(self.motion_of(stop, t, y)[0], x))
 
-        clutches = [(k, s) for k, s in enumerate(self.stops) if s.way and not s.resting]
+        clutches = [(k, s) for k, s in enumerate(self.stops) if s.way]
         free = [(k, s) for k, s in clutches if s.pitch or not np.isfinite(s.end(-s.way))]
         return [Guard("clutch", k, tooth(s) if s.pitch else rate(s), 1.0) for k, s in free]
 

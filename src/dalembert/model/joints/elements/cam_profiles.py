@@ -333,7 +333,7 @@ class CamProfile(Part):
     def size(self) -> float:
         """A radius of the cam, m."""
         if self.arcs is not None:
-            return max(abs(arc.radius) for arc in self.arcs)
+            return max(arc.radius for arc in self.arcs)
         if self.points is not None:
             return max(self.points.radius)
         base = self.tangent.base if self.tangent is not None else self.base or self.prime
