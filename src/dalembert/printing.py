@@ -16,8 +16,8 @@ def number(value: float, digits: int = 6) -> str:
 
     >>> number(243.237591), number(-0.0), number(1e-17), number(float("nan")), number(1.5e7)
     ('243.238', '0', '1e-17', '-', '1.5e+07')
-    >>> number(123456.7, 5)
-    '123457'
+    >>> number(123456.7, 5), number(-123456.7, 5), number(1e5, 5), number(-1e6, 5)
+    ('123457', '-123457', '100000', '-1e+06')
     """
     if not math.isfinite(value):
         return "-"

@@ -179,12 +179,12 @@ def _exponent(tokens: list[str], text: str) -> tuple[int, list[str]]:
     if tokens[:1] != ["^"]:
         return 1, tokens
     minus = tokens[1:2] == ["-"]
-    digits = tokens[1 + minus : 2 + minus]
+    digits = tokens[1 + minus :]
     if not digits or not re.fullmatch(r"[1-6]", digits[0]):
         raise ModelError(
             f"{quote_value(text)} is not a unit: a power must be an integer from -6 to 6", "write s^2, s^-1"
         )
-    return (-1 if minus else 1) * int(digits[0]), tokens[2 + minus :]
+    return (-1 if minus else 1) * int(digits[0]), digits[1:]
 
 
 def _by_name(name: str, text: str) -> Unit:

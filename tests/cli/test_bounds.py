@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -15,6 +16,7 @@ import dalembert as da
 from dalembert.bounds import BOUNDS, LARGEST, SMALLEST, require
 from dalembert.bundled import examples
 from dalembert.cli import main
+from dalembert.cli.machine.counterweight_argument import bounds_of as counterweight
 from dalembert.errors import ArgumentError, ModelError
 
 NAN, INF = math.nan, math.inf
@@ -186,3 +188,25 @@ def test_an_option_refuses_what_means_nothing(
     assert sentence in said.err
     assert ".yaml:" not in said.err  # no line of the file is wrong
     assert said.out == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "disc"),
+    [
+        ("7800kg/m^3/20mm/80mm", (7800.0, 0.02, 0.08)),
+        ("7.8g/cm^3/20mm/80mm", (7800.0, 0.02, 0.08)),
+        ("0.3lb/in^3/1in/3in", (0.3 * 0.45359237 / 0.0254**3, 0.0254, 0.0762)),
+        ("7800/0.02/0.08", (7800.0, 0.02, 0.08)),
+        ("7800kg/m^3/20mm", None),
+        ("7800/0.02", None),
+        ("7800", None),
+    ],
+)
+def test_a_disc_is_a_density_with_any_unit_a_thickness_and_a_radius(text: str, disc: Any) -> None:
+    m = da.four_bar()
+    if disc is None:
+        with pytest.raises(da.ModelError, match=f"{re.escape(text)}: a disc is density/thickness/radius"):
+            counterweight(m, f"crank:disc={text}")
+    else:
+        link, bounds = counterweight(m, f"crank:disc={text}")
+        assert (link, bounds) == ("crank", {"disc": pytest.approx(disc)})

@@ -24,7 +24,7 @@ from dalembert.exams.candidates import (
     figure_size,
 )
 from dalembert.exams.choices import Choices
-from dalembert.exams.exam_folder import _strange
+from dalembert.exams.exam_folder import _strange, check_folder
 from dalembert.exams.variants import _draws, _Pool
 from dalembert.model import Answer
 
@@ -385,3 +385,22 @@ def test_reactions_that_are_rounding_or_not_unique_are_not_asked() -> None:
     assert [a.quantity for a in requested_quantities(r, [], None)] == ["effort", "effort"]
     large = da.statics(r.mechanism.with_values({"loads.H.value": [-7, 0.01]}))
     assert [a.of for a in requested_quantities(large, ["reactions"], None)] == ["C"]
+
+
+def test_of_several_strange_files_the_first_by_its_name_is_said(tmp_path: Any) -> None:
+    (tmp_path / "variants.json").write_text("{}")
+    for k in range(30):
+        (tmp_path / f"notes{(7 * k) % 30:02d}.txt").touch()
+    with pytest.raises(da.ModelError, match=r"has notes00\.txt, which would be lost"):
+        check_folder(tmp_path, overwrite=True)
+    (tmp_path / "variants.json").unlink()
+    with pytest.raises(da.ModelError, match=r"has notes00\.txt"):
+        check_folder(tmp_path, overwrite=True)
+
+
+def test_a_rotation_has_no_opposite_sense() -> None:
+    m = da.load(examples()["rssr"]).with_values({"drives.O.position": "1 rad", "drives.O.speed": "0 rad/s"})
+    rotation = requested_quantities(da.statics(m), [{"quantity": "rotation", "of": "rod"}], None)
+    mistakes = candidate(m, {}, rotation, static=True).mistakes
+    assert mistakes
+    assert not any("sense is opposite" in sentence for sentence in mistakes)

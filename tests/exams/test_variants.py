@@ -28,7 +28,7 @@ FOUR_BAR = {"loads.T_4.value": "100..140 lbf*in", "drives.O2.position": "[45, 60
 
 
 def four_bar(**options: Any) -> Any:
-    return da.variants(da.load(examples()["four_bar"]), FOUR_BAR, **{"count": 2, "seed": 3} | options)
+    return da.variants(da.load(examples()["four_bar"]), **{"vary": FOUR_BAR, "count": 2, "seed": 3} | options)
 
 
 def bracket(**load: object) -> da.Mechanism:
@@ -69,6 +69,7 @@ def test_values_to_draw(given: object, values: list[object]) -> None:
         ("1..2 m step 1 N", "--vary x: the step is in N, the range in m; write one unit"),
         ("0..1 step 1e-9", "--vary x: 1000000001 values are more than 10000; take a larger step"),
         ("1..2 m step -1 m", "--vary x: the step -1 is not positive"),
+        ("1..2 m step 0 m", "--vary x: the step 0 is not positive"),
     ],
 )
 def test_values_that_are_none(given: str, said: str) -> None:
@@ -376,3 +377,9 @@ def test_marks_stand_on_the_key_and_every_question_in_one_file(tmp_path: Path) -
     size, angle = some[1].key[1]["value"].split(" @ ")
     assert answers.rows[1][2] == f"{float(size):.4g} ∠ {float(angle):.2f}°".replace("-", "−")
     some.save(out, overwrite=True)
+
+
+@pytest.mark.parametrize("weights", [["-1 lbf", "8 lbf", "9 lbf"], ["8 lbf", "9 lbf", "-1 lbf"]])
+def test_values_that_no_problem_may_have_are_refused_at_both_ends(weights: list[str]) -> None:
+    with pytest.raises(da.ModelError, match="weight"):
+        four_bar(vary={"links.coupler.weight": weights})

@@ -11,11 +11,13 @@ import openpyxl
 import pytest
 
 import dalembert as da
+from dalembert.answer.labelled import column_arrays
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.grading.marking import marks_tabs
 from dalembert.grading.marking.grade import ClassMarks
-from dalembert.grading.marking.rubric import read_rubric
+from dalembert.grading.marking.rubric import Rubric, read_rubric
+from dalembert.grading.marking.student_marks import Mark, StudentMarks
 from tests.grading.made_class import named_rate, write_class, write_variants
 from tests.tiers import tiers
 
@@ -320,3 +322,23 @@ def test_an_interruption_leaves_nothing(tmp_path: Path, key: Path, monkeypatch: 
     with pytest.raises(KeyboardInterrupt):
         marks.save_feedback(tmp_path / "feedback")
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_the_mistakes_of_most_students_are_printed() -> None:
+    said = {"ann": "first", "ben": "first", "cem": "second"}
+    students = [
+        StudentMarks(n, "", "", [Mark("", "", "", "sign", words, 0.5, 1)]) for n, words in said.items()
+    ]
+    for most, named in ((None, ["first", "second"]), (1, ["first"]), (2, ["first", "second"])):
+        _, mistakes = marks_tabs.marks_parts(students, most)
+        assert [row[0] for row in mistakes.rows] == named
+
+
+def test_marks_as_arrays_are_rows_of_texts_and_what_is_missing_is_empty() -> None:
+    marks = ClassMarks(
+        [StudentMarks("ann", "", "a.csv", [Mark("effort", "3", "", "missing", "", 0.0, 1.0)])], Rubric()
+    )
+    data, rows = column_arrays(marks, marks.scale("SI"), "ground")
+    dimension, texts, _ = data["line"]
+    assert (dimension, texts.tolist()) == ("row", [""])
+    assert (data["student"][1].tolist(), rows["row"].tolist()) == (["ann"], [1])

@@ -256,3 +256,43 @@ def test_positions_of_a_sheet_are_solved_once_in_whatever_order_they_are_asked()
 def test_a_place_is_a_number_or_a_drives_value(text: str | None, found: object) -> None:
     assert place(text) == found
     assert type(place(text)) is type(found)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize(
+    ("along", "off", "numbers"),
+    [
+        (300.0, 0.0, 1),  # its moment about O4 is right: only its part along the rocker is wrong
+        (-300.0, 0.0, 1),
+        (3000.0, 0.002, 1),  # beside the products of its components the rest is rounding
+        (300.0, 0.05, 2),
+        (-300.0, 0.05, 2),
+        (300.0, -0.05, 2),
+    ],
+)
+def test_of_a_force_two_numbers_are_wrong_or_one(along: float, off: float, numbers: int, sense: int) -> None:
+    r = da.dynamics(machine(**{"loads.torque.value": 7.0 * sense, "drives.O2.position": 2.5}))
+    arm = (r["point.rocker.B"] - r["point.rocker.O4"])[0]
+    arm /= np.hypot(*arm)
+    share = off * abs(along) * 2 * abs(arm[0] * arm[1])
+    force = r.reaction("B", on="rocker")[0] + along * arm + share * np.array([-arm[1], arm[0]])
+    sheet = [given(r, "reaction", "B", force, on="rocker"), given(r, "effort", "O2", r.effort("O2")[0])]
+    assert own_figures(SheetEquations(r), sheet).numbers == {0: numbers}
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_number_is_as_right_as_the_loads_that_it_is_the_rest_of(sense: int) -> None:
+    """A couple of 1000 N*m on the crank, held by an effort rounded to 1 N*m; the pin's force has 4 parts in 1000."""
+    tree = machine().to_tree()
+    tree["loads"]["brake"] = {"type": "couple", "on": "crank", "value": f"{1000 * sense} N*m"}
+    r = da.statics(da.mechanism(tree))
+    arm = (r["point.crank.A"] - r["point.crank.O2"])[0]
+    along = 40 * arm / np.hypot(*arm)
+    effort = float(r.effort("O2")[0])
+    for rest, numbers in ((3.0, 1), (-3.0, 1), (5.0, 2), (-5.0, 2)):
+        across = np.array([-arm[1], arm[0]]) * rest / (arm @ arm)
+        sheet = [
+            given(r, "reaction", "A", r.reaction("A", on="crank")[0] + along + across, on="crank"),
+            given(r, "effort", "O2", effort),
+        ]
+        assert own_figures(SheetEquations(r), sheet).numbers == {0: numbers}

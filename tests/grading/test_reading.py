@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +16,9 @@ from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import read_sheet
+from dalembert.grading.marking import table_files
 from dalembert.grading.marking.figure_names import FigureNames, columns_of
+from dalembert.grading.marking.table_files import read_table
 from dalembert.grading.written_figure import decimal_comma, read_written, readings_of
 
 FOUR_BAR = examples()["four_bar"]
@@ -52,6 +56,8 @@ WRITTEN: dict[str, list[Any]] = {
     "11.84 Nm ccw": ["11.84 N*m"],
     "11.84 N\u00b7m cw": ["-11.84 N*m"],
     "-44.2 ccw": ["-44.2", "44.2"],
+    "12 N\u00b7m\u21bb": ["-12 N*m"],
+    "12 N\u00b7m(ccw)": ["12 N*m"],
     "\u221244.2": ["-44.2"],
     "about 31.48": ["31.48"],
     "12 lb-in": ["12 lbf*in"],
@@ -340,3 +346,43 @@ def test_headings_of_forms_are_understood() -> None:
 def test_a_heading_that_contradicts_itself_is_refused(heading: str) -> None:
     with pytest.raises(da.ModelError, match="no figure is known by the heading"):
         columns_of([heading, "T12"], FOUR_BAR_NAMES, {})
+
+
+def test_of_a_formula_in_a_workbook_its_number_is_read_and_every_row_counts(tmp_path: Path) -> None:
+    """As a spreadsheet saves it: the formula with its last value beside; empty cells and rows are none."""
+    book, made, saved = openpyxl.Workbook(), tmp_path / "made.xlsx", tmp_path / "saved.xlsx"
+    for row in (["Student", "effort.O2 [N*m]"], ["ann", "=2*10.5"], [], ["ben", 7], ["cem", None]):
+        book.active.append(row)
+    book.save(made)
+    with zipfile.ZipFile(made) as old, zipfile.ZipFile(saved, "w") as new:
+        for name in old.namelist():
+            new.writestr(name, re.sub(rb"</f><v ?/>|</f><v></v>", b"</f><v>21</v>", old.read(name)))
+    rows = read_table(saved)
+    assert [(row.line, row.cells) for row in rows] == [
+        (2, {"student": "ann", "effort.O2": "21"}),
+        (4, {"student": "ben", "effort.O2": "7"}),
+        (5, {"student": "cem"}),
+    ]
+    assert rows[0].heads == ("student", "effort.O2")
+
+
+def test_tables_that_cannot_be_read_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(table_files, "MOST_ROWS", 3)
+    texts = {
+        "three.csv": "a\n1\n2\n3\n",
+        "four.csv": "a\n1\n2\n3\n4\n",
+        "text.xlsx": "a",
+        "heads.csv": "a,b\n",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    assert [row.cells["a"] for row in read_table(tmp_path / "three.csv")] == ["1", "2", "3"]
+    for name, said in (
+        ("four.csv", "four.csv:5: the table has more than 3 rows; divide it"),
+        ("text.xlsx", "text.xlsx: the file is not a workbook; save it as .xlsx or CSV"),
+        ("heads.csv", "heads.csv:1: the table has no rows; write a heading and one row per figure"),
+        ("none.xlsx", "none.xlsx: file not found; name a table (.csv, .xlsx)"),
+    ):
+        with pytest.raises(ModelError) as refused:
+            read_table(tmp_path / name)
+        assert str(refused.value) == f"{tmp_path}/{said}"

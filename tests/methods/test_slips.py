@@ -8,10 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from dalembert.grading.explanation import explain
+from dalembert.grading.figure import figure_of_key
 from dalembert.grading.file_answers import computed_text
 from dalembert.grading.quantities import Series
 from dalembert.grading.tolerance import Closeness, Target
 from dalembert.grading.value_errors import of_units, of_value
+from dalembert.model import Answer
 from dalembert.units import Units
 
 
@@ -28,7 +31,7 @@ def test_of_a_force_in_the_plane() -> None:
         ("x has the wrong sign", [-1, sqrt(3)]),
         ("x and y are exchanged, one with the wrong sign", [-sqrt(3), 1]),
         ("x and y are exchanged, one with the wrong sign", [sqrt(3), -1]),
-        ("degrees are mismistaken for radians in sine and cosine", [2 * cos(degrees), 2 * sin(degrees)]),
+        ("degrees are mistaken for radians in sine and cosine", [2 * cos(degrees), 2 * sin(degrees)]),
     ]
     found = told(of_value(Series("force", np.zeros(0)), np.array([1.0, sqrt(3)])))
     assert [text for text, _ in found] == [text for text, _ in expected]
@@ -113,3 +116,22 @@ def test_a_vector_of_which_a_part_is_not_known_has_no_text() -> None:
     published = Target(np.array([1.0, 2.0]), "N", False)
     assert computed_text(np.array([3.0, 4.0]), published, "force", Units()) == "[3, 4]"
     assert computed_text(np.array([3.0, np.nan]), published, "force", Units()) == "-"
+
+
+@pytest.mark.parametrize(
+    ("quantity", "right", "given", "said"),
+    [
+        ("reaction", ("100 N", "100.3 N"), ("100.28 N", "-100.02 N"), "x and y are exchanged, one with the"),
+        ("reaction", ("100 N", "20 N"), ("-100 N", "20 N"), "x has the wrong sign"),
+        ("effort", "100 N", "981 N", "units are mixed up: g: kilograms and newtons"),
+        ("effort", "100 N*m", "1000 N*m", "units are mixed up: millimetres and centimetres"),
+        ("effort", "-100 N*m", "1205 N*m", "none of the usual mistakes explains it"),
+    ],
+)
+def test_of_the_slips_that_come_near_a_figure_the_nearest_is_said(
+    quantity: str, right: Any, given: Any, said: str
+) -> None:
+    """Of x and y that differ by 3 in a thousand the other's place and sense are not those of its own."""
+    of = {"quantity": quantity, "of": "A"}
+    figure = figure_of_key(Answer(**of, value=given), Answer(**of, value=right))
+    assert explain([figure], None)[0].sentence.startswith(said)

@@ -135,7 +135,7 @@ def _data_folder(arguments: list[str]) -> tuple[list[str], str]:
     """The arguments without `--data FOLDER`, which every command takes, and the folder."""
     for k, argument in enumerate(arguments):
         option, sign, value = argument.partition("=")
-        if option == "--data" and (sign or arguments[k + 1 : k + 2]):
+        if option == "--data" and (sign or arguments[k + 1 :]):
             rest = arguments[k + 1 :] if sign else arguments[k + 2 :]
             return [*arguments[:k], *rest], value or arguments[k + 1]
     return arguments, ""

@@ -113,7 +113,7 @@ def candidate(
         places = [place_of_answer(r, a) for a in questions]
     except DalembertError as error:
         raise Unfit(f"the problem cannot be solved: {error}") from None
-    for k in sorted(set(places)):
+    for k in dict.fromkeys(places):
         _check_position(r, k, static)
     for a, f in zip(questions, figures, strict=True):
         if not np.isfinite(f.value).all():
@@ -172,8 +172,7 @@ def _mistakes(
         yield problem.sentence, max(np.inf if other is None else _change(other, *one) for one in asks)
     for f in figures:
         for slip in of_value(Series(f.kind, f.value[None]), f.value) if f.value.ndim < 2 else ():
-            if slip.value is not None:
-                yield slip.sentence, difference(f, slip.value)
+            yield slip.sentence, difference(f, slip.value)
 
 
 def _change(other: Result, answer: StatedAnswer, right: ExpectedValue, place: int) -> float:

@@ -52,7 +52,7 @@ def check_folder(folder: Path, overwrite: bool) -> None:
 def _strange(folder: Path) -> str:
     """A file that is none of those that variants write."""
     if not (folder / RECORD).is_file():
-        return next(iter(sorted(p.name for p in folder.iterdir())))
+        return min(p.name for p in folder.iterdir())
     for path in sorted(folder.rglob("*")):
         inside = path.relative_to(folder)
         endings = PARTS.get(inside.parts[0], ())

@@ -103,9 +103,7 @@ class OwnSheet:
         assert mine is not None
         x = np.linalg.pinv(mine[1]) @ mine[2]
         for row, c, b, _ in self._usable(n, taken):
-            if np.abs(c).max() and abs(float(c @ x) - b) <= 0.004 * max(
-                abs(b), float(np.abs(c * x).sum()), abs(row.known)
-            ):
+            if abs(float(c @ x) - b) <= 0.004 * max(float(np.abs(c * x).sum()), abs(row.known)):
                 return 1
         return 2
 

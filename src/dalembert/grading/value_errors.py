@@ -52,7 +52,7 @@ def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
     size, angle = math.hypot(x, y), math.atan2(y, x)
     turned = math.degrees(angle)
     yield Hypothesis(
-        "degrees are mismistaken for radians in sine and cosine",
+        "degrees are mistaken for radians in sine and cosine",
         size * np.array([math.cos(turned), math.sin(turned)]),
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
@@ -25,13 +26,14 @@ def bounds_of(m: Mechanism, text: str) -> tuple[str, dict[str, object]]:
         if not equals:
             raise ModelError(f"--on {text}: {part!r} is not a bound", "write --on crank:radius=80mm,mass=2kg")
         if key == "disc":
-            sizes = value.split("/m^3/", 1)
-            sizes = [f"{sizes[0]}/m^3", *sizes[1].split("/")] if len(sizes) > 1 else value.split("/")
-            if len(sizes) != len(DISC):
+            sizes = re.fullmatch(r"(.+)/([^/^]*)/([^/^]*)", value)
+            if sizes is None:
                 raise ModelError(
                     f"--on {text}: a disc is density/thickness/radius", "write disc=7800kg/m^3/20mm/80mm"
                 )
-            bounds[key] = tuple(quantity(v, kind, units) for v, kind in zip(sizes, DISC, strict=True))
+            bounds[key] = tuple(
+                quantity(v, kind, units) for v, kind in zip(sizes.groups(), DISC, strict=True)
+            )
         elif key == "place":
             bounds[key] = tuple(quantity(v, "length", units) for v in value.split("/"))
         elif key in RANGES:

@@ -82,7 +82,7 @@ def _load_changes(r: Result, actions: list[Action]) -> Iterator[WrenchChange]:
             yield WrenchChange(3, f"load {name} {words}", _times(some, factor))
     forces = {name: some[0] for name, some in by_name.items() if len(some) == 1 and some[0].force.any()}
     for name, a in forces.items():
-        for k, axis in enumerate("xyz"[: a.force.shape[1]]):
+        for k, axis in enumerate("xyz"):
             component = a.force * (np.arange(a.force.shape[1]) == k)
             if component.any():
                 yield WrenchChange(3, f"the {axis} component of {name} is left out", (_force(a, -component),))
