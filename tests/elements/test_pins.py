@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -109,6 +110,21 @@ def test_pressures_and_the_drawn_moment_of_a_stack() -> None:
         assert moment_along(one, 0)[1].max() == pytest.approx(one.moment[0], rel=1e-3)
     assert "hook" in da.pins(r).text()
     assert len(da.pins(r).draw().items) > 10
+
+
+@pytest.mark.parametrize("apart", [4, 8, 9, 10, 11, 18])
+def test_the_names_of_the_layers_are_written_beside_each_other(apart: int) -> None:
+    stack = {
+        "diameter": "20 mm",
+        "stack": ["left", "right", "hook", "right", "left"],
+        "thicknesses": [0.003] * 5,
+    }
+    scene = da.pins(da.statics(hung(stack | {"layers": [f"{apart * k} mm" for k in range(5)]}))).draw()
+    names = [t for t in scene.texts() if t.text.startswith(("left", "right", "hook"))]
+    boxes = sorted((round(t.at[1], 6), t.box[0], t.box[2]) for t in names)
+    assert len(boxes) == 5
+    for (row, _, end), (next_row, start, _) in pairwise(boxes):
+        assert row != next_row or end < start
 
 
 WRONG: list[tuple[dict[str, Any], str]] = [

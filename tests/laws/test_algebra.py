@@ -28,6 +28,12 @@ def test_rotations_about_any_axis(angle: float) -> None:
         assert found == pytest.approx(angle, abs=1e-9)
 
 
+def test_of_a_half_turn_the_largest_part_is_positive() -> None:
+    for k in range(3):
+        half = 2.0 * np.diag(np.eye(3)[k]) - np.eye(3)
+        assert space.quaternion(half.ravel()).tolist() == np.eye(4)[k].tolist()
+
+
 def test_no_rotation_and_none_that_is_known() -> None:
     angle, axis = space.angle_and_axis(np.eye(3))
     assert (angle, *axis) == (0, 0, 0, 0)

@@ -15,10 +15,11 @@ from dalembert.errors import ModelError
 from dalembert.machine.members.member_table import member_table
 from dalembert.machine.output.sizes_over_cycle import rms
 from dalembert.reports.design.design_report import PARTS, design_sheet, parts_of
+from dalembert.reports.design.motion_part import motion_part
 from dalembert.reports.design.power_parts import balance_part, motor_part
 from dalembert.reports.design.strength_parts import member_part
 from dalembert.reports.design.verdict import DesignContext, DesignVerdict, judged
-from dalembert.reports.sheet import Heading, SheetTable
+from dalembert.reports.sheet import Drawings, Heading, SheetTable
 from tests.tiers import tiers
 
 BUNDLED = cases() | examples()
@@ -102,6 +103,27 @@ def test_counterweights_are_for_whole_turns_and_a_sliding_drive_has_a_force() ->
     b = da.balance(r, ["boom"])
     assert {c.name: c.kind for c in b.columns()}["before.effort.boom_cylinder"] == "force"
     assert f"rms drive force {rms(r.effort('boom_cylinder')):.6g} N" in " ".join(str(b).split())
+
+
+def test_each_link_has_its_curve_in_one_chart() -> None:
+    links = [f"bar{k}" for k in range(8)]
+    ends = {link: ([link, links[k - 1]] if k else [link, "ground"]) for k, link in enumerate(links)}
+    law = {"type": "harmonic", "from": 0, "to": 1, "duration": 1, "count": 5}
+    m = da.Mechanism(
+        links={
+            "ground": {"points": {"bar0": [0, 0]}},
+            **{link: {"points": {link: [0, 0], f"bar{k + 1}": [1, 0]}} for k, link in enumerate(links)},
+        },
+        joints={link: {"type": "pin", "links": both} for link, both in ends.items()},
+        drives={link: {"law": law} for link in links},
+    )
+    (part,) = motion_part(DesignContext(da.solve(m), 0, da.Notation()))
+    (figure,) = (b for b in part.sheet.blocks if isinstance(b, Drawings))
+    assert [(scene.title, list(scene.numbers)) for scene in figure.scenes] == [
+        (f"{word} of the links", some)
+        for word in ("Speed", "Acceleration")
+        for some in (links[:6], links[6:])
+    ]
 
 
 def test_a_limit_without_a_number_is_not_judged() -> None:

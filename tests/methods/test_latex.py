@@ -9,6 +9,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
+from dalembert.reports.formula import latex, plain, typst
 from dalembert.reports.sheet import ReportSheet
 from dalembert.reports.writers.latex_writer import LONGEST, latex_text
 from tests.methods.latex_source import problems
@@ -101,10 +102,29 @@ def test_names_may_have_any_sign_in_html(signs: str) -> None:
         assert da.report(da.solve(named(sign.strip() or "x"))).to_bytes("html")
 
 
-def test_numbers_with_powers_of_ten() -> None:
-    from dalembert.reports.formula import latex
+FORMULAS = {
+    "F = −1.234e−14 + 1.000e+07": (
+        r"F = -1.234 \cdot 10^{-14} + 1.000 \cdot 10^{7}",
+        "F = -1.234 dot.c 10^(-14) + 1.000 dot.c 10^(7)",
+        "F = −1.234e−14 + 1.000e+07",
+    ),
+    'W = 3 "lbf in" cdot x_{A1}^{2}': (
+        r"W = 3 \,\mathrm{lbf\ in} \cdot x_{\mathrm{A1}}^{\mathrm{2}}",
+        'W = 3 upright("lbf in") dot.c x_"A1"^"2"',
+        "W = 3 lbf in · x_A1^2",
+    ),
+    "frac(frac(a; (b)); c) + rate'": (
+        r"\frac{\frac{a}{(b)}}{c} + \mathrm{rate}'",
+        'frac(frac(a, (b)), c) + "rate"\\\'',
+        "((a)/((b)))/(c) + rate'",
+    ),
+    "[0; 2) é #": (r"[0; 2) \text{é} \#", r'\[0; 2\) "é" \#', "[0; 2) é #"),
+}
 
-    assert latex("F = −1.234e−14 + 1.000e+07") == r"F = -1.234 \cdot 10^{-14} + 1.000 \cdot 10^{7}"
+
+@pytest.mark.parametrize("text", FORMULAS)
+def test_a_formula_in_three_notations(text: str) -> None:
+    assert (latex(text), typst(text), plain(text)) == FORMULAS[text]
 
 
 @pytest.mark.parametrize(

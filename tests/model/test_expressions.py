@@ -15,6 +15,7 @@ from dalembert import dynamics
 from dalembert.errors import ModelError
 from dalembert.model import Expression, loads
 from dalembert.model.part import ReadingRules
+from dalembert.model.quantities.dimensions import EITHER, dimension, kind_of_dimension, phrase, si_unit
 from dalembert.model.quantities.expression_trees import (
     ARGUMENTS,
     Apply,
@@ -134,6 +135,60 @@ def test_why_an_expression_with_units_is_refused(text: str) -> None:
     with pytest.raises(ModelError) as caught:
         varying(text, "force", KILONEWTONS)
     assert str(caught.value) == PARTLY[text]
+
+
+LENGTH, FORCE, ANGLE = (1, 0, 0, 0), (1, 1, -2, 0), (0, 0, 0, 1)
+NAMED = {"r": LENGTH, "F": FORCE, "a": ANGLE, "phi": EITHER, "n": (0, 0, 0, 0), "T": (0, 0, 1, 0)}
+DIMENSIONS: dict[str, tuple[float, float, float, float | None] | str] = {
+    "F/r": (0, 1, -2, 0), "r*phi": (1, 0, 0, None), "phi/a": EITHER, "T^-2": (0, 0, -2, 0),
+    "sqrt(r^2)": LENGTH, "(r^(1/49))^49": LENGTH, "r^0.9995": (0.9995, 0, 0, 0), "sqrt(a)": (0, 0, 0, 0.5),
+    "r*a + r": LENGTH, "r + r*phi": LENGTH, "phi + a": ANGLE, "a - phi": ANGLE, "abs(r)": LENGTH,
+    "0 + r": LENGTH, "r - 0": LENGTH, "max(0, r)": LENGTH, "(r < 2*r)": (0, 0, 0, 0),
+    "atan2(r, 2*r)": ANGLE, "acos(r/r)": ANGLE, "sin(a)": (0, 0, 0, 0), "exp(n)": (0, 0, 0, 0),
+    "sign(F)": (0, 0, 0, 0), "20*time + 1": EITHER, "min(1, 20*time)": EITHER, "cos(3*time)": (0, 0, 0, 0),
+    "20*time + a": EITHER,
+    "20*time + r": "20*time is a time, and r is a length; only quantities of one kind are added",
+    "20*T + 1": "20*T is a time, and 1 is a plain number; only quantities of one kind are added",
+    "time*T - 1": "time*T is in s^2, and 1 is a plain number; only quantities of one kind are subtracted",
+    "min(r, F)": "r is a length, and F is a force; only quantities of one kind are compared",
+    "n + a": "n is a plain number, and a is an angle; only quantities of one kind are added; "
+    "a number of radians is written with its unit, 0.5 rad",
+    "a - n": "a is an angle, and n is a plain number; only quantities of one kind are subtracted; "
+    "a number of radians is written with its unit, 0.5 rad",
+    "sin(r)": "r is a length; sin needs a plain number or an angle; divide by a quantity of the same kind",
+    "cos(T)": "T is a time; cos needs a plain number or an angle; divide by a quantity of the same kind",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", DIMENSIONS)
+def test_the_dimension_of_an_expression(text: str) -> None:
+    tree, expected = parse_expression(text, [*NAMED, "time"])[0], DIMENSIONS[text]
+    if isinstance(expected, tuple):
+        assert dimension(tree, NAMED | {"time": (0, 0, 1, 0)}) == expected
+    else:
+        with pytest.raises(ModelError) as caught:
+            dimension(tree, NAMED | {"time": (0, 0, 1, 0)})
+        assert str(caught.value) == f"'{text}' cannot be evaluated: {expected}"
+
+
+@pytest.mark.parametrize(
+    ("powers", "said"),
+    [
+        (EITHER, ("number", "", "a plain number")),
+        (None, ("number", "", "a plain number")),
+        (ANGLE, ("angle", "rad", "an angle")),
+        (FORCE, ("force", "N", "a force")),
+        ((0, 0, -1, None), ("angular_speed", "rad/s", "an angular speed")),
+        ((0, 0, -1, 1), ("angular_speed", "rad/s", "an angular speed")),
+        ((1, 0, 0, 1), ("length", "m", "in m*rad")),
+        ((-1, 0, 0, 0), (None, "1/m", "in 1/m")),
+        ((-2, 1, 0.5, 2), (None, "kg*s^0.5*rad^2/m^2", "in kg*s^0.5*rad^2/m^2")),
+    ],
+)
+def test_words_for_a_dimension(
+    powers: tuple[float, float, float, float | None] | None, said: tuple[str | None, str, str]
+) -> None:
+    assert (kind_of_dimension(powers), si_unit(powers), phrase(powers)) == said
 
 
 def test_an_expression_with_its_unit_as_a_key_sees_parameters_and_units() -> None:

@@ -278,6 +278,12 @@ def test_what_is_nothing_is_told_by_the_size_of_the_system(size: float, part: fl
             assert parallel_center(none_left)[0] == pytest.approx(size * (2 + part) / part)
 
 
+def test_lines_that_meet_far_away_meet_by_a_part_of_how_far() -> None:
+    for off, meet in ((1e-7, True), (1e-4, False)):
+        nearly = System(Force([1, 0]), Force([1000, -1], at=[0, 1]), Force([1000, 1], at=[0, off - 1]))
+        assert (concurrency(nearly) is not None) == meet
+
+
 def test_a_system_seen_in_a_mirror_is_of_the_same_arrangement() -> None:
     """However little the forces are off one plane; most of them lie on one side of their middle."""
     places = [(-10.0, 0.0), *((1.0 + 0.1 * k, 0.3 * k * k) for k in range(5))]

@@ -7,8 +7,18 @@ from typing import Any
 
 import pytest
 
-from dalembert.errors import AnalysisError, ModelError
-from dalembert.wrench import Axis, Couple, Force, System, components, loads, parallel_center
+from dalembert.errors import AnalysisError, ArgumentError, ModelError
+from dalembert.wrench import (
+    Axis,
+    Couple,
+    Force,
+    System,
+    arrangement,
+    components,
+    concurrency,
+    loads,
+    parallel_center,
+)
 
 plane = Force([1, 0], at=[0, 1])
 WRONG: list[tuple[Callable[[], Any], str]] = [
@@ -26,11 +36,23 @@ WRONG: list[tuple[Callable[[], Any], str]] = [
      "lb is a mass: write lbf (lbf is the force, lbm the mass)"),
     (lambda: Force([float("nan"), 0]), "nan is not a finite number; write a finite one"),
     (lambda: Force([1e61, 0]), "1e+61 is too large; write a number below 1e+60"),
+    (lambda: Force([-1e61, 0]), "-1e+61 is too large; write a number below 1e+60"),
+    (lambda: Couple(-1e121), "-1e+121 is too large; write a number below 1e+120"),
     (lambda: Force("3, 4"), "'3, 4' is not a vector; write [x, y] or polar text r @ angle"),
     (
         lambda: Force.by_angles(5, ["60 deg", "60 deg", "60 deg"]),
         "the squares of the three direction cosines add to 0.75, not to 1; "
         "two angles leave two values for the third: check them",
+    ),
+    (
+        lambda: Force.by_angles(5, ["60 deg", "45 deg", "59 deg"]),
+        "the squares of the three direction cosines add to 1.015, not to 1; "
+        "two angles leave two values for the third: check them",
+    ),
+    (
+        lambda: Force.by_angles(5, ["60 deg", "30 deg"]),
+        "a vector has 2 components where 3 are needed; "
+        "the plane takes [x, y], space [x, y, z], in all parts of one system",
     ),
     (
         lambda: Force.along(5, [1, 1], [1, 1]),
@@ -77,6 +99,18 @@ def test_said(asked: Callable[[], Any], said: str) -> None:
     assert str(error.value) == said
 
 
+def test_angles_to_the_axes_that_are_rounded_leave_the_size() -> None:
+    assert Force.by_angles(5, ["60 deg", "45 deg", "59.5 deg"]).size == pytest.approx(5, rel=1e-14)
+
+
+def test_a_tolerance_is_a_part() -> None:
+    for ask in (arrangement, concurrency, parallel_center, System.equilibrium):
+        with pytest.raises(
+            ArgumentError, match="tolerance is -1; give a number from 0 to 1: a part of the larg"
+        ):
+            ask(System(plane, plane), tolerance=-1)
+
+
 def test_no_centre() -> None:
     with pytest.raises(AnalysisError, match="The forces are not parallel, so they have no centre"):
         parallel_center(System(plane, Force([0, 1])))
@@ -84,6 +118,8 @@ def test_no_centre() -> None:
         parallel_center(System(plane, Force([-1, 0])))
     with pytest.raises(AnalysisError, match="The parallel forces add to zero"):
         parallel_center(System(Force([1e-12, 0], at=[0, 2]), plane, Force([-1, 0], at=[0, 1])))
+    with pytest.raises(AnalysisError, match="The parallel forces add to zero"):
+        parallel_center(System(Force([0.5, 0]), Force([0.5 + 0.7e-9, 0]), Force([-1, 0])))
 
 
 def test_sentences_of_equilibrium() -> None:

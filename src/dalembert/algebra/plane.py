@@ -130,12 +130,9 @@ def angle_between(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
 
 def with_ground(turn: Array, r: Array) -> tuple[Array, Array]:
     """Angles and rotations of the moving links and of the ground."""
+    ground = np.broadcast_to(rotation(np.zeros(1)), (*r.shape[:-2], 1, 2))
     turn = np.concatenate([turn, np.zeros_like(turn[..., :1])], axis=-1)
-    if turn.dtype == object:  # traced: their cosines are known, and not of angles
-        return turn, np.concatenate(
-            [r, np.broadcast_to(rotation(np.zeros(1)), (*r.shape[:-2], 1, 2))], axis=-2
-        )
-    return turn, rotation(turn)
+    return turn, np.concatenate([r, ground], axis=-2)
 
 
 def without_ground(turn: Array) -> Array:

@@ -87,6 +87,9 @@ def typst(text: str) -> str:
             return WORDS[token].typst
         if token[0].isalpha() and (len(token) > 1 or not token.isascii()):
             return _typst_string(token)
+        if token[0].isdigit():
+            number, power = _power_of_ten(token)
+            return f"{number} dot.c 10^({power})" if power else number
         if token in loose:
             return "\\" + token
         return _TYPST.get(token, token)
@@ -96,6 +99,12 @@ def typst(text: str) -> str:
 
 
 _TYPST = {"−": "-", "·": "dot.c"} | {sign: "\\" + sign for sign in "#/$&_^\\\"~`{}<>|'"}
+
+
+def _power_of_ten(token: str) -> tuple[str, int]:
+    """A number and the power of ten behind it, 0 for none."""
+    number, _, power = token.replace("−", "-").partition("e")
+    return number, int(power or 0)
 
 
 def _typst_string(text: str) -> str:
@@ -117,8 +126,8 @@ def latex(text: str) -> str:
         if token[0].isalpha() and len(token) > 1:
             return rf"\mathrm{{{_latex_text(token)}}}"
         if token[0].isdigit():
-            number, _, power = token.replace("−", "-").partition("e")
-            return rf"{number} \cdot 10^{{{int(power)}}}" if power else number
+            number, power = _power_of_ten(token)
+            return rf"{number} \cdot 10^{{{power}}}" if power else number
         return {"·": r"\cdot ", "'": "'"}.get(token) or _latex_text(token)
 
     return _write(text, atom, lambda a, b: rf"\frac{{{a}}}{{{b}}}")

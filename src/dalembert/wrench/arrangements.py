@@ -64,14 +64,13 @@ def parallel_center(system: System, tolerance: float = EXACT) -> Array:
     lines = _lines(system)
     if not lines or not _parallel(lines, tolerance):
         raise AnalysisError("The forces are not parallel, so they have no centre. Ask for the central axis.")
-    forces = [f for f in system.forces if f.size > 0]
-    signed = np.array([f.vector @ lines[0].direction for f in forces])
+    signed = np.array([f.vector @ lines[0].direction for f in system.forces])
     if abs(signed.sum()) <= tolerance * np.abs(signed).max():
         raise AnalysisError(
             "The parallel forces add to zero, so they have no centre. They are a couple or nothing."
         )
     middle = system.middle
-    return read_only(middle + signed @ np.array([f.at - middle for f in forces]) / signed.sum())
+    return read_only(middle + signed @ np.array([f.at - middle for f in system.forces]) / signed.sum())
 
 
 def _lines(system: System) -> list[Axis]:

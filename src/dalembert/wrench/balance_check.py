@@ -88,8 +88,8 @@ def list_components(values: Array, kind: str, units: Units) -> str:
 
     >>> list_components(np.array([3.0, 4.0]), "force", Units(force="kN"))
     '[0.003, 0.004] kN'
-    >>> list_components(np.array([-8e6, 3e6]), "force", Units())
-    '[-8, 3] MN'
+    >>> list_components(np.array([-8e6, 0.0]), "force", Units())
+    '[-8, 0] MN'
     """
     from dalembert.analysis.output.summary.printed_units import scale_for
 

@@ -14,8 +14,6 @@ from dalembert.reports.design.worst_positions import WORST_HEADS, worst_rows
 from dalembert.reports.sheet import Blanks, ReportSheet
 from dalembert.views.notation import pretty
 
-MOST = 24
-"""Rows of worst positions on the first page."""
 KINDS = ("length", "mass", "force", "moment", "angle", "angular_speed", "pressure", "power", "energy")
 
 
@@ -28,8 +26,7 @@ def summary(sheet: ReportSheet, c: DesignContext, parts: Sequence[DesignPart]) -
     for title, some in _sections(parts):
         for state in ("exceeded", "not judged"):
             sheet.text(_named(title, state, [v for part in some for v in part.verdicts if v.state == state]))
-    value = worst_rows(c)
-    sheet.table(WORST_HEADS, value[:MOST], "Worst position of each kind of quantity")
+    sheet.table(WORST_HEADS, worst_rows(c), "Worst position of each kind of quantity")
     sheet.blocks.append(Blanks((("Checked by", (("name", ""), ("date", ""), ("signature", ""))),)))
 
 
