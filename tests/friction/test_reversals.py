@@ -189,6 +189,43 @@ def check_limits(tree: Any, time: float) -> None:
         assert balanced == np.isfinite(side.force_array[1]).all()
 
 
+DEAD_CENTRE = """
+units: {{length: mm}}
+links:
+  ground: {{points: {{O: [0, 0], G: [0, 0]}}}}
+  crank: {{points: {{O: [0, 0], A: [100, 0]}}}}
+  rod: {{points: {{A: [0, 0], B: [300, 0]}}}}
+  piston: {{points: {{B: [0, 0]}}}}
+joints:
+  O: {{type: pin, links: [ground, crank], friction: {{radius: 20}}}}
+  A: {{type: pin, links: [crank, rod], friction: {{radius: 20}}}}
+  B: {{type: pin, links: [rod, piston], friction: {{radius: 20}}}}
+  G: {{type: slider, links: [ground, piston], at: [G, B], friction: {{}}}}
+friction: {{coefficient: 0.1}}
+drives: {{O: {{position: [0, 1], speed: {way} rad/s}}}}
+loads:
+  M: {{type: couple, on: crank, value: {couple} N*m}}
+  F: {{type: force, on: piston, at: B, value: [{force}, 0]}}
+assembly: {{rod: 0}}
+"""
+"""A couple drives the crank with 530.7 N mm, friction asks for 530.03 on one side of the dead centre, 531.44 on the
+other, whichever of these the force on the piston makes the first."""
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize(("force", "side"), [(100, "after"), (-100, "before")])
+def test_a_machine_locks_itself_on_one_side_of_a_reversal(way: int, force: int, side: str) -> None:
+    r = da.statics(da.loads(DEAD_CENTRE.format(way=way, couple=way * 0.5307, force=force)))
+    assert [float(s.effort("O")[0]) * way < 0 for s in r.sides] == [side == "after", side == "before"]
+    value = abs(getattr(r, side).effort("O")[0]) * 1e3
+    assert r.problems()[0] == (
+        "1",
+        "self_locking",
+        f"Self-locking at O = 0 deg, just {side} contacts reverse: the load cannot drive the machine against its "
+        f"friction; O needs {way * value:.6g} N*mm and without friction {-way * 530.7:.6g} N*mm.",
+    )
+
+
 # what is written and drawn
 
 

@@ -141,7 +141,7 @@ LENGTH, FORCE, ANGLE = (1, 0, 0, 0), (1, 1, -2, 0), (0, 0, 0, 1)
 NAMED = {"r": LENGTH, "F": FORCE, "a": ANGLE, "phi": EITHER, "n": (0, 0, 0, 0), "T": (0, 0, 1, 0)}
 DIMENSIONS: dict[str, tuple[float, float, float, float | None] | str] = {
     "F/r": (0, 1, -2, 0), "r*phi": (1, 0, 0, None), "phi/a": EITHER, "T^-2": (0, 0, -2, 0),
-    "sqrt(r^2)": LENGTH, "(r^(1/49))^49": LENGTH, "r^0.9995": (0.9995, 0, 0, 0), "sqrt(a)": (0, 0, 0, 0.5),
+    "sqrt(r^2)": LENGTH, "(r^0.1*r^0.2)^10": (3, 0, 0, 0), "r^0.9995": (0.9995, 0, 0, 0), "sqrt(a)": (0, 0, 0, 0.5),
     "r*a + r": LENGTH, "r + r*phi": LENGTH, "phi + a": ANGLE, "a - phi": ANGLE, "abs(r)": LENGTH,
     "0 + r": LENGTH, "r - 0": LENGTH, "max(0, r)": LENGTH, "(r < 2*r)": (0, 0, 0, 0),
     "atan2(r, 2*r)": ANGLE, "acos(r/r)": ANGLE, "sin(a)": (0, 0, 0, 0), "exp(n)": (0, 0, 0, 0),

@@ -70,12 +70,13 @@ def _locks(f: SolvedForces) -> Array:
 
 
 def alone(f: SolvedForces) -> Flags:
-    """Positions (P,) with a separate sentence: contacts reverse, and the status differs before and after."""
+    """Positions (P,) with a separate sentence: contacts reverse, and the status differs before and after, or is good
+    on both sides."""
     if f.friction is None or f.after is None:
         return np.zeros(len(f.rcond), bool)
-    solved = [~_jams(side) & ~_locks(side) for side in _sides(f)]
-    differs = np.any([ask(f) != ask(f.after) for ask in (_jams, _locks)], axis=0) | (solved[0] & solved[1])
-    return np.asarray(f.friction.reversing.any(axis=-1) & differs)
+    differs = np.any([ask(f) != ask(f.after) for ask in (_jams, _locks)], axis=0)
+    solved = ~_jams(f) & ~_locks(f)
+    return np.asarray(f.friction.reversing.any(axis=-1) & (differs | solved))
 
 
 def _side(f: SolvedForces, ask: Callable[[SolvedForces], Array], k: int) -> tuple[SolvedForces, str]:
@@ -89,7 +90,7 @@ def _side(f: SolvedForces, ask: Callable[[SolvedForces], Array], k: int) -> tupl
 
 def reversal_checks(c: Compiled, f: SolvedForces) -> list[Check]:
     """Checks for reversing contacts, with a sentence on their effect."""
-    if f.friction is None or f.after is None:
+    if f.friction is None:
         return []
     return [("reversal", f.friction.reversing.any(axis=-1), lambda k: _reversal_sentence(c, f, k))]
 
