@@ -335,6 +335,14 @@ def test_curves_are_drawn_of_several_positions_and_of_sizes_that_are_given(count
             assert legend & set(r.joints) == {"A"}
 
 
+def test_of_many_joints_the_first_six_are_drawn() -> None:
+    r = da.dynamics(da.load(examples()["scissor_lift"]), positions=2)
+    *polar, force, turning = da.bearings(r).drawings()
+    pins = [joint for joint in r.joints if "roller" not in joint]
+    assert list(force.numbers) == list(turning.numbers) == pins[:6]
+    assert len(polar) == 12
+
+
 TABLE = "name, C [kN], C0 [kN], d [mm]\n6202, 7.8, 3.55, 15\n6205, 14, 7.8, 25\n6204, 12.7, 6.55, 20\n"
 
 

@@ -548,6 +548,21 @@ def test_normal_tangential_and_coriolis_parts_make_the_acceleration() -> None:
     assert {"o'", "a'", "a'_{4}", "c'", "d'", "g'_{4}", "g'_{5}"} == set(letters(scene))
 
 
+def test_of_instant_centres_that_are_not_drawn_the_first_24_are_listed() -> None:
+    bars = [f"bar{k}" for k in range(8)]
+    arms = {bar: {"points": {bar: [0, 0], f"bar{k + 1}": [1, 0]}} for k, bar in enumerate(bars)}
+    pairs = zip(["ground", *bars], bars, strict=False)
+    m = da.Mechanism(
+        links={"ground": {"points": {"bar0": [0, 0]}}, **arms},
+        joints={bar: {"type": "pin", "links": list(pair)} for pair, bar in zip(pairs, bars, strict=True)},
+        drives={bar: {"position": 0.3, "speed": 0 if k else "1 rad/s"} for k, bar in enumerate(bars)},
+    )
+    said = " ".join(text.text for text in da.draw.instant_centers(da.kinematics(m), at=1).texts())
+    listed = said.partition("None, as the links move as one: ")[2].split(", ")
+    assert len(listed) == 24
+    assert listed[-1].endswith(" and 4 more.")
+
+
 def test_instant_centres_that_are_not_drawn_are_listed_with_their_place_or_direction() -> None:
     said = " ".join(text.text for text in da.draw.instant_centers(result("engine"), at="60 deg").texts())
     r = result("engine")

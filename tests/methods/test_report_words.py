@@ -18,6 +18,7 @@ from dalembert.reports.formula import latex, plain
 from dalembert.reports.sections import friction, given
 from dalembert.reports.sections.methods import cycle
 from dalembert.reports.sections.motion import inertia_shares
+from dalembert.reports.sections.sources import superposition
 from dalembert.reports.sheet import Equations, Heading, Paragraph, ReportSheet, SheetTable
 from dalembert.reports.working import working
 from dalembert.views import charts, draw
@@ -175,6 +176,17 @@ def test_a_joint_known_at_some_positions_is_in_the_cycle() -> None:
     sheet = ReportSheet("t")
     cycle(sheet, ReportContext(r, 0, Shown(r, Notation(), 0), METHODS, "", Notation()))
     assert [row[0] for row in table(sheet, "Largest").rows][1:] == [f"joint {n}" for n in r.joints]
+
+
+def test_the_forces_of_eight_joints_are_split_and_the_rest_is_named() -> None:
+    from dalembert.reports.report_context import ReportContext
+    from dalembert.views.notation import Notation, Shown
+
+    r, sheet = da.solve(da.load(examples()["truss"])), ReportSheet("t")
+    superposition(sheet, ReportContext(r, 0, Shown(r, Notation(), 0)))
+    shown = [h for b in sheet.blocks if isinstance(b, SheetTable) for h in b.heads if h.startswith("$|F")]
+    assert len(shown) == 8
+    assert Paragraph("Only the first 8 of 11 joints are shown.") in sheet.blocks
 
 
 @pytest.mark.parametrize(("speed", "verdict"), [(25.0, "must not be neglected"), (0.5, "could be neglected")])

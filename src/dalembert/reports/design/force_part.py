@@ -23,8 +23,6 @@ from dalembert.views.paper.scene import Scene
 
 NOTHING = 1e-9
 """Part of the largest joint force below which another is rounding."""
-MOST = 24
-"""Joints with a polar diagram."""
 
 
 def force_part(c: DesignContext) -> Iterator[DesignPart]:
@@ -131,5 +129,5 @@ def _pictures(c: DesignContext) -> list[Scene]:
         return out
     out += charts.reaction_charts(r, c.notation)
     if r.mechanism.dimension == 2:
-        out += [charts.polar_chart(r, [joint], "ground", c.notation) for joint in known[:MOST]]
+        out += [charts.polar_chart(r, [joint], "ground", c.notation) for joint in known]
     return out
