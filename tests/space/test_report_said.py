@@ -150,6 +150,22 @@ RUBBING: dict[str, tuple[dict[str, Any], list[float], dict[str, Any]]] = {
 }
 
 
+LAWS = {
+    "journal": "r_{P} = R_{P} sin (arctan mu_{P})\nS_{P,1}\nS_{P,2}\n"
+    "M_{f12z'} = −(r_{P} S_{P,1} + r_{P} S_{P,2} + mu_{P} R_{t} |F_{12z'}|)",
+    "thrust": "M_{f12z'} = mu_{P} R_{t} |F_{12z'}|",
+    "guide": "S_{P,1}\nS_{P,2}\nF_{f12x'} = (mu_{P} S_{P,1} + mu_{P} S_{P,2})",
+    "sleeve": "S_{P}\np_{x'} = 0.5300, quad p_{t} = −0.8480\n"
+    "k_{P} = frac(mu_{P}; (1 + (mu_{P} p_{t})^{2})^{1/2})\n"
+    "F_{f12x'} = −k_{P} |p_{x'}| S_{P}\nM_{f12x'} = k_{P} R_{P} |p_{t}| S_{P}",
+    "screw": "beta = arctan (frac(l; 2 pi R))\nS_{P,t} = frac(|N_{12x'}|; cos beta cos gamma)\nS_{P}\n"
+    "|F_{f12}| = mu_{P} (S_{P,t} + S_{P})\n"
+    "F_{f12x'} = −|F_{f12}| sin beta\nM_{f12x'} = −|F_{f12}| R cos beta",
+}
+"""The lines of the friction law of each, by hand;
+p is the part of the slip at 0.05 m/s along, and at 0.02 m times 4 rad/s around."""
+
+
 def product(numbers: str) -> tuple[float, float]:
     """Value and rounding error of printed products with cosines and sines, and of their sum."""
     minus, inside = numbers.startswith("−"), numbers.removeprefix("−").strip("()")
@@ -186,6 +202,8 @@ def test_friction_in_figures(name: str) -> None:
         "sleeve": {"F", "M"},
         "screw": {"F", "M"},
     }[name]
+    law = [line.letters for line in lines(sheet) if not re.match("F = |T_|sum |F_{12,d}|F_{z}", line.letters)]
+    assert "\n".join(law) == LAWS[name]
     for line in last:
         result = line.result.partition(" ")[0]
         assert close(result, exact[line.letters[0]])
