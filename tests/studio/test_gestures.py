@@ -358,3 +358,102 @@ def test_numbers_dragged_on_the_page_are_short_and_typed_ones_exact() -> None:
     assert (
         len([x for x in before if x not in FILES["four_bar"].read_text(encoding="utf-8").splitlines()]) <= 3
     )
+
+
+GUIDES = """links:
+  ground: {points: {O: [0, 0]}}
+  bar: {points: {P: [0.1, 0.1], Q: [0.2, 0.3]}}
+  slab: {points: {P: [0, 0], Q: [0.2, 0.1], R: [0.1, 0.1]}}
+  twice: {points: {P: [0.1, 0.1], Q: [0.1, 0.1]}}
+  arm: {points: {O: [0, 0], A: [0.2, 0]}}
+joints: {O: {type: pin, links: [ground, arm]}}
+assembly: {bar: [0, 0, 20], slab: [0.3, 0.2, 10], twice: [0.3, 0.2, -10]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("guide", "given", "direction", "turned"),
+    [
+        ("ground", {}, None, 0),
+        ("ground", {"direction": 0.5}, 28.648, 28.648),
+        ("ground", {"angle": "40"}, 40, 40),
+        ("bar", {"direction": 0.5}, 63.435, 83.435),
+        ("slab", {}, -10, 0),
+        ("slab", {"angle": "40"}, 30, 40),
+        ("twice", {"direction": 0.5}, 38.648, 28.648),
+    ],
+)
+@pytest.mark.parametrize("op", ["slot", "slide"])
+def test_a_guide_lies_along_its_bar_or_as_it_was_drawn(
+    op: str, guide: str, given: dict[str, Any], direction: float | None, turned: float
+) -> None:
+    """The file has its direction in the axes of its link, and the angle of what slides in it without turning."""
+    d = Document(GUIDES)
+    d.do(gesture({"op": op, "where": at(d, "arm", "A"), "guide": guide} | given))
+    joint = next(part for name, part in yaml_of(d.text)["joints"].items() if name != "O")
+    assert joint.get("direction") == direction
+    assert joint["links"] == [guide, "arm"]
+    assert joint.get("angle") == (-turned if op == "slide" and turned else None)
+
+
+def test_a_bar_without_a_length_is_not_turned() -> None:
+    d = Document(STARTED.replace("{P: [0, 0]}", "{P: [0, 0], R: [0, 0]}"))
+    d.do(gesture({"op": "move", "link": "slab", "point": "R", "to": [0.3, 0.4]}))
+    tree = yaml_of(d.text)
+    assert tree["assembly"] == {"slab": [0.3, 0.2, 10]}
+    turn = np.deg2rad(10)
+    assert tree["links"]["slab"]["points"]["R"] == pytest.approx(
+        [0.2 * np.sin(turn), 0.2 * np.cos(turn)], abs=1e-7
+    )
+
+
+NAMED = """links:
+  ground: {points: {center_: [0, 0], anchor: [0.3, -0.4], eye: [1, 1], rail: [0, 2]}}
+  drum: {points: {hub: [0, 0], knob: [0.1, 0], image: {from: knob, mirror: 90 deg, about: hub}}}
+  lever:
+    points: {anchor: [0, 0], grip: [-0.1, 0], tip: [-0.5, 0]}
+    members: [[anchor, grip], [grip, tip]]
+    section: {rectangle: [10 mm, 20 mm]}
+    effective_length: {grip-tip: 0.7}
+  block: {points: {rail: [0, 0], loop: [0, 0]}, mass: 1}
+joints:
+  O: {type: pin, links: [ground, drum], at: [center_, hub]}
+  anchor: {type: pin, links: [ground, lever]}
+  rail: {type: slider, links: [ground, block], direction: 90 deg}
+  strap: {type: band, links: [drum, lever], around: hub, radius: 0.3, wrap: 270 deg,
+    ends: [ground.anchor, lever.grip], friction: {coefficient: 0.3}}
+  line: {type: rope, through: [block.loop, {round: drum.hub, radius: 40 mm}, lever.tip]}
+drives: {O: {position: 0}}
+loads: {W: {type: spring, between: [lever.tip, ground.eye], stiffness: 1 N/m, free_length: 1}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("link", "point"),
+    [
+        *(("drum", "hub"), ("drum", "knob"), ("lever", "grip"), ("lever", "tip"), ("block", "loop")),
+        *(("ground", "eye"), ("ground", "center_")),
+    ],
+)
+def test_a_new_name_of_a_point_is_written_wherever_it_is_meant(link: str, point: str) -> None:
+    """Points placed from it and turned about it, members and their lengths, bands, ropes and springs."""
+    da.loads(NAMED)
+    assert rename_point(NAMED, "yaml", link, point, "new") == NAMED.replace(point, "new")
+    da.loads(NAMED.replace(point, "new"))
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"),
+    [
+        ("links", "drum"),
+        ("links", "lever"),
+        ("links", "block"),
+        ("joints", "strap"),
+        ("joints", "line"),
+        ("loads", "W"),
+    ],
+)
+def test_a_new_name_of_a_part_is_written_wherever_it_is_meant(kind: str, name: str) -> None:
+    """A band and a rope have points of their own: they need none of a joint's name."""
+    assert rename(NAMED, "yaml", kind, name, "new") == NAMED.replace(name, "new")
+    da.loads(NAMED.replace(name, "new"))

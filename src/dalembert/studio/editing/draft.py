@@ -81,11 +81,11 @@ class Draft:
                     holder[key] = {}
                 holder = holder[key]
             if value is not REMOVED:
-                if isinstance(holder, list) and path[-1] == len(holder):
+                if isinstance(holder, list) and last == len(holder):
                     holder.append(value)
                 else:
-                    holder[path[-1]] = value
-            elif isinstance(holder, list) or path[-1] in holder:
+                    holder[last] = value
+            elif isinstance(holder, list) or last in holder:
                 del holder[last]  # type: ignore[arg-type]
             if added and len(path) == 2:
                 self._new[path] = value  # type: ignore[index]

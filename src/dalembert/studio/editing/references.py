@@ -13,6 +13,9 @@ from dalembert.model.files.splicing import Change, value_text, with_changes
 REFERENCES: dict[str, tuple[str, ...]] = {
     "links": (
         "joints.*.links.#",
+        "joints.*.ends.#",
+        "joints.*.through.#",
+        "joints.*.through.#.round",
         "loads.*.on",
         "loads.*.by",
         "loads.*.between.#",
@@ -57,7 +60,7 @@ def rename(text: str, form: str, kind: str, old: str, new: str) -> str:
     if (kind, old) not in index:
         raise ModelError(f"{kind} has no {old!r}", "choose one that is in the file")
     changes = list(_changes(text, form, index, kind, old, new))
-    return with_changes(text, sorted(set(changes)))
+    return with_changes(text, set(changes))
 
 
 def rename_point(text: str, form: str, link: str, old: str, new: str) -> str:
@@ -70,12 +73,14 @@ def rename_point(text: str, form: str, link: str, old: str, new: str) -> str:
     changes = [_key(form, index["links", link, "points", old], new)]
     for path, place in index.items():
         words = _word(text, place) if place.form == "scalar" else ""
-        if words == f"{link}.{old}" and ("between" in path or path[0] == "answers"):
+        if words == f"{link}.{old}" and (path[0] == "answers" or {"between", "ends", "through"} & {*path}):
             changes.append(_value(text, form, place, f"{link}.{new}"))
         elif words == old and _of_link(text, index, path, link):
             changes.append(_value(text, form, place, new))
+        elif path[:-1] == ("links", link, "effective_length") and old in (ends := str(path[-1]).split("-")):
+            changes.append(_key(form, place, "-".join(new if end == old else end for end in ends)))
     changes += _joints_at(text, form, index, link, old, new)
-    return with_changes(text, sorted(set(changes)))
+    return with_changes(text, set(changes))
 
 
 def _changes(text: str, form: str, index: Places, kind: str, old: str, new: str) -> Iterator[Change]:
@@ -110,15 +115,16 @@ def _in_expression(said: str, kind: str, old: str, new: str) -> str:
 
 
 def _kept_points(text: str, form: str, index: Places, joint: str) -> Iterator[Change]:
-    """A joint without ``at`` that names its points by its name gets an ``at``."""
-    if ("joints", joint, "links") in index and ("joints", joint, "at") not in index:
+    """A joint without ``at`` that names its points by its name gets an ``at``; a band has points of its own."""
+    keys = {path[2] for path in index if path[:2] == ("joints", joint) and len(path) == 3}
+    if "links" in keys and not keys & {"at", "around"}:
         yield _with_at(text, form, index, joint, value_text(joint, form))
 
 
 def _joints_at(text: str, form: str, index: Places, link: str, old: str, new: str) -> Iterator[Change]:
     """Joints of a link at its point, which is one name on both links or the joint's name."""
     for path in index:
-        if len(path) != 2 or path[0] != "joints" or (*path, "links", 0) not in index:
+        if len(path) != 2 or (*path, "links", 0) not in index or (*path, "around") in index:
             continue
         ends = [_word(text, index[*path, "links", n]) for n in (0, 1)]
         at = index.get((*path, "at"))
@@ -141,19 +147,22 @@ def _with_at(text: str, form: str, index: Places, joint: str, said: str) -> Chan
     assert links.key is not None
     column = links.key[0] - text.rfind("\n", 0, links.key[0]) - 1
     head = "at = " if form == "toml" else "at: "
-    end = text.find("\n", links.end)
-    end = len(text) if end < 0 else end
+    end = f"{text}\n".index("\n", links.end)
     return Change(end, end, "\n" + " " * column + head + said)
 
 
 def _of_link(text: str, index: Places, path: Path, link: str) -> bool:
-    """True for a value that names a point of a link: of a load's ``at``, a joint's list, a point's ``from``."""
+    """True for a value that names a point of a link: a load's ``at``, one of a joint's list, a point's ``from``, an end
+    of a member, the axis of a band's drum."""
     if _meant(path, "loads.*.at") or _meant(path, "answers.#.at"):
         on = index.get((*path[:-1], "on"))
         return on is not None and _word(text, on) == link
     if _meant(path, "joints.*.at.#"):
         return _word(text, index[*path[:2], "links", path[-1]]) == link
-    return path[:2] == ("links", link) and (path[-1] == "from" or "between" in path)
+    if _meant(path, "joints.*.around"):
+        return _word(text, index[*path[:2], "links", 0]) == link
+    inside = path[-1] in ("from", "about") or bool({"between", "members"} & {*path})
+    return path[:2] == ("links", link) and inside
 
 
 def _meant(path: Path, pattern: str) -> bool:
