@@ -261,3 +261,20 @@ def test_units_that_are_not_read(unit: str, sentence: str, tmp_path: Path) -> No
 def test_a_file_without_a_model_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ModelError, match=r"arm\.cmd:1: the file makes no model of Adams"):
         arm(tmp_path, "! nothing\n")
+
+
+def test_markers_are_in_the_axes_of_the_coordinate_system_that_is_set(tmp_path: Path) -> None:
+    """An arm that lies 7 mm along x: its markers are in ground axes, or in its own; one of the two is said."""
+    text = ARM.replace(
+        "location = 0, 0, 0 orientation = 0, 0, 0\nmarker",
+        "location = 7, 0, 0 orientation = 0, 0, 0\nmarker",
+        1,
+    )
+    axes = "axes of parts: without default_coordinate_system markers are in ground axes"
+    m, lost = arm(tmp_path, text)
+    assert lost == [axes]
+    assert m.center("arm") == pytest.approx([-4e-3, 4e-3, 0])
+    own = "defaults coordinate_system default_coordinate_system = .M.arm\n"
+    m, lost = arm(tmp_path, text.replace("marker create", f"{own}marker create", 1))
+    assert lost == []
+    assert m.center("arm") == pytest.approx([3e-3, 4e-3, 0])

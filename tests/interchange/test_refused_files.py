@@ -14,7 +14,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import examples
 from dalembert.errors import DalembertError, ModelError
-from dalembert.interchange.file_formats import foreign_bytes, read_foreign
+from dalembert.interchange.file_formats import foreign_bytes, is_foreign, read_foreign
 from dalembert.interchange.sketches.dxf_skeletons import join_shapes
 from dalembert.interchange.sketches.plane_sketch import PlaneSketch, sketch_tree
 from dalembert.interchange.xml_tree import parse
@@ -145,6 +145,9 @@ def test_files_that_are_too_large_or_no_files(tmp_path: Path) -> None:
         path.write_bytes(b" " * size)
         with pytest.raises(ModelError, match=f"the file has more than {size - 1} bytes; leave"):
             read_foreign(path)
+    (tmp_path / "just.xml").write_bytes(b"<mujoco/>".ljust(5_000_000))
+    with pytest.raises(ModelError, match="the mechanism has no moving link"):
+        read_foreign(tmp_path / "just.xml")
     position = {"id": "a", "type": "ground", "position": [1e70, 0]}
     (tmp_path / "x.json").write_text(json.dumps({"joints": [position], "links": []}))
     with pytest.raises(ModelError, match="a position is not finite; write finite numbers"):
@@ -236,3 +239,24 @@ def test_a_file_that_breaks_off_is_no_xml(content: bytes) -> None:
         parse(content, "x.xml")
     words = "mismatched tag" if b"/" in content else "no element found"
     assert str(refused.value) == f"x.xml:1: the file is not XML: {words}; save it again"
+
+
+def test_a_json_file_is_a_linkage_of_others_if_its_links_are_a_list(tmp_path: Path) -> None:
+    """Up to a million bytes; what is too large for it, cut, or not a file is read as a model file."""
+    path = tmp_path / "x.json"
+    for content, foreign in (
+        (b'{"links": []}', True),
+        (b'{"links": []}'.ljust(1_000_000), True),
+        (b'{"links": []}'.ljust(1_000_001), False),
+        (b'{"links": {}}', False),
+        (b'[{"links": []}]', False),
+        (b'{"links": [', False),
+        (b"[" * 100_000, False),
+    ):
+        path.write_bytes(content)
+        assert is_foreign(path) is foreign
+    assert not is_foreign(tmp_path)
+    assert not is_foreign(tmp_path / "nowhere.json")
+    (tmp_path / "folder.json").mkdir()
+    assert not is_foreign(tmp_path / "folder.json")
+    assert is_foreign("nowhere.URDF")

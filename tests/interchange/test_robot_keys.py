@@ -252,3 +252,34 @@ def test_loops_beside_a_robot_are_refused(loops: str, words: str, tmp_path: Path
     with pytest.raises(ModelError) as refused:
         read_foreign(tmp_path / "x.urdf")
     assert str(refused.value).startswith(f"{tmp_path / 'x.loops.yaml'}:1: {words}")
+
+
+WHEELS = """<mujoco><worldbody>
+<body name="one"><joint name="crank" axis="0 0 1"/><geom size="0.01"/></body>
+<body name="two" pos="0 0.3 0"><joint name="pinion" axis="0 0 {}"/><geom size="0.01"/></body>
+</worldbody><equality><joint joint1="pinion" joint2="crank" {}/></equality>
+<actuator><motor joint="crank"/></actuator><keyframe><key qvel="3 0"/></keyframe></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("axis", "given", "ratio"),
+    [
+        (1, "polycoef='0 2'", 2),
+        (1, "polycoef='0 -2 0 0'", -2),
+        (1, "polycoef='0 0.5 0'", 0.5),
+        (-1, "polycoef='0 2'", -2),
+        (-1, "polycoef='0.3'", -1),
+        (-1, "", -1),
+    ],
+)
+def test_two_turns_in_a_ratio_are_wheels_of_that_ratio(
+    axis: int, given: str, ratio: float, tmp_path: Path
+) -> None:
+    """One inside the other where both turn in one sense; numbers that are left out are 0 1 0 0 0."""
+    (tmp_path / "x.xml").write_text(WHEELS.format(axis, given), encoding="utf-8")
+    m, _ = read_foreign(tmp_path / "x.xml")
+    r = da.kinematics(m)
+    assert (r.speed("one")[0, 2], r.speed("two")[0, 2]) == pytest.approx((3, 3 * ratio))
+    first, second = m.joints["gear pinion"].radii
+    assert first / second == pytest.approx(abs(ratio))
+    assert abs(first - second if ratio > 0 else first + second) == pytest.approx(0.3)

@@ -222,7 +222,9 @@ def test_c_sources_build_by_make_and_print_the_first_position(tmp_path: Path) ->
     if GCC is None or shutil.which("make") is None:
         pytest.skip("no C compiler")
     m = da.load(examples()["four_bar"])
-    unpacked(m, tmp_path)
+    types = unpacked(m, tmp_path).with_suffix(".d.mts").read_text(encoding="utf-8")
+    assert 'export type NumberName = "drives.O2.speed" | "drives.O2.acceleration";' in types
+    assert 'export type OutputName = "effort.O2" | "reaction.O2.0" | ' in types
     subprocess.run(["make", "-s", "CFLAGS=-O2 -std=c99 -Wall -Werror"], cwd=tmp_path, check=True)
     ran = subprocess.run([str(tmp_path / "example")], capture_output=True, text=True, check=True)
     head, first, *_ = ran.stdout.splitlines()

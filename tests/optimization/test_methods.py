@@ -199,16 +199,31 @@ def bowl(u: Any) -> AimValue:
     return AimValue(along**2 + 60 * across**2 + off[:, 2] ** 2, slope)
 
 
-def test_starts_side_by_side_end_at_the_known_best_place() -> None:
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_starts_side_by_side_end_at_the_known_best_place(mirrored: bool) -> None:
+    """Whether the numbers have to rise or to fall; the first step is a tenth of the box in the steepest number."""
+
+    def of(u: Any) -> AimValue:
+        asked.append(u)
+        answer = bowl(1 - u if mirrored else u)
+        return AimValue(answer.value, -answer.slope if mirrored else answer.slope)
+
+    asked = list[Any]()
     starts, steps = np.random.default_rng(4).random((9, 3)), list[int]()
-    places, values = minimize(bowl, starts, progress=steps.append)
-    np.testing.assert_allclose(places, np.tile([0.3, 0.8, 1.0], (9, 1)), atol=1e-5)
+    starts = 1 - starts if mirrored else starts
+    places, values = minimize(of, starts, progress=steps.append)
+    np.testing.assert_allclose(asked[0], starts)
+    longest = np.abs(asked[1] - starts).max(axis=1)
+    assert longest.max() == pytest.approx(0.1)
+    assert (longest > 0.05).all()
+    best = [0.7, 0.2, 0.0] if mirrored else [0.3, 0.8, 1.0]
+    np.testing.assert_allclose(places, np.tile(best, (9, 1)), atol=1e-5)
     np.testing.assert_allclose(values, 0.16, rtol=1e-9)
     assert steps == list(range(1, len(steps) + 1))
     assert len(steps) < 60
-    places, values = minimize(bowl, starts, steps=2)
-    np.testing.assert_allclose(values, bowl(places).value)
-    assert (values < bowl(starts).value).all()
+    places, values = minimize(of, starts, steps=2)
+    np.testing.assert_allclose(values, of(places).value)
+    assert (values < of(starts).value).all()
 
 
 @pytest.mark.parametrize(("answers", "count"), [(0.3, 6), (1.1, 6), (0.3, 200)])

@@ -12,6 +12,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.batch.own_positions import OwnPositions
 from dalembert.optimization.free_timing import FreeTiming
+from dalembert.optimization.least_squares import wanted
 from tests.tiers import tiers
 
 MODEL = """dalembert: 1
@@ -100,16 +101,24 @@ def test_derivatives_by_positions_of_their_own() -> None:
         assert np.allclose(r.gradient("angle.rocker")[0], found.slope[d, :, 2, :-1], rtol=1e-12)
 
 
+def test_targets_count_by_their_spread_or_where_all_are_one_by_their_size() -> None:
+    k = da.compile(made(), [], ["point.coupler.P", "angle.rocker"])
+    for corners, size in ([[3, 1], [0, 5]], 5), ([[-3, 2], [-3, 2]], 3), ([[0, 0], [0, 0]], 1):
+        target, spread = wanted(k, {"point.coupler.P": corners, "angle.rocker": [-2, -2]}, None)
+        assert target.tolist() == [[*corners[0], -2], [*corners[1], -2]]
+        assert spread.tolist() == [[size, size, 2]] * 2
+
+
 def test_designs_close_between_the_targets() -> None:
     """A rocker that two positions leave whole, and that cannot go from one to the other."""
     vary: Any = {"links.coupler.points.B.0": (0.12, 0.14)}
-    wanted, ends = {"angle.rocker": [1.9, 1.8]}, np.radians([60.0, 300])
+    targets, ends = {"angle.rocker": [1.9, 1.8]}, np.radians([60.0, 300])
     m = da.loads(MODEL).with_values({"links.rocker.points.B.0": 0.14})
     k = da.compile(m.with_values({"links.coupler.points.B.0": 0.28}), list(vary), ["angle.rocker"])
     r = k([[0.13]], np.radians([60.0, 180, 300]))
     assert r.ok[0].tolist() == [True, False, True]
     with pytest.raises(da.ModelError, match="closes over the full range from the first target to the last"):
-        da.synthesize(m, vary, wanted, ends, starts=4)
+        da.synthesize(m, vary, targets, ends, starts=4)
 
 
 @pytest.mark.long
@@ -127,11 +136,11 @@ def test_a_function_as_near_as_a_grid_of_designs() -> None:
     """Angles that no four-bar has: the least misfit of two numbers."""
     vary: Any = {"links.crank.points.A.0": (0.06, 0.12), "links.rocker.points.B.0": (0.18, 0.3)}
     m, turned = da.loads(MODEL), np.linspace(0.3, 2.5, 8)
-    wanted = 1.6 + 0.2 * np.sin(turned) ** 3
-    found = da.synthesize(m, vary, {"angle.rocker": wanted}, turned, starts=10)
+    target = 1.6 + 0.2 * np.sin(turned) ** 3
+    found = da.synthesize(m, vary, {"angle.rocker": target}, turned, starts=10)
     grid = np.array(np.meshgrid(*(np.linspace(*ends, 61) for ends in vary.values()))).reshape(2, -1).T
-    off = da.compile(m, vary=list(vary), outputs=["angle.rocker"])(grid, turned).angle("rocker") - wanted
-    best = float(np.sqrt(np.nanmin((off**2).mean(axis=1)))) / np.ptp(wanted)
+    off = da.compile(m, vary=list(vary), outputs=["angle.rocker"])(grid, turned).angle("rocker") - target
+    best = float(np.sqrt(np.nanmin((off**2).mean(axis=1)))) / np.ptp(target)
     assert best * 0.9 <= found.error <= best * (1 + 1e-9)
 
 
@@ -225,11 +234,11 @@ def test_the_first_start_is_the_mechanism_itself() -> None:
     """Of many designs that do what is wanted, it is the one that is found, if it is one of them."""
     m = made()
     wave = "cos(900*links.crank.points.A.0)*cos(700*links.coupler.points.B.0)"
-    wanted = {wave: np.full(4, math.cos(900 * 0.09) * math.cos(700 * 0.3))}
+    targets = {wave: np.full(4, math.cos(900 * 0.09) * math.cos(700 * 0.3))}
     vary = {k: VARY[k] for k in ("links.crank.points.A.0", "links.coupler.points.B.0")}
     fixed = {**vary, "links.rocker.points.B.0": (0.25, 0.25)}
     for some in (vary, fixed):
-        found = da.synthesize(m, some, wanted, np.radians([20.0, 60, 100, 140]), starts=1)
+        found = da.synthesize(m, some, targets, np.radians([20.0, 60, 100, 140]), starts=1)
         assert found.started == 2  # and a drawn one
         assert found.error < 1e-14
         assert found.values[:2] == pytest.approx([0.09, 0.3], rel=1e-14)

@@ -120,6 +120,7 @@ def test_what_is_offered_adds_one_thing(text: str, offered: list[tuple[str, ...]
     """A joint where two points of one name are loose; a drive of what still moves, with its freedom."""
     offers = page_or_sketch(da.loads(text), inside=0)["missing"]["offers"]
     assert [(o["kind"], o["said"]) for o in offers] == [row[:2] for row in offered]
+    assert not any("page" in o for o in offers)
     before = da.loads(text)
     for offer, (kind, said, section, name) in zip(offers, offered, strict=True):
         after = da.loads(offer["text"])
@@ -128,13 +129,19 @@ def test_what_is_offered_adds_one_thing(text: str, offered: list[tuple[str, ...]
             assert after.drives[name].freedom == said.split()[2]
 
 
-def test_more_pins_than_are_offered_are_six() -> None:
-    """Eight bars at one place each of two points of one name, of which none is joined."""
+def test_of_one_kind_six_are_offered() -> None:
+    """Eight bars at one place, of which none is joined: pins and pivots; then all pinned, and none driven."""
     bars = "".join(f"  b{k}: {{points: {{P: [0, 0]}}}}\n" for k in range(8))
     text = f"links:\n  ground: {{points: {{P: [0, 0]}}}}\n{bars}joints: {{}}\n"
     offers = page_or_sketch(da.loads(text), inside=0)["missing"]["offers"]
     pins = [o["said"] for o in offers if o["kind"] == "joint"]
     assert pins == [f"pin P of ground to P of b{k}" for k in range(6)]
+    fixed = [o["said"] for o in offers if o["kind"] == "ground"]
+    assert fixed == [f"fix P of b{k} to the ground" for k in range(6)]
+    joints = ", ".join(f"J{k}: {{type: pin, links: [ground, b{k}], at: P}}" for k in range(8))
+    pinned = da.loads(text.replace("joints: {}", f"joints: {{{joints}}}"))
+    offers = page_or_sketch(pinned, inside=0)["missing"]["offers"]
+    assert [o["said"] for o in offers] == [f"drive the turn of J{k}" for k in range(6)]
 
 
 @pytest.mark.parametrize("axes", ["", ", axes: link"])

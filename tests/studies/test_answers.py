@@ -235,9 +235,12 @@ def test_a_number_that_changes_nothing_is_named() -> None:
     assert da.study(m, {"density": "± 1 %", "bore": "± 1 %"}, ["effort.O"]).idle() == ()
 
 
-def test_a_peak_that_jumps_between_positions_is_said() -> None:
-    s = da.study(da.loads(IN_TURN), {"one": "± 20 %", "other": "± 20 %"}, ["effort.O"])
-    assert s.contributions("effort.O").note.startswith("the peak jumps between positions ")
+@pytest.mark.parametrize(("other", "places"), [("5 N*m", "2 and 4"), ("5.5 N*m", "4 and 2")])
+def test_a_peak_that_jumps_between_positions_is_said(other: str, places: str) -> None:
+    """From where it is mostly, to a later position or an earlier one."""
+    m = da.loads(IN_TURN.replace("other: 5 N*m", f"other: {other}"))
+    s = da.study(m, {"one": "± 20 %", "other": "± 20 %"}, ["effort.O"])
+    assert s.contributions("effort.O").note.startswith(f"the peak jumps between positions {places} (in ")
     assert 'use by="sobol"' in s.contributions("effort.O").note
 
 

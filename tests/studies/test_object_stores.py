@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -134,8 +135,12 @@ def test_a_second_run_is_refused_with_its_holder_and_its_end(study: Study, addre
         r"s\.zarr is being written by process \d+ on .* since .*, whose lease ends at \d\d:\d\d:\d\d if it is "
         "not renewed; wait for it, or end it; one that died is taken over after that time"
     )
-    with Store(address).locked(), pytest.raises(da.ModelError, match=sentence):
-        study.run(address)
+    before = set(threading.enumerate())
+    with Store(address).locked():
+        (renewing,) = set(threading.enumerate()) - before
+        assert renewing.daemon, "a process that dies does not wait for it"
+        with pytest.raises(da.ModelError, match=sentence):
+            study.run(address)
     study.run(address)  # let go
 
 

@@ -14,9 +14,11 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.studies import StudyResult, running
+from dalembert.studies.contributions import ResponseCurve
 from dalembert.studies.output import study_report
 from dalembert.studies.output.study_views import contour, histogram_scene, response_scene, scatter_scene
-from dalembert.views.paper.scene import Circle, Line, Polygon
+from dalembert.views.paper.diagrams import SIZE, ticks
+from dalembert.views.paper.scene import Circle, Line, Polygon, Text
 from tests.studies.test_answers import arm
 
 
@@ -67,6 +69,32 @@ def test_a_response_is_the_analysis_of_each_design() -> None:
     )
     with pytest.raises(da.ModelError, match="does not vary"):
         r.study.response("effort.O2", "links.rocker.mass")
+
+
+def test_lines_of_a_response_lie_where_it_has_their_values() -> None:
+    """Of a plane over three masses and four lengths, of which the first design has no value: its cell is grey."""
+    r = four_bar(designs=8, positions=2)
+    paths = r.study.paths
+    x, y = np.array([1.0, 2.0, 4.0]), np.array([1.1, 1.2, 1.3, 1.6])
+    z = x[:, None] + 10 * y
+    gap = z.copy()
+    gap[0, 0] = np.nan
+    scene = response_scene(r, ResponseCurve("effort.O2", paths, (x, y), gap))
+    (width, height), (low, high) = SIZE, (ticks(1.1, 1.6)[0], ticks(1.1, 1.6)[-1])
+    places = {
+        role: np.array([p.points for p in scene.flat() if isinstance(p, (Line, Polygon)) and p.role == role])
+        for role in ("missing-fill", "curve-1")
+    }
+    along = {role: 1 + 3 * at[..., 0] / width for role, at in places.items()}
+    across = {role: low + (high - low) * at[..., 1] / height for role, at in places.items()}
+    assert along["missing-fill"].tolist() == [pytest.approx([1, 2, 2, 1])]
+    assert across["missing-fill"].tolist() == [pytest.approx([1.1, 1.1, 1.2, 1.2])]
+    found = along["curve-1"] + 10 * across["curve-1"]
+    assert len(found) > 10
+    assert found[:, 0] == pytest.approx(found[:, 1])
+    levels = {f"{level:.9g}" for level in found[:, 0]}
+    assert {"14", "15", "16", "17", "18"} <= levels <= {str(level) for level in range(13, 21)}
+    assert {"14", "15", "16", "17", "18"} <= {p.text for p in scene.flat() if isinstance(p, Text)}
 
 
 def test_capability_is_the_distance_of_the_nearer_limit() -> None:

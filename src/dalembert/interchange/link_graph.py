@@ -263,7 +263,7 @@ def _connection(m: Mechanism, name: str) -> Connection:
     if pair is not None:
         frames = geometry(joint, *map(np.array, points))[2:]
     places = [placement(np.array(axes).T, at) for axes, at in zip(frames, points, strict=True)]
-    keys = joint.model_dump(mode="json", exclude_none=True)
+    keys = joint.model_dump(mode="json")
     more = {k: v for k, v in keys.items() if k not in ("type", "links", "at", "axes", "axis") and v}
     kind = joint.type
     if kind == "gear":

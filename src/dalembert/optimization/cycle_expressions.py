@@ -230,9 +230,9 @@ class CycleExpressions:
         }
         return cls(trees, compiled(sorted({name for tree in trees.values() for name in names_in(tree)})))
 
-    def names(self, text: str) -> list[str]:
+    def names(self, text: str) -> frozenset[str]:
         """The quantities in one of them."""
-        return sorted(names_in(self.trees[text]))
+        return names_in(self.trees[text])
 
     def __call__(
         self,

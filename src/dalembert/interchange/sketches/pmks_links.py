@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from itertools import takewhile
 
 from dalembert.errors import ModelError
 from dalembert.interchange.link_graph import plain_name
@@ -97,8 +98,7 @@ def _link(text: str) -> PlaneSketch:
     for part in links:
         key, name, mass, inertia, x, y, *rest = part[2:].split(",")
         link = plain_name(name or key, sketch.masses)
-        ends = rest[1:]
-        members[link] = ends[: ends.index("")] if "" in ends else ends
+        members[link] = [*takewhile(bool, rest[1:])]
         sketch.masses[link] = SketchMass(
             decimal(mass) * mass_unit,
             decimal(inertia) * mass_unit * length**2,
@@ -165,7 +165,7 @@ def _first_pmks(text: str) -> PlaneSketch:
             continue
         if words[kind] not in ("R", "P"):
             raise ModelError(f"a joint {words[kind]} has no counterpart", "use R and P", line=number)
-        x, y, angle = (float(word) for word in [*words[kind + 1 : kind + 4], "0"][:3] if not word.isalpha())
+        x, y, angle = (float(word) for word in [*words[kind + 1 :], "0"][:3] if not word.isalpha())
         on = sorted((_link_name(word) for word in words[:kind]), key=lambda w: w != GROUND)
         joint = SketchJoint(f"J{len(sketch.joints) + 1}", x, y, on, line=number)
         joint.slides_along = math.radians(angle) if words[kind] == "P" else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from dalembert.model.files.places import Places, inside, places
@@ -42,7 +42,7 @@ def splice(text: str, form: str, values: Mapping[Path, object]) -> str:
     return text
 
 
-def with_changes(text: str, changes: Sequence[Change]) -> str:
+def with_changes(text: str, changes: Iterable[Change]) -> str:
     """The text with some changes that do not overlap."""
     for change in sorted(changes, reverse=True):
         text = text[: change.start] + change.text + text[change.end :]
