@@ -152,6 +152,8 @@ def folded(rows: Sequence[Sequence[str]], lead: int = 1) -> list[list[str]]:
 
     >>> folded([["0", "5"], ["1", "7"], ["2", "7"], ["3", "7"], ["4", "7"], ["5", "8"]])
     [['0', '5'], ['1', '7'], ['...', ''], ['4', '7'], ['5', '8']]
+    >>> folded([["0", "5"], ["1", "5"], ["2", "5"]])
+    [['0', '5'], ['1', '5'], ['2', '5']]
     """
     out: list[list[str]] = []
     for _, run in groupby(rows, lambda row: tuple(row[lead:])):

@@ -11,7 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.result.position_lookup import position_at
 from dalembert.bundled import cases, examples
-from dalembert.cli.documents.position_argument import position_alone
+from dalembert.cli.documents.position_argument import position_alone, solve_at
 from tests.cli.conftest import Run
 
 R = da.dynamics(da.four_bar(), positions=37)
@@ -81,3 +81,15 @@ def test_solve_prints_the_sentence_and_that_position(run: Run) -> None:
     only = run("solve", file, "--at", "max effort.O2", "--csv", "-")
     assert len(only.out.splitlines()) == 2
     assert only.err.startswith("Position")
+
+
+@pytest.mark.parametrize("at", [60, -60, 0, 61])
+def test_a_value_that_the_file_has_not_is_gone_to(at: int) -> None:
+    """The angle of the file itself, the same one the other way round, and others; in the mode of the file."""
+    m = da.load(examples()["four_bar"])
+    r, where = solve_at(m, f"{at} deg", static=True, positions=None)
+    assert np.degrees(r.drive_position("O2")[position_at(r, where)]) == pytest.approx(at)
+    way = da.kinematics(
+        m.with_values({"drives.O2.position": [f"{60 + (at - 60) * k / 9} deg" for k in range(10)]})
+    )
+    assert r.angle("rocker")[0] == pytest.approx(way.angle("rocker")[-1])

@@ -188,3 +188,9 @@ def test_to_si_and_back(number: float, name: str) -> None:
 def test_any_text_is_a_unit_or_a_model_error(name: str) -> None:
     with suppress(ModelError):
         unit(name)
+
+
+def test_brackets_of_a_unit_are_read_four_deep() -> None:
+    assert unit("N/" + "(" * 4 + "m" + ")" * 4) == unit("N/m")
+    with pytest.raises(ModelError, match=r"is not a unit: expected a name, not '\('"):
+        unit("N/" + "(" * 5 + "m" + ")" * 5)
