@@ -52,16 +52,21 @@ def test_rounding_is_judged_beside_the_largest_force_and_moment() -> None:
     result: Any = SimpleNamespace(compiled=SimpleNamespace(layout=SimpleNamespace(length=2.0)))
     found = _rounding(result, [("force", np.array([-3.0])), ("moment", np.array([8.0, -1.0]))])
     assert found == {"force": NOTHING * 4.0, "moment": NOTHING * 8.0}
+    turned = _rounding(result, [("force", np.array([-3.0])), ("moment", np.array([-8.0, 1.0]))])
+    assert turned == found
 
 
-def test_a_long_iteration_is_shortened_in_the_middle() -> None:
-    table = da.fixed_point(da.statics(pushed_slider(0.9)))
-    lines = fixed_point_text(da.statics(pushed_slider(0.9))).splitlines()
-    first = next(k for k, line in enumerate(lines) if line.split()[:1] == ["0"])
-    steps = [line.split()[0] for line in lines[first : first + 24]]
-    assert len(table.rows()) > 24
-    assert steps[-3:] == ["...", str(table.steps - 1), str(table.steps)]
-    assert steps[:-3] == [str(k) for k in range(21)]
+@pytest.mark.parametrize(("mu", "rows"), [(0.28, 24), (0.3, 25), (0.9, 242)])
+def test_a_long_iteration_is_shortened_in_the_middle(mu: float, rows: int) -> None:
+    """Up to 24 steps are printed, of more the first 21 and the last two; each with its change."""
+    r = da.statics(pushed_slider(mu))
+    every = [[f"{int(row[0])}", f"{row[-1]:.1e}"] for row in da.fixed_point(r).rows()]
+    every[0][-1] = "-"
+    assert len(every) == rows
+    lines = [line.split() for line in fixed_point_text(r).splitlines()]
+    first = next(k for k, line in enumerate(lines) if line[:1] == ["0"])
+    printed = [[line[0], line[-1]] for line in lines[first : first + 24]]
+    assert printed == (every if rows <= 24 else [*every[:21], ["...", "..."], *every[-2:]])
 
 
 def test_a_file_of_one_position_that_moves_is_shown_over_a_turn() -> None:
@@ -104,3 +109,14 @@ def test_printed_work_is_rounded_beside_the_largest_that_its_column_may_have(
     known = {"P": [load, load * length, 1.0, 1 / length, load]}
     known["O"] = [load, load * length, length, 1.0, load * length]
     assert beside == pytest.approx([x for drive in r.drives for x in known[drive]])
+
+
+def test_a_superposition_has_the_moment_of_each_joint_beside_its_force() -> None:
+    """A couple on the piston is held by the guide, the last joint."""
+    tree = da.slider_crank(positions=1).to_tree()
+    tree["loads"]["twist"] = {"type": "couple", "on": "piston", "value": "30 N*m"}
+    tables = method_text.superposition_text(da.statics(da.mechanism(tree)), "SI").split("\n\n")[1:-1]
+    heads = [table.splitlines()[0] for table in tables]
+    assert [head.endswith("guide m") for head in heads] == [False, True]
+    (row,) = (line.split() for line in tables[-1].splitlines() if line.startswith("twist"))
+    assert float(row[-1]) == -30

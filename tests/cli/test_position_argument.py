@@ -93,3 +93,13 @@ def test_a_value_that_the_file_has_not_is_gone_to(at: int) -> None:
         m.with_values({"drives.O2.position": [f"{60 + (at - 60) * k / 9} deg" for k in range(10)]})
     )
     assert r.angle("rocker")[0] == pytest.approx(way.angle("rocker")[-1])
+
+
+def test_a_value_that_the_drive_does_not_reach_has_no_number() -> None:
+    """The rocker as a crank that turns only so far: gone to in vain, nothing is solved, and nothing fails."""
+    m = da.four_bar().with_values(
+        {"links.crank.points.A": [0.9, 0.0], "links.coupler.points.B": [0.6, 0.0], "drives.O2.position": 1.0}
+    )
+    assert da.kinematics(m).ok.all()
+    r, _ = solve_at(m, "179 deg", static=True, positions=None)
+    assert r.status == ("not_assembled",)

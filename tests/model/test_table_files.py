@@ -137,6 +137,7 @@ def test_only_files_of_the_models_folder_are_read_unless_another_is_allowed(
     assert (main(["solve", str(path)]), main(["--data", str(tmp_path), "solve", str(path)])) == (2, 0)
     assert main(["solve", str(path), f"--data={tmp_path}"]) == 0
     assert main([f"--data={tmp_path}", "solve", str(path)]) == 0
+    assert main(["--data", str(tmp_path), "solve", str(path), "--static"]) == 0
     changed = m.with_values({"links.piston.mass": 2.0})
     changed.save(inner / "changed.yaml")
     assert load(inner / "changed.yaml", data=tmp_path) == changed

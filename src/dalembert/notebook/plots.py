@@ -172,7 +172,7 @@ def _positions(s: Sweep, shown: Shown) -> tuple[Array, str, bool]:
 def _values(s: Sweep, shown: Shown) -> tuple[Array, str, bool]:
     """Values of the first path in the reader's unit, or their numbers where they are texts."""
     path, of = s.paths[0], s.labels[s.paths[0]]
-    if not all(isinstance(v, float) for v in of.values):
+    if not isinstance(of.values[0], float):  # all of them are numbers, or all texts
         return np.arange(1.0, len(of.values) + 1), path, False
     unit = shown.unit(of.kind)
     return np.array(of.values) * shown.value(of.kind, 1.0), f"{path} in {unit}" if unit else path, unit == "°"

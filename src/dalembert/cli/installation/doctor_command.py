@@ -25,10 +25,10 @@ def doctor() -> int:
     if remedies := list(missing_extras(states)):
         print("\nMissing extras are optional. To get one:", *remedies, sep="\n  ")
     print()
-    wrong = 0
+    wrong = False
     for name, problem in outcomes():
         print(f"{'FAILED' if problem else 'ok'}: {name}{f': {problem}' if problem else ''}", flush=True)
-        wrong += bool(problem)
+        wrong |= bool(problem)
     for state in old:
         found = f"{state.installed} is too old" if state.installed else "is missing"
         print(f"FAILED: {state.name} {found}; pip install '{state.name}>={state.lowest}'")
