@@ -147,7 +147,7 @@ def unlike(was: str, now: str) -> list[str]:
 
 def alike(a: str, b: str) -> bool:
     numbers = [NUMBER.findall(line) for line in (a, b)]
-    words = [re.sub(" +", " ", NUMBER.sub("#", line)) for line in (a, b)]
+    words = [re.sub(" +", " ", NUMBER.sub("#", re.sub("--+", "--", line))) for line in (a, b)]
     return words[0] == words[1] and all(map(near, *numbers))
 
 

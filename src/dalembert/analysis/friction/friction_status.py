@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.compile.contacts import friction_on
 from dalembert.analysis.friction.joint_friction import NO_END, holds_beyond
 from dalembert.analysis.status.closure_failure import drive_text, quantity_text
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.arrays import Array, Flags, Ints, first_largest
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -168,7 +168,7 @@ def _locked_sentence(c: Compiled, f: SolvedForces, run: Ints) -> str:
     names = _unknowns(c)
     with_ = np.concatenate([f.effort[:, c.known.requested], f.load], axis=1)[run]
     bare = np.concatenate([f.friction.bare_effort[:, c.known.requested], f.friction.bare_load], axis=1)[run]
-    worst = int(np.argmax(np.abs(with_ - bare).sum(axis=1)))
+    worst = first_largest(np.abs(with_ - bare).sum(axis=1))
     figures = ", ".join(
         NEEDS.format(name=name, rubbed=quantity_text(c, kind, a), bare=quantity_text(c, kind, b))
         for name, kind, a, b in zip(names, _kinds(c), with_[worst], bare[worst], strict=True)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Ints, first_largest
 from dalembert.core.layout import Perpendicular, Pose
 from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.first_pose_plane import Guess, without_phase
@@ -109,7 +109,7 @@ def _most(c: Compiled, open_: Array, kind: str, size: float) -> str:
     wide = np.flatnonzero(open_ > SHUT * size)
     if not wide.size:
         return ""
-    most = int(np.argmax(open_))
+    most = first_largest(open_)
     figure = quantity_text(c, kind, float(open_[most]), 3)
     if wide.size == 1:
         return ONE.format(joint=c.joints[most], figure=figure, **WORDS[kind])

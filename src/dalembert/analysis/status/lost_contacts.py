@@ -12,7 +12,7 @@ import numpy as np
 from dalembert.analysis.friction.friction_status import Check, arc
 from dalembert.analysis.status.brake_verdicts import lifting
 from dalembert.analysis.status.closure_failure import quantity_text
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Ints, first_largest
 from dalembert.core.elements.pushing import contact_forces, forces_at_speed, rounding
 from dalembert.core.layout import Pose
 
@@ -69,7 +69,7 @@ def _lacking_forces(c: Compiled, pose: Pose, twist: Array, f: SolvedForces, iner
 def _slip_sentence(c: Compiled, slipping: Array, pose: Pose, f: SolvedForces, run: Ints) -> str:
     """Coefficient that rolling needs where most of it is missing, and that it has."""
     assert c.pushing is not None
-    position, limit = np.unravel_index(int(np.argmax(slipping[run])), slipping[run].shape)
+    position, limit = np.unravel_index(first_largest(slipping[run]), slipping[run].shape)
     at, k = run[position], c.pushing.joint[limit]
     forces = contact_forces(c.layout, c.pushing, pose, f.force, f.moment)[at]
     first = int(np.flatnonzero(c.pushing.joint == k)[0])
@@ -80,7 +80,7 @@ def _slip_sentence(c: Compiled, slipping: Array, pose: Pose, f: SolvedForces, ru
 
 def _lost_sentence(c: Compiled, lacking: Array, run: Ints) -> str:
     assert c.pushing is not None
-    position, contact = np.unravel_index(int(np.argmax(lacking[run])), lacking[run].shape)
+    position, contact = np.unravel_index(first_largest(lacking[run]), lacking[run].shape)
     joint = c.joints[c.pushing.joint[contact]]
     if not c.pushing.force[contact] and not c.pushing.corner[contact]:
         couple = quantity_text(c, "moment", float(lacking[run][position, contact]))

@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.compile.elements.belt_arrays import belts_of, grip, wedge
 from dalembert.analysis.friction.friction_status import Check, arc
 from dalembert.analysis.status.closure_failure import quantity_text
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Ints, first_largest
 from dalembert.core.elements import belt_pulls
 from dalembert.core.equilibrium import with_ground
 from dalembert.core.layout import Pose
@@ -98,7 +98,7 @@ def belt_checks(c: Compiled, pose: Pose, twist: Array, f: SolvedForces) -> list[
 
 def _slack_sentence(c: Compiled, s: Strands, k: int, run: Ints) -> str:
     name, belt = list(belts_of(c.mechanism).items())[k]
-    worst = run[int(np.argmin(s.slack[run, k] - s.centrifugal[run, k]))]
+    worst = run[first_largest(s.centrifugal[run, k] - s.slack[run, k])]
     missing = float(s.centrifugal[worst, k] - s.slack[worst, k])
     kind = "chain" if belt.chain else "belt"
     return SLACK.format(kind=kind, joint=name, force=quantity_text(c, "force", missing), arc=arc(c, run))
@@ -106,8 +106,8 @@ def _slack_sentence(c: Compiled, s: Strands, k: int, run: Ints) -> str:
 
 def _slip_sentence(c: Compiled, s: Strands, k: int, run: Ints) -> str:
     name, belt = list(belts_of(c.mechanism).items())[k]
-    worst = run[int(np.argmax(s.needed[run, k]))]
-    least = int(np.argmin(s.wrap[worst, :, k]))
+    worst = run[first_largest(s.needed[run, k])]
+    least = first_largest(-s.wrap[worst, :, k])
     has, needed = grip(c.mechanism, belt), float(s.needed[worst, k])
     assert has is not None
     assert c.forcing.belts is not None

@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.compile.elements.rope_parts import RopeWheel, rope_wheels, strand_names
 from dalembert.analysis.friction.friction_status import Check, arc
 from dalembert.analysis.status.closure_failure import quantity_text
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Ints, first_largest
 from dalembert.core.elements import strand_rows
 from dalembert.core.layout import Pose
 
@@ -83,7 +83,7 @@ def rope_checks(c: Compiled, pose: Pose, f: SolvedForces) -> list[Check]:
 
 
 def _slack_sentence(c: Compiled, name: str, lines: RopeLines, run: Ints) -> str:
-    worst, strand = np.unravel_index(int(np.argmin(lines.tension[run])), lines.tension[run].shape)
+    worst, strand = np.unravel_index(first_largest(-lines.tension[run]), lines.tension[run].shape)
     force = quantity_text(c, "force", float(-lines.tension[run][worst, strand]))
     return SLACK.format(kind=_kind(c, name), rope=name, force=force, strand=int(strand) + 1, arc=arc(c, run))
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.errors import ModelError
 from dalembert.interchange.joint_chains import split
 from dalembert.interchange.link_graph import Connection, DrivenFreedom, LinkGraph, LinkPart, number
@@ -154,12 +154,25 @@ def _mass(text: AssemblyText, link: LinkPart) -> None:
     text.add(4, "Density", "1.0")
 
 
+EQUAL = 1e-9
+"""Difference of two principal moments, as part of the largest, below which they are equal."""
+
+
 def principal_inertia(link: LinkPart) -> tuple[Array, Array]:
-    """Principal moments of inertia about the mass centre, and their axes as a rotation (3, 3)."""
+    """Principal moments of inertia about the mass centre, and their axes as a rotation (3, 3).
+
+    An axis is turned to the side of the link's axis that it is nearest to, and of equal moments the axes are nearest to
+    those of the link: so a file is the same whatever computes it.
+    """
     moments, axes = np.linalg.eigh(link.inertia)
-    if np.linalg.det(axes) < 0:
-        axes = axes * [1.0, 1.0, -1.0]
-    return moments, axes
+    out = np.zeros((3, 0))
+    for moment in moments:
+        same = axes[:, np.abs(moments - moment) <= EQUAL * moments[-1]]
+        left = (np.eye(3) - out @ out.T) @ same @ same.T
+        size = np.linalg.norm(left, axis=0)
+        k = first_largest(size)
+        out = np.column_stack([out, left[:, k] / size[k]])
+    return moments, out * [1.0, 1.0, np.sign(np.linalg.det(out))]
 
 
 def _joint(text: AssemblyText, joint: Connection) -> None:

@@ -22,7 +22,7 @@ from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.analysis.solution import kinematics
 from dalembert.answer.answer import Labelled
 from dalembert.answer.column import Axes, Column, Scale, UnitChoice, parts
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Tree, first_largest
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
 from dalembert.printing import Part, TextTable, number
@@ -94,7 +94,7 @@ class ClearanceError(Labelled):
         for name, c in self.clearances.items():
             size, worst = np.hypot(*self.of[name].T), np.hypot(*self.single[name].T)
             known = np.isfinite(size).any()
-            k = int(np.nanargmax(size)) if known else 0
+            k = first_largest(size) if known else 0
             shown = number(float(to("length", size[k])), 4) if known else "-"
             at = where(self.result, to, k) if known else "-"
             rows.append(

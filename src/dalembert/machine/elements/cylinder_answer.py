@@ -16,7 +16,7 @@ from dalembert.analysis.methods.elements.cylinder_quantities import (
     hydraulic_force,
     pressures,
 )
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.errors import ModelError
 from dalembert.machine.elements.stepped_column import critical_load, euler
 from dalembert.wording import closest
@@ -68,7 +68,7 @@ class CylinderAnswer:
     @property
     def worst(self) -> int:
         """Position, from 0, with the least safety against buckling."""
-        return int(np.argmin(np.where(np.isnan(self.safety), np.inf, self.safety)))
+        return first_largest(-np.where(np.isnan(self.safety), np.inf, self.safety))
 
     @property
     def vacuum(self) -> Array:

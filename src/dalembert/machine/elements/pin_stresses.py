@@ -19,7 +19,7 @@ import numpy as np
 
 from dalembert.answer.answer import Labelled
 from dalembert.answer.column import Axes, Column, Scale, UnitChoice
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Tree, first_largest
 from dalembert.errors import ModelError
 from dalembert.model.joints.elements.pin_keys import PinSize
 from dalembert.printing import Part, TextTable, number
@@ -118,7 +118,7 @@ class PinStresses(Labelled):
         to = self.scale(units)
         rows = []
         for c in self.columns():
-            k = int(np.nanargmax(c.values))
+            k = first_largest(c.values)
             largest = number(float(to(c.kind, c.values[k])))
             rows.append([c.name.split(".")[0].replace("_", " "), largest, to.text(c.kind), str(k + 1)])
         yield TextTable([f"bolt of {self.joint}", "largest", "unit", "no."], rows, 1)
@@ -253,4 +253,4 @@ def _best(forces: Array, size: PinSize) -> tuple[str, ...]:
     orders = [*{tuple(size.stack[k] for k in order): order for order in every}.values()]
     places = np.array(size.layers)
     largest = [float(np.nanmax(_along(forces[:, order], places)[1])) for order in orders]
-    return tuple(size.stack[k] for k in orders[int(np.argmin(largest))])
+    return tuple(size.stack[k] for k in orders[first_largest(-np.array(largest))])

@@ -13,7 +13,7 @@ from dalembert.analysis.output.summary.printed_units import print_scale
 from dalembert.analysis.result.number_kinds import drive_kinds
 from dalembert.answer.answer import Drawn, Labelled, Worked
 from dalembert.answer.column import Axes, Column, Scale, UnitChoice
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Tree, first_largest
 from dalembert.errors import ModelError
 from dalembert.machine.elements.pin_stresses import PinStresses, pin
 from dalembert.printing import Part, TextTable, number
@@ -65,7 +65,7 @@ class PinTable(Labelled, Drawn, Worked):
         def most(values: Array) -> list[str]:
             if not np.isfinite(values).any():
                 return ["-", ""]
-            k = int(np.nanargmax(values))
+            k = first_largest(values)
             return [number(float(to("pressure", values[k])), 4), where(self.result, to, k)]
 
         def least(values: Array) -> str:

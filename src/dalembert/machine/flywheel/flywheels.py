@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.answer.column import Axes, Column, Scale
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Tree, first_largest
 from dalembert.bounds import require
 from dalembert.errors import AnalysisError
 from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
@@ -62,12 +62,12 @@ class Flywheel(MachineAnswer):
     @property
     def slowest(self) -> float:
         """Angle of the least speed by the energy curve, rad; NaN where the speed does not change."""
-        return float(self.zeros[np.argmax(self.energies)]) if len(self.zeros) else float("nan")
+        return float(self.zeros[first_largest(self.energies)]) if len(self.zeros) else float("nan")
 
     @property
     def fastest(self) -> float:
         """Angle of the greatest speed by the energy curve, rad."""
-        return float(self.zeros[np.argmin(self.energies)]) if len(self.zeros) else float("nan")
+        return float(self.zeros[first_largest(-self.energies)]) if len(self.zeros) else float("nan")
 
     @property
     def coefficient_of_energy(self) -> float:

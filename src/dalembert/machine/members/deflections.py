@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Tree, first_largest
 from dalembert.errors import ModelError
 from dalembert.machine.members.end_conditions import carrying_joints
 from dalembert.machine.members.stresses import section_of
@@ -120,7 +120,7 @@ class Deflections:
     @property
     def position(self) -> int:
         """Position of the largest deflection, from 0."""
-        return int(np.nanargmax(self.greatest)) if np.isfinite(self.greatest).any() else 0
+        return first_largest(self.greatest) if np.isfinite(self.greatest).any() else 0
 
     @property
     def largest(self) -> float:

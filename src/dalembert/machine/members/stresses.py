@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.output.rounding import PART
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Tree, first_largest
 from dalembert.errors import ModelError
 from dalembert.machine.link_axes import in_space
 from dalembert.machine.members.link_balance import BESIDE
@@ -71,7 +71,7 @@ class Stresses:
     @property
     def position(self) -> int:
         """Position of the largest stress, from 0."""
-        return int(np.nanargmax(self.equivalent)) if np.isfinite(self.equivalent).any() else 0
+        return first_largest(self.equivalent) if np.isfinite(self.equivalent).any() else 0
 
     @property
     def largest(self) -> float:

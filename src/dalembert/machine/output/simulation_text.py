@@ -10,6 +10,7 @@ import numpy as np
 
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.number_kinds import drive_kinds
+from dalembert.arrays import first_largest
 from dalembert.machine.motion.occurrences import say
 from dalembert.machine.output.sizes_over_cycle import greatest
 from dalembert.printing import Part, TextTable, folded, number, remainder, round_components
@@ -67,7 +68,8 @@ def _drives(s: Simulation, to: Printed) -> TextTable:
     for k, drive in enumerate(s.drives):
         for what, kind in drive_kinds(s.result, drive).items():
             heads.append(f"{drive} {what}\n{to.text(kind)}")
-            columns.append(to(kind, s.applied[:, k] if what == "effort" else getattr(s, what)(drive)))
+            values = s.applied[:, k] if what == "effort" else getattr(s, what)(drive)
+            columns.append(round_components(to(kind, values)))
     which = np.unique(np.linspace(0, len(s.time) - 1, ROWS).astype(int))
     rows = [[number(float(np.asarray(c)[n])) for c in columns] for n in which]
     return TextTable(heads, folded(rows), 0)
@@ -138,7 +140,7 @@ def _contacts(s: Simulation, to: Printed) -> TextTable:
         gap = gaps[name]
         row = [name]
         for kind, values in (("force", force), ("length", gap)):
-            k = int(np.nanargmax(values)) if np.isfinite(values).any() else 0
+            k = first_largest(values) if np.isfinite(values).any() else 0
             row += [to.number(kind, values[k]), to.number("time", s.time[k])]
         rows.append(row)
     at, force_unit, length = (to.text(kind) for kind in ("time", "force", "length"))

@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import magnitude
 from dalembert.analysis.result.number_kinds import drive_kinds, load_kind
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.reports.design.verdict import (
     DesignContext,
     DesignPart,
@@ -71,7 +71,7 @@ def _joint_rows(c: DesignContext) -> list[list[str]]:
         if not np.isfinite(force).any():
             continue
         k = most_place(force)
-        side = r.sides[int(np.nanargmax([s[k] for s in sides]))]
+        side = r.sides[first_largest(np.array([s[k] for s in sides]))]
         cells = [
             joint,
             " – ".join(r.mechanism.joints[joint].links),
@@ -108,7 +108,7 @@ def _effort_rows(c: DesignContext) -> list[list[str]]:
         if not np.isfinite(values).any() or not np.nan_to_num(values).any():
             continue
         high, low = np.fmax.reduce(values), np.fmin.reduce(values)
-        k, n = int(np.nanargmax(high)), int(np.nanargmin(low))
+        k, n = first_largest(high), first_largest(-low)
         rows.append([label, *_extreme(c, kind, high[k], k), *_extreme(c, kind, low[n], n)])
     return rows
 

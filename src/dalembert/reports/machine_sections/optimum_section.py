@@ -6,6 +6,7 @@ from itertools import islice
 
 import numpy as np
 
+from dalembert.arrays import first_largest
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.pareto_front import Front
 from dalembert.reports.sheet import ReportSheet
@@ -46,7 +47,7 @@ def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
     title, unit = f"{names[of]} over the {'motion' if o.instants else 'cycle'}", shown.unit(kind)
     values = o.values_of(o.after, of)
     size = np.abs(values) if of == o.aim.of else -values  # of a margin where it is least
-    at = int(np.nanargmax(size)) if np.isfinite(size).any() else 0
+    at = first_largest(size) if np.isfinite(size).any() else 0
     closed = [r for r in both.values() if np.isfinite(o.values_of(r, of)[at])]
     chart = curves_scene(x, curves, label, f"{names[of]} in {unit}" if unit else names[of], title, angle)
     return [chart, *(draw.mechanism(r, o.place(r, at), notation) for r in closed)]

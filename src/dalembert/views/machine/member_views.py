@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, first_largest
 from dalembert.machine.link_axes import LinkAxes, in_space
 from dalembert.machine.members.member_forces import ORDER, MemberCurve, MemberForces, kind_of
 from dalembert.machine.members.member_table import MemberTable
@@ -128,7 +128,7 @@ def _diagram(forces: MemberForces, curve: MemberCurve, of: str, shown: Shown) ->
     kind, row = kind_of(of), ORDER.index(of)
     places, values = sampled(curve)
     values = values[:, :, row] / shown.size(kind)
-    k = int(np.nanargmax(np.abs(curve.greatest(of)[0])))
+    k = first_largest(np.abs(curve.greatest(of)[0]))
     series = {LETTERS[of]: values[k]}
     if len(values) > 1:
         with np.errstate(all="ignore"):

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dalembert.arrays import first_largest
 from dalembert.machine.elements.pin_stresses import PinStresses, moment_along
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
@@ -75,7 +76,7 @@ def pin_scene(x: PinStresses, notation: Notation) -> Scene:
 
 
 def _draw_moment(x: PinStresses, shown: Shown, canvas: Canvas, top: float, at: object) -> None:
-    k = int(np.nanargmax(x.moment))
+    k = first_largest(x.moment)
     s, m = moment_along(x, k)
     if not len(s) or not m.max() > 0:
         return
@@ -83,6 +84,6 @@ def _draw_moment(x: PinStresses, shown: Shown, canvas: Canvas, top: float, at: o
     points = tuple((at(a), top - HIGH * b / m.max()) for a, b in zip(s.tolist(), m.tolist(), strict=True))
     ends = (points[0][0], top), (points[-1][0], top)
     canvas.add(Line(ends, "construction"), Line((ends[0], *points, ends[1]), "curve-1"))
-    place = points[int(np.argmax(m))]
+    place = points[first_largest(m)]
     text = f"M = {shown.text('moment', float(m.max()))} at position {k + 1}"
     canvas.add(Text((place[0], place[1] - 4.0), text, 3.0))

@@ -10,6 +10,7 @@ import numpy as np
 from dalembert.analysis.methods.elements.cylinder_quantities import cylinders
 from dalembert.analysis.methods.elements.screw_torques import ScrewAnswer, screws
 from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.arrays import first_largest
 from dalembert.printing import Part, TextTable, number, with_unit, wrap
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def _screw_parts(result: Result, to: Printed) -> Iterator[Part]:
     for name in screws(result.mechanism):
         s = result.screw(name)
         if np.isfinite(s.torque).any():
-            k = int(np.nanargmax(np.maximum(-s.torque_low, s.torque_high)))
+            k = first_largest(np.maximum(-s.torque_low, s.torque_high))
             ends = [to.number("moment", float(x[k])) for x in (s.torque_low, s.torque_high)]
             torque = ends[0] if ends[0] == ends[1] else f"{ends[0]} to {ends[1]}"
             rows.append(
@@ -98,7 +99,7 @@ def _cylinder_table(known: list[Any], to: Printed, many: bool) -> TextTable:
 
 def _vacuum(result: Result, c: Any, to: Printed) -> str:
     least = np.fmin(c.cap_pressure, c.rod_pressure)
-    where = f" at {_place(result, int(np.nanargmin(least)), c, to)}" if len(least) > 1 else ""
+    where = f" at {_place(result, first_largest(-least), c, to)}" if len(least) > 1 else ""
     return VACUUM.format(name=c.name, where=where, least=to.quantity("pressure", float(np.nanmin(least))))
 
 

@@ -185,6 +185,7 @@ class StopState(ClutchState):
         the speed of its restitution (Moreau); stops in contact push too. Parts held by friction are released."""
         d, free = self.d, np.flatnonzero(self.acting.free)
         u = y[d : 2 * d]
+        self.fastest = np.maximum(self.fastest, np.abs(u))
         for k, side in hit:
             if self.stops[k].drive >= 0:
                 y[self.stops[k].drive] = self.stops[k].end(side)

@@ -103,6 +103,7 @@ class CourseStops(CourseRest):
         n, e = slopes[each, which], restitution[each, which]
         near = np.abs(margin) <= TOUCHING * (1 + np.abs(self.y[k, :d]).max(axis=1, keepdims=True))
         self.lose(k[(near | met).sum(axis=1) > 1])
+        self.fastest[k] = np.maximum(self.fastest[k], np.abs(self.y[k, d : 2 * d]))
         closing = (n * self.y[k, d : 2 * d]).sum(axis=1)
         speed = np.abs(n).max(axis=1) * self.fastest[k].max(axis=1)
         back = e * np.maximum(closing, 0.0)
