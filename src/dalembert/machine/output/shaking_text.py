@@ -86,7 +86,7 @@ def _engine(s: Shaking, to: Printed) -> list[Part]:
     from dalembert.machine.balance.engine_series import engine_series
 
     r = s.result
-    if r.mechanism.dimension == 3 or not s.whole or not s.parts["inertia"][0].any():
+    if r.mechanism.dimension == 3 or not s.whole or not any(part.any() for part in s.parts["inertia"]):
         return []
     try:
         e = engine_series(r)
