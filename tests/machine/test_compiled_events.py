@@ -83,6 +83,22 @@ def test_brakes_and_switches(change: tuple[str, str], vary: list[str], values: A
     check(m, vary, ["reaction.A.magnitude"], "0.3 s", values)
 
 
+SWUNG = """
+links: {ground: {points: {O: [0, 0]}}, disc: {points: {O: [0, 0]}, inertia: 0.1}}
+joints: {O: {type: pin, links: [ground, disc]}}
+drives: {O: {motor: {stall: 3, no_load: 60 rad/s, on: 0.3 rad, off: 0.1 s}}}
+start: {O: {position: 0, speed: 5 rad/s}}
+loads: {T: {type: torsion_spring, joint: O, stiffness: 10, free_angle: 0}}
+"""
+
+
+def test_a_motor_that_was_switched_off_stays_off_where_it_was_switched_on() -> None:
+    """A disc on a spring passes the angle at which its motor was switched on with every swing."""
+    vary = ["links.disc.inertia"]
+    r = check(da.loads(SWUNG), vary, ["effort.O"], "1.5 s", [[0.1], [0.08]])
+    assert (r.value("effort.O") > 2.5).all()
+
+
 TABLE = """
 gravity: standard
 links: {ground: {points: {O: [0, 0], W: [1, 0]}}, block: {points: {B: [0, 0]}, mass: 2}}

@@ -48,6 +48,18 @@ drives:
     cylinder: {between: [ground.A, ram.B], bore: 0.1, rod: 0.05, cap_pressure: 10 bar, rod_pressure: 1 bar,
                efficiency: 0.9}
 """
+FREEWHEEL = """
+links:
+  ground: {points: {O: [0, 0]}}
+  one: {points: {O: [0, 0]}, inertia: 1.5}
+  two: {points: {O: [0, 0]}, inertia: 0.8}
+joints:
+  A: {type: pin, links: [ground, one], at: O}
+  B: {type: pin, links: [ground, two], at: O}
+  K: {type: one_way, links: [one, two], at: O, free: ccw}
+drives: {A: {effort: 0}, B: {effort: 0}}
+start: {A: {position: 0, speed: %g rad/s}, B: {position: 0, speed: %g rad/s}}
+"""
 UNKNOWN = "drives: {S: {effort: 0}}\nloads: {F: {type: force, on: ram, at: O, value: unknown, direction: 0}}"
 WHEEL = da.flywheel_size(100.0, 50.0, Cs=0.02)
 STEEP = [{"to": "30 mm", "in": "60 deg", "by": "cycloidal"}, {"to": 0, "in": "60 deg", "by": "cycloidal"}]
@@ -216,6 +228,15 @@ REFUSED: dict[str, Callable[[], Any]] = {
     "load 'F' is unknown, but forces move the machine; give it a value": lambda: da.simulate(
         da.loads(f"{SLIDE}{UNKNOWN}\nstart: {{S: {{position: 0, speed: 0}}}}"), "1 s"
     ),
+    "drive 'T' has no position to start at; write start: {T: {position: ..., speed: 0}}": lambda: da.simulate(
+        da.loads(
+            CROSS % ("", "") + "drives: {S: {effort: 1}, T: {position: unknown, effort: 0, range: [0, 1]}}"
+        ),
+        "1 s",
+    ),
+    "K starts to turn in the sense that it blocks; start with other speeds": lambda: da.simulate(
+        da.loads(FREEWHEEL % (6, 5.9)), "1 s"
+    ),
     (
         "cylinder 'C' has losses and both pressures, and a motion under forces leaves such losses out; leave its "
         "efficiency and friction out, or give the joint it moves friction"
@@ -248,6 +269,11 @@ def test_a_machine_that_lacks_something_is_told_what(sentence: str) -> None:
     with pytest.raises(DalembertError) as refused:
         REFUSED[sentence]()
     assert re.sub(r"^text:\d+: ", "", str(refused.value)) == sentence
+
+
+def test_a_free_wheel_may_turn_in_its_free_sense() -> None:
+    s = da.simulate(da.loads(FREEWHEEL % (5.9, 6)), "1 s", count=2)
+    assert s.speed("B")[-1] == pytest.approx(6.0)
 
 
 def test_a_cutter_larger_than_the_hollow_of_a_cam_is_refused(tmp_path: Any) -> None:

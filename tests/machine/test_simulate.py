@@ -325,7 +325,7 @@ def test_of_200_with_friction_each_moves(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", tiers([], [], sorted(WEIGHTLESS)))
 def test_or_says_why_not(seed: int) -> None:
-    with pytest.raises(ModelError, match="no part that moves has inertia: forces that move"):
+    with pytest.raises(ModelError, match="a part that moves has no inertia: forces that move"):
         simulated(rubbing(random_case(seed).tree), 1e-3, tolerance=1e-9)
 
 
@@ -340,12 +340,34 @@ def test_in_space_it_asks_for_them_too(seed: int, rough: bool) -> None:
     assert max(s.law_residual, s.energy_residual) < 1e-9
 
 
+TWO_SLIDES = """
+links: {ground: {points: {O: [0, 0]}}, a: {points: {O: [0, 0], A: [0, 0]}MASS}, b: {points: {A: [0, 0]}, mass: 2}}
+joints: {S: {type: slider, links: [ground, a], at: O RUBS}, T: {type: slider, links: [a, b], at: A}}
+drives: {S: {effort: 6}, T: {effort: 2}}
+start: {S: {position: 0, speed: SPEED}, T: {position: 0, speed: 0}}
+"""
+
+
+@pytest.mark.parametrize("speed", ["0", "1"])
+@pytest.mark.parametrize("rubs", ["", ", friction: {coefficient: 0.1}"])
+def test_a_part_between_two_drives_needs_a_mass(rubs: str, speed: str) -> None:
+    """Each drive alone moves the block b: together they move a without it. With masses, 4 N move a, and 2 N b."""
+    text = TWO_SLIDES.replace("RUBS", rubs).replace("SPEED", speed)
+    with pytest.raises(
+        da.ModelError, match="0 s: a part that moves has no inertia: forces that move S move no mass"
+    ):
+        da.simulate(da.loads(text.replace("MASS", "")), "1 s")
+    s = da.simulate(da.loads(text.replace("MASS", ", mass: 1")), "1 s", count=2)
+    assert s.speed("S")[-1] == pytest.approx(float(speed) + 4, rel=1e-9)
+    assert (s.speed("S") + s.speed("T"))[-1] == pytest.approx(float(speed) + 1, rel=1e-9)
+
+
 @pytest.mark.long
 def test_a_motion_that_cannot_begin_says_why() -> None:
     with pytest.raises(da.ModelError, match="the motion cannot begin: stopped at 0 s"):
         simulated(random_case(9).tree, 0.05)
     with pytest.raises(
-        da.ModelError, match="the motion cannot begin: stopped at 0 s: no part that moves has inertia"
+        da.ModelError, match="the motion cannot begin: stopped at 0 s: a part that moves has no inertia"
     ):
         simulated(rubbing(random_case(0).tree), 1e-3)
 

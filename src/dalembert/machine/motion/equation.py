@@ -44,7 +44,8 @@ STEPS = 40
 """Newton's steps for a pose that has no closed form."""
 NEAR = 1e-7
 """Largest distance of a state's pose from the one at which Newton's steps began, for which they have converged."""
-NO_INERTIA = "no part that moves has inertia"
+WEIGHTLESS = 1e-12
+"""Part of the greatest inertia that is rounding."""
 DEAD_CENTRE = (
     "the mechanism is at a dead centre or a change point, from which it can continue on two branches, and its drives "
     "do not decide which; release a drive that places the links at this position too"
@@ -314,15 +315,24 @@ class Equation:
 
 def no_inertia(name: str) -> str:
     """That a drive moves no mass."""
-    return f"{NO_INERTIA}: forces that move {name} move no mass; give its links masses"
+    return f"a part that moves has no inertia: forces that move {name} move no mass; give its links masses"
+
+
+def lightest(mass: Array) -> tuple[float, int]:
+    """Least inertia of a motion of the drives beside what each has alone, and the drive that moves most in it."""
+    size = np.sqrt(np.abs(mass.diagonal()))
+    light = ~(size > WEIGHTLESS * size.max())
+    if light.any():
+        return 0.0, int(light.argmax())
+    least, direction = np.linalg.eigh((mass + mass.T) / (2 * size * size[:, None]))
+    return float(least[0]), int(np.abs(direction[:, 0]).argmax())
 
 
 def _solve(mass: Array, right: Array, names: Sequence[str]) -> Array:
     with suppress(np.linalg.LinAlgError):
         if len(mass) != 1 or mass[0, 0] > 0:
             return np.asarray(np.linalg.solve(mass, right))
-    light = [name for name, diagonal in zip(names, mass.diagonal(), strict=True) if not diagonal > 0]
-    raise StoppedError(no_inertia(light[0]) if light else f"{NO_INERTIA}: no acceleration is determined")
+    raise StoppedError(no_inertia(names[lightest(mass)[1]]))
 
 
 def _machine_program(

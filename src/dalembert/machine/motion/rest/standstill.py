@@ -15,7 +15,7 @@ from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation, drive_lengths
 from dalembert.machine.motion.corners.elastic_stops import ElasticStops
-from dalembert.machine.motion.equation import Equation, StoppedError, Terms, no_inertia
+from dalembert.machine.motion.equation import WEIGHTLESS, Equation, StoppedError, Terms, lightest, no_inertia
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event, Guard, Value, Words
 from dalembert.machine.motion.rest.dry_friction import Contacted
@@ -27,8 +27,6 @@ from dalembert.model.quantities.tables import Table
 
 STILL = 1e-9
 """A speed below this part of the greatest so far is rest, at an event where it passes zero."""
-WEIGHTLESS = 1e-12
-"""Part of the greatest inertia that is rounding."""
 ROUNDING = 1e-9
 """Part of a motor's effort below which what its shaft gives to its gear has no sign."""
 SETTLED = 1e-9
@@ -169,12 +167,8 @@ class ContactState:
         mass = mass[np.ix_(free, free)]
         if not np.isfinite(mass).all():
             return
-        size = np.sqrt(np.abs(mass.diagonal()))
-        light = size <= WEIGHTLESS * size.max()
-        size[light] = 1.0
-        least, direction = np.linalg.eigh((mass + mass.T) / (2 * size * size[:, None]))
-        if light.any() or least[0] < WEIGHTLESS:
-            k = np.flatnonzero(light)[0] if light.any() else np.argmax(np.abs(direction[:, 0]))
+        least, k = lightest(mass)
+        if least < WEIGHTLESS:
             raise StoppedError(no_inertia(self.acting.names[free[k]]))
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
