@@ -47,6 +47,33 @@ def test_a_solid_lies_along_its_member_whichever_of_its_ends_is_first(ends: str)
     assert f.residual.max() < 1e-14
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_each_rod_of_a_stepped_bar_lies_on_its_piece(turned: bool) -> None:
+    """Weight beyond a place, as the shear there: rods of 0.4 m and 0.6 m, in either order."""
+    rods = [
+        f"{{type: cylinder, between: [{x}], radius: {r}, density: 7850}}"
+        for x, r in (("O, A", 0.03), ("A, B", 0.02))
+    ]
+    text = f"""
+gravity: standard
+links:
+  ground: {{points: {{O: [0, 0]}}}}
+  bar: {{points: {{O: [0, 0], A: [0.4, 0], B: [1, 0]}}, members: [[O, A], [A, B]], mass_along: shape,
+        shape: [{", ".join(rods[::-1] if turned else rods)}]}}
+joints: {{O: {{type: pin, links: [ground, bar]}}}}
+drives: {{O: {{position: 0}}}}
+"""
+    f = da.member_forces(da.statics(da.loads(text)), "bar")
+    even = 7850 * 9.80665 * np.pi * np.array([0.03, 0.02]) ** 2
+    first, second = (c.at([0.0, c.member.length / 2])[0] for c in f.curves)
+    assert first[:, 1] == pytest.approx(
+        [0.4 * even[0] + 0.6 * even[1], 0.2 * even[0] + 0.6 * even[1]], rel=1e-12
+    )
+    assert second[:, 1] == pytest.approx([0.6 * even[1], 0.3 * even[1]], rel=1e-12)
+    assert first[0, 5] == pytest.approx(-(0.4 * 0.2 * even[0] + 0.6 * 0.7 * even[1]), rel=1e-12)
+    assert f.residual.max() < 1e-14
+
+
 class ThickBar:
     """A bar A-B of random solids on one or two turning joints, loaded at B; ``cut(s)``: the same of two, welded."""
 

@@ -204,6 +204,41 @@ def test_a_disc_that_only_tilts_swings_on_its_shaft() -> None:
     assert "Dunkerley - rpm (low), Rayleigh - rpm (high)." in c.text()
 
 
+BOSSED = """
+gravity: standard
+links:
+  ground: {points: {A: [0, 0], B: [1, 0]}}
+  shaft: {points: {A: [0, 0], B: [1, 0], C: [0.3, 0], D: [0.6, 0]}, members: [[A, B]], mass_along: shape,
+          section: {circle: 0.05, elasticity: 210e9},
+          shape: [{type: cylinder, between: [A, B], radius: 0.025, density: 7850}SPHERES]}
+  ballsLINKS
+joints:
+  A: {type: pin, links: [ground, shaft]}
+  B: {type: slot, links: [ground, shaft]}
+"""
+
+
+@pytest.mark.parametrize("balls", [{"C": 0.1}, {"C": 0.1, "D": 0.12}])
+def test_balls_on_a_shaft_swing_alike_as_its_shape_and_as_links(balls: dict[str, float]) -> None:
+    own, links, welds = "", "", ""
+    for (name, radius), x in zip(balls.items(), (0.3, 0.6), strict=False):
+        sphere = f"{{type: sphere, center: [%g, 0], radius: {radius}, density: 7850}}"
+        own += f", {sphere % x}"
+        links += f"  ball_{name}: {{points: {{{name}: [0, 0]}}, shape: [{sphere % 0}]}}\n"
+        welds += f"  {name}: {{type: weld, links: [shaft, ball_{name}]}}\n"
+    text = BOSSED.replace("  ballsLINKS\n", "")
+    one = da.critical_speeds(da.statics(da.loads(text.replace("SPHERES", own))), "shaft")
+    text = BOSSED.replace("SPHERES", "").replace("  ballsLINKS\n", links) + welds
+    other = da.critical_speeds(da.statics(da.loads(text)), "shaft")
+    assert one.speeds == pytest.approx(other.speeds, rel=1e-9)
+    assert (one.dunkerley, one.rayleigh) == pytest.approx((other.dunkerley, other.rayleigh), rel=1e-9)
+    said = [" ".join(line.split()) for line in one.text().splitlines()]
+    for k, (radius, x) in enumerate(zip(balls.values(), ("0.3", "0.6"), strict=False)):
+        name = "shaft" if len(balls) == 1 else f"shaft {k + 1}"
+        assert f"{name} {7850 * 4 / 3 * np.pi * radius**3:.6g} {x}" in said
+    assert f"along the shaft {7850 * np.pi * 0.025**2:.6g} -" in said
+
+
 def test_a_notch_lowers_the_safety_where_it_is() -> None:
     """A crank that bends to and fro: a notch factor of 2 at its root halves the safety, at its tip not."""
     section: Any = {"rectangle": ["20 mm", "40 mm"], "ultimate": "600 MPa", "endurance": "250 MPa"}

@@ -269,8 +269,6 @@ class Graph:
         return self.mul(a, self.inverse(b))
 
     def inverse(self, a: Node) -> Node:
-        if a.op == "const":
-            return self.constant(1 / a.value)
         if a.op == "neg":
             assert a.a is not None
             return self.neg(self.inverse(a.a))

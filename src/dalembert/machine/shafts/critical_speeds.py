@@ -118,7 +118,7 @@ class CriticalSpeeds(Labelled, Drawn, Worked):
         yield TextTable(
             ["mass on the shaft", to.text("mass"), f"at {to.text('length')}"],
             [[n, to.number("mass", p.mass), to.number("length", p.place)] for n, p in self.masses.items()]
-            + [["along the shaft", to.number("mass", along), "-"]] * (along > 0),
+            + ([["along the shaft", to.number("mass", along), "-"]] if along else []),
         )
         held = ", ".join(f"{n} at {to.quantity('length', s)}" for n, s in self.supports.items())
         sag = to.quantity("length", float(np.abs(self.sag).max()))
