@@ -131,6 +131,9 @@ def test_effort_and_power_tend_to_the_books() -> None:
     weight = (5 + 30) * 9.80665 / 2
     assert g.sleeve_force == pytest.approx(weight, rel=1e-9)
     assert g.effort(0.01) == pytest.approx(weight * (0.01 + 0.01**2 / 2), rel=1e-9)
+    heights = 0.25 * np.sin(np.radians(np.linspace(60, 35, 401)))
+    assert g.book_power(0.1) == pytest.approx(4 * 0.1**2 / 1.2 * weight * heights, rel=1e-9)
+    assert g.book_effort(0.1) == pytest.approx(0.1 * weight, rel=1e-9)
     middle = 100
     assert g.power(0.01)[middle] == pytest.approx(g.book_power(0.01)[middle], rel=2e-2)
     assert g.lift_for(0.01)[middle] == pytest.approx(

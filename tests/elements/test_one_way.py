@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -139,6 +140,59 @@ def test_a_ratchet_engages_at_its_teeth_with_an_impact(seed: int) -> None:
     assert s.joint_stop_force["K"].min() > -1e-9
     least = np.maximum.accumulate(np.floor((s.position("B") - s.position("A")) / pitch + 1e-9)) * pitch
     assert ((s.position("B") - s.position("A")) - least).min() > -1e-7  # never back behind a tooth
+
+
+HOIST = """
+links: {ground: {points: {O: [0, 0]}}, wheel: {points: {O: [0, 0]}, inertia: 0.5}}
+joints:
+  B: {type: pin, links: [ground, wheel], at: O}
+  K: {type: ratchet, links: [ground, wheel], at: O, free: FREE, teeth: 12, angle: ANGLE deg}
+drives: {B: {effort: EFFORT}}
+start: {B: {position: START deg, speed: SPEED rad/s}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("free", "angle", "start", "speed", "tooth"),
+    [
+        ("ccw", 0, 10, 2, 60),  # up to 10 deg + 1 rad, and back
+        ("ccw", 7, 10, 2, 67),
+        ("ccw", -20, 10, 2, 40),
+        ("ccw", 10, 10, 2, 40),
+        ("cw", 7, 10, -2, -23),
+        ("ccw", 10, 10, 0, 10),
+        ("ccw", 11, 10, 0, -19),
+        ("cw", 11, 10, 0, 11),
+    ],
+)
+def test_a_wheel_falls_back_on_the_last_tooth_that_it_has_passed(
+    free: str, angle: float, start: float, speed: float, tooth: float
+) -> None:
+    """0.5 kg m2 under 1 N m: the work of the fall is lost at the tooth."""
+    way = 1 if free == "ccw" else -1
+    text = HOIST.replace("FREE", free).replace("ANGLE", str(angle)).replace("EFFORT", f"{-way}")
+    s = da.simulate(da.loads(text.replace("START", str(start)).replace("SPEED", str(speed))), "5 s", count=2)
+    fall = way * (math.radians(start - tooth)) + speed**2 / 4
+    assert np.degrees(s.position("B")[-1]) == pytest.approx(tooth, abs=1e-9)
+    assert s.ended.startswith("at rest from")
+    assert sum(np.nan_to_num(e.lost) for e in s.events) == pytest.approx(fall, rel=1e-7, abs=1e-12)
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_clutch_without_teeth_holds_where_it_has_come_to_rest(way: int) -> None:
+    """After 1 s and 1 rad, without an impact."""
+    text = HOIST.replace("ratchet", "one_way").replace(", teeth: 12, angle: ANGLE deg", "")
+    text = text.replace("FREE", "ccw" if way > 0 else "cw").replace("EFFORT", f"{-way}")
+    s = da.simulate(da.loads(text.replace("START", "10").replace("SPEED", f"{2 * way}")), "5 s", count=2)
+    assert s.position("B")[-1] == pytest.approx(math.radians(10) + way, rel=1e-9)
+    assert s.ended == "at rest from 1 s on"
+    assert [(e.name, e.sentence) for e in s.events] == [("rest", "K holds")]
+    text = text.replace("START", "10").replace("SPEED", "0")
+    later = text.replace(f"effort: {-way}", f"effort: {{expression: {way}*(time - 2 s)*1 N*m/s}}")
+    s = da.simulate(da.loads(later), "5 s", count=2)
+    assert s.speed("B")[-1] == pytest.approx(9 * way, rel=1e-9)
+    said = [(e.name, e.sentence, e.time) for e in s.events]
+    assert said == [("rest", "K holds", 0.0), ("start", "K turns freely", pytest.approx(2.0, rel=1e-9))]
 
 
 @pytest.mark.parametrize(

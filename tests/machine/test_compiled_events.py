@@ -123,6 +123,28 @@ def test_corners_of_loads_and_tables_of_springs() -> None:
     assert all(text.startswith("at rest from") for text in r.ended) or (r.time == 2.0).all()
 
 
+PUSHED = """
+links: {ground: {points: {O: [0, 0]}}, block: {points: {B: [0, 0]}, mass: 2}}
+joints: {S: {type: slider, links: [ground, block], at: [O, B]}}
+drives: {S: {effort: {against: S, x: [0, 0.1, 0.3], y: [1 N, 5 N, -2 N], shift: 0.05 m}}}
+start: {S: {position: -0.1, speed: 0.5}}
+"""
+
+
+def test_an_effort_by_a_table_is_even_beyond_its_ends() -> None:
+    """Work along it: 1 N over 0.15 m, then trapezes; then 2 N against it, up to the end of the speed."""
+    r = check(
+        da.loads(PUSHED),
+        ["links.block.mass"],
+        ["effort.S"],
+        ["S.speed = 0", "9 s"],
+        [[2.0], [3.0]],
+    )
+    work = 0.15 * 1 + 0.1 * 3 + 0.2 * 1.5  # at 0.35 m
+    assert r.position[:, 0] == pytest.approx(0.35 + (work + np.array([2.0, 3.0]) * 0.125) / 2, rel=1e-7)
+    assert r.value("effort.S") == pytest.approx(5.0, rel=1e-3)
+
+
 def test_what_is_in_doubt_is_simulated_alone() -> None:
     """A design that comes to a dead centre beside one that does not says why it stops."""
     m = da.loads(FOUR_BAR.replace("effort: 0", "effort: 0, brake: 0.1 N*m"))

@@ -150,7 +150,16 @@ WRONG = [
     (np.array([0, 1, 3.0]), 1, "the positions are not even: steps of 57.3 to 114.6 deg"),
     (turn(8) / 3, 1, "the positions cover 120 deg, which is not a whole number of turns"),
     (turn(8), 4, "order 4 needs more than 8 positions, and there are 8"),
-    (turn(8), [0.5], r"a period of 1 turn has no harmonic of each order in \[0.5\]"),
+    (
+        turn(8),
+        [0.5],
+        r"a period of 1 turn has no harmonic of each order in \[0.5\]; its orders are integers",
+    ),
+    (
+        2 * turn(16),
+        [0.5, 0.25],
+        r"a period of 2 turns has no harmonic of each order in \[0.5, 0.25\]; its orders are multiples of 1/2",
+    ),
     (turn(2), 1, "a period needs at least 3 positions, all of them solved"),
 ]
 

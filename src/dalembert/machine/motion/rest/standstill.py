@@ -65,6 +65,7 @@ class ContactState:
         self.locked: Flags = np.zeros(self.d, bool)
         self.on_stop, self.resting = np.zeros(self.d), dict[int, str]()
         self.in_contact: set[str] = set()  # joints whose stops are contacts
+        self.clutches: set[str] = set()  # joints that hold against one sense
         dry = self.equation.dry
         self.sense, self.toward = np.ones(len(dry.own) if dry else 0), np.ones(self.d)
         self.stuck: Flags = np.zeros(dry.contacts.count if dry else 0, bool)
@@ -228,7 +229,7 @@ class ContactState:
             self.locked[k] = True
             if self.on_stop[k]:
                 if not was:
-                    self.note(t, "rest", f"{self.resting[k]} stays {self._where(k)}", of=self.resting[k])
+                    self.note(t, "rest", f"{self.resting[k]} {self._holds(k)}", of=self.resting[k])
                 return
             kind = kind_of(self.acting.drives[k].freedom, "effort")
             stalls = k in self.acting.motors and self.acting.on[k] and not self._is_late(k)
@@ -249,6 +250,8 @@ class ContactState:
             what = (
                 "lifts off"
                 if lifts
+                else "turns freely"
+                if left and name in self.clutches
                 else "leaves its stop"
                 if left
                 else "starts again"
@@ -257,8 +260,10 @@ class ContactState:
             )
             self.note(t, "lift-off" if lifts else "start" if was else "reversal", f"{name} {what}", of=name)
 
-    def _where(self, k: int) -> str:
-        return "in contact" if self.resting[k] in self.in_contact else "on its stop"
+    def _holds(self, k: int) -> str:
+        if self.resting[k] in self.in_contact:
+            return "stays in contact"
+        return "holds" if self.resting[k] in self.clutches else "stays on its stop"
 
     def _loose(self, t: float, y: Array) -> list[int]:
         """Locked drives that are no longer held."""

@@ -94,6 +94,7 @@ class StopState(ClutchState):
                 ends = replace(ends, least=-np.inf, greatest=np.inf)
             way, pitch = (float(getattr(m.joints[name], key, 0.0)) for key in ("way", "pitch"))
             self.stops.append(Stop(name, freedom, ends, joint=j, way=way, pitch=pitch))
+        self.clutches = {stop.name for stop in self.stops if stop.way}
         y = np.concatenate([actuation.position, actuation.speed])
         for stop in self.stops:
             self._place_at_start(stop, *self.motion_of(stop, 0.0, y))
