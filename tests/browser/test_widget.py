@@ -38,6 +38,7 @@ FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationF
 
 def test_python_follows_what_was_dragged() -> None:
     w, seen = da.widget(da.four_bar()), list[Any]()
+    assert {"data", "changes", "frame", "text"} <= w.get_state().keys()  # what the page is told
     w.observe(seen.append, "changes")
     before = w.result.effort("O2")
     w.changes = {"links.rocker.points.B.0": 0.2}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import zipfile
@@ -386,3 +387,58 @@ def test_tables_that_cannot_be_read_are_refused(tmp_path: Path, monkeypatch: pyt
         with pytest.raises(ModelError) as refused:
             read_table(tmp_path / name)
         assert str(refused.value) == f"{tmp_path}/{said}"
+
+
+UNDER_UNITS = {  # of the four-bar in lbf and inches: 27.482 N*m, 688.607 N at -139.678 degrees
+    "T12 [N*m];27,48": "27.48 N*m",
+    "effort.O2 [Nm];27.48": "27.48 N*m",
+    "Driving torque T12 in N m;27,48": "27.48 N*m",
+    "T12 (N m);27480 N mm": "27480 N mm",
+    "T12 [lbf in];243.2": "243.2 lbf*in",
+    "T12 (2 marks);243.2": "243.2",
+    "T12;243,2": "243.2",
+    "Reaction of A on coupler, F23 [kN];0,6886 \u2220 -139,7": "0.6886 kN @ -139.7",
+    "F23 (N);[-525, -445.6]": "[-525 N, -445.6 N]",
+    "reaction.A.coupler in N;688.6 @ 220.3": "688.6 N @ 220.3",
+    "F23 size [N];688,6;F23 direction [rad];-2,438": "688.6 N @ -2.438 rad",
+    "F23 x [N];-525.01;F23 y [kN];-0.4456": "[-525.01 N, -0.4456 kN]",
+}
+
+
+@pytest.mark.parametrize("written", UNDER_UNITS)
+def test_a_heading_gives_the_unit_of_the_numbers_under_it(written: str, tmp_path: Path) -> None:
+    """The key is in the units of the file; what a cell says itself is before the heading."""
+    cells = written.split(";")
+    rows = [["student", *cells[::2]], ["ann", *cells[1::2]]]
+    (tmp_path / "class.csv").write_text("\n".join("\t".join(row) for row in rows), encoding="utf-8")
+    asked = ({"quantity": "effort", "of": "O2"}, {"quantity": "reaction", "of": "A", "on": "coupler"})
+    key = [row | {"file": "four_bar.yaml"} for row in asked]
+    (tmp_path / "four_bar.yaml").write_text(FOUR_BAR.read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "key.json").write_text(json.dumps(key), encoding="utf-8")
+    (student,) = da.grade(tmp_path / "class.csv", tmp_path / "key.json").students
+    (mark,) = (m for m in student.marks if m.outcome != "missing")
+    assert (mark.outcome, mark.given, student.problems) == ("right", UNDER_UNITS[written], [])
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "outcome"),
+    [("27,48", "N*m", "right"), ("27.48", "Nm", "right"), ("243,2", "", "right"), ("27,48", "", "unknown")],
+)
+def test_a_table_with_a_row_a_figure_has_its_units_beside(
+    value: str, unit: str, outcome: str, tmp_path: Path
+) -> None:
+    (tmp_path / "ann.csv").write_text(f"quantity;of;value;unit\neffort;O2;{value};{unit}\n")
+    (student,) = da.grade(
+        tmp_path, [{"quantity": "effort", "of": "O2", "value": 243.2376, "unit": "lbf*in"}]
+    ).students
+    assert [m.outcome for m in student.marks] == [outcome]
+
+
+@pytest.mark.parametrize("between", [",", ";", "\t"])
+def test_a_heading_may_have_commas_of_its_own(between: str, tmp_path: Path) -> None:
+    """As many as there are columns behind the first: in quotes wherever they would be ends of columns."""
+    heads = ["student", "Reaction of A on coupler, F23", "Reaction of B on rocker, F34"]
+    quoted = heads if between == "\t" else [f'"{head}"' for head in heads]
+    (tmp_path / "class.csv").write_text("\n".join(map(between.join, (quoted, ["ann", "1", "2"]))))
+    (row,) = read_table(tmp_path / "class.csv")
+    assert (row.heads, row.cells) == (tuple(heads), dict(zip(heads, ["ann", "1", "2"], strict=True)))

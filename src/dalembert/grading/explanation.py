@@ -166,8 +166,7 @@ class _Sheet:
 
     def _with(self, best: _Option, chance: float) -> dict[int, Explanation]:
         """The figures with a mistake that is named, or possible."""
-        complete = not best.open and len(self.wrong) == len(best.offs) + len(best.slips)
-        if chance <= SURE and complete:
+        if chance <= SURE and not best.open:
             kind = "named"
         elif chance <= POSSIBLE and (not best.open or len(best.offs) > len(best.open)):
             kind = "may_be"
@@ -243,7 +242,7 @@ class _Sheet:
         wrong ones and no right one. Those that are seldom are not tried where a usual one explains everything."""
         out: list[_Option] = []
         compatible: list[tuple[int, int]] = []
-        done = 9
+        done = math.inf
         for problem in sorted(self.problems or (), key=lambda p: p.order):
             if problem.order > done:
                 break

@@ -231,6 +231,21 @@ def _unit(text: str) -> str:
     return text
 
 
+def written_unit(text: str) -> str:
+    """A unit of a force, a moment, a length, an angle or their rates as a model file writes it; empty where the text
+    is none.
+
+    >>> written_unit("Nm"), written_unit("lb-in"), written_unit("2 marks"), written_unit("s")
+    ('N*m', 'lbf*in', '', '')
+    """
+    try:
+        known = _unit(text)
+    except ValueError:
+        return ""
+    of_time = not known or unit(known).dimension[:2] + unit(known).dimension[3:] == (0, 0, 0)
+    return "" if of_time else known
+
+
 def _pounds(found: re.Match[str]) -> str:
     """Pounds of force: a figure is never a mass."""
     return "lbf" if found[1] else "*lbf"

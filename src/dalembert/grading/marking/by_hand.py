@@ -10,11 +10,11 @@ from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import answer_of, with_size
 from dalembert.grading.marking.class_sheets import Given, StudentSheet
 from dalembert.grading.marking.figure_names import FigureNames
-from dalembert.grading.marking.key import cell_value
+from dalembert.grading.marking.key import cell_value, with_units
 from dalembert.grading.marking.student_marks import StudentMarks
 from dalembert.grading.marking.table_files import read_table
 from dalembert.grading.quantities import WHOLE, WORDS
-from dalembert.grading.written_figure import WrittenFigure, readings_of
+from dalembert.grading.written_figure import WrittenFigure, readings_of, written_unit
 from dalembert.wording import quote_value
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def read_figure(one: Given, sheet: StudentSheet, names: FigureNames) -> ReadFigu
     try:
         answers = []
         for reading in w.readings or (None,):
-            keys = one.keys | {"value": reading}
+            keys = one.keys | {"value": with_units(reading, written_unit(one.unit))}
             answers.append(answer_of(with_size(keys) if one.column else keys))
     except ModelError as error:
         return ReadFigure((), str(error.at_line(*where)), cell, where)

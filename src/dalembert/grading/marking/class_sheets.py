@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,10 +10,10 @@ from typing import Any, NamedTuple
 
 from dalembert.errors import DalembertError, MissingFileError, ModelError
 from dalembert.grading.answer_sheet import about_sheet, sheet_items
-from dalembert.grading.marking.figure_names import FigureNames, columns_of
+from dalembert.grading.marking.figure_names import FigureNames, columns_of, unit_of
 from dalembert.grading.marking.key import cell_value, place
 from dalembert.grading.marking.table_files import KEYS, TableRow, is_table, read_table
-from dalembert.grading.written_figure import decimal_comma
+from dalembert.grading.written_figure import NUMBER, decimal_comma, written_unit
 
 ENDINGS = (".yaml", ".yml", ".json", ".toml", ".csv", ".xlsx")
 MOST = 5000
@@ -20,11 +21,13 @@ MOST = 5000
 
 
 class Given(NamedTuple):
-    """A figure as a student gave it: keys of an answer, its line, and its column."""
+    """A figure as a student gave it: keys of an answer, its line, its column, and the unit of its bare numbers, empty
+    if it is that of the key."""
 
     keys: dict[str, Any]
     line: int
     column: str = ""
+    unit: str = ""
 
     @property
     def name(self) -> str:
@@ -115,7 +118,7 @@ def _of_table(path: Path, names: FigureNames, given: Mapping[str, str]) -> Itera
         )
         variant = row.cells.get(columns.variant, "") if columns.variant else ""
         figures = [
-            Given(keys | {"value": row.cells[head]}, row.line, head)
+            Given(keys | {"value": row.cells[head]}, row.line, head, row.units.get(head) or unit_of(head))
             for head, keys in columns.figures.items()
             if head in row.cells
         ]
@@ -135,8 +138,10 @@ def _long(path: Path, rows: list[TableRow]) -> Iterator[StudentSheet]:
             by_student[name] = StudentSheet(name, str(path), variant, line=row.line, comma=comma)
         cells = row.cells
         keys: dict[str, object] = {key: cells[key] for key in KEYS if key in cells}
-        value = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
-        known = Given(keys | {"at": place(cells.get("at")), "value": value}, row.line)
+        value = cell_value(cells["value"]) if "value" in cells else None
+        known = Given(
+            keys | {"at": place(cells.get("at")), "value": value}, row.line, unit=cells.get("unit", "")
+        )
         by_student[name].figures.append(known)
     yield from by_student.values()
 
@@ -155,6 +160,12 @@ def _joined(figures: list[Given], names: FigureNames) -> Iterator[Given]:
                 continue
             a, b = parts.pop(pair[0]), parts.pop(pair[1])
             keys = {key: value for key, value in a.keys.items() if key != "component"}
-            text = f"{a.keys['value']}{written}{b.keys['value']}"
+            text = f"{_in_unit(a)}{written}{_in_unit(b)}"
             parts[None] = Given(keys | {"value": text}, a.line, f"{a.column}, {b.column}")
         yield from parts.values()
+
+
+def _in_unit(one: Given) -> str:
+    """The cell of a figure with the unit of its column, if it is a number alone."""
+    text, unit = str(one.keys["value"]), written_unit(one.unit)
+    return f"{text} {unit}".rstrip() if re.fullmatch(NUMBER, text) else text

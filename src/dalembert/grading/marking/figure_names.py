@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import KNOWN, named_figure
+from dalembert.grading.written_figure import written_unit
 from dalembert.model.stated_answers import parts_of_name
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ _EFFORT = re.compile(
 )
 
 _IN_UNIT = re.compile(
-    r"\s+in (?:k?N(?:[ *·.]?(?:m|mm|cm))?|newtons?|lbf?(?:[ *·.-]?(?:in|ft))?|(?:in|ft)[ *·.-]?lbf?)\.?$",
+    r"\s+in (k?N(?:[ *·.]?(?:m|mm|cm))?|newtons?|lbf?(?:[ *·.-]?(?:in|ft))?|(?:in|ft)[ *·.-]?lbf?)\.?$",
     re.I,
 )
 _SYMBOL = re.compile(r"(.*[^\s,:])[\s,:]+([FGRT]_?\{?\d[,_ ]?\d\}?)")
@@ -89,9 +90,9 @@ class FigureNames:
         {'quantity': 'reaction', 'of': 'A', 'component': 'magnitude'}
         """
         text = re.sub(r"\[[^\]]*\]|\((?!x|y|z|size|magn|dir|angle)[^)]*\)", " ", name).strip(" ._:")
+        text = _IN_UNIT.sub("", text)
         if (exact := _exact(text)) is not None:
             return exact
-        text = _IN_UNIT.sub("", text)
         if part_of := _PART_OF.fullmatch(text):
             text = f"{part_of[2]} {part_of[1]}"
         if (words := self._with_symbol(text)) is not None:
@@ -175,6 +176,16 @@ def _exact(text: str) -> dict[str, Any] | None:
     keys = named_figure(text, "")
     keys.pop("value")
     return keys
+
+
+def unit_of(head: str) -> str:
+    """The unit that a heading gives behind its words; empty without one.
+
+    >>> unit_of("Force at A (kN)"), unit_of("T12 in N m"), unit_of("F23 (size)")
+    ('kN', 'N m', '')
+    """
+    match = re.search(r"\(([^()]*)\)\s*$", head) or _IN_UNIT.search(head)
+    return match[1] if match and written_unit(match[1]) else ""
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,9 @@ import csv
 import io
 import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 
 from dalembert.errors import MissingFileError, ModelError
@@ -18,11 +19,13 @@ MOST_ROWS = 100_000
 
 
 class TableRow(NamedTuple):
-    """Cells by column, without empty ones, their line, and the headings of the table."""
+    """Cells by column, without empty ones, their line, the headings of the table, and the unit in brackets behind
+    each."""
 
     line: int
     cells: dict[str, str]
     heads: tuple[str, ...] = ()
+    units: Mapping[str, str] = MappingProxyType({})
 
 
 def is_table(path: Path) -> bool:
@@ -40,8 +43,8 @@ def read_table(path: Path) -> list[TableRow]:
 
 def _of_csv(path: Path) -> Iterator[tuple[int, list[str]]]:
     text = file_text(path)
-    first = text.lstrip("\r\n").split("\n", 1)[0]
-    between = max(",;\t", key=first.count)
+    first = re.sub(r'"[^"]*"', "", text.lstrip("\r\n").split("\n", 1)[0])
+    between = max("\t;,", key=first.count)  # a comma may be one of a heading
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=between, strict=True)
     try:
         for cells in reader:
@@ -70,6 +73,7 @@ def _of_workbook(path: Path) -> Iterator[tuple[int, list[str]]]:
 
 def _rows(lines: Iterator[tuple[int, list[str]]], path: Path) -> list[TableRow]:
     heads: list[str] = []
+    units: dict[str, str] = {}
     out: list[TableRow] = []
     for line, cells in lines:
         cells = [cell.strip() for cell in cells]
@@ -78,9 +82,10 @@ def _rows(lines: Iterator[tuple[int, list[str]]], path: Path) -> list[TableRow]:
         if not heads:
             heads = [re.sub(r"\s*\[.*\]$", "", cell) for cell in cells]
             heads = [head.lower() if head.lower() in COLUMNS else head for head in heads]
+            units = {h: cell[len(h) :].strip(" []") for h, cell in zip(heads, cells, strict=True)}
             continue
         named = {head: cell for head, cell in zip(heads, cells, strict=False) if head and cell}
-        out.append(TableRow(line, named, tuple(filter(None, heads))))
+        out.append(TableRow(line, named, tuple(filter(None, heads)), units))
         if len(out) > MOST_ROWS:
             raise ModelError(f"the table has more than {MOST_ROWS} rows", "divide it", (), str(path), line)
     return out
