@@ -28,6 +28,7 @@ PLANE = [
     "power.O2",
     "reaction.A.magnitude^2 - 2*reaction.B.magnitude",
     "effort.O2^0 + 3*effort.O2^-2 - reaction.A.magnitude^1.5",
+    "effort.O2^16 + effort.O2^-16",
 ]
 
 

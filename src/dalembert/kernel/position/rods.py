@@ -43,13 +43,12 @@ def without_rods(m: TracePlan) -> tuple[list[Rod], TracePlan]:
     gone = [rod.link for rod in rods]
     kept = np.flatnonzero(~np.isin(s.ends, gone).any(axis=0))
     families = [*select_rows(s, kept), _distances(rods, len(kept))]
-    extra = np.full(len(rods), -1)
     rows = Rows(
         len(kept) + len(rods),
         s.links,
         tuple(families),
-        np.concatenate([s.joint[kept], extra]),
-        np.concatenate([s.angular[kept], extra > 0]),
+        np.concatenate([s.joint[kept], np.full(len(rods), -1)]),
+        np.concatenate([s.angular[kept], np.zeros(len(rods), bool)]),
     )
     target = np.concatenate([m.target[kept], trace_array(m.graph, [rod.length for rod in rods])])
     turns = {new: m.turns[old] for new, old in enumerate(kept.tolist()) if old in m.turns}
