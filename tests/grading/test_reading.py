@@ -367,6 +367,9 @@ def test_of_a_formula_in_a_workbook_its_number_is_read_and_every_row_counts(tmp_
     assert rows[0].heads == ("student", "effort.O2")
 
 
+QUOTES = "write numbers with commas in quotes, or ; between the columns"
+
+
 def test_tables_that_cannot_be_read_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(table_files, "MOST_ROWS", 3)
     texts = {
@@ -374,6 +377,7 @@ def test_tables_that_cannot_be_read_are_refused(tmp_path: Path, monkeypatch: pyt
         "four.csv": "a\n1\n2\n3\n4\n",
         "text.xlsx": "a",
         "heads.csv": "a,b\n",
+        "comma.csv": "student,T12,\nann,27,48,\nben,30,,\ncem,27,48,5\n",
     }
     for name, text in texts.items():
         (tmp_path / name).write_text(text)
@@ -381,6 +385,7 @@ def test_tables_that_cannot_be_read_are_refused(tmp_path: Path, monkeypatch: pyt
     for name, said in (
         ("four.csv", "four.csv:5: the table has more than 3 rows; divide it"),
         ("text.xlsx", "text.xlsx: the file is not a workbook; save it as .xlsx or CSV"),
+        ("comma.csv", f"comma.csv:4: the row has 4 cells, and the heading 3; {QUOTES}"),
         ("heads.csv", "heads.csv:1: the table has no rows; write a heading and one row per figure"),
         ("none.xlsx", "none.xlsx: file not found; name a table (.csv, .xlsx)"),
     ):
@@ -442,3 +447,37 @@ def test_a_heading_may_have_commas_of_its_own(between: str, tmp_path: Path) -> N
     (tmp_path / "class.csv").write_text("\n".join(map(between.join, (quoted, ["ann", "1", "2"]))))
     (row,) = read_table(tmp_path / "class.csv")
     assert (row.heads, row.cells) == (tuple(heads), dict(zip(heads, ["ann", "1", "2"], strict=True)))
+
+
+@pytest.mark.parametrize(
+    ("cell", "given", "outcome", "noted"),
+    [  # of [118.026, 100.172], of the size 154.805
+        (
+            "118,100",
+            "[118 lbf, 100 lbf]",
+            "right",
+            "'118,100' may be 118.100 or 118100 or [118, 100]: [118, 100], the",
+        ),
+        ("118, 100", "[118 lbf, 100 lbf]", "right", ""),
+        ("118.0,100.2", "[118.0 lbf, 100.2 lbf]", "right", ""),
+        (
+            "118 100",
+            "[118 lbf, 100 lbf]",
+            "right",
+            "'118 100' may be 118100 or [118, 100]: [118, 100], the",
+        ),
+        ("-118,100", "[-118 lbf, 100 lbf]", "sign", "counts"),
+        ("154.8", "154.8 lbf", "right", ""),
+        ("154,805", "154.805 lbf", "right", "154.805, the nearer to the key, counts"),
+    ],
+)
+def test_two_numbers_for_a_force_may_be_its_components(
+    cell: str, given: str, outcome: str, noted: str, tmp_path: Path
+) -> None:
+    """Where the mark between them may be a decimal one, or one of thousands, the nearer reading counts."""
+    (tmp_path / "class.csv").write_text(f"student;reaction.A\nann;{cell}\n", encoding="utf-8")
+    right = {"of": "A", "on": "crank", "value": "[118.026, 100.172]", "unit": "lbf"}
+    (student,) = da.grade(tmp_path / "class.csv", [{"quantity": "reaction"} | right]).students
+    assert [(m.given, m.outcome) for m in student.marks] == [(given, outcome)]
+    assert noted in " ".join(student.problems)
+    assert len(student.problems) == bool(noted)

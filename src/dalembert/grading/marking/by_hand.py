@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from dalembert.errors import ModelError
-from dalembert.grading.answer_sheet import answer_of, with_size
+from dalembert.grading.answer_sheet import VECTORS, answer_of, with_size
+from dalembert.grading.file_answers import value_text
 from dalembert.grading.marking.class_sheets import Given, StudentSheet
 from dalembert.grading.marking.figure_names import FigureNames
 from dalembert.grading.marking.key import cell_value, with_units
@@ -24,6 +26,10 @@ SYMBOLS = ("f", "r", "t", "m", "ans", "answer", "result", "x")
 """Names before a value that say nothing: they fit every column."""
 
 
+PAIR = re.compile(r"([-+]?\d+(?:\.\d+)?)(?:\s*,\s*|\s+)([-+]?\d+(?:\.\d+)?)")
+"""Two numbers that may be components: `118,100`."""
+
+
 class ReadFigure(NamedTuple):
     """A figure of a sheet: its readings, or a sentence for the teacher; its cell, its place, and how it was read."""
 
@@ -35,8 +41,8 @@ class ReadFigure(NamedTuple):
 
     def choice(self, best: int) -> str:
         """The sentence on a cell with two readings."""
-        text = " or ".join(str(answer.value) for answer in self.answers)
-        return f"{self.cell} may be {text}: {self.answers[best].value}, the nearer to the key, counts"
+        texts = [value_text(answer.value) for answer in self.answers]
+        return f"{self.cell} may be {' or '.join(texts)}: {texts[best]}, the nearer to the key, counts"
 
 
 def read_figure(one: Given, sheet: StudentSheet, names: FigureNames) -> ReadFigure:
@@ -45,6 +51,9 @@ def read_figure(one: Given, sheet: StudentSheet, names: FigureNames) -> ReadFigu
     cell = f"{sheet.file}:{one.line}: {one.name}: {quote_value(value)}"
     word = value in (None, "") or one.keys.get("quantity") in (*WORDS, *WHOLE)
     w = WrittenFigure((value,)) if word else readings_of(value, sheet.comma)
+    if sheet.comma is not True and _may_be_vector(one):
+        components = readings_of(PAIR.sub(r"\1; \2", str(value)), False).readings
+        w = w._replace(readings=(*w.readings, *(c for c in components if c not in w.readings)))
     if w.name and w.name.lower() not in SYMBOLS and not _fits(names.keys(w.name), one):
         return ReadFigure((), f"{cell} names {w.name}: it is read by hand", cell, where)
     if not w.readings and not w.blank:
@@ -57,6 +66,12 @@ def read_figure(one: Given, sheet: StudentSheet, names: FigureNames) -> ReadFigu
     except ModelError as error:
         return ReadFigure((), str(error.at_line(*where)), cell, where)
     return ReadFigure(tuple(answers), "", cell, where, w.notes)
+
+
+def _may_be_vector(one: Given) -> bool:
+    """True if a cell for a vector has two numbers with a comma or a space between, which may be one number, too."""
+    vector = str(one.keys.get("quantity")).startswith(VECTORS) and not one.keys.get("component")
+    return bool(one.column) and vector and PAIR.fullmatch(str(one.keys["value"])) is not None
 
 
 def _fits(keys: dict[str, object] | None, one: Given) -> bool:

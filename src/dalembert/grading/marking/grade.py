@@ -235,9 +235,11 @@ class _Marker:
             return _Taken(question, None, None, read.problem, read.where[1])
         some = [self._one(variant, question, answer, read.where) for answer in read.answers]
 
-        def off(k: int) -> float:
+        def off(k: int) -> tuple[bool, float]:
             value = some[k].found
-            return 0.0 if value is None or isinstance(value, Verdict) or value.met else value.off
+            if not isinstance(value, StudentValue) or value.met:
+                return False, 0.0
+            return bool(value.impossible), value.off
 
         best = min(range(len(some)), key=off)
         if len(some) > 1:

@@ -84,6 +84,10 @@ def _rows(lines: Iterator[tuple[int, list[str]]], path: Path) -> list[TableRow]:
             heads = [head.lower() if head.lower() in COLUMNS else head for head in heads]
             units = {h: cell[len(h) :].strip(" []") for h, cell in zip(heads, cells, strict=True)}
             continue
+        if any(cells[len(heads) :]) and path.suffix.lower() == ".csv":
+            what = f"the row has {len(cells)} cells, and the heading {len(heads)}"
+            remedy = "write numbers with commas in quotes, or ; between the columns"
+            raise ModelError(what, remedy, (), str(path), line)
         named = {head: cell for head, cell in zip(heads, cells, strict=False) if head and cell}
         out.append(TableRow(line, named, tuple(filter(None, heads)), units))
         if len(out) > MOST_ROWS:
