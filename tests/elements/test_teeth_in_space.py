@@ -10,6 +10,8 @@ import pytest
 from scipy.optimize import brentq
 
 import dalembert as da
+from dalembert.reports.working import working
+from tests.space.printed import lines
 
 WORM = """space: space
 units: {length: mm, moment: N*m}
@@ -50,6 +52,40 @@ def test_a_worm_both_ways() -> None:
     locked = m.with_values({"drives.W": {"position": 0.0, "speed": -10.0}, "loads.T.value": -100.0})
     for mu, word in ((0.199, "ok"), (0.2005, "self_locking")):
         assert da.statics(locked.with_values({"joints.G.friction.coefficient": mu})).status == (word,)
+
+
+SPUR = WORM.replace("helix_angle: 78", "helix_angle: 0").replace("[1, 0, 0]", "[0, 0, 1]")
+
+
+@pytest.mark.parametrize(
+    ("text", "law"),
+    [
+        (
+            WORM,
+            [
+                ("S_{G}", "", '3149 "N"'),
+                ("|F_{f23}| = mu_{G} S_{G}", "0.06 cdot 3149", '188.9 "N"'),
+                ("F_{f23}", "", '(−184.8, 0, 39.28) "N, ground axes"'),
+            ],
+        ),
+        (
+            SPUR.replace("friction: {coefficient: 0.06}", "efficiency: 0.9"),
+            [
+                ("F_{t,G}", "", '760.0 "N"'),
+                (
+                    "|M_{f23}| = (1 − eta_{G}) e_{G} F_{t,G}",
+                    "0.1 cdot 21.05 cdot 760.0 / 1000",  # 2 N m of the driver's 20 at 10 rad/s of 12.5
+                    '1.600 "N·m"',
+                ),
+                ("M_{f23}", "", '(0, 0, 1.600) "N·m, ground axes"'),
+            ],
+        ),
+    ],
+)
+def test_the_lines_of_the_friction_of_teeth(text: str, law: list[tuple[str, str, str]]) -> None:
+    every = [(w.letters, w.numbers, w.result) for w in lines(working(da.statics(da.loads(text))))]
+    first = every.index(law[0])
+    assert every[first : first + 3] == law
 
 
 def test_the_forces_of_a_worm_of_two_starts() -> None:

@@ -43,6 +43,46 @@ def test_a_panel_larger_than_a_page_has_one_to_its_size() -> None:
     assert [(p.width, p.height) for p in break_pages(along)] == [PAPERS["a4"][::-1]]
 
 
+def panel(width: float, height: float, x: float = 0.0, top: float = 0.0) -> Group:
+    return Group((Line(((x, top - height), (x + width, top))),), f"{width:g} x {height:g}")
+
+
+A4, ACROSS = PAPERS["a4"], PAPERS["a4"][::-1]
+
+
+@pytest.mark.parametrize(
+    ("panels", "pages"),
+    [
+        (  # the second row begins below the highest of the first, whatever would fit beside it
+            [panel(50, 60), panel(40, 30, 90), panel(20, 10, 0, -70)],
+            [(A4, [(12, 225, 62, 285), (70, 255, 110, 285), (12, 207, 32, 217)])],
+        ),
+        ([panel(89, 9), panel(89, 9, 99)], [(A4, [(12, 276, 101, 285), (109, 276, 198, 285)])]),
+        ([panel(89, 9), panel(89.5, 9, 99)], [(A4, [(12, 276, 101, 285), (12, 259, 101.5, 268)])]),
+        ([panel(100, 173), panel(100, 92, 0, -200)], [(A4, [(12, 112, 112, 285), (12, 12, 112, 104)])]),
+        (
+            [panel(100, 173), panel(100, 92.5, 0, -200)],
+            [(A4, [(12, 112, 112, 285)]), (A4, [(12, 192.5, 112, 285)])],
+        ),
+        ([panel(186, 9), panel(9, 9, 0, -9)], [(A4, [(12, 276, 198, 285), (12, 259, 21, 268)])]),
+        ([panel(186.5, 9), panel(9, 9, 0, -9)], [(ACROSS, [(12, 189, 198.5, 198), (12, 172, 21, 181)])]),
+        ([panel(273, 186), panel(9, 9, 0, -9)], [(ACROSS, [(12, 12, 285, 198)]), (A4, [(12, 276, 21, 285)])]),
+        ([panel(186.5, 186.5)], [((210.5, 210.5), [(12, 12, 198.5, 198.5)])]),
+        ([panel(9, 273.5)], [((33, 297.5), [(12, 12, 21, 285.5)])]),
+        ([panel(9, 9), Line(((0, 0), (99, 0)))], [(A4, [(12, 276, 111, 285)])]),
+    ],
+)
+def test_where_panels_stand_on_pages(
+    panels: list[Group | Line],
+    pages: list[tuple[tuple[float, float], list[tuple[float, float, float, float]]]],
+) -> None:
+    found = [
+        ((page.width, page.height), [pytest.approx(Scene((item,)).bounds) for item in page.items])
+        for page in break_pages(Scene(tuple(panels)))
+    ]
+    assert found == pages
+
+
 def test_a_pdf_has_pages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file, out = str(examples()["four_bar"]), tmp_path / "a.pdf"
 

@@ -12,6 +12,8 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.core.friction.rod_spin import STEEPEST, solve_spins
 from dalembert.model.description import mechanism
+from dalembert.reports.working import working
+from tests.space.printed import lines
 
 PIN = {"coefficient": 0.2, "radius": "8 mm"}
 
@@ -170,6 +172,15 @@ def test_ball_joint_turned_about_a_slanted_axis() -> None:
     couple = radius * sin(atan(mu)) * np.linalg.norm(force)
     assert r.reaction_moment("P")[0] == pytest.approx(-couple * axis)
     assert r.effort("P") == pytest.approx([couple])
+    law = [w for w in lines(working(r)) if w.letters.startswith(("r_{P}", "S_{P}", "|M_{f", "M_{f"))]
+    vector = ", ".join(f"{x:.4g}".replace("-", "−") for x in -couple * axis)
+    size = float(np.linalg.norm(force))
+    assert [(w.letters, w.result) for w in law] == [
+        ("r_{P} = R_{P} sin (arctan mu_{P})", f'{radius * sin(atan(mu)):.6f} "m"'),
+        ("S_{P}", f'{size:.2f} "N"'),
+        ("|M_{f12,P}| = r_{P} S_{P}", f'{couple:.4f} "N·m"'),
+        ("M_{f12,P}", f'({vector}) "N·m, ground axes"'),
+    ]
 
 
 def test_a_rod_between_two_balls_spins_as_their_friction_lets_it() -> None:

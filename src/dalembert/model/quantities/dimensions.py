@@ -133,7 +133,7 @@ def is_bare(powers: Powers | None, kind: str, text: str) -> bool:
     Raises ModelError where it is of another kind.
     """
     if powers is None or kind == "number":
-        if powers is not None and (any(powers[:3]) or powers[3]):
+        if powers is not None and any(powers):
             raise _unfit(powers, kind, text)
         return False
     need = KINDS[kind].dimension
@@ -141,7 +141,7 @@ def is_bare(powers: Powers | None, kind: str, text: str) -> bool:
         return False
     if powers[:3] == need[:3] and powers[3] in (need[3], None):
         return False
-    if any(powers[:3]) or powers[3]:
+    if any(powers):
         raise _unfit(powers, kind, text)
     return True
 

@@ -52,12 +52,12 @@ def link_equations(
 
 
 def _line(left: str, pieces: list[EquationTerm], shown: Shown, kind: str) -> Working:
-    """One sum; what is left of it beside its largest term is rounding."""
+    """One sum; 1e-9 of its terms' sizes and less is rounding."""
     if not pieces:
         none = "no force acts along it" if kind == "force" else "no moment acts on the link"
         return Working(f'{left}: quad "{none}"')
     total = math.fsum(p.value for p in pieces)
-    largest = max((abs(p.value) for p in pieces), default=0.0)
-    shown_total = shown.notation.number(0.0 if abs(total) < 1e-9 * largest else total)
+    size = math.fsum(abs(p.value) for p in pieces)
+    shown_total = shown.notation.number(0.0 if abs(total) < 1e-9 * size else total)
     letters, numbers = join_signed([p.letters for p in pieces]), join_signed([p.numbers for p in pieces])
     return Working(f"{left}: quad {letters} = 0", f"{numbers} = {shown.with_unit(shown_total, kind)}")

@@ -108,7 +108,7 @@ def _with_headings(rows: Iterator[list[Scene]]) -> Iterator[list[list[Scene]]]:
 
 def _need(lines: Sequence[Sequence[Scene]]) -> tuple[float, float]:
     """Width and height of a page that just contains some rows."""
-    wide = max((sum(_size(p)[0] + GAP for p in line) - GAP for line in lines), default=0.0)
+    wide = max(sum(_size(p)[0] + GAP for p in line) - GAP for line in lines)
     return wide + 2 * MARGIN, sum(_height(line) + GAP for line in lines) - GAP + 2 * MARGIN
 
 
