@@ -83,6 +83,38 @@ def test_where_panels_stand_on_pages(
     assert found == pages
 
 
+def stack(width: float, height: float, top: float) -> Group:
+    """Two panels below each other."""
+    low = height / 2 + 5
+    return Group(
+        (panel(width, height / 2 - 5, 0, top), panel(width, height - low, 0, top - low)),
+        f"both {width:g} x {height:g}",
+    )
+
+
+HEAD = Group((Text((0.0, -210.0), "Heading"),), "heading")
+
+
+@pytest.mark.parametrize(
+    ("panels", "pages"),
+    [
+        ([panel(99, 200), HEAD, panel(99, 60, 0, -220)], [["99 x 200"], ["heading", "99 x 60"]]),
+        ([panel(99, 200), HEAD, panel(99, 40, 0, -220)], [["99 x 200", "heading", "99 x 40"]]),
+        ([panel(99, 200), HEAD], [["99 x 200", "heading"]]),
+        ([panel(9, 9, 0, 30), stack(150, 250, 0)], [["9 x 9", "both 150 x 250"]]),
+        ([panel(9, 9, 0, 30), stack(150, 290, 0)], [["9 x 9", "150 x 140"], ["150 x 140"]]),
+        ([panel(9, 9, 0, 30), stack(250, 110, 0)], [["9 x 9", "both 250 x 110"]]),
+        ([panel(9, 9, 0, 30), stack(250, 210, 0)], [["9 x 9", "250 x 100"], ["250 x 100"]]),
+        ([panel(9, 9, 0, 30), stack(300, 90, 0)], [["9 x 9"], ["300 x 40"], ["300 x 40"]]),
+    ],
+)
+def test_headings_stand_above_their_panels_and_stacks_that_are_too_large_are_unpacked(
+    panels: list[Group], pages: list[list[str]]
+) -> None:
+    found = break_pages(Scene(tuple(panels)))
+    assert [[getattr(item, "name", "") for item in page.items] for page in found] == pages
+
+
 def test_a_pdf_has_pages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file, out = str(examples()["four_bar"]), tmp_path / "a.pdf"
 
