@@ -173,8 +173,9 @@ def test_charts_of_shaking_and_its_harmonics() -> None:
     assert {"order", "Amplitude in lbf", "x", "y", "Harmonics of the force"} <= texts
 
 
-def test_charts_of_a_motor_and_its_drive() -> None:
-    r = result("four_bar")
+@pytest.mark.parametrize("turns", [25.0, -25.0])
+def test_charts_of_a_motor_and_its_drive(turns: float) -> None:
+    r = da.dynamics(da.load(examples()["four_bar"]).with_values({"drives.O2.speed": turns}), positions=24)
     c = da.motor(r, inertia=0.002, ratio=3.0, curve=MotorCurve((0.0, 200.0), (900.0, 300.0)))
     x = np.degrees(r.drive_position("O2"))
     scenes = {s.title: s for s in c.drawings()}
@@ -194,8 +195,11 @@ def test_charts_of_a_motor_and_its_drive() -> None:
         check(scenes[title], ("O2 in °", "Torque in lbf·in"), x, known)
 
 
-def test_charts_of_a_flywheel() -> None:
-    steady = da.load(examples()["four_bar"]).with_values({"drives.O2.acceleration": 0.0})
+@pytest.mark.parametrize("turns", [25.0, -25.0])
+def test_charts_of_a_flywheel(turns: float) -> None:
+    steady = da.load(examples()["four_bar"]).with_values(
+        {"drives.O2.speed": turns, "drives.O2.acceleration": 0.0}
+    )
     r = da.dynamics(steady, positions=72)
     f = da.flywheel(r, Cs=0.02)
     turning, energy, *speeds = f.drawings()
