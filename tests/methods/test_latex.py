@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 from typing import Any
 
 import pytest
@@ -10,8 +11,9 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.reports.formula import latex, plain, typst
-from dalembert.reports.sheet import ReportSheet
+from dalembert.reports.sheet import Beside, Drawings, Paragraph, ReportSheet
 from dalembert.reports.writers.latex_writer import LONGEST, latex_text
+from dalembert.views.paper.scene import Line, Scene
 from tests.methods.latex_source import problems
 from tests.tiers import crossed, tiers
 
@@ -100,6 +102,35 @@ def test_names_may_have_any_sign(sign: str, links: Any) -> None:
 def test_names_may_have_any_sign_in_html(signs: str) -> None:
     for sign in signs:
         assert da.report(da.solve(named(sign.strip() or "x"))).to_bytes("html")
+
+
+@pytest.mark.parametrize(
+    ("size", "scaled", "columns", "part"),
+    [
+        ((200, 100), False, 1, 174 / 206),
+        ((50, 300), False, 1, 240 / 306),
+        ((100, 100), False, 2, 83 / 106),
+        ((100, 100), True, 2, 1.0),
+        ((168, 234), False, 1, 1.0),
+        ((168.5, 99), False, 1, 174 / 174.5),
+        ((99, 234.5), False, 1, 240 / 240.5),
+    ],
+)
+def test_drawings_are_made_as_small_as_the_page_asks(
+    size: tuple[float, float], scaled: bool, columns: int, part: float
+) -> None:
+    """The page is 174 mm by 240 mm, a drawing has 3 mm around it, two in a row are 8 mm apart."""
+    scene = Scene((Line(((0, 0), size)),), "Title", scales={"length": 1.0} if scaled else {})
+    text = latex_text(ReportSheet("t", blocks=[Drawings((scene,), "", columns)]))
+    found = re.findall(r"\\scalebox\{([\d.]+)\}", text)
+    assert [float(x) for x in found] == ([] if part == 1.0 else [round(part, 3)])
+
+
+def test_text_stands_beside_a_drawing_of_half_the_page() -> None:
+    for width, rooms in ((60.0, ["66.0", "104.0"]), (90.0, ["96.0", "74.0"]), (90.5, [])):
+        scene = Scene((Line(((0, 0), (width, 50))),))
+        text = latex_text(ReportSheet("t", blocks=[Beside(scene, (Paragraph("words"),))]))
+        assert re.findall(r"minipage\}\[t\]\{([\d.]+)mm", text) == rooms
 
 
 FORMULAS = {

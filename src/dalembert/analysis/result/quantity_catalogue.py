@@ -195,10 +195,9 @@ def _bounded(kind: str | KindOf, read: Read) -> dict[str, QuantityReading]:
 
 def _end(k: int, read: Read) -> Read:
     def end(r: Result, of: str) -> Array:
-        if of in r.drives or of in r.unknown_loads:
-            known = r.drives if read is _EFFORT else r.unknown_loads if read is _LOAD else ()
-            if of in known and of in _requested(r):
-                return r.interval(of)[:, k]
+        known = r.drives if read is _EFFORT else r.unknown_loads if read is _LOAD else ()
+        if of in known and of in _requested(r):
+            return r.interval(of)[:, k]
         sides = [np.asarray(read(side, of)) for side in (*r.sides, *chain.from_iterable(r.ends))]
         return np.asarray((np.fmin, np.fmax)[k].reduce(sides))
 
