@@ -19,7 +19,7 @@ from dalembert.studies.output import study_report
 from dalembert.studies.output.study_views import contour, histogram_scene, response_scene, scatter_scene
 from dalembert.views.paper.diagrams import SIZE, ticks
 from dalembert.views.paper.scene import Circle, Line, Polygon, Text
-from tests.studies.test_answers import arm
+from tests.studies.test_answers import ARM, arm
 
 
 def four_bar(**options: Any) -> StudyResult:
@@ -52,6 +52,9 @@ def test_bars_hold_every_design_and_lines_stand_at_their_values() -> None:
     assert len(lines) == 4  # median, 5 and 95 %, and the limit
     dots = [p for p in scatter_scene(r, "effort.O2", r.study.paths[0]).flat() if isinstance(p, Circle)]
     assert len(dots) == 200
+    many = arm(designs=1001).run()
+    dots = [p for p in scatter_scene(many, "effort.O", "heavy").flat() if isinstance(p, Circle)]
+    assert len(dots) == 1000
 
 
 def test_a_response_is_the_analysis_of_each_design() -> None:
@@ -104,6 +107,21 @@ def test_capability_is_the_distance_of_the_nearer_limit() -> None:
     assert r.capability("effort.O", f"< {mean + 3 * sigma} N*m") == pytest.approx(1.0, rel=1e-9)
     both = f"{mean - 2 * sigma}..{mean + 9 * sigma} N*m"
     assert r.capability("effort.O", both) == pytest.approx(2 / 3, rel=1e-9)
+
+
+def test_equal_values_are_capable_where_they_keep_the_limit() -> None:
+    """The couple of a level arm is 2 kg g 0.3 m + 5 N m, whatever changes elsewhere."""
+    m = da.loads(ARM.replace("P: [1, 0]", "P: [1, 0], Q: [size, 0]").replace("{heavy", "{size: 1 m, heavy"))
+    r = da.study(m, {"size": "± 5 %"}, ["effort.O"], designs=2).run()
+    value = float(r["effort.O"][0])
+    assert value == pytest.approx(6 * 9.80665 / 10 + 5)
+    for limit, capability in (
+        ("< 10.9 N*m", np.inf),
+        ("< 10.8 N*m", -np.inf),
+        (f"<= {value!r} N*m", np.inf),
+        ("10.9..11 N*m", -np.inf),
+    ):
+        assert r.capability("effort.O", limit) == capability
 
 
 def test_the_page_says_what_the_designs_say(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -159,6 +177,7 @@ def test_a_page_of_designs_that_fail() -> None:
     assert re.search(rf"not_assembled\s+{r.counts()['not_assembled']}\s", text)
     assert "First: design" in " ".join(text.split())
     assert r.shares()["effort.O2 < 1 kN*m"] <= 1 - failed / 60
+    assert text.count("[drawing: Response of ") == 1, "of one number"
 
 
 def test_shares_on_the_page_are_those_of_the_study() -> None:

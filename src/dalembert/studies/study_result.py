@@ -232,11 +232,14 @@ class StudyResult(NamedAnswer, Labelled, Drawn, Worked):
         return float(limit.kept(self[limit.output])[self.done].mean())
 
     def capability(self, output: str, limit: str) -> float:
-        """Process capability Cpk: the least distance of the mean from a limit over three standard deviations."""
+        """Process capability Cpk: the least distance of the mean from a limit over three standard deviations; infinite
+        where all values are equal, and negative where these are beyond the limit."""
         bounds = read_limit(output, limit, self.kinds, self.study.mechanism)
         values = self.values(output)
         mean, sigma = float(values.mean()), float(values.std())
-        return min(bounds.high - mean, mean - bounds.low) / (3 * sigma) if sigma > 0 else np.inf
+        if not sigma:
+            return np.inf if bounds.kept(values).all() else -np.inf
+        return min(bounds.high - mean, mean - bounds.low) / (3 * sigma)
 
     def shares(self) -> dict[str, float]:
         """The same for the limits of the study, and under "all" of the designs that keep them all together."""
