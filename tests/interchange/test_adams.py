@@ -278,3 +278,15 @@ def test_markers_are_in_the_axes_of_the_coordinate_system_that_is_set(tmp_path: 
     m, lost = arm(tmp_path, text.replace("marker create", f"{own}marker create", 1))
     assert lost == []
     assert m.center("arm") == pytest.approx([3e-3, 4e-3, 0])
+
+
+def test_a_part_may_have_the_name_of_its_model(tmp_path: Path) -> None:
+    named = (
+        ARM.replace("part_name = .M.arm", "part_name = M", 1)
+        .replace(".M.arm", ".M.M")
+        .replace(".M.ARM", ".m")
+    )
+    m, lost = arm(tmp_path, named)
+    assert lost == []
+    assert list(m.links) == ["ground", "M"]
+    assert da.dynamics(m).effort("O") == pytest.approx(da.dynamics(arm(tmp_path, ARM)[0]).effort("O"))

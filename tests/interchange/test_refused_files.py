@@ -145,9 +145,17 @@ def test_files_that_are_too_large_or_no_files(tmp_path: Path) -> None:
         path.write_bytes(b" " * size)
         with pytest.raises(ModelError, match=f"the file has more than {size - 1} bytes; leave"):
             read_foreign(path)
-    (tmp_path / "just.xml").write_bytes(b"<mujoco/>".ljust(5_000_000))
-    with pytest.raises(ModelError, match="the mechanism has no moving link"):
-        read_foreign(tmp_path / "just.xml")
+    for name, content, size, words in (
+        ("x.mjcf", b"<mujoco/>", 5_000_000, "the mechanism has no moving link"),
+        ("x.cmd", b"", 2_000_000, "the file makes no model of Adams"),
+        ("x.dxf", b"", 5_000_000, "the file is not DXF"),
+        ("x.pmks", b"x", 10_000_000, "the file has 0 links of PMKS"),
+        ("y.pmks", b"?".ljust(20_001, b"0"), 0, "the linkage of PMKS is not complete"),
+        ("z.pmks", b"?".ljust(20_002, b"0"), 0, "the link of PMKS. has more than 20000 characters"),
+    ):
+        (tmp_path / name).write_bytes(content.ljust(size))
+        with pytest.raises(ModelError, match=words):
+            read_foreign(tmp_path / name)
     position = {"id": "a", "type": "ground", "position": [1e70, 0]}
     (tmp_path / "x.json").write_text(json.dumps({"joints": [position], "links": []}))
     with pytest.raises(ModelError, match="a position is not finite; write finite numbers"):

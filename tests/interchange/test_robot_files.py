@@ -146,7 +146,8 @@ BOMB = b'<!DOCTYPE x [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;&a;">]><mujoco>&b;</mu
     ("content", "words"),
     [
         (BOMB, "declares a document type"),
-        (b"<mujoco>" + b"<a>" * 500 + b"</a>" * 500 + b"</mujoco>", "too many elements"),
+        (b"<mujoco>" + b"<a>" * 200 + b"</a>" * 200 + b"</mujoco>", "too many elements"),
+        (b"<mujoco>" + b"<a>" * 199 + b"</a>" * 199 + b"</mujoco>", "no moving link"),
         (b"<mujoco>" + b" " * 5_000_000 + b"</mujoco>", "more than 5000000 bytes"),
         (b"<mujoco><worldbody></mujoco>", "not XML: mismatched tag"),
         (b"<robot/>", "<robot> is not MJCF"),

@@ -161,7 +161,8 @@ REFUSED = {
         (mjcf("<geom type='cylinder' size='1' fromto='1 1 1 1 1 1'/>"), "needs a size and two different ends"),
         (mjcf("<geom type='capsule' fromto='1 1 1 1 1 2'/>"), "a geom with fromto needs a size"),
         (mjcf("<geom size='x'/>"), "'x' is not a list of numbers; write numbers"),
-        (mjcf(f"<geom size='{'1 ' * 6000}'/>"), "has too many numbers; give a shorter list"),
+        (mjcf(f"<geom size='{'1 ' * 5000}1'/>"), "has too many numbers; give a shorter list"),
+        (mjcf(f"<body pos='{'1 ' * 5000}'/>"), "pos of <body> has 5000 numbers; give 3"),
         (mjcf("<body><inertial pos='0 0 0'/></body>"), "<inertial> has no mass; give mass"),
         (equality("<connect body1='x' anchor='0 0 0'/>"), "unknown body 'x'; name a body of the file"),
         (equality("<connect body1='b'/>"), "<connect> has no anchor; give anchor"),
@@ -243,7 +244,8 @@ def test_what_a_mechanism_cannot_have_is_refused_at_its_line(
         ("closed_loop: [[j, k]]\ntype: [2d]", "loop ['j', 'k'] of type 2d is not supported; use 3d or 6d"),
         ("closed_loop: [[j]]\ntype: [3d]", "loop ['j'] of type 3d is not supported"),
         ("closed_loop: [[j, x]]\ntype: [3d]", "the robot has no joint or link 'x' that would be the end of a loop"),
-        ("# " + "x" * 100_000, "the file of loops is too large; give pairs of frames"),
+        ("#" + "x" * 100_000, "the file of loops is too large; give pairs of frames"),
+        ("closed_loop: [[j]]\ntype: [3d]".ljust(100_000), "loop ['j'] of type 3d is not supported"),
     ],
 )  # fmt: skip
 def test_loops_beside_a_robot_are_refused(loops: str, words: str, tmp_path: Path) -> None:
@@ -283,3 +285,19 @@ def test_two_turns_in_a_ratio_are_wheels_of_that_ratio(
     first, second = m.joints["gear pinion"].radii
     assert first / second == pytest.approx(abs(ratio))
     assert abs(first - second if ratio > 0 else first + second) == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize(("length", "kept"), [("0", 0.0), ("0.25", 0.25), ("-1", None), ("0.1 0.3", None)])
+def test_a_tendon_of_one_length_is_a_spring(length: str, kept: float | None, tmp_path: Path) -> None:
+    """Also one that pulls down to no length; one without a length of its own, or slack between two, is said."""
+    tendon = f"<tendon><spatial name='t' stiffness='3' springlength='{length}'>"
+    tendon += "<site site='a'/><site site='c'/></spatial></tendon>"
+    body = "<body name='b'><joint type='free'/><geom size='1'/><site name='c' pos='0 2 0'/></body>"
+    text = f"<mujoco><worldbody><site name='a' pos='0 0 1'/>{body}</worldbody>{tendon}</mujoco>"
+    (tmp_path / "x.xml").write_text(text, encoding="utf-8")
+    m, lost = read_foreign(tmp_path / "x.xml")
+    springs: Any = m.loads
+    assert {name: spring.free_length for name, spring in springs.items()} == (
+        {} if kept is None else {"t": kept}
+    )
+    assert any("tendon 't'" in note for note in lost) == (kept is None)

@@ -22,7 +22,7 @@ from dalembert.errors import ModelError
 from dalembert.interchange.file_formats import foreign_bytes
 from dalembert.interchange.targets.source_archive import sources_bytes
 from dalembert.interchange.targets.source_fmu import fmu_bytes
-from dalembert.interchange.targets.target_variables import kernel_of
+from dalembert.interchange.targets.target_variables import kernel_of, target_function
 from dalembert.model.drives.starting import Start
 
 RUNNER = Path(__file__).parent / "run_fmu.py"
@@ -216,6 +216,18 @@ def unpacked(m: da.Mechanism, folder: Path) -> Path:
     with zipfile.ZipFile(io.BytesIO(sources_bytes(kernel_of(m)))) as archive:
         archive.extractall(folder)
         return folder / next(name for name in archive.namelist() if name.endswith(".mjs"))
+
+
+def test_components_of_a_vector_have_letters() -> None:
+    arm = """
+space: space
+links: {ground: {points: {O: [0, 0, 0]}}, arm: {points: {O: [0, 0, 0]}, mass: 1, center: [1, 0, 0]}}
+joints: {O: {type: revolute, links: [ground, arm], axis: [0, 0, 1]}}
+drives: {O: {position: 0}}
+"""
+    k = da.compile(da.loads(arm), [], ["reaction.O", "effort.O"])
+    named = [(v.name, v.unit) for v in target_function(k, "arm").outputs]
+    assert named == [*((f"reaction.O.{letter}", "N") for letter in "xyz"), ("effort.O", "N*m")]
 
 
 def test_c_sources_build_by_make_and_print_the_first_position(tmp_path: Path) -> None:

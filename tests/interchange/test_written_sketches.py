@@ -83,12 +83,22 @@ def test_pylinkage_files_keep_every_joint(name: str, tmp_path: Path) -> None:
     assert any(note.startswith("masses, gravity and speeds") for note in lost)
 
 
+@pytest.mark.parametrize("angle", [1.0, -2.5])
+def test_a_driver_begins_at_the_angle_from_its_motor_to_its_other_joint(angle: float) -> None:
+    m = da.four_bar(positions=1).with_values({"drives.O2.position": angle})
+    links = json.loads(foreign_bytes(m, "x.pylinkage.json")[0])["links"]
+    (driver,) = [link for link in links if link["type"] == "driver"]
+    assert (driver["id"], driver["motor_joint"]) == ("crank", "O2")
+    assert driver["initial_angle"] == pytest.approx(angle)
+
+
 @pytest.mark.parametrize("rpm", [200.0, -200.0, 0.0, 12.5, -12.5])
 def test_a_link_has_the_sense_and_whole_turns_of_its_drive(rpm: float, tmp_path: Path) -> None:
     m = da.four_bar(positions=1).with_values({"drives.O2.speed": rpm * math.pi / 30})
     read, lost = back(m, tmp_path / "x.pmks")
     (drive,) = read.drives.values()
     assert float(drive.speed) * 30 / math.pi == pytest.approx(math.copysign(round(abs(rpm)), rpm), abs=1e-9)
+    assert ("?0P." in (tmp_path / "x.pmks").read_text()) == (rpm < 0), "clockwise"
     whole = rpm == round(rpm)
     assert [note for note in lost if note.startswith("speed")] == (
         [] if whole else [f"speed {abs(rpm):g} rpm: PMKS+ has whole numbers"]

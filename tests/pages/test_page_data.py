@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import re
 import zlib
 from collections.abc import Iterator
 from typing import Any
@@ -229,6 +230,45 @@ def test_strands_touch_their_wheels_wherever_the_machine_stands(name: str, cross
             out = end - (x, y)
             assert np.hypot(*out) == pytest.approx(radius)
             assert out @ along == pytest.approx(0, abs=1e-9)
+
+
+SCREW = """
+links: {ground: {points: {O: [0, 0]}}, nut: {points: {N: [0, 0]}}}
+joints: {S: {type: slider, links: [ground, nut], at: [O, N], direction: 30}}
+drives: {S: {position: [0 mm, 100 mm], screw: {lead: 8 mm, radius: 15 mm, friction: {coefficient: 0.08}}}}
+"""
+PARALLEL = """
+links: {ground: {points: {O: [0, 0]}}, wheel: {points: {O: [0, 0]}, mass: 1},
+  one: {points: {A: [0, 0]}, mass: 8}, two: {points: {B: [0, 0]}, mass: 5}}
+joints:
+  O: {type: pin, links: [ground, wheel]}
+  a: {type: slider, links: [ground, one], at: [O, A], direction: -90}
+  b: {type: slider, links: [ground, two], at: [O, B], direction: -90}
+  rope: {type: rope, parallel: true, through: [one.A, {round: wheel.O, radius: 0.12, friction: 0.15}, two.B]}
+drives: {a: {position: [0.5 m, 0.7 m]}}
+"""
+
+
+def test_a_screw_lies_behind_its_nut_wherever_this_is() -> None:
+    data = page_data(da.loads(SCREW))
+    rows, items = run_page(data), [i for i in data["views"]["mechanism"]["items"] if i["t"] == "symbol"]
+    (end,) = [rows[i["p"]].T for i in items if not i["svg"]]
+    (thread,) = [i for i in items if "per_mm" in i]
+    nut = rows[thread["p"]].T
+    long = float(re.findall(r"M-([\d.]+) ", thread["svg"])[0]) * thread["per_mm"]
+    direction = np.array([3**0.5 / 2, 0.5])
+    assert nut == pytest.approx(np.outer([0, 0.1], direction))
+    assert end == pytest.approx(np.outer([0 - long, 0.1 - long], direction))
+
+
+def test_parallel_strands_leave_the_wheel_on_the_side_on_which_the_rope_passes() -> None:
+    """Up to the wheel on its left, down on its right."""
+    data = page_data(da.loads(PARALLEL))
+    rows = run_page(data)
+    paths = [x for x in data["views"]["mechanism"]["items"] if x["t"] == "path" and "rope" in x["of"][1]]
+    up, down = (np.array([rows[p] for p in item["p"]]) for item in paths)
+    assert up == pytest.approx(np.array([[[0, 0], [-0.5, -0.7]], [[-0.12, -0.12], [0, 0]]]), abs=1e-12)
+    assert down == pytest.approx(np.array([[[0.12, 0.12], [0, 0]], [[0, 0], [0, 0.2]]]), abs=1e-12)
 
 
 def test_saved_text_is_the_mechanism() -> None:

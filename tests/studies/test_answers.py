@@ -104,6 +104,17 @@ def test_the_worst_case_says_which_corners_have_no_value() -> None:
         da.study(m, vary, ["effort.O2"], designs=10).worst_case("effort.O2")
 
 
+def test_shares_need_two_designs_and_are_none_where_nothing_scatters() -> None:
+    s = arm(designs=2)
+    two = s.contributions("effort.O", "sobol", 2)
+    assert two.sigma > 0
+    assert s.contributions_along("effort.O", 2).sigma == pytest.approx(two.sigma)
+    with pytest.raises(da.ModelError, match="designs is 1; give a whole number from 2 to"):
+        s.contributions("effort.O", "sobol", 1)
+    still = da.study(da.loads(ARM), {"pull": "± 5 %"}, ["angle.arm"]).contributions("angle.arm", "sobol", 2)
+    assert (still.shares, still.total, still.sigma) == ({"pull": 0.0}, {"pull": 0.0}, 0.0)
+
+
 def curved(part: float, reduce: str = "mean") -> Study:
     """x + part (x^2 - 1) in its spread, x normal: of variance 1 + 2 part^2."""
     text = f"""
@@ -156,6 +167,8 @@ def test_designs_that_keep_all_limits_keep_each() -> None:
     ("limit", "kept"),
     [
         ("< 3 N*m", [1, 1, 1, 0]),
+        ("<3 N*m", [1, 1, 1, 0]),
+        (">=2 N*m", [0, 1, 1, 1]),
         ("<= 2 N*m", [1, 1, 0, 0]),
         ("≤ 2.999 N*m", [1, 1, 0, 0]),
         ("> 2 N*m", [0, 1, 1, 1]),

@@ -13,7 +13,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
-from dalembert.studies import Study, StudyResult
+from dalembert.studies import Study, StudyResult, spreads
 from dalembert.studies.sampling import DesignPlan, Sobol, permuted
 from dalembert.studies.spreads import Spread, read_spread
 
@@ -124,6 +124,8 @@ CUT_NORMAL = math.sqrt(1 - 6 * math.exp(-4.5) / math.sqrt(2 * math.pi) / math.er
     [
         ("± 5 %", -20.0, "tolerance", (-21.0, -19.0), CUT_NORMAL / 3),
         ("+- 0.6", 3.0, "tolerance", (2.4, 3.6), 0.2 * CUT_NORMAL),
+        ("+/-0.6", 3.0, "tolerance", (2.4, 3.6), 0.2 * CUT_NORMAL),
+        ("±5 %", -20.0, "tolerance", (-21.0, -19.0), CUT_NORMAL / 3),
         ("normal 2 %", -50.0, "normal", (-53.0, -47.0), 1.0),
         ("normal 0.5", 0.0, "normal", (-1.5, 1.5), 0.5),
         ("uniform ± 10 %", -4.0, "uniform", (-4.4, -3.6), 0.8 / math.sqrt(12)),
@@ -174,6 +176,14 @@ def test_what_is_no_spread(said: object, what: str) -> None:
         read_spread(said, 0.0, lambda x: float(str(x)))
 
 
+def test_a_number_has_as_many_levels_as_are_allowed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(spreads, "MOST", 3)
+    assert read_spread([1.0, 5.0, 2.0], 0.0, float).levels == (1, 5, 2)
+    assert read_spread("1..2 in 3", 0.0, lambda x: float(str(x))).levels == (1, 1.5, 2)
+    with pytest.raises(da.ModelError, match="a list of 4 values says no levels; give 1 to 3"):
+        read_spread([1.0, 5.0, 2.0, 3.0], 0.0, float)
+
+
 def test_correlated_numbers_are() -> None:
     s = pump(designs=20_000, correlation={("stroke", "density"): 0.6})
     values = s.plan.values(0, 20_000)
@@ -196,6 +206,7 @@ def test_a_table_of_designs() -> None:
     m = da.load(examples()["pump"])
     s = da.study(m, ["bore", "stroke"], OUTPUTS, draw={"bore": [0.04, 0.05], "stroke": ["50 mm", "60 mm"]})
     assert s.run()["effort.O"][1] == pytest.approx(np.abs(da.dynamics(m).effort("O")).max(), rel=1e-12)
+    assert s.plan.values(0, 1).tolist() == [[0.04, 0.05]]
 
 
 def test_a_pickled_kernel_gives_the_same_bits() -> None:

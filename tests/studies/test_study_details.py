@@ -112,6 +112,15 @@ def test_limits_are_printed_with_their_shares_and_capabilities() -> None:
     assert row.split() == ["effort.O2", "<", "5.17", "N*m", f"{share:.4%}", f"{cpk:.3f}"]
 
 
+def test_columns_are_read_a_part_at_a_time() -> None:
+    r = study(outputs=["effort.O2", "reaction.A"], designs=8).run()
+    columns = {c.name: c.values for c in r.columns()}
+    assert list(columns) == ["links.coupler.mass", "status", "effort.O2", "reaction.A.1", "reaction.A.2"]
+    every = [r.study.plan.values(0, 8)[:, 0], r["effort.O2"], *r["reaction.A"].T]
+    for name, values in zip((name for name in columns if name != "status"), every, strict=True):
+        assert columns[name][2:5].tolist() == values[2:5].tolist()
+
+
 def test_outputs_of_several_numbers_are_only_named() -> None:
     r = study(outputs=["effort.O2", "reaction.A"], reduce=None).run()
     assert summary(r).split("\n\n")[-1] == (

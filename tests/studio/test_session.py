@@ -99,7 +99,10 @@ def test_a_pull_goes_on_from_the_last_one_and_leaves_the_text(session: Session) 
     assert on["pose"]["crank"][2] == pytest.approx(3 * np.pi / 2, abs=0.1), "round by the left"
     assert anew["pose"]["crank"][2] == pytest.approx(-np.pi / 2, abs=0.1)
     assert session.document.text == FOUR_BAR
-    for wrong in ({"link": "crank", "at": [float("nan"), 0], "path": [far]}, {"link": "crank"}, 3):
+    last = session.handle({"pull": {"link": "crank", "at": at, "path": ["far", *[far] * 8]}})
+    assert last["pose"]["crank"][2] == pytest.approx(np.pi / 2, abs=0.1), "of the last eight places"
+    unread = {"link": "crank", "at": at, "path": ["far", *[far] * 7]}
+    for wrong in ({"link": "crank", "at": [float("nan"), 0], "path": [far]}, {"link": "crank"}, 3, unread):
         with pytest.raises(ModelError, match="the pull cannot be read; reload the page"):
             session.handle({"pull": wrong})
     with pytest.raises(ModelError, match="this link cannot be pulled; choose a moving link"):

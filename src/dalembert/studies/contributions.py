@@ -178,7 +178,7 @@ def _places(study: Study, output: str, values: Array) -> Array:
 def _sobol_rows(study: Study, n: int) -> Array:
     """Numbers of n * (numbers + 2) designs: two samples A and B, then A with each column of B."""
     d = len(study.paths)
-    if n < 2 or n & (n - 1):
+    if n & (n - 1):
         raise ModelError(f"the number of designs, {n}, is not a power of two", "use 4096, for example")
     both = DesignPlan(
         tuple(f"{path} {half}" for half in "AB" for path in study.paths),

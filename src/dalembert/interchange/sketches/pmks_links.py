@@ -37,7 +37,7 @@ def whole(text: str) -> int:
     """
     sign = -1 if text[:1] == "0" else 1
     value = 0
-    for letter in text.removeprefix("0") if sign < 0 else text:
+    for letter in text.removeprefix("0"):
         value = 64 * value + DIGITS.index(letter)
     return sign * value
 
@@ -62,10 +62,13 @@ def read_pmks(content: bytes, file: str) -> PlaneSketch:
             return _first_json(text)
         if "\nground," in f"\n{text}" or text.startswith("mech="):
             return _first_pmks(text)
-        if len(links) != 1 or len(links[0]) > LONGEST:
+        if len(links) != 1:
             what = f"the file has {len(links)} links of PMKS+"
             one = "give one: app.pmksplus.com/?...; the name of a model file ends with .yaml, .json or .toml"
             raise ModelError(what, one, (), file, 1)
+        if len(links[0]) > LONGEST:
+            what = f"the link of PMKS+ has more than {LONGEST} characters"
+            raise ModelError(what, "leave joints out", (), file, 1)
         return _link(links[0].strip())
     except ModelError as error:
         raise error if error.file else error.at_line(file, error.line or 1) from None
@@ -80,7 +83,7 @@ def _groups(text: str) -> tuple[list[str], list[list[str]]]:
     *head, rest = text[:-1].split(".", 4)
     groups: list[list[str]] = [[]]
     for part in rest.split("."):
-        if part == "" and len(groups) < 4:
+        if part == "":
             groups.append([])
         else:
             groups[-1].append(part)

@@ -183,4 +183,4 @@ def _key(form: str, place: TextSpan, new: str) -> Change:
 
 
 def _value(text: str, form: str, place: TextSpan, new: str) -> Change:
-    return Change(place.start, place.end, value_text(new, form, text[place.start : place.end]))
+    return Change(place.start, place.end, value_text(new, form, text[place.start]))
