@@ -103,7 +103,7 @@ class DesignProblem:
         lives = {of for word, of in named if word == "life"}
         if self.motion or self.functions or self.lives.keys() != lives:
             return True
-        sized = [f"{word}.{of}" for word, of in named if word != "life"]
+        sized = sorted(f"{word}.{of}" for word, of in named if word != "life")
         try:
             if sized:
                 self.kernel(sized, None)
