@@ -307,3 +307,45 @@ def test_a_shaft_and_a_flywheel_are_columns_and_records() -> None:
     assert 2 * np.ptp(speed) / (speed.max() + speed.min()) == pytest.approx(
         f.exact.fluctuation, rel=1e-4
     )  # at 720
+
+
+LAW = """
+links: {ground: {points: {O: [0, 0]}}, arm: {points: {O: [0, 0]}, inertia: 1}}
+joints: {O: {type: pin, links: [ground, arm]}}
+drives: {O: {law: %s}}
+"""
+
+
+def law_columns(law: str) -> tuple[Any, dict[str, Any]]:
+    x = da.law(da.loads(LAW % law), "O")
+    return x, {c.name: np.asarray(c.values) for c in x.columns()}
+
+
+def test_columns_of_a_law_end_with_its_last_piece() -> None:
+    """A constant acceleration of 8 rad/s^2 for half a second, the same back: the last value is that just before."""
+    x, of = law_columns("{segments: [{dwell: 1 s}, {to: 2 rad, in: 1 s, by: parabolic}], count: 5}")
+    t, late = of["time"], np.maximum(of["time"] - 1, 0)
+    a = np.where(t < 1, 0.0, np.where(t < 1.5, 8.0, -8.0))
+    position = np.where(late < 0.5, 4 * late**2, 2 - 4 * (1 - late) ** 2)
+    speed = np.where(late < 0.5, 8 * late, 8 * (1 - late))
+    for order, known in enumerate((position, speed, a, 0 * t)):
+        name = ("drive.O", "drive.O.speed", "drive.O.acceleration", "drive.O.jerk")[order]
+        assert of[name] == pytest.approx(known, abs=1e-12)
+    assert (x.position == of["drive.O"]).all()
+    assert (x.speed == of["drive.O.speed"]).all()
+    assert (x.acceleration == of["drive.O.acceleration"]).all()
+    assert (x.jerk == of["drive.O.jerk"]).all()
+    assert (x.duration, x.peak_speed, x.peak_acceleration, x.peak_jerk) == pytest.approx((2, 4, 8, 0))
+
+
+def test_a_law_by_a_table_is_a_cubic_through_its_points() -> None:
+    """Through four points of one cubic it is that cubic, from the first time on."""
+    cubic = np.polynomial.Polynomial([0.2, 0.5, -0.4, 0.1])
+    at = np.array([0.0, 1.0, 2.0, 3.0])
+    text = ", ".join(f"{y!r} rad" for y in cubic(at).tolist())
+    x, of = law_columns(f"{{type: table, time: [1, 2, 3, 4], position: [{text}], count: 7}}")
+    assert x.duration == 3
+    for k, name in enumerate(("drive.O", "drive.O.speed", "drive.O.acceleration", "drive.O.jerk")):
+        assert of[name] == pytest.approx(cubic.deriv(k)(of["time"]) if k else cubic(of["time"]), abs=1e-12)
+    assert x.peak_jerk == pytest.approx(0.6)
+    assert x.coefficients == {}
