@@ -337,6 +337,39 @@ def test_a_flat_face_is_as_wide_as_the_follower_is_fast(sense: str) -> None:
     assert c.face_half_width == pytest.approx(2 * 0.02 / math.radians(90), rel=1e-9)
 
 
+def disc_aside(offset: float, sense: str) -> Any:
+    """A disc of 50 mm, 12 mm off its axis, under a roller of 8 mm whose guide is offset from the axis."""
+    profile = {"eccentric": 0.012, "radius": 0.05, "sense": sense}
+    tree = sliding({"roller": 0.008}, profile, drive=dict(TURN))
+    tree["links"]["ground"]["points"]["E"] = [offset, 0]
+    tree["joints"]["guide"]["at"] = ["E", "F"]
+    return da.mechanism(tree)
+
+
+@pytest.mark.parametrize("sense", ["ccw", "cw"])
+@pytest.mark.parametrize("offset", [0.02, -0.045])
+def test_an_eccentric_disc_lifts_a_roller_beside_its_axis(offset: float, sense: str) -> None:
+    """y = e sin q + sqrt((R + r)^2 - (offset - e cos q)^2), at one turn as at many."""
+    c = da.cam(disc_aside(offset, sense), "F")
+    way = 1 if sense == "ccw" else -1
+
+    def height(q: Any) -> Any:
+        return way * 0.012 * np.sin(q) + np.sqrt(0.058**2 - (offset - 0.012 * np.cos(q)) ** 2)
+
+    q = np.linspace(0, 2 * np.pi, 7)
+    least = float(height(np.linspace(0, 2 * np.pi, 100_001)).min())
+    assert c.lift(q)[0] == pytest.approx(height(q) - least, abs=1e-9)
+    assert [float(c.lift(x)[0]) for x in q] == pytest.approx((height(q) - least).tolist(), abs=1e-9)
+
+
+@pytest.mark.parametrize("offset", [0.047, -0.08])
+def test_a_roller_that_misses_the_disc_over_a_part_of_a_turn_is_refused(offset: float) -> None:
+    """From R + r - e = 46 mm on."""
+    with pytest.raises(ModelError) as refused:
+        da.cam(disc_aside(offset, "ccw"), "F").lift(0.0)
+    assert str(refused.value) == "the follower does not stay on the cam over a turn; see its joints' places"
+
+
 def test_friction_of_a_knife_edge_is_against_its_slip() -> None:
     """mu N along the tangent; the drive pays what is lost."""
     r = da.dynamics(da.mechanism(machine("knife", friction={"coefficient": 0.2})))

@@ -216,6 +216,6 @@ def _choices(ways: Array, sense: Array, forced: Array) -> list[Array]:
 
 
 def _within(columns: Array, of: Array) -> Flags:
-    """Columns (D, K) that are sums of others (D, N)."""
+    """Columns (D, K), none of zeros, that are sums of others (D, N)."""
     size, left = np.abs(columns).max(axis=0), columns - of @ np.linalg.lstsq(of, columns, rcond=PARALLEL)[0]
-    return np.asarray((np.abs(left).max(axis=0) <= PARALLEL * size) & (size > 0))
+    return np.asarray(np.abs(left).max(axis=0) <= PARALLEL * size)
