@@ -182,6 +182,15 @@ def test_a_trade_off_is_drawn_as_it_is_computed(count: int) -> None:
         )
 
 
+@pytest.mark.parametrize("couple", [1e4, -1e4])
+def test_a_torque_of_either_sign_is_charted(couple: float) -> None:
+    tree = da.slider_crank(crank=0.05, rod=0.2).to_tree()
+    loads = {"M": {"type": "couple", "on": "crank", "value": couple}}
+    b = da.balance(da.mechanism({**tree, "loads": loads}), {"crank": {"mass": 3}}, positions=8)
+    assert (b.result.effort("O2") * couple < 0).all()
+    assert "Torque of O2" in [s.title for s in b.drawings(Notation())]
+
+
 def test_two_positions_have_no_trade_off() -> None:
     m = da.load(examples()["four_bar"]).with_values({"drives.O2.acceleration": 0.0})
     b = da.balance(m, {"crank": {"mass": 3}}, positions=2)

@@ -135,6 +135,12 @@ def test_named_views() -> None:
         assert seen[up] == pytest.approx([0, 1], abs=1e-15)
 
 
+def test_a_force_of_no_size_is_not_in_the_polygon() -> None:
+    scene = force_system_polygon_scene(System(Force([3, 0]), Force([0, 0], at=[1, 1]), Force([0, 4])))
+    assert [a.length for a in scene.arrows()] == pytest.approx([20, 80 / 3, 100 / 3])
+    assert not any("F_{2}" in t.text for t in scene.texts())
+
+
 def test_lines_in_a_box() -> None:
     assert clip_line((0, 20), (1, 0), (-10, 0, 10, 8)) is None
     assert clip_line((0, 0), (1, 1), (-2, -1, 2, 3)) == ((-1, -1), (2, 2))
