@@ -85,9 +85,14 @@ def test_the_summary_counts_what_is_exceeded() -> None:
     assert at in next(line for line in text.splitlines() if line.startswith("reaction.B "))
 
 
-def test_the_motor_is_judged_where_its_torque_is_nearest_to_its_limit() -> None:
+@pytest.mark.parametrize("sense", [1, -1])
+def test_the_motor_is_judged_where_its_torque_is_nearest_to_its_limit(sense: int) -> None:
+    """Whichever sense of turning its stall torque and free speed are given for."""
     # dwells need torques of rounding alone there, whose margins of 1e16 are no scale for those of the strokes
-    r = da.solve(da.load(BUNDLED["carton_pusher"]))
+    m = da.load(BUNDLED["carton_pusher"])
+    tree = m.to_tree()
+    tree["drives"]["O"]["motor"] |= {"stall": f"{2 * sense} N*m", "no_load": f"{2850 * sense} rpm"}
+    r = da.solve(da.mechanism(tree))
     (part,) = motor_part(DesignContext(r, 0, da.Notation()))
     line = 2 * (1 - 30 * 60 / 2850)  # stall 2 N m, no load 2850 rpm, ratio 30, 60 rpm
     effort = r.effort("O")

@@ -115,15 +115,23 @@ class MotorChoice(MachineAnswer):
         lost = np.where(self.power >= 0, 1 / self.efficiency, self.efficiency)
         return np.asarray(self.motor_inertia * ratio * self.acceleration + self.effort * lost / ratio)
 
+    def allowed(self, ratio: float) -> Array:
+        """Torque (P,) of its curve at the motor's speed, N m, in the sense for which the curve is given; NaN beyond its
+        fastest speed, and without a curve."""
+        speed = ratio * np.abs(self.speed)
+        if self.curve is None:
+            return np.full_like(speed, np.nan)
+        most = self.curve.fastest
+        limit = np.abs(self.curve.at(np.copysign(speed, most)))
+        return np.asarray(np.where(speed <= abs(most), limit, np.nan))
+
     def need(self, ratio: float) -> Need:
         """Requirement on the motor with a gear ratio."""
         require("ratio", ratio)
         torque, speed = self.torque(ratio), ratio * np.abs(self.speed)
         rms, enough = self.rms(torque), None
         if self.curve is not None:
-            most = self.curve.fastest
-            limit = np.abs(self.curve.at(np.copysign(speed, most)))
-            enough = bool(((speed <= abs(most)) & (np.abs(torque) <= limit * (1 + 1e-12))).all())
+            enough = bool((np.abs(torque) <= self.allowed(ratio) * (1 + 1e-12)).all())
         if self.rated is not None:
             enough = enough is not False and rms <= self.rated * (1 + 1e-12)
         return Need(ratio, rms, float(np.abs(torque).max()), float(speed.max()), enough)

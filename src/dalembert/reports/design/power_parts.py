@@ -48,13 +48,12 @@ def motor_part(c: DesignContext) -> Iterator[DesignPart]:
 
 
 def _motor(c: DesignContext, choice: MotorChoice) -> Iterator[DesignVerdict]:
-    curve, need = choice.curve, choice.needs.get("given") or choice.needs["direct"]
-    if curve is None:
+    need = choice.needs.get("given") or choice.needs["direct"]
+    if choice.curve is None:
         return
-    speed, torque = need.ratio * np.abs(choice.speed), np.abs(choice.torque(need.ratio))
-    allowed = np.abs(np.asarray(curve.at(speed)))
+    torque, allowed = np.abs(choice.torque(need.ratio)), choice.allowed(need.ratio)
     with np.errstate(divide="ignore", invalid="ignore"):
-        margin = np.where(speed <= curve.fastest, allowed / torque, 0.0)
+        margin = np.where(np.isnan(allowed), 0.0, allowed / torque)
     k = tightest_place(margin)
     value = c.text("moment", float(torque[k]))
     remark = "" if margin[k] >= 1 else "at the prescribed motion; see the start-up for that of the motor"

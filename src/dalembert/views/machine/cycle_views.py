@@ -147,9 +147,9 @@ def motor_scenes(c: MotorChoice, notation: Notation) -> list[Scene]:
         title = f"{name.capitalize()} of {c.drive}"
         out.append(axis.chart(kinds.get(name, name), {name: getattr(c, name)}, title, name))
     for name, need in c.needs.items():
-        series = {"torque": c.torque(need.ratio)}
-        if c.curve is not None:
-            series["allowed"] = np.abs(np.asarray(c.curve.at(need.ratio * np.abs(c.speed))))
+        series, allowed = {"torque": c.torque(need.ratio)}, c.allowed(need.ratio)
+        if np.isfinite(allowed).any():
+            series["allowed"] = allowed
         title = f"Motor, {name}: ratio {notation.number(need.ratio)}"
         out.append(axis.chart("moment", series, title, "torque"))
     return out
